@@ -1,0 +1,96 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+
+# tenon_folder(<folder> [LIBRARIES <target>...] [WITHOUT <sub-folder>...])
+#
+# Turns tenon/<folder> into the static library tenon_<folder> ('/' becomes '_'), built from every
+# .cpp in it and below it except *_test.cpp and except the sub-folders named by WITHOUT (they are
+# folders of their own). Its dependencies are read from tenon/folders.txt. With TENON_DEVELOPER it
+# also makes
+#   tenon_<folder>_test      all *_test.cpp, each TEST registered with ctest under the label `unit`
+#   tenon_<folder>_headers   compiles every header alone
+# A folder without any .cpp becomes an interface library.
+function(tenon_folder folder)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;WITHOUT")
+  string(REPLACE "/" "_" name ${folder})
+  set(library tenon_${name})
+  set(root ${PROJECT_SOURCE_DIR}/tenon/${folder})
+
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${root}/*.cpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${root}/*.h)
+  foreach(other IN LISTS arg_WITHOUT)
+    list(FILTER sources EXCLUDE REGEX "^${root}/${other}/")
+    list(FILTER headers EXCLUDE REGEX "^${root}/${other}/")
+  endforeach()
+  set(tests ${sources})
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  list(SORT sources)
+  list(SORT tests)
+
+  tenon_folder_dependencies(${folder} dependencies)
+  list(TRANSFORM dependencies REPLACE "/" "_")
+  list(TRANSFORM dependencies PREPEND tenon_)
+  if(sources)
+    add_library(${library} STATIC ${sources})
+    target_compile_options(${library} PRIVATE -fno-exceptions -fno-rtti)
+    target_link_libraries(${library} PUBLIC tenon_flags ${dependencies} ${arg_LIBRARIES})
+  else()
+    add_library(${library} INTERFACE)
+    target_link_libraries(${library} INTERFACE tenon_flags ${dependencies} ${arg_LIBRARIES})
+  endif()
+
+  if(TENON_DEVELOPER)
+    tenon_header_check(${library} "${headers}")
+    tenon_unit_tests(${library} "${tests}")
+  endif()
+endfunction()
+
+# Reads the line "<folder> : a b c" of tenon/folders.txt into <out> as a list.
+function(tenon_folder_dependencies folder out)
+  set(table ${PROJECT_SOURCE_DIR}/tenon/folders.txt)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${table})
+  file(STRINGS ${table} lines REGEX "^${folder} *:")
+  list(LENGTH lines count)
+  if(NOT count EQUAL 1)
+    message(FATAL_ERROR "tenon/folders.txt must have exactly one line for the folder `${folder}`.")
+  endif()
+  string(REGEX REPLACE "^[^:]*:" "" line "${lines}")
+  string(STRIP "${line}" line)
+  string(REGEX REPLACE " +" ";" found "${line}")
+  set(${out} ${found} PARENT_SCOPE)
+endfunction()
+
+# One generated .cpp per header that includes only this header, compiled into an object library.
+function(tenon_header_check library headers)
+  set(units)
+  foreach(header IN LISTS headers)
+    file(RELATIVE_PATH relative ${PROJECT_SOURCE_DIR} ${header})
+    string(MAKE_C_IDENTIFIER ${relative} unit_name)
+    set(unit ${CMAKE_CURRENT_BINARY_DIR}/headers/${unit_name}.cpp)
+    set(text "#include \"${relative}\"\n#include \"${relative}\"  // twice: the guard holds\n")
+    file(CONFIGURE OUTPUT ${unit} CONTENT "${text}" @ONLY)
+    list(APPEND units ${unit})
+  endforeach()
+  if(units)
+    add_library(${library}_headers OBJECT ${units})
+    target_link_libraries(${library}_headers PRIVATE ${library})
+    set_target_properties(${library}_headers PROPERTIES CXX_CLANG_TIDY "")
+  endif()
+endfunction()
+
+function(tenon_unit_tests library tests)
+  if(NOT tests)
+    return()
+  endif()
+  add_executable(${library}_test ${tests})
+  target_link_libraries(${library}_test PRIVATE ${library} GTest::gtest_main)
+  target_compile_definitions(${library}_test
+                             PRIVATE TENON_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  set_target_properties(${library}_test PROPERTIES CXX_CLANG_TIDY "")
+  gtest_discover_tests(
+    ${library}_test
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+    DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS unit TIMEOUT 300)
+endfunction()

@@ -1,0 +1,15 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+# Installs the executable, the engine library it loads, and all licences.
+if(CMAKE_INSTALL_LIBDIR)
+  set_target_properties(tenon_cli PROPERTIES INSTALL_RPATH
+                                             "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/tenon")
+endif()
+install(TARGETS tenon_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon)
+if(TENON_WITH_MUJOCO)
+  install(FILES ${tenon_mujoco_library} DESTINATION ${CMAKE_INSTALL_LIBDIR}/tenon)
+  install(FILES ${tenon_mujoco_licences}
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon/mujoco)
+endif()

@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+# Imported target mujoco::mujoco.
+#
+# Default: the official binary wheel, pinned by hash in thirdparty/mujoco-requirements.txt, fetched
+# once with pip into build/_deps/mujoco-<version> (shared by all presets), 10 MB.
+# Own MuJoCo: -DTENON_MUJOCO_DIR=<dir> with include/mujoco/mujoco.h and lib/libmujoco.so* (the
+# layout of MuJoCo's release archives and of an installed source build).
+set(TENON_MUJOCO_VERSION 4.0.1)
+set(TENON_MUJOCO_DIR "" CACHE PATH "Own MuJoCo (include/ and lib/); empty: fetch the pinned wheel")
+
+# Puts include/, lib/ and licences of the pinned wheel into <destination>.
+function(tenon_fetch_mujoco destination)
+  set(requirements ${PROJECT_SOURCE_DIR}/thirdparty/mujoco-requirements.txt)
+  find_program(TENON_PYTHON python3)
+  set(advice "Install pip (apt-get install python3-pip), or give your own MuJoCo with "
+             "-DTENON_MUJOCO_DIR=<dir>, or build without it: -DTENON_WITH_MUJOCO=OFF.")
+  if(NOT TENON_PYTHON)
+    message(FATAL_ERROR "MuJoCo ${TENON_MUJOCO_VERSION} is fetched with python3, not found. "
+                        ${advice})
+  endif()
+  if(NOT CMAKE_SYSTEM_NAME STREQUAL Linux OR NOT CMAKE_SYSTEM_PROCESSOR MATCHES
+                                             "^(x86_64|aarch64)$")
+    message(FATAL_ERROR "No pinned MuJoCo for ${CMAKE_SYSTEM_NAME} ${CMAKE_SYSTEM_PROCESSOR}. "
+                        "Give your own: -DTENON_MUJOCO_DIR=<dir>.")
+  endif()
+  message(STATUS "Fetching MuJoCo ${TENON_MUJOCO_VERSION} (10 MB, once)")
+  set(work ${destination}.part)
+  file(REMOVE_RECURSE ${work})
+  file(MAKE_DIRECTORY ${work})
+  execute_process(
+    COMMAND
+      ${TENON_PYTHON} -m pip download --quiet --disable-pip-version-check --no-deps
+      --only-binary=:all: --require-hashes --implementation cp --python-version 311 --abi cp311
+      --platform manylinux_2_28_${CMAKE_SYSTEM_PROCESSOR} --dest ${work}/wheel -r ${requirements}
+    RESULT_VARIABLE status
+    ERROR_VARIABLE reason)
+  file(GLOB wheel ${work}/wheel/*.whl)
+  if(NOT status EQUAL 0 OR NOT wheel)
+    message(FATAL_ERROR "Could not fetch MuJoCo ${TENON_MUJOCO_VERSION} with pip:\n${reason}\n"
+                        ${advice})
+  endif()
+  file(ARCHIVE_EXTRACT INPUT ${wheel} DESTINATION ${work}/unpacked)
+  file(GLOB libraries ${work}/unpacked/mujoco/libmujoco.so*)
+  file(GLOB licences ${work}/unpacked/mujoco_core-*.dist-info/LICENSE*
+       ${work}/unpacked/mujoco_core-*.dist-info/licenses/LICENSE*)
+  file(COPY ${work}/unpacked/mujoco/include DESTINATION ${work}/ready)
+  file(COPY ${libraries} DESTINATION ${work}/ready/lib)
+  file(COPY ${licences} DESTINATION ${work}/ready/licences)
+  file(RENAME ${work}/ready ${destination})
+  file(REMOVE_RECURSE ${work})
+endfunction()
+
+if(TENON_MUJOCO_DIR)
+  set(tenon_mujoco_root ${TENON_MUJOCO_DIR})
+else()
+  set(tenon_mujoco_root ${PROJECT_SOURCE_DIR}/build/_deps/mujoco-${TENON_MUJOCO_VERSION})
+  if(NOT EXISTS ${tenon_mujoco_root}/lib)
+    file(MAKE_DIRECTORY ${PROJECT_SOURCE_DIR}/build/_deps)
+    file(LOCK ${PROJECT_SOURCE_DIR}/build/_deps/mujoco.lock GUARD FILE TIMEOUT 300)
+    if(NOT EXISTS ${tenon_mujoco_root}/lib) # a configure running beside this one may have made it
+      tenon_fetch_mujoco(${tenon_mujoco_root})
+    endif()
+    file(LOCK ${PROJECT_SOURCE_DIR}/build/_deps/mujoco.lock RELEASE)
+  endif()
+endif()
+
+# The wheel holds libmujoco.so.<version> without the unversioned link: take the one real file.
+file(GLOB tenon_mujoco_library ${tenon_mujoco_root}/lib/libmujoco.so*)
+list(SORT tenon_mujoco_library COMPARE NATURAL ORDER DESCENDING)
+if(NOT tenon_mujoco_library OR NOT EXISTS ${tenon_mujoco_root}/include/mujoco/mujoco.h)
+  message(FATAL_ERROR "No MuJoCo in `${tenon_mujoco_root}`: need include/mujoco/mujoco.h and "
+                      "lib/libmujoco.so*. Correct or clear TENON_MUJOCO_DIR.")
+endif()
+list(GET tenon_mujoco_library 0 tenon_mujoco_library)
+file(GLOB tenon_mujoco_licences ${tenon_mujoco_root}/licences/*)
+get_filename_component(tenon_mujoco_soname ${tenon_mujoco_library} NAME)
+
+add_library(mujoco::mujoco SHARED IMPORTED GLOBAL)
+set_target_properties(
+  mujoco::mujoco
+  PROPERTIES IMPORTED_LOCATION ${tenon_mujoco_library}
+             IMPORTED_SONAME ${tenon_mujoco_soname}
+             INTERFACE_INCLUDE_DIRECTORIES ${tenon_mujoco_root}/include
+             INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${tenon_mujoco_root}/include)

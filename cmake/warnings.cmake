@@ -1,0 +1,16 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+# Flags of every target of this project. -ffp-contract=off: equal bytes on every machine.
+add_library(tenon_flags INTERFACE)
+target_compile_options(
+  tenon_flags
+  INTERFACE -ffp-contract=off
+            -Wall
+            -Wextra
+            -Wpedantic
+            -Wconversion
+            -Wshadow
+            -Wold-style-cast
+            $<$<BOOL:${TENON_WERROR}>:-Werror>)
+target_include_directories(tenon_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_features(tenon_flags INTERFACE cxx_std_20)
