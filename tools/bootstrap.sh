@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+# Installs what the build needs and this machine lacks (Debian 12, Ubuntu 22.04 and later).
+#   tools/bootstrap.sh build        to build the program
+#   tools/bootstrap.sh build test   to run the tests too
+# Says what it does; asks for root only to install; with all there it does nothing, offline too.
+set -euo pipefail
+
+missing=()
+
+# need_package PACKAGE...: Debian packages that must be installed.
+need_package() {
+  for package in "$@"; do
+    dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -q '^installed$' ||
+      missing+=("$package")
+  done
+}
+
+# need_tool PACKAGE COMMAND...: the package, unless COMMAND succeeds (a tool of one's own counts).
+need_tool() {
+  local package=$1
+  shift
+  "$@" >/dev/null 2>&1 || missing+=("$package")
+}
+
+at_least() { # at_least WANTED FOUND: version order
+  [ "$(printf '%s\n%s\n' "$1" "$2" | sort -V | head -n 1)" = "$1" ]
+}
+
+compiler_is_new_enough() { at_least 11 "$(c++ -dumpversion)"; }
+
+cmake_is_new_enough() { at_least 3.22 "$(cmake --version | sed -n '1s/[^0-9]*//p')"; }
+
+# usd-core has wheels from Python 3.11 on; Ubuntu 22.04 has 3.10 and offers 3.11 beside it.
+need_oracle_python() {
+  local python
+  for python in python3 python3.14 python3.13 python3.12 python3.11; do
+    if "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
+      "$python" -c 'import ensurepip, venv' 2>/dev/null || missing+=("$python-venv")
+      return
+    fi
+  done
+  missing+=(python3-venv python3.11-venv)
+}
+
+need_for_build() {
+  need_tool g++ compiler_is_new_enough
+  need_tool cmake cmake_is_new_enough
+  need_tool ninja-build ninja --version
+  need_tool python3 python3 --version
+  need_tool python3-pip python3 -m pip --version
+  need_package ca-certificates libcli11-dev nlohmann-json3-dev liblz4-dev libexpected-dev \
+    libeigen3-dev
+}
+
+need_for_test() {
+  need_package libgtest-dev
+  need_oracle_python
+}
+
+install_missing() {
+  local root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || {
+      echo "bootstrap: no sudo here; run as root: apt-get install ${missing[*]}" >&2
+      exit 1
+    }
+    root=(sudo)
+  fi
+  echo "bootstrap: installing ${missing[*]}"
+  local quiet=(-qq -o Dpkg::Use-Pty=0)
+  "${root[@]}" apt-get "${quiet[@]}" update
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get "${quiet[@]}" install -y --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "bootstrap: not Debian or Ubuntu; see docs/dependencies.md for what to install" >&2
+  exit 0
+fi
+for part in "${@:-build}"; do
+  case "$part" in
+    build) need_for_build ;;
+    test) need_for_test ;;
+    *)
+      echo "bootstrap: unknown part '$part'; expected: build, test" >&2
+      exit 2
+      ;;
+  esac
+done
+[ ${#missing[@]} -eq 0 ] || install_missing

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Holds the dependency rule of tenon/folders.txt over every #include line of tenon/.
+
+Usage: check_folders.py [ROOT]. Exit 0: the rule holds; 1: each breach on a line of its own.
+"""
+
+import fnmatch
+import os
+import re
+import sys
+
+import source_files
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+USERS = ("cli/", "tests/", "bench/", "fuzz/")
+
+# Libraries that only some files may name: pattern of the include -> patterns of the files.
+LIBRARIES = {
+    "tl/*": ["tenon/base/result.h"],
+    "Eigen/*": ["tenon/math/*.cpp", "tenon/physics/*.cpp"],
+    "lz4*.h": ["tenon/bytes/*.cpp"],
+    "mujoco/*": ["tenon/engines/mujoco/*"],
+    "CLI/*": ["cli/*"],
+    "nlohmann/*": ["cli/*", "tests/*", "bench/*"],
+}
+
+
+def read_rule(path):
+    """-> ({folder: allowed folders}, {folder: what its tests may add}, [faults])"""
+    folders, tests, faults = {}, {}, []
+    with open(path, encoding="utf-8") as file:
+        for number, line in enumerate(file, 1):
+            line = line.split("#")[0].strip()
+            if not line:
+                continue
+            key, _, rest = line.partition(":")
+            words = key.split()
+            table = tests if words[1:] == ["tests"] else folders
+            for used in rest.split():
+                if used not in folders:
+                    faults.append(f"{path}:{number}: `{used}` must stand above `{words[0]}`")
+            table[words[0]] = set(rest.split())
+    return folders, tests, faults
+
+
+def folder_of(path, folders):
+    """tenon/engines/mujoco/step.h -> engines/mujoco; tenon/tenon.h -> tenon; else None."""
+    parts = path.split("/")[1:-1]
+    if not parts:
+        return "tenon"
+    while parts:
+        name = "/".join(parts)
+        if name in folders:
+            return name
+        parts.pop()
+    return None
+
+
+def library_breach(path, target):
+    for pattern, users in LIBRARIES.items():
+        if fnmatch.fnmatch(target, pattern):
+            if not any(fnmatch.fnmatch(path, user) for user in users):
+                return f"<{target}> is reserved for {', '.join(users)}"
+    return None
+
+
+def folder_breach(path, quote, target, folders, tests):
+    """Why `path`, a file under tenon/, may not include `target`; None where it may."""
+    if target.startswith(USERS):
+        return f"nothing in tenon/ may include {target.split('/')[0]}/"
+    if not target.startswith("tenon/"):
+        return f'write the include from the root: "tenon/.../{target}"' if quote == '"' else None
+    own = folder_of(path, folders)
+    other = folder_of(target, folders)
+    allowed = {own} | folders[own]
+    if path.endswith("_test.cpp"):
+        allowed |= tests.get(own, set())
+    if other not in allowed:
+        return f"`{own}` may not include `{other}` (tenon/folders.txt)"
+    return None
+
+
+def check_file(root, path, folders, tests):
+    in_library = path.startswith("tenon/")
+    if in_library and folder_of(path, folders) is None:
+        yield f"{path}:1: the folder is not listed in tenon/folders.txt"
+        return
+    with open(os.path.join(root, path), encoding="utf-8") as file:
+        for number, line in enumerate(file, 1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            quote, target = match.groups()
+            reason = library_breach(path, target)
+            if not reason and in_library:
+                reason = folder_breach(path, quote, target, folders, tests)
+            if reason:
+                yield f"{path}:{number}: {reason}"
+
+
+def check(root):
+    folders, tests, faults = read_rule(os.path.join(root, "tenon/folders.txt"))
+    places = ("tenon/",) + USERS
+    files = [
+        path
+        for path in source_files.project_files(root)
+        if path.startswith(places) and path.endswith(source_files.CODE)
+    ]
+    for path in files:
+        faults.extend(check_file(root, path, folders, tests))
+    return files, faults
+
+
+def main():
+    root = sys.argv[1] if len(sys.argv) > 1 else source_files.ROOT
+    files, faults = check(root)
+    for fault in faults:
+        print(fault)
+    print(f"{len(files)} files, {len(faults)} breaches of the dependency rule")
+    return 1 if faults or not files else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

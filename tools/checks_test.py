@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""The checks of this folder reject what they are there to reject."""
+
+import os
+import tempfile
+import types
+import unittest
+
+import check_folders
+import check_sizes
+import check_text
+
+RULE = "base :\nlayer : base\nengines : base\nengines/mujoco : base engines\ntenon : base layer\n"
+RULE += "engines tests : layer\n"
+
+
+def tree(files):
+    """A temporary project with these files {path: text}; the caller closes it."""
+    root = tempfile.TemporaryDirectory()
+    for path, text in {"tenon/folders.txt": RULE, **files}.items():
+        full = os.path.join(root.name, path)
+        os.makedirs(os.path.dirname(full), exist_ok=True)
+        with open(full, "w", encoding="utf-8") as file:
+            file.write(text)
+    return root
+
+
+class Folders(unittest.TestCase):
+    CASES = [
+        # file, include line, allowed
+        ("tenon/layer/a.h", '#include "tenon/base/b.h"', True),
+        ("tenon/layer/a.h", '#include "tenon/layer/sub/b.h"', True),
+        ("tenon/layer/sub/a.h", '#include "tenon/base/b.h"', True),
+        ("tenon/layer/a.h", "#include <vector>", True),
+        ("tenon/base/a.h", '#include "tenon/layer/b.h"', False),
+        ("tenon/base/a.h", '#  include "tenon/layer/b.h"', False),
+        ("tenon/base/a.h", '#include "tenon/tenon.h"', False),
+        ("tenon/tenon.h", '#include "tenon/layer/b.h"', True),
+        ("tenon/tenon.h", '#include "tenon/engines/b.h"', False),
+        ("tenon/engines/a.h", '#include "tenon/engines/mujoco/b.h"', False),
+        ("tenon/engines/mujoco/a.h", '#include "tenon/engines/b.h"', True),
+        ("tenon/engines/a.cpp", '#include "tenon/layer/b.h"', False),
+        ("tenon/engines/a_test.cpp", '#include "tenon/layer/b.h"', True),
+        ("tenon/layer/a.h", '#include "cli/b.h"', False),
+        ("tenon/layer/a.h", '#include "b.h"', False),
+        ("tenon/unlisted/a.h", "", False),
+        ("tenon/layer/a.cpp", "#include <lz4.h>", False),
+        ("tenon/layer/a.h", "#include <Eigen/Core>", False),
+        ("tenon/engines/mujoco/a.cpp", "#include <mujoco/mujoco.h>", True),
+        ("cli/a.cpp", '#include "tenon/layer/b.h"', True),
+        ("cli/a.cpp", "#include <mujoco/mujoco.h>", False),
+    ]
+
+    def test_include_lines(self):
+        for path, line, allowed in self.CASES:
+            with self.subTest(path=path, line=line), tree({path: line + "\n"}) as root:
+                files, faults = check_folders.check(root)
+                self.assertEqual(files, [path])
+                self.assertEqual(faults == [], allowed, faults)
+
+    def test_cycle(self):
+        with tree({"tenon/folders.txt": "a : b\nb : a\n"}) as root:
+            self.assertEqual(len(check_folders.check(root)[1]), 1)
+
+
+class Sizes(unittest.TestCase):
+    def run_on(self, lines, exceptions=""):
+        one = types.SimpleNamespace(
+            name="f", start_line=3, nloc=lines, cyclomatic_complexity=1)
+        files = {"tools/size_exceptions.txt": exceptions, "tenon/base/a.cpp": "x\n"}
+        with tree(files) as root:
+            return check_sizes.check(
+                root, lambda path, text: types.SimpleNamespace(function_list=[one]))[1]
+
+    def test_limit(self):
+        self.assertEqual(self.run_on(60), [])
+        self.assertEqual(len(self.run_on(61)), 1)
+
+    def test_exception_is_used_or_a_fault(self):
+        excuse = "tenon/base/a.cpp | f | a decoder's switch\n"
+        self.assertEqual(self.run_on(61, excuse), [])
+        self.assertEqual(len(self.run_on(60, excuse)), 1)
+
+
+class Text(unittest.TestCase):
+    HEAD = "".join(f"// {line}\n" for line in check_text.SPDX) + "#pragma once\n"
+
+    def faults(self, path, text):
+        return list(check_text.check_file(path, text))
+
+    def test_good(self):
+        self.assertEqual(self.faults("tenon/base/a.h", self.HEAD + "int x;\n"), [])
+
+    def test_bad(self):
+        for path, text in [
+            ("tenon/base/a.h", "#pragma once\nint x;\n"),
+            ("tenon/base/a.h", self.HEAD.replace("#pragma once\n", "int x;\n")),
+            ("tenon/base/a.h", self.HEAD + "int x; \n"),
+            ("tenon/base/a.h", self.HEAD + "\tint x;\n"),
+            ("tenon/base/a.h", self.HEAD + "int x;"),
+            ("tenon/base/a.h", self.HEAD + "// " + "x" * 98 + "\n"),
+            ("tenon/base/a.h", self.HEAD + "// https:" + "//example.invalid/simple\n"),
+            ("tenon/base/text_utils.h", self.HEAD),
+            ("ARCHITECTURE.md", "x\n" * 201),
+        ]:
+            with self.subTest(path=path, text=text[-40:]):
+                self.assertTrue(self.faults(path, text))
+
+
+if __name__ == "__main__":
+    unittest.main()
