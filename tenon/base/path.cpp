@@ -1,0 +1,338 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+// Paths are hash-consed: each element is a node that is stored once, found by its parent and its
+// own words. Nodes are never freed, so a path is one pointer and comparisons need no text.
+#include "tenon/base/path.h"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <mutex>
+
+#include "tenon/base/assert.h"
+
+namespace tenon {
+namespace {
+
+std::size_t mix(std::size_t seed, const void* pointer) {
+  const auto bits = reinterpret_cast<std::size_t>(pointer) >> 4;
+  return (seed ^ bits) * 0x9E3779B97F4A7C15ull + (seed >> 29);
+}
+
+std::size_t hash_of(const PathNode& node) {
+  std::size_t hash = mix(static_cast<std::size_t>(node.kind) + 1, node.parent);
+  hash = mix(hash, node.name.id());
+  hash = mix(hash, node.variant.id());
+  return mix(hash, node.target);
+}
+
+bool same(const PathNode& a, const PathNode& b) {
+  return a.parent == b.parent && a.kind == b.kind && a.name == b.name && a.variant == b.variant &&
+         a.target == b.target;
+}
+
+/// Open addressing over nodes in stable storage.
+class NodeTable {
+ public:
+  const PathNode* intern(const PathNode& node, std::size_t hash) {
+    const std::lock_guard lock(mutex_);
+    if (2 * nodes_.size() >= slots_.size()) {
+      grow();
+    }
+    std::size_t at = hash & (slots_.size() - 1);
+    while (slots_[at].node != nullptr) {
+      if (slots_[at].hash == hash && same(*slots_[at].node, node)) {
+        return slots_[at].node;
+      }
+      at = (at + 1) & (slots_.size() - 1);
+    }
+    nodes_.push_back(node);
+    slots_[at] = {hash, &nodes_.back()};
+    return &nodes_.back();
+  }
+
+ private:
+  struct Slot {
+    std::size_t hash = 0;
+    const PathNode* node = nullptr;
+  };
+
+  void grow() {
+    std::vector<Slot> bigger(std::max<std::size_t>(1024, 2 * slots_.size()));
+    for (const Slot& slot : slots_) {
+      if (slot.node == nullptr) {
+        continue;
+      }
+      std::size_t at = slot.hash & (bigger.size() - 1);
+      while (bigger[at].node != nullptr) {
+        at = (at + 1) & (bigger.size() - 1);
+      }
+      bigger[at] = slot;
+    }
+    slots_ = std::move(bigger);
+  }
+
+  std::mutex mutex_;
+  std::deque<PathNode> nodes_;
+  std::vector<Slot> slots_;
+};
+
+constexpr std::size_t kShardCount = 16;
+
+const PathNode* intern(const PathNode& node) {
+  static auto* tables = new std::array<NodeTable, kShardCount>();
+  const std::size_t hash = hash_of(node);
+  return (*tables)[(hash >> 40) % kShardCount].intern(node, hash);
+}
+
+const PathNode* root_node(PathKind kind) {
+  PathNode node;
+  node.kind = kind;
+  node.absolute = kind == PathKind::AbsoluteRoot;
+  return intern(node);
+}
+
+}  // namespace
+
+Path Path::absolute_root() {
+  static const PathNode* root = root_node(PathKind::AbsoluteRoot);
+  return Path(root);
+}
+
+Path Path::relative_root() {
+  static const PathNode* root = root_node(PathKind::RelativeRoot);
+  return Path(root);
+}
+
+Path Path::make(const PathNode* parent, PathKind kind, Token name, Token variant,
+                const PathNode* target) {
+  PathNode node;
+  node.parent = parent;
+  node.target = target;
+  node.name = name;
+  node.variant = variant;
+  node.kind = kind;
+  node.absolute = parent->absolute;
+  node.has_variant = parent->has_variant || kind == PathKind::VariantSelection;
+  node.depth = parent->depth + 1;
+  return Path(intern(node));
+}
+
+Path Path::child(Token name) const {
+  TENON_ASSERT(node_ != nullptr);
+  return make(node_, PathKind::Prim, name, Token(), nullptr);
+}
+
+Path Path::property(Token name) const {
+  TENON_ASSERT(node_ != nullptr);
+  const bool relational = is_target();
+  return make(node_, relational ? PathKind::RelationalAttribute : PathKind::Property, name, Token(),
+              nullptr);
+}
+
+Path Path::variant_selection(Token set, Token variant) const {
+  TENON_ASSERT(node_ != nullptr);
+  return make(node_, PathKind::VariantSelection, set, variant, nullptr);
+}
+
+Path Path::target_element(Path target) const {
+  TENON_ASSERT(node_ != nullptr);
+  return make(node_, PathKind::Target, Token(), Token(), target.node_);
+}
+
+Path Path::mapper(Path target) const {
+  TENON_ASSERT(node_ != nullptr);
+  return make(node_, PathKind::Mapper, Token(), Token(), target.node_);
+}
+
+Path Path::mapper_arg(Token name) const {
+  TENON_ASSERT(node_ != nullptr);
+  return make(node_, PathKind::MapperArg, name, Token(), nullptr);
+}
+
+Path Path::expression() const {
+  TENON_ASSERT(node_ != nullptr);
+  return make(node_, PathKind::Expression, Token(), Token(), nullptr);
+}
+
+Path Path::prim_or_variant() const {
+  const PathNode* node = node_;
+  while (node != nullptr && node->kind > PathKind::VariantSelection) {
+    node = node->parent;
+  }
+  return Path(node);
+}
+
+Path Path::prim() const {
+  const PathNode* node = node_;
+  while (node != nullptr && node->kind >= PathKind::VariantSelection) {
+    node = node->parent;
+  }
+  return Path(node);
+}
+
+bool Path::has_prefix(Path prefix) const {
+  if (prefix.node_ == nullptr) {
+    return false;
+  }
+  const PathNode* node = node_;
+  while (node != nullptr && node->depth > prefix.node_->depth) {
+    node = node->parent;
+  }
+  return node == prefix.node_;
+}
+
+Path Path::append(Path relative) const {
+  if (relative.node_ == nullptr || relative.node_->parent == nullptr) {
+    return *this;
+  }
+  return relative.replace_prefix(relative_root(), *this, false);
+}
+
+Path Path::replace_prefix(Path from, Path to, bool fix_targets) const {
+  if (node_ == nullptr || from.node_ == nullptr || to.node_ == nullptr ||
+      (from == to && !fix_targets)) {
+    return *this;
+  }
+  std::vector<const PathNode*> tail;
+  const PathNode* node = node_;
+  while (node != nullptr && node != from.node_ && node->depth > 0) {
+    tail.push_back(node);
+    node = node->parent;
+  }
+  const bool found = node == from.node_;
+  if (!found && !fix_targets) {
+    return *this;
+  }
+  Path result = found ? to : Path(node);
+  for (auto it = tail.rbegin(); it != tail.rend(); ++it) {
+    const PathNode* element = *it;
+    const PathNode* target = element->target;
+    if (fix_targets && target != nullptr) {
+      target = Path(target).replace_prefix(from, to, true).node_;
+    }
+    PathKind kind = element->kind;
+    result = make(result.node_, kind, element->name, element->variant, target);
+  }
+  return result;
+}
+
+Path Path::strip_variants() const {
+  if (!has_variants()) {
+    return *this;
+  }
+  std::vector<const PathNode*> elements;
+  const PathNode* node = node_;
+  for (; node->depth > 0; node = node->parent) {
+    if (node->kind != PathKind::VariantSelection) {
+      elements.push_back(node);
+    }
+  }
+  Path result(node);
+  for (auto it = elements.rbegin(); it != elements.rend(); ++it) {
+    result = make(result.node_, (*it)->kind, (*it)->name, (*it)->variant, (*it)->target);
+  }
+  return result;
+}
+
+Path Path::absolute(Path anchor) const {
+  if (node_ == nullptr || is_absolute()) {
+    return *this;
+  }
+  std::vector<const PathNode*> elements;
+  for (const PathNode* node = node_; node->depth > 0; node = node->parent) {
+    elements.push_back(node);
+  }
+  Path result = anchor;
+  for (auto it = elements.rbegin(); it != elements.rend(); ++it) {
+    const PathNode* element = *it;
+    if (element->kind == PathKind::Prim && element->name == "..") {
+      result = result.is_variant_selection() ? result.prim().parent() : result.parent();
+      if (result.empty()) {
+        return result;
+      }
+      continue;
+    }
+    const PathNode* target = element->target;
+    if (target != nullptr) {
+      target = Path(target).absolute(anchor).node_;
+    }
+    result = make(result.node_, element->kind, element->name, element->variant, target);
+  }
+  return result;
+}
+
+Path Path::relative(Path anchor) const {
+  if (node_ == nullptr || !is_absolute()) {
+    return *this;
+  }
+  Path common = anchor;
+  Path result = relative_root();
+  while (!has_prefix(common)) {
+    result = result.child("..");
+    common = common.parent();
+  }
+  return replace_prefix(common, result, false);
+}
+
+std::vector<Path> Path::prefixes() const {
+  std::vector<Path> result;
+  for (const PathNode* node = node_; node != nullptr; node = node->parent) {
+    result.push_back(Path(node));
+  }
+  std::reverse(result.begin(), result.end());
+  return result;
+}
+
+namespace {
+
+std::strong_ordering compare_elements(const PathNode* a, const PathNode* b);
+
+std::strong_ordering compare_nodes(const PathNode* a, const PathNode* b) {
+  if (a == b) {
+    return std::strong_ordering::equal;
+  }
+  if (a == nullptr || b == nullptr) {
+    return a == nullptr ? std::strong_ordering::less : std::strong_ordering::greater;
+  }
+  if (a->absolute != b->absolute) {
+    return a->absolute ? std::strong_ordering::less : std::strong_ordering::greater;
+  }
+  const PathNode* x = a;
+  const PathNode* y = b;
+  while (x->depth > y->depth) {
+    x = x->parent;
+  }
+  while (y->depth > x->depth) {
+    y = y->parent;
+  }
+  if (x == y) {
+    return a->depth <=> b->depth;
+  }
+  while (x->parent != y->parent) {
+    x = x->parent;
+    y = y->parent;
+  }
+  return compare_elements(x, y);
+}
+
+std::strong_ordering compare_elements(const PathNode* a, const PathNode* b) {
+  if (a->kind != b->kind) {
+    return a->kind <=> b->kind;
+  }
+  if (a->name != b->name) {
+    return a->name <=> b->name;
+  }
+  if (a->variant != b->variant) {
+    return a->variant <=> b->variant;
+  }
+  return compare_nodes(a->target, b->target);
+}
+
+}  // namespace
+
+std::strong_ordering Path::operator<=>(const Path& other) const {
+  return compare_nodes(node_, other.node_);
+}
+
+}  // namespace tenon

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+/// UTF-8 and the identifier classes of Unicode (XID), which USD uses for names.
+namespace tenon::unicode {
+
+struct Decoded {
+  char32_t code_point = 0;
+  std::size_t length = 0;  ///< bytes read; 0 for the end of text or an ill-formed sequence
+};
+
+/// The code point at the head of `text`.
+Decoded decode(std::string_view text);
+/// True when all of `text` is well-formed UTF-8.
+bool is_valid(std::string_view text);
+
+bool starts_identifier(char32_t code_point);      ///< XID_Start or '_'
+bool continues_identifier(char32_t code_point);   ///< XID_Continue
+
+}  // namespace tenon::unicode

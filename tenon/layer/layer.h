@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tenon/base/path.h"
+#include "tenon/layer/field_values.h"
+#include "tenon/layer/fields.h"
+#include "tenon/layer/spec.h"
+
+namespace tenon::layer {
+
+/// One layer as a value: specs by path. Knows no files and no other layer.
+/// Children are named by fields of their parent, in order: primChildren, properties,
+/// variantSetChildren (std::vector<Token>), variantChildren.
+class Layer {
+ public:
+  struct Entry {
+    Path path;
+    Spec spec;
+  };
+
+  /// An empty layer with its pseudo-root.
+  explicit Layer(std::string identifier);
+  Layer(const Layer&) = default;
+  Layer(Layer&&) noexcept = default;
+  Layer& operator=(const Layer&) = default;
+  Layer& operator=(Layer&&) noexcept = default;
+  ~Layer() = default;
+
+  /// What arcs resolve to: an absolute file path, `package.usdz[inner.usda]`, or a made-up name of
+  /// a layer that is in no file.
+  const std::string& identifier() const { return identifier_; }
+  void set_identifier(std::string identifier) { identifier_ = std::move(identifier); }
+
+  const Spec* find(Path path) const;
+  Spec* find(Path path);
+  bool has(Path path) const { return find(path) != nullptr; }
+  const Spec& root() const { return *find(Path::absolute_root()); }
+  Spec& root() { return *find(Path::absolute_root()); }
+
+  /// The spec at `path`, made if absent; parents and children lists are not touched.
+  Spec& create(Path path, SpecKind kind);
+  /// Removes the spec at `path` alone.
+  void erase(Path path);
+  void reserve(std::size_t spec_count);
+
+  /// All specs in the order in which they were made.
+  const std::deque<Entry>& entries() const { return entries_; }
+  std::size_t spec_count() const { return entries_.size() - erased_; }
+
+  /// Names listed in a children field ("primChildren", "properties", ...) of `path`; empty if none.
+  const std::vector<Token>& children(Path path, Token field) const;
+  static const std::vector<Token>& children(const Spec& spec, Token field);
+
+  Token default_prim() const;
+  const std::vector<std::string>& sublayers() const;
+  /// Offset of sublayer `i`; identity when none is authored.
+  LayerOffset sublayer_offset(std::size_t i) const;
+  /// timeCodesPerSecond, else framesPerSecond, else 24.
+  double time_codes_per_second() const;
+
+ private:
+  void index_entry(std::size_t entry);
+  void grow();
+
+  std::string identifier_;
+  std::deque<Entry> entries_;           // erased entries keep an empty path
+  std::vector<std::uint32_t> slots_;    // open addressing: entry index + 1, 0 free
+  std::size_t erased_ = 0;
+};
+
+using LayerPtr = std::shared_ptr<const Layer>;
+
+}  // namespace tenon::layer

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/layer/value.h"
+
+#include <cstring>
+
+#include "tenon/layer/field_values.h"
+
+namespace tenon::layer {
+
+struct Value::DeferredBody final : Value::Body {
+  explicit DeferredBody(std::unique_ptr<DeferredArray> s) : source(std::move(s)) {}
+
+  const Value& decode_once() const {
+    std::call_once(once, [this] {
+      if (auto result = source->decode()) {
+        decoded = *std::move(result);
+      } else {
+        error.emplace(std::move(result).error());
+      }
+    });
+    return decoded;
+  }
+  bool equals(const Body& other) const override { return this == &other; }
+  std::size_t size() const override { return source->size(); }
+
+  std::unique_ptr<DeferredArray> source;
+  mutable std::once_flag once;
+  mutable Value decoded;
+  mutable std::optional<Error> error;
+};
+
+Value Value::deferred(ValueType element, std::unique_ptr<DeferredArray> source) {
+  Value value;
+  value.type_ = element;
+  value.is_array_ = true;
+  value.holding_ = Holding::Deferred;
+  new (&value.storage_) Body*(new DeferredBody(std::move(source)));
+  return value;
+}
+
+Value& Value::operator=(const Value& other) {
+  if (this != &other) {
+    release();
+    copy_from(other);
+  }
+  return *this;
+}
+
+Value& Value::operator=(Value&& other) noexcept {
+  if (this != &other) {
+    release();
+    take_from(other);
+  }
+  return *this;
+}
+
+void Value::copy_from(const Value& other) {
+  std::memcpy(storage_, other.storage_, sizeof(storage_));
+  type_ = other.type_;
+  is_array_ = other.is_array_;
+  holding_ = other.holding_;
+  if (holding_ != Holding::Inline) {
+    body()->owners.fetch_add(1, std::memory_order_relaxed);
+  }
+}
+
+void Value::take_from(Value& other) noexcept {
+  std::memcpy(storage_, other.storage_, sizeof(storage_));
+  type_ = other.type_;
+  is_array_ = other.is_array_;
+  holding_ = other.holding_;
+  other.type_ = ValueType::None;
+  other.is_array_ = false;
+  other.holding_ = Holding::Inline;
+}
+
+void Value::release() {
+  if (holding_ != Holding::Inline &&
+      body()->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) {
+    delete body();
+  }
+  holding_ = Holding::Inline;
+  type_ = ValueType::None;
+  is_array_ = false;
+}
+
+const Value* Value::decoded_or_null() const {
+  if (holding_ != Holding::Deferred) {
+    return this;
+  }
+  const Value& value = static_cast<const DeferredBody*>(body())->decode_once();
+  return value.type_ == type_ && value.is_array_ ? &value : nullptr;
+}
+
+Result<Value> Value::decoded() const {
+  if (holding_ != Holding::Deferred) {
+    return *this;
+  }
+  const auto* deferred = static_cast<const DeferredBody*>(body());
+  const Value& value = deferred->decode_once();
+  if (deferred->error) {
+    return *deferred->error;
+  }
+  return value;
+}
+
+std::size_t Value::size() const {
+  if (holding_ == Holding::Inline) {
+    return empty() ? 0 : 1;
+  }
+  return body()->size();
+}
+
+namespace {
+
+template <class T>
+bool equal_inline(const Value& a, const Value& b) {
+  return *a.get<T>() == *b.get<T>();
+}
+
+}  // namespace
+
+bool Value::operator==(const Value& other) const {
+  if (type_ != other.type_ || is_array_ != other.is_array_) {
+    return false;
+  }
+  if (holding_ == Holding::Inline) {
+    if (type_ == ValueType::None) {
+      return true;
+    }
+    switch (type_) {
+#define TENON_SCALAR(enumerator, type, name, crate_id) \
+  case ValueType::enumerator:                          \
+    return equal_inline<type>(*this, other);
+#define TENON_FIELD(enumerator, type, crate_id) TENON_SCALAR(enumerator, type, "", crate_id)
+#include "tenon/layer/value_types.def"
+      case ValueType::None:
+        break;
+    }
+    return true;
+  }
+  const Value* a = decoded_or_null();
+  const Value* b = other.decoded_or_null();
+  if (a == nullptr || b == nullptr) {
+    return body() == other.body();
+  }
+  return a->body() == b->body() || a->body()->equals(*b->body());
+}
+
+}  // namespace tenon::layer

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "tenon/base/path.h"
+#include "tenon/base/token.h"
+#include "tenon/layer/scalar_types.h"
+#include "tenon/math/half.h"
+#include "tenon/math/matrix.h"
+#include "tenon/math/quaternion.h"
+#include "tenon/math/vector.h"
+
+namespace tenon::layer {
+
+template <class T>
+struct ListOp;
+struct Dictionary;
+struct LayerOffset;
+struct Payload;
+struct Reference;
+struct Relocates;
+struct Spline;
+struct TimeSamples;
+struct UnregisteredValue;
+struct VariantSelections;
+
+enum class ValueType : std::uint8_t {
+  None,
+#define TENON_SCALAR(enumerator, type, name, crate_id) enumerator,
+#define TENON_FIELD(enumerator, type, crate_id) enumerator,
+#include "tenon/layer/value_types.def"
+};
+
+/// Elements of an array; bools are stored one per byte.
+template <class T>
+using Array = std::vector<std::conditional_t<std::is_same_v<T, bool>, char, T>>;
+
+template <class T>
+struct ValueTraits;  // type, is_array
+#define TENON_SCALAR(enumerator, cpp_type, name, crate_id)            \
+  template <>                                                         \
+  struct ValueTraits<cpp_type> {                                      \
+    static constexpr ValueType type = ValueType::enumerator;          \
+    static constexpr bool is_array = false;                           \
+  };                                                                  \
+  template <>                                                         \
+  struct ValueTraits<Array<cpp_type>> {                               \
+    static constexpr ValueType type = ValueType::enumerator;          \
+    static constexpr bool is_array = true;                            \
+  };
+#define TENON_FIELD(enumerator, cpp_type, crate_id)                   \
+  template <>                                                         \
+  struct ValueTraits<cpp_type> {                                      \
+    static constexpr ValueType type = ValueType::enumerator;          \
+    static constexpr bool is_array = false;                           \
+  };
+#include "tenon/layer/value_types.def"
+
+class Value;
+
+/// An array that still lies in a file; decoded on first use, once, from any thread.
+class DeferredArray {
+ public:
+  virtual ~DeferredArray() = default;
+  /// Number of elements, known without decoding.
+  virtual std::size_t size() const = 0;
+  /// The decoded array; an Error for corrupt data.
+  virtual Result<Value> decode() const = 0;
+};
+
+/// One value of any type that a layer can hold. Copies share large contents, which never change.
+/// 24 bytes; numbers up to four floats, tokens and paths are stored inline.
+class Value {
+ public:
+  Value() = default;
+  Value(const Value& other) { copy_from(other); }
+  Value(Value&& other) noexcept { take_from(other); }
+  Value& operator=(const Value& other);
+  Value& operator=(Value&& other) noexcept;
+  ~Value() { release(); }
+
+  template <class T, class Traits = ValueTraits<std::decay_t<T>>, ValueType = Traits::type>
+  Value(T&& value) : type_(Traits::type), is_array_(Traits::is_array) {
+    using Stored = std::decay_t<T>;
+    if constexpr (kInline<Stored>) {
+      new (&storage_) Stored(std::forward<T>(value));
+    } else {
+      new (&storage_) Body*(new Held<Stored>(std::forward<T>(value)));
+      holding_ = Holding::Body;
+    }
+  }
+  /// A value of array type `element` that is decoded when asked for.
+  static Value deferred(ValueType element, std::unique_ptr<DeferredArray> source);
+
+  bool empty() const { return type_ == ValueType::None; }
+  ValueType type() const { return type_; }
+  bool is_array() const { return is_array_; }
+  bool is_block() const { return type_ == ValueType::ValueBlock; }
+  bool is_deferred() const { return holding_ == Holding::Deferred; }
+
+  /// The contents when they are a T, else nullptr. Decodes a deferred array; nullptr when its data
+  /// are corrupt (see `decoded`). Arrays are Array<T>.
+  template <class T>
+  const T* get() const {
+    using Traits = ValueTraits<T>;
+    if (type_ != Traits::type || is_array_ != Traits::is_array) {
+      return nullptr;
+    }
+    if constexpr (kInline<T>) {
+      return std::launder(reinterpret_cast<const T*>(&storage_));
+    } else {
+      const Value* value = decoded_or_null();
+      return value == nullptr ? nullptr : &static_cast<const Held<T>*>(value->body())->value;
+    }
+  }
+  template <class T>
+  T get_or(T fallback) const {
+    const T* value = get<T>();
+    return value == nullptr ? fallback : *value;
+  }
+  template <class T>
+  bool holds() const {
+    return type_ == ValueTraits<T>::type && is_array_ == ValueTraits<T>::is_array;
+  }
+
+  /// This value with deferred data read, or the reason why they cannot be.
+  Result<Value> decoded() const;
+  /// Number of elements of an array (also of a deferred one); 1 for other values, 0 for none.
+  std::size_t size() const;
+
+  /// Same type and equal contents; decodes deferred arrays. NaN differs from NaN.
+  bool operator==(const Value& other) const;
+
+ private:
+  struct Body {
+    Body() = default;
+    Body(const Body&) = delete;
+    Body& operator=(const Body&) = delete;
+    virtual ~Body() = default;
+    virtual bool equals(const Body& other) const = 0;
+    virtual std::size_t size() const = 0;
+    std::atomic<std::uint32_t> owners{1};
+  };
+  template <class T>
+  struct Held final : Body {
+    template <class U>
+    explicit Held(U&& u) : value(std::forward<U>(u)) {}
+    bool equals(const Body& other) const override {
+      return value == static_cast<const Held&>(other).value;
+    }
+    std::size_t size() const override {
+      if constexpr (ValueTraits<T>::is_array) {
+        return value.size();
+      } else {
+        return 1;
+      }
+    }
+    T value;
+  };
+  struct DeferredBody;
+  enum class Holding : std::uint8_t { Inline, Body, Deferred };
+
+  template <class T>
+  static constexpr bool kInline =
+      std::is_trivially_copyable_v<T> && sizeof(T) <= 16 && alignof(T) <= 8;
+
+  Body* body() const { return *std::launder(reinterpret_cast<Body* const*>(&storage_)); }
+  const Value* decoded_or_null() const;
+  void copy_from(const Value& other);
+  void take_from(Value& other) noexcept;
+  void release();
+
+  alignas(8) std::byte storage_[16] = {};
+  ValueType type_ = ValueType::None;
+  bool is_array_ = false;
+  Holding holding_ = Holding::Inline;
+};
+
+}  // namespace tenon::layer
