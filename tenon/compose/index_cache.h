@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/compose/prim_index.h"
+
+namespace tenon::compose {
+
+/// Which payloads are included and which variants are taken when none is selected.
+struct ComposeOptions {
+  bool load_payloads = true;
+  std::set<Path> loaded;      ///< payloads of these prims and below, when load_payloads is off
+  std::set<Path> unloaded;    ///< not these and below, when it is on
+  /// Variant set -> variants to fall back to, best first.
+  std::map<std::string, std::vector<std::string>> variant_fallbacks;
+  std::set<std::string> muted;  ///< identifiers of layers that count as absent
+};
+
+/// Path -> PrimIndex, computed on demand and kept; the only state of composition.
+class IndexCache {
+ public:
+  IndexCache(layer::LayerPtr root, layer::LayerPtr session, LayerOpener opener,
+             ComposeOptions options = {});
+  IndexCache(const IndexCache&) = delete;
+  IndexCache& operator=(const IndexCache&) = delete;
+  ~IndexCache();
+
+  const LayerStackPtr& layer_stack() const;
+  /// The index of an absolute prim path (or of the pseudo-root); never null, empty of opinions for
+  /// a path where nothing is. The reference stays valid for the life of the cache.
+  const PrimIndex& index(Path prim_path);
+  /// Layers that could not be opened and other errors of layer stacks, in order of discovery.
+  const Diagnostics& errors() const;
+  /// All layers opened so far, sorted by identifier.
+  std::vector<layer::LayerPtr> used_layers() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tenon::compose

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/path.h"
+#include "tenon/layer/layer.h"
+#include "tenon/stage/time.h"
+
+namespace tenon::stage {
+
+class Prim;
+
+enum class ValueSource : unsigned char { None, Fallback, Default, TimeSamples, ValueClips, Spline };
+
+/// An attribute of a composed prim; a small handle by value.
+class Attribute {
+ public:
+  Attribute() = default;
+
+  /// Authored somewhere, or built into the prim's type or applied schemas.
+  bool is_defined() const;
+  bool is_authored() const;
+  Path path() const;
+  Token name() const { return name_; }
+  Token type_name() const;
+  layer::Variability variability() const;
+  bool is_custom() const;
+
+  /// The resolved value: time samples, then default, per layer from strongest to weakest; then the
+  /// schema fallback. Empty when there is none or it is blocked. Interpolated linearly or held, as
+  /// the stage says.
+  layer::Value get(Time time = {}) const;
+  /// The value when it is exactly a T.
+  template <class T>
+  std::optional<T> get_as(Time time = {}) const {
+    const layer::Value value = get(time);
+    const T* contents = value.get<T>();
+    return contents == nullptr ? std::nullopt : std::optional<T>(*contents);
+  }
+  ValueSource value_source(Time time = {}) const;
+  bool has_authored_value() const;
+  bool is_blocked(Time time = {}) const;
+  /// Times of the samples that contribute, in stage time.
+  std::vector<double> time_samples() const;
+  bool is_animated() const;
+
+  bool has_authored_connections() const;
+  std::vector<Path> connections() const;
+
+  layer::Value metadata(Token field) const;
+  std::map<std::string, layer::Value> all_authored_metadata() const;
+
+  /// Layer, spec path and spec of every opinion, strongest first.
+  struct SpecSite {
+    const layer::Layer* layer = nullptr;
+    Path path;
+    const layer::Spec* spec = nullptr;
+  };
+  std::vector<SpecSite> spec_stack() const;
+  /// A diagnostic with the place of the strongest opinion.
+  Diagnostic located(Severity severity, std::string rule, std::string message) const;
+
+ private:
+  friend class Prim;
+  const void* stage_ = nullptr;
+  const void* prim_ = nullptr;
+  Path prim_path_;
+  Token name_;
+};
+
+}  // namespace tenon::stage

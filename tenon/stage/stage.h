@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/compose/index_cache.h"
+#include "tenon/layer/layer.h"
+#include "tenon/stage/prim.h"
+#include "tenon/stage/time.h"
+
+namespace tenon::stage {
+
+struct StageOptions {
+  compose::ComposeOptions compose;
+  /// Only these prims, their ancestors and descendants are populated; empty = all.
+  std::set<Path> mask;
+  /// Asset path authored in a layer -> where it is, "" when nowhere; for resolved asset values.
+  std::function<std::string(const std::string& asset_path, const layer::Layer& anchor)> resolve_asset;
+};
+
+/// A composed scene. Move-only; prims, attributes and relationships are handles into it and must
+/// not outlive it.
+class Stage {
+ public:
+  /// Composes and populates. Fails only when nothing can be composed at all; unresolved arcs and the
+  /// like are in `diagnostics`.
+  static Result<Stage> open(layer::LayerPtr root, layer::LayerPtr session,
+                            compose::LayerOpener opener, StageOptions options = {});
+  Stage(Stage&&) noexcept;
+  Stage& operator=(Stage&&) noexcept;
+  ~Stage();
+
+  Prim pseudo_root() const;
+  /// The prim at an absolute path, instance proxies included; an invalid handle when there is none.
+  Prim prim(Path path) const;
+  Prim default_prim() const;
+  /// Prototype roots in a stable order.
+  std::vector<Prim> prototypes() const;
+
+  const layer::Layer& root_layer() const;
+  const layer::Layer* session_layer() const;
+  const compose::LayerStack& layer_stack() const;
+  std::vector<layer::LayerPtr> used_layers() const;
+  /// Composition errors and value errors found so far.
+  const Diagnostics& diagnostics() const;
+
+  double start_time_code() const;
+  double end_time_code() const;
+  double time_codes_per_second() const;
+  double frames_per_second() const;
+  /// Metadata of the pseudo-root over root and session layer, with registered fallbacks.
+  layer::Value metadata(Token field) const;
+
+  /// Opaque to users; shared by the handles.
+  struct Data;
+  const Data& data() const { return *data_; }
+
+ private:
+  explicit Stage(std::unique_ptr<Data> data);
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace tenon::stage
