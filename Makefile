@@ -26,7 +26,7 @@ test: test-packages oracle build/dev/build.ninja
 
 bench: test-packages oracle build/bench/build.ninja
 	@cmake --build build/bench -j $(JOBS)
-	@tools/bench.sh
+	@tools/python.sh bench/run.py
 
 clean:
 	rm -rf build
