@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/path.h"
+#include "tenon/base/result.h"
+#include "tenon/math/transform.h"
+#include "tenon/physics/physics_scene.h"
+
+/// What every engine offers: a model made from a PhysicsScene that can be stepped and read.
+namespace tenon::engines {
+
+struct SimulationOptions {
+  double time_step = 0;   ///< [s]; 0: what the asset asks for, else the engine's default
+};
+
+struct BodyState {
+  Pose pose;               ///< X_WB [m]
+  Vec3d linear_velocity;   ///< of the centre of mass, world axes [m/s]
+  Vec3d angular_velocity;  ///< world axes [rad/s]
+};
+
+/// Coordinates of the free degrees of freedom of one joint, in Dof order [m, rad].
+struct JointState {
+  std::vector<double> position;
+  std::vector<double> velocity;
+};
+
+/// Something that the engine cannot express; the simulation went on without it.
+struct NotMapped {
+  Path prim;
+  std::string property;
+  std::string why;
+};
+
+struct Energy {
+  double kinetic = 0;    ///< [J]
+  double potential = 0;  ///< gravity and springs [J]
+  double total() const { return kinetic + potential; }
+};
+
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+
+  /// One time step; an Error with code Unstable when the state leaves the finite numbers or the
+  /// engine resets itself.
+  virtual Result<void> step() = 0;
+  virtual double time() const = 0;       ///< [s] since the start
+  virtual double time_step() const = 0;  ///< [s]
+
+  virtual BodyState body_state(physics::Index body) const = 0;
+  virtual JointState joint_state(physics::Index joint) const = 0;
+  virtual Energy energy() const = 0;
+  virtual std::size_t contact_count() const = 0;
+  /// Degrees of freedom that the engine simulates.
+  virtual std::size_t dof_count() const = 0;
+  virtual const std::vector<NotMapped>& not_mapped() const = 0;
+};
+
+struct EngineInfo {
+  std::string name;      ///< "mujoco"
+  std::string version;   ///< of the library in use; empty when it is not available
+  bool available = false;
+  std::string how_to_get;  ///< one sentence, when it is not available
+};
+
+/// The engines this build knows, sorted by name.
+std::vector<EngineInfo> list_engines();
+
+/// Builds a model of the scene; the scene must outlive the simulation. Errors: Missing when the
+/// engine is not available, Unsupported or Invalid when no model can be made.
+Result<std::unique_ptr<Simulation>> make_simulation(const std::string& engine,
+                                                    const physics::PhysicsScene& scene,
+                                                    const SimulationOptions& options,
+                                                    Diagnostics& diagnostics);
+
+}  // namespace tenon::engines

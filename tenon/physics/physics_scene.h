@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tenon/base/path.h"
+#include "tenon/math/matrix.h"
+#include "tenon/math/transform.h"
+#include "tenon/math/vector.h"
+
+/// The neutral description of a physics scene: what every engine receives. Plain structs; metres,
+/// kilograms, seconds, radians; world axes as the stage has them. Knows neither USD composition nor
+/// any engine. Objects refer to each other by index; every list is sorted by path.
+namespace tenon::physics {
+
+inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+using Index = std::uint32_t;
+
+struct Scene {
+  Path path;       ///< empty: made up because the stage has none (S-18)
+  Vec3d gravity;   ///< [m/s^2]
+  std::optional<double> time_step;  ///< [s] asked for by the asset (Newton, PhysX or MuJoCo scene API)
+};
+
+enum class MassSource : std::uint8_t { Authored, Density, Default };
+
+/// "authored", "density" or "default".
+std::string_view mass_source_name(MassSource source);
+
+struct Body {
+  Path path;
+  bool kinematic = false;      ///< pose is given, never computed (S-27)
+  bool starts_asleep = false;
+  Index scene = 0;             ///< into PhysicsScene::scenes
+  Pose pose;                   ///< X_WB at the start: world <- body, unscaled
+  Vec3d linear_velocity;       ///< of the centre of mass, world axes [m/s]
+  Vec3d angular_velocity;      ///< world axes [rad/s]
+  double mass = 1;             ///< [kg]
+  Vec3d center_of_mass;        ///< in the body frame [m]
+  Mat3d inertia = Mat3d::identity();  ///< about the centre of mass, body axes [kg m^2], symmetric
+  MassSource mass_source = MassSource::Default;
+  double linear_damping = 0;   ///< [1/s]
+  double angular_damping = 0;  ///< [1/s]
+  double gravity_scale = 1;
+};
+
+enum class ShapeKind : std::uint8_t {
+  Box,         ///< half_extents
+  Sphere,      ///< radius
+  Capsule,     ///< radius, half_height without the caps, along `axis`
+  Cylinder,    ///< radius, half_height, along `axis`
+  Cone,        ///< radius of the base, half_height; apex at +axis
+  Plane,       ///< solid below the plane through the origin with normal +axis
+  ConvexHull,  ///< hull of mesh points
+  Mesh,        ///< the triangles themselves
+  Spheres,     ///< sphere_centers and sphere_radii (UsdGeomPoints)
+};
+
+/// "box", "sphere", "capsule", "cylinder", "cone", "plane", "convexHull", "mesh", "spheres".
+std::string_view shape_name(ShapeKind kind);
+
+enum class Axis : std::uint8_t { X, Y, Z };
+
+/// Triangles in the collider's frame, scale included [m]; outward winding is counter-clockwise.
+struct TriangleMesh {
+  std::vector<Vec3d> points;      // (point_count)
+  std::vector<Vec3i> triangles;   // (triangle_count), indices into points
+};
+
+struct Shape {
+  ShapeKind kind = ShapeKind::Box;
+  Vec3d half_extents;             ///< [m]
+  double radius = 0;              ///< [m]
+  double half_height = 0;         ///< [m]
+  Axis axis = Axis::Z;
+  Index mesh = 0;                 ///< into PhysicsScene::meshes, of ConvexHull and Mesh
+  std::vector<Vec3d> sphere_centers;  ///< [m], in the collider frame
+  std::vector<double> sphere_radii;   ///< [m]
+};
+
+struct Collider {
+  Path path;
+  std::optional<Index> body;      ///< none: static
+  Index scene = 0;
+  Shape shape;
+  Pose pose;                      ///< X_BC relative to the body, or X_WC for a static one
+  std::optional<Index> material;  ///< into PhysicsScene::materials
+  bool enabled = true;
+  std::optional<double> contact_offset;  ///< distance at which contacts begin to be made [m]
+  std::optional<double> rest_offset;     ///< [m]
+  std::optional<int> max_hull_vertices;
+};
+
+struct Material {
+  Path path;
+  double static_friction = 0;
+  double dynamic_friction = 0;
+  double restitution = 0;
+  double density = 0;             ///< [kg/m^3]; 0: none given
+};
+
+enum class JointKind : std::uint8_t { Revolute, Prismatic, Spherical, Fixed, Distance, D6 };
+
+/// "revolute", "prismatic", "spherical", "fixed", "distance", "d6".
+std::string_view joint_kind_name(JointKind kind);
+
+/// Degrees of freedom in the joint frame. Revolute and prismatic joints use the one that their axis
+/// names: RotX..RotZ, TransX..TransZ.
+enum class Dof : std::uint8_t { TransX, TransY, TransZ, RotX, RotY, RotZ, Distance };
+
+/// "transX" ... "rotZ", "distance".
+std::string_view dof_name(Dof dof);
+inline bool is_angular(Dof dof) { return dof >= Dof::RotX && dof <= Dof::RotZ; }
+
+/// Bounds of one degree of freedom [m or rad]; lower > upper: locked at zero (S-98).
+struct Limit {
+  Dof dof = Dof::RotX;
+  double lower = -kUnlimited;
+  double upper = kUnlimited;
+  bool locked() const { return lower > upper; }
+};
+
+/// force = stiffness (target_position - q) + damping (target_velocity - v), clamped to +-max_force
+/// (S-102). [N, m] or [N m, rad]; with `acceleration` the gains are per unit of effective inertia.
+struct Drive {
+  Path source;                    ///< the prim that authors it: the joint, or an actuator prim
+  Dof dof = Dof::RotX;
+  bool acceleration = false;
+  double stiffness = 0;
+  double damping = 0;
+  double max_force = kUnlimited;
+  double target_position = 0;
+  double target_velocity = 0;
+};
+
+/// q = offset + multiplier * leader (+ higher powers) [m or rad]. The compliance is that of a spring
+/// of `natural_frequency` [rad/s] and `damping_ratio`; both 0 means rigid.
+struct Mimic {
+  std::string schema;             ///< the API that says so, for example "NewtonMimicAPI"
+  Index leader = 0;               ///< into PhysicsScene::joints
+  double multiplier = 1;
+  double offset = 0;
+  std::array<double, 3> higher{};  ///< coefficients of leader^2..leader^4
+  double natural_frequency = 0;
+  double damping_ratio = 0;
+  std::vector<double> mujoco_solref;  ///< mjc:solref when authored
+  std::vector<double> mujoco_solimp;
+};
+
+struct Joint {
+  Path path;
+  JointKind kind = JointKind::D6;
+  std::optional<Index> body0;     ///< none: world
+  std::optional<Index> body1;     ///< none: world
+  Path target0;                   ///< prim named by the relationship (may be static), empty: world
+  Path target1;
+  Pose frame0;                    ///< X_B0J in body0, or X_WJ [m]
+  Pose frame1;                    ///< X_B1J in body1, or X_WJ [m]
+  Axis axis = Axis::X;
+  double lower = -kUnlimited;     ///< of revolute and prismatic; min distance of Distance (S-97)
+  double upper = kUnlimited;      ///< max distance of Distance
+  double cone_angle0 = kUnlimited;  ///< spherical: tilt of the axis toward the next axis [rad] (S-96)
+  double cone_angle1 = kUnlimited;  ///< toward the one after
+  std::vector<Limit> limits;      ///< of D6 joints, and LimitAPI on others (S-100)
+  std::vector<Drive> drives;
+  std::optional<Mimic> mimic;
+  bool enabled = true;
+  bool collision_enabled = false;
+  bool exclude_from_articulation = false;
+  double break_force = kUnlimited;   ///< [N]
+  double break_torque = kUnlimited;  ///< [N m]
+  std::optional<Index> articulation;
+  double armature = 0;               ///< added to the joint's inertia [kg m^2] or [kg]
+  double friction = 0;               ///< Coulomb friction [N m] or [N]
+  double damping = 0;                ///< passive [N m s/rad] or [N s/m]
+  double stiffness = 0;              ///< passive spring [N m/rad] or [N/m]
+  double spring_reference = 0;       ///< rest position of the passive spring [rad or m]
+  double velocity_limit = kUnlimited;  ///< [rad/s] or [m/s]
+  /// Initial coordinate and velocity from the joint state API [rad or m]; none: from the poses.
+  std::optional<double> initial_position;
+  std::optional<double> initial_velocity;
+
+  /// The one degree of freedom of revolute and prismatic joints.
+  Dof dof() const;
+};
+
+struct Articulation {
+  Path path;                      ///< prim with the articulation root API
+  Path root;                      ///< root body, or the joint that fixes it to the world
+  bool fixed_base = false;
+  std::vector<Index> links;       ///< bodies, root first, then in path order
+  std::vector<Index> joints;
+  std::vector<Index> loop_joints; ///< closed by constraints, not part of the tree
+  bool self_collision = true;
+};
+
+/// Which colliders may touch. Only ever removes pairs.
+struct CollisionFilter {
+  /// Groups of each collider (indices into `group_paths`); empty for ungrouped ones. (collider_count)
+  std::vector<std::vector<Index>> groups_of_collider;
+  std::vector<Path> group_paths;
+  /// (group_count x group_count) row-major: 1 where contacts between the groups are off.
+  std::vector<char> group_pair_off;
+  /// (group_count): 1 where the group does not touch ungrouped colliders (S-78).
+  std::vector<char> ungrouped_off;
+  /// Explicit collider pairs, first < second, sorted, unique: filtered pairs, joints (S-81, S-92).
+  std::vector<std::pair<Index, Index>> pairs_off;
+};
+
+/// A scalar that follows authored time samples during the simulation.
+enum class Animated : std::uint8_t {
+  DriveTargetPosition,
+  DriveTargetVelocity,
+  DriveStiffness,
+  DriveDamping,
+  DriveMaxForce,
+};
+
+struct ScalarTrack {
+  Animated what = Animated::DriveTargetPosition;
+  Index joint = 0;
+  Index drive = 0;                ///< into Joint::drives
+  std::vector<double> times;      ///< [s] from the start, ascending (sample_count)
+  std::vector<double> values;     ///< SI (sample_count)
+  bool held = false;              ///< stage interpolation: held instead of linear
+  double at(double seconds) const;
+};
+
+/// World pose of a kinematic body, or of a static collider that is animated, over time.
+struct PoseTrack {
+  std::optional<Index> body;      ///< a kinematic body
+  std::optional<Index> collider;  ///< else a static collider
+  std::vector<double> times;      ///< [s], ascending (sample_count)
+  std::vector<Pose> poses;        ///< (sample_count)
+  bool held = false;
+  /// Linear in position, slerp in orientation; the first and last pose outside.
+  Pose at(double seconds) const;
+};
+
+/// What this description could not take over from the stage; never silent.
+struct NotRead {
+  Path prim;
+  std::string property;
+  std::string why;
+};
+
+struct PhysicsScene {
+  std::vector<Scene> scenes;      ///< at least one
+  std::vector<Body> bodies;
+  std::vector<Collider> colliders;
+  std::vector<TriangleMesh> meshes;
+  std::vector<Material> materials;
+  std::vector<Joint> joints;
+  std::vector<Articulation> articulations;
+  CollisionFilter filter;
+  std::vector<ScalarTrack> scalar_tracks;
+  std::vector<PoseTrack> pose_tracks;
+  std::vector<NotRead> not_read;
+
+  double meters_per_unit = 0.01;      ///< of the stage, to go back to its units
+  double kilograms_per_unit = 1;
+  Vec3d up{{0, 1, 0}};
+  double start_time_code = 0;         ///< stage time of the start of the simulation
+  double time_codes_per_second = 24;
+  double end_time_code = 0;           ///< authored end, or the start when none is authored
+
+  /// Contacts between two colliders are possible: different bodies, enabled, same scene, not filtered.
+  bool may_collide(Index collider_a, Index collider_b) const;
+  /// All filtered collider pairs (groups expanded), sorted; for reports.
+  std::vector<std::pair<Index, Index>> disabled_pairs() const;
+};
+
+}  // namespace tenon::physics

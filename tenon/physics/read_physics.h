@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/physics/physics_scene.h"
+#include "tenon/stage/stage.h"
+
+namespace tenon::physics {
+
+struct ReadOptions {
+  /// Stage time at which the simulation starts; NaN: the stage's startTimeCode when it is authored,
+  /// else the default time (S-6).
+  double start_time_code = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Reads every physics prim of the stage. Findings about the asset go to `diagnostics` with stable
+/// rule ids; what is wrong is left out, never guessed silently.
+PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
+                          Diagnostics& diagnostics);
+
+}  // namespace tenon::physics
