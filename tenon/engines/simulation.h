@@ -70,14 +70,14 @@ struct EngineInfo {
   std::string how_to_get;  ///< one sentence, when it is not available
 };
 
-/// The engines this build knows, sorted by name.
-std::vector<EngineInfo> list_engines();
-
-/// Builds a model of the scene; the scene must outlive the simulation. Errors: Missing when the
-/// engine is not available, Unsupported or Invalid when no model can be made.
-Result<std::unique_ptr<Simulation>> make_simulation(const std::string& engine,
-                                                    const physics::PhysicsScene& scene,
-                                                    const SimulationOptions& options,
-                                                    Diagnostics& diagnostics);
+/// How an engine joins in: each engine folder offers one of these; tenon/tenon.cpp lists them.
+struct Engine {
+  EngineInfo (*info)();
+  /// Builds a model of the scene; the scene must outlive the simulation. Errors: Missing when the
+  /// engine's library is not there, Unsupported or Invalid when no model can be made.
+  Result<std::unique_ptr<Simulation>> (*make)(const physics::PhysicsScene& scene,
+                                              const SimulationOptions& options,
+                                              Diagnostics& diagnostics);
+};
 
 }  // namespace tenon::engines

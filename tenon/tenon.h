@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/engines/simulation.h"
+#include "tenon/layer/layer.h"
+#include "tenon/physics/physics_scene.h"
+#include "tenon/stage/stage.h"
+
+/// The short path for users: the only place that wires files, composition and engines together.
+namespace tenon {
+
+struct OpenOptions {
+  /// Variant of the default prim's variant set "Physics", selected in the session layer.
+  std::string physics_variant;
+  /// "PATH.attr=value" in text form of the attribute's type: opinions in the session layer.
+  std::vector<std::string> overrides;
+  /// A session layer file; the two options above are written over its opinions, in memory.
+  std::string session_path;
+  bool load_payloads = true;
+  std::vector<std::string> mask;   ///< prim paths; empty: everything
+  std::map<std::string, std::vector<std::string>> variant_fallbacks;
+  /// When not empty, no file outside these folders is opened.
+  std::vector<std::string> sandbox_roots;
+};
+
+/// Opens one layer file of any kind, without composing it.
+Result<layer::LayerPtr> open_layer(const std::string& path, Diagnostics& diagnostics);
+
+/// Opens a file and composes it. Recoverable findings, composition errors included, go to
+/// `diagnostics`.
+Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& options,
+                                Diagnostics& diagnostics);
+
+/// The engines of this build, sorted by name; those not built are listed as not available.
+std::vector<engines::EngineInfo> list_engines();
+
+/// A simulation of `scene` (which must outlive it) on the engine of that name.
+Result<std::unique_ptr<engines::Simulation>> make_simulation(
+    const std::string& engine, const physics::PhysicsScene& scene,
+    const engines::SimulationOptions& options, Diagnostics& diagnostics);
+
+}  // namespace tenon
