@@ -23,6 +23,14 @@ struct ComposeOptions {
   std::set<std::string> muted;  ///< identifiers of layers that count as absent
 };
 
+/// A layer that an arc names and that cannot be opened.
+struct MissingArc {
+  std::string layer;  ///< identifier of the layer with the opinion
+  Path prim;          ///< of the spec with the opinion; the root for sublayers
+  std::string arc;    ///< "subLayer", "reference" or "payload"
+  std::string path;   ///< as authored
+};
+
 /// Path -> PrimIndex, computed on demand and kept; the only state of composition.
 class IndexCache {
  public:
@@ -38,6 +46,8 @@ class IndexCache {
   const PrimIndex& index(Path prim_path);
   /// Layers that could not be opened and other errors of layer stacks, in order of discovery.
   const Diagnostics& errors() const;
+  /// Each missing layer once per opinion, in order of discovery.
+  const std::vector<MissingArc>& missing_arcs() const;
   /// All layers opened so far, sorted by identifier.
   std::vector<layer::LayerPtr> used_layers() const;
 

@@ -48,6 +48,8 @@ class Stage {
   const layer::Layer* session_layer() const;
   const compose::LayerStack& layer_stack() const;
   std::vector<layer::LayerPtr> used_layers() const;
+  /// Layers that arcs name and that cannot be opened.
+  const std::vector<compose::MissingArc>& missing_arcs() const;
   /// Composition errors and value errors found so far.
   const Diagnostics& diagnostics() const;
 
