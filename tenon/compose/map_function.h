@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -11,23 +10,31 @@
 
 namespace tenon::compose {
 
-/// Maps paths (and times) across arcs: a set of prefix pairs source -> target, longest match wins;
-/// a path outside every pair has no image. Core Spec 1.0.1 section on namespace mapping.
+/// Maps paths (and times) across arcs: a set of prefix pairs source -> target. The longest match
+/// wins, and only when it is also the longest match backwards, so that every image leads back. A
+/// path outside every pair has no image. A pair with an empty target blocks its source.
+/// Core Spec 1.0.1 section on namespace mapping.
 class MapFunction {
  public:
-  using Pairs = std::vector<std::pair<Path, Path>>;
+  using Pair = std::pair<Path, Path>;
+  using Pairs = std::vector<Pair>;
 
   /// Maps nothing.
   MapFunction() = default;
-  static MapFunction identity();
+  static const MapFunction& identity();
+  /// Redundant pairs are dropped; the pair "/" -> "/" becomes the root identity.
   static MapFunction make(Pairs pairs, layer::LayerOffset offset = {});
 
-  bool is_null() const { return pairs_.empty(); }
-  bool is_identity() const;
+  bool is_null() const { return pairs_.empty() && !root_identity_; }
+  bool is_identity() const { return is_identity_of_paths() && offset_.is_identity(); }
+  bool is_identity_of_paths() const { return pairs_.empty() && root_identity_; }
+  /// Paths outside every pair map to themselves.
+  bool has_root_identity() const { return root_identity_; }
+  /// All pairs but the root identity, shallow sources first.
   const Pairs& pairs() const { return pairs_; }
   const layer::LayerOffset& offset() const { return offset_; }
 
-  /// Image of a path, empty when it has none. Target paths inside brackets are mapped too.
+  /// Image of a path, empty when it has none. Targets inside brackets are left alone.
   Path map_source_to_target(Path path) const;
   Path map_target_to_source(Path path) const;
 
@@ -37,12 +44,19 @@ class MapFunction {
   MapFunction inverse() const;
   /// With "/" -> "/" added, so that paths outside the arc's scope map to themselves.
   MapFunction with_root_identity() const;
+  /// Without it.
+  MapFunction without_root_identity() const;
 
   bool operator==(const MapFunction&) const = default;
 
  private:
-  Pairs pairs_;  // sorted by source, no redundant pairs
+  MapFunction(Pairs pairs, bool root_identity, layer::LayerOffset offset)
+      : pairs_(std::move(pairs)), offset_(offset), root_identity_(root_identity) {}
+  static MapFunction canonical(Pairs pairs, layer::LayerOffset offset);
+
+  Pairs pairs_;  // by depth of the source, then by source
   layer::LayerOffset offset_;
+  bool root_identity_ = false;
 };
 
 }  // namespace tenon::compose

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <map>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -19,21 +18,31 @@ namespace tenon::compose {
 inline constexpr std::uint32_t kNoNode = 0xFFFFFFFFu;
 
 /// One site (layer stack and path) that contributes to a prim, and the arc that brought it in.
+/// Stacks and maps belong to the cache and live as long as it.
 struct Node {
-  ArcKind arc = ArcKind::Root;
-  LayerStackPtr layer_stack;
+  const LayerStack* layer_stack = nullptr;
   Path path;                         ///< in the namespace of layer_stack, variant selections included
-  MapFunction map_to_parent;
-  MapFunction map_to_root;           ///< from this node's namespace and time to the stage's
+  const MapFunction* map_to_parent = nullptr;
+  const MapFunction* map_to_root = nullptr;  ///< from this node's namespace and time to the stage's
   std::uint32_t parent = kNoNode;
-  std::uint32_t origin = kNoNode;    ///< the node that caused this one, differs for implied arcs
-  std::vector<std::uint32_t> children;  ///< strongest first
-  std::uint16_t namespace_depth = 0;    ///< depth of the parent node's path when the arc was added
-  std::uint16_t sibling_number = 0;     ///< order among arcs of one kind at one site
+  std::uint32_t origin = kNoNode;    ///< the node that caused this one; not the parent for implied arcs
+  std::uint32_t first_child = kNoNode;   ///< the strongest; follow next_sibling
+  std::uint32_t last_child = kNoNode;
+  std::uint32_t next_sibling = kNoNode;
+  std::uint32_t previous_sibling = kNoNode;
+  std::uint16_t namespace_depth = 0;   ///< depth of the parent node's path when the arc was added
+  std::uint16_t sibling_number = 0;    ///< order among arcs of one kind at one site
+  std::uint16_t restriction_depth = 0; ///< contributes only above this depth of its path; 0: everywhere
+  ArcKind arc = ArcKind::Root;
   bool inert = false;                ///< kept for structure, contributes no opinions
-  bool culled = false;
-  bool has_specs = false;
-  bool due_to_ancestor = false;
+  bool culled = false;               ///< neither it nor anything below it contributes opinions
+  bool has_specs = false;            ///< some layer of the stack has a prim spec at `path`
+  bool due_to_ancestor = false;      ///< the arc was introduced by a namespace ancestor
+
+  bool can_contribute() const { return !inert && !culled; }
+  bool same_site(const Node& other) const {
+    return layer_stack == other.layer_stack && path == other.path;
+  }
 };
 
 /// One layer's spec of a prim within an index.
@@ -48,12 +57,11 @@ struct Opinion {
 /// Everything that composition found out about one prim.
 struct PrimIndex {
   Path path;
-  std::vector<Node> nodes;               ///< node 0 is the root
-  std::vector<std::uint32_t> strength_order;  ///< nodes, strongest first
+  std::vector<Node> nodes;               ///< strongest first; node 0 is the root
   std::vector<Opinion> opinions;         ///< prim specs, strongest first
   std::vector<Token> child_names;        ///< composed, ordered, prohibited names removed
   std::vector<Token> prohibited_child_names;  ///< relocated away; sorted
-  std::vector<Token> property_names;     ///< composed and ordered (propertyOrder), authored ones only
+  std::vector<Token> property_names;     ///< authored ones; weakest specs first, propertyOrder not applied
   /// Selections in force: the variant whose opinions contribute.
   std::map<std::string, std::string> variant_selections;
   bool has_payloads = false;             ///< some payload arc is authored
@@ -61,11 +69,15 @@ struct PrimIndex {
   bool instanceable = false;             ///< an instance: some arc, and instanceable = true
   /// Equal for prims that share a prototype; empty when not instanceable.
   std::string instance_key;
-  Diagnostics errors;                    ///< rule = "compose.<class>" of section "composition errors"
+  Diagnostics errors;                    ///< rule = "compose.<class>", see composition_error.h
 
   /// `path` of node's namespace in the stage's; empty when it has no image.
   Path map_to_root(std::uint32_t node, Path path_in_node) const {
-    return nodes[node].map_to_root.map_source_to_target(path_in_node.strip_variants());
+    return nodes[node].map_to_root->map_source_to_target(path_in_node.strip_variants());
+  }
+  /// Stage time of a time in the node's layer stack (its root layer).
+  const layer::LayerOffset& node_offset(std::uint32_t node) const {
+    return nodes[node].map_to_root->offset();
   }
 };
 
