@@ -54,6 +54,7 @@ struct Body {
 enum class ShapeKind : std::uint8_t {
   Box,         ///< half_extents
   Sphere,      ///< radius
+  Ellipsoid,   ///< half_extents are the semi-axes (a sphere under non-uniform scale, S-53)
   Capsule,     ///< radius, half_height without the caps, along `axis`
   Cylinder,    ///< radius, half_height, along `axis`
   Cone,        ///< radius of the base, half_height; apex at +axis
@@ -63,7 +64,7 @@ enum class ShapeKind : std::uint8_t {
   Spheres,     ///< sphere_centers and sphere_radii (UsdGeomPoints)
 };
 
-/// "box", "sphere", "capsule", "cylinder", "cone", "plane", "convexHull", "mesh", "spheres".
+/// "box", "sphere", "ellipsoid", "capsule", "cylinder", "cone", "plane", "convexHull", "mesh", "spheres".
 std::string_view shape_name(ShapeKind kind);
 
 enum class Axis : std::uint8_t { X, Y, Z };
@@ -72,6 +73,7 @@ enum class Axis : std::uint8_t { X, Y, Z };
 struct TriangleMesh {
   std::vector<Vec3d> points;      // (point_count)
   std::vector<Vec3i> triangles;   // (triangle_count), indices into points
+  bool flat = false;              ///< all points in one plane: no volume, touched from both sides
 };
 
 struct Shape {
