@@ -17,13 +17,13 @@ END_SECONDS = 4.0
 MOUNT = (0.0, 0.12, 0.25)
 
 CAN_RADIUS, CAN_HEIGHT, CAN_MASS = 0.0275, 0.12, 0.1
-CAN_PLACE = (0.0425, -0.02, 0.109)
+CAN_PLACE = (0.044, -0.02, 0.11)
 
 # (seconds, degrees) of the six drive targets; targets run straight between them. The targets lie
 # inside the can: what is missing to them, times the stiffness, is the grip.
-SWING = ((0.0, 0.0), (0.8, 70.0))
-THUMB = ((0.0, 0.0), (1.2, 0.0), (1.9, 16.0))
-FINGER = ((0.0, 0.0), (0.5, 0.0), (1.25, 62.0))
+SWING = ((0.0, 0.0), (0.8, 71.0))
+THUMB = ((0.0, 0.0), (1.2, 0.0), (1.9, 14.0))
+FINGER = ((0.0, 0.0), (0.5, 0.0), (1.25, 58.0))
 TARGETS = (("right_thumb_1", SWING), ("right_thumb_2", THUMB)) + tuple(
     (f"right_{finger}_1", FINGER) for finger in hand.FINGERS
 )

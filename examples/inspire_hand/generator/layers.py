@@ -42,7 +42,7 @@ def interface():
 def _mesh(layer, name, surface):
     low, high = surface.bounds()
     with layer.prim(f'def Mesh "{name}"'):
-        layer.attribute("float3[] extent", usda.array((low, high), usda.group))
+        layer.attribute("float3[] extent", usda.array((low, high), _point))
         layer.attribute("int[] faceVertexCounts", usda.array([len(face) for face in surface.faces]))
         layer.attribute(
             "int[] faceVertexIndices", usda.array([i for face in surface.faces for i in face])
@@ -363,8 +363,8 @@ def mujoco():
     """payloads/Physics/mujoco.usda."""
     layer = usda.Layer(
         "MuJoCo only. Actuators repeat the drives of physics.usda in newton metres and radians "
-        "(gains are 180 / pi times those per degree); a reader takes either actuators or drives, never "
-        "both.\n"
+        "(gains are 180 / pi times those per degree); a reader takes either actuators or "
+        "drives, never both.\n"
         "MjcEqualityJointAPI contains the mimic law of physics.usda; only its stiffness is added "
         "here.",
         ROBOT,
