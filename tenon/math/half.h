@@ -44,7 +44,8 @@ struct Half {
     const std::uint32_t magnitude = bits & 0x7FFFFFFFu;
     if (magnitude >= 0x7F800000u) {
       const bool nan = magnitude > 0x7F800000u;
-      return static_cast<std::uint16_t>(sign | 0x7C00u | (nan ? 0x200u | ((magnitude >> 13u) & 0x3FFu) : 0u));
+      return static_cast<std::uint16_t>(sign | 0x7C00u |
+                                        (nan ? 0x200u | ((magnitude >> 13u) & 0x3FFu) : 0u));
     }
     if (magnitude >= 0x477FF000u) {
       return static_cast<std::uint16_t>(sign | 0x7C00u);

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/math/inertia.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include <Eigen/Eigenvalues>
 
 namespace tenon {
 
@@ -34,8 +35,7 @@ Mat3d diagonal_matrix(const Vec3d& diagonal) {
 PrincipalInertia principal_inertia(const Mat3d& inertia) {
   const double size =
       std::fabs(inertia[0][0]) + std::fabs(inertia[1][1]) + std::fabs(inertia[2][2]);
-  const double off =
-      std::fabs(inertia[0][1]) + std::fabs(inertia[0][2]) + std::fabs(inertia[1][2]);
+  const double off = std::fabs(inertia[0][1]) + std::fabs(inertia[0][2]) + std::fabs(inertia[1][2]);
   if (off <= 1e-12 * size) {
     return {{{inertia[0][0], inertia[1][1], inertia[2][2]}}, kIdentityRotation};
   }

@@ -18,8 +18,8 @@ Mat3d shift_inertia(const Mat3d& about_center, double mass, const Vec3d& offset)
 Mat3d diagonal_matrix(const Vec3d& diagonal);
 
 struct PrincipalInertia {
-  Vec3d moments;                          ///< ascending
-  Quatd axes = kIdentityRotation;         ///< rotation from the principal to the given frame
+  Vec3d moments;                   ///< ascending
+  Quatd axes = kIdentityRotation;  ///< rotation from the principal to the given frame
 };
 
 /// Eigenvalues and a right-handed eigenframe; the identity frame for an already diagonal matrix

@@ -39,10 +39,9 @@ inline Quatf to_float(const Quatd& q) {
 
 /// Hamilton product: rotate by b first, then by a.
 inline Quatd operator*(const Quatd& a, const Quatd& b) {
-  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-          a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
-          a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+  return {
+      a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+      a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
 inline Quatd conjugate(const Quatd& q) { return {-q.x, -q.y, -q.z, q.w}; }

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/math/transform.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include <Eigen/Eigenvalues>
 
 namespace tenon {
 namespace {
