@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "tenon/base/diagnostics.h"
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
 #include "tenon/math/transform.h"
@@ -61,23 +60,6 @@ class Simulation {
   /// Degrees of freedom that the engine simulates.
   virtual std::size_t dof_count() const = 0;
   virtual const std::vector<NotMapped>& not_mapped() const = 0;
-};
-
-struct EngineInfo {
-  std::string name;      ///< "mujoco"
-  std::string version;   ///< of the library in use; empty when it is not available
-  bool available = false;
-  std::string how_to_get;  ///< one sentence, when it is not available
-};
-
-/// How an engine joins in: each engine folder offers one of these; tenon/tenon.cpp lists them.
-struct Engine {
-  EngineInfo (*info)();
-  /// Builds a model of the scene; the scene must outlive the simulation. Errors: Missing when the
-  /// engine's library is not there, Unsupported or Invalid when no model can be made.
-  Result<std::unique_ptr<Simulation>> (*make)(const physics::PhysicsScene& scene,
-                                              const SimulationOptions& options,
-                                              Diagnostics& diagnostics);
 };
 
 }  // namespace tenon::engines

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/engines.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace tenon::engines {
+namespace {
+
+struct KnownEngine {
+  std::string_view name;
+  std::string_view how_to_get;
+};
+
+constexpr std::array<KnownEngine, 3> kKnownEngines{{
+    {"jolt", "This version of tenon has no Jolt adapter; use mujoco."},
+    {"mujoco", "Build tenon with -DTENON_WITH_MUJOCO=ON (the default of the presets)."},
+    {"physx", "This version of tenon has no PhysX adapter; use mujoco."},
+}};
+
+}  // namespace
+
+std::vector<EngineInfo> list_engines(std::span<const Engine> built) {
+  std::vector<EngineInfo> infos;
+  for (const Engine& engine : built) {
+    infos.push_back(engine.info());
+  }
+  for (const KnownEngine& known : kKnownEngines) {
+    const bool is_built = std::any_of(infos.begin(), infos.end(), [&](const EngineInfo& info) {
+      return info.name == known.name;
+    });
+    if (!is_built) {
+      infos.push_back({std::string(known.name), "", false, std::string(known.how_to_get)});
+    }
+  }
+  std::sort(infos.begin(), infos.end(),
+            [](const EngineInfo& a, const EngineInfo& b) { return a.name < b.name; });
+  return infos;
+}
+
+Result<std::unique_ptr<Simulation>> make_simulation(std::span<const Engine> built,
+                                                    const std::string& engine,
+                                                    const physics::PhysicsScene& scene,
+                                                    const SimulationOptions& options,
+                                                    Diagnostics& diagnostics) {
+  for (const Engine& candidate : built) {
+    if (candidate.info().name == engine) {
+      return candidate.make(scene, options, diagnostics);
+    }
+  }
+  std::string names;
+  for (const EngineInfo& info : list_engines(built)) {
+    if (info.name == engine) {
+      return Error(ErrorCode::Missing, "the engine \"" + engine + "\" is not part of this build")
+          .with_rule("engine.missing")
+          .with_fix(info.how_to_get);
+    }
+    names += (names.empty() ? "" : ", ") + info.name;
+  }
+  return Error(ErrorCode::NotFound, "there is no engine \"" + engine + "\"; known are " + names)
+      .with_rule("engine.unknown");
+}
+
+}  // namespace tenon::engines

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/engines/simulation.h"
+#include "tenon/physics/physics_scene.h"
+
+namespace tenon::engines {
+
+struct EngineInfo {
+  std::string name;        ///< "mujoco"
+  std::string version;     ///< of the library in use; empty when it is not available
+  bool available = false;
+  std::string how_to_get;  ///< one sentence, when it is not available
+};
+
+/// What the adapter of one engine offers. The wiring (tenon/tenon.cpp) makes the table of those
+/// that are built in; this folder knows none of them.
+struct Engine {
+  EngineInfo (*info)() = nullptr;
+  Result<std::unique_ptr<Simulation>> (*make)(const physics::PhysicsScene& scene,
+                                              const SimulationOptions& options,
+                                              Diagnostics& diagnostics) = nullptr;
+};
+
+/// The built ones and the known ones that are not built, sorted by name.
+std::vector<EngineInfo> list_engines(std::span<const Engine> built);
+
+/// Builds a model of the scene; the scene must outlive the simulation. Errors: Missing when the
+/// engine is known but not built in, NotFound for an unknown name, Unsupported or Invalid when no
+/// model can be made.
+Result<std::unique_ptr<Simulation>> make_simulation(std::span<const Engine> built,
+                                                    const std::string& engine,
+                                                    const physics::PhysicsScene& scene,
+                                                    const SimulationOptions& options,
+                                                    Diagnostics& diagnostics);
+
+}  // namespace tenon::engines

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/engines/engines.h"
+#include "tenon/engines/simulation.h"
+#include "tenon/physics/physics_scene.h"
+
+/// The MuJoCo adapter: PhysicsScene -> mjSpec -> mjModel and mjData, stepped and read back.
+namespace tenon::engines::mujoco {
+
+/// Name "mujoco" and the version of the loaded library.
+EngineInfo info();
+
+/// A simulation of `scene`, which must outlive it. Errors: Invalid with MuJoCo's own words when it
+/// rejects the model, Limit when the scene is too large.
+Result<std::unique_ptr<Simulation>> make_simulation(const physics::PhysicsScene& scene,
+                                                    const SimulationOptions& options,
+                                                    Diagnostics& diagnostics);
+
+}  // namespace tenon::engines::mujoco
