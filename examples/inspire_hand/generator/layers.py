@@ -245,11 +245,14 @@ def _body(layer, link):
 
 def _anchor(layer):
     layer.comment(
-        "Holds the base where the asset is placed. Its contacts stay on: the other side is the",
-        "prim of the whole hand, and switching its contacts off would switch off those of palm",
-        "and fingers.",
+        "Holds the base where the asset is placed, and so is the root of the articulation. Its",
+        "contacts stay on: the other side is the prim of the whole hand, and switching them off",
+        "would switch off those between palm and fingers.",
     )
-    with layer.prim(f'def PhysicsFixedJoint "{hand.BASE}_joint"'):
+    with layer.prim(
+        f'def PhysicsFixedJoint "{hand.BASE}_joint"',
+        apis=("PhysicsArticulationRootAPI",),
+    ):
         layer.attribute("rel physics:body0", usda.path(f"/{ROBOT}"))
         layer.attribute("rel physics:body1", usda.path(f"/{ROBOT}/{hand.BASE}"))
         layer.attribute("bool physics:collisionEnabled", "true")
@@ -305,14 +308,11 @@ def physics(links):
         ROBOT,
     )
     by_name = {link.name: link for link in links}
-    with layer.prim(
-        f'over "{ROBOT}"', apis=("PhysicsArticulationRootAPI", "NewtonArticulationRootAPI")
-    ):
+    with layer.prim(f'over "{ROBOT}"'):
         layer.line("prepend rel isaac:physics:robotJoints = [")
         for name in [f"{hand.BASE}_joint"] + [joint.name for joint in hand.JOINTS]:
             layer.line(f"    {physics_path(name)},")
         layer.line("]")
-        layer.attribute("bool newton:selfCollisionEnabled", "true")
         for link in links:
             _body(layer, link)
         with layer.prim('def Scope "Physics"'):
@@ -331,10 +331,11 @@ def physx():
         ROBOT,
         ["subLayers = [\n    @./physics.usda@\n]"],
     )
-    with layer.prim(f'over "{ROBOT}"', apis=("PhysxArticulationAPI",)):
-        layer.attribute("int physxArticulation:solverPositionIterationCount", "32")
-        layer.attribute("int physxArticulation:solverVelocityIterationCount", "1")
+    with layer.prim(f'over "{ROBOT}"'):
         with layer.prim('over "Physics"'):
+            with layer.prim(f'over "{hand.BASE}_joint"', apis=("PhysxArticulationAPI",)):
+                layer.attribute("int physxArticulation:solverPositionIterationCount", "32")
+                layer.attribute("int physxArticulation:solverVelocityIterationCount", "1")
             for joint in hand.JOINTS:
                 apis = ["PhysxJointAPI"] + (["PhysxMimicJointAPI:rotX"] if joint.law else [])
                 with layer.prim(f'over "{joint.name}"', apis=apis):
@@ -371,7 +372,15 @@ def mujoco():
         ["subLayers = [\n    @./physics.usda@\n]"],
     )
     with layer.prim(f'over "{ROBOT}"'):
+        layer.comment(
+            "MuJoCo's own USD reader takes an articulation root for a body, so here it stands on one.",
+        )
+        with layer.prim(f'over "{hand.BASE}"', apis=("PhysicsArticulationRootAPI",)):
+            pass
         with layer.prim('over "Physics"'):
+            root = 'delete apiSchemas = ["PhysicsArticulationRootAPI"]'
+            with layer.prim(f'over "{hand.BASE}_joint"', root):
+                pass
             for joint in hand.JOINTS:
                 if joint.law:
                     with layer.prim(f'over "{joint.name}"', apis=("MjcEqualityJointAPI",)):
