@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,11 +10,18 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/path.h"
 #include "tenon/layer/layer.h"
+#include "tenon/stage/spec_site.h"
 #include "tenon/stage/time.h"
+
+namespace tenon::schema {
+struct PropertyDefinition;
+}
 
 namespace tenon::stage {
 
 class Prim;
+struct PrimData;
+struct StageData;
 
 enum class ValueSource : unsigned char { None, Fallback, Default, TimeSamples, ValueClips, Spline };
 
@@ -32,8 +40,8 @@ class Attribute {
   bool is_custom() const;
 
   /// The resolved value: time samples, then default, per layer from strongest to weakest; then the
-  /// schema fallback. Empty when there is none or it is blocked. Interpolated linearly or held, as
-  /// the stage says.
+  /// schema fallback. Empty when there is none or it is blocked. Interpolated linearly where the type
+  /// allows it.
   layer::Value get(Time time = {}) const;
   /// The value when it is exactly a T.
   template <class T>
@@ -42,12 +50,20 @@ class Attribute {
     const T* contents = value.get<T>();
     return contents == nullptr ? std::nullopt : std::optional<T>(*contents);
   }
+  /// What the schemas say when nothing is authored; empty when they say nothing.
+  layer::Value fallback() const;
+  /// The schemas' declaration, vendor schemas included; nullptr when there is none.
+  const schema::PropertyDefinition* definition() const;
+  /// For the default time or any time: where the value comes from; Fallback also when blocked.
   ValueSource value_source(Time time = {}) const;
   bool has_authored_value() const;
   bool is_blocked(Time time = {}) const;
   /// Times of the samples that contribute, in stage time.
   std::vector<double> time_samples() const;
+  /// Value may differ between times: several samples, or a spline.
   bool is_animated() const;
+  /// The spline that gives the value; nullptr when something else does.
+  const layer::Spline* spline() const;
 
   bool has_authored_connections() const;
   std::vector<Path> connections() const;
@@ -56,20 +72,18 @@ class Attribute {
   std::map<std::string, layer::Value> all_authored_metadata() const;
 
   /// Layer, spec path and spec of every opinion, strongest first.
-  struct SpecSite {
-    const layer::Layer* layer = nullptr;
-    Path path;
-    const layer::Spec* spec = nullptr;
-  };
   std::vector<SpecSite> spec_stack() const;
-  /// A diagnostic with the place of the strongest opinion.
+  /// A diagnostic with the place of the strongest opinion (of the prim's when none is authored).
   Diagnostic located(Severity severity, std::string rule, std::string message) const;
 
  private:
   friend class Prim;
-  const void* stage_ = nullptr;
-  const void* prim_ = nullptr;
-  Path prim_path_;
+  Attribute(const StageData* stage, const PrimData* prim, Path proxy_path, Token name)
+      : stage_(stage), prim_(prim), proxy_path_(proxy_path), name_(name) {}
+
+  const StageData* stage_ = nullptr;
+  const PrimData* prim_ = nullptr;
+  Path proxy_path_;  // of the prim; empty unless it is an instance proxy
   Token name_;
 };
 

@@ -12,7 +12,15 @@
 #include "tenon/stage/attribute.h"
 #include "tenon/stage/relationship.h"
 
+namespace tenon::schema {
+class PrimDefinition;
+}
+
 namespace tenon::stage {
+
+class Stage;
+struct PrimData;
+struct StageData;
 
 /// A composed prim; a small handle by value. An invalid one answers everything with "no" or empty.
 /// Inside instances a handle is an instance proxy: its path is under the instance, its opinions
@@ -46,7 +54,7 @@ class Prim {
   /// All children in order, inactive and undefined ones too; proxies below an instance.
   std::vector<Prim> children() const;
   Prim child(Token name) const;
-  Prim prototype() const;          ///< of an instance
+  Prim prototype() const;          ///< of an instance (or a proxy of one), else invalid
   Prim prim_in_prototype() const;  ///< of an instance proxy
 
   /// The prim's type is `type` or derived from it, per the schema registry.
@@ -58,14 +66,18 @@ class Prim {
   std::vector<Token> api_instances(Token schema) const;
   /// Composed apiSchemas list, names that no registry knows included, built-ins not.
   std::vector<Token> authored_api_schemas() const;
-  /// As OpenUSD reports it: registered names only, built-ins first or after as it orders them.
+  /// As stock OpenUSD reports it: built-ins of the type first, names it does not know left out.
   std::vector<Token> applied_schemas() const;
+  /// What the type and the applied schemas declare; never null for a valid prim.
+  const schema::PrimDefinition* definition() const;
 
   /// A handle even when nothing is authored; `is_defined` tells.
   Attribute attribute(Token name) const;
   Relationship relationship(Token name) const;
   /// Authored properties in OpenUSD's order (dictionary order, then propertyOrder).
   std::vector<Token> authored_property_names() const;
+  /// The same with the properties that schemas of stock OpenUSD declare.
+  std::vector<Token> property_names() const;
   bool has_property(Token name) const;
   bool is_relationship(Token name) const;
 
@@ -80,23 +92,19 @@ class Prim {
   std::string variant_selection(const std::string& set) const;
 
   /// Specs strongest first: for "where does this come from".
-  struct SpecSite {
-    const layer::Layer* layer = nullptr;
-    Path path;
-    const layer::Spec* spec = nullptr;
-  };
   std::vector<SpecSite> spec_stack() const;
-  /// File and line of the strongest spec, for diagnostics.
+  /// A diagnostic with file and line of the strongest spec.
   Diagnostic located(Severity severity, std::string rule, std::string message) const;
 
  private:
-  friend class Attribute;
-  friend class Relationship;
   friend class Stage;
   friend struct StageData;
-  const void* stage_ = nullptr;   // Stage::Data
-  const void* data_ = nullptr;    // the prim's record (in the prototype for proxies)
-  Path proxy_path_;               // of instance proxies
+  Prim(const StageData* stage, const PrimData* data, Path proxy_path = {})
+      : stage_(stage), data_(data), proxy_path_(proxy_path) {}
+
+  const StageData* stage_ = nullptr;
+  const PrimData* data_ = nullptr;  // the prim's record; in the prototype for proxies
+  Path proxy_path_;                 // empty unless this is an instance proxy
 };
 
 }  // namespace tenon::stage

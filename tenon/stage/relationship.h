@@ -9,10 +9,13 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/path.h"
 #include "tenon/layer/layer.h"
+#include "tenon/stage/spec_site.h"
 
 namespace tenon::stage {
 
 class Prim;
+struct PrimData;
+struct StageData;
 
 /// A relationship of a composed prim; a small handle by value.
 class Relationship {
@@ -33,19 +36,17 @@ class Relationship {
 
   layer::Value metadata(Token field) const;
   std::map<std::string, layer::Value> all_authored_metadata() const;
-  struct SpecSite {
-    const layer::Layer* layer = nullptr;
-    Path path;
-    const layer::Spec* spec = nullptr;
-  };
   std::vector<SpecSite> spec_stack() const;
   Diagnostic located(Severity severity, std::string rule, std::string message) const;
 
  private:
   friend class Prim;
-  const void* stage_ = nullptr;
-  const void* prim_ = nullptr;
-  Path prim_path_;
+  Relationship(const StageData* stage, const PrimData* prim, Path proxy_path, Token name)
+      : stage_(stage), prim_(prim), proxy_path_(proxy_path), name_(name) {}
+
+  const StageData* stage_ = nullptr;
+  const PrimData* prim_ = nullptr;
+  Path proxy_path_;  // of the prim; empty unless it is an instance proxy
   Token name_;
 };
 

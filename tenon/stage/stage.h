@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -47,7 +48,10 @@ class Stage {
   const layer::Layer& root_layer() const;
   const layer::Layer* session_layer() const;
   const compose::LayerStack& layer_stack() const;
+  /// All layers opened for composition, sorted by identifier.
   std::vector<layer::LayerPtr> used_layers() const;
+  /// Layers that arcs name and that could not be opened.
+  const std::vector<compose::MissingArc>& missing_arcs() const;
   /// Layers that arcs name and that cannot be opened.
   const std::vector<compose::MissingArc>& missing_arcs() const;
   /// Composition errors and value errors found so far.
@@ -57,16 +61,19 @@ class Stage {
   double end_time_code() const;
   double time_codes_per_second() const;
   double frames_per_second() const;
-  /// Metadata of the pseudo-root over root and session layer, with registered fallbacks.
+  /// Metadata of the pseudo-root: session layer over root layer, sublayers do not count; registered
+  /// fallbacks of upAxis, metersPerUnit and the like where neither authors it.
   layer::Value metadata(Token field) const;
+  bool has_authored_metadata(Token field) const;
+  /// Authored fields of the pseudo-root, sorted by name.
+  std::map<std::string, layer::Value> all_authored_metadata() const;
 
   /// Opaque to users; shared by the handles.
-  struct Data;
-  const Data& data() const { return *data_; }
+  const StageData& data() const { return *data_; }
 
  private:
-  explicit Stage(std::unique_ptr<Data> data);
-  std::unique_ptr<Data> data_;
+  explicit Stage(std::unique_ptr<StageData> data);
+  std::unique_ptr<StageData> data_;
 };
 
 }  // namespace tenon::stage
