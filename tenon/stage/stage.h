@@ -50,8 +50,6 @@ class Stage {
   const compose::LayerStack& layer_stack() const;
   /// All layers opened for composition, sorted by identifier.
   std::vector<layer::LayerPtr> used_layers() const;
-  /// Layers that arcs name and that could not be opened.
-  const std::vector<compose::MissingArc>& missing_arcs() const;
   /// Layers that arcs name and that cannot be opened.
   const std::vector<compose::MissingArc>& missing_arcs() const;
   /// Composition errors and value errors found so far.
