@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/bytes/asset_resolver.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <sys/stat.h>
+
+#include "tenon/base/limits.h"
+#include "tenon/bytes/zip_archive.h"
+
+namespace tenon::bytes {
+namespace {
+
+bool exists(const std::string& file) {
+  struct stat info = {};
+  return ::stat(file.c_str(), &info) == 0 && S_ISREG(info.st_mode);
+}
+
+bool is_absolute(std::string_view path) { return path.starts_with('/'); }
+bool is_file_relative(std::string_view path) {
+  return path.starts_with("./") || path.starts_with("../");
+}
+
+/// "a/b/c" -> "a/b/", "c" -> "".
+std::string_view folder_of(std::string_view path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string_view::npos ? std::string_view() : path.substr(0, slash + 1);
+}
+
+std::string normal(const std::string& path) {
+  return std::filesystem::path(path).lexically_normal().string();
+}
+
+Error not_found(const std::string& asset_path, const std::string& anchor) {
+  return Error(ErrorCode::NotFound,
+               "cannot find @" + asset_path + "@" + (anchor.empty() ? "" : " named in " + anchor))
+      .with_rule("layer.not-found");
+}
+
+/// The innermost file that `identifier` names: its package (an identifier) and its name there.
+PackagePath split_innermost(const std::string& identifier) {
+  PackagePath outer = split_package_path(identifier);
+  if (outer.inner.empty()) {
+    return outer;
+  }
+  const PackagePath below = split_innermost(outer.inner);
+  if (below.inner.empty()) {
+    return outer;
+  }
+  return {join_package_path(outer.package, below.package), below.inner};
+}
+
+Result<ZipArchive> open_package(const AssetResolver& resolver, const std::string& package) {
+  TENON_TRY(std::shared_ptr<const FileBytes> bytes, resolver.open(package));
+  auto archive = ZipArchive::open(std::move(bytes));
+  if (!archive) {
+    return std::move(archive).error().in_file(package);
+  }
+  return archive;
+}
+
+}  // namespace
+
+PackagePath split_package_path(std::string_view path) {
+  const std::size_t open = path.find('[');
+  if (open == std::string_view::npos || open == 0 || !path.ends_with(']')) {
+    return {std::string(path), ""};
+  }
+  return {std::string(path.substr(0, open)),
+          std::string(path.substr(open + 1, path.size() - open - 2))};
+}
+
+std::string join_package_path(std::string_view package, std::string_view inner) {
+  if (package.ends_with(']')) {  // into the innermost brackets
+    const PackagePath outer = split_package_path(package);
+    return outer.package + "[" + join_package_path(outer.inner, inner) + "]";
+  }
+  return std::string(package) + "[" + std::string(inner) + "]";
+}
+
+bool is_package_name(std::string_view path) {
+  if (path.size() < 5) {
+    return false;
+  }
+  std::string ending(path.substr(path.size() - 5));
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return ending == ".usdz";
+}
+
+std::string absolute_file_path(std::string_view path) {
+  std::error_code ignored;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, ignored);
+  return absolute.lexically_normal().string();
+}
+
+Result<std::string> AssetResolver::resolve(const std::string& asset_path,
+                                           const std::string& anchor) const {
+  if (asset_path.empty()) {
+    return Error(ErrorCode::Invalid, "an empty asset path").with_rule("layer.not-found");
+  }
+  if (asset_path.size() > limits::kPathTextLength || asset_path.find('\0') != std::string::npos) {
+    return Error(ErrorCode::Invalid, "an asset path that cannot be a file's")
+        .with_rule("layer.not-found");
+  }
+  const PackagePath wanted = split_package_path(asset_path);
+  const bool in_package = !split_package_path(anchor).inner.empty() || is_package_name(anchor);
+  TENON_TRY(std::string file, in_package && !is_absolute(wanted.package)
+                                  ? resolve_in_package(wanted.package, anchor)
+                                  : resolve_file(wanted.package, anchor));
+  if (wanted.inner.empty()) {
+    return file;
+  }
+  const std::string inner = join_package_path(file, wanted.inner);
+  TENON_CHECK(open(inner));
+  return inner;
+}
+
+Result<std::string> AssetResolver::resolve_file(const std::string& asset_path,
+                                                const std::string& anchor) const {
+  std::vector<std::string> candidates;
+  if (is_absolute(asset_path)) {
+    candidates.push_back(asset_path);
+  } else {
+    if (is_absolute(anchor)) {
+      const std::string outer = split_package_path(anchor).package;
+      candidates.push_back(std::string(folder_of(outer)) + asset_path);
+    }
+    if (!is_absolute(anchor) || !is_file_relative(asset_path)) {
+      candidates.push_back(asset_path);
+    }
+    if (!is_file_relative(asset_path)) {
+      for (const std::string& folder : options_.search_paths) {
+        candidates.push_back(folder + "/" + asset_path);
+      }
+    }
+  }
+  for (const std::string& candidate : candidates) {
+    if (exists(candidate)) {
+      std::string file = absolute_file_path(candidate);
+      TENON_CHECK(check_sandbox(file));
+      return file;
+    }
+  }
+  return not_found(asset_path, anchor);
+}
+
+Result<std::string> AssetResolver::resolve_in_package(const std::string& asset_path,
+                                                      const std::string& anchor) const {
+  PackagePath at = split_innermost(anchor);
+  if (at.inner.empty() || is_package_name(at.inner)) {  // the package itself: its root layer
+    at.package = anchor;
+    TENON_TRY(const ZipArchive archive, open_package(*this, anchor));
+    at.inner = archive.entries().empty() ? "" : archive.entries().front().name;
+  }
+  TENON_TRY(const ZipArchive archive, open_package(*this, at.package));
+  std::vector<std::string> candidates = {normal(std::string(folder_of(at.inner)) + asset_path)};
+  if (!is_file_relative(asset_path)) {
+    candidates.push_back(normal(asset_path));
+  }
+  for (const std::string& candidate : candidates) {
+    if (archive.find(candidate) != nullptr) {
+      return join_package_path(at.package, candidate);
+    }
+  }
+  return not_found(asset_path, anchor);
+}
+
+Result<void> AssetResolver::check_sandbox(const std::string& file) const {
+  if (options_.roots.empty()) {
+    return {};
+  }
+  std::error_code error;
+  const std::string real = std::filesystem::canonical(file, error).string();
+  for (const std::string& root : options_.roots) {
+    const std::string folder = std::filesystem::canonical(root, error).string();
+    if (!error && (real == folder || real.starts_with(folder == "/" ? folder : folder + "/"))) {
+      return {};
+    }
+  }
+  return Error(ErrorCode::NotFound, "@" + file + "@ lies outside of the folders that may be read")
+      .with_rule("layer.outside");
+}
+
+Result<std::shared_ptr<const FileBytes>> AssetResolver::open(const std::string& identifier) const {
+  PackagePath path = split_package_path(identifier);
+  TENON_CHECK(check_sandbox(path.package));
+  TENON_TRY(std::shared_ptr<const FileBytes> bytes, FileBytes::open(path.package));
+  for (std::size_t depth = 0; !path.inner.empty(); ++depth) {
+    if (depth == limits::kPackageNesting) {
+      return Error(ErrorCode::Limit, "packages are nested too deeply").in_file(identifier);
+    }
+    auto archive = ZipArchive::open(std::move(bytes));
+    if (!archive) {
+      return std::move(archive).error().in_file(path.package);
+    }
+    path = split_package_path(path.inner);
+    const ZipEntry* entry = archive->find(path.package);
+    if (entry == nullptr) {
+      return Error(ErrorCode::NotFound, "the package has no file \"" + path.package + "\"")
+          .in_file(identifier)
+          .with_rule("layer.not-found");
+    }
+    auto contents = archive->read(*entry);
+    if (!contents) {
+      return std::move(contents).error().in_file(identifier);
+    }
+    bytes = *std::move(contents);
+  }
+  return bytes;
+}
+
+}  // namespace tenon::bytes

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/bytes/file_bytes.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "tenon/base/assert.h"
+
+namespace tenon::bytes {
+namespace {
+
+constexpr std::size_t kMapFrom = 64u << 10;  // below this size reading is cheaper
+
+/// Closes its file descriptor.
+struct OpenFile {
+  explicit OpenFile(const std::string& path)
+      : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenFile() {
+    if (descriptor >= 0) {
+      ::close(descriptor);
+    }
+  }
+  int descriptor;
+};
+
+Error file_error(const std::string& path, const char* what, int number) {
+  const ErrorCode code =
+      number == ENOENT || number == ENOTDIR ? ErrorCode::NotFound : ErrorCode::Io;
+  return Error(code, std::string(what) + ": " + std::strerror(number))
+      .in_file(path)
+      .with_rule(code == ErrorCode::NotFound ? "file.not-found" : "file.unreadable");
+}
+
+Result<std::string> read_all(int descriptor, std::size_t size, const std::string& path) {
+  std::string contents(size, '\0');
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t got = ::read(descriptor, contents.data() + done, size - done);
+    if (got < 0 && errno == EINTR) {
+      continue;
+    }
+    if (got < 0) {
+      return file_error(path, "cannot read the file", errno);
+    }
+    if (got == 0) {
+      break;  // shortened meanwhile
+    }
+    done += static_cast<std::size_t>(got);
+  }
+  contents.resize(done);
+  return contents;
+}
+
+}  // namespace
+
+FileBytes::~FileBytes() {
+  if (mapping_ != nullptr) {
+    ::munmap(mapping_, span_.size());
+  }
+}
+
+Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path) {
+  const OpenFile file(path);
+  if (file.descriptor < 0) {
+    return file_error(path, "cannot open the file", errno);
+  }
+  struct stat info = {};
+  if (::fstat(file.descriptor, &info) != 0) {
+    return file_error(path, "cannot open the file", errno);
+  }
+  if (!S_ISREG(info.st_mode)) {
+    return Error(ErrorCode::Io, "not a regular file").in_file(path).with_rule("file.unreadable");
+  }
+  const auto size = static_cast<std::size_t>(info.st_size);
+  if (size < kMapFrom) {
+    TENON_TRY(std::string contents, read_all(file.descriptor, size, path));
+    return own(std::move(contents));
+  }
+  void* address = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.descriptor, 0);
+  if (address == MAP_FAILED) {
+    return file_error(path, "cannot map the file", errno);
+  }
+  const std::shared_ptr<FileBytes> bytes(new FileBytes());
+  bytes->mapping_ = address;
+  bytes->span_ = {static_cast<const std::byte*>(address), size};
+  return std::shared_ptr<const FileBytes>(bytes);
+}
+
+std::shared_ptr<const FileBytes> FileBytes::own(std::string contents) {
+  const std::shared_ptr<FileBytes> bytes(new FileBytes());
+  bytes->owned_ = std::move(contents);
+  bytes->span_ = std::as_bytes(std::span(bytes->owned_.data(), bytes->owned_.size()));
+  return bytes;
+}
+
+std::shared_ptr<const FileBytes> FileBytes::slice(std::shared_ptr<const FileBytes> whole,
+                                                  std::size_t offset, std::size_t size) {
+  TENON_ASSERT(offset <= whole->size() && size <= whole->size() - offset);
+  const std::shared_ptr<FileBytes> bytes(new FileBytes());
+  bytes->span_ = whole->span().subspan(offset, size);
+  bytes->whole_ = std::move(whole);
+  return bytes;
+}
+
+}  // namespace tenon::bytes

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "tenon/base/result.h"
+
+namespace tenon::bytes {
+
+/// The bytes of a file or a part of one, read-only and shared by all who read from them.
+class FileBytes {
+ public:
+  FileBytes(const FileBytes&) = delete;
+  FileBytes& operator=(const FileBytes&) = delete;
+  ~FileBytes();
+
+  /// All of the file at `path`: mapped when large, read when small. ErrorCode::NotFound when there
+  /// is none, Io when it cannot be read. A mapped file must not be shortened while it is in use;
+  /// replacing it (atomic_write.h) is fine.
+  static Result<std::shared_ptr<const FileBytes>> open(const std::string& path);
+  /// Bytes made in memory.
+  static std::shared_ptr<const FileBytes> own(std::string contents);
+  /// `size` bytes of `whole` from `offset`, which keep it alive. The range must lie inside.
+  static std::shared_ptr<const FileBytes> slice(std::shared_ptr<const FileBytes> whole,
+                                                std::size_t offset, std::size_t size);
+
+  std::span<const std::byte> span() const { return span_; }
+  std::string_view text() const {
+    return {reinterpret_cast<const char*>(span_.data()), span_.size()};
+  }
+  std::size_t size() const { return span_.size(); }
+
+ private:
+  FileBytes() = default;
+
+  std::string owned_;
+  std::shared_ptr<const FileBytes> whole_;
+  void* mapping_ = nullptr;  // with span_.size() bytes, else nullptr
+  std::span<const std::byte> span_;
+};
+
+}  // namespace tenon::bytes

@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/bytes/zip_archive.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+
+#include "tenon/bytes/byte_reader.h"
+#include "tenon/bytes/byte_writer.h"
+
+// Layout: local headers with their data, then the central directory, then its end record, which
+// stands at most 65535 bytes (a comment) before the end of the file.
+namespace tenon::bytes {
+namespace {
+
+constexpr std::uint32_t kLocalSignature = 0x04034b50;
+constexpr std::uint32_t kCentralSignature = 0x02014b50;
+constexpr std::uint32_t kEndSignature = 0x06054b50;
+constexpr std::size_t kLocalSize = 30;
+constexpr std::size_t kEndSize = 22;
+constexpr std::size_t kAlignment = 64;
+constexpr std::uint16_t kPaddingField = 0x1986;  // id of the extra field that OpenUSD pads with
+constexpr std::uint16_t kVersion = 10;
+constexpr std::uint16_t kDate = 0x21;  // 1980-01-01, the earliest; packages carry no dates
+
+Error damaged(std::string message) {
+  return Error(ErrorCode::Corrupt, std::move(message)).with_rule("package.damaged");
+}
+
+struct EndRecord {
+  std::uint16_t entry_count = 0;
+  std::uint32_t directory = 0;
+};
+
+Result<EndRecord> read_end_record(const FileBytes& bytes) {
+  if (bytes.size() < kEndSize) {
+    return damaged("too short for a zip file");
+  }
+  const std::string_view text = bytes.text();
+  const char signature[] = {'P', 'K', 5, 6};
+  const std::size_t at = text.rfind(std::string_view(signature, 4), text.size() - kEndSize);
+  if (at == std::string_view::npos || text.size() - at > kEndSize + 0xffff) {
+    return damaged("the table of contents of the zip file is missing");
+  }
+  ByteReader in(bytes.span());
+  EndRecord end;
+  TENON_CHECK(in.seek(at + 10));
+  TENON_TRY(end.entry_count, in.read<std::uint16_t>());
+  TENON_CHECK(in.take(4));
+  TENON_TRY(end.directory, in.read<std::uint32_t>());
+  if (end.entry_count == 0xffff || end.directory == 0xffffffff) {
+    return Error(ErrorCode::Unsupported, "zip files in the 64-bit form cannot be read")
+        .with_rule("package.unsupported");
+  }
+  return end;
+}
+
+#pragma pack(push, 1)
+struct CentralHeader {
+  std::uint32_t signature;
+  std::uint16_t made_by;
+  std::uint16_t needed;
+  std::uint16_t flags;
+  std::uint16_t method;
+  std::uint16_t time;
+  std::uint16_t date;
+  std::uint32_t crc;
+  std::uint32_t compressed_size;
+  std::uint32_t size;
+  std::uint16_t name_size;
+  std::uint16_t extra_size;
+  std::uint16_t comment_size;
+  std::uint16_t disk;
+  std::uint16_t internal;
+  std::uint32_t external;
+  std::uint32_t header;
+};
+struct LocalHeader {
+  std::uint32_t signature;
+  std::uint16_t needed;
+  std::uint16_t flags;
+  std::uint16_t method;
+  std::uint16_t time;
+  std::uint16_t date;
+  std::uint32_t crc;
+  std::uint32_t compressed_size;
+  std::uint32_t size;
+  std::uint16_t name_size;
+  std::uint16_t extra_size;
+};
+#pragma pack(pop)
+static_assert(sizeof(CentralHeader) == 46 && sizeof(LocalHeader) == kLocalSize);
+
+Result<ZipEntry> read_central_header(ByteReader& in) {
+  TENON_TRY(const CentralHeader header, in.read<CentralHeader>());
+  if (header.signature != kCentralSignature) {
+    return damaged("the table of contents of the zip file is damaged");
+  }
+  TENON_TRY(const auto name, in.take(header.name_size));
+  TENON_CHECK(in.take(std::uint64_t{header.extra_size} + header.comment_size));
+  ZipEntry entry;
+  entry.name.assign(reinterpret_cast<const char*>(name.data()), name.size());
+  entry.header = header.header;
+  entry.size = header.compressed_size;
+  entry.method = header.method;
+  entry.encrypted = (header.flags & 1u) != 0;
+  return entry;
+}
+
+const std::array<std::uint32_t, 256>& crc_table() {
+  static const std::array<std::uint32_t, 256> table = [] {
+    std::array<std::uint32_t, 256> made{};
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      std::uint32_t value = i;
+      for (int bit = 0; bit < 8; ++bit) {
+        value = (value >> 1) ^ ((value & 1u) != 0 ? 0xedb88320u : 0u);
+      }
+      made[i] = value;
+    }
+    return made;
+  }();
+  return table;
+}
+
+std::uint32_t crc32(std::string_view data) {
+  std::uint32_t crc = 0xffffffffu;
+  for (const char c : data) {
+    crc = crc_table()[(crc ^ static_cast<unsigned char>(c)) & 0xffu] ^ (crc >> 8);
+  }
+  return ~crc;
+}
+
+/// Bytes of the extra field that bring data after a header at `offset` to an aligned place; 0 or
+/// at least the four of its own head.
+std::size_t padding(std::size_t offset, std::size_t name_size) {
+  const std::size_t rest = (offset + kLocalSize + name_size) % kAlignment;
+  if (rest == 0) {
+    return 0;
+  }
+  const std::size_t missing = kAlignment - rest;
+  return missing < 4 ? missing + kAlignment : missing;
+}
+
+void write_local(const ZipFile& file, const CentralHeader& header, ByteWriter& out) {
+  const std::size_t extra = padding(out.offset(), file.name.size());
+  const LocalHeader local{kLocalSignature,
+                          kVersion,
+                          0,
+                          0,
+                          0,
+                          kDate,
+                          header.crc,
+                          header.size,
+                          header.size,
+                          header.name_size,
+                          static_cast<std::uint16_t>(extra)};
+  out.write(local);
+  out.write_text(file.name);
+  if (extra != 0) {
+    out.write(kPaddingField);
+    out.write(static_cast<std::uint16_t>(extra - 4));
+    out.write_text(std::string(extra - 4, '\0'));
+  }
+  out.write_text(file.contents);
+}
+
+Result<void> check_files(const std::vector<ZipFile>& files) {
+  std::set<std::string_view> names;
+  std::uint64_t total = 0;
+  for (const ZipFile& file : files) {
+    if (file.name.empty() || file.name.size() > 0xffff || !names.insert(file.name).second) {
+      return Error(ErrorCode::Invalid, "cannot name a file of a package \"" + file.name + "\"")
+          .with_rule("package.bad-name");
+    }
+    total += file.contents.size() + 2 * (file.name.size() + kAlignment + sizeof(CentralHeader));
+  }
+  if (total > std::numeric_limits<std::uint32_t>::max() || files.size() >= 0xffff) {
+    return Error(ErrorCode::Limit, "a package holds at most 4 GiB and 65534 files")
+        .with_rule("package.too-large");
+  }
+  return {};
+}
+
+}  // namespace
+
+bool ZipArchive::is_zip(std::string_view bytes) {
+  return bytes.starts_with(std::string_view("PK\x03\x04", 4)) ||
+         bytes.starts_with(std::string_view("PK\x05\x06", 4));
+}
+
+Result<ZipArchive> ZipArchive::open(std::shared_ptr<const FileBytes> bytes) {
+  ZipArchive archive;
+  TENON_TRY(const EndRecord end, read_end_record(*bytes));
+  ByteReader in(bytes->span());
+  TENON_CHECK(in.seek(end.directory));
+  for (unsigned i = 0; i < end.entry_count; ++i) {
+    TENON_TRY(ZipEntry entry, read_central_header(in));
+    archive.entries_.push_back(std::move(entry));
+  }
+  std::stable_sort(archive.entries_.begin(), archive.entries_.end(),
+                   [](const ZipEntry& a, const ZipEntry& b) { return a.header < b.header; });
+  archive.bytes_ = std::move(bytes);
+  return archive;
+}
+
+const ZipEntry* ZipArchive::find(std::string_view name) const {
+  const auto it = std::find_if(entries_.begin(), entries_.end(),
+                               [&](const ZipEntry& entry) { return entry.name == name; });
+  return it == entries_.end() ? nullptr : &*it;
+}
+
+Result<std::shared_ptr<const FileBytes>> ZipArchive::read(const ZipEntry& entry) const {
+  if (entry.encrypted || entry.method != 0) {
+    return Error(ErrorCode::Unsupported, "\"" + entry.name + "\" is " +
+                                             (entry.encrypted ? "encrypted" : "compressed") +
+                                             "; packages hold plain files only")
+        .with_rule("package.not-stored")
+        .with_fix("pack it again without compression, for example with usdzip");
+  }
+  ByteReader in(bytes_->span());
+  TENON_CHECK(in.seek(entry.header));
+  TENON_TRY(const LocalHeader header, in.read<LocalHeader>());
+  if (header.signature != kLocalSignature) {
+    return damaged("\"" + entry.name + "\" is not where the table of contents says");
+  }
+  TENON_CHECK(in.take(std::uint64_t{header.name_size} + header.extra_size));
+  const std::size_t start = in.offset();
+  TENON_CHECK(in.take(entry.size));
+  return FileBytes::slice(bytes_, start, static_cast<std::size_t>(entry.size));
+}
+
+Result<std::string> write_zip(const std::vector<ZipFile>& files) {
+  TENON_CHECK(check_files(files));
+  ByteWriter out;
+  ByteWriter directory;
+  for (const ZipFile& file : files) {
+    CentralHeader header{};
+    header.signature = kCentralSignature;
+    header.made_by = kVersion;
+    header.needed = kVersion;
+    header.date = kDate;
+    header.crc = crc32(file.contents);
+    header.compressed_size = static_cast<std::uint32_t>(file.contents.size());
+    header.size = header.compressed_size;
+    header.name_size = static_cast<std::uint16_t>(file.name.size());
+    header.header = static_cast<std::uint32_t>(out.offset());
+    directory.write(header);
+    directory.write_text(file.name);
+    write_local(file, header, out);
+  }
+  const auto start = static_cast<std::uint32_t>(out.offset());
+  const auto count = static_cast<std::uint16_t>(files.size());
+  out.write_text(directory.bytes());
+  out.write(kEndSignature);
+  out.write(std::uint32_t{0});  // disk numbers
+  out.write(count);
+  out.write(count);
+  out.write(static_cast<std::uint32_t>(directory.offset()));
+  out.write(start);
+  out.write(std::uint16_t{0});  // comment
+  return out.take();
+}
+
+}  // namespace tenon::bytes
