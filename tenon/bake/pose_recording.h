@@ -11,7 +11,7 @@ namespace tenon::bake {
 /// World poses of all bodies at several times.
 struct PoseRecording {
   std::vector<double> times;  ///< [s] from the start, ascending (frame_count)
-  std::vector<Pose> poses;    ///< X_WB (frame_count x body_count), row-major, bodies as in the scene
+  std::vector<Pose> poses;  ///< X_WB (frame_count x body_count), row-major, bodies as in the scene
   std::size_t body_count = 0;
 
   std::size_t frame_count() const { return times.size(); }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 
-#include "tenon/base/diagnostics.h"
-#include "tenon/base/result.h"
 #include "tenon/bake/pose_recording.h"
+#include "tenon/base/diagnostics.h"
 #include "tenon/layer/layer.h"
 #include "tenon/physics/physics_scene.h"
 #include "tenon/stage/stage.h"
@@ -15,15 +15,17 @@ namespace tenon::bake {
 
 struct BakeOptions {
   std::string asset_path;  ///< how the overlay names the asset: written into its subLayers
+  /// Variant selections of the default prim that were in force through the session layer; the
+  /// overlay repeats them, so that it plays what was simulated.
+  std::map<std::string, std::string> variant_selections;
 };
 
 /// An overlay layer: sublayers the asset and gives every simulated body time samples of its
-/// xformOps, so that composed world poses equal the recording (S-25, S-35). The rest of the op
-/// stack and the authored scale are kept; the asset is not touched. Bodies inside instances cannot
-/// be overridden (S-123): a diagnostic names them.
-Result<layer::Layer> write_time_samples(const stage::Stage& stage,
-                                        const physics::PhysicsScene& scene,
-                                        const PoseRecording& recording, const BakeOptions& options,
-                                        Diagnostics& diagnostics);
+/// xformOps, so that composed world poses equal the recording (S-25, S-35). Authored scale is kept;
+/// the asset is not touched. Bodies inside instances cannot be overridden (S-123): a diagnostic
+/// names them (bake.instanced-body). Kinematic bodies keep their authored animation (S-27).
+layer::Layer write_time_samples(const stage::Stage& stage, const physics::PhysicsScene& scene,
+                                const PoseRecording& recording, const BakeOptions& options,
+                                Diagnostics& diagnostics);
 
 }  // namespace tenon::bake

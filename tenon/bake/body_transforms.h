@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "tenon/bake/pose_recording.h"
+#include "tenon/math/matrix.h"
+#include "tenon/physics/physics_scene.h"
+#include "tenon/stage/stage.h"
+
+namespace tenon::bake {
+
+/// Turns world poses of bodies into local transforms of their prims, at one time after another.
+/// world(t) = stretch * pose(t), where stretch is what the prim's authored world transform has
+/// beside its rigid part (scale, shear): it is kept (S-35). A parent that moves as well, because it
+/// or something above it is a body, moves the child's frame (S-25).
+class BodyTransforms {
+ public:
+  BodyTransforms(const stage::Stage& stage, const physics::PhysicsScene& scene);
+
+  /// Local transform of body `i` so that all bodies stand at the poses of `frame`; stage units.
+  /// `code` is the stage time of the frame, for what else is animated.
+  Mat4d local(std::size_t i, const PoseRecording& recording, std::size_t frame, double code) const;
+
+ private:
+  struct Placed {
+    Mat4d stretch = Mat4d::identity();
+    stage::Prim prim;
+  };
+  Mat4d world_of_body(std::size_t i, const PoseRecording& recording, std::size_t frame) const;
+  Mat4d world_of_prim(const stage::Prim& prim, const PoseRecording& recording, std::size_t frame,
+                      double code) const;
+
+  double meters_per_unit_;
+  std::vector<Placed> placed_;           // (body_count)
+  std::map<Path, std::size_t> body_at_;  // prim path -> body that is simulated
+};
+
+}  // namespace tenon::bake

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/bake/op_stack.h"
+
+#include <cmath>
+
+#include "tenon/bake/over_specs.h"
+#include "tenon/math/transform.h"
+
+namespace tenon::bake {
+namespace {
+
+using layer::TimeSamples;
+using layer::Value;
+
+const Token kTranslate{"xformOp:translate"};
+const Token kOrient{"xformOp:orient"};
+const Token kScale{"xformOp:scale"};
+const Token kTransform{"xformOp:transform"};
+const Token kReset{"!resetXformStack!"};
+const Token kOrder{"xformOpOrder"};
+
+bool is_plain_rotation(Token op) {
+  static const Token kPlain[] = {"xformOp:rotateX",   "xformOp:rotateY",   "xformOp:rotateZ",
+                                 "xformOp:rotateXYZ", "xformOp:rotateXZY", "xformOp:rotateYXZ",
+                                 "xformOp:rotateYZX", "xformOp:rotateZXY", "xformOp:rotateZYX"};
+  for (const Token& plain : kPlain) {
+    if (op == plain) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<Vec3d> read_vector(const Value& value) {
+  if (const auto* d = value.get<Vec3d>()) {
+    return *d;
+  }
+  if (const auto* f = value.get<Vec3f>()) {
+    return to_double(*f);
+  }
+  if (const auto* h = value.get<Vec3h>()) {
+    return to_double(*h);
+  }
+  return std::nullopt;
+}
+
+Value vector_value(const Vec3d& v, Token type) {
+  return type == "float3" ? Value(to_float(v)) : Value(v);
+}
+
+Value quaternion_value(const Quatd& q, Token type) {
+  return type == "quatf" ? Value(to_float(q)) : Value(q);
+}
+
+/// Translate, then one rotation, then scale: each at most once, in this order.
+enum class Stage : unsigned char { Start, Translated, Rotated, Scaled };
+
+std::optional<Stage> after(Stage stage, Token op) {
+  if (op == kTranslate && stage == Stage::Start) {
+    return Stage::Translated;
+  }
+  if ((op == kOrient || is_plain_rotation(op)) && stage <= Stage::Translated) {
+    return Stage::Rotated;
+  }
+  if (op == kScale && stage <= Stage::Rotated) {
+    return Stage::Scaled;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+OpStack OpStack::of(const stage::Prim& prim, double start_code) {
+  OpStack stack;
+  auto order = prim.attribute(kOrder).get_as<layer::Array<Token>>().value_or(std::vector<Token>{});
+  if (!order.empty() && order.front() == kReset) {
+    stack.resets_stack_ = true;
+    order.erase(order.begin());
+  }
+  bool has_translate = false;
+  bool has_orient = false;
+  Stage at = Stage::Start;
+  for (const Token& op : order) {
+    const auto next = after(at, op);
+    if (!next) {
+      stack.use_matrix();
+      return stack;
+    }
+    at = *next;
+    has_translate = has_translate || op == kTranslate;
+    has_orient = has_orient || op == kOrient;
+    if (op == kScale) {
+      const auto scale = read_vector(prim.attribute(kScale).get(start_code));
+      if (!scale) {
+        stack.use_matrix();
+        return stack;
+      }
+      stack.has_scale_ = true;
+      stack.scale_ = *scale;
+    }
+  }
+  // Half precision cannot hold a pose; such an op gets a new type together with a new opinion.
+  if (has_translate && prim.attribute(kTranslate).type_name() == "float3") {
+    stack.translate_type_ = "float3";
+  }
+  if (has_orient && prim.attribute(kOrient).type_name() == "quatf") {
+    stack.orient_type_ = "quatf";
+  }
+  stack.order_is_new_ = !has_translate || !has_orient;
+  return stack;
+}
+
+void OpStack::use_matrix() {
+  as_matrix_ = true;
+  codes_.clear();
+}
+
+bool OpStack::add(double code, const Mat4d& local) {
+  codes_.push_back(code);
+  if (as_matrix_) {
+    matrices_.push_back(local);
+    return true;
+  }
+  // local = scale * rotation * translation; what remains without the scale must be rigid.
+  Mat3d rigid = upper_left(local);
+  for (std::size_t row = 0; row < 3; ++row) {
+    if (!(std::fabs(scale_[row]) > 0)) {
+      return false;
+    }
+    for (double& number : rigid[row]) {
+      number /= scale_[row];
+    }
+  }
+  const Mat3d product = rigid * transpose(rigid);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (std::fabs(product[i][j] - (i == j ? 1 : 0)) > 1e-6) {
+        return false;
+      }
+    }
+  }
+  if (determinant(rigid) < 0) {
+    return false;
+  }
+  Quatd q = rotation_of(rigid);
+  if (!orientations_.empty() && dot(orientations_.back(), q) < 0) {
+    q = {-q.x, -q.y, -q.z, -q.w};
+  }
+  orientations_.push_back(q);
+  translations_.push_back({{local[3][0], local[3][1], local[3][2]}});
+  return true;
+}
+
+void OpStack::write(layer::Layer& layer, Path prim) const {
+  std::vector<Token> order;
+  if (resets_stack_) {
+    order.push_back(kReset);
+  }
+  if (as_matrix_) {
+    order.push_back(kTransform);
+    TimeSamples samples;
+    for (std::size_t i = 0; i < codes_.size(); ++i) {
+      samples.set(codes_[i], Value(matrices_[i]));
+    }
+    over_attribute(layer, prim, kTransform, "matrix4d")
+        .set(layer::fields::timeSamples, Value(std::move(samples)));
+  } else {
+    order.insert(order.end(), {kTranslate, kOrient});
+    if (has_scale_) {
+      order.push_back(kScale);
+    }
+    TimeSamples translations;
+    TimeSamples orientations;
+    for (std::size_t i = 0; i < codes_.size(); ++i) {
+      translations.set(codes_[i], vector_value(translations_[i], translate_type_));
+      orientations.set(codes_[i], quaternion_value(orientations_[i], orient_type_));
+    }
+    over_attribute(layer, prim, kTranslate, translate_type_)
+        .set(layer::fields::timeSamples, Value(std::move(translations)));
+    over_attribute(layer, prim, kOrient, orient_type_)
+        .set(layer::fields::timeSamples, Value(std::move(orientations)));
+  }
+  if (as_matrix_ || order_is_new_) {
+    layer::Spec& spec = over_attribute(layer, prim, kOrder, "token[]");
+    spec.set(layer::fields::variability, Value(layer::Variability::Uniform));
+    spec.set(layer::fields::default_value, Value(std::move(order)));
+  }
+}
+
+}  // namespace tenon::bake

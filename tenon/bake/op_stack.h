@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "tenon/base/token.h"
+#include "tenon/layer/layer.h"
+#include "tenon/math/matrix.h"
+#include "tenon/stage/prim.h"
+
+namespace tenon::bake {
+
+/// How a prim's local transform is to be written over time: on the translate and orient ops that it
+/// has (or gets), with its scale op left alone; or, where scale or shear do not allow that, as one
+/// matrix op.
+class OpStack {
+ public:
+  /// Looks at the prim's xformOpOrder. `start_code` is the stage time at which its scale is read.
+  static OpStack of(const stage::Prim& prim, double start_code);
+
+  /// Collects one sample. False when a translate and orient op cannot express the matrix; the
+  /// caller then starts over with `as_matrix`.
+  bool add(double code, const Mat4d& local);
+  void use_matrix();
+
+  /// Writes op order and samples to the prim's spec in `layer`.
+  void write(layer::Layer& layer, Path prim) const;
+
+ private:
+  Token translate_type_ = "double3";
+  Token orient_type_ = "quatd";
+  bool has_scale_ = false;
+  Vec3d scale_{{1, 1, 1}};
+  bool resets_stack_ = false;
+  bool order_is_new_ = false;  // xformOpOrder must be authored
+  bool as_matrix_ = false;
+  std::vector<double> codes_;
+  std::vector<Vec3d> translations_;
+  std::vector<Quatd> orientations_;
+  std::vector<Mat4d> matrices_;
+};
+
+}  // namespace tenon::bake

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "tenon/bake/state_recording.h"
+#include "tenon/base/error.h"
+#include "tenon/engines/simulation.h"
+#include "tenon/physics/physics_scene.h"
+
+namespace tenon::bake {
+
+struct RunOptions {
+  double duration = 5;            ///< [s]
+  double frames_per_second = 60;  ///< of the recording; 0: record nothing
+  /// Called now and then with the simulated time; false stops the run. May be empty.
+  std::function<bool(double seconds)> go_on;
+};
+
+struct Run {
+  StateRecording recording;
+  std::size_t steps = 0;
+  double time = 0;  ///< [s] simulated
+  engines::Energy initial_energy;
+  engines::Energy final_energy;
+  bool interrupted = false;
+  std::optional<Error> failure;  ///< why the run ended early: unstable, for example
+};
+
+/// Steps the simulation for the duration and records frames at the given rate. A frame between two
+/// steps is interpolated (linear, slerp); the last frame is the exact final state.
+Run run_simulation(engines::Simulation& simulation, const physics::PhysicsScene& scene,
+                   const RunOptions& options);
+
+}  // namespace tenon::bake

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/bake/write_time_samples.h"
+
+#include "tenon/bake/body_transforms.h"
+#include "tenon/bake/op_stack.h"
+#include "tenon/bake/over_specs.h"
+
+namespace tenon::bake {
+namespace {
+
+using layer::Value;
+
+double code_of(const physics::PhysicsScene& scene, double seconds) {
+  return scene.start_time_code + seconds * scene.time_codes_per_second;
+}
+
+/// Metadata that a sublayer does not give to the stage on top of it.
+void write_metadata(const stage::Stage& stage, const physics::PhysicsScene& scene,
+                    const PoseRecording& recording, const BakeOptions& options,
+                    layer::Layer& layer) {
+  layer::Spec& root = layer.root();
+  const double end = recording.times.empty() ? 0 : recording.times.back();
+  root.set("defaultPrim", Value(stage.root_layer().default_prim()));
+  root.set("endTimeCode", Value(code_of(scene, end)));
+  for (const char* field : {"framesPerSecond", "kilogramsPerUnit", "metersPerUnit"}) {
+    if (stage.has_authored_metadata(field)) {
+      root.set(field, stage.metadata(field));
+    }
+  }
+  root.set("startTimeCode", Value(scene.start_time_code));
+  root.set("subLayers", Value(std::vector<std::string>{options.asset_path}));
+  root.set("timeCodesPerSecond", Value(scene.time_codes_per_second));
+  if (stage.has_authored_metadata("upAxis")) {
+    root.set("upAxis", stage.metadata("upAxis"));
+  }
+  if (stage.root_layer().default_prim().empty()) {
+    root.erase("defaultPrim");
+  }
+}
+
+void write_selections(const stage::Stage& stage, const BakeOptions& options, layer::Layer& layer) {
+  const stage::Prim prim = stage.default_prim();
+  if (options.variant_selections.empty() || !prim.is_valid()) {
+    return;
+  }
+  layer::VariantSelections selections;
+  for (const auto& [set, variant] : options.variant_selections) {
+    selections.items.emplace(set, variant);
+  }
+  over_prim(layer, prim.path()).set("variantSelection", Value(std::move(selections)));
+}
+
+/// All samples of one body; false when its op stack cannot hold them.
+bool collect(const BodyTransforms& transforms, std::size_t body, const PoseRecording& recording,
+             const physics::PhysicsScene& scene, OpStack& stack) {
+  for (std::size_t frame = 0; frame < recording.frame_count(); ++frame) {
+    const double code = code_of(scene, recording.times[frame]);
+    if (!stack.add(code, transforms.local(body, recording, frame, code))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+layer::Layer write_time_samples(const stage::Stage& stage, const physics::PhysicsScene& scene,
+                                const PoseRecording& recording, const BakeOptions& options,
+                                Diagnostics& diagnostics) {
+  layer::Layer layer("bake.usda");
+  write_metadata(stage, scene, recording, options, layer);
+  write_selections(stage, options, layer);
+  const BodyTransforms transforms(stage, scene);
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+    const stage::Prim prim = stage.prim(scene.bodies[body].path);
+    if (scene.bodies[body].kinematic || !prim.is_valid()) {
+      continue;
+    }
+    if (prim.is_instance_proxy()) {
+      Diagnostic finding = prim.located(
+          Severity::Warning, "bake.instanced-body",
+          "the body <" + prim.path().str() + "> lies inside an instance and cannot be animated");
+      finding.fix = "put the rigid body on the instance root, or set instanceable = false";
+      diagnostics.add(std::move(finding));
+      continue;
+    }
+    OpStack stack = OpStack::of(prim, scene.start_time_code);
+    if (!collect(transforms, body, recording, scene, stack)) {
+      stack.use_matrix();
+      collect(transforms, body, recording, scene, stack);
+    }
+    stack.write(layer, prim.path());
+  }
+  return layer;
+}
+
+}  // namespace tenon::bake
