@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tenon/base/error.h"
+
+namespace tenon::formats::text {
+
+/// Line and column of a byte, 1-based; columns count bytes.
+struct SourcePlace {
+  std::uint32_t line = 1;
+  std::uint32_t column = 1;
+};
+
+/// A read position in the text of a layer: blanks, comments, words, and the first error.
+/// Functions that return bool return false after an error was kept with `fail`.
+class Cursor {
+ public:
+  Cursor(std::string_view text, std::string_view file) : text_(text), file_(file) {}
+
+  std::string_view text() const { return text_; }
+  std::size_t offset() const { return at_; }
+  void seek(std::size_t offset) { at_ = offset; }
+  void advance(std::size_t count = 1) { at_ += count; }
+  bool at_end() const { return at_ >= text_.size(); }
+  char peek(std::size_t ahead = 0) const {
+    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
+  }
+  std::string_view rest() const { return text_.substr(at_); }
+  bool starts_with(std::string_view word) const { return rest().substr(0, word.size()) == word; }
+
+  bool accept(char c) {
+    if (at_ < text_.size() && text_[at_] == c) {
+      ++at_;
+      return true;
+    }
+    return false;
+  }
+  /// Takes `c` or fails with "expected 'c' `where`".
+  bool expect(char c, std::string_view where);
+
+  /// Blanks, tabs and `/* */` comments.
+  void skip_inline();
+  /// The same and comments that run to the end of the line.
+  void skip_single_line();
+  /// The same and ends of line.
+  void skip_multi_line();
+  /// What stands between two words: at least one blank or tab.
+  bool accept_separator();
+  /// End of line (one byte of it) or ';'.
+  bool accept_statement_end();
+
+  /// The identifier at the cursor, not taken; empty when there is none.
+  std::string_view peek_identifier() const;
+  /// The identifiers joined by ':' at the cursor, not taken.
+  std::string_view peek_namespaced() const;
+  /// Takes `word` when it stands at the cursor and ends there.
+  bool accept_word(std::string_view word);
+
+  /// Place of a byte; cheap when asked in ascending order.
+  SourcePlace place_of(std::size_t offset) const;
+  SourcePlace place() const { return place_of(at_); }
+
+  /// Keeps the first error; always false. "expected <expected>, found <what is there>".
+  bool fail_expected(std::string_view expected, std::string_view fix = {});
+  /// Keeps the first error at `offset`; always false.
+  bool fail_at(std::size_t offset, ErrorCode code, std::string_view rule, std::string message,
+               std::string_view fix = {});
+  bool failed() const { return error_.has_value(); }
+  /// The prim that the error is about, filled in by the layer reader.
+  void set_prim(std::string prim) { prim_ = std::move(prim); }
+  Error take_error();
+  /// Says in words what stands at the cursor.
+  std::string found() const;
+
+ private:
+  bool skip_block_comment();
+
+  std::string_view text_;
+  std::string_view file_;
+  std::size_t at_ = 0;
+  std::optional<Error> error_;
+  std::string prim_;
+  mutable std::size_t counted_ = 0;     // bytes whose line ends are counted
+  mutable std::size_t line_start_ = 0;  // first byte of the line of `counted_`
+  mutable std::uint32_t line_ = 1;
+};
+
+}  // namespace tenon::formats::text

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/formats/text/header.h"
+
+#include <charconv>
+
+#include "tenon/base/unicode.h"
+
+namespace tenon::formats::text {
+namespace {
+
+constexpr unsigned kMajor = 1;
+constexpr unsigned kMaxMinor = 4;
+
+/// Offset of the first byte that is no UTF-8; the size of `text` when there is none.
+std::size_t first_ill_formed(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    if (static_cast<unsigned char>(text[at]) < 0x80) {
+      ++at;
+      continue;
+    }
+    const std::size_t length = unicode::decode(text.substr(at)).length;
+    if (length == 0) {
+      break;
+    }
+    at += length;
+  }
+  return at;
+}
+
+bool check_encoding(Cursor& cursor) {
+  const std::string_view text = cursor.text();
+  constexpr std::string_view kFix = "save the file as UTF-8 without a byte order mark";
+  const std::string_view head = text.substr(0, 2);
+  if (text.substr(0, 3) == "\xEF\xBB\xBF" || head == "\xFE\xFF" || head == "\xFF\xFE") {
+    return cursor.fail_at(0, ErrorCode::Parse, "text.encoding",
+                          "the text starts with a byte order mark", kFix);
+  }
+  const std::size_t bad = first_ill_formed(text);
+  return bad == text.size() || cursor.fail_at(bad, ErrorCode::Parse, "text.encoding",
+                                              "this byte is no UTF-8", kFix);
+}
+
+/// Reads "1.0" or "1.0.32"; false when the text has another form.
+bool parse_version(std::string_view text, unsigned& major, unsigned& minor) {
+  unsigned parts[3] = {0, 0, 0};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  int count = 0;
+  while (count < 3) {
+    const auto result = std::from_chars(at, end, parts[count]);
+    if (result.ec != std::errc{} || parts[count] > 255) {
+      return false;
+    }
+    ++count;
+    at = result.ptr;
+    if (at == end) {
+      break;
+    }
+    if (*at != '.') {
+      return false;
+    }
+    ++at;
+  }
+  major = parts[0];
+  minor = parts[1];
+  return count >= 2 && at == end;
+}
+
+}  // namespace
+
+bool read_header(LayerState& state) {
+  Cursor& cursor = state.cursor;
+  if (!check_encoding(cursor)) {
+    return false;
+  }
+  const std::string_view text = cursor.text();
+  if (!cursor.starts_with("#usda ")) {
+    return cursor.fail_at(0, ErrorCode::Parse, "text.header",
+                          "this is no text layer: the first line must be `#usda 1.0`",
+                          "add the line `#usda 1.0` at the top");
+  }
+  const std::string_view line = text.substr(0, text.find('\n'));
+  const std::size_t start = line.find_first_not_of(" \t", 5);
+  std::string_view version;
+  if (start != std::string_view::npos) {
+    version = line.substr(start, line.find_first_of(" \t\r", start) - start);
+  }
+  unsigned major = 0;
+  unsigned minor = 0;
+  if (!parse_version(version, major, minor)) {
+    return cursor.fail_at(start == std::string_view::npos ? 0 : start, ErrorCode::Parse,
+                          "text.header", "\"" + std::string(version) + "\" is no version",
+                          "write `#usda 1.0`");
+  }
+  if (major != kMajor || minor > kMaxMinor) {
+    return cursor.fail_at(start, ErrorCode::Unsupported, "text.header",
+                          "version " + std::string(version) + " is not supported: 1.0 to 1." +
+                              std::to_string(kMaxMinor) + " are");
+  }
+  cursor.seek(line.size() < text.size() ? line.size() + 1 : text.size());
+  return true;
+}
+
+}  // namespace tenon::formats::text

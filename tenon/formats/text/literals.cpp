@@ -1,0 +1,362 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/formats/text/literals.h"
+
+#include <array>
+#include <charconv>
+#include <limits>
+
+namespace tenon::formats::text {
+namespace {
+
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+constexpr std::array<double, 23> kPowersOfTen = {
+    1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+constexpr std::uint64_t kExactMantissa = std::uint64_t{1} << 53;
+
+/// The parts of a number while it is read.
+struct Digits {
+  bool negative = false;
+  bool whole = true;          // no point, no exponent
+  std::uint64_t mantissa = 0;
+  int count = 0;              // digits in mantissa, leading zeros left out
+  int point_shift = 0;        // digits after the point
+  int exponent = 0;
+};
+
+void take_digits(const char*& at, const char* end, Digits& digits, bool after_point) {
+  while (at != end && is_digit(*at)) {
+    if (digits.count != 0 || *at != '0') {
+      ++digits.count;
+    }
+    digits.mantissa = digits.mantissa * 10 + static_cast<std::uint64_t>(*at - '0');
+    digits.point_shift += after_point ? 1 : 0;
+    ++at;
+  }
+}
+
+bool take_exponent(Cursor& cursor, const char*& at, const char* end, Digits& digits) {
+  digits.whole = false;
+  const char* start = at;
+  ++at;
+  bool negative = false;
+  if (at != end && (*at == '+' || *at == '-')) {
+    negative = *at == '-';
+    ++at;
+  }
+  if (at == end || !is_digit(*at)) {
+    cursor.advance(static_cast<std::size_t>(at - start));
+    return cursor.fail_expected("digits of the exponent");
+  }
+  int value = 0;
+  while (at != end && is_digit(*at)) {
+    value = value < 100000 ? value * 10 + (*at - '0') : value;
+    ++at;
+  }
+  digits.exponent = negative ? -value : value;
+  return true;
+}
+
+/// The correctly rounded value of the text; short numbers need one exact operation.
+double value_of(const Digits& digits, const char* start, const char* end) {
+  const int exponent = digits.exponent - digits.point_shift;
+  if (digits.count <= 19 && digits.mantissa <= kExactMantissa && exponent >= -22 &&
+      exponent <= 22) {
+    const auto mantissa = static_cast<double>(digits.mantissa);
+    const double size = exponent < 0
+                            ? mantissa / kPowersOfTen[static_cast<std::size_t>(-exponent)]
+                            : mantissa * kPowersOfTen[static_cast<std::size_t>(exponent)];
+    return digits.negative ? -size : size;
+  }
+  double value = 0;
+  const auto result = std::from_chars(start, end, value);
+  if (result.ec == std::errc::result_out_of_range) {
+    const bool large = digits.count + exponent > 0;
+    value = large ? std::numeric_limits<double>::infinity() : 0.0;
+    return digits.negative ? -value : value;
+  }
+  return value;
+}
+
+void set_whole(Number& number, const Digits& digits, const char* start, const char* end) {
+  if (digits.negative && digits.mantissa == 0 && digits.count == 0) {
+    number.double_value = -0.0;
+    return;
+  }
+  if (digits.count <= 18) {
+    number.kind = digits.negative ? Number::Kind::Signed : Number::Kind::Unsigned;
+    number.unsigned_value = digits.mantissa;
+    number.signed_value = -static_cast<std::int64_t>(digits.mantissa);
+    return;
+  }
+  std::errc error{};
+  if (digits.negative) {
+    number.kind = Number::Kind::Signed;
+    error = std::from_chars(start, end, number.signed_value).ec;
+  } else {
+    number.kind = Number::Kind::Unsigned;
+    error = std::from_chars(start, end, number.unsigned_value).ec;
+  }
+  if (error != std::errc{}) {
+    number.kind = Number::Kind::Double;
+    number.overflowed = true;
+    number.double_value = value_of(digits, start, end);
+  }
+}
+
+bool read_word_number(Cursor& cursor, Number& number) {
+  const bool negative = cursor.peek() == '-';
+  if (negative) {
+    cursor.advance();
+  }
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (cursor.accept_word("inf")) {
+    number.double_value = negative ? -kInfinity : kInfinity;
+    return true;
+  }
+  if (!negative && cursor.accept_word("nan")) {
+    number.double_value = std::numeric_limits<double>::quiet_NaN();
+    return true;
+  }
+  return cursor.fail_expected("a number");
+}
+
+int hex_digit(char c) {
+  if (is_digit(c)) {
+    return c - '0';
+  }
+  if (c >= 'a' && c <= 'f') {
+    return c - 'a' + 10;
+  }
+  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+/// Appends what the escape at `raw[at]` (after the backslash) stands for; returns its length.
+std::size_t append_escape(std::string_view raw, std::size_t at, std::string& value) {
+  const char c = raw[at];
+  constexpr std::string_view kNames = "nrtabfv";
+  constexpr std::string_view kMeanings = "\n\r\t\a\b\f\v";
+  if (const std::size_t i = kNames.find(c); i != std::string_view::npos) {
+    value += kMeanings[i];
+    return 1;
+  }
+  if (c == 'x') {
+    int code = 0;
+    std::size_t count = 0;
+    while (count < 2 && at + 1 + count < raw.size() && hex_digit(raw[at + 1 + count]) >= 0) {
+      code = code * 16 + hex_digit(raw[at + 1 + count]);
+      ++count;
+    }
+    value += static_cast<char>(code);
+    return 1 + count;
+  }
+  if (c >= '0' && c <= '7') {
+    int code = 0;
+    std::size_t count = 0;
+    while (count < 3 && at + count < raw.size() && raw[at + count] >= '0' &&
+           raw[at + count] <= '7') {
+      code = code * 8 + (raw[at + count] - '0');
+      ++count;
+    }
+    value += static_cast<char>(code);
+    return count;
+  }
+  value += c;
+  return 1;
+}
+
+void unescape(std::string_view raw, std::string& value) {
+  value.clear();
+  std::size_t at = 0;
+  while (true) {
+    const std::size_t escape = raw.find('\\', at);
+    value += raw.substr(at, escape - at);
+    if (escape == std::string_view::npos || escape + 1 >= raw.size()) {
+      return;
+    }
+    at = escape + 1;
+    at += append_escape(raw, at, value);
+  }
+}
+
+}  // namespace
+
+double Number::as_double() const {
+  switch (kind) {
+    case Kind::Unsigned:
+      return static_cast<double>(unsigned_value);
+    case Kind::Signed:
+      return static_cast<double>(signed_value);
+    case Kind::Double:
+      break;
+  }
+  return double_value;
+}
+
+bool at_number(const Cursor& cursor) {
+  const std::size_t sign = cursor.peek() == '-' ? 1 : 0;
+  const char c = cursor.peek(sign);
+  if (is_digit(c) || c == '.') {
+    return true;
+  }
+  if (c != 'i' && c != 'n') {
+    return false;
+  }
+  Cursor ahead = cursor;
+  ahead.advance(sign);
+  return ahead.accept_word("inf") || (sign == 0 && ahead.accept_word("nan"));
+}
+
+bool read_number(Cursor& cursor, Number& number) {
+  const std::string_view rest = cursor.rest();
+  const char* const start = rest.data();
+  const char* const end = start + rest.size();
+  const char* at = start;
+  Digits digits;
+  if (at != end && *at == '-') {
+    digits.negative = true;
+    ++at;
+  }
+  const char* const first = at;
+  take_digits(at, end, digits, false);
+  const bool has_whole = at != first;
+  if (at != end && *at == '.') {
+    digits.whole = false;
+    ++at;
+    const char* const fraction = at;
+    take_digits(at, end, digits, true);
+    if (!has_whole && at == fraction) {
+      return cursor.fail_expected("a number");
+    }
+  } else if (!has_whole) {
+    return read_word_number(cursor, number);
+  }
+  if (at != end && (*at == 'e' || *at == 'E')) {
+    cursor.advance(static_cast<std::size_t>(at - start));
+    if (!take_exponent(cursor, at, end, digits)) {
+      return false;
+    }
+    cursor.seek(static_cast<std::size_t>(start - cursor.text().data()));
+  }
+  if (digits.whole) {
+    set_whole(number, digits, start, at);
+  } else {
+    number.kind = Number::Kind::Double;
+    number.double_value = value_of(digits, start, at);
+  }
+  cursor.advance(static_cast<std::size_t>(at - start));
+  return true;
+}
+
+bool read_double(Cursor& cursor, double& value) {
+  Number number;
+  if (!read_number(cursor, number)) {
+    return false;
+  }
+  value = number.as_double();
+  return true;
+}
+
+bool at_string(const Cursor& cursor) { return cursor.peek() == '"' || cursor.peek() == '\''; }
+
+bool read_string(Cursor& cursor, std::string& value) {
+  const char quote = cursor.peek();
+  if (quote != '"' && quote != '\'') {
+    return cursor.fail_expected("a string in quotes");
+  }
+  const std::size_t start = cursor.offset();
+  const bool triple = cursor.peek(1) == quote && cursor.peek(2) == quote;
+  const std::size_t width = triple ? 3 : 1;
+  const std::string_view text = cursor.text();
+  std::size_t at = start + width;
+  bool escaped = false;
+  while (at < text.size()) {
+    const char c = text[at];
+    if (c == quote && (!triple || text.substr(at, 3) == text.substr(start, 3))) {
+      const std::string_view raw = text.substr(start + width, at - start - width);
+      cursor.seek(at + width);
+      if (escaped) {
+        unescape(raw, value);
+      } else {
+        value.assign(raw);
+      }
+      return true;
+    }
+    if (!triple && (c == '\n' || c == '\r')) {
+      break;
+    }
+    // A backslash keeps a quote or a backslash after it from ending the string.
+    const char next = at + 1 < text.size() ? text[at + 1] : '\0';
+    escaped = escaped || c == '\\';
+    at += c == '\\' && (next == '\\' || next == quote) ? 2 : 1;
+  }
+  return cursor.fail_at(start, ErrorCode::Parse, "text.syntax",
+                        triple ? "this string is never closed"
+                               : "this string is not closed on its line",
+                        triple ? "add the three closing quotes"
+                               : "add the closing quote, or use three quotes for several lines");
+}
+
+bool read_asset_path(Cursor& cursor, std::string& value) {
+  const std::size_t start = cursor.offset();
+  if (cursor.peek() != '@') {
+    return cursor.fail_expected("an asset path such as @file.usda@");
+  }
+  const std::string_view text = cursor.text();
+  const bool triple = cursor.starts_with("@@@");
+  const std::size_t width = triple ? 3 : 1;
+  value.clear();
+  std::size_t at = start + width;
+  while (at < text.size() && text[at] != '\n' && text[at] != '\r') {
+    if (triple && text.substr(at, 4) == "\\@@@") {
+      value += "@@@";
+      at += 4;
+    } else if (text[at] == '@' && (!triple || text.substr(at, 3) == "@@@")) {
+      at += width;
+      // Up to two more '@' belong to the path: the last three close it.
+      for (int extra = 0; triple && extra < 2 && at < text.size() && text[at] == '@'; ++extra) {
+        value += '@';
+        ++at;
+      }
+      cursor.seek(at);
+      return true;
+    } else {
+      const auto byte = static_cast<unsigned char>(text[at]);
+      if (byte < 0x20 || byte == 0x7F) {
+        return cursor.fail_at(at, ErrorCode::Parse, "text.syntax",
+                              "an asset path holds a control character");
+      }
+      value += text[at];
+      ++at;
+    }
+  }
+  return cursor.fail_at(start, ErrorCode::Parse, "text.syntax",
+                        "this asset path is not closed on its line", "add the closing '@'");
+}
+
+bool read_path(Cursor& cursor, Path& path) {
+  const std::size_t start = cursor.offset();
+  if (!cursor.accept('<')) {
+    return cursor.fail_expected("a path such as </World/Body>");
+  }
+  const std::string_view rest = cursor.rest();
+  const std::size_t close = rest.find_first_of(">\n");
+  if (close == std::string_view::npos || rest[close] != '>') {
+    return cursor.fail_at(start, ErrorCode::Parse, "text.syntax",
+                          "this path is not closed on its line", "add the closing '>'");
+  }
+  path = Path();
+  if (close != 0) {
+    auto parsed = Path::parse(rest.substr(0, close));
+    if (!parsed) {
+      return cursor.fail_at(start, parsed.error().code(), "text.path", parsed.error().message());
+    }
+    path = *parsed;
+  }
+  cursor.advance(close + 1);
+  return true;
+}
+
+}  // namespace tenon::formats::text

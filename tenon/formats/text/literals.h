@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "tenon/base/path.h"
+#include "tenon/formats/text/cursor.h"
+
+namespace tenon::formats::text {
+
+/// A number as written: whole numbers keep all their digits, "-0" and everything with a point or
+/// an exponent is a double.
+struct Number {
+  enum class Kind : std::uint8_t { Unsigned, Signed, Double };
+  Kind kind = Kind::Double;
+  std::uint64_t unsigned_value = 0;
+  std::int64_t signed_value = 0;
+  double double_value = 0;
+  bool overflowed = false;  ///< a whole number too large for 64 bits, kept as a double
+
+  double as_double() const;
+};
+
+/// True when a number (or inf, -inf, nan) starts at the cursor.
+bool at_number(const Cursor& cursor);
+bool read_number(Cursor& cursor, Number& number);
+/// The same for callers that need no whole numbers.
+bool read_double(Cursor& cursor, double& value);
+
+/// '..', "..", '''..''' or """..""" with its escapes resolved.
+bool at_string(const Cursor& cursor);
+bool read_string(Cursor& cursor, std::string& value);
+
+/// @..@ or @@@..@@@.
+bool read_asset_path(Cursor& cursor, std::string& value);
+
+/// <..>; the path is empty for <>.
+bool read_path(Cursor& cursor, Path& path);
+
+/// Reads the items of a list whose opening character was taken: at least one, separated by ',',
+/// a last ',' is allowed; takes `close`. `item()` reads one item.
+template <class Item>
+bool read_items(Cursor& cursor, char close, std::string_view what, Item item) {
+  cursor.skip_multi_line();
+  while (true) {
+    if (!item()) {
+      return false;
+    }
+    cursor.skip_inline();
+    if (!cursor.accept(',')) {
+      cursor.skip_multi_line();
+      return cursor.accept(close) ||
+             cursor.fail_expected(std::string("',' or '") + close + "' " + std::string(what));
+    }
+    cursor.skip_multi_line();
+    if (cursor.accept(close)) {
+      return true;
+    }
+  }
+}
+
+/// The same for statements separated by ends of line or ';'. There may be none.
+template <class Item>
+bool read_statements(Cursor& cursor, char close, std::string_view what, Item item) {
+  cursor.skip_multi_line();
+  if (cursor.accept(close)) {
+    return true;
+  }
+  while (true) {
+    if (!item()) {
+      return false;
+    }
+    cursor.skip_single_line();
+    const bool separated = cursor.accept_statement_end();
+    cursor.skip_multi_line();
+    if (cursor.accept(close)) {
+      return true;
+    }
+    if (!separated) {
+      return cursor.fail_expected(std::string("the end of the line, ';' or '") + close + "' " +
+                                  std::string(what));
+    }
+  }
+}
+
+}  // namespace tenon::formats::text

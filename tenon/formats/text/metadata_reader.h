@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tenon/formats/text/layer_state.h"
+
+namespace tenon::formats::text {
+
+/// Reads the metadata of the spec at `path`; its '(' was taken.
+bool read_metadata(LayerState& state, Path path, layer::SpecKind kind);
+
+/// "name" or ["name", ...], not empty.
+bool read_name_list(Cursor& cursor, std::vector<std::string>& names);
+
+}  // namespace tenon::formats::text

@@ -1,0 +1,407 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/formats/text/property_reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tenon/formats/text/arc_reader.h"
+#include "tenon/formats/text/literals.h"
+#include "tenon/formats/text/metadata_reader.h"
+#include "tenon/formats/text/value_reader.h"
+
+namespace tenon::formats::text {
+namespace {
+
+using layer::SpecKind;
+using layer::Value;
+using layer::ValueType;
+using layer::Variability;
+namespace fields = layer::fields;
+
+/// One statement: its words in front, then what follows the name.
+class PropertyReader {
+ public:
+  PropertyReader(LayerState& state, Path owner, std::vector<Token>& properties)
+      : state_(state), cursor_(state.cursor), owner_(owner), properties_(properties) {}
+
+  bool read() {
+    start_ = cursor_.offset();
+    edit_ = accept_list_edit(cursor_);
+    if (edit_ != ListEdit::Explicit && !separator()) {
+      return false;
+    }
+    is_custom_ = cursor_.accept_word("custom");
+    if (is_custom_ && !separator()) {
+      return false;
+    }
+    is_varying_ = cursor_.accept_word("varying");
+    if (is_varying_ && !separator()) {
+      return false;
+    }
+    if (cursor_.accept_word("rel")) {
+      return separator() && read_relationship();
+    }
+    if (is_varying_) {
+      return cursor_.fail_expected("`rel`", "attributes vary by default: remove `varying`");
+    }
+    is_uniform_ = cursor_.accept_word("uniform") || cursor_.accept_word("config");
+    if (is_uniform_ && !separator()) {
+      return false;
+    }
+    return read_attribute();
+  }
+
+ private:
+  bool separator() {
+    return cursor_.accept_separator() || cursor_.fail_expected("a blank between two words");
+  }
+
+  bool read_property_name() {
+    const std::string_view name = cursor_.peek_namespaced();
+    if (name.empty()) {
+      return cursor_.fail_expected("the name of a property");
+    }
+    cursor_.advance(name.size());
+    path_ = owner_.property(Token(name));
+    return true;
+  }
+
+  /// Takes the '.' of `name.timeSamples`, with blanks around it.
+  bool accept_dot() {
+    const std::size_t before = cursor_.offset();
+    cursor_.skip_inline();
+    if (cursor_.accept('.')) {
+      cursor_.skip_inline();
+      return true;
+    }
+    cursor_.seek(before);
+    return false;
+  }
+
+  bool accept_equals() {
+    const std::size_t before = cursor_.offset();
+    cursor_.skip_inline();
+    if (cursor_.accept('=')) {
+      cursor_.skip_inline();
+      return true;
+    }
+    cursor_.seek(before);
+    return false;
+  }
+
+  bool read_optional_metadata(SpecKind kind) {
+    const std::size_t before = cursor_.offset();
+    cursor_.skip_inline();
+    if (cursor_.accept('(')) {
+      return read_metadata(state_, path_, kind);
+    }
+    cursor_.seek(before);
+    return true;
+  }
+
+  // Attributes
+
+  bool read_attribute() {
+    std::string_view type_word;
+    bool is_array = false;
+    if (!read_type(cursor_, type_word, is_array) || !separator() || !read_property_name()) {
+      return false;
+    }
+    Token type_name(is_array ? std::string(type_word) + "[]" : std::string(type_word));
+    type_ = layer::find_type_name(type_name);
+    is_array_ = is_array;
+    if (type_ != nullptr) {
+      type_name = type_->name;
+    }
+    if (!make_attribute(type_name)) {
+      return false;
+    }
+    if (accept_dot()) {
+      return read_attribute_part();
+    }
+    if (edit_ != ListEdit::Explicit) {
+      return cursor_.fail_expected("`.connect` after a list edit",
+                                   "remove the word in front of the attribute");
+    }
+    return (!accept_equals() || read_default()) && read_optional_metadata(SpecKind::Attribute);
+  }
+
+  bool make_attribute(Token type_name) {
+    const Variability variability = is_uniform_ ? Variability::Uniform : Variability::Varying;
+    if (layer::Spec* spec = state_.layer.find(path_)) {
+      return redeclare(*spec, type_name, variability);
+    }
+    properties_.push_back(path_.name());
+    layer::Spec& spec = state_.make_spec(path_, SpecKind::Attribute, start_);
+    spec.reserve_fields(4);
+    spec.append(fields::custom, Value(is_custom_));
+    spec.append(fields::typeName, Value(type_name));
+    spec.append(fields::variability, Value(variability));
+    return true;
+  }
+
+  /// A further statement about an attribute must agree with the first.
+  bool redeclare(layer::Spec& spec, Token type_name, Variability variability) {
+    const std::string first = "it was declared at line " + std::to_string(spec.line);
+    if (spec.kind != SpecKind::Attribute) {
+      return cursor_.fail_at(start_, ErrorCode::Parse, "text.duplicate",
+                             "`" + path_.name().str() + "` is already a relationship; " + first);
+    }
+    const Token old_type = spec.get_or(fields::typeName, Token());
+    if (old_type != type_name) {
+      return cursor_.fail_at(start_, ErrorCode::Parse, "text.duplicate",
+                             "`" + path_.name().str() + "` already has type " + old_type.str() +
+                                 ", not " + type_name.str() + "; " + first);
+    }
+    if (spec.get_or(fields::variability, Variability::Varying) != variability) {
+      return cursor_.fail_at(start_, ErrorCode::Parse, "text.duplicate",
+                             "`" + path_.name().str() +
+                                 "` is both uniform and not uniform; " + first);
+    }
+    if (is_custom_) {
+      spec.set(fields::custom, Value(true));
+    }
+    return true;
+  }
+
+  bool read_attribute_part() {
+    const bool plain = edit_ == ListEdit::Explicit;
+    if (cursor_.accept_word("connect")) {
+      return read_assignment(cursor_) && read_connections();
+    }
+    if (plain && cursor_.accept_word("timeSamples")) {
+      return read_assignment(cursor_) && read_time_samples();
+    }
+    if (plain && cursor_.accept_word("spline")) {
+      Value value;
+      const ValueType type = type_ == nullptr || is_array_ ? ValueType::None : type_->type;
+      return read_assignment(cursor_) && read_spline(cursor_, type, value) &&
+             set(fields::spline, std::move(value));
+    }
+    return cursor_.fail_expected(plain ? "`timeSamples`, `connect` or `spline`" : "`connect`");
+  }
+
+  bool set(Token field, Value value) {
+    state_.layer.find(path_)->set(field, std::move(value));
+    return true;
+  }
+
+  /// A value of the attribute's type; the source text where the type is unknown.
+  bool read_own_value(Value& value) {
+    if (type_ != nullptr) {
+      return read_value(cursor_, type_->type, is_array_, value);
+    }
+    std::string text;
+    if (!read_source_text(cursor_, text)) {
+      return false;
+    }
+    value = Value(layer::UnregisteredValue{Value(std::move(text))});
+    return true;
+  }
+
+  bool read_default() {
+    Value value;
+    if (cursor_.accept_word("None")) {
+      value = layer::ValueBlock{};
+    } else if (cursor_.accept_word("AnimationBlock")) {
+      value = layer::AnimationBlock{};
+    } else if (!read_own_value(value)) {
+      return false;
+    }
+    return set(fields::default_value, std::move(value));
+  }
+
+  bool read_time_samples() {
+    if (!cursor_.expect('{', "before the time samples")) {
+      return false;
+    }
+    layer::TimeSamples samples;
+    bool ascending = true;
+    cursor_.skip_multi_line();
+    const bool ok = cursor_.accept('}') || read_items(cursor_, '}', "of the time samples", [&] {
+      return read_time_sample(samples, ascending);
+    });
+    if (ok && !ascending) {
+      sort_samples(samples);
+    }
+    return ok && set(fields::timeSamples, Value(std::move(samples)));
+  }
+
+  bool read_time_sample(layer::TimeSamples& samples, bool& ascending) {
+    const std::size_t start = cursor_.offset();
+    double time = 0;
+    if (!at_number(cursor_)) {
+      return cursor_.fail_expected("the time of a sample or '}'");
+    }
+    if (!read_double(cursor_, time)) {
+      return false;
+    }
+    if (std::isnan(time)) {
+      return cursor_.fail_at(start, ErrorCode::Parse, "text.value", "nan is no time");
+    }
+    cursor_.skip_inline();
+    if (!cursor_.expect(':', "after the time of a sample")) {
+      return false;
+    }
+    cursor_.skip_inline();
+    Value value;
+    if (cursor_.accept_word("None")) {
+      value = layer::ValueBlock{};
+    } else if (!read_own_value(value)) {
+      return false;
+    }
+    ascending = ascending && (samples.empty() || samples.times.back() < time);
+    samples.times.push_back(time);
+    samples.values.push_back(std::move(value));
+    return true;
+  }
+
+  /// Puts the samples in order; of equal times the last one counts.
+  static void sort_samples(layer::TimeSamples& samples) {
+    std::vector<std::size_t> order(samples.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      order[i] = i;
+    }
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return samples.times[a] < samples.times[b];
+    });
+    layer::TimeSamples sorted;
+    for (const std::size_t i : order) {
+      if (!sorted.empty() && sorted.times.back() == samples.times[i]) {
+        sorted.values.back() = std::move(samples.values[i]);
+        continue;
+      }
+      sorted.times.push_back(samples.times[i]);
+      sorted.values.push_back(std::move(samples.values[i]));
+    }
+    samples = std::move(sorted);
+  }
+
+  bool read_connections() {
+    const std::size_t start = cursor_.offset();
+    std::vector<Path> paths;
+    if (!read_path_list(cursor_, paths)) {
+      return false;
+    }
+    for (Path& path : paths) {
+      const Path absolute = path.absolute(owner_.strip_variants().prim());
+      if (path.has_variants() || !(absolute.is_prim() || absolute.is_property())) {
+        return fail_target(start, path, "connections lead to prims or properties");
+      }
+      path = absolute;
+    }
+    if (!check_items(cursor_, start, edit_, paths)) {
+      return false;
+    }
+    set_items(*state_.layer.find(path_), fields::connectionPaths, edit_, std::move(paths));
+    return true;
+  }
+
+  bool fail_target(std::size_t start, Path path, std::string_view what) {
+    return cursor_.fail_at(start, ErrorCode::Parse, "text.target",
+                           "<" + path.str() + "> cannot be a target: " + std::string(what) +
+                               " and have no variant selections");
+  }
+
+  // Relationships
+
+  bool read_relationship() {
+    if (!read_property_name() || !make_relationship()) {
+      return false;
+    }
+    if (edit_ == ListEdit::Explicit) {
+      if (accept_dot()) {
+        return read_relationship_default();
+      }
+      const std::size_t before = cursor_.offset();
+      cursor_.skip_inline();
+      if (cursor_.accept('[')) {
+        return read_unlisted_target();
+      }
+      cursor_.seek(before);
+    }
+    if (accept_equals() && !read_targets()) {
+      return false;
+    }
+    return edit_ != ListEdit::Explicit || read_optional_metadata(SpecKind::Relationship);
+  }
+
+  bool make_relationship() {
+    if (const layer::Spec* spec = state_.layer.find(path_)) {
+      if (spec->kind != SpecKind::Relationship) {
+        return cursor_.fail_at(start_, ErrorCode::Parse, "text.duplicate",
+                               "`" + path_.name().str() + "` is already an attribute; it was " +
+                                   "declared at line " + std::to_string(spec->line));
+      }
+    } else {
+      properties_.push_back(path_.name());
+      state_.make_spec(path_, SpecKind::Relationship, start_);
+    }
+    set(fields::variability, Value(is_varying_ ? Variability::Varying : Variability::Uniform));
+    return !is_custom_ || set(fields::custom, Value(true));
+  }
+
+  bool read_targets() {
+    const std::size_t start = cursor_.offset();
+    std::vector<Path> paths;
+    if (!read_path_list(cursor_, paths)) {
+      return false;
+    }
+    for (Path& path : paths) {
+      const Path absolute = path.absolute(owner_.strip_variants().prim());
+      const bool fits = absolute.is_prim() || absolute.is_property() ||
+                        absolute.kind() == PathKind::Mapper;
+      if (path.has_variants() || !fits) {
+        return fail_target(start, path, "relationships lead to prims or properties");
+      }
+      path = absolute;
+    }
+    if (!check_items(cursor_, start, edit_, paths)) {
+      return false;
+    }
+    set_items(*state_.layer.find(path_), fields::targetPaths, edit_, std::move(paths));
+    return true;
+  }
+
+  bool read_relationship_default() {
+    Path path;
+    if (!cursor_.accept_word("default")) {
+      return cursor_.fail_expected("`default`");
+    }
+    return read_assignment(cursor_) && read_path(cursor_, path) &&
+           set(fields::default_value, Value(std::vector<Path>{path}));
+  }
+
+  /// `rel name [<path>]` of old layers declares a target without listing it: it has no effect.
+  bool read_unlisted_target() {
+    Path path;
+    cursor_.skip_inline();
+    if (!read_path(cursor_, path)) {
+      return false;
+    }
+    cursor_.skip_inline();
+    return cursor_.expect(']', "after the target");
+  }
+
+  LayerState& state_;
+  Cursor& cursor_;
+  Path owner_;
+  std::vector<Token>& properties_;
+  std::size_t start_ = 0;
+  ListEdit edit_ = ListEdit::Explicit;
+  bool is_custom_ = false;
+  bool is_varying_ = false;
+  bool is_uniform_ = false;
+  bool is_array_ = false;
+  const layer::TypeName* type_ = nullptr;
+  Path path_;
+};
+
+}  // namespace
+
+bool read_property(LayerState& state, Path owner, std::vector<Token>& properties) {
+  return PropertyReader(state, owner, properties).read();
+}
+
+}  // namespace tenon::formats::text

@@ -1,0 +1,337 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+// Values whose type is known go from the text straight into their storage; nothing is kept between.
+#include "tenon/formats/text/value_reader.h"
+
+#include <cmath>
+#include <limits>
+
+#include "tenon/base/limits.h"
+#include "tenon/formats/text/literals.h"
+#include "tenon/layer/field_values.h"
+
+namespace tenon::formats::text {
+namespace {
+
+using layer::Array;
+using layer::AssetPath;
+using layer::PathExpression;
+using layer::TimeCode;
+using layer::Value;
+using layer::ValueType;
+
+bool read_component(Cursor& cursor, double& value) {
+  if (at_number(cursor)) {
+    return read_double(cursor, value);
+  }
+  if (at_string(cursor)) {
+    const std::size_t start = cursor.offset();
+    std::string word;
+    if (!read_string(cursor, word)) {
+      return false;
+    }
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (word == "inf" || word == "-inf" || word == "nan") {
+      value = word == "inf" ? kInfinity : word == "nan" ? std::nan("") : -kInfinity;
+      return true;
+    }
+    cursor.seek(start);
+  }
+  return cursor.fail_expected("a number");
+}
+
+bool read_component(Cursor& cursor, float& value) {
+  double number = 0;
+  const bool ok = read_component(cursor, number);
+  value = static_cast<float>(number);
+  return ok;
+}
+
+bool read_component(Cursor& cursor, Half& value) {
+  double number = 0;
+  const bool ok = read_component(cursor, number);
+  value = Half(static_cast<float>(number));
+  return ok;
+}
+
+template <class Int>
+bool narrow(const Number& number, Int& value) {
+  using Limits = std::numeric_limits<Int>;
+  switch (number.kind) {
+    case Number::Kind::Unsigned:
+      value = static_cast<Int>(number.unsigned_value);
+      return number.unsigned_value <= static_cast<std::uint64_t>(Limits::max());
+    case Number::Kind::Signed:
+      value = static_cast<Int>(number.signed_value);
+      return Limits::is_signed && number.signed_value >= static_cast<std::int64_t>(Limits::min());
+    case Number::Kind::Double:
+      break;
+  }
+  const double whole = std::trunc(number.double_value);
+  const double above = std::ldexp(1.0, Limits::digits);
+  if (!(whole < above && whole >= (Limits::is_signed ? -above : 0.0))) {
+    return false;
+  }
+  value = static_cast<Int>(whole);
+  return true;
+}
+
+template <class Int>
+bool read_whole(Cursor& cursor, Int& value) {
+  const std::size_t start = cursor.offset();
+  if (!at_number(cursor)) {
+    return cursor.fail_expected("a whole number");
+  }
+  Number number;
+  if (!read_number(cursor, number)) {
+    return false;
+  }
+  if (narrow(number, value)) {
+    return true;
+  }
+  const std::string_view written = cursor.text().substr(start, cursor.offset() - start);
+  return cursor.fail_at(
+      start, ErrorCode::Parse, "text.value",
+      std::string(written) + " does not fit: whole numbers from " +
+          std::to_string(std::numeric_limits<Int>::min()) + " to " +
+          std::to_string(std::numeric_limits<Int>::max()) + " are expected");
+}
+
+bool read_component(Cursor& cursor, std::int32_t& value) { return read_whole(cursor, value); }
+
+bool bool_of_word(std::string_view word, bool& value) {
+  std::string lower(word);
+  for (char& c : lower) {
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  value = lower == "true" || lower == "yes" || lower == "1";
+  return value || lower == "false" || lower == "no" || lower == "0";
+}
+
+bool read_scalar(Cursor& cursor, bool& value) {
+  if (at_number(cursor)) {
+    Number number;
+    const bool ok = read_number(cursor, number);
+    value = number.kind == Number::Kind::Unsigned ? number.unsigned_value != 0
+                                                  : number.as_double() != 0;
+    return ok;
+  }
+  const std::size_t start = cursor.offset();
+  if (at_string(cursor)) {
+    std::string word;
+    if (!read_string(cursor, word)) {
+      return false;
+    }
+    if (bool_of_word(word, value)) {
+      return true;
+    }
+    cursor.seek(start);
+  }
+  const std::string_view word = cursor.peek_identifier();
+  cursor.advance(word.size());
+  if (bool_of_word(word, value)) {
+    return true;
+  }
+  cursor.seek(start);
+  return cursor.fail_expected("true or false");
+}
+
+bool read_scalar(Cursor& cursor, char& value) {
+  bool truth = false;
+  const bool ok = read_scalar(cursor, truth);
+  value = truth ? 1 : 0;
+  return ok;
+}
+
+bool read_scalar(Cursor& cursor, std::uint8_t& value) { return read_whole(cursor, value); }
+bool read_scalar(Cursor& cursor, std::int32_t& value) { return read_whole(cursor, value); }
+bool read_scalar(Cursor& cursor, std::uint32_t& value) { return read_whole(cursor, value); }
+bool read_scalar(Cursor& cursor, std::int64_t& value) { return read_whole(cursor, value); }
+bool read_scalar(Cursor& cursor, std::uint64_t& value) { return read_whole(cursor, value); }
+bool read_scalar(Cursor& cursor, Half& value) { return read_component(cursor, value); }
+bool read_scalar(Cursor& cursor, float& value) { return read_component(cursor, value); }
+bool read_scalar(Cursor& cursor, double& value) { return read_component(cursor, value); }
+bool read_scalar(Cursor& cursor, layer::TimeCode& value) {
+  return read_component(cursor, value.value);
+}
+bool read_scalar(Cursor& cursor, std::string& value) { return read_string(cursor, value); }
+
+bool read_scalar(Cursor& cursor, Token& value) {
+  std::string text;
+  const bool ok = read_string(cursor, text);
+  value = Token(text);
+  return ok;
+}
+
+bool read_scalar(Cursor& cursor, layer::PathExpression& value) {
+  return read_string(cursor, value.text);
+}
+
+bool read_scalar(Cursor& cursor, layer::AssetPath& value) {
+  if (cursor.peek() == '@') {
+    return read_asset_path(cursor, value.authored);
+  }
+  const std::size_t start = cursor.offset();
+  if (!at_string(cursor)) {
+    return cursor.fail_expected("an asset path such as @file.png@");
+  }
+  if (!read_string(cursor, value.authored)) {
+    return false;
+  }
+  for (const char c : value.authored) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
+      return cursor.fail_at(start, ErrorCode::Parse, "text.value",
+                            "an asset path holds a control character");
+    }
+  }
+  return true;
+}
+
+/// Takes "(" item, ... ")" with exactly `count` items.
+template <class Item>
+bool read_tuple(Cursor& cursor, std::size_t count, Item item) {
+  const std::size_t start = cursor.offset();
+  if (!cursor.accept('(')) {
+    return cursor.fail_expected("a tuple of " + std::to_string(count) + " in ( )");
+  }
+  std::size_t read = 0;
+  const bool ok = read_items(cursor, ')', "of the tuple", [&] {
+    if (read == count) {
+      return cursor.fail_at(start, ErrorCode::Parse, "text.value",
+                            "this tuple has more than " + std::to_string(count) + " items");
+    }
+    return item(read++);
+  });
+  if (ok && read != count) {
+    return cursor.fail_at(start, ErrorCode::Parse, "text.value",
+                          "this tuple has " + std::to_string(read) + " items where " +
+                              std::to_string(count) + " are expected");
+  }
+  return ok;
+}
+
+template <class T, std::size_t N>
+bool read_scalar(Cursor& cursor, Vec<T, N>& value) {
+  return read_tuple(cursor, N, [&](std::size_t i) { return read_component(cursor, value[i]); });
+}
+
+template <class T>
+bool read_scalar(Cursor& cursor, Quat<T>& value) {
+  return read_tuple(cursor, 4, [&](std::size_t i) {
+    T* const parts[] = {&value.w, &value.x, &value.y, &value.z};
+    return read_component(cursor, *parts[i]);
+  });
+}
+
+template <std::size_t N>
+bool read_scalar(Cursor& cursor, Matrix<N>& value) {
+  return read_tuple(cursor, N, [&](std::size_t row) {
+    return read_tuple(cursor, N, [&](std::size_t column) {
+      return read_component(cursor, value[row][column]);
+    });
+  });
+}
+
+/// Reads the elements of a list; lists within the list are flattened and must be of equal sizes.
+class ListReader {
+ public:
+  explicit ListReader(Cursor& cursor) : cursor_(cursor) {}
+
+  template <class Element>
+  bool read(Array<Element>& elements, std::size_t depth = 0) {
+    if (depth >= limits::kTextNestingDepth) {
+      return cursor_.fail_at(cursor_.offset(), ErrorCode::Limit, "text.depth",
+                             "lists are nested too deep");
+    }
+    const std::size_t start = cursor_.offset();
+    cursor_.advance();
+    std::size_t count = 0;
+    const bool ok = read_items(cursor_, ']', "of the list", [&] {
+      ++count;
+      if (cursor_.peek() == '[') {
+        return read<Element>(elements, depth + 1);
+      }
+      if (element_depth_ != kNoDepth && element_depth_ != depth) {
+        return cursor_.fail_at(cursor_.offset(), ErrorCode::Parse, "text.value",
+                               "lists and single items are mixed in one list");
+      }
+      element_depth_ = depth;
+      return read_scalar(cursor_, elements.emplace_back());
+    });
+    return ok && check_size(start, depth, count);
+  }
+
+ private:
+  static constexpr std::size_t kNoDepth = ~std::size_t{0};
+
+  bool check_size(std::size_t start, std::size_t depth, std::size_t count) {
+    if (depth >= sizes_.size()) {
+      sizes_.resize(depth + 1);
+    }
+    if (sizes_[depth] == 0) {
+      sizes_[depth] = count;
+    }
+    return sizes_[depth] == count ||
+           cursor_.fail_at(start, ErrorCode::Parse, "text.value",
+                           "the lists within this list differ in size");
+  }
+
+  Cursor& cursor_;
+  std::size_t element_depth_ = kNoDepth;
+  std::vector<std::size_t> sizes_;
+};
+
+/// `[ ]` with nothing but blanks inside.
+bool accept_empty_list(Cursor& cursor) {
+  const std::size_t start = cursor.offset();
+  if (cursor.accept('[')) {
+    cursor.skip_inline();
+    if (cursor.accept(']')) {
+      return true;
+    }
+  }
+  cursor.seek(start);
+  return false;
+}
+
+template <class T>
+bool read_typed(Cursor& cursor, bool is_array, Value& value) {
+  if (!is_array) {
+    if (cursor.peek() == '[') {
+      return cursor.fail_expected("a single value, as the type name has no []");
+    }
+    T scalar{};
+    if (!read_scalar(cursor, scalar)) {
+      return false;
+    }
+    value = Value(std::move(scalar));
+    return true;
+  }
+  Array<T> elements;
+  if (!accept_empty_list(cursor)) {
+    if (cursor.peek() != '[') {
+      return cursor.fail_expected("'[', as the type name ends with []");
+    }
+    if (!ListReader(cursor).read<T>(elements)) {
+      return false;
+    }
+  }
+  value = Value(std::move(elements));
+  return true;
+}
+
+}  // namespace
+
+bool read_value(Cursor& cursor, ValueType type, bool is_array, Value& value) {
+  switch (type) {
+#define TENON_SCALAR(enumerator, cpp_type, name, crate_id) \
+  case ValueType::enumerator:                              \
+    return read_typed<cpp_type>(cursor, is_array, value);
+#include "tenon/layer/value_types.def"
+    default:
+      return cursor.fail_at(cursor.offset(), ErrorCode::Parse, "text.value",
+                            "attributes of this type never have a value");
+  }
+}
+
+}  // namespace tenon::formats::text

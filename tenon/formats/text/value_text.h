@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "tenon/base/result.h"
+#include "tenon/layer/type_names.h"
+#include "tenon/layer/value.h"
+
+namespace tenon::formats {
+
+/// A value as text layers print it: `(1, 2, 3)`, `"name"`, `@file.usda@`, `[1, 2]`, `None`.
+/// Dictionaries are on one line: `{ int a = 1; string b = "x" }`. Deferred arrays are decoded.
+std::string value_text(const layer::Value& value);
+
+/// Reads one value of the given type from all of `text`; "None" and "AnimationBlock" block.
+Result<layer::Value> parse_value(std::string_view text, const layer::TypeName& type);
+
+namespace text {
+
+/// `text` in quotes, with escapes; in three quotes when it has several lines.
+std::string quoted(std::string_view text);
+/// `@path@`, or `@@@path@@@` when the path holds an '@'.
+std::string asset_path_text(std::string_view path);
+/// Appends what `value_text` gives.
+void append_value_text(std::string& out, const layer::Value& value);
+
+}  // namespace text
+}  // namespace tenon::formats

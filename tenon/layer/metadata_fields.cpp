@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/layer/metadata_fields.h"
+
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "tenon/layer/fields.h"
+
+namespace tenon::layer {
+namespace {
+
+constexpr std::uint8_t L = 1;
+constexpr std::uint8_t P = 2;
+constexpr std::uint8_t A = 4;
+constexpr std::uint8_t R = 8;
+
+std::uint8_t home_of(SpecKind kind) {
+  switch (kind) {
+    case SpecKind::PseudoRoot:
+      return L;
+    case SpecKind::Prim:
+    case SpecKind::Variant:
+      return P;
+    case SpecKind::Attribute:
+      return A;
+    case SpecKind::Relationship:
+      return R;
+    default:
+      return 0;
+  }
+}
+
+struct Table {
+  std::vector<MetadataField> rows;
+  std::unordered_map<Token, std::size_t> by_name;
+  std::unordered_map<Token, std::uint8_t> structural;
+
+  Table() {
+#define TENON_METADATA(name, value_type, array, where) \
+  rows.push_back({Token(#name), ValueType::value_type, array, where});
+#include "tenon/layer/metadata_fields.def"
+#undef TENON_METADATA
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      by_name.emplace(rows[i].name, i);
+    }
+    add_structural(L | P | A | R, {fields::comment});
+    add_structural(L | P, {fields::primChildren, fields::primOrder});
+    add_structural(L, {fields::layerRelocates, fields::subLayers, fields::subLayerOffsets});
+    add_structural(P, {fields::inheritPaths, fields::payload, fields::properties,
+                       fields::propertyOrder, fields::references, fields::relocates,
+                       fields::specializes, fields::specifier, fields::variantSelection,
+                       fields::variantSetChildren, fields::variantSetNames});
+    add_structural(A | R, {fields::custom, fields::default_value, fields::variability});
+    add_structural(A, {fields::connectionChildren, fields::connectionPaths, fields::spline,
+                       fields::timeSamples, fields::typeName});
+    add_structural(R, {fields::targetChildren, fields::targetPaths});
+  }
+
+  void add_structural(std::uint8_t homes, std::initializer_list<Token> names) {
+    for (const Token& name : names) {
+      structural[name] = static_cast<std::uint8_t>(structural[name] | homes);
+    }
+  }
+};
+
+const Table& table() {
+  static const auto* table = new Table();
+  return *table;
+}
+
+}  // namespace
+
+const MetadataField* find_metadata_field(Token name, SpecKind kind) {
+  const auto it = table().by_name.find(name);
+  if (it == table().by_name.end()) {
+    return nullptr;
+  }
+  const MetadataField& field = table().rows[it->second];
+  return (field.homes & home_of(kind)) == 0 ? nullptr : &field;
+}
+
+bool is_structural_field(Token name, SpecKind kind) {
+  const auto it = table().structural.find(name);
+  return it != table().structural.end() && (it->second & home_of(kind)) != 0;
+}
+
+std::span<const MetadataField> all_metadata_fields() { return table().rows; }
+
+}  // namespace tenon::layer
