@@ -9,6 +9,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/engines/engines.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/layer/layer.h"
 #include "tenon/physics/physics_scene.h"
