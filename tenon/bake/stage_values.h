@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "tenon/engines/simulation.h"
+#include "tenon/physics/physics_scene.h"
+
+/// States in the units that a stage is authored in, so that they can be put back (S-35): stage
+/// length units, degrees, seconds.
+namespace tenon::bake {
+
+/// Positions in stage units, orientation as is, angular velocity in degrees per second.
+engines::BodyState in_stage_units(const engines::BodyState& state,
+                                  const physics::PhysicsScene& scene);
+
+/// Angular coordinates in degrees, linear ones in stage units.
+engines::JointState in_stage_units(const engines::JointState& state, const physics::Joint& joint,
+                                   const physics::PhysicsScene& scene);
+
+}  // namespace tenon::bake
