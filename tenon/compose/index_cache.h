@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/compose/layer_opener.h"
 #include "tenon/compose/prim_index.h"
 
 namespace tenon::compose {
@@ -16,8 +17,8 @@ namespace tenon::compose {
 /// Which payloads are included and which variants are taken when none is selected.
 struct ComposeOptions {
   bool load_payloads = true;
-  std::set<Path> loaded;      ///< payloads of these prims and below, when load_payloads is off
-  std::set<Path> unloaded;    ///< not these and below, when it is on
+  std::set<Path> loaded;      ///< payloads of these prims and below, whatever load_payloads says
+  std::set<Path> unloaded;    ///< not these and below; the nearer of the two sets wins
   /// Variant set -> variants to fall back to, best first.
   std::map<std::string, std::vector<std::string>> variant_fallbacks;
   std::set<std::string> muted;  ///< identifiers of layers that count as absent
@@ -44,9 +45,13 @@ class IndexCache {
   /// The index of an absolute prim path (or of the pseudo-root); never null, empty of opinions for
   /// a path where nothing is. The reference stays valid for the life of the cache.
   const PrimIndex& index(Path prim_path);
+  /// The same for a child of a prim whose index is at hand, which is cheaper.
+  const PrimIndex& child_index(const PrimIndex& parent, Token name);
   /// Layers that could not be opened and other errors of layer stacks, in order of discovery.
   const Diagnostics& errors() const;
   /// Each missing layer once per opinion, in order of discovery.
+  const std::vector<MissingArc>& missing_arcs() const;
+  /// Each missing layer once per opinion, in order of discovery (the stage and `info` report them).
   const std::vector<MissingArc>& missing_arcs() const;
   /// All layers opened so far, sorted by identifier.
   std::vector<layer::LayerPtr> used_layers() const;

@@ -66,6 +66,12 @@ struct LayerStackInputs {
 /// cannot be opened or contradicts itself is in `errors` and left out.
 std::shared_ptr<LayerStack> build_layer_stack(const LayerStackInputs& inputs);
 
+/// Finite and invertible.
+bool is_usable(const layer::LayerOffset& offset);
+
+/// The scale from times at `other` codes per second to times at `rate`; 1 for nonsense.
+double rate_ratio(double rate, double other);
+
 /// timeCodesPerSecond of a whole stack: of the session layer where it authors one, else the root's.
 bool session_sets_time_codes(const layer::Layer& session, const layer::Layer& root);
 

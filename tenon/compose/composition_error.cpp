@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/compose/composition_error.h"
+
+#include <utility>
+
+namespace tenon::compose {
+
+Diagnostic composition_error(std::string_view error_class, Severity severity, const AuthoredAt& at,
+                             std::string message, std::string fix) {
+  Diagnostic found;
+  found.severity = severity;
+  found.rule = "compose." + std::string(error_class);
+  found.message = std::move(message);
+  found.fix = std::move(fix);
+  if (!at.prim.empty()) {
+    found.prim = at.prim.str();
+  }
+  if (at.layer == nullptr) {
+    return found;
+  }
+  found.file = at.layer->identifier();
+  if (at.spec.is_property()) {
+    found.property = at.spec.name().str();
+  }
+  if (const layer::Spec* spec = at.spec.empty() ? nullptr : at.layer->find(at.spec)) {
+    found.line = spec->line;
+    found.column = spec->column;
+  }
+  return found;
+}
+
+std::string quoted(Path path) { return "<" + path.str() + ">"; }
+
+std::string quoted(const layer::Layer& layer, Path path) {
+  return "@" + layer.identifier() + "@" + quoted(path);
+}
+
+}  // namespace tenon::compose

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+// Classes are used by name. Where a reference brings a prim that inherits a class into another
+// namespace, overrides of the class there apply as well: the arc is implied from node to parent,
+// moved through the map between them, up to the root.
+#include "tenon/base/limits.h"
+#include "tenon/compose/indexer.h"
+
+namespace tenon::compose {
+namespace {
+
+/// `class_map` between the images of its ends under `transfer`.
+MapFunction implied_map(const MapFunction& transfer, const MapFunction& class_map) {
+  if (transfer.is_identity()) {
+    return class_map;
+  }
+  return transfer.compose(class_map.compose(transfer.inverse())).with_root_identity();
+}
+
+/// One step: the classes below `source` are to be implied below `dest`.
+struct Step {
+  NodeId dest;
+  NodeId source;
+  MapFunction transfer;  // from the namespace of source to that of dest
+  bool is_start;
+};
+
+class ClassTree {
+ public:
+  explicit ClassTree(Indexer& indexer) : indexer_(indexer), graph_(indexer.graph) {}
+
+  void imply(Step first) {
+    std::vector<Step> open;
+    open.push_back(std::move(first));
+    while (!open.empty()) {
+      const Step step = std::move(open.back());
+      open.pop_back();
+      std::vector<Step> deeper;
+      visit(past_relocates(step), deeper);
+      open.insert(open.end(), std::make_move_iterator(deeper.rbegin()),
+                  std::make_move_iterator(deeper.rend()));
+    }
+  }
+
+ private:
+  /// A relocate needs no stand-ins: its parent gets the classes, through its map. Hierarchies that
+  /// start at the relocate itself are still to be implied.
+  Step past_relocates(Step step) {
+    while (graph_[step.dest].arc == ArcKind::Relocate) {
+      step.transfer = graph_[step.dest].map_to_parent->with_root_identity().compose(step.transfer);
+      indexer_.tasks.push(TaskKind::ImpliedClasses, step.dest);
+      step.dest = graph_[step.dest].parent;
+    }
+    return step;
+  }
+
+  void visit(const Step& step, std::vector<Step>& deeper) {
+    for (const NodeId child : graph_.children(graph_.owner_of_children(step.source))) {
+      if (!is_class_based(graph_[child].arc) || continues_chain(step, child)) {
+        continue;
+      }
+      const MapFunction map = implied_map(step.transfer, *graph_[child].map_to_parent);
+      const NodeId implied = find_or_add(step, child, map);
+      if (implied != kNoNode && graph_.has_class_based_child(child)) {
+        MapFunction transfer =
+            map.inverse().compose(step.transfer.compose(*graph_[child].map_to_parent));
+        deeper.push_back({graph_.owner_of_children(implied), child, std::move(transfer), false});
+      }
+    }
+  }
+
+  /// A class of the class that `dest` uses already: the chain leads there, no arc of its own.
+  bool continues_chain(const Step& step, NodeId child) const {
+    return step.is_start && is_class_based(graph_[step.source].arc) &&
+           graph_.depth_below_introduction(step.source) == graph_.depth_below_introduction(child);
+  }
+
+  NodeId find_or_add(const Step& step, NodeId child, const MapFunction& map) {
+    for (NodeId id = graph_[step.dest].first_child; id != kNoNode; id = graph_[id].next_sibling) {
+      if (graph_[id].origin == child && *graph_[id].map_to_parent == map &&
+          !graph_.is_propagated_specialize(id)) {
+        return id;
+      }
+    }
+    ClassArcRequest request;
+    request.kind = graph_[child].arc;
+    request.parent = step.dest;
+    request.origin = child;
+    request.map = map;
+    request.number = graph_[child].sibling_number;
+    request.ignored = graph_.site(child);
+    request.implied = true;
+    return add_class_arc(indexer_, request);
+  }
+
+  Indexer& indexer_;
+  NodeGraph& graph_;
+};
+
+}  // namespace
+
+NodeId start_of_implied_classes(const NodeGraph& graph, NodeId node) {
+  NodeId start = node;
+  while (is_class_based(graph[start].arc)) {
+    const auto [instance, the_class] = graph.start_of_class_hierarchy(start);
+    start = instance;
+    // A class within the ancestral class belongs to that hierarchy; one outside continues it.
+    if (is_class_based(graph[instance].arc) &&
+        graph[the_class].path.has_prefix(graph.path_at_introduction(instance))) {
+      break;
+    }
+  }
+  return start;
+}
+
+void eval_implied_classes(Indexer& indexer, NodeId node) {
+  NodeGraph& graph = indexer.graph;
+  if (graph[node].parent == kNoNode || !graph.has_class_based_child(node)) {
+    return;
+  }
+  // The map of a reference ends at the referenced prim; classes outside count nonetheless.
+  ClassTree(indexer).imply({graph[node].parent, node,
+                            graph[node].map_to_parent->with_root_identity(), true});
+}
+
+}  // namespace tenon::compose

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+// Instances share what lies below them. Shared is what comes over arcs of the prim itself; opinions
+// of the prim and of its ancestors' arcs on what is below do not count.
+#include "tenon/base/text_number.h"
+#include "tenon/compose/indexer.h"
+#include "tenon/layer/fields.h"
+
+namespace tenon::compose {
+namespace {
+
+/// Visits nodes strongest first, each with whether it can be shared: it has specs and was brought
+/// in by an arc of this prim. `visit` returns true to go on below the node. Culled subtrees are
+/// left out.
+template <class Visit>
+void walk_shareable(const NodeGraph& graph, const Visit& visit) {
+  struct Open {
+    NodeId node;
+    bool below_own_arc;
+  };
+  std::vector<Open> open{{0, false}};
+  while (!open.empty()) {
+    Open at = open.back();
+    open.pop_back();
+    const Node& node = graph[at.node];
+    if (node.culled) {
+      continue;
+    }
+    at.below_own_arc = at.node != 0 && (at.below_own_arc || !node.due_to_ancestor);
+    if (!visit(at.node, at.below_own_arc && node.has_specs)) {
+      continue;
+    }
+    for (NodeId child = node.last_child; child != kNoNode; child = graph[child].previous_sibling) {
+      open.push_back({child, at.below_own_arc});
+    }
+  }
+}
+
+bool composed_instanceable(const NodeGraph& graph) {
+  for (const NodeId id : graph.subtree(0)) {
+    if (!graph[id].can_contribute() || !graph[id].has_specs) {
+      continue;
+    }
+    for (const StackedLayer& stacked : graph[id].layer_stack->layers) {
+      const layer::Spec* spec = stacked.layer->find(graph[id].path);
+      const bool* value = spec == nullptr ? nullptr : spec->get<bool>(layer::fields::instanceable);
+      if (value != nullptr) {
+        return *value;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool is_instanceable(const NodeGraph& graph) {
+  if (graph.size() < 2) {
+    return false;
+  }
+  bool shares = false;
+  walk_shareable(graph, [&](NodeId, bool shareable) {
+    shares = shares || shareable;
+    return !shares;
+  });
+  return shares && composed_instanceable(graph);
+}
+
+void disable_unshared_nodes(NodeGraph& graph) {
+  std::vector<NodeId> unshared;
+  walk_shareable(graph, [&](NodeId id, bool shareable) {
+    if (!shareable) {
+      unshared.push_back(id);
+    }
+    return !shareable;
+  });
+  for (const NodeId id : unshared) {
+    graph.set_inert(id, true);
+  }
+}
+
+std::string instance_key(const NodeGraph& graph, bool has_payloads) {
+  std::string key;
+  walk_shareable(graph, [&](NodeId id, bool shareable) {
+    if (shareable) {
+      const Node& node = graph[id];
+      const layer::LayerOffset& offset = node.map_to_root->offset();
+      key += std::to_string(static_cast<int>(node.arc)) + " @" + node.layer_stack->identifier() +
+             "@<" + node.path.str() + "> " + shortest(offset.offset) + " " +
+             shortest(offset.scale) + " @" +
+             node.layer_stack->expression_source->identifier() + "@\n";
+    }
+    // Payloads that are or are not included tell instances apart wherever they are.
+    return !shareable || has_payloads;
+  });
+  std::map<std::string, std::string> selections;
+  for (const NodeId id : graph.subtree(0)) {
+    if (graph[id].can_contribute() && graph[id].has_specs) {
+      add_variant_selections(*graph[id].layer_stack, graph[id].path, selections);
+    }
+  }
+  for (const auto& [set, selection] : selections) {
+    key += set + "=" + selection + "\n";
+  }
+  return key;
+}
+
+}  // namespace tenon::compose

@@ -1,0 +1,329 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/compose/node_graph.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "tenon/compose/strength_order.h"
+
+namespace tenon::compose {
+namespace {
+
+std::uint16_t clamped(std::size_t value) {
+  return static_cast<std::uint16_t>(
+      std::min<std::size_t>(value, std::numeric_limits<std::uint16_t>::max()));
+}
+
+/// `steps` elements less, variant selections below the last one dropped along.
+Path climb(Path path, std::uint16_t steps) {
+  for (; steps > 0 && !path.empty(); --steps) {
+    while (path.is_variant_selection()) {
+      path = path.parent();
+    }
+    path = path.parent();
+  }
+  return path;
+}
+
+}  // namespace
+
+const MapFunction* MapPool::add(MapFunction map) {
+  if (map.is_identity()) {
+    return identity();
+  }
+  maps_.push_back(std::move(map));
+  return &maps_.back();
+}
+
+const MapFunction* MapPool::compose(const MapFunction* outer, const MapFunction* inner) {
+  if (outer->is_identity()) {
+    return inner;
+  }
+  return inner->is_identity() ? outer : add(outer->compose(*inner));
+}
+
+std::uint16_t namespace_depth_of(Path path) {
+  std::size_t depth = path.depth();
+  for (; path.has_variants(); path = path.parent()) {
+    depth -= path.is_variant_selection() ? 1 : 0;
+  }
+  return clamped(depth);
+}
+
+void NodeGraph::reset(const Site& site) {
+  nodes_.clear();
+  Node root;
+  root.layer_stack = site.layer_stack;
+  root.path = site.path;
+  root.map_to_parent = root.map_to_root = maps_->identity();
+  nodes_.push_back(root);
+}
+
+void NodeGraph::set_arc(NodeId id, const Arc& arc) {
+  Node& node = nodes_[id];
+  node.arc = arc.kind;
+  node.map_to_parent = arc.map_to_parent;
+  node.map_to_root = maps_->compose(nodes_[arc.parent].map_to_root, arc.map_to_parent);
+  node.parent = arc.parent;
+  node.origin = arc.origin;
+  node.namespace_depth = arc.namespace_depth;
+  node.sibling_number = arc.sibling_number;
+}
+
+NodeId NodeGraph::insert_child(const Site& site, const Arc& arc) {
+  const auto id = static_cast<NodeId>(nodes_.size());
+  Node node;
+  node.layer_stack = site.layer_stack;
+  node.path = site.path;
+  nodes_.push_back(node);
+  set_arc(id, arc);
+  link(arc.parent, id);
+  return id;
+}
+
+NodeId NodeGraph::insert_subgraph(const NodeGraph& other, const Arc& arc) {
+  const auto base = static_cast<NodeId>(nodes_.size());
+  nodes_.insert(nodes_.end(), other.nodes_.begin(), other.nodes_.end());
+  const auto shift = [&](NodeId& id) { id += id == kNoNode ? 0 : base; };
+  for (NodeId id = base; id < nodes_.size(); ++id) {
+    Node& node = nodes_[id];
+    shift(node.parent);
+    shift(node.origin);
+    shift(node.first_child);
+    shift(node.last_child);
+    shift(node.next_sibling);
+    shift(node.previous_sibling);
+  }
+  set_arc(base, arc);
+  for (NodeId id = base + 1; id < nodes_.size(); ++id) {
+    nodes_[id].map_to_root = maps_->compose(nodes_[base].map_to_root, nodes_[id].map_to_root);
+  }
+  link(arc.parent, base);
+  return base;
+}
+
+void NodeGraph::link(NodeId parent, NodeId child) {
+  NodeId next = nodes_[parent].first_child;
+  const NodeId last = nodes_[parent].last_child;
+  if (last != kNoNode && compare_siblings(*this, child, last) >= 0) {
+    next = kNoNode;
+  }
+  while (next != kNoNode && compare_siblings(*this, child, next) >= 0) {
+    next = nodes_[next].next_sibling;
+  }
+  const NodeId previous = next == kNoNode ? last : nodes_[next].previous_sibling;
+  nodes_[child].next_sibling = next;
+  nodes_[child].previous_sibling = previous;
+  (next == kNoNode ? nodes_[parent].last_child : nodes_[next].previous_sibling) = child;
+  (previous == kNoNode ? nodes_[parent].first_child : nodes_[previous].next_sibling) = child;
+}
+
+std::vector<NodeId> NodeGraph::children(NodeId id) const {
+  std::vector<NodeId> result;
+  for (NodeId child = nodes_[id].first_child; child != kNoNode;
+       child = nodes_[child].next_sibling) {
+    result.push_back(child);
+  }
+  return result;
+}
+
+std::vector<NodeId> NodeGraph::subtree(NodeId id) const {
+  std::vector<NodeId> result;
+  std::vector<NodeId> open{id};
+  while (!open.empty()) {
+    const NodeId at = open.back();
+    open.pop_back();
+    result.push_back(at);
+    for (NodeId child = nodes_[at].last_child; child != kNoNode;
+         child = nodes_[child].previous_sibling) {
+      open.push_back(child);
+    }
+  }
+  return result;
+}
+
+std::uint16_t NodeGraph::depth_below_introduction(NodeId id) const {
+  const Node& node = nodes_[id];
+  if (node.parent == kNoNode) {
+    return 0;
+  }
+  const std::uint16_t depth = namespace_depth_of(nodes_[node.parent].path);
+  return depth > node.namespace_depth ? static_cast<std::uint16_t>(depth - node.namespace_depth)
+                                      : std::uint16_t{0};
+}
+
+Path NodeGraph::path_at_introduction(NodeId id) const {
+  return climb(nodes_[id].path, depth_below_introduction(id));
+}
+
+Path NodeGraph::introducing_path(NodeId id) const {
+  const NodeId parent = nodes_[id].parent;
+  return parent == kNoNode ? Path::absolute_root()
+                           : climb(nodes_[parent].path, depth_below_introduction(id));
+}
+
+std::pair<NodeId, std::size_t> NodeGraph::origin_root(NodeId id) const {
+  std::size_t steps = 0;
+  while (nodes_[id].origin != nodes_[id].parent) {
+    id = nodes_[id].origin;
+    ++steps;
+  }
+  return {id, steps};
+}
+
+bool NodeGraph::is_ancestor(NodeId ancestor, NodeId id) const {
+  while (id != kNoNode && id != ancestor) {
+    id = nodes_[id].parent;
+  }
+  return id == ancestor;
+}
+
+NodeId NodeGraph::find_site(const Site& site) const {
+  for (NodeId id = 0; id < nodes_.size(); ++id) {
+    const Node& node = nodes_[id];
+    if (node.path == site.path && node.layer_stack == site.layer_stack && node.can_contribute()) {
+      return id;
+    }
+  }
+  return kNoNode;
+}
+
+void NodeGraph::descend(Path child_path) {
+  const Path parent = child_path.parent();
+  const Token name = child_path.name();
+  for (Node& node : nodes_) {
+    node.path = node.path == parent ? child_path : node.path.child(name);
+  }
+}
+
+void NodeGraph::restrict(NodeId id) {
+  Node& node = nodes_[id];
+  node.restriction_depth = node.can_contribute() ? std::uint16_t{0} : clamped(node.path.depth());
+}
+
+void NodeGraph::set_inert(NodeId id, bool inert) {
+  if (nodes_[id].inert != inert) {
+    nodes_[id].inert = inert;
+    restrict(id);
+  }
+}
+
+void NodeGraph::set_culled(NodeId id) {
+  if (!nodes_[id].culled) {
+    nodes_[id].culled = true;
+    restrict(id);
+  }
+}
+
+bool NodeGraph::is_propagated_specialize(NodeId id) const {
+  const Node& node = nodes_[id];
+  return node.arc == ArcKind::Specialize && node.parent == 0 && node.origin != 0 &&
+         node.same_site(nodes_[node.origin]);
+}
+
+NodeId NodeGraph::propagated_specialize(NodeId id) const {
+  if (nodes_[id].arc != ArcKind::Specialize) {
+    return kNoNode;
+  }
+  for (NodeId child = nodes_[0].last_child; child != kNoNode;
+       child = nodes_[child].previous_sibling) {
+    if (nodes_[child].origin == id && is_propagated_specialize(child)) {
+      return child;
+    }
+  }
+  return kNoNode;
+}
+
+NodeId NodeGraph::owner_of_children(NodeId id) const {
+  const NodeId copy = propagated_specialize(id);
+  return copy == kNoNode ? id : copy;
+}
+
+bool NodeGraph::has_class_based_child(NodeId id) const {
+  for (NodeId child = nodes_[owner_of_children(id)].first_child; child != kNoNode;
+       child = nodes_[child].next_sibling) {
+    if (is_class_based(nodes_[child].arc)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool NodeGraph::has_specialize_in_subtree(NodeId id) const {
+  const std::vector<NodeId> nodes = subtree(id);
+  return std::any_of(nodes.begin(), nodes.end(),
+                     [&](NodeId at) { return nodes_[at].arc == ArcKind::Specialize; });
+}
+
+std::pair<NodeId, NodeId> NodeGraph::start_of_class_hierarchy(NodeId id) const {
+  const auto authored = [&](NodeId at) {
+    return is_propagated_specialize(at) ? nodes_[at].origin : at;
+  };
+  NodeId instance = authored(id);
+  NodeId the_class = kNoNode;
+  const std::uint16_t depth = depth_below_introduction(instance);
+  while (is_class_based(nodes_[instance].arc) && depth_below_introduction(instance) == depth) {
+    the_class = instance;
+    instance = authored(nodes_[instance].parent);
+  }
+  return {instance, the_class};
+}
+
+/// A culled node stays when a node that is not culled has it in its chain of origins, and so do
+/// its parents.
+std::vector<bool> NodeGraph::erasable() const {
+  std::vector<bool> result(nodes_.size());
+  for (NodeId id = 0; id < nodes_.size(); ++id) {
+    result[id] = nodes_[id].culled;
+  }
+  for (NodeId id = 1; id < nodes_.size(); ++id) {
+    bool needed = false;
+    for (NodeId at = id;; at = nodes_[at].origin) {
+      needed = needed || !result[at];
+      for (NodeId up = at; needed && up != kNoNode && result[up]; up = nodes_[up].parent) {
+        result[up] = false;
+      }
+      if (nodes_[at].origin == nodes_[at].parent) {
+        break;
+      }
+    }
+  }
+  return result;
+}
+
+void NodeGraph::finalize() {
+  if (nodes_.size() == 1) {
+    return;
+  }
+  const std::vector<bool> erased = erasable();
+  std::vector<NodeId> order = subtree(0);
+  std::erase_if(order, [&](NodeId id) { return erased[id]; });
+  std::vector<NodeId> new_id(nodes_.size(), kNoNode);
+  for (NodeId i = 0; i < order.size(); ++i) {
+    new_id[order[i]] = i;
+  }
+  const auto renamed = [&](NodeId id) { return id == kNoNode ? kNoNode : new_id[id]; };
+  std::vector<Node> sorted;
+  sorted.reserve(order.size());
+  for (const NodeId id : order) {
+    Node node = nodes_[id];
+    node.parent = renamed(node.parent);
+    node.origin = renamed(node.origin);
+    node.first_child = node.last_child = node.next_sibling = node.previous_sibling = kNoNode;
+    sorted.push_back(node);
+  }
+  for (NodeId id = 1; id < sorted.size(); ++id) {
+    Node& parent = sorted[sorted[id].parent];
+    if (parent.last_child == kNoNode) {
+      parent.first_child = id;
+    } else {
+      sorted[parent.last_child].next_sibling = id;
+      sorted[id].previous_sibling = parent.last_child;
+    }
+    parent.last_child = id;
+  }
+  nodes_ = std::move(sorted);
+}
+
+}  // namespace tenon::compose

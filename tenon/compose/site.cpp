@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/compose/site.h"
+
+#include <algorithm>
+
+#include "tenon/compose/composition_error.h"
+#include "tenon/compose/variable_expression.h"
+#include "tenon/layer/field_values.h"
+#include "tenon/layer/fields.h"
+
+namespace tenon::compose {
+namespace {
+
+namespace fields = layer::fields;
+using layer::ListOp;
+
+/// The same edit of other items: each is converted, those without a result drop out.
+template <class To, class From, class Convert>
+ListOp<To> converted(const ListOp<From>& op, const Convert& convert) {
+  ListOp<To> result;
+  result.is_explicit = op.is_explicit;
+  const auto add = [&](std::vector<To>& to, const std::vector<From>& from) {
+    to.reserve(from.size());
+    for (const From& item : from) {
+      convert(item, to);
+    }
+  };
+  add(result.explicit_items, op.explicit_items);
+  add(result.prepended, op.prepended);
+  add(result.appended, op.appended);
+  add(result.deleted, op.deleted);
+  add(result.added, op.added);
+  add(result.ordered, op.ordered);
+  return result;
+}
+
+/// An arc within list editing: equal when identity, prim and offset are.
+struct EditedArc {
+  std::string identity;
+  AssetArc arc;
+  bool operator==(const EditedArc& other) const {
+    return identity == other.identity && arc.prim_path == other.arc.prim_path &&
+           arc.offset == other.arc.offset;
+  }
+};
+
+/// The strongest layer that names an item is where it counts as authored.
+template <class Item>
+void apply_and_attribute(const ListOp<Item>& op, std::vector<Item>& list) {
+  op.apply_to(list);
+  for (const std::vector<Item>* named : {&op.explicit_items, &op.prepended, &op.appended, &op.added}) {
+    for (const Item& item : *named) {
+      const auto found = std::find(list.begin(), list.end(), item);
+      if (found != list.end()) {
+        *found = item;
+      }
+    }
+  }
+}
+
+struct AuthoredField {
+  const StackedLayer* stacked;
+  const layer::Value* value;
+};
+
+std::vector<AuthoredField> authored(const LayerStack& stack, Path path, Token field) {
+  std::vector<AuthoredField> found;
+  for (const StackedLayer& stacked : stack.layers) {
+    const layer::Spec* spec = stacked.layer->find(path);
+    const layer::Value* value = spec == nullptr ? nullptr : spec->find(field);
+    if (value != nullptr) {
+      found.push_back({&stacked, value});
+    }
+  }
+  return found;
+}
+
+class AssetArcList {
+ public:
+  AssetArcList(const LayerStack& stack, Path path, const AssetIdentity& identity, bool many_layers,
+               std::string_view what, Diagnostics* errors)
+      : stack_(stack), path_(path), identity_(identity), many_layers_(many_layers), what_(what),
+        errors_(errors) {}
+
+  template <class Authored>
+  void apply(const ListOp<Authored>& op, const StackedLayer& stacked) {
+    apply_and_attribute(
+        converted<EditedArc>(op, [&](const Authored& item, auto& to) { add(item, stacked, to); }),
+        list_);
+  }
+
+  std::vector<AssetArc> take() {
+    std::vector<AssetArc> arcs;
+    arcs.reserve(list_.size());
+    for (EditedArc& edited : list_) {
+      arcs.push_back(std::move(edited.arc));
+    }
+    return arcs;
+  }
+
+ private:
+  template <class Authored>
+  void add(const Authored& item, const StackedLayer& stacked, std::vector<EditedArc>& to) {
+    EditedArc edited;
+    edited.arc = {item.asset_path, item.prim_path, item.offset, stacked.layer, stacked.offset};
+    if (is_variable_expression(item.asset_path)) {
+      edited.arc.asset_path = evaluated(item.asset_path, *stacked.layer);
+      if (edited.arc.asset_path.empty()) {
+        return;
+      }
+    }
+    edited.identity = edited.arc.asset_path;
+    if (many_layers_ && !edited.identity.empty()) {
+      edited.identity = identity_(edited.arc.asset_path, *stacked.layer);
+    }
+    to.push_back(std::move(edited));
+  }
+
+  std::string evaluated(const std::string& expression, const layer::Layer& layer) {
+    ExpressionResult result = evaluate_text(expression, stack_.expression_variables);
+    if (!result.errors.empty() && errors_ != nullptr) {
+      errors_->add(composition_error(
+          error_class::kVariableExpressionError, Severity::Error, {&layer, path_, {}},
+          std::string(what_) + " expression " + expression + ": " + result.errors,
+          "correct the expression or define its variables"));
+    }
+    return result.text;
+  }
+
+  const LayerStack& stack_;
+  Path path_;
+  const AssetIdentity& identity_;
+  bool many_layers_;
+  std::string_view what_;
+  Diagnostics* errors_;
+  std::vector<EditedArc> list_;
+};
+
+bool evaluate_selection(const LayerStack& stack, const layer::Layer& layer, Path path,
+                        const std::string& authored, std::string* selection,
+                        Diagnostics* errors) {
+  if (!is_variable_expression(authored)) {
+    *selection = authored;
+    return true;
+  }
+  ExpressionResult result = evaluate_text(authored, stack.expression_variables);
+  *selection = result.text;
+  if (result.errors.empty()) {
+    return true;
+  }
+  if (errors != nullptr) {
+    errors->add(composition_error(
+        error_class::kVariableExpressionError, Severity::Error, {&layer, path, {}},
+        "variant selection expression " + authored + ": " + result.errors,
+        "correct the expression or define its variables"));
+  }
+  return false;
+}
+
+const layer::VariantSelections* selections_at(const layer::Layer& layer, Path path) {
+  const layer::Spec* spec = layer.find(path);
+  return spec == nullptr ? nullptr : spec->get<layer::VariantSelections>(fields::variantSelection);
+}
+
+}  // namespace
+
+void AuthoredArcs::add(const layer::Spec& spec) {
+  for (const layer::Field& field : spec.fields()) {
+    inherits = inherits || field.name == fields::inheritPaths;
+    variants = variants || field.name == fields::variantSetNames;
+    references = references || field.name == fields::references;
+    payloads = payloads || field.name == fields::payload;
+    specializes = specializes || field.name == fields::specializes;
+  }
+}
+
+AuthoredArcs authored_arcs(const LayerStack& stack, Path path) {
+  AuthoredArcs arcs;
+  for (const StackedLayer& stacked : stack.layers) {
+    if (const layer::Spec* spec = stacked.layer->find(path)) {
+      arcs.add(*spec);
+    }
+  }
+  return arcs;
+}
+
+std::vector<AssetArc> composed_references(const LayerStack& stack, Path path,
+                                          const AssetIdentity& identity, Diagnostics* errors) {
+  const std::vector<AuthoredField> found = authored(stack, path, fields::references);
+  AssetArcList list(stack, path, identity, found.size() > 1, "reference", errors);
+  for (auto it = found.rbegin(); it != found.rend(); ++it) {
+    if (const auto* op = it->value->get<ListOp<layer::Reference>>()) {
+      list.apply(*op, *it->stacked);
+    }
+  }
+  return list.take();
+}
+
+std::vector<AssetArc> composed_payloads(const LayerStack& stack, Path path,
+                                        const AssetIdentity& identity, Diagnostics* errors) {
+  const std::vector<AuthoredField> found = authored(stack, path, fields::payload);
+  AssetArcList list(stack, path, identity, found.size() > 1, "payload", errors);
+  for (auto it = found.rbegin(); it != found.rend(); ++it) {
+    if (const auto* op = it->value->get<ListOp<layer::Payload>>()) {
+      list.apply(*op, *it->stacked);
+    } else if (const auto* single = it->value->get<layer::Payload>()) {
+      // Binary layers before version 0.8 hold at most one payload, not a list.
+      const bool none = single->asset_path.empty() && single->prim_path.empty();
+      list.apply(none ? ListOp<layer::Payload>::make_explicit({})
+                      : ListOp<layer::Payload>::make_explicit({*single}),
+                 *it->stacked);
+    }
+  }
+  return list.take();
+}
+
+std::vector<ClassArc> composed_class_arcs(const LayerStack& stack, Path path, Token field) {
+  std::vector<ClassArc> list;
+  const std::vector<AuthoredField> found = authored(stack, path, field);
+  const Path anchor = path.prim();
+  for (auto it = found.rbegin(); it != found.rend(); ++it) {
+    if (const auto* op = it->value->get<ListOp<Path>>()) {
+      const layer::Layer* layer = it->stacked->layer.get();
+      apply_and_attribute(converted<ClassArc>(*op,
+                                              [&](Path item, auto& to) {
+                                                to.push_back({item.absolute(anchor), layer});
+                                              }),
+                          list);
+    }
+  }
+  return list;
+}
+
+std::vector<std::string> composed_variant_sets(const LayerStack& stack, Path path) {
+  std::vector<std::string> list;
+  const std::vector<AuthoredField> found = authored(stack, path, fields::variantSetNames);
+  for (auto it = found.rbegin(); it != found.rend(); ++it) {
+    if (const auto* op = it->value->get<ListOp<std::string>>()) {
+      op->apply_to(list);
+    }
+  }
+  return list;
+}
+
+std::vector<std::string> variant_options(const LayerStack& stack, Path path,
+                                         const std::string& set) {
+  std::vector<std::string> options;
+  const Path set_path = path.variant_selection(set, Token());
+  for (const StackedLayer& stacked : stack.layers) {
+    for (const Token& name : stacked.layer->children(set_path, fields::variantChildren)) {
+      options.push_back(name.str());
+    }
+  }
+  return options;
+}
+
+bool has_variant_selections(const LayerStack& stack, Path path) {
+  return std::any_of(stack.layers.begin(), stack.layers.end(), [&](const StackedLayer& stacked) {
+    return selections_at(*stacked.layer, path) != nullptr;
+  });
+}
+
+bool composed_variant_selection(const LayerStack& stack, Path path, const std::string& set,
+                                std::string* selection, Diagnostics* errors) {
+  for (const StackedLayer& stacked : stack.layers) {
+    const auto* selections = selections_at(*stacked.layer, path);
+    if (selections == nullptr) {
+      continue;
+    }
+    const auto found = selections->items.find(set);
+    if (found != selections->items.end() &&
+        evaluate_selection(stack, *stacked.layer, path, found->second, selection, errors)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void add_variant_selections(const LayerStack& stack, Path path,
+                            std::map<std::string, std::string>& selections) {
+  for (const StackedLayer& stacked : stack.layers) {
+    const auto* found = selections_at(*stacked.layer, path);
+    if (found == nullptr) {
+      continue;
+    }
+    for (const auto& [set, authored] : found->items) {
+      std::string selection;
+      if (evaluate_selection(stack, *stacked.layer, path, authored, &selection, nullptr)) {
+        selections.emplace(set, std::move(selection));
+      }
+    }
+  }
+}
+
+}  // namespace tenon::compose

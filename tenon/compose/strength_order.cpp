@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/compose/strength_order.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace tenon::compose {
+namespace {
+
+template <class T>
+int ascending(T a, T b) {
+  return a < b ? -1 : a > b ? 1 : 0;
+}
+
+template <class T>
+int descending(T a, T b) {
+  return ascending(b, a);
+}
+
+std::vector<NodeId> chain_from_root(const NodeGraph& graph, NodeId id) {
+  std::vector<NodeId> chain;
+  for (; id != kNoNode; id = graph[id].parent) {
+    chain.push_back(id);
+  }
+  std::reverse(chain.begin(), chain.end());
+  return chain;
+}
+
+/// Which of two linked nodes a walk in order of strength meets first.
+int tree_order(const NodeGraph& graph, NodeId a, NodeId b) {
+  const std::vector<NodeId> a_chain = chain_from_root(graph, a);
+  const std::vector<NodeId> b_chain = chain_from_root(graph, b);
+  const std::size_t common = std::min(a_chain.size(), b_chain.size());
+  std::size_t i = 0;
+  while (i < common && a_chain[i] == b_chain[i]) {
+    ++i;
+  }
+  if (i == common) {
+    return ascending(a_chain.size(), b_chain.size());
+  }
+  for (NodeId at = graph[a_chain[i]].next_sibling; at != kNoNode; at = graph[at].next_sibling) {
+    if (at == b_chain[i]) {
+      return -1;
+    }
+  }
+  return 1;
+}
+
+/// One lies below the other, going from a copied specialize to where it was authored.
+bool is_below(const NodeGraph& graph, NodeId id, NodeId above) {
+  while (id != kNoNode && id != above) {
+    id = graph.is_propagated_specialize(id) ? graph[id].origin : graph[id].parent;
+  }
+  return id == above;
+}
+
+/// Depth at which the hierarchy of classes that `id` is in was introduced.
+std::uint16_t hierarchy_depth(const NodeGraph& graph, NodeId id) {
+  NodeId instance = graph.start_of_class_hierarchy(id).first;
+  while (graph[instance].arc == ArcKind::Relocate) {
+    instance = graph[instance].parent;
+  }
+  return graph[instance].namespace_depth;
+}
+
+/// An implied specialize is more local than the copy of an authored one; 0 when both are alike.
+int implied_first(const NodeGraph& graph, const Node& a, const Node& b) {
+  const bool a_implied = !a.same_site(graph[a.origin]);
+  const bool b_implied = !b.same_site(graph[b.origin]);
+  return descending(a_implied, b_implied);
+}
+
+/// Specializes with one authored arc at the start of their origins but different origins.
+int compare_of_common_root(const NodeGraph& graph, const Node& a, const Node& b,
+                           std::size_t a_steps, std::size_t b_steps) {
+  const bool a_authored = a.origin == a.parent;
+  const bool b_authored = b.origin == b.parent;
+  const std::uint16_t a_depth = a_authored ? std::uint16_t{0} : hierarchy_depth(graph, a.origin);
+  const std::uint16_t b_depth = b_authored ? std::uint16_t{0} : hierarchy_depth(graph, b.origin);
+  if (a_depth != b_depth) {
+    return ascending(a_depth, b_depth);
+  }
+  if (a_steps != b_steps) {
+    return descending(a_steps, b_steps);
+  }
+  const LayerStack* root_stack = graph[0].layer_stack;
+  if (a.layer_stack == root_stack && b.layer_stack == root_stack && !a_authored && !b_authored) {
+    if (const int order = implied_first(graph, a, b)) {
+      return order;
+    }
+  }
+  return tree_order(graph, a.origin, b.origin);
+}
+
+int compare_specializes(const NodeGraph& graph, NodeId a_id, NodeId b_id) {
+  const Node& a = graph[a_id];
+  const Node& b = graph[b_id];
+  const auto [a_root, a_steps] = graph.origin_root(a_id);
+  const auto [b_root, b_steps] = graph.origin_root(b_id);
+  if (!is_below(graph, a_root, b_root) && !is_below(graph, b_root, a_root) &&
+      a.namespace_depth != b.namespace_depth) {
+    return descending(a.namespace_depth, b.namespace_depth);
+  }
+  if (a.origin != b.origin) {
+    return a_root != b_root ? tree_order(graph, a_root, b_root)
+                            : compare_of_common_root(graph, a, b, a_steps, b_steps);
+  }
+  if (a.origin != a.parent) {
+    if (const int order = implied_first(graph, a, b)) {
+      return order;
+    }
+  }
+  return ascending(a.sibling_number, b.sibling_number);
+}
+
+}  // namespace
+
+int compare_siblings(const NodeGraph& graph, NodeId a_id, NodeId b_id) {
+  const Node& a = graph[a_id];
+  const Node& b = graph[b_id];
+  if (a_id == b_id) {
+    return 0;
+  }
+  if (a.arc != b.arc) {
+    return ascending(a.arc, b.arc);
+  }
+  int order = 0;
+  if (a.arc == ArcKind::Specialize) {
+    order = compare_specializes(graph, a_id, b_id);
+  } else if (a.namespace_depth != b.namespace_depth) {
+    order = descending(a.namespace_depth, b.namespace_depth);
+  } else if (a.origin != b.origin) {
+    order = tree_order(graph, a.origin, b.origin);
+  } else {
+    order = ascending(a.sibling_number, b.sibling_number);
+  }
+  return order != 0 ? order : ascending(a_id, b_id);
+}
+
+int compare_nodes(const NodeGraph& graph, NodeId a, NodeId b) {
+  return a == b ? 0 : tree_order(graph, a, b);
+}
+
+}  // namespace tenon::compose
