@@ -49,8 +49,6 @@ class IndexCache {
   const PrimIndex& child_index(const PrimIndex& parent, Token name);
   /// Layers that could not be opened and other errors of layer stacks, in order of discovery.
   const Diagnostics& errors() const;
-  /// Each missing layer once per opinion, in order of discovery.
-  const std::vector<MissingArc>& missing_arcs() const;
   /// Each missing layer once per opinion, in order of discovery (the stage and `info` report them).
   const std::vector<MissingArc>& missing_arcs() const;
   /// All layers opened so far, sorted by identifier.
