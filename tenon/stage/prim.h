@@ -56,6 +56,8 @@ class Prim {
   Prim child(Token name) const;
   Prim prototype() const;          ///< of an instance (or a proxy of one), else invalid
   Prim prim_in_prototype() const;  ///< of an instance proxy
+  /// Another prim of the same stage; invalid when there is none.
+  Prim prim_at(Path path) const;
 
   /// The prim's type is `type` or derived from it, per the schema registry.
   bool is_a(Token type) const;

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <unordered_map>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
 #include "tenon/math/matrix.h"
 #include "tenon/stage/prim.h"
 #include "tenon/stage/time.h"
@@ -22,5 +26,16 @@ Mat4d local_to_world(const Prim& prim, Time time);
 
 /// Times at which any op of the prim or its ancestors has a sample, ascending.
 std::vector<double> transform_samples(const Prim& prim);
+
+/// local_to_world at one time with every prim's result kept: for whole stages.
+class TransformCache {
+ public:
+  explicit TransformCache(Time time) : time_(time) {}
+  const Mat4d& local_to_world(const Prim& prim);
+
+ private:
+  Time time_;
+  std::unordered_map<Path, Mat4d> world_;
+};
 
 }  // namespace tenon::stage

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/stage/attribute.h"
+
+#include "tenon/stage/composed_fields.h"
+#include "tenon/stage/property_facts.h"
+#include "tenon/stage/resolve_value.h"
+#include "tenon/stage/stage_data.h"
+
+namespace tenon::stage {
+
+using layer::Value;
+namespace fields = layer::fields;
+
+namespace {
+
+const schema::PropertyDefinition* stock_definition(const PrimData& prim, Token name) {
+  const schema::PropertyDefinition* found = prim.definition->find_stock(name);
+  return found == nullptr || found->is_relationship ? nullptr : found;
+}
+
+}  // namespace
+
+const schema::PropertyDefinition* Attribute::definition() const {
+  if (prim_ == nullptr) {
+    return nullptr;
+  }
+  const schema::PropertyDefinition* found = prim_->definition->find(name_);
+  return found == nullptr || found->is_relationship ? nullptr : found;
+}
+
+bool Attribute::is_defined() const { return definition() != nullptr || is_authored(); }
+
+bool Attribute::is_authored() const {
+  return prim_ != nullptr && is_authored_as(*prim_, name_, layer::SpecKind::Attribute);
+}
+
+Path Attribute::path() const {
+  return prim_ == nullptr ? Path() : property_path(*prim_, proxy_path_, name_);
+}
+
+Token Attribute::type_name() const {
+  if (prim_ == nullptr) {
+    return {};
+  }
+  if (const schema::PropertyDefinition* declared = stock_definition(*prim_, name_)) {
+    return declared->type_name;
+  }
+  Token result;
+  visit_property_opinions(*prim_, name_, [&](const compose::Opinion& opinion) {
+    result = opinion.spec->get_or<Token>(fields::typeName, Token());
+    return !result.empty();
+  });
+  const schema::PropertyDefinition* declared = definition();
+  return result.empty() && declared != nullptr ? declared->type_name : result;
+}
+
+// Without a declaration the weakest opinion decides, as in OpenUSD.
+layer::Variability Attribute::variability() const {
+  if (prim_ == nullptr) {
+    return layer::Variability::Varying;
+  }
+  if (const schema::PropertyDefinition* declared = stock_definition(*prim_, name_)) {
+    return declared->variability;
+  }
+  const schema::PropertyDefinition* declared = definition();
+  layer::Variability result =
+      declared == nullptr ? layer::Variability::Varying : declared->variability;
+  visit_property_opinions(*prim_, name_, [&](const compose::Opinion& opinion) {
+    result = opinion.spec->get_or(fields::variability, layer::Variability::Varying);
+    return false;
+  });
+  return result;
+}
+
+bool Attribute::is_custom() const {
+  return prim_ != nullptr && stock_definition(*prim_, name_) == nullptr &&
+         any_opinion_is_custom(*prim_, name_);
+}
+
+Value Attribute::get(Time time) const {
+  if (prim_ == nullptr) {
+    return {};
+  }
+  const Asked asked = time.is_default() ? Asked::DefaultTime : Asked::AnyTime;
+  return read_value(*stage_, *prim_, name_, resolve_value(*prim_, name_, asked), time);
+}
+
+Value Attribute::fallback() const {
+  const schema::PropertyDefinition* declared = definition();
+  return declared == nullptr ? Value() : declared->fallback;
+}
+
+ValueSource Attribute::value_source(Time time) const {
+  const Asked asked = time.is_default() ? Asked::DefaultTime : Asked::AnyTime;
+  return prim_ == nullptr ? ValueSource::None : resolve_value(*prim_, name_, asked).source;
+}
+
+bool Attribute::has_authored_value() const {
+  if (prim_ == nullptr) {
+    return false;
+  }
+  const ValueSource source = resolve_value(*prim_, name_, Asked::AnyTime).source;
+  return source != ValueSource::None && source != ValueSource::Fallback;
+}
+
+bool Attribute::is_blocked(Time time) const {
+  const Asked asked = time.is_default() ? Asked::DefaultTime : Asked::AnyTime;
+  return prim_ != nullptr && resolve_value(*prim_, name_, asked).blocked;
+}
+
+std::vector<double> Attribute::time_samples() const {
+  std::vector<double> result;
+  if (prim_ != nullptr) {
+    const ResolvedValue resolved = resolve_value(*prim_, name_, Asked::AnyTime);
+    if (resolved.samples != nullptr) {
+      for (const double time : resolved.samples->times) {
+        result.push_back(resolved.opinion.offset.apply(time));
+      }
+    }
+  }
+  return result;
+}
+
+bool Attribute::is_animated() const {
+  if (prim_ == nullptr) {
+    return false;
+  }
+  const ResolvedValue resolved = resolve_value(*prim_, name_, Asked::AnyTime);
+  return resolved.spline != nullptr ||
+         (resolved.samples != nullptr && resolved.samples->size() > 1);
+}
+
+const layer::Spline* Attribute::spline() const {
+  return prim_ == nullptr ? nullptr : resolve_value(*prim_, name_, Asked::AnyTime).spline;
+}
+
+bool Attribute::has_authored_connections() const {
+  return prim_ != nullptr && has_field(*prim_, name_, fields::connectionPaths);
+}
+
+std::vector<Path> Attribute::connections() const {
+  return prim_ == nullptr ? std::vector<Path>()
+                          : composed_targets(*stage_, *prim_, proxy_path_, name_);
+}
+
+Value Attribute::metadata(Token field) const {
+  if (prim_ == nullptr) {
+    return {};
+  }
+  if (field == fields::typeName) {
+    return type_name();
+  }
+  if (field == fields::variability) {
+    return variability();
+  }
+  if (field == fields::custom) {
+    return is_custom();
+  }
+  const Value authored = compose_field(*stage_, *prim_, property_opinions(*prim_, name_), field);
+  const schema::PropertyDefinition* declared = definition();
+  if (authored.empty() && field == fields::allowedTokens && declared != nullptr &&
+      !declared->allowed_tokens.empty()) {
+    return declared->allowed_tokens;
+  }
+  return authored;
+}
+
+std::map<std::string, Value> Attribute::all_authored_metadata() const {
+  return prim_ == nullptr ? std::map<std::string, Value>()
+                          : compose_metadata(*stage_, *prim_, property_opinions(*prim_, name_));
+}
+
+std::vector<SpecSite> Attribute::spec_stack() const {
+  return prim_ == nullptr ? std::vector<SpecSite>() : property_sites(*prim_, name_);
+}
+
+Diagnostic Attribute::located(Severity severity, std::string rule, std::string message) const {
+  Diagnostic diagnostic;
+  diagnostic.severity = severity;
+  diagnostic.rule = std::move(rule);
+  diagnostic.message = std::move(message);
+  return located_property(prim_, path(), name_, std::move(diagnostic));
+}
+
+}  // namespace tenon::stage

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tenon/compose/prim_index.h"
+#include "tenon/layer/field_values.h"
+#include "tenon/stage/stage_data.h"
+
+/// How the opinions of one field become one value. Internal to tenon/stage.
+namespace tenon::stage {
+
+/// Opinions on a property of a prim, strongest first; those of another spec kind than the strongest
+/// do not count.
+std::vector<compose::Opinion> property_opinions(const PrimData& prim, Token name);
+
+/// Calls `visit(opinion)` for each of them until it returns true.
+template <class Visit>
+void visit_property_opinions(const PrimData& prim, Token name, Visit visit) {
+  layer::SpecKind kind = layer::SpecKind::None;
+  for (const compose::Opinion& opinion : prim.index->opinions) {
+    // A short list is searched faster than a path is made.
+    const auto& names = layer::Layer::children(*opinion.spec, layer::fields::properties);
+    if (names.size() <= 32 && std::find(names.begin(), names.end(), name) == names.end()) {
+      continue;
+    }
+    compose::Opinion found = opinion;
+    found.path = opinion.path.property(name);
+    found.spec = opinion.layer->find(found.path);
+    if (found.spec == nullptr || (kind != layer::SpecKind::None && kind != found.spec->kind)) {
+      continue;
+    }
+    kind = found.spec->kind;
+    if (visit(found)) {
+      return;
+    }
+  }
+}
+
+/// A value as authored, moved to the stage: asset paths resolved, time codes and paths mapped.
+layer::Value localize(const StageData& stage, const PrimData& prim,
+                      const compose::Opinion& opinion, const layer::Value& value);
+
+/// The composed value of a field; empty when no opinion has it. Dictionaries are merged, list edits
+/// combined to an explicit list, else the strongest opinion wins.
+layer::Value compose_field(const StageData& stage, const PrimData& prim,
+                           const std::vector<compose::Opinion>& opinions, Token field);
+
+/// All fields that count as metadata (no values, arcs or lists of children), composed.
+std::map<std::string, layer::Value> compose_metadata(const StageData& stage, const PrimData& prim,
+                                                     const std::vector<compose::Opinion>& opinions);
+
+/// The composed list of a list-edited field.
+template <class T>
+std::vector<T> compose_list(const std::vector<compose::Opinion>& opinions, Token field) {
+  std::vector<T> result;
+  for (auto it = opinions.rbegin(); it != opinions.rend(); ++it) {
+    if (const auto* op = it->spec->get<layer::ListOp<T>>(field)) {
+      op->apply_to(result);
+    }
+  }
+  return result;
+}
+
+}  // namespace tenon::stage

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tenon/layer/field_values.h"
+
+namespace tenon::stage {
+
+/// The spline's value at a time in its own time, of its value type; empty where it has none
+/// (interpolation or extrapolation "none", no knots).
+layer::Value evaluate_spline(const layer::Spline& spline, double time);
+
+}  // namespace tenon::stage

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/stage/interpolate.h"
+
+#include <type_traits>
+
+namespace tenon::stage {
+namespace {
+
+using layer::Value;
+using layer::ValueType;
+
+template <class T>
+  requires std::is_floating_point_v<T> || std::is_same_v<T, Half>
+T mix(const T& a, const T& b, double t) {
+  return T((1 - t) * static_cast<double>(a) + t * static_cast<double>(b));
+}
+template <class T, std::size_t N>
+Vec<T, N> mix(const Vec<T, N>& a, const Vec<T, N>& b, double t) {
+  Vec<T, N> result;
+  for (std::size_t i = 0; i < N; ++i) {
+    result[i] = mix(a[i], b[i], t);
+  }
+  return result;
+}
+template <std::size_t N>
+Matrix<N> mix(const Matrix<N>& a, const Matrix<N>& b, double t) {
+  Matrix<N> result;
+  for (std::size_t i = 0; i < N; ++i) {
+    for (std::size_t j = 0; j < N; ++j) {
+      result[i][j] = mix(a[i][j], b[i][j], t);
+    }
+  }
+  return result;
+}
+template <class T>
+Quat<T> mix(const Quat<T>& a, const Quat<T>& b, double t) {
+  const Quatd q = slerp(to_double(a), to_double(b), t);
+  return {T(q.x), T(q.y), T(q.z), T(q.w)};
+}
+layer::TimeCode mix(layer::TimeCode a, layer::TimeCode b, double t) {
+  return {mix(a.value, b.value, t)};
+}
+
+template <class T>
+Value mix_values(const Value& a, const Value& b, double t) {
+  if (!a.is_array()) {
+    return mix(*a.get<T>(), *b.get<T>(), t);
+  }
+  const auto* from = a.get<layer::Array<T>>();
+  const auto* to = b.get<layer::Array<T>>();
+  if (from == nullptr || to == nullptr || from->size() != to->size()) {
+    return a;
+  }
+  layer::Array<T> result;
+  result.reserve(from->size());
+  for (std::size_t i = 0; i < from->size(); ++i) {
+    result.push_back(mix((*from)[i], (*to)[i], t));
+  }
+  return result;
+}
+
+}  // namespace
+
+Value interpolate(const Value& a, const Value& b, double fraction) {
+  if (a.type() != b.type() || a.is_array() != b.is_array()) {
+    return a;
+  }
+  switch (a.type()) {
+#define TENON_MIX(enumerator, type) \
+  case ValueType::enumerator:       \
+    return mix_values<type>(a, b, fraction);
+    TENON_MIX(Half, Half)
+    TENON_MIX(Float, float)
+    TENON_MIX(Double, double)
+    TENON_MIX(TimeCode, layer::TimeCode)
+    TENON_MIX(Matrix2d, Mat2d)
+    TENON_MIX(Matrix3d, Mat3d)
+    TENON_MIX(Matrix4d, Mat4d)
+    TENON_MIX(Quatd, Quatd)
+    TENON_MIX(Quatf, Quatf)
+    TENON_MIX(Quath, Quath)
+    TENON_MIX(Double2, Vec2d)
+    TENON_MIX(Float2, Vec2f)
+    TENON_MIX(Half2, Vec2h)
+    TENON_MIX(Double3, Vec3d)
+    TENON_MIX(Float3, Vec3f)
+    TENON_MIX(Half3, Vec3h)
+    TENON_MIX(Double4, Vec4d)
+    TENON_MIX(Float4, Vec4f)
+    TENON_MIX(Half4, Vec4h)
+#undef TENON_MIX
+    default:
+      return a;
+  }
+}
+
+Value value_at(const layer::TimeSamples& samples, double time) {
+  const layer::TimeSamples::Bracket bracket = samples.bracket(time);
+  const Value& lower = samples.values[bracket.lower];
+  const double from = samples.times[bracket.lower];
+  const double to = samples.times[bracket.upper];
+  if (bracket.lower == bracket.upper || time == from) {
+    return lower;
+  }
+  const Value& upper = samples.values[bracket.upper];
+  return upper.is_block() ? lower : interpolate(lower, upper, (time - from) / (to - from));
+}
+
+}  // namespace tenon::stage

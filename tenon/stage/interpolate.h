@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tenon/layer/field_values.h"
+
+namespace tenon::stage {
+
+/// The value at `fraction` (0 to 1) of the way from `a` to `b`: linear for floating point types and
+/// their vectors and matrices, spherical for quaternions, arrays of equal size element by element;
+/// anything else holds `a`.
+layer::Value interpolate(const layer::Value& a, const layer::Value& b, double fraction);
+
+/// The value of samples at a time in the samples' own time, which must not be empty; a ValueBlock
+/// where the sample in force is one.
+layer::Value value_at(const layer::TimeSamples& samples, double time);
+
+}  // namespace tenon::stage

@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From prim indexes to the tree of prims. Instances keep their own opinions; what is below them is
+// populated once per instance key, under /__Prototype_N, from the index of the first instance found
+// (depth first). Inactive prims end the walk. An explicit stack keeps deep trees off ours.
+#include "tenon/base/limits.h"
+#include "tenon/schema/kinds.h"
+#include "tenon/stage/composed_fields.h"
+#include "tenon/stage/stage_data.h"
+
+namespace tenon::stage {
+namespace {
+
+using layer::Specifier;
+namespace fields = layer::fields;
+
+const compose::PrimIndex& empty_index() {
+  static const compose::PrimIndex index;
+  return index;
+}
+
+template <class T>
+const T* strongest(const compose::PrimIndex& index, Token field) {
+  for (const compose::Opinion& opinion : index.opinions) {
+    if (const T* value = opinion.spec->get<T>(field)) {
+      return value;
+    }
+  }
+  return nullptr;
+}
+
+// The strongest def or class wins over any over; a class that comes over a direct inherit or
+// specialize arc only where nothing else defines the prim.
+Specifier composed_specifier(const compose::PrimIndex& index) {
+  Specifier result = Specifier::Over;
+  for (const compose::Opinion& opinion : index.opinions) {
+    const auto* specifier = opinion.spec->get<Specifier>(fields::specifier);
+    if (specifier == nullptr || *specifier == Specifier::Over) {
+      continue;
+    }
+    const compose::Node& node = index.nodes[opinion.node];
+    const bool from_class_arc =
+        (node.arc == compose::ArcKind::Inherit || node.arc == compose::ArcKind::Specialize) &&
+        !node.due_to_ancestor;
+    if (*specifier == Specifier::Class && from_class_arc) {
+      result = Specifier::Class;
+      continue;
+    }
+    return *specifier;
+  }
+  return result;
+}
+
+Token composed_type_name(const compose::PrimIndex& index) {
+  static const Token any_type{"__AnyType__"};
+  for (const compose::Opinion& opinion : index.opinions) {
+    const auto* name = opinion.spec->get<Token>(fields::typeName);
+    if (name != nullptr && !name->empty() && *name != any_type) {
+      return *name;
+    }
+  }
+  return {};
+}
+
+std::vector<Token> composed_apis(const compose::PrimIndex& index) {
+  for (const compose::Opinion& opinion : index.opinions) {
+    if (opinion.spec->has(fields::apiSchemas)) {
+      return compose_list<Token>(index.opinions, fields::apiSchemas);
+    }
+  }
+  return {};
+}
+
+class Populator {
+ public:
+  explicit Populator(StageData& data) : data_(data) {}
+
+  void run() {
+    data_.root = &data_.prims.emplace_back();
+    data_.root->path = Path::absolute_root();
+    data_.root->source_path = data_.root->path;
+    data_.root->index = &data_.cache->index(data_.root->path);
+    data_.root->specifier = Specifier::Def;
+    data_.root->definition = data_.definitions.get(Token(), {});
+    data_.by_path.emplace(data_.root->path, data_.root);
+    data_.diagnostics.append(data_.root->index->errors);
+    pending_.push_back(data_.root);
+    while (!pending_.empty()) {
+      PrimData* parent = pending_.back();
+      pending_.pop_back();
+      add_children(*parent);
+    }
+  }
+
+ private:
+  bool included(Path path) const {
+    if (data_.options.mask.empty()) {
+      return true;
+    }
+    for (const Path mask : data_.options.mask) {
+      if (path.has_prefix(mask) || mask.has_prefix(path)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void add_children(PrimData& parent) {
+    const compose::PrimIndex& index = data_.cache->index(parent.source_path);
+    for (const Token name : index.child_names) {
+      const Path path = parent.path.child(name);
+      if (!parent.in_prototype && !included(path)) {
+        continue;
+      }
+      if (data_.prims.size() >= limits::kStagePrims) {
+        return;
+      }
+      add_prim(parent, index, path, parent.in_prototype ? parent.source_path.child(name) : path);
+    }
+    std::vector<PrimData*> next;
+    for (PrimData* child = parent.first_child; child != nullptr; child = child->next_sibling) {
+      PrimData* walked = child->active && child->index->instanceable ? use_prototype(*child) : child;
+      if (child->active && walked != nullptr) {
+        next.push_back(walked);
+      }
+    }
+    // Last in, first out: the first child is walked first.
+    pending_.insert(pending_.end(), next.rbegin(), next.rend());
+  }
+
+  // The prototype when it is new and must be walked.
+  PrimData* use_prototype(PrimData& instance) {
+    const auto [it, inserted] =
+        data_.prototype_of_key.try_emplace(instance.index->instance_key, nullptr);
+    if (inserted) {
+      PrimData& root = data_.prims.emplace_back();
+      const std::string name = "__Prototype_" + std::to_string(data_.prototypes.size() + 1);
+      root.path = Path::absolute_root().child(Token(name));
+      root.source_path = instance.source_path;
+      root.index = &empty_index();
+      root.definition = data_.definitions.get(Token(), {});
+      root.parent = data_.root;
+      root.specifier = Specifier::Def;
+      root.is_prototype_root = true;
+      root.in_prototype = true;
+      data_.by_path.emplace(root.path, &root);
+      data_.prototypes.push_back(&root);
+      it->second = &root;
+    }
+    instance.prototype = it->second;
+    return inserted ? it->second : nullptr;
+  }
+
+  void add_prim(PrimData& parent, const compose::PrimIndex& source, Path path,
+                Path source_path) {
+    PrimData& prim = data_.prims.emplace_back();
+    prim.path = path;
+    prim.source_path = source_path;
+    prim.index = &data_.cache->child_index(source, path.name());
+    prim.parent = &parent;
+    prim.in_prototype = parent.in_prototype;
+    (parent.last_child == nullptr ? parent.first_child : parent.last_child->next_sibling) = &prim;
+    parent.last_child = &prim;
+    data_.by_path.emplace(path, &prim);
+    data_.diagnostics.append(prim.index->errors);
+    set_flags(prim, parent);
+    prim.type_name = composed_type_name(*prim.index);
+    prim.definition = data_.definitions.get(prim.type_name, composed_apis(*prim.index));
+  }
+
+  static void set_flags(PrimData& prim, const PrimData& parent) {
+    const compose::PrimIndex& index = *prim.index;
+    const bool* active = strongest<bool>(index, fields::active);
+    prim.active = active == nullptr || *active;
+    prim.loaded = prim.active && (index.has_payloads ? index.payload_loaded : parent.loaded);
+    prim.specifier = composed_specifier(index);
+    prim.abstract = parent.abstract || prim.specifier == Specifier::Class;
+    prim.defined = parent.defined && prim.specifier != Specifier::Over;
+    prim.model = prim.group = false;
+    if (parent.group) {
+      if (const Token* kind = strongest<Token>(index, fields::kind)) {
+        prim.group = schema::is_kind(*kind, "group");
+        prim.model = prim.group || schema::is_kind(*kind, "model");
+      }
+    }
+  }
+
+  StageData& data_;
+  std::vector<PrimData*> pending_;
+};
+
+}  // namespace
+
+std::size_t DefinitionCache::KeyHash::operator()(const Key& key) const noexcept {
+  std::size_t hash = std::hash<Token>()(key.type);
+  for (const Token api : key.apis) {
+    hash = hash * 1000003u ^ std::hash<Token>()(api);
+  }
+  return hash;
+}
+
+const schema::PrimDefinition* DefinitionCache::get(Token type, const std::vector<Token>& apis) {
+  std::unique_ptr<schema::PrimDefinition>& slot =
+      apis.empty() ? plain_[type] : with_apis_[Key{type, apis}];
+  if (slot == nullptr) {
+    slot = std::make_unique<schema::PrimDefinition>(type, apis);
+  }
+  return slot.get();
+}
+
+void populate(StageData& data) { Populator(data).run(); }
+
+}  // namespace tenon::stage

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a prim's opinions say: property names, metadata, variant sets, and where they stand.
+#include <algorithm>
+#include <set>
+
+#include "tenon/stage/composed_fields.h"
+#include "tenon/stage/prim.h"
+#include "tenon/stage/stage_data.h"
+
+namespace tenon::stage {
+namespace {
+
+namespace fields = layer::fields;
+
+bool authored(const PrimData& prim, Token property) {
+  const std::vector<Token>& names = prim.index->property_names;
+  return std::find(names.begin(), names.end(), property) != names.end();
+}
+
+void put_in_order(const PrimData& prim, std::vector<Token>& names) {
+  std::sort(names.begin(), names.end(),
+            [](Token a, Token b) { return dictionary_less(a.view(), b.view()); });
+  for (const compose::Opinion& opinion : prim.index->opinions) {
+    if (const auto* order = opinion.spec->get<std::vector<Token>>(fields::propertyOrder)) {
+      layer::ListOp<Token>::reorder(names, *order);
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Token> Prim::authored_api_schemas() const {
+  return data_ == nullptr ? std::vector<Token>()
+                          : compose_list<Token>(data_->index->opinions, fields::apiSchemas);
+}
+
+std::vector<Token> Prim::authored_property_names() const {
+  std::vector<Token> names;
+  if (data_ != nullptr) {
+    names = data_->index->property_names;
+    put_in_order(*data_, names);
+  }
+  return names;
+}
+
+std::vector<Token> Prim::property_names() const {
+  std::vector<Token> names;
+  if (data_ == nullptr) {
+    return names;
+  }
+  names = data_->definition->property_names(false);
+  for (const Token name : data_->index->property_names) {
+    if (data_->definition->find_stock(name) == nullptr) {
+      names.push_back(name);
+    }
+  }
+  put_in_order(*data_, names);
+  return names;
+}
+
+bool Prim::has_property(Token name) const {
+  return data_ != nullptr &&
+         (authored(*data_, name) || data_->definition->find(name) != nullptr);
+}
+
+bool Prim::is_relationship(Token name) const {
+  if (data_ == nullptr) {
+    return false;
+  }
+  if (const schema::PropertyDefinition* declared = data_->definition->find_stock(name)) {
+    return declared->is_relationship;
+  }
+  bool result = false;
+  bool found = false;
+  if (authored(*data_, name)) {
+    visit_property_opinions(*data_, name, [&](const compose::Opinion& opinion) {
+      found = true;
+      result = opinion.spec->kind == layer::SpecKind::Relationship;
+      return true;
+    });
+  }
+  const schema::PropertyDefinition* declared = data_->definition->find(name);
+  return found ? result : declared != nullptr && declared->is_relationship;
+}
+
+layer::Value Prim::metadata(Token field) const {
+  if (data_ == nullptr) {
+    return {};
+  }
+  if (field == fields::specifier) {
+    return data_->specifier;
+  }
+  if (field == fields::typeName) {
+    return data_->type_name;
+  }
+  return compose_field(*stage_, *data_, data_->index->opinions, field);
+}
+
+bool Prim::has_authored_metadata(Token field) const {
+  if (data_ != nullptr) {
+    for (const compose::Opinion& opinion : data_->index->opinions) {
+      if (opinion.spec->has(field)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::map<std::string, layer::Value> Prim::all_authored_metadata() const {
+  if (data_ == nullptr) {
+    return {};
+  }
+  std::map<std::string, layer::Value> result =
+      compose_metadata(*stage_, *data_, data_->index->opinions);
+  for (const Token field : {fields::specifier, fields::typeName}) {
+    const auto it = result.find(field.str());
+    if (it != result.end()) {
+      it->second = metadata(field);
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> Prim::variant_set_names() const {
+  return data_ == nullptr ? std::vector<std::string>()
+                          : compose_list<std::string>(data_->index->opinions,
+                                                      fields::variantSetNames);
+}
+
+std::vector<std::string> Prim::variant_names(const std::string& set) const {
+  std::set<std::string> names;
+  if (data_ != nullptr) {
+    for (const compose::Opinion& opinion : data_->index->opinions) {
+      const Path path = opinion.path.variant_selection(Token(set), Token());
+      for (const Token name : opinion.layer->children(path, fields::variantChildren)) {
+        names.insert(name.str());
+      }
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+std::string Prim::variant_selection(const std::string& set) const {
+  if (data_ == nullptr) {
+    return {};
+  }
+  const auto it = data_->index->variant_selections.find(set);
+  return it == data_->index->variant_selections.end() ? std::string() : it->second;
+}
+
+std::vector<SpecSite> Prim::spec_stack() const {
+  std::vector<SpecSite> result;
+  if (data_ != nullptr) {
+    for (const compose::Opinion& opinion : data_->index->opinions) {
+      result.push_back({opinion.layer, opinion.path, opinion.spec});
+    }
+  }
+  return result;
+}
+
+Diagnostic Prim::located(Severity severity, std::string rule, std::string message) const {
+  Diagnostic diagnostic;
+  diagnostic.severity = severity;
+  diagnostic.rule = std::move(rule);
+  diagnostic.message = std::move(message);
+  diagnostic.prim = path().str();
+  if (data_ != nullptr && !data_->index->opinions.empty()) {
+    const compose::Opinion& opinion = data_->index->opinions.front();
+    diagnostic.file = opinion.layer->identifier();
+    diagnostic.line = opinion.spec->line;
+    diagnostic.column = opinion.spec->column;
+  }
+  return diagnostic;
+}
+
+}  // namespace tenon::stage

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/stage/property_facts.h"
+
+#include <algorithm>
+
+#include "tenon/compose/targets.h"
+#include "tenon/stage/composed_fields.h"
+
+namespace tenon::stage {
+namespace {
+
+namespace fields = layer::fields;
+
+// Where the source of a prototype is seen from a prim: longest source first.
+using SourceMap = std::vector<std::pair<Path, Path>>;
+
+SourceMap source_map(const StageData& stage, const PrimData& prim, Path proxy_path) {
+  SourceMap map;
+  Prim at = stage.find(proxy_path.empty() ? prim.path : proxy_path);
+  if (at.is_instance()) {
+    at = at.parent();
+  }
+  for (; at && !at.is_pseudo_root(); at = at.parent()) {
+    if (!at.is_instance() && !at.is_prototype()) {
+      continue;
+    }
+    const Path prototype = at.is_instance() ? at.prototype().path() : at.path();
+    map.emplace_back(stage.by_path.at(prototype)->source_path, at.path());
+  }
+  return map;
+}
+
+Path translated(const SourceMap& map, Path target) {
+  const std::pair<Path, Path>* best = nullptr;
+  for (const auto& pair : map) {
+    if (target.has_prefix(pair.first) &&
+        (best == nullptr || pair.first.depth() > best->first.depth())) {
+      best = &pair;
+    }
+  }
+  return best == nullptr ? target : target.replace_prefix(best->first, best->second);
+}
+
+}  // namespace
+
+bool is_authored_as(const PrimData& prim, Token name, layer::SpecKind kind) {
+  const std::vector<Token>& names = prim.index->property_names;
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    return false;
+  }
+  bool result = false;
+  visit_property_opinions(prim, name, [&](const compose::Opinion& opinion) {
+    result = opinion.spec->kind == kind;
+    return true;
+  });
+  return result;
+}
+
+bool any_opinion_is_custom(const PrimData& prim, Token name) {
+  bool result = false;
+  visit_property_opinions(prim, name, [&](const compose::Opinion& opinion) {
+    result = opinion.spec->get_or(fields::custom, false);
+    return result;
+  });
+  return result;
+}
+
+bool has_field(const PrimData& prim, Token name, Token field) {
+  bool result = false;
+  visit_property_opinions(prim, name, [&](const compose::Opinion& opinion) {
+    result = opinion.spec->has(field);
+    return result;
+  });
+  return result;
+}
+
+Path property_path(const PrimData& prim, Path proxy_path, Token name) {
+  return (proxy_path.empty() ? prim.path : proxy_path).property(name);
+}
+
+std::vector<SpecSite> property_sites(const PrimData& prim, Token name) {
+  std::vector<SpecSite> result;
+  visit_property_opinions(prim, name, [&](const compose::Opinion& opinion) {
+    result.push_back({opinion.layer, opinion.path, opinion.spec});
+    return false;
+  });
+  return result;
+}
+
+std::vector<Path> composed_targets(const StageData& stage, const PrimData& prim, Path proxy_path,
+                                   Token name) {
+  std::vector<Path> paths = compose::compose_targets(*stage.cache, *prim.index, name).paths;
+  if (paths.empty() || !prim.in_prototype) {
+    return paths;
+  }
+  const SourceMap map = source_map(stage, prim, proxy_path);
+  for (Path& path : paths) {
+    path = translated(map, path);
+  }
+  return paths;
+}
+
+Diagnostic located_property(const PrimData* prim, Path path, Token name, Diagnostic diagnostic) {
+  diagnostic.prim = path.parent().str();
+  diagnostic.property = name.str();
+  if (prim == nullptr) {
+    return diagnostic;
+  }
+  std::vector<SpecSite> sites = property_sites(*prim, name);
+  if (sites.empty() && !prim->index->opinions.empty()) {
+    const compose::Opinion& opinion = prim->index->opinions.front();
+    sites.push_back({opinion.layer, opinion.path, opinion.spec});
+  }
+  if (!sites.empty()) {
+    diagnostic.file = sites.front().layer->identifier();
+    diagnostic.line = sites.front().spec->line;
+    diagnostic.column = sites.front().spec->column;
+  }
+  return diagnostic;
+}
+
+}  // namespace tenon::stage

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/stage/spec_site.h"
+#include "tenon/stage/stage_data.h"
+
+/// What attributes and relationships have in common. Internal to tenon/stage.
+namespace tenon::stage {
+
+bool is_authored_as(const PrimData& prim, Token name, layer::SpecKind kind);
+bool any_opinion_is_custom(const PrimData& prim, Token name);
+bool has_field(const PrimData& prim, Token name, Token field);
+Path property_path(const PrimData& prim, Path proxy_path, Token name);
+std::vector<SpecSite> property_sites(const PrimData& prim, Token name);
+
+/// Targets or connections in the stage's namespace; those inside instances as the prim, prototype
+/// or proxy sees them.
+std::vector<Path> composed_targets(const StageData& stage, const PrimData& prim, Path proxy_path,
+                                   Token name);
+
+/// `diagnostic` with the place of the property's strongest opinion, else of the prim's.
+Diagnostic located_property(const PrimData* prim, Path path, Token name, Diagnostic diagnostic);
+
+}  // namespace tenon::stage

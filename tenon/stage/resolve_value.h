@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tenon/stage/attribute.h"
+#include "tenon/stage/composed_fields.h"
+#include "tenon/stage/stage_data.h"
+
+/// Which opinion gives an attribute its value. Internal to tenon/stage.
+namespace tenon::stage {
+
+struct ResolvedValue {
+  ValueSource source = ValueSource::None;
+  bool blocked = false;                         ///< a ValueBlock ended the search
+  compose::Opinion opinion;                     ///< of Default, TimeSamples and Spline
+  const layer::Value* value = nullptr;          ///< of Default
+  const layer::TimeSamples* samples = nullptr;  ///< of TimeSamples, in the layer's time
+  const layer::Spline* spline = nullptr;        ///< of Spline, in the layer's time
+};
+
+enum class Asked : unsigned char { DefaultTime, AnyTime };
+
+/// Strongest to weakest layer: time samples, then spline, then default; at the default time only
+/// defaults. Fallback when a schema has one and nothing is authored (also when blocked).
+ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked);
+
+/// The value of what was resolved, in the stage's terms; empty when blocked or nowhere.
+layer::Value read_value(const StageData& stage, const PrimData& prim, Token name,
+                        const ResolvedValue& resolved, Time time);
+
+}  // namespace tenon::stage

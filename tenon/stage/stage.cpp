@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/stage/stage.h"
+
+#include "tenon/stage/composed_fields.h"
+#include "tenon/stage/stage_data.h"
+
+namespace tenon::stage {
+namespace {
+
+using layer::Value;
+namespace fields = layer::fields;
+
+// What OpenUSD takes when neither layer authors the field.
+Value registered_fallback(Token field) {
+  if (field == fields::upAxis) {
+    return Token("Y");
+  }
+  if (field == fields::metersPerUnit) {
+    return 0.01;
+  }
+  if (field == fields::kilogramsPerUnit) {
+    return 1.0;
+  }
+  if (field == fields::timeCodesPerSecond || field == fields::framesPerSecond) {
+    return 24.0;
+  }
+  if (field == fields::startTimeCode || field == fields::endTimeCode) {
+    return 0.0;
+  }
+  return {};
+}
+
+std::vector<compose::Opinion> root_opinions(const StageData& data) {
+  std::vector<compose::Opinion> result;
+  const compose::LayerStack& stack = *data.cache->layer_stack();
+  for (const layer::LayerPtr& layer : {stack.session, stack.root}) {
+    if (layer != nullptr) {
+      compose::Opinion opinion;
+      opinion.layer = layer.get();
+      opinion.spec = &layer->root();
+      opinion.path = Path::absolute_root();
+      result.push_back(opinion);
+    }
+  }
+  return result;
+}
+
+double number(const Value& value) {
+  if (const double* x = value.get<double>()) {
+    return *x;
+  }
+  return value.get_or<float>(0);
+}
+
+}  // namespace
+
+Prim StageData::find(Path path) const {
+  if (path.empty() || !path.is_absolute()) {
+    return {};
+  }
+  std::vector<Token> below;
+  for (Path at = path; !at.empty(); at = at.parent()) {
+    const auto it = by_path.find(at);
+    if (it == by_path.end()) {
+      if (!at.is_prim()) {
+        return {};
+      }
+      below.push_back(at.name());
+      continue;
+    }
+    if (!below.empty() && !it->second->is_instance()) {
+      return {};
+    }
+    Prim prim(this, it->second);
+    for (auto name = below.rbegin(); name != below.rend() && prim; ++name) {
+      prim = prim.child(*name);
+    }
+    return prim;
+  }
+  return {};
+}
+
+Stage::Stage(std::unique_ptr<StageData> data) : data_(std::move(data)) {}
+Stage::Stage(Stage&&) noexcept = default;
+Stage& Stage::operator=(Stage&&) noexcept = default;
+Stage::~Stage() = default;
+
+Result<Stage> Stage::open(layer::LayerPtr root, layer::LayerPtr session,
+                          compose::LayerOpener opener, StageOptions options) {
+  if (root == nullptr) {
+    return Error(ErrorCode::Invalid, "a stage needs a root layer");
+  }
+  auto data = std::make_unique<StageData>();
+  data->options = std::move(options);
+  data->cache = std::make_unique<compose::IndexCache>(
+      std::move(root), std::move(session), std::move(opener), data->options.compose);
+  populate(*data);
+  Diagnostics all = data->cache->errors();
+  all.append(data->diagnostics);
+  data->diagnostics = std::move(all);
+  return Stage(std::move(data));
+}
+
+Prim Stage::pseudo_root() const { return Prim(data_.get(), data_->root); }
+
+Prim Stage::prim(Path path) const { return data_->find(path); }
+
+Prim Stage::default_prim() const {
+  const Token name = root_layer().default_prim();
+  if (name.empty()) {
+    return {};
+  }
+  const auto path = Path::parse(name.view().front() == '/' ? name.str() : "/" + name.str());
+  return path ? prim(*path) : Prim();
+}
+
+std::vector<Prim> Stage::prototypes() const {
+  std::vector<Prim> result;
+  for (const PrimData* prototype : data_->prototypes) {
+    result.push_back(Prim(data_.get(), prototype));
+  }
+  return result;
+}
+
+const layer::Layer& Stage::root_layer() const { return *data_->cache->layer_stack()->root; }
+
+const layer::Layer* Stage::session_layer() const {
+  return data_->cache->layer_stack()->session.get();
+}
+
+const compose::LayerStack& Stage::layer_stack() const { return *data_->cache->layer_stack(); }
+
+std::vector<layer::LayerPtr> Stage::used_layers() const { return data_->cache->used_layers(); }
+
+const std::vector<compose::MissingArc>& Stage::missing_arcs() const {
+  return data_->cache->missing_arcs();
+}
+
+const Diagnostics& Stage::diagnostics() const { return data_->diagnostics; }
+
+double Stage::start_time_code() const {
+  return has_authored_metadata(fields::startTimeCode) ? number(metadata(fields::startTimeCode))
+                                                      : number(metadata(fields::startFrame));
+}
+
+double Stage::end_time_code() const {
+  return has_authored_metadata(fields::endTimeCode) ? number(metadata(fields::endTimeCode))
+                                                    : number(metadata(fields::endFrame));
+}
+
+// Core Spec 1.0.1 on stage metadata: framesPerSecond stands in for timeCodesPerSecond.
+double Stage::time_codes_per_second() const {
+  for (const compose::Opinion& opinion : root_opinions(*data_)) {
+    for (const Token field : {fields::timeCodesPerSecond, fields::framesPerSecond}) {
+      if (const Value* value = opinion.spec->find(field)) {
+        return number(*value);
+      }
+    }
+  }
+  return 24;
+}
+
+double Stage::frames_per_second() const { return number(metadata(fields::framesPerSecond)); }
+
+Value Stage::metadata(Token field) const {
+  const Value authored = compose_field(*data_, *data_->root, root_opinions(*data_), field);
+  return authored.empty() ? registered_fallback(field) : authored;
+}
+
+bool Stage::has_authored_metadata(Token field) const {
+  for (const compose::Opinion& opinion : root_opinions(*data_)) {
+    if (opinion.spec->has(field)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::map<std::string, Value> Stage::all_authored_metadata() const {
+  return compose_metadata(*data_, *data_->root, root_opinions(*data_));
+}
+
+}  // namespace tenon::stage

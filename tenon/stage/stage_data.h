@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "tenon/compose/index_cache.h"
+#include "tenon/layer/field_values.h"
+#include "tenon/schema/registry.h"
+#include "tenon/stage/stage.h"
+
+/// What the handles point into. Internal to tenon/stage.
+namespace tenon::stage {
+
+/// One populated prim. Prims below an instance exist once, in its prototype.
+struct PrimData {
+  Path path;         ///< in the stage; below /__Prototype_N in prototypes
+  Path source_path;  ///< what `index` was computed for: `path` outside of prototypes
+  const compose::PrimIndex* index = nullptr;  ///< without opinions for prototype roots
+  const schema::PrimDefinition* definition = nullptr;
+  PrimData* parent = nullptr;
+  PrimData* first_child = nullptr;
+  PrimData* last_child = nullptr;
+  PrimData* next_sibling = nullptr;
+  const PrimData* prototype = nullptr;  ///< of instances
+  Token type_name;
+  layer::Specifier specifier = layer::Specifier::Over;
+  bool active = true;
+  bool loaded = true;
+  bool defined = true;
+  bool abstract = false;
+  bool model = true;
+  bool group = true;
+  bool is_prototype_root = false;
+  bool in_prototype = false;
+
+  bool is_instance() const { return prototype != nullptr; }
+};
+
+/// Definitions shared by all prims of one type and one list of API schemas.
+class DefinitionCache {
+ public:
+  const schema::PrimDefinition* get(Token type, const std::vector<Token>& apis);
+
+ private:
+  struct Key {
+    Token type;
+    std::vector<Token> apis;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const noexcept;
+  };
+  std::unordered_map<Token, std::unique_ptr<schema::PrimDefinition>> plain_;
+  std::unordered_map<Key, std::unique_ptr<schema::PrimDefinition>, KeyHash> with_apis_;
+};
+
+struct StageData {
+  StageOptions options;
+  std::unique_ptr<compose::IndexCache> cache;
+  std::deque<PrimData> prims;
+  std::unordered_map<Path, PrimData*> by_path;
+  PrimData* root = nullptr;
+  std::vector<PrimData*> prototypes;
+  std::unordered_map<std::string, PrimData*> prototype_of_key;
+  DefinitionCache definitions;
+  Diagnostics diagnostics;
+
+  /// The handle at an absolute prim path, proxies included; invalid when there is none.
+  Prim find(Path path) const;
+};
+
+/// Fills `data` from its cache: every prim that the mask includes, prototypes once each.
+void populate(StageData& data);
+
+}  // namespace tenon::stage
