@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "tenon/base/result.h"
+#include "tenon/formats/open_layer.h"
+#include "tenon/layer/layer.h"
+
+namespace tenon::formats {
+
+/// "usda", "usdc" or "usdz" (with or without a dot); ErrorCode::Invalid for anything else.
+Result<LayerFormat> layer_format_named(std::string_view name);
+/// By the name's ending: .usda text, .usdc and .usd crate, .usdz package.
+Result<LayerFormat> layer_format_for(std::string_view path);
+
+/// The bytes of a file that holds the layer. A package holds it alone, as a crate.
+Result<std::string> encode_layer(const layer::Layer& layer, LayerFormat format);
+
+/// Writes the layer to `path` in the format that its ending names, in one step (the old file or the
+/// new one, whole).
+Result<void> save_layer(const layer::Layer& layer, const std::string& path);
+
+}  // namespace tenon::formats
