@@ -1,0 +1,295 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the benchmarks beside usd-core and prints a table; see bench/README.md.
+
+Usage: run.py [NAME...] [--build DIR] [--rounds N] [--record] [--smoke]
+Exit 0: all ran, whatever the times; 1: a program failed or the two sides counted differently.
+"""
+
+import argparse
+import functools
+import importlib.util
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+
+import machine
+
+BENCH = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(BENCH)
+HAND = os.path.join(ROOT, "examples/inspire_hand/inspire_hand.usda")
+GRASP = os.path.join(ROOT, "examples/inspire_hand/grasp.usda")
+SHARED = os.environ.get("TENON_SHARED_DIR", os.path.join(os.path.dirname(ROOT), "shared"))
+ISAAC_HAND = os.path.join(SHARED, "assets/inspire_hand_isaac/inspire_hand.usda")
+DUMP_SCRIPT = os.path.join(SHARED, "tools/dump_stage.py")
+PEER = [sys.executable, "-B", os.path.join(BENCH, "usd_core.py")]
+
+# What the two sides call the same work; `*` marks peers that also measure Python.
+LAYER_ROWS = [
+    ("parse", "parse", ""),
+    ("compose", "compose", ""),
+    ("traverse", "traverse", "*"),
+    ("read_attributes", "read_attributes", "*"),
+]
+ASSET_ROWS = [
+    ("open", "open", ""),
+    ("read_attributes", "read_attributes", "*"),
+    ("dump", "flatten", ""),
+    ("dump", "dump", "*"),
+]
+
+
+class Failure(Exception):
+    pass
+
+
+class Workload:
+    """One program of ours and the peer's program, on one file."""
+
+    def __init__(self, name, ours, peer, rows, repeats=3):
+        self.name, self.ours, self.peer, self.rows = name, ours, peer, rows
+        self.repeats = repeats
+
+
+def run_lines(command, cpu=None, threads=1):
+    """Runs a command; -> its JSON lines."""
+    environment = dict(os.environ)
+    if threads:
+        environment["PXR_WORK_THREAD_LIMIT"] = str(threads)
+    pin = functools.partial(os.sched_setaffinity, 0, {cpu}) if cpu is not None else None
+    done = subprocess.run(command, env=environment, preexec_fn=pin, capture_output=True, text=True)
+    if done.returncode != 0:
+        tail = "\n".join((done.stdout + done.stderr).strip().split("\n")[-12:])
+        raise Failure(f"{' '.join(command)}: exit {done.returncode}\n{tail}")
+    return [json.loads(line) for line in done.stdout.split("\n") if line.startswith("{")]
+
+
+class Figures:
+    """Laps by phase, counts and peak memory of one side, over all rounds."""
+
+    def __init__(self):
+        self.phases, self.counts, self.peak = {}, {}, 0
+
+    def add(self, lines):
+        for line in lines:
+            if "phase" in line:
+                self.phases.setdefault(line["phase"], []).append(line)
+            elif "count" in line:
+                self.counts[line["count"]] = line["value"]
+            elif "peak_rss_mb" in line:
+                self.peak = max(self.peak, line["peak_rss_mb"])
+
+    def median(self, phase, clock):
+        """Median over the rounds of the median of a round [s]; None for an unknown phase."""
+        rounds = self.phases.get(phase)
+        if not rounds:
+            return None
+        return statistics.median(statistics.median(line[clock]) for line in rounds)
+
+
+class Bench:
+    def __init__(self, arguments):
+        self.arguments = arguments
+        self.programs = os.path.join(arguments.build, "bin/bench")
+        self.scenes = os.path.join(arguments.build, "bench_scenes")
+        self.peer = importlib.util.find_spec("pxr") is not None
+        self.cpu = max(os.sched_getaffinity(0))
+        self.rows, self.failures = [], []
+
+    def program(self, name):
+        return os.path.join(self.programs, name)
+
+    def scene(self, name):
+        return os.path.join(self.scenes, name)
+
+    def make_scenes(self):
+        size = ["--tiny"] if self.arguments.smoke else []
+        run_lines([self.program("make_scenes"), self.scenes, *size])
+        if self.peer:
+            for name in ("prims", "physics", "mesh"):
+                files = [self.scene(name + suffix) for suffix in (".usda", ".usdc")]
+                run_lines([*PEER, "convert", *files])
+
+    def add_row(self, workload, label, ours, peer, peer_threads=None, note="", unit=1e3):
+        self.rows.append(
+            {"workload": workload, "phase": label, "tenon_ms": ours and ours * unit,
+             "peer_ms": peer and peer * unit, "peer_threads_ms": peer_threads and
+             peer_threads * unit, "ratio": ours / peer if ours and peer else None, "note": note})
+
+    def measure(self, work):
+        """A B A B ... on one processor; in a last column the peer with all its threads."""
+        ours, peer, threaded = Figures(), Figures(), Figures()
+        repeats = ["--repeats", "1" if self.arguments.smoke else str(work.repeats)]
+        for number in range(self.arguments.rounds):
+            ours.add(run_lines([*work.ours, *repeats], self.cpu))
+            if self.peer and work.peer:
+                peer.add(run_lines([*PEER, *work.peer, *repeats], self.cpu))
+                if number == 0 and not self.arguments.smoke:
+                    threaded.add(run_lines([*PEER, *work.peer, *repeats], None, None))
+        self.compare_counts(work.name, ours.counts, peer.counts)
+        clock = self.arguments.clock
+        for own, other, note in work.rows:
+            if ours.median(own, clock) is None:
+                raise Failure(f"{work.name}: no phase {own}")
+            label = own if own == other else f"{own} : {other}"
+            if other not in peer.phases and own != other:
+                continue
+            self.add_row(work.name, label, ours.median(own, clock), peer.median(other, clock),
+                         threaded.median(other, "wall"), note)
+        self.rows.append({"workload": work.name, "phase": "peak memory", "tenon_mb": ours.peak,
+                          "peer_mb": peer.peak or None,
+                          "ratio": ours.peak / peer.peak if peer.peak else None})
+
+    def compare_counts(self, name, ours, peer):
+        for key in sorted(ours.keys() & peer.keys()):
+            if ours[key] != peer[key]:
+                self.failures.append(f"{name}: {key}: tenon {ours[key]:g}, usd-core {peer[key]:g}")
+
+    def measure_steps(self, name, *arguments):
+        """Steps through our interface and through plain C calls, in one process."""
+        figures = Figures()
+        tiny = ["--chunk", "5", "--chunks", "2"] if self.arguments.smoke else []
+        for _ in range(self.arguments.rounds):
+            figures.add(run_lines([self.program("step_mujoco"), *arguments, *tiny], self.cpu))
+        steps = figures.counts["steps_per_lap"]
+        clock = self.arguments.clock
+        ours, plain = (figures.median(key, clock) / steps for key in ("tenon", "plain"))
+        # Neighbours in time are compared, so that a machine that slows down does so for both.
+        ratios = [a / b for our_lines, plain_lines in
+                  zip(figures.phases["tenon"], figures.phases["plain"])
+                  for a, b in zip(our_lines[clock], plain_lines[clock])]
+        self.add_row(name, "one step [us]", ours, plain, note="plain MuJoCo", unit=1e6)
+        self.rows[-1]["ratio"] = statistics.median(ratios)
+        self.rows[-1]["steps_per_second"] = 1 / ours
+
+    def measure_processes(self, name, ours, peer, note):
+        """Whole processes, start and imports included."""
+        laps = {0: [], 1: []}
+        for _ in range(self.arguments.rounds):
+            for side, command in enumerate((ours, peer)):
+                if command and (side == 0 or self.peer):
+                    start = time.perf_counter()
+                    run_lines(command, self.cpu)
+                    laps[side].append(time.perf_counter() - start)
+        medians = [statistics.median(laps[side]) if laps[side] else None for side in (0, 1)]
+        self.add_row(name, "process", *medians, note=note)
+
+
+def layer_workloads(bench):
+    program, scene = bench.program, bench.scene
+    yield Workload("open_text", [program("open_text"), scene("prims.usda")],
+                   ["one_layer", scene("prims.usda")], LAYER_ROWS)
+    if bench.peer:  # which also made the binary layers
+        for name, file in (("open_crate", "prims.usdc"), ("open_mesh_crate", "mesh.usdc")):
+            yield Workload(name, [program("open_crate"), scene(file)],
+                           ["one_layer", scene(file)], LAYER_ROWS)
+    yield Workload("open_mesh_text", [program("open_text"), scene("mesh.usda")],
+                   ["one_layer", scene("mesh.usda")], LAYER_ROWS)
+
+
+def workloads(bench):
+    program, scene = bench.program, bench.scene
+    yield from layer_workloads(bench)
+    for name in ("fleet", "instances"):
+        yield Workload(f"compose_{name}", [program("compose_many"), scene(name + ".usda")],
+                       ["compose", scene(name + ".usda")], LAYER_OPEN_ROWS)
+    yield Workload("read_physics", [program("read_physics"), scene("physics.usda")],
+                   ["physics", scene("physics.usda")],
+                   [("open", "open", ""), ("physics", "physics", "")])
+    script = ["--dump-script", DUMP_SCRIPT] if os.path.exists(DUMP_SCRIPT) else []
+    for name, file in (("open_hand", HAND), ("open_isaac_hand", ISAAC_HAND)):
+        if os.path.exists(file):
+            yield Workload(name, [program("open_hand"), file], ["asset", file, *script],
+                           ASSET_ROWS, repeats=10)
+
+
+LAYER_OPEN_ROWS = [("open", "open", ""), ("traverse", "traverse", "*")]
+
+
+def process_tasks(bench):
+    tenon = os.path.join(bench.arguments.build, "bin/tenon")
+    if not os.path.exists(tenon):
+        return
+    for name, file in (("hand", HAND), ("isaac_hand", ISAAC_HAND)):
+        if not os.path.exists(file):
+            continue
+        yield (f"info_{name}", bench.measure_processes, [tenon, "--json", "info", file],
+               [*PEER, "asset", file], "open only, Python's start included")
+        if os.path.exists(DUMP_SCRIPT):
+            yield (f"dump_{name}", bench.measure_processes, [tenon, "dump", file, "-o", os.devnull],
+                   [sys.executable, "-B", DUMP_SCRIPT, file, "-o", os.devnull], "*")
+
+
+def tasks(bench):
+    """-> (name, function, arguments...)"""
+    for work in workloads(bench):
+        yield work.name, lambda name, work=work: bench.measure(work)
+    if os.path.exists(bench.program("step_mujoco")):
+        yield "step_hand", bench.measure_steps, HAND
+        yield "step_grasp", bench.measure_steps, GRASP
+        if os.path.exists(ISAAC_HAND):
+            yield "step_isaac_hand", bench.measure_steps, ISAAC_HAND
+    yield from process_tasks(bench)
+
+
+def number(value, form="10.3f"):
+    return " " * int(form.split(".")[0]) if value is None else f"{value:{form}}"
+
+
+def print_table(bench):
+    titles = ("tenon", "usd-core", "ratio", "threads")
+    print(f"\n{'workload':<18}{'phase':<22}" + "".join(f"{title:>10}" for title in titles))
+    for row in bench.rows:
+        if row["phase"] == "peak memory":
+            ours, peer, unit = row["tenon_mb"], row["peer_mb"], "MB"
+        else:
+            ours, peer, unit = row["tenon_ms"], row["peer_ms"], row.get("note", "")
+        print(f"{row['workload']:<18}{row['phase']:<22}{number(ours)}{number(peer)}"
+              f"{number(row['ratio'])}{number(row.get('peer_threads_ms'))}  {unit}")
+    print("\nmilliseconds; ratio below 1: tenon is faster. threads: usd-core with all its threads."
+          "\n*: usd-core's figure also measures Python. compose, parse, flatten, physics do not.")
+
+
+def read_command_line():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("names", nargs="*", help="only workloads whose name begins so")
+    parser.add_argument("--build", default=os.path.join(ROOT, "build/bench"))
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--clock", choices=("wall", "cpu"), default="wall",
+                        help="cpu: steadier on a busy machine")
+    parser.add_argument("--record", action="store_true", help="write bench/results/<machine>.json")
+    parser.add_argument("--smoke", action="store_true", help="tiny inputs, once; for ctest")
+    arguments = parser.parse_args()
+    if arguments.smoke:
+        arguments.rounds = 1
+    return arguments
+
+
+def main():
+    arguments = read_command_line()
+    bench = Bench(arguments)
+    if not bench.peer:
+        print("usd-core is not installed: no ratios and no binary scenes (tools/make_oracle.sh)")
+    bench.make_scenes()
+    for name, function, *rest in tasks(bench):
+        if arguments.names and not name.startswith(tuple(arguments.names)):
+            continue
+        print(name, flush=True)
+        try:
+            function(name, *rest)
+        except Failure as failure:
+            bench.failures.append(f"{name}: {failure}")
+    print_table(bench)
+    for failure in bench.failures:
+        print("FAILED", failure)
+    if arguments.record:
+        print("wrote", machine.record(ROOT, arguments, bench.rows))
+    return 1 if bench.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""The same work through usd-core (OpenUSD's Python wheel), in the same JSON lines.
+
+Usage: usd_core.py WORK FILE [--repeats N] [--dump-script FILE]
+       usd_core.py convert FROM TO
+
+WORK: one_layer | compose | asset | physics. Imports are not timed. The phases parse, compose, open,
+flatten and physics run in OpenUSD's C++; traverse, read_attributes and dump also measure Python.
+"""
+
+import argparse
+import gc
+import importlib.util
+import json
+import os
+import resource
+import sys
+import time
+import warnings
+
+from pxr import Sdf, Usd, UsdGeom, UsdPhysics  # UsdGeom: its schemas count as loaded for tenon, too
+
+VISITED = Usd.PrimDefaultPredicate
+WITH_PROXIES = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
+
+
+class Report:
+    def __init__(self, workload):
+        self.workload = workload
+        self.phases, self.counts = {}, {}
+
+    def time(self, phase, call):
+        cpu, wall = time.process_time(), time.perf_counter()
+        result = call()
+        wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
+        laps = self.phases.setdefault(phase, {"wall": [], "cpu": []})
+        laps["wall"].append(wall)
+        laps["cpu"].append(cpu)
+        return result
+
+    def print(self):
+        head = {"workload": self.workload}
+        for phase, laps in self.phases.items():
+            print(json.dumps({**head, "phase": phase, **laps}))
+        for name, value in self.counts.items():
+            print(json.dumps({**head, "count": name, "value": value}))
+        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+        print(json.dumps({**head, "peak_rss_mb": round(peak, 1)}))
+
+
+def time_traverse(report, stage, predicate):
+    prims = report.time("traverse", lambda: list(stage.Traverse(predicate)))
+    report.counts["prims"] = len(prims)
+    return prims
+
+
+def read_attributes(prims):
+    attributes = values = 0
+    for prim in prims:
+        for attribute in prim.GetAuthoredAttributes():
+            attributes += 1
+            values += attribute.Get() is not None
+    return attributes, values
+
+
+def time_attributes(report, prims):
+    counts = report.time("read_attributes", lambda: read_attributes(prims))
+    report.counts["attributes"], report.counts["values"] = counts
+
+
+def one_layer(report, file, _):
+    layer = report.time("parse", lambda: Sdf.Layer.FindOrOpen(file))
+    stage = report.time("compose", lambda: Usd.Stage.Open(layer))
+    time_attributes(report, time_traverse(report, stage, VISITED))
+
+
+def compose(report, file, _):
+    stage = report.time("open", lambda: Usd.Stage.Open(file))
+    time_traverse(report, stage, WITH_PROXIES)
+
+
+def asset(report, file, dumper):
+    stage = report.time("open", lambda: Usd.Stage.Open(file))
+    time_attributes(report, time_traverse(report, stage, WITH_PROXIES))
+    report.time("flatten", lambda: stage.Flatten().ExportToString())
+    if dumper:
+        report.time("dump", lambda: dumper(stage))
+
+
+def physics(report, file, _):
+    stage = report.time("open", lambda: Usd.Stage.Open(file))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the range form is deprecated; the other one is as fast
+        found = report.time("physics", lambda: UsdPhysics.LoadUsdPhysicsFromRange(stage, ["/"]))
+    count = {str(kind).rsplit(".", 1)[-1]: len(paths) for kind, (paths, _) in found.items()}
+    report.counts["bodies"] = count.get("RigidBody", 0)
+    report.counts["colliders"] = sum(n for kind, n in count.items() if kind.endswith("Shape"))
+    report.counts["joints"] = sum(n for kind, n in count.items() if kind.endswith("Joint"))
+
+
+WORKS = {work.__name__: work for work in (one_layer, compose, asset, physics)}
+
+
+def dumper_of(script):
+    """-> function(stage) -> text, of a dump script with a class Dumper; None without a script."""
+    if not script:
+        return None
+    spec = importlib.util.spec_from_file_location("dump_stage", script)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    options = argparse.Namespace(builtins=False, stacks=False, xforms=False, full_arrays=256)
+    return lambda stage: json.dumps(module.Dumper(stage, options).run(), indent=1)
+
+
+def convert(source, target):
+    layer = Sdf.Layer.FindOrOpen(source)
+    return 0 if layer and layer.Export(target) else 1
+
+
+def main():
+    if sys.argv[1:2] == ["convert"]:
+        return convert(*sys.argv[2:4])
+    parser = argparse.ArgumentParser()
+    parser.add_argument("work", choices=WORKS)
+    parser.add_argument("file")
+    parser.add_argument("--repeats", type=int, default=1)
+    parser.add_argument("--dump-script")
+    arguments = parser.parse_args()
+    report = Report(arguments.work)
+    dumper = dumper_of(arguments.dump_script)
+    gc.disable()
+    for _ in range(arguments.repeats):
+        WORKS[arguments.work](report, os.path.abspath(arguments.file), dumper)
+    report.print()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
