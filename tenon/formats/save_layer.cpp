@@ -33,7 +33,7 @@ Result<LayerFormat> layer_format_for(std::string_view path) {
 Result<std::string> encode_layer(const layer::Layer& layer, LayerFormat format) {
   switch (format) {
     case LayerFormat::Text:
-      return text::write_text(layer);
+      return write_text(layer);
     case LayerFormat::Crate:
     case LayerFormat::Package:
       break;
