@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reads text layers for tests/differential/text_layers.py: prints errors, or what was read.
+// Reads text layers for tests/differential/text_layers.py. `tenon_retext FILE...` prints the errors;
+// `tenon_retext --into DIRECTORY FILE...` writes the canonical text of the N-th file to DIRECTORY/N.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <string>
 
 #include "tenon/formats/text/reader.h"
+#include "tenon/formats/text/writer.h"
 
 int main(int argc, char** argv) {
   int failures = 0;
-  for (int i = 1; i < argc; ++i) {
+  const bool writes = argc > 2 && std::string(argv[1]) == "--into";
+  for (int i = writes ? 3 : 1; i < argc; ++i) {
     std::ifstream file(argv[i], std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     tenon::Diagnostics diagnostics;
@@ -18,6 +21,9 @@ int main(int argc, char** argv) {
     if (!layer) {
       std::fprintf(stderr, "%s\n", layer.error().to_string().c_str());
       ++failures;
+    } else if (writes) {
+      std::ofstream(std::string(argv[2]) + "/" + std::to_string(i - 3), std::ios::binary)
+          << tenon::formats::write_text(*layer);
     }
   }
   return failures == 0 ? 0 : 1;

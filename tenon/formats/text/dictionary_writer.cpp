@@ -3,6 +3,7 @@
 #include "tenon/formats/text/dictionary_writer.h"
 
 #include "tenon/base/path.h"
+#include "tenon/formats/text/list_writer.h"
 #include "tenon/formats/text/value_text.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/type_names.h"
@@ -14,7 +15,6 @@ using layer::Dictionary;
 using layer::Value;
 using layer::ValueType;
 
-void append_indent(std::string& out, std::size_t indent) { out.append(4 * indent, ' '); }
 
 void append_entry(std::string& out, const std::string& key, const Value& value,
                   std::size_t indent, Lines lines) {

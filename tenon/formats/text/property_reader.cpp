@@ -19,6 +19,12 @@ using layer::ValueType;
 using layer::Variability;
 namespace fields = layer::fields;
 
+/// Old names of types that OpenUSD reads but does not replace by the new ones.
+bool keeps_old_name(std::string_view word) {
+  return word == "Transform" || word == "PointIndex" || word == "EdgeIndex" ||
+         word == "FaceIndex" || word == "Schema";
+}
+
 /// One statement: its words in front, then what follows the name.
 class PropertyReader {
  public:
@@ -111,7 +117,7 @@ class PropertyReader {
     Token type_name(is_array ? std::string(type_word) + "[]" : std::string(type_word));
     type_ = layer::find_type_name(type_name);
     is_array_ = is_array;
-    if (type_ != nullptr) {
+    if (type_ != nullptr && !keeps_old_name(type_word)) {
       type_name = type_->name;
     }
     if (!make_attribute(type_name)) {
@@ -187,8 +193,15 @@ class PropertyReader {
     return true;
   }
 
-  /// A value of the attribute's type; the source text where the type is unknown.
+  /// A value of the attribute's type; the source text where the type is unknown. A path is taken
+  /// for any type, as some layers give a connection in that way.
   bool read_own_value(Value& value) {
+    if (cursor_.peek() == '<') {
+      Path path;
+      const bool ok = read_path(cursor_, path);
+      value = Value(std::vector<Path>{path});
+      return ok;
+    }
     if (type_ != nullptr) {
       return read_value(cursor_, type_->type, is_array_, value);
     }

@@ -121,8 +121,17 @@ class LayerReader {
     }
     return cursor_.fail_at(cursor_.offset(), ErrorCode::Parse, "text.syntax",
                            "expected " + std::string(kExpected) + ", found " + cursor_.found() +
-                               "; an earlier '}' closed " + last_closed_ + " at line " + line,
+                               "; an earlier '}' closed " + last_closed_ + " at line " + line +
+                               default_prim_note(),
                            fix);
+  }
+
+  /// Where the default prim was closed, when another prim was closed after it.
+  std::string default_prim_note() const {
+    return default_closed_line_ == 0 || default_closed_line_ == last_closed_line_
+               ? std::string()
+               : ", and another closed </" + state_.layer.default_prim().str() + "> at line " +
+                     std::to_string(default_closed_line_);
   }
 
   bool read_contents_statement() {
@@ -370,6 +379,9 @@ class LayerReader {
     if (top().kind == Block::Kind::Layer) {
       last_closed_ = block_name(block);
       last_closed_line_ = cursor_.place_of(brace).line;
+      if (block.path.name() == state_.layer.default_prim()) {
+        default_closed_line_ = last_closed_line_;
+      }
     }
     if (block.kind == Block::Kind::Variant) {
       return true;
@@ -390,6 +402,7 @@ class LayerReader {
   std::vector<Block> blocks_;
   std::string last_closed_;  // the last prim directly under the root
   std::uint32_t last_closed_line_ = 0;
+  std::uint32_t default_closed_line_ = 0;  // 0 while the default prim is not closed
 };
 
 }  // namespace

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/formats/text/writer.h"
+
+#include <algorithm>
+
+#include "tenon/base/limits.h"
+#include "tenon/base/text_number.h"
+#include "tenon/formats/text/list_writer.h"
+#include "tenon/formats/text/metadata_writer.h"
+#include "tenon/formats/text/spline_writer.h"
+#include "tenon/formats/text/value_text.h"
+
+namespace tenon::formats {
+namespace text {
+namespace {
+
+using layer::Layer;
+using layer::Spec;
+using layer::SpecKind;
+using layer::Value;
+using layer::Variability;
+namespace fields = layer::fields;
+
+class LayerWriter {
+ public:
+  explicit LayerWriter(const Layer& layer) : layer_(layer) {}
+
+  std::string write() {
+    const Spec& root = layer_.root();
+    append_layer_metadata(out_, root);
+    append_order(root, fields::primOrder, "\nreorder rootPrims = ");
+    for (const Token& name : Layer::children(root, fields::primChildren)) {
+      const Path path = Path::absolute_root().child(name);
+      if (const Spec* prim = layer_.find(path)) {
+        out_ += '\n';
+        append_prim(path, *prim, 0);
+      }
+    }
+    return (needs_version_1_1_ ? "#usda 1.1\n" : "#usda 1.0\n") + out_ + '\n';
+  }
+
+ private:
+  /// A reorder statement, unless it names fewer than two.
+  void append_order(const Spec& spec, Token field, const std::string& start) {
+    const std::vector<Token>& names = Layer::children(spec, field);
+    if (names.size() > 1) {
+      out_ += start;
+      append_names(out_, names);
+      out_ += '\n';
+    }
+  }
+
+  void append_prim(Path path, const Spec& spec, std::size_t indent) {
+    const auto specifier = spec.get_or(fields::specifier, layer::Specifier::Over);
+    constexpr const char* kWords[] = {"def ", "over ", "class "};
+    append_indent(out_, indent);
+    out_ += kWords[static_cast<std::size_t>(specifier)];
+    const Token type = spec.get_or(fields::typeName, Token());
+    if (!type.empty() && type != "__AnyType__") {
+      out_ += type.str() + ' ';
+    }
+    out_ += quoted(path.name().view());
+    append_metadata(out_, spec, indent);
+    out_ += '\n';
+    append_indent(out_, indent);
+    out_ += "{\n";
+    append_body(path, spec, indent);
+    append_indent(out_, indent);
+    out_ += "}\n";
+  }
+
+  /// What stands in the braces of a prim or a variant. Recursion follows the path.
+  void append_body(Path path, const Spec& spec, std::size_t indent) {
+    if (path.depth() > limits::kPathElements) {
+      return;
+    }
+    const std::string start(4 * (indent + 1), ' ');
+    append_order(spec, fields::propertyOrder, start + "reorder properties = ");
+    append_order(spec, fields::primOrder, start + "reorder nameChildren = ");
+    const bool has_properties = append_properties(path, spec, indent + 1);
+    const std::vector<Token>& children = Layer::children(spec, fields::primChildren);
+    bool first = !has_properties;
+    for (const Token& name : children) {
+      const Path child = path.child(name);
+      if (const Spec* child_spec = layer_.find(child)) {
+        out_ += first ? "" : "\n";
+        first = false;
+        append_prim(child, *child_spec, indent + 1);
+      }
+    }
+    append_variant_sets(path, spec, indent + 1);
+  }
+
+  bool append_properties(Path path, const Spec& spec, std::size_t indent) {
+    std::vector<Token> names = Layer::children(spec, fields::properties);
+    std::sort(names.begin(), names.end(),
+              [](Token a, Token b) { return dictionary_less(a.view(), b.view()); });
+    bool any = false;
+    for (const Token& name : names) {
+      const Spec* property = layer_.find(path.property(name));
+      if (property == nullptr) {
+        continue;
+      }
+      any = true;
+      if (property->kind == SpecKind::Attribute) {
+        append_attribute(name, *property, indent);
+      } else {
+        append_relationship(name, *property, indent);
+      }
+    }
+    return any;
+  }
+
+  void append_variant_sets(Path path, const Spec& spec, std::size_t indent) {
+    for (const Token& set_name : sorted(Layer::children(spec, fields::variantSetChildren))) {
+      const Spec* set = layer_.find(path.variant_selection(set_name, Token()));
+      if (set == nullptr) {
+        continue;
+      }
+      const std::vector<Token> variants = sorted(Layer::children(*set, fields::variantChildren));
+      if (variants.empty()) {
+        continue;
+      }
+      append_indent(out_, indent);
+      out_ += "variantSet " + quoted(set_name.view()) + " = {\n";
+      for (const Token& variant : variants) {
+        append_variant(path.variant_selection(set_name, variant), indent + 1);
+      }
+      append_indent(out_, indent);
+      out_ += "}\n";
+    }
+  }
+
+  static std::vector<Token> sorted(std::vector<Token> names) {
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  void append_variant(Path path, std::size_t indent) {
+    const Spec* spec = layer_.find(path);
+    if (spec == nullptr) {
+      return;
+    }
+    append_indent(out_, indent);
+    out_ += quoted(path.variant().view());
+    append_metadata(out_, *spec, indent);
+    out_ += " {\n";
+    append_body(path, *spec, indent);
+    out_ += '\n';
+    append_indent(out_, indent);
+    out_ += "}\n";
+  }
+
+  // Attributes
+
+  void append_attribute(Token name, const Spec& spec, std::size_t indent) {
+    const bool uniform = spec.get_or(fields::variability, Variability::Varying) ==
+                         Variability::Uniform;
+    const std::string declaration = std::string(uniform ? "uniform " : "") +
+                                    spec.get_or(fields::typeName, Token()).str() + ' ' +
+                                    name.str();
+    const Value* value = spec.find(fields::default_value);
+    const auto* samples = spec.get<layer::TimeSamples>(fields::timeSamples);
+    const auto* spline = spec.get<layer::Spline>(fields::spline);
+    const auto* connections = spec.get<layer::ListOp<Path>>(fields::connectionPaths);
+    const bool custom = spec.get_or(fields::custom, false);
+    const bool nothing_else = samples == nullptr && spline == nullptr && connections == nullptr;
+    if (has_metadata(spec) || value != nullptr || custom || nothing_else) {
+      append_indent(out_, indent);
+      out_ += (custom ? "custom " : "") + declaration;
+      if (value != nullptr) {
+        out_ += " = ";
+        append_value_text(out_, *value);
+      }
+      append_metadata(out_, spec, indent);
+      out_ += '\n';
+    }
+    if (samples != nullptr) {
+      append_time_samples(declaration, *samples, indent);
+    }
+    if (spline != nullptr) {
+      needs_version_1_1_ = needs_version_1_1_ || has_tangent_algorithms(*spline);
+      append_indent(out_, indent);
+      out_ += declaration + ".spline = {\n";
+      append_spline(out_, *spline, indent);
+      append_indent(out_, indent);
+      out_ += "}\n";
+    }
+    if (connections != nullptr) {
+      for_each_edit(*connections, [&](const char* word, const std::vector<Path>& paths) {
+        append_indent(out_, indent);
+        out_ += word + declaration + ".connect = ";
+        append_targets(paths, indent);
+        out_ += '\n';
+      });
+    }
+  }
+
+  void append_time_samples(const std::string& declaration, const layer::TimeSamples& samples,
+                           std::size_t indent) {
+    append_indent(out_, indent);
+    out_ += declaration + ".timeSamples = {\n";
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      append_indent(out_, indent + 1);
+      out_ += layer_text(samples.times[i]) + ": ";
+      append_value_text(out_, samples.values[i]);
+      out_ += ",\n";
+    }
+    append_indent(out_, indent);
+    out_ += "}\n";
+  }
+
+  /// None, one path, or a list with one path per line.
+  void append_targets(const std::vector<Path>& paths, std::size_t indent) {
+    if (paths.size() < 2) {
+      out_ += paths.empty() ? "None" : '<' + paths.front().str() + '>';
+      return;
+    }
+    out_ += "[\n";
+    for (const Path& path : paths) {
+      append_indent(out_, indent + 1);
+      out_ += '<' + path.str() + ">,\n";
+    }
+    append_indent(out_, indent);
+    out_ += ']';
+  }
+
+  // Relationships
+
+  void append_relationship(Token name, const Spec& spec, std::size_t indent) {
+    const bool varying = spec.get_or(fields::variability, Variability::Uniform) ==
+                         Variability::Varying;
+    const std::string declaration = (varying ? "varying rel " : "rel ") + name.str();
+    const bool custom = spec.get_or(fields::custom, false);
+    const auto* targets = spec.get<layer::ListOp<Path>>(fields::targetPaths);
+    const bool is_explicit = targets != nullptr && targets->is_explicit;
+    const bool has_edits = targets != nullptr && !is_explicit && !targets->empty();
+    if (has_metadata(spec) || is_explicit || custom || !has_edits) {
+      append_indent(out_, indent);
+      out_ += (custom ? "custom " : "") + declaration;
+      if (is_explicit) {
+        out_ += " = ";
+        append_targets(targets->explicit_items, indent);
+      }
+      append_metadata(out_, spec, indent);
+      out_ += '\n';
+    }
+    if (has_edits) {
+      for_each_edit(*targets, [&](const char* word, const std::vector<Path>& paths) {
+        append_indent(out_, indent);
+        out_ += word + declaration + " = ";
+        append_targets(paths, indent);
+        out_ += '\n';
+      });
+    }
+    if (const Value* value = spec.find(fields::default_value)) {
+      append_indent(out_, indent);
+      out_ += declaration + ".default = ";
+      append_value_text(out_, *value);
+      append_indent(out_, indent);  // OpenUSD's blanks
+      out_ += '\n';
+    }
+  }
+
+  const Layer& layer_;
+  std::string out_;
+  bool needs_version_1_1_ = false;
+};
+
+}  // namespace
+}  // namespace text
+
+std::string write_text(const layer::Layer& layer) { return text::LayerWriter(layer).write(); }
+
+}  // namespace tenon::formats

@@ -1,0 +1,125 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Compares the text reader and writer with OpenUSD: which files are accepted, and the bytes of the
+canonical text. Needs Python with OpenUSD's modules.
+
+usage: text_layers.py RETEXT [FOLDER...]
+
+RETEXT is the program tests/tools/retext.cpp. Without FOLDER the conformance files, scenes and assets
+of the folder named by TENON_SHARED_DIR (default: ../shared) are read, and files whose names end
+with `_baseline` or `.baseline` stand for the text that their neighbours must give.
+Known misses are named in text_misses.txt: one more or one less makes this fail.
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+
+try:
+    from pxr import Sdf
+except ImportError:
+    print("skipped: no OpenUSD modules in this Python")
+    sys.exit(77)
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+REPO = os.path.dirname(os.path.dirname(HERE))
+SHARED = os.environ.get("TENON_SHARED_DIR", os.path.join(os.path.dirname(REPO), "shared"))
+LARGEST = 30_000_000  # bytes
+
+
+def layer_files(folders):
+    """All text layers below the folders, sorted."""
+    found = []
+    for folder in folders:
+        for directory, _, names in os.walk(folder):
+            for name in names:
+                path = os.path.join(directory, name)
+                if name.endswith((".usda", ".usd")) and is_text(path):
+                    found.append(path)
+    return sorted(found)
+
+
+def is_text(path):
+    if os.path.getsize(path) > LARGEST:
+        return False
+    if path.endswith(".usda"):
+        return True
+    with open(path, "rb") as file:
+        return file.read(5) == b"#usda"
+
+
+def expected_text(path):
+    """What OpenUSD exports, or None when it rejects the file."""
+    try:
+        layer = Sdf.Layer.FindOrOpen(path)
+        return None if layer is None else layer.ExportToString()
+    except Exception:  # pylint: disable=broad-except
+        return None
+
+
+def actual_texts(program, paths):
+    """Path -> text that the program writes; rejected files are left out."""
+    texts = {}
+    with tempfile.TemporaryDirectory() as folder:
+        run = subprocess.run(
+            [program, "--into", folder] + paths, capture_output=True, text=True, check=False
+        )
+        if run.returncode not in (0, 1):
+            sys.exit(f"{program} crashed:\n{run.stderr[-3000:]}")
+        for i, path in enumerate(paths):
+            out = os.path.join(folder, str(i))
+            if os.path.exists(out):
+                with open(out, "rb") as file:
+                    texts[path] = file.read().decode("utf-8", "surrogateescape")
+    return texts
+
+
+def first_difference(expected, actual):
+    for number, (a, b) in enumerate(zip(expected.split("\n"), actual.split("\n")), 1):
+        if a != b:
+            return f"line {number}\n   expected {a[:160]}\n   actual   {b[:160]}"
+    return "one text ends early"
+
+
+def misses(program, files):
+    """Name -> what differs."""
+    found = {}
+    for start in range(0, len(files), 50):
+        batch = files[start : start + 50]
+        texts = actual_texts(program, batch)
+        for path in batch:
+            expected = expected_text(path)
+            actual = texts.get(path)
+            if (expected is None) != (actual is None):
+                found[path] = "OpenUSD rejects it" if expected is None else "OpenUSD accepts it"
+            elif expected is not None and expected != actual:
+                found[path] = first_difference(expected, actual)
+    return found
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    folders = sys.argv[2:] or [os.path.join(SHARED, n) for n in ("conformance", "scenes", "assets")]
+    folders = [folder for folder in folders if os.path.isdir(folder)]
+    if not folders:
+        print(f"skipped: no {SHARED}")
+        sys.exit(77)
+    with open(os.path.join(HERE, "text_misses.txt"), encoding="utf-8") as file:
+        known = {line.split()[0] for line in file if line.strip() and line[0] != "#"}
+    files = layer_files(folders)
+    found = misses(sys.argv[1], files)
+    names = {os.path.relpath(path, SHARED): what for path, what in found.items()}
+    for name in sorted(set(names) - known):
+        print(f"MISS {name}: {names[name]}")
+    read = {os.path.relpath(path, SHARED) for path in files}
+    fixed = sorted((known & read) - set(names))
+    for name in fixed:
+        print(f"FIXED {name}: remove it from text_misses.txt")
+    print(f"{len(files) - len(names)} of {len(files)} equal, {len(known)} known misses")
+    sys.exit(1 if fixed or set(names) - known else 0)
+
+
+if __name__ == "__main__":
+    main()
