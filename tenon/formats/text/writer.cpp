@@ -113,7 +113,7 @@ class LayerWriter {
   }
 
   void append_variant_sets(Path path, const Spec& spec, std::size_t indent) {
-    for (const Token& set_name : sorted(Layer::children(spec, fields::variantSetChildren))) {
+    for (const Token& set_name : Layer::children(spec, fields::variantSetChildren)) {
       const Spec* set = layer_.find(path.variant_selection(set_name, Token()));
       if (set == nullptr) {
         continue;
