@@ -27,9 +27,10 @@ inline constexpr std::size_t kTrianglePieces = 20000;       ///< triangles taken
 inline constexpr std::size_t kConvexityChecks = 100'000'000;  ///< point-plane tests of one mesh
 
 // Binary layers: what a file may ask for in proportion to its size.
-inline constexpr std::uint64_t kCrateRowsPerByte = 16;      ///< rows of a table per byte of it
+inline constexpr std::uint64_t kCrateRowsPerByte = 16;      ///< rows of a table per byte of the file
 inline constexpr std::uint64_t kCrateWorkPerByte = 64;      ///< decoded elements, characters, fields
 inline constexpr std::uint64_t kCrateWorkBase = 1u << 16;   ///< the same, for the smallest file
 inline constexpr std::size_t kCrateValueDepth = 256;        ///< values within values
+inline constexpr std::size_t kTrackSamples = 1'000'000;     ///< poses between authored samples
 
 }  // namespace tenon::limits

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/engines/mujoco/model.h"
+#include "tenon/engines/mujoco/tree_plan.h"
+
+/// The passes that turn a PhysicsScene into a MuJoCo model. Each fills its part of one Build.
+namespace tenon::engines::mujoco {
+
+/// What the passes share until the model is compiled.
+struct Build {
+  Build(const physics::PhysicsScene& source, Diagnostics& findings)
+      : scene(source), diagnostics(findings), spec(mj_makeSpec()) {}
+
+  const physics::PhysicsScene& scene;
+  Diagnostics& diagnostics;
+  SpecPtr spec;
+  double time_step = 0.002;  ///< [s]
+  TreePlan plan;
+  std::vector<mjsBody*> bodies;                      ///< (body_count)
+  std::vector<Pose> engine_frames;                   ///< X_BE (body_count)
+  std::vector<std::vector<mjsGeom*>> geoms;          ///< (collider_count)
+  std::vector<mjsBody*> static_bodies;               ///< (collider_count), nullptr for moving ones
+  std::vector<JointDofs> dofs;                       ///< (joint_count)
+  std::vector<std::vector<mjsJoint*>> joints;        ///< (joint_count), in the order of dofs.free
+  std::vector<mjsJoint*> balls;                      ///< (joint_count), nullptr where there is none
+  std::vector<std::vector<mjsActuator*>> actuators;  ///< (joint_count), one per drive or nullptr
+  std::vector<NotMapped> not_mapped;
+  double driven_mass = 0;  ///< of bodies that follow a pose track [kg]
+
+  void report(const Path& prim, std::string property, std::string why) {
+    not_mapped.push_back({prim, std::move(property), std::move(why)});
+  }
+};
+
+/// Options of the solver; solref of hard constraints.
+void add_options(Build& build);
+/// MuJoCo bodies along the plan, with explicit inertia; free joints of roots.
+void add_bodies(Build& build);
+/// Joints of the tree: hinges, slides and balls with limits, springs and friction.
+void add_joints(Build& build);
+/// Loop joints, distance bounds, cones and mimics.
+void add_equalities(Build& build);
+/// Colliders.
+void add_geoms(Build& build);
+/// Drives.
+void add_actuators(Build& build);
+/// Body pairs that never touch and classes of the others. After add_geoms.
+ContactFilter add_filters(Build& build);
+/// What no pass maps: break forces, velocity limits and the like.
+void report_unmapped(Build& build);
+
+/// Compiles the spec; ids of everything are known from here on. Errors: Invalid with MuJoCo's
+/// words.
+Result<Model> compile(Build& build);
+/// Turns what the passes noted per collider into tables per geom.
+void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces);
+/// qpos, qvel, controls and constant forces at time 0.
+Result<void> set_initial_state(const physics::PhysicsScene& scene, Model& model,
+                               Diagnostics& diagnostics);
+/// Colliders that overlap at the start and may touch: MuJoCo pushes them apart.
+void report_overlaps(const physics::PhysicsScene& scene, const Model& model,
+                     Diagnostics& diagnostics);
+
+/// All passes.
+Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOptions& options,
+                          Diagnostics& diagnostics);
+
+// ---- shared by the passes
+
+/// {time constant, damping ratio} of a constraint that is as hard as the time step allows.
+std::array<double, 2> hard_solref(double time_step);
+/// Joints that carry `dofs` between MuJoCo body `child` and its parent; see joints.cpp.
+void add_chain(Build& build, physics::Index joint, mjsBody* child, const Pose& joint_in_child,
+               bool reversed);
+/// The MuJoCo body of a joint side; the world for none.
+mjsBody* side_body(Build& build, const std::optional<physics::Index>& body);
+/// A joint frame seen from the MuJoCo body of that side.
+Pose side_frame(const Build& build, const std::optional<physics::Index>& body, const Pose& frame);
+/// Sets name, position and orientation.
+void place(mjsBody* body, const std::string& name, const Pose& pose);
+/// The scene's coordinate of a dof is this MuJoCo joint; nullptr when it has none.
+mjsJoint* scalar_joint(const Build& build, physics::Index joint, physics::Dof dof);
+
+}  // namespace tenon::engines::mujoco

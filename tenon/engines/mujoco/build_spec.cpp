@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "tenon/base/limits.h"
+#include "tenon/engines/mujoco/build.h"
+#include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/mujoco/surfaces.h"
+
+// The pass list: neutral scene -> mjSpec -> mjModel.
+namespace tenon::engines::mujoco {
+namespace {
+
+constexpr double kDefaultTimeStep = 0.002;  // [s]
+constexpr double kLargestTimeStep = 0.004;  // [s] an asset's own step is divided until it is below
+
+double choose_time_step(const physics::PhysicsScene& scene, const SimulationOptions& options,
+                        Diagnostics& diagnostics) {
+  if (options.time_step > 0) {
+    return options.time_step;
+  }
+  if (scene.scenes.empty() || !scene.scenes.front().time_step.has_value() ||
+      !(*scene.scenes.front().time_step > 0)) {
+    return kDefaultTimeStep;
+  }
+  const double asked = *scene.scenes.front().time_step;
+  const double parts = std::ceil(asked / kLargestTimeStep - 1e-9);
+  if (parts > 1) {
+    diagnostics.add({Severity::Info, "mujoco.time-step",
+                     "the scene asks for steps of " + std::to_string(asked) + " s; MuJoCo takes " +
+                         std::to_string(static_cast<int>(parts)) + " steps for each",
+                     "", 0, 0, scene.scenes.front().path.str(), "", ""});
+  }
+  return asked / std::max(parts, 1.0);
+}
+
+Result<void> check_sizes(const Build& build) {
+  if (build.plan.depth > limits::kKinematicChain) {
+    return Error(ErrorCode::Limit, "a chain of " + std::to_string(build.plan.depth) +
+                                       " jointed bodies is longer than " +
+                                       std::to_string(limits::kKinematicChain))
+        .with_rule("mujoco.chain-too-long");
+  }
+  if (build.scene.scenes.empty()) {
+    return Error(ErrorCode::Invalid, "the description has no scene").with_rule("mujoco.no-scene");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOptions& options,
+                          Diagnostics& diagnostics) {
+  Build build(scene, diagnostics);
+  build.time_step = choose_time_step(scene, options, diagnostics);
+  build.plan = plan_tree(scene);
+  TENON_CHECK(check_sizes(build));
+  for (const physics::Joint& joint : scene.joints) {
+    build.dofs.push_back(joint_dofs(joint));
+  }
+  build.joints.assign(scene.joints.size(), {});
+  build.balls.assign(scene.joints.size(), nullptr);
+  add_options(build);
+  add_bodies(build);
+  add_joints(build);
+  add_equalities(build);
+  add_actuators(build);
+  add_geoms(build);
+  ContactFilter filter = add_filters(build);
+  Surfaces surfaces = add_surfaces(build);
+  report_unmapped(build);
+  TENON_TRY(Model model, compile(build));
+  connect_geoms(model, std::move(filter), std::move(surfaces));
+  TENON_CHECK(set_initial_state(scene, model, diagnostics));
+  report_overlaps(scene, model, diagnostics);
+  return model;
+}
+
+}  // namespace tenon::engines::mujoco

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/mujoco/contact_filter.h"
+
+#include <algorithm>
+#include <mutex>
+
+namespace tenon::engines::mujoco {
+namespace {
+
+thread_local const ContactFilter* current_filter = nullptr;
+mjfConFilt previous_filter = nullptr;
+
+// MuJoCo's rule, which it leaves to the callback once there is one.
+bool bits_off(const mjModel* m, int a, int b) {
+  return (m->geom_contype[a] & m->geom_conaffinity[b]) == 0 &&
+         (m->geom_contype[b] & m->geom_conaffinity[a]) == 0;
+}
+
+// 1 discards the pair.
+int filter_pair(const mjModel* m, mjData* d, int a, int b) {
+  if (current_filter == nullptr) {
+    return previous_filter != nullptr ? previous_filter(m, d, a, b) : (bits_off(m, a, b) ? 1 : 0);
+  }
+  const ContactFilter& filter = *current_filter;
+  const auto class_a = static_cast<std::size_t>(filter.geom_class[static_cast<std::size_t>(a)]);
+  const auto class_b = static_cast<std::size_t>(filter.geom_class[static_cast<std::size_t>(b)]);
+  if (filter.class_off[class_a * filter.class_count + class_b] != 0) {
+    return 1;
+  }
+  const std::uint64_t pair = (std::uint64_t{static_cast<std::uint32_t>(std::min(a, b))} << 32u) |
+                             static_cast<std::uint32_t>(std::max(a, b));
+  return std::binary_search(filter.pairs_off.begin(), filter.pairs_off.end(), pair) ? 1 : 0;
+}
+
+void install() {
+  static std::once_flag installed;
+  std::call_once(installed, [] {
+    previous_filter = mjcb_contactfilter;
+    mjcb_contactfilter = &filter_pair;
+  });
+}
+
+}  // namespace
+
+FilterScope::FilterScope(const ContactFilter& filter) : outer_(current_filter) {
+  if (filter.needed) {
+    install();
+    current_filter = &filter;
+  } else {
+    current_filter = nullptr;
+  }
+}
+
+FilterScope::~FilterScope() { current_filter = outer_; }
+
+}  // namespace tenon::engines::mujoco

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tenon/engines/mujoco/model.h"
+
+namespace tenon::engines::mujoco {
+
+/// While one lives, MuJoCo asks `filter` which geoms may touch on this thread. MuJoCo's callback is
+/// one for the whole process; calls of others fall through to whatever was there before.
+class FilterScope {
+ public:
+  explicit FilterScope(const ContactFilter& filter);
+  ~FilterScope();
+  FilterScope(const FilterScope&) = delete;
+  FilterScope& operator=(const FilterScope&) = delete;
+
+ private:
+  const ContactFilter* outer_ = nullptr;
+};
+
+}  // namespace tenon::engines::mujoco

@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "tenon/engines/mujoco/build.h"
+#include "tenon/engines/mujoco/mesh_pieces.h"
+
+// Colliders become geoms of their body's MuJoCo body. Every static collider gets a MuJoCo body of
+// its own without joints, so that body pairs can be excluded one by one and animated ones can move.
+namespace tenon::engines::mujoco {
+namespace {
+
+using physics::Collider;
+using physics::Shape;
+using physics::ShapeKind;
+
+constexpr int kConeSides = 48;
+constexpr double kSmallestSize = 1e-9;  // [m]
+
+// Rotation that brings MuJoCo's z to the shape's axis.
+Quatd axis_rotation(physics::Axis axis) {
+  switch (axis) {
+    case physics::Axis::X:
+      return rotation_about({{0, 1, 0}}, M_PI / 2);
+    case physics::Axis::Y:
+      return rotation_about({{1, 0, 0}}, -M_PI / 2);
+    case physics::Axis::Z:
+      break;
+  }
+  return kIdentityRotation;
+}
+
+class ColliderPass {
+ public:
+  ColliderPass(Build& build, physics::Index index)
+      : build_(build), index_(index), collider_(build.scene.colliders[index]) {}
+
+  void add() {
+    find_place();
+    if (!has_size()) {
+      build_.report(collider_.path, "extent", "MuJoCo has no shape of size zero; left out");
+      return;
+    }
+    add_shape();
+    for (mjsGeom* geom : build_.geoms[index_]) {
+      if (collider_.rest_offset.has_value()) {
+        geom->margin = *collider_.rest_offset;
+      }
+      if (collider_.contact_offset.has_value()) {
+        geom->gap = std::max(0.0, *collider_.contact_offset - geom->margin);
+      }
+    }
+  }
+
+ private:
+  void find_place() {
+    if (collider_.body.has_value()) {
+      body_ = build_.bodies[*collider_.body];
+      pose_ = inverse(build_.engine_frames[*collider_.body]) * collider_.pose;
+      is_static_ = build_.plan.bodies[*collider_.body].base == BodyBase::Fixed;
+      moves_freely_ = !build_.scene.bodies[*collider_.body].kinematic;
+      world_ = build_.scene.bodies[*collider_.body].pose * collider_.pose;
+      return;
+    }
+    body_ = mjs_addBody(mjs_findBody(build_.spec.get(), "world"), nullptr);
+    place(body_, collider_.path.str() + ".static", collider_.pose);
+    build_.static_bodies[index_] = body_;
+    for (const physics::PoseTrack& track : build_.scene.pose_tracks) {
+      if (track.collider == index_ && !track.times.empty()) {
+        body_->mocap = 1;
+      }
+    }
+    is_static_ = body_->mocap == 0;
+    world_ = collider_.pose;
+  }
+
+  bool has_size() const {
+    const Shape& shape = collider_.shape;
+    switch (shape.kind) {
+      case ShapeKind::Box:
+      case ShapeKind::Ellipsoid:
+        return std::min({shape.half_extents[0], shape.half_extents[1], shape.half_extents[2]}) >
+               kSmallestSize;
+      case ShapeKind::Sphere:
+        return shape.radius > kSmallestSize;
+      case ShapeKind::Capsule:
+      case ShapeKind::Cylinder:
+      case ShapeKind::Cone:
+        return shape.radius > kSmallestSize && shape.half_height > kSmallestSize;
+      case ShapeKind::Plane:
+      case ShapeKind::ConvexHull:
+      case ShapeKind::Mesh:
+      case ShapeKind::Spheres:
+        break;
+    }
+    return true;
+  }
+
+  mjsGeom* add_geom(mjtGeom type, const Pose& in_collider, const Vec3d& size) {
+    mjsGeom* geom = mjs_addGeom(body_, nullptr);
+    std::vector<mjsGeom*>& geoms = build_.geoms[index_];
+    const std::string suffix = geoms.empty() ? "" : "." + std::to_string(geoms.size());
+    mjs_setName(geom->element, (collider_.path.str() + suffix).c_str());
+    geom->type = type;
+    const Pose pose = pose_ * in_collider;
+    write_vector(geom->pos, pose.position);
+    write_quaternion(geom->quat, normalized(pose.orientation));
+    write_vector(geom->size, size);
+    geoms.push_back(geom);
+    return geom;
+  }
+
+  void add_shape() {
+    const Shape& shape = collider_.shape;
+    const Pose turned{{}, axis_rotation(shape.axis)};
+    switch (shape.kind) {
+      case ShapeKind::Box:
+        add_geom(mjGEOM_BOX, {}, shape.half_extents);
+        break;
+      case ShapeKind::Ellipsoid:
+        add_geom(mjGEOM_ELLIPSOID, {}, shape.half_extents);
+        break;
+      case ShapeKind::Sphere:
+        add_geom(mjGEOM_SPHERE, {}, {{shape.radius, 0, 0}});
+        break;
+      case ShapeKind::Capsule:
+        add_geom(mjGEOM_CAPSULE, turned, {{shape.radius, shape.half_height, 0}});
+        break;
+      case ShapeKind::Cylinder:
+        add_geom(mjGEOM_CYLINDER, turned, {{shape.radius, shape.half_height, 0}});
+        break;
+      case ShapeKind::Cone:
+        add_cone();
+        break;
+      case ShapeKind::Plane:
+        add_plane(turned);
+        break;
+      case ShapeKind::ConvexHull:
+        add_pieces(hull_pieces(build_.scene.meshes[shape.mesh].points, up()));
+        break;
+      case ShapeKind::Mesh:
+        add_mesh();
+        break;
+      case ShapeKind::Spheres:
+        for (std::size_t i = 0; i < shape.sphere_centers.size(); ++i) {
+          add_geom(mjGEOM_SPHERE, {shape.sphere_centers[i]}, {{shape.sphere_radii[i], 0, 0}});
+        }
+        break;
+    }
+  }
+
+  void add_cone() {
+    const Shape& shape = collider_.shape;
+    const Quatd turned = axis_rotation(shape.axis);
+    std::vector<Vec3d> points{rotate(turned, {{0, 0, shape.half_height}})};
+    for (int i = 0; i < kConeSides; ++i) {
+      const double angle = 2 * M_PI * i / kConeSides;
+      points.push_back(rotate(turned, {{shape.radius * std::cos(angle),
+                                        shape.radius * std::sin(angle), -shape.half_height}}));
+    }
+    add_pieces({{points}, ""});
+    build_.report(collider_.path, "radius",
+                  "MuJoCo has no cone; the hull of a base with 48 corners is used");
+  }
+
+  void add_plane(const Pose& turned) {
+    if (!is_static_) {
+      build_.report(collider_.path, "axis", "MuJoCo planes cannot move; left out");
+      return;
+    }
+    add_geom(mjGEOM_PLANE, turned, {{0, 0, 1}});
+  }
+
+  void add_mesh() {
+    const physics::TriangleMesh& mesh = build_.scene.meshes[collider_.shape.mesh];
+    if (!moves_freely_) {
+      add_pieces(triangle_pieces(mesh, up()));
+      return;
+    }
+    add_pieces(hull_pieces(mesh.points, up()));
+    build_.report(collider_.path, "physics:approximation",
+                  "MuJoCo has no contacts with moving triangle meshes; the convex hull is used");
+  }
+
+  void add_pieces(const MeshPieces& pieces) {
+    if (!pieces.note.empty()) {
+      build_.report(collider_.path, "physics:approximation", pieces.note);
+    }
+    for (const std::vector<Vec3d>& hull : pieces.hulls) {
+      mjsMesh* mesh = mjs_addMesh(build_.spec.get(), nullptr);
+      const std::string name =
+          collider_.path.str() + ".mesh" + std::to_string(build_.geoms[index_].size());
+      mjs_setName(mesh->element, name.c_str());
+      std::vector<float> numbers;
+      for (const Vec3d& p : hull) {
+        for (const double x : p.v) {
+          numbers.push_back(static_cast<float>(x));
+        }
+      }
+      mjs_setFloat(mesh->uservert, numbers.data(), static_cast<int>(numbers.size()));
+      mesh->inertia = mjMESH_INERTIA_CONVEX;
+      if (collider_.max_hull_vertices.has_value() && *collider_.max_hull_vertices > 3) {
+        mesh->maxhullvert = *collider_.max_hull_vertices;
+      }
+      mjs_setString(add_geom(mjGEOM_MESH, {}, {})->meshname, name.c_str());
+    }
+  }
+
+  // Against gravity, in the collider's frame.
+  Vec3d up() const {
+    const Vec3d& gravity = build_.scene.scenes[collider_.scene].gravity;
+    return moves_freely_ ? Vec3d{} : -rotate(conjugate(world_.orientation), gravity);
+  }
+
+  Build& build_;
+  physics::Index index_;
+  const Collider& collider_;
+  mjsBody* body_ = nullptr;
+  Pose pose_;   // of the collider in the MuJoCo body
+  Pose world_;  // of the collider at the start
+  bool is_static_ = false;
+  bool moves_freely_ = false;
+};
+
+}  // namespace
+
+void add_geoms(Build& build) {
+  const std::size_t count = build.scene.colliders.size();
+  build.geoms.assign(count, {});
+  build.static_bodies.assign(count, nullptr);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (build.scene.colliders[i].enabled) {
+      ColliderPass(build, static_cast<physics::Index>(i)).add();
+    }
+  }
+}
+
+}  // namespace tenon::engines::mujoco

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "tenon/engines/mujoco/build.h"
+
+// MuJoCo applies the joints of one body in order, each axis carried by the ones before: exactly the
+// chain of JointDofs. When the MuJoCo child is body0, the chain runs backwards with turned axes,
+// and the coordinates stay those of body1 relative to body0.
+namespace tenon::engines::mujoco {
+namespace {
+
+using physics::kUnlimited;
+
+constexpr double kOpenEnd = 1e10;  // MuJoCo's largest number; "no bound" of a one-sided limit
+
+void set_limit(mjsJoint* joint, const FreeDof& dof, double time_step) {
+  const bool limited = dof.lower > -kUnlimited || dof.upper < kUnlimited;
+  joint->limited = limited ? mjLIMITED_TRUE : mjLIMITED_FALSE;
+  if (!limited) {
+    return;
+  }
+  joint->range[0] = std::max(dof.lower, -kOpenEnd);
+  joint->range[1] = std::min(dof.upper, kOpenEnd);
+  const auto solref = hard_solref(time_step);
+  std::copy(solref.begin(), solref.end(), joint->solref_limit);
+}
+
+void set_passive(mjsJoint* target, const physics::Joint& joint) {
+  target->armature = joint.armature;
+  target->frictionloss = joint.friction;
+  target->damping[0] = joint.damping;
+  target->stiffness[0] = joint.stiffness;
+  target->springref = joint.spring_reference;
+}
+
+}  // namespace
+
+void add_chain(Build& build, physics::Index index, mjsBody* child, const Pose& joint_in_child,
+               bool reversed) {
+  const physics::Joint& joint = build.scene.joints[index];
+  const JointDofs& dofs = build.dofs[index];
+  std::vector<mjsJoint*>& made = build.joints[index];
+  made.assign(dofs.free.size(), nullptr);
+  // Rotations turn about the origin of frame 1; seen from frame 0 that is the locked offset.
+  const Vec3d anchor = transform_point(joint_in_child, reversed ? dofs.locked.position : Vec3d{});
+  const auto add_ball = [&] {
+    mjsJoint* ball = mjs_addJoint(child, nullptr);
+    mjs_setName(ball->element, (joint.path.str() + ".ball").c_str());
+    ball->type = mjJNT_BALL;
+    write_vector(ball->pos, anchor);
+    ball->limited = mjLIMITED_FALSE;
+    set_passive(ball, joint);
+    build.balls[index] = ball;
+  };
+  if (dofs.ball && reversed) {
+    add_ball();
+  }
+  for (std::size_t n = 0; n < dofs.free.size(); ++n) {
+    const std::size_t i = reversed ? dofs.free.size() - 1 - n : n;
+    const FreeDof& dof = dofs.free[i];
+    mjsJoint* target = mjs_addJoint(child, nullptr);
+    const std::string name = joint.path.str() + "." + std::string(dof_name(dof.dof));
+    mjs_setName(target->element, name.c_str());
+    target->type = is_angular(dof.dof) ? mjJNT_HINGE : mjJNT_SLIDE;
+    write_vector(target->pos, anchor);
+    const Vec3d axis = rotate(joint_in_child.orientation, reversed ? -dof.axis0 : dof.axis1);
+    write_vector(target->axis, axis);
+    set_limit(target, dof, build.time_step);
+    set_passive(target, joint);
+    made[i] = target;
+  }
+  if (dofs.ball && !reversed) {
+    add_ball();
+  }
+}
+
+mjsJoint* scalar_joint(const Build& build, physics::Index joint, physics::Dof dof) {
+  const JointDofs& dofs = build.dofs[joint];
+  for (std::size_t i = 0; i < build.joints[joint].size(); ++i) {
+    if (dofs.free[i].dof == dof) {
+      return build.joints[joint][i];
+    }
+  }
+  return nullptr;
+}
+
+void add_joints(Build& build) {
+  for (const physics::Index index : build.plan.order) {
+    const BodyPlan& plan = build.plan.bodies[index];
+    if (plan.base != BodyBase::Jointed) {
+      continue;
+    }
+    const physics::Joint& joint = build.scene.joints[plan.joint];
+    add_chain(build, plan.joint, build.bodies[index], plan.reversed ? joint.frame0 : joint.frame1,
+              plan.reversed);
+  }
+}
+
+}  // namespace tenon::engines::mujoco

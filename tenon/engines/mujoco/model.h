@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <mujoco/mujoco.h>
+
+#include "tenon/engines/mujoco/joint_dofs.h"
+#include "tenon/engines/mujoco/tree_plan.h"
+#include "tenon/engines/simulation.h"
+#include "tenon/math/transform.h"
+#include "tenon/physics/physics_scene.h"
+
+/// A compiled MuJoCo model and what connects its numbers with those of the neutral scene.
+namespace tenon::engines::mujoco {
+
+struct SpecDeleter {
+  void operator()(mjSpec* spec) const { mj_deleteSpec(spec); }
+};
+struct ModelDeleter {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+struct DataDeleter {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+using SpecPtr = std::unique_ptr<mjSpec, SpecDeleter>;
+using ModelPtr = std::unique_ptr<mjModel, ModelDeleter>;
+using DataPtr = std::unique_ptr<mjData, DataDeleter>;
+
+/// MuJoCo quaternions are real first.
+inline void write_quaternion(double* out, const Quatd& q) {
+  out[0] = q.w;
+  out[1] = q.x;
+  out[2] = q.y;
+  out[3] = q.z;
+}
+inline Quatd read_quaternion(const double* in) { return {in[1], in[2], in[3], in[0]}; }
+inline void write_vector(double* out, const Vec3d& v) {
+  out[0] = v[0];
+  out[1] = v[1];
+  out[2] = v[2];
+}
+inline Vec3d read_vector(const double* in) { return {{in[0], in[1], in[2]}}; }
+
+struct BodyMap {
+  int id = 0;          ///< MuJoCo body
+  Pose engine_frame;   ///< X_BE: MuJoCo's body frame in ours
+  int free_qpos = -1;  ///< first coordinate of a free joint, else -1
+  int free_dof = -1;
+  double mass = 0;  ///< the true one [kg]; 0 for kinematic bodies
+};
+
+/// Degrees of freedom of one joint in MuJoCo, in the order of JointDofs::free; a ball comes last.
+struct JointMap {
+  JointDofs dofs;
+  bool in_tree = false;  ///< coordinates are qpos entries; else they come from the poses
+  bool reversed = false;
+  std::vector<int> qpos;  ///< (free dof count)
+  std::vector<int> dof;   ///< (free dof count)
+  int ball_qpos = -1;
+  int ball_dof = -1;
+  Quatd child_frame = kIdentityRotation;  ///< joint frame in the MuJoCo child body
+};
+
+struct DriveMap {
+  physics::Index joint = 0;
+  physics::Index drive = 0;  ///< into Joint::drives
+  int actuator = -1;         ///< -1: not expressible
+  int control = -1;          ///< first of two controls: position and velocity target
+  int dof = -1;
+};
+
+/// Which geoms may touch, for scenes that bits and excluded body pairs cannot express.
+struct ContactFilter {
+  bool needed = false;
+  std::vector<int> geom_class;  ///< (geom_count)
+  std::vector<char> class_off;  ///< (class_count x class_count): 1 where contacts are off
+  std::size_t class_count = 0;
+  std::vector<std::uint64_t> pairs_off;  ///< sorted, smaller geom in the upper half
+};
+
+/// One value of friction and restitution per geom, and their averages per pair (S-72).
+struct Surfaces {
+  std::vector<int> geom_surface;  ///< (geom_count); -1: made contacts are left as they are
+  std::size_t count = 0;
+  std::vector<double> friction;               ///< (count x count)
+  std::vector<std::array<double, 2>> solref;  ///< (count x count)
+  bool differ = false;                        ///< contacts need the averages
+};
+
+struct Model {
+  ModelPtr model;
+  DataPtr data;
+  TreePlan plan;
+  std::vector<BodyMap> bodies;   ///< (body_count)
+  std::vector<JointMap> joints;  ///< (joint_count)
+  std::vector<DriveMap> drives;
+  std::vector<std::vector<int>> geoms_of_collider;  ///< (collider_count)
+  std::vector<int> collider_of_geom;                ///< (geom_count)
+  std::vector<int> mocap_of_collider;  ///< (collider_count); -1: does not move by itself
+  ContactFilter filter;
+  Surfaces surfaces;
+  std::vector<NotMapped> not_mapped;
+};
+
+}  // namespace tenon::engines::mujoco

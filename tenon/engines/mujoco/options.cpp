@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/mujoco/build.h"
+
+namespace tenon::engines::mujoco {
+namespace {
+
+constexpr double kFrictionToNormal =
+    10;  // impratio: friction this much harder than normal, less creep
+
+void report_joint(Build& build, const physics::Joint& joint) {
+  if (joint.break_force < physics::kUnlimited) {
+    build.report(joint.path, "physics:breakForce", "joints do not break on MuJoCo here");
+  }
+  if (joint.break_torque < physics::kUnlimited) {
+    build.report(joint.path, "physics:breakTorque", "joints do not break on MuJoCo here");
+  }
+  if (joint.velocity_limit < physics::kUnlimited) {
+    build.report(joint.path, "velocityLimit", "MuJoCo has no bound on joint velocities");
+  }
+  const bool elliptic =
+      joint.kind == physics::JointKind::Spherical && circular_cone(joint) == physics::kUnlimited &&
+      joint.cone_angle0 < physics::kUnlimited && joint.cone_angle1 < physics::kUnlimited;
+  if (elliptic) {
+    build.report(joint.path, "physics:coneAngle0Limit",
+                 "an elliptic cone is bounded per axis: tilts in both directions at once may go "
+                 "outside the ellipse");
+  }
+}
+
+bool names_own_dof(const physics::Joint& joint, const physics::Limit& limit) {
+  switch (joint.kind) {
+    case physics::JointKind::Revolute:
+    case physics::JointKind::Prismatic:
+      return limit.dof == joint.dof() || limit.dof == physics::Dof::Distance;
+    case physics::JointKind::D6:
+      return true;
+    case physics::JointKind::Distance:
+      return limit.dof == physics::Dof::Distance;
+    case physics::JointKind::Spherical:
+    case physics::JointKind::Fixed:
+      break;
+  }
+  return limit.dof == physics::Dof::Distance;
+}
+
+}  // namespace
+
+void add_options(Build& build) {
+  mjSpec& spec = *build.spec;
+  spec.compiler.degree = 0;
+  spec.compiler.autolimits = 0;
+  spec.compiler.boundmass = 0;
+  spec.compiler.boundinertia = 0;
+  spec.compiler.fusestatic = 0;
+  spec.compiler.alignfree = 0;
+  spec.compiler.inertiafromgeom = mjINERTIAFROMGEOM_FALSE;
+  // The inertia of the asset is used as it is; compile() writes it again over the balanced one.
+  spec.compiler.balanceinertia = 1;
+  mjOption& option = spec.option;
+  option.timestep = build.time_step;
+  write_vector(option.gravity, build.scene.scenes.front().gravity);
+  option.integrator = mjINT_IMPLICITFAST;
+  option.cone = mjCONE_ELLIPTIC;
+  option.impratio = kFrictionToNormal;
+  option.disableflags |= mjDSBL_AUTORESET;  // an unstable step is an error, not a silent restart
+}
+
+void report_unmapped(Build& build) {
+  for (const physics::Joint& joint : build.scene.joints) {
+    if (!joint.enabled) {
+      continue;
+    }
+    report_joint(build, joint);
+    for (const physics::Limit& limit : joint.limits) {
+      if (!names_own_dof(joint, limit)) {
+        build.report(joint.path, "limit:" + std::string(dof_name(limit.dof)),
+                     "this kind of joint has no such coordinate on MuJoCo here");
+      }
+    }
+  }
+}
+
+}  // namespace tenon::engines::mujoco
