@@ -17,8 +17,8 @@ END_SECONDS = 4.0
 MOUNT = (0.0, 0.12, 0.25)
 
 CAN_RADIUS, CAN_HEIGHT, CAN_MASS = 0.0275, 0.1, 0.1
-# Its top stays 2 mm and more below the way of the swinging thumb; place and targets hold the can as
-# well when it stands 8 mm nearer to the wrist or to the fingertips.
+# The thumb must swing past its top. Place and targets are chosen so that the can is held as well when
+# it stands 8 mm nearer to the wrist or to the fingertips.
 CAN_PLACE = (0.0425, -0.015, 0.1155)
 
 # (seconds, degrees) of the six drive targets; targets run straight between them. The targets lie
