@@ -41,7 +41,7 @@ class ByteReader {
       return out_of_bounds(offset_, sizeof(T), bytes_.size());
     }
     T value;
-    std::memcpy(&value, bytes_.data() + offset_, sizeof(T));
+    std::memcpy(static_cast<void*>(&value), bytes_.data() + offset_, sizeof(T));
     offset_ += sizeof(T);
     return value;
   }

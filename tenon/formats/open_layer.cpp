@@ -3,6 +3,7 @@
 #include "tenon/formats/open_layer.h"
 
 #include "tenon/bytes/zip_archive.h"
+#include "tenon/formats/crate/reader.h"
 #include "tenon/formats/text/reader.h"
 
 namespace tenon::formats {
@@ -46,7 +47,7 @@ Result<layer::Layer> read_layer(std::shared_ptr<const bytes::FileBytes> bytes,
   }
   switch (format_of(*bytes)) {
     case LayerFormat::Crate:
-      return Error(ErrorCode::Unsupported, "binary layers cannot be read yet").in_file(identifier);
+      return read_crate(std::move(bytes), std::move(identifier), diagnostics);
     case LayerFormat::Package:
       return Error(ErrorCode::Unsupported, "the first file of the package is not a layer")
           .in_file(identifier)

@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+// Arrays lie as a count and then their elements, or packed: integers delta-coded, floating-point
+// numbers as integers ('i') or as a table of the distinct ones with indices into it ('t').
+#include "tenon/formats/crate/array_reader.h"
+
+#include <cstring>
+#include <type_traits>
+
+#include "tenon/base/limits.h"
+#include "tenon/bytes/integer_coding.h"
+#include "tenon/layer/field_values.h"
+
+namespace tenon::formats::crate {
+namespace {
+
+using layer::Array;
+using layer::Value;
+using layer::ValueType;
+
+constexpr std::uint64_t kSmallArray = 96;  // bytes; decoded at once, cheaper than remembering
+
+template <class T>
+constexpr bool kIsInteger = std::is_same_v<T, std::int32_t> || std::is_same_v<T, std::uint32_t> ||
+                            std::is_same_v<T, std::int64_t> || std::is_same_v<T, std::uint64_t>;
+template <class T>
+constexpr bool kIsReal =
+    std::is_same_v<T, Half> || std::is_same_v<T, float> || std::is_same_v<T, double>;
+/// Elements that are an index of a token or a string.
+template <class T>
+constexpr bool kIsText =
+    std::is_same_v<T, Token> || std::is_same_v<T, std::string> ||
+    std::is_same_v<T, layer::AssetPath> || std::is_same_v<T, layer::PathExpression>;
+
+/// Where the elements are and how many.
+struct ArrayHeader {
+  std::uint64_t offset = 0;  ///< of the elements
+  std::uint64_t count = 0;
+  bool packed = false;
+};
+
+template <class T>
+bool is_packed(const Version& version, ValueWord word) {
+  const bool known =
+      (kIsInteger<T> && version >= kPackedIntegers) || (kIsReal<T> && version >= kPackedFloats);
+  return known && word.is_packed();
+}
+
+/// The fewest bytes that so many elements can take.
+template <class T>
+Result<void> check_room(bytes::ByteReader in, const ArrayHeader& header) {
+  if (!header.packed) {
+    const std::uint64_t stride = kIsText<T> ? sizeof(std::uint32_t) : sizeof(T);
+    return header.count <= in.remaining() / stride
+               ? Result<void>()
+               : bytes::out_of_bounds(header.offset, header.count, in.size());
+  }
+  if constexpr (kIsReal<T>) {
+    TENON_TRY(const char code, in.read<char>());
+    if (code == 't') {
+      TENON_TRY(const std::uint32_t distinct, in.read<std::uint32_t>());
+      TENON_CHECK(in.take(std::uint64_t{distinct} * sizeof(T)));
+    } else if (code != 'i') {
+      return corrupt("an array is packed in an unknown way");
+    }
+  }
+  TENON_TRY(const std::uint64_t size, in.read<std::uint64_t>());
+  TENON_CHECK(in.take(size));
+  return header.count <= bytes::max_integer_count(size)
+             ? Result<void>()
+             : corrupt("an array claims more elements than its bytes can hold");
+}
+
+template <class T>
+Result<ArrayHeader> read_header(const CrateFile& file, ValueWord word) {
+  bytes::ByteReader in = file.reader();
+  TENON_CHECK(in.seek(word.payload()));
+  if (file.version < kPackedIntegers) {
+    TENON_CHECK(in.read<std::uint32_t>());  // the rank, always 1
+  }
+  ArrayHeader header;
+  if (file.version < kWideCounts) {
+    TENON_TRY(header.count, in.read<std::uint32_t>());
+  } else {
+    TENON_TRY(header.count, in.read<std::uint64_t>());
+  }
+  header.offset = in.offset();
+  header.packed = is_packed<T>(file.version, word) && header.count >= kSmallestPacked;
+  TENON_CHECK(check_room<T>(in, header));
+  return header;
+}
+
+template <class T>
+Result<Array<T>> decode_packed(bytes::ByteReader& in, std::uint64_t count) {
+  if constexpr (kIsInteger<T>) {
+    return read_packed<T>(in, count);
+  } else {
+    TENON_TRY(const char code, in.read<char>());
+    Array<T> array;
+    if (code == 'i') {
+      TENON_TRY(const std::vector<std::int32_t> integers, read_packed<std::int32_t>(in, count));
+      array.reserve(integers.size());
+      for (const std::int32_t integer : integers) {
+        array.push_back(static_cast<T>(static_cast<double>(integer)));
+      }
+      return array;
+    }
+    TENON_TRY(const std::uint32_t distinct, in.read<std::uint32_t>());
+    TENON_TRY(const std::vector<T> table, in.read_array<T>(distinct));
+    TENON_TRY(const std::vector<std::uint32_t> indices, read_packed<std::uint32_t>(in, count));
+    array.reserve(indices.size());
+    for (const std::uint32_t index : indices) {
+      if (index >= table.size()) {
+        return corrupt("an array names an element that is not in its table");
+      }
+      array.push_back(table[index]);
+    }
+    return array;
+  }
+}
+
+template <class T>
+Result<Array<T>> decode_texts(const CrateFile& file, bytes::ByteReader& in, std::uint64_t count,
+                              WorkBudget& budget) {
+  TENON_TRY(const std::vector<std::uint32_t> indices, in.read_array<std::uint32_t>(count));
+  Array<T> array;
+  array.reserve(indices.size());
+  for (const std::uint32_t index : indices) {
+    if constexpr (std::is_same_v<T, Token>) {
+      TENON_TRY(const Token token, token_at(file, index));
+      array.push_back(token);
+    } else {
+      TENON_TRY(const std::string_view text, string_at(file, index));
+      TENON_CHECK(budget.spend(text.size() + 1));
+      array.emplace_back();
+      if constexpr (std::is_same_v<T, std::string>) {
+        array.back() = text;
+      } else if constexpr (std::is_same_v<T, layer::AssetPath>) {
+        array.back().authored = text;
+      } else {
+        array.back().text = text;
+      }
+    }
+  }
+  return array;
+}
+
+template <class T>
+Result<Value> decode(const CrateFile& file, const ArrayHeader& header, WorkBudget& budget) {
+  bytes::ByteReader in = file.reader();
+  TENON_CHECK(in.seek(header.offset));
+  if constexpr (kIsText<T>) {
+    TENON_TRY(Array<T> array, decode_texts<T>(file, in, header.count, budget));
+    return Value(std::move(array));
+  } else if constexpr (std::is_same_v<T, bool>) {
+    TENON_TRY(Array<bool> array, in.read_array<char>(header.count));
+    for (char& element : array) {
+      element = element != 0 ? 1 : 0;
+    }
+    return Value(std::move(array));
+  } else {
+    if constexpr (kIsInteger<T> || kIsReal<T>) {
+      if (header.packed) {
+        TENON_TRY(Array<T> array, decode_packed<T>(in, header.count));
+        return Value(std::move(array));
+      }
+    }
+    TENON_TRY(Array<T> array, in.read_array<T>(header.count));
+    return Value(std::move(array));
+  }
+}
+
+template <class T>
+class CrateArray final : public layer::DeferredArray {
+ public:
+  CrateArray(std::shared_ptr<const CrateFile> file, const ArrayHeader& header)
+      : file_(std::move(file)), header_(header) {}
+  std::size_t size() const override { return static_cast<std::size_t>(header_.count); }
+  Result<Value> decode() const override {
+    WorkBudget budget(file_->bytes->size());
+    return crate::decode<T>(*file_, header_, budget);
+  }
+
+ private:
+  std::shared_ptr<const CrateFile> file_;
+  ArrayHeader header_;
+};
+
+template <class T>
+Result<Value> read_array_of(const std::shared_ptr<const CrateFile>& file, ValueWord word,
+                            WorkBudget& budget) {
+  if (word.payload() == 0) {
+    return Value(Array<T>());
+  }
+  TENON_TRY(const ArrayHeader header, read_header<T>(*file, word));
+  TENON_CHECK(budget.spend(1));
+  if (!header.packed && header.count <= kSmallArray / sizeof(T)) {
+    return decode<T>(*file, header, budget);
+  }
+  return Value::deferred(layer::ValueTraits<T>::type,
+                         std::make_unique<CrateArray<T>>(file, header));
+}
+
+}  // namespace
+
+Result<Token> token_at(const CrateFile& file, std::uint32_t index) {
+  if (index >= file.tokens.size()) {
+    return corrupt("a value names a token that is not there");
+  }
+  return file.tokens[index];
+}
+
+Result<std::string_view> string_at(const CrateFile& file, std::uint32_t index) {
+  if (index >= file.strings.size()) {
+    return corrupt("a value names a string that is not there");
+  }
+  return file.tokens[file.strings[index]].view();
+}
+
+Result<Value> read_array(const std::shared_ptr<const CrateFile>& file, ValueType element,
+                         ValueWord word, WorkBudget& budget) {
+  using namespace layer;  // NOLINT(google-build-using-namespace): the table names its types
+  switch (element) {
+#define TENON_SCALAR(enumerator, type, name, crate_id) \
+  case ValueType::enumerator:                          \
+    return read_array_of<type>(file, word, budget);
+#include "tenon/layer/value_types.def"
+    default:
+      return corrupt("a value of a type that has no arrays claims to be one");
+  }
+}
+
+}  // namespace tenon::formats::crate

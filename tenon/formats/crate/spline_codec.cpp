@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+// Two header bytes: form (bits 0 to 3), value type (4, 5), time-valued (6), curve (7); then the
+// modes of extrapolation (0 to 2 before, 3 to 5 after) and whether there is an inner loop (6). Then
+// the slopes of sloped ends, the loop, the number of knots, and the knots: flags (two values 0,
+// interpolation 1 and 2, curve 3, tangents in another form 4 and 5), time, values, widths, slopes.
+// Form 2 adds a byte with the algorithms of the tangents to each knot.
+#include "tenon/formats/crate/spline_codec.h"
+
+#include "tenon/bytes/byte_reader.h"
+#include "tenon/bytes/byte_writer.h"
+
+namespace tenon::formats::crate {
+namespace {
+
+using layer::Spline;
+using layer::SplineExtrapolation;
+using layer::SplineKnot;
+using layer::ValueType;
+
+Result<double> read_number(bytes::ByteReader& in, ValueType type) {
+  if (type == ValueType::Half) {
+    TENON_TRY(const Half half, in.read<Half>());
+    return static_cast<double>(half);
+  }
+  if (type == ValueType::Float) {
+    TENON_TRY(const float number, in.read<float>());
+    return static_cast<double>(number);
+  }
+  return in.read<double>();
+}
+
+Result<layer::SplineEnd> read_end(unsigned mode) {
+  if (mode > static_cast<unsigned>(SplineExtrapolation::LoopOscillate)) {
+    return corrupt("a spline extrapolates in an unknown way");
+  }
+  return layer::SplineEnd{static_cast<SplineExtrapolation>(mode), 0};
+}
+
+Result<void> read_slope(bytes::ByteReader& in, layer::SplineEnd& end) {
+  if (end.mode == SplineExtrapolation::Sloped) {
+    TENON_TRY(end.slope, in.read<double>());
+  }
+  return {};
+}
+
+Result<layer::SplineLoop> read_loop(bytes::ByteReader& in) {
+  layer::SplineLoop loop;
+  TENON_TRY(loop.start, in.read<double>());
+  TENON_TRY(loop.end, in.read<double>());
+  TENON_TRY(loop.pre_loops, in.read<std::int32_t>());
+  TENON_TRY(loop.post_loops, in.read<std::int32_t>());
+  TENON_TRY(loop.value_offset, in.read<double>());
+  return loop;
+}
+
+Result<layer::TangentAlgorithm> algorithm(unsigned number) {
+  if (number > static_cast<unsigned>(layer::TangentAlgorithm::AutoEase)) {
+    return corrupt("a tangent is made in an unknown way");
+  }
+  return static_cast<layer::TangentAlgorithm>(number);
+}
+
+Result<SplineKnot> read_knot(bytes::ByteReader& in, const Spline& spline, unsigned form) {
+  SplineKnot knot;
+  TENON_TRY(const std::uint8_t flags, in.read<std::uint8_t>());
+  knot.next = static_cast<layer::SplineInterpolation>(flags >> 1 & 3u);
+  TENON_TRY(knot.time, in.read<double>());
+  TENON_TRY(knot.value, read_number(in, spline.value_type));
+  if ((flags & 1u) != 0) {
+    TENON_TRY(knot.pre_value, read_number(in, spline.value_type));
+  }
+  if (spline.curve != layer::SplineCurve::Hermite) {
+    TENON_TRY(knot.pre_tangent.width, in.read<double>());
+    TENON_TRY(knot.post_tangent.width, in.read<double>());
+  }
+  TENON_TRY(knot.pre_tangent.slope, read_number(in, spline.value_type));
+  TENON_TRY(knot.post_tangent.slope, read_number(in, spline.value_type));
+  if (form >= 2) {
+    TENON_TRY(const std::uint8_t algorithms, in.read<std::uint8_t>());
+    TENON_TRY(knot.pre_tangent.algorithm, algorithm(algorithms & 0xfu));
+    TENON_TRY(knot.post_tangent.algorithm, algorithm(algorithms >> 4));
+  }
+  return knot;
+}
+
+}  // namespace
+
+Result<Spline> decode_spline(std::span<const std::byte> bytes) {
+  Spline spline;
+  if (bytes.empty()) {
+    return spline;
+  }
+  bytes::ByteReader in(bytes);
+  TENON_TRY(const std::uint8_t first, in.read<std::uint8_t>());
+  TENON_TRY(const std::uint8_t second, in.read<std::uint8_t>());
+  const unsigned form = first & 0xfu;
+  if (form < 1 || form > 2) {
+    return Error(ErrorCode::Unsupported,
+                 "splines of form " + std::to_string(form) + " cannot be read")
+        .with_rule("crate.value-unsupported");
+  }
+  constexpr ValueType kTypes[] = {ValueType::Double, ValueType::Double, ValueType::Float,
+                                  ValueType::Half};
+  spline.value_type = kTypes[first >> 4 & 3u];
+  spline.time_valued = (first & 0x40u) != 0;
+  spline.curve = static_cast<layer::SplineCurve>(first >> 7);
+  TENON_TRY(spline.pre, read_end(second & 7u));
+  TENON_TRY(spline.post, read_end(second >> 3 & 7u));
+  TENON_CHECK(read_slope(in, spline.pre));
+  TENON_CHECK(read_slope(in, spline.post));
+  if ((second & 0x40u) != 0) {
+    TENON_TRY(spline.loop, read_loop(in));
+  }
+  TENON_TRY(const std::uint32_t count, in.read<std::uint32_t>());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    TENON_TRY(SplineKnot knot, read_knot(in, spline, form));
+    spline.knots.push_back(std::move(knot));
+  }
+  return spline;
+}
+
+}  // namespace tenon::formats::crate

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "tenon/base/path.h"
+#include "tenon/base/result.h"
+#include "tenon/base/token.h"
+#include "tenon/bytes/byte_reader.h"
+#include "tenon/bytes/file_bytes.h"
+#include "tenon/formats/crate/layout.h"
+#include "tenon/layer/spec.h"
+
+namespace tenon::formats::crate {
+
+/// What values are decoded with; kept alive by arrays that are decoded later.
+struct CrateFile {
+  std::shared_ptr<const bytes::FileBytes> bytes;
+  Version version;
+  std::vector<Token> tokens;
+  std::vector<std::uint32_t> strings;  ///< index of a token
+
+  bytes::ByteReader reader() const { return bytes::ByteReader(bytes->span()); }
+};
+
+struct FieldRow {
+  Token name;
+  ValueWord value;
+};
+
+struct SpecRow {
+  std::uint32_t path = 0;       ///< index in Tables::paths
+  std::uint32_t field_set = 0;  ///< index in Tables::field_sets where its run starts
+  layer::SpecKind kind = layer::SpecKind::None;
+};
+
+/// The structural sections of a crate file; every index in them is in range.
+struct Tables {
+  std::shared_ptr<const CrateFile> file;
+  std::vector<FieldRow> fields;
+  std::vector<std::uint32_t> field_sets;  ///< runs of field indices, each ended by kEndOfSet
+  std::vector<Path> paths;                ///< the empty path where the file gives none
+  std::vector<SpecRow> specs;
+};
+
+/// Errors: ErrorCode::Unsupported for versions that cannot be read, Corrupt, Limit.
+Result<Tables> read_tables(std::shared_ptr<const bytes::FileBytes> bytes);
+
+/// The section PATHS: `in` stands at its start, `tokens` are read.
+Result<std::vector<Path>> read_paths(bytes::ByteReader& in, const CrateFile& file);
+
+/// A count from the file, refused when no file of this size can have as many rows.
+Result<std::uint64_t> read_row_count(bytes::ByteReader& in, const CrateFile& file);
+/// A packed list of `count` integers with its size in front.
+template <class T>
+Result<std::vector<T>> read_packed(bytes::ByteReader& in, std::uint64_t count);
+
+}  // namespace tenon::formats::crate

@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+// How the parts of values lie at an offset. A value within a value has the distance to its word in
+// front, because its own data stand between.
+#include <cmath>
+
+#include "tenon/base/limits.h"
+#include "tenon/formats/crate/spline_codec.h"
+#include "tenon/formats/crate/value_reader.h"
+
+namespace tenon::formats::crate {
+namespace {
+
+template <class T>
+Result<void> read_plain(bytes::ByteReader& in, T& out) {
+  TENON_TRY(out, in.read<T>());
+  return {};
+}
+
+/// Moves over a distance that is counted from its own place.
+Result<void> skip_distance(bytes::ByteReader& in) {
+  const auto start = static_cast<std::int64_t>(in.offset());
+  TENON_TRY(const std::int64_t distance, in.read<std::int64_t>());
+  const auto size = static_cast<std::int64_t>(in.size());
+  if (distance < -start || distance > size - start) {
+    return corrupt("a value within a value leaves the file");
+  }
+  return in.seek(static_cast<std::uint64_t>(start + distance));
+}
+
+}  // namespace
+
+Result<void> ValueReader::item(bytes::ByteReader& in, std::int32_t& out) {
+  return read_plain(in, out);
+}
+Result<void> ValueReader::item(bytes::ByteReader& in, std::uint32_t& out) {
+  return read_plain(in, out);
+}
+Result<void> ValueReader::item(bytes::ByteReader& in, std::int64_t& out) {
+  return read_plain(in, out);
+}
+Result<void> ValueReader::item(bytes::ByteReader& in, std::uint64_t& out) {
+  return read_plain(in, out);
+}
+Result<void> ValueReader::item(bytes::ByteReader& in, double& out) { return read_plain(in, out); }
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::TimeCode& out) {
+  return read_plain(in, out.value);
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, std::string& out) {
+  TENON_TRY(const std::uint32_t index, in.read<std::uint32_t>());
+  TENON_TRY(const std::string_view text, string_at(file_, index));
+  TENON_CHECK(budget_.spend(text.size()));
+  out = text;
+  return {};
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, Token& out) {
+  TENON_TRY(const std::uint32_t index, in.read<std::uint32_t>());
+  TENON_TRY(out, token_at(file_, index));
+  return {};
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, Path& out) {
+  TENON_TRY(const std::uint32_t index, in.read<std::uint32_t>());
+  if (index >= tables_.paths.size()) {
+    return corrupt("a value names a path that is not there");
+  }
+  out = tables_.paths[index];
+  return {};
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::PathExpression& out) {
+  return item(in, out.text);
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::LayerOffset& out) {
+  TENON_CHECK(item(in, out.offset));
+  return item(in, out.scale);
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::Reference& out) {
+  TENON_CHECK(item(in, out.asset_path));
+  TENON_CHECK(item(in, out.prim_path));
+  TENON_CHECK(item(in, out.offset));
+  return item(in, out.custom_data);
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::Payload& out) {
+  TENON_CHECK(item(in, out.asset_path));
+  TENON_CHECK(item(in, out.prim_path));
+  return file_.version >= kPayloadOffsets ? item(in, out.offset) : Result<void>();
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::UnregisteredValue& out) {
+  TENON_CHECK(item(in, out.value));
+  const bool known = out.value.holds<std::string>() || out.value.holds<layer::Dictionary>() ||
+                     out.value.holds<layer::ListOp<layer::UnregisteredValue>>();
+  return known ? Result<void>() : corrupt("an unknown field holds a value of a wrong type");
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::Value& out) {
+  if (depth_ == limits::kCrateValueDepth) {
+    return Error(ErrorCode::Limit, "values are nested too deeply").with_rule("crate.too-much");
+  }
+  TENON_CHECK(budget_.spend(1));
+  TENON_CHECK(skip_distance(in));
+  TENON_TRY(const ValueWord word, in.read<ValueWord>());
+  ++depth_;
+  Result<layer::Value> value = read(word);
+  --depth_;
+  if (!value) {
+    return std::move(value).error();
+  }
+  out = *std::move(value);
+  return {};
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, std::pair<Path, Path>& out) {
+  TENON_CHECK(item(in, out.first));
+  return item(in, out.second);
+}
+
+template <class T>
+Result<void> ValueReader::item(bytes::ByteReader& in, std::vector<T>& out) {
+  constexpr std::uint64_t kSmallestItem = 4;  // an index
+  TENON_TRY(const std::uint64_t count, in.read<std::uint64_t>());
+  if (count > in.remaining() / kSmallestItem) {
+    return bytes::out_of_bounds(in.offset(), count, in.size());
+  }
+  TENON_CHECK(budget_.spend(count));
+  out.clear();
+  out.reserve(static_cast<std::size_t>(count));
+  for (std::uint64_t i = 0; i < count; ++i) {
+    TENON_CHECK(item(in, out.emplace_back()));
+  }
+  return {};
+}
+template Result<void> ValueReader::item(bytes::ByteReader&, std::vector<Token>&);
+template Result<void> ValueReader::item(bytes::ByteReader&, std::vector<double>&);
+template Result<void> ValueReader::item(bytes::ByteReader&, std::vector<std::string>&);
+template Result<void> ValueReader::item(bytes::ByteReader&, std::vector<Path>&);
+template Result<void> ValueReader::item(bytes::ByteReader&, std::vector<layer::LayerOffset>&);
+
+template <class T>
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::ListOp<T>& out) {
+  TENON_TRY(const std::uint8_t bits, in.read<std::uint8_t>());
+  out.is_explicit = (bits & list_bits::kExplicit) != 0;
+  const std::pair<std::uint8_t, std::vector<T>*> lists[] = {
+      {list_bits::kExplicitItems, &out.explicit_items},
+      {list_bits::kAdded, &out.added},
+      {list_bits::kPrepended, &out.prepended},
+      {list_bits::kAppended, &out.appended},
+      {list_bits::kDeleted, &out.deleted},
+      {list_bits::kOrdered, &out.ordered},
+  };
+  for (const auto& [bit, list] : lists) {
+    if ((bits & bit) != 0) {
+      TENON_CHECK(item(in, *list));
+    }
+  }
+  return {};
+}
+template Result<void> ValueReader::item(bytes::ByteReader&, layer::ListOp<Token>&);
+template Result<void> ValueReader::item(bytes::ByteReader&, layer::ListOp<std::string>&);
+template Result<void> ValueReader::item(bytes::ByteReader&, layer::ListOp<Path>&);
+template Result<void> ValueReader::item(bytes::ByteReader&, layer::ListOp<layer::Reference>&);
+template Result<void> ValueReader::item(bytes::ByteReader&, layer::ListOp<layer::Payload>&);
+template Result<void> ValueReader::item(bytes::ByteReader&, layer::ListOp<std::int32_t>&);
+template Result<void> ValueReader::item(bytes::ByteReader&, layer::ListOp<std::int64_t>&);
+template Result<void> ValueReader::item(bytes::ByteReader&, layer::ListOp<std::uint32_t>&);
+template Result<void> ValueReader::item(bytes::ByteReader&, layer::ListOp<std::uint64_t>&);
+template Result<void> ValueReader::item(bytes::ByteReader&,
+                                        layer::ListOp<layer::UnregisteredValue>&);
+
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::Dictionary& out) {
+  TENON_TRY(const std::uint64_t count, in.read<std::uint64_t>());
+  for (std::uint64_t i = 0; i < count; ++i) {
+    std::string key;
+    layer::Value value;
+    TENON_CHECK(item(in, key));
+    TENON_CHECK(item(in, value));
+    if (!value.empty()) {
+      out.items.insert_or_assign(std::move(key), std::move(value));
+    }
+  }
+  return {};
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::VariantSelections& out) {
+  TENON_TRY(const std::uint64_t count, in.read<std::uint64_t>());
+  for (std::uint64_t i = 0; i < count; ++i) {
+    std::string set;
+    std::string variant;
+    TENON_CHECK(item(in, set));
+    TENON_CHECK(item(in, variant));
+    TENON_CHECK(budget_.spend(1));
+    out.items.insert_or_assign(std::move(set), std::move(variant));
+  }
+  return {};
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::Relocates& out) {
+  return item(in, out.pairs);
+}
+
+/// The times that `word` names; files share them between attributes.
+Result<std::vector<double>> ValueReader::times(ValueWord word) {
+  const auto known = times_.find(word.bits);
+  if (known != times_.end()) {
+    TENON_CHECK(budget_.spend(known->second.size()));
+    return known->second;
+  }
+  TENON_TRY(const layer::Value value, read(word));
+  const auto* numbers = value.get<layer::Array<double>>();
+  if (numbers == nullptr) {
+    return corrupt("the times of samples are no list of numbers");
+  }
+  for (std::size_t i = 0; i < numbers->size(); ++i) {
+    const bool ascends = i == 0 || (*numbers)[i - 1] < (*numbers)[i];
+    if (std::isnan((*numbers)[i]) || !ascends) {
+      return corrupt("the times of samples do not ascend");
+    }
+  }
+  TENON_CHECK(budget_.spend(numbers->size()));
+  times_.emplace(word.bits, *numbers);
+  return *numbers;
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::TimeSamples& out) {
+  TENON_CHECK(skip_distance(in));
+  TENON_TRY(const ValueWord times_word, in.read<ValueWord>());
+  TENON_TRY(out.times, times(times_word));
+  TENON_CHECK(skip_distance(in));
+  TENON_TRY(const std::uint64_t count, in.read<std::uint64_t>());
+  TENON_TRY(const std::vector<ValueWord> words, in.read_array<ValueWord>(count));
+  if (words.size() != out.times.size()) {
+    return corrupt("there are " + std::to_string(out.times.size()) + " times for " +
+                   std::to_string(words.size()) + " samples");
+  }
+  TENON_CHECK(budget_.spend(count));
+  out.values.reserve(words.size());
+  for (const ValueWord word : words) {
+    if (depth_ == limits::kCrateValueDepth) {
+      return Error(ErrorCode::Limit, "values are nested too deeply").with_rule("crate.too-much");
+    }
+    ++depth_;
+    Result<layer::Value> value = read(word);
+    --depth_;
+    if (!value) {
+      return std::move(value).error();
+    }
+    out.values.push_back(*std::move(value));
+  }
+  return {};
+}
+
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::Spline& out) {
+  TENON_TRY(const std::uint64_t size, in.read<std::uint64_t>());
+  TENON_TRY(const auto data, in.take(size));
+  TENON_CHECK(budget_.spend(size));
+  TENON_TRY(out, decode_spline(data));
+  TENON_TRY(const std::uint64_t count, in.read<std::uint64_t>());
+  for (std::uint64_t i = 0; i < count; ++i) {
+    TENON_TRY(const double time, in.read<double>());
+    layer::Dictionary custom_data;
+    TENON_CHECK(item(in, custom_data));
+    TENON_CHECK(budget_.spend(1));
+    for (layer::SplineKnot& knot : out.knots) {
+      if (knot.time == time) {
+        knot.custom_data = std::move(custom_data);
+        break;
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace tenon::formats::crate

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+// Which values are their own word: all of at most four bytes, strings, tokens and asset paths (by
+// index); a double that is a float, a 64-bit integer that fits 32, a vector of small whole numbers,
+// a matrix that is zero but for a diagonal of such, an empty dictionary. Others are at an offset.
+#include "tenon/formats/crate/value_reader.h"
+
+#include <cstring>
+#include <type_traits>
+
+#include "tenon/base/limits.h"
+
+namespace tenon::formats::crate {
+namespace {
+
+using layer::Value;
+using layer::ValueType;
+
+template <class T>
+struct VectorTraits {
+  static constexpr std::size_t size = 0;
+};
+template <class T, std::size_t N>
+struct VectorTraits<Vec<T, N>> {
+  using Element = T;
+  static constexpr std::size_t size = N;
+};
+template <class T>
+struct MatrixTraits {
+  static constexpr std::size_t size = 0;
+};
+template <std::size_t N>
+struct MatrixTraits<Matrix<N>> {
+  static constexpr std::size_t size = N;
+};
+
+/// Stored byte by byte as in memory.
+template <class T>
+constexpr bool kIsPlain =
+    std::is_arithmetic_v<T> || std::is_same_v<T, Half> || VectorTraits<T>::size != 0 ||
+    MatrixTraits<T>::size != 0 || std::is_same_v<T, Quatd> || std::is_same_v<T, Quatf> ||
+    std::is_same_v<T, Quath>;
+template <class T>
+constexpr bool kIsEmpty =
+    std::is_same_v<T, layer::ValueBlock> || std::is_same_v<T, layer::AnimationBlock>;
+/// Never at an offset, whatever the flag of the word says.
+template <class T>
+constexpr bool kAlwaysInlined = (kIsPlain<T> && sizeof(T) <= 4) || kIsEmpty<T> ||
+                                std::is_enum_v<T> || std::is_same_v<T, std::string> ||
+                                std::is_same_v<T, Token> || std::is_same_v<T, layer::AssetPath>;
+
+template <class T>
+T small_vector(std::uint32_t bits) {
+  T vector;
+  for (std::size_t i = 0; i < VectorTraits<T>::size; ++i) {
+    const auto number = static_cast<std::int8_t>(bits >> (8 * i));
+    vector[i] = static_cast<typename VectorTraits<T>::Element>(static_cast<float>(number));
+  }
+  return vector;
+}
+
+template <class T>
+T small_matrix(std::uint32_t bits) {
+  T matrix;
+  for (std::size_t i = 0; i < MatrixTraits<T>::size; ++i) {
+    matrix[i][i] = static_cast<std::int8_t>(bits >> (8 * i));
+  }
+  return matrix;
+}
+
+template <class T>
+Result<T> enumerator(std::uint32_t bits) {
+  constexpr bool kVariability = std::is_same_v<T, layer::Variability>;
+  if (kVariability && bits == 2) {
+    return static_cast<T>(1);  // "config" of long ago, read as uniform
+  }
+  constexpr std::uint32_t kCount = std::is_same_v<T, layer::Specifier> ? 3 : 2;
+  if (bits >= kCount) {
+    return corrupt("a specifier, permission or variability of number " + std::to_string(bits));
+  }
+  return static_cast<T>(bits);
+}
+
+}  // namespace
+
+template <class T>
+Result<Value> ValueReader::inlined(std::uint32_t bits) {
+  if constexpr (std::is_same_v<T, bool>) {
+    return Value((bits & 0xffu) != 0);
+  } else if constexpr (kIsEmpty<T>) {
+    return Value(T());
+  } else if constexpr (std::is_enum_v<T>) {
+    TENON_TRY(const T value, enumerator<T>(bits));
+    return Value(value);
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    TENON_TRY(const std::string_view text, string_at(file_, bits));
+    TENON_CHECK(budget_.spend(text.size()));
+    return Value(std::string(text));
+  } else if constexpr (std::is_same_v<T, Token>) {
+    TENON_TRY(const Token token, token_at(file_, bits));
+    return Value(token);
+  } else if constexpr (std::is_same_v<T, layer::AssetPath>) {
+    TENON_TRY(const Token token, token_at(file_, bits));
+    TENON_CHECK(budget_.spend(token.str().size()));
+    return Value(layer::AssetPath{token.str(), "", ""});
+  } else if constexpr (sizeof(T) <= 4) {
+    T value;
+    std::memcpy(static_cast<void*>(&value), &bits, sizeof(T));
+    return Value(value);
+  } else if constexpr (std::is_same_v<T, double>) {
+    float value = 0;
+    std::memcpy(&value, &bits, sizeof(value));
+    return Value(static_cast<double>(value));
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
+    return Value(std::int64_t{static_cast<std::int32_t>(bits)});
+  } else if constexpr (std::is_same_v<T, std::uint64_t>) {
+    return Value(std::uint64_t{bits});
+  } else if constexpr (VectorTraits<T>::size != 0) {
+    return Value(small_vector<T>(bits));
+  } else if constexpr (MatrixTraits<T>::size != 0) {
+    return Value(small_matrix<T>(bits));
+  } else {
+    return Value(T());  // only the empty one is its own word
+  }
+}
+
+template <class T>
+Result<Value> ValueReader::stored(ValueWord word) {
+  bytes::ByteReader in = file_.reader();
+  TENON_CHECK(in.seek(word.payload()));
+  if constexpr (kIsPlain<T>) {
+    TENON_TRY(T value, in.read<T>());
+    return Value(value);
+  } else {
+    T value;
+    TENON_CHECK(item(in, value));
+    return Value(std::move(value));
+  }
+}
+
+template <class T>
+Result<Value> ValueReader::single(ValueWord word) {
+  if constexpr (kAlwaysInlined<T>) {
+    return inlined<T>(word.inlined());
+  } else if constexpr (std::is_same_v<T, layer::Opaque>) {
+    return unsupported(word, "opaque values");
+  } else {
+    return word.is_inlined() ? inlined<T>(word.inlined()) : stored<T>(word);
+  }
+}
+
+Result<Value> ValueReader::unsupported(ValueWord word, const char* what) {
+  Diagnostic diagnostic;
+  diagnostic.severity = Severity::Error;
+  diagnostic.rule = "crate.value-unsupported";
+  diagnostic.message = std::string(what) + " cannot be read from binary layers (type " +
+                       std::to_string(word.type()) + "); the value is left out";
+  diagnostics_.add(std::move(diagnostic));
+  return Value();
+}
+
+/// Types that are arrays in memory but have ids of their own, and values wrapped once more.
+Result<Value> ValueReader::other(ValueWord word) {
+  switch (word.type()) {
+    case kTokenVector:
+      return stored<std::vector<Token>>(word);
+    case kDoubleVector:
+      return stored<std::vector<double>>(word);
+    case kStringVector:
+      return stored<std::vector<std::string>>(word);
+    case kValueType: {
+      bytes::ByteReader in = file_.reader();
+      TENON_CHECK(in.seek(word.payload()));
+      Value value;
+      TENON_CHECK(item(in, value));
+      return value;
+    }
+    default:
+      return unsupported(word, "values of this type");
+  }
+}
+
+Result<Value> ValueReader::read(ValueWord word) {
+  if (word.is_array_edit()) {
+    return unsupported(word, "edits of arrays");
+  }
+  using namespace layer;  // NOLINT(google-build-using-namespace): the table names its types
+  switch (word.type()) {
+#define TENON_SCALAR(enumerator, type, name, crate_id)                                      \
+  case crate_id:                                                                            \
+    return word.is_array() ? read_array(tables_.file, ValueType::enumerator, word, budget_) \
+                           : single<type>(word);
+#define TENON_FIELD(enumerator, type, crate_id) \
+  case crate_id:                                \
+    return single<type>(word);
+#include "tenon/layer/value_types.def"
+    default:
+      return other(word);
+  }
+}
+
+}  // namespace tenon::formats::crate
