@@ -139,7 +139,7 @@ std::string_view Cursor::peek_namespaced() const {
   return text_.substr(at_, length);
 }
 
-bool Cursor::accept_word(std::string_view word) {
+bool Cursor::accept_whole_word(std::string_view word) {
   if (!starts_with(word) || peek_identifier() != word) {
     return false;
   }

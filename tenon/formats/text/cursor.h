@@ -60,7 +60,9 @@ class Cursor {
   /// The identifiers joined by ':' at the cursor, not taken.
   std::string_view peek_namespaced() const;
   /// Takes `word` when it stands at the cursor and ends there.
-  bool accept_word(std::string_view word);
+  bool accept_word(std::string_view word) {
+    return at_ < text_.size() && text_[at_] == word[0] && accept_whole_word(word);
+  }
 
   /// Place of a byte; cheap when asked in ascending order.
   SourcePlace place_of(std::size_t offset) const;
@@ -79,6 +81,7 @@ class Cursor {
   std::string found() const;
 
  private:
+  bool accept_whole_word(std::string_view word);
   bool skip_block_comment();
 
   std::string_view text_;

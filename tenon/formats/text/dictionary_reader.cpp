@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 // Dictionaries, whose entries name their types, and values that name none.
+#include <unordered_map>
+
 #include "tenon/base/limits.h"
 #include "tenon/base/text_number.h"
 #include "tenon/formats/text/literals.h"
@@ -92,6 +94,25 @@ bool append_source(Cursor& cursor, std::string& text, std::size_t depth) {
   return true;
 }
 
+/// A type by its name, looked up without making tokens.
+struct KnownType {
+  const layer::TypeName* scalar = nullptr;
+  const layer::TypeName* array = nullptr;
+};
+
+const KnownType* find_known_type(std::string_view name) {
+  static const auto* const kTypes = [] {
+    auto* types = new std::unordered_map<std::string_view, KnownType>();
+    for (const layer::TypeName& type : layer::all_type_names()) {
+      KnownType& known = (*types)[type.scalar_name.view()];
+      (type.is_array ? known.array : known.scalar) = &type;
+    }
+    return types;
+  }();
+  const auto it = kTypes->find(name);
+  return it == kTypes->end() ? nullptr : &it->second;
+}
+
 bool read_key(Cursor& cursor, std::string& key) {
   if (at_string(cursor)) {
     return read_string(cursor, key);
@@ -133,19 +154,17 @@ bool read_entry(Cursor& cursor, Dictionary& dictionary, std::size_t depth) {
     return true;
   }
   const std::size_t start = cursor.offset();
-  std::string_view name;
-  bool is_array = false;
-  if (!read_type(cursor, name, is_array)) {
+  WrittenType type;
+  if (!read_type(cursor, type)) {
     return false;
   }
-  const layer::TypeName* type = layer::find_type_name(Token(name));
-  if (type == nullptr) {
+  if (type.type == nullptr) {
     return cursor.fail_at(start, ErrorCode::Parse, "text.type",
-                          "`" + std::string(name) + "` is no type that a dictionary entry can have");
+                          "`" + std::string(type.name) + "` is no type that a dictionary entry can have");
   }
   Value value;
   if (!read_entry_start(cursor, key) ||
-      !read_value(cursor, type->type, is_array, value)) {
+      !read_value(cursor, type.type->type, type.is_array, value)) {
     return false;
   }
   dictionary.items.insert_or_assign(std::move(key), std::move(value));
@@ -201,19 +220,35 @@ bool read_name(Cursor& cursor, std::string_view what, std::string_view& name) {
   }
 }
 
-bool read_type(Cursor& cursor, std::string_view& name, bool& is_array) {
-  if (!read_name(cursor, "the name of a type", name)) {
-    return false;
+bool read_type(Cursor& cursor, WrittenType& type) {
+  const std::size_t start = cursor.offset();
+  type.name = cursor.peek_identifier();
+  const KnownType* known = find_known_type(type.name);
+  cursor.advance(type.name.size());
+  if (known == nullptr || cursor.peek() == ':') {
+    cursor.seek(start);
+    if (!read_name(cursor, "the name of a type", type.name)) {
+      return false;
+    }
   }
   const std::size_t after = cursor.offset();
   cursor.skip_inline();
-  is_array = cursor.accept('[');
-  if (!is_array) {
+  type.is_array = cursor.accept('[');
+  if (type.is_array) {
+    cursor.skip_inline();
+    if (!cursor.expect(']', "after '[' of an array type")) {
+      return false;
+    }
+  } else {
     cursor.seek(after);
-    return true;
   }
-  cursor.skip_inline();
-  return cursor.expect(']', "after '[' of an array type");
+  if (known != nullptr) {
+    type.type = type.is_array ? known->array : known->scalar;
+  } else {
+    type.type = layer::find_type_name(
+        Token(type.is_array ? std::string(type.name) + "[]" : std::string(type.name)));
+  }
+  return true;
 }
 
 }  // namespace tenon::formats::text

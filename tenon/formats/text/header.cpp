@@ -3,6 +3,7 @@
 #include "tenon/formats/text/header.h"
 
 #include <charconv>
+#include <cstring>
 
 #include "tenon/base/unicode.h"
 
@@ -16,6 +17,14 @@ constexpr unsigned kMaxMinor = 4;
 std::size_t first_ill_formed(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size()) {
+    if (at + sizeof(std::uint64_t) <= text.size()) {
+      std::uint64_t eight = 0;
+      std::memcpy(&eight, text.data() + at, sizeof(eight));
+      if ((eight & 0x8080808080808080ull) == 0) {
+        at += sizeof(eight);
+        continue;
+      }
+    }
     if (static_cast<unsigned char>(text[at]) < 0x80) {
       ++at;
       continue;

@@ -15,6 +15,7 @@ struct LayerState {
   Cursor cursor;
   layer::Layer layer;
   Diagnostics& diagnostics;
+  layer::TimeSamples samples_buffer{};  ///< kept between attributes to spare allocations
 
   LayerState(std::string_view text, std::string identifier, Diagnostics& findings)
       : cursor(text, {}), layer(std::move(identifier)), diagnostics(findings) {

@@ -25,6 +25,13 @@ bool keeps_old_name(std::string_view word) {
          word == "FaceIndex" || word == "Schema";
 }
 
+Token type_name_of(const WrittenType& written) {
+  if (written.type != nullptr && !keeps_old_name(written.name)) {
+    return written.type->name;
+  }
+  return Token(written.is_array ? std::string(written.name) + "[]" : std::string(written.name));
+}
+
 /// One statement: its words in front, then what follows the name.
 class PropertyReader {
  public:
@@ -109,18 +116,13 @@ class PropertyReader {
   // Attributes
 
   bool read_attribute() {
-    std::string_view type_word;
-    bool is_array = false;
-    if (!read_type(cursor_, type_word, is_array) || !separator() || !read_property_name()) {
+    WrittenType written;
+    if (!read_type(cursor_, written) || !separator() || !read_property_name()) {
       return false;
     }
-    Token type_name(is_array ? std::string(type_word) + "[]" : std::string(type_word));
-    type_ = layer::find_type_name(type_name);
-    is_array_ = is_array;
-    if (type_ != nullptr && !keeps_old_name(type_word)) {
-      type_name = type_->name;
-    }
-    if (!make_attribute(type_name)) {
+    type_ = written.type;
+    is_array_ = written.is_array;
+    if (!make_attribute(type_name_of(written))) {
       return false;
     }
     if (accept_dot()) {
@@ -135,16 +137,23 @@ class PropertyReader {
 
   bool make_attribute(Token type_name) {
     const Variability variability = is_uniform_ ? Variability::Uniform : Variability::Varying;
-    if (layer::Spec* spec = state_.layer.find(path_)) {
-      return redeclare(*spec, type_name, variability);
+    spec_ = &state_.layer.create(path_, SpecKind::Attribute);
+    if (spec_->line != 0) {
+      return redeclare(*spec_, type_name, variability);
     }
-    properties_.push_back(path_.name());
-    layer::Spec& spec = state_.make_spec(path_, SpecKind::Attribute, start_);
-    spec.reserve_fields(4);
-    spec.append(fields::custom, Value(is_custom_));
-    spec.append(fields::typeName, Value(type_name));
-    spec.append(fields::variability, Value(variability));
+    note_new_property();
+    spec_->reserve_fields(4);
+    spec_->append(fields::custom, Value(is_custom_));
+    spec_->append(fields::typeName, Value(type_name));
+    spec_->append(fields::variability, Value(variability));
     return true;
+  }
+
+  void note_new_property() {
+    properties_.push_back(path_.name());
+    const SourcePlace place = cursor_.place_of(start_);
+    spec_->line = place.line;
+    spec_->column = place.column;
   }
 
   /// A further statement about an attribute must agree with the first.
@@ -189,7 +198,7 @@ class PropertyReader {
   }
 
   bool set(Token field, Value value) {
-    state_.layer.find(path_)->set(field, std::move(value));
+    spec_->set(field, std::move(value));
     return true;
   }
 
@@ -229,7 +238,9 @@ class PropertyReader {
     if (!cursor_.expect('{', "before the time samples")) {
       return false;
     }
-    layer::TimeSamples samples;
+    layer::TimeSamples& samples = state_.samples_buffer;
+    samples.times.clear();
+    samples.values.clear();
     bool ascending = true;
     cursor_.skip_multi_line();
     const bool ok = cursor_.accept('}') || read_items(cursor_, '}', "of the time samples", [&] {
@@ -238,7 +249,7 @@ class PropertyReader {
     if (ok && !ascending) {
       sort_samples(samples);
     }
-    return ok && set(fields::timeSamples, Value(std::move(samples)));
+    return ok && set(fields::timeSamples, Value(layer::TimeSamples(samples)));
   }
 
   bool read_time_sample(layer::TimeSamples& samples, bool& ascending) {
@@ -307,7 +318,7 @@ class PropertyReader {
     if (!check_items(cursor_, start, edit_, paths)) {
       return false;
     }
-    set_items(*state_.layer.find(path_), fields::connectionPaths, edit_, std::move(paths));
+    set_items(*spec_, fields::connectionPaths, edit_, std::move(paths));
     return true;
   }
 
@@ -341,15 +352,13 @@ class PropertyReader {
   }
 
   bool make_relationship() {
-    if (const layer::Spec* spec = state_.layer.find(path_)) {
-      if (spec->kind != SpecKind::Relationship) {
-        return cursor_.fail_at(start_, ErrorCode::Parse, "text.duplicate",
-                               "`" + path_.name().str() + "` is already an attribute; it was " +
-                                   "declared at line " + std::to_string(spec->line));
-      }
-    } else {
-      properties_.push_back(path_.name());
-      state_.make_spec(path_, SpecKind::Relationship, start_);
+    spec_ = &state_.layer.create(path_, SpecKind::Relationship);
+    if (spec_->line == 0) {
+      note_new_property();
+    } else if (spec_->kind != SpecKind::Relationship) {
+      return cursor_.fail_at(start_, ErrorCode::Parse, "text.duplicate",
+                             "`" + path_.name().str() + "` is already an attribute; it was " +
+                                 "declared at line " + std::to_string(spec_->line));
     }
     set(fields::variability, Value(is_varying_ ? Variability::Varying : Variability::Uniform));
     return !is_custom_ || set(fields::custom, Value(true));
@@ -373,7 +382,7 @@ class PropertyReader {
     if (!check_items(cursor_, start, edit_, paths)) {
       return false;
     }
-    set_items(*state_.layer.find(path_), fields::targetPaths, edit_, std::move(paths));
+    set_items(*spec_, fields::targetPaths, edit_, std::move(paths));
     return true;
   }
 
@@ -409,6 +418,7 @@ class PropertyReader {
   bool is_array_ = false;
   const layer::TypeName* type_ = nullptr;
   Path path_;
+  layer::Spec* spec_ = nullptr;
 };
 
 }  // namespace

@@ -24,7 +24,13 @@ bool read_dictionary(Cursor& cursor, layer::Dictionary& dictionary);
 
 /// Takes a word that may name a type or a field: identifiers joined by "::", none of them reserved.
 bool read_name(Cursor& cursor, std::string_view what, std::string_view& name);
-/// Takes a type name and the "[]" that may follow it; the type may be unknown.
-bool read_type(Cursor& cursor, std::string_view& name, bool& is_array);
+/// A type as written: "float3" and whether "[]" follows, and what it means.
+struct WrittenType {
+  std::string_view name;
+  bool is_array = false;
+  const layer::TypeName* type = nullptr;  ///< nullptr when no such type is known
+};
+/// Takes a type name and the "[]" that may follow it.
+bool read_type(Cursor& cursor, WrittenType& type);
 
 }  // namespace tenon::formats::text
