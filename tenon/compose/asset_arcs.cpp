@@ -100,6 +100,8 @@ class AssetArcAdder {
       return {};
     }
     if (layer == nullptr) {
+      indexer_.services.missing(
+          {item.layer->identifier(), site(), std::string(noun(kind_)), item.asset_path});
       report(error_class::kInvalidAssetPath, item,
              "the " + std::string(noun(kind_)) + " @" + item.asset_path + "@ cannot be opened" +
                  (opened ? std::string() : ": " + opened.error().message()),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <tuple>
 #include <unordered_map>
 
 #include "tenon/compose/indexer.h"
@@ -65,7 +66,15 @@ struct IndexCache::State {
   std::deque<PrimIndex> indices;
   std::unordered_map<Path, const PrimIndex*> by_path;
   Diagnostics errors;
+  std::vector<MissingArc> missing;
+  std::set<std::tuple<std::string, Path, std::string, std::string>> known_missing;
   IndexServices services;
+
+  void add_missing(MissingArc arc) {
+    if (known_missing.emplace(arc.layer, arc.prim, arc.arc, arc.path).second) {
+      missing.push_back(std::move(arc));
+    }
+  }
 
   Result<layer::LayerPtr> open(const std::string& asset_path, const layer::Layer& anchor) {
     auto& of_layer = opened[&anchor];
@@ -91,6 +100,9 @@ struct IndexCache::State {
     inputs.override_source = variables;
     LayerStackPtr stack = build_layer_stack(inputs);
     errors.append(stack->errors);
+    for (const MissingArc& arc : stack->missing) {
+      add_missing(arc);
+    }
     stacks_in_order.push_back(stack);
     return stack;
   }
@@ -211,6 +223,7 @@ IndexCache::IndexCache(layer::LayerPtr root, layer::LayerPtr session, LayerOpene
   state.services.open = [&state](const std::string& path, const layer::Layer& anchor) {
     return state.open(path, anchor);
   };
+  state.services.missing = [&state](MissingArc arc) { state.add_missing(std::move(arc)); };
   state.services.stack = [&state](const layer::LayerPtr& layer, const LayerStack* from) {
     return state.referenced_stack(layer, from);
   };
@@ -246,6 +259,8 @@ const PrimIndex& IndexCache::child_index(const PrimIndex& parent, Token name) {
 }
 
 const Diagnostics& IndexCache::errors() const { return state_->errors; }
+
+const std::vector<MissingArc>& IndexCache::missing_arcs() const { return state_->missing; }
 
 std::vector<layer::LayerPtr> IndexCache::used_layers() const {
   std::vector<layer::LayerPtr> layers;

@@ -24,14 +24,6 @@ struct ComposeOptions {
   std::set<std::string> muted;  ///< identifiers of layers that count as absent
 };
 
-/// A layer that an arc names and that cannot be opened.
-struct MissingArc {
-  std::string layer;  ///< identifier of the layer with the opinion
-  Path prim;          ///< of the spec with the opinion; the root for sublayers
-  std::string arc;    ///< "subLayer", "reference" or "payload"
-  std::string path;   ///< as authored
-};
-
 /// Path -> PrimIndex, computed on demand and kept; the only state of composition.
 class IndexCache {
  public:

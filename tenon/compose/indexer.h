@@ -25,6 +25,8 @@ struct IndexServices {
   std::function<Result<layer::LayerPtr>(const std::string&, const layer::Layer&)> open;
   /// The stack of a referenced layer, its expression variables overridden by those of `from`.
   std::function<const LayerStack*(const layer::LayerPtr&, const LayerStack* from)> stack;
+  /// Takes note of a layer that cannot be opened.
+  std::function<void(MissingArc)> missing;
   std::size_t* node_count = nullptr;  ///< nodes of all indices built so far
 };
 

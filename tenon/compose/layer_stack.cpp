@@ -119,6 +119,7 @@ class Builder {
   layer::LayerPtr open(const std::string& path, const layer::Layer& layer) {
     Result<layer::LayerPtr> opened = (*inputs_.opener)(path, layer);
     if (!opened || *opened == nullptr) {
+      stack_.missing.push_back({layer.identifier(), Path::absolute_root(), "subLayer", path});
       report(error_class::kInvalidSublayerPath, layer,
              "sublayer @" + path + "@ cannot be opened" +
                  (opened ? std::string() : ": " + opened.error().message()),

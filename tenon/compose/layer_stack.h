@@ -21,6 +21,14 @@ struct StackedLayer {
   layer::LayerOffset offset;  ///< stack time = offset(layer time), tcps differences included
 };
 
+/// A layer that an arc names and that cannot be opened.
+struct MissingArc {
+  std::string layer;  ///< identifier of the layer with the opinion
+  Path prim;          ///< of the spec with the opinion; the root for sublayers
+  std::string arc;    ///< "subLayer", "reference" or "payload"
+  std::string path;   ///< as authored
+};
+
 /// A root layer with its session layer and all sublayers, strongest first.
 struct LayerStack {
   layer::LayerPtr root;
@@ -40,6 +48,7 @@ struct LayerStack {
   /// From where a prim is before any relocate to its target; sorted by source.
   MapFunction::Pairs combined_relocates;
   Diagnostics errors;
+  std::vector<MissingArc> missing;  ///< sublayers that cannot be opened
 
   const std::string& identifier() const { return root->identifier(); }
   bool has_relocates() const { return !relocates.empty(); }

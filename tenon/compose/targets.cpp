@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/compose/targets.h"
+
+#include <algorithm>
+
+#include "tenon/compose/composition_error.h"
+#include "tenon/compose/index_cache.h"
+#include "tenon/compose/node_graph.h"
+#include "tenon/layer/field_values.h"
+#include "tenon/layer/fields.h"
+
+namespace tenon::compose {
+namespace {
+
+namespace fields = layer::fields;
+using layer::ListOp;
+using layer::SpecKind;
+
+/// `path` of a node's namespace in the stage's, paths in brackets included; empty when any of them
+/// has no image.
+Path map_with_targets(const MapFunction& map, Path path) {
+  path = path.strip_variants();
+  if (map.is_identity_of_paths()) {
+    return path;
+  }
+  Path mapped = map.map_source_to_target(path);
+  for (Path at = path; !mapped.empty() && !at.empty(); at = at.parent()) {
+    const Path target = at.target();
+    if (!target.empty()) {
+      const Path mapped_target = map_with_targets(map, target);
+      mapped = mapped_target.empty() ? Path() : mapped.replace_prefix(target, mapped_target, true);
+    }
+  }
+  return mapped;
+}
+
+/// The path of a node, or of its parent, where the arc was introduced.
+Path climb_to_introduction(const PrimIndex& index, std::uint32_t node, Path path) {
+  const std::uint32_t parent = index.nodes[node].parent;
+  if (parent == kNoNode) {
+    return Path::absolute_root();
+  }
+  int steps = namespace_depth_of(index.nodes[parent].path) - index.nodes[node].namespace_depth;
+  for (; steps > 0 && !path.empty(); --steps) {
+    while (path.is_variant_selection()) {
+      path = path.parent();
+    }
+    path = path.parent();
+  }
+  return path;
+}
+
+std::string arc_name(ArcKind kind) {
+  switch (kind) {
+    case ArcKind::Inherit:
+      return "inherit";
+    case ArcKind::Variant:
+      return "variant";
+    case ArcKind::Relocate:
+      return "relocate";
+    case ArcKind::Reference:
+      return "reference";
+    case ArcKind::Payload:
+      return "payload";
+    case ArcKind::Specialize:
+      return "specialize";
+    case ArcKind::Root:
+      break;
+  }
+  return "root";
+}
+
+class TargetCombiner {
+ public:
+  TargetCombiner(IndexCache& cache, const PrimIndex& index, Token property)
+      : cache_(cache), index_(index), property_(property) {}
+
+  TargetList combine(const std::vector<PropertyOpinion>& opinions) {
+    for (auto it = opinions.rbegin(); it != opinions.rend(); ++it) {
+      const bool attribute = it->spec->kind == SpecKind::Attribute;
+      const auto* op = it->spec->get<ListOp<Path>>(attribute ? fields::connectionPaths
+                                                             : fields::targetPaths);
+      if (op == nullptr || op->empty()) {
+        continue;
+      }
+      list_.has_opinions = true;
+      if (op->is_explicit) {
+        errors_.clear();
+        list_.deleted.clear();
+      }
+      mapped(*op, *it).apply_to(list_.paths);
+    }
+    for (Found& found : errors_) {
+      list_.errors.add(std::move(found.diagnostic));
+    }
+    return std::move(list_);
+  }
+
+ private:
+  struct Found {
+    Path target;  // in the stage's namespace; may be empty
+    Diagnostic diagnostic;
+  };
+
+  ListOp<Path> mapped(const ListOp<Path>& op, const PropertyOpinion& opinion) {
+    ListOp<Path> result;
+    result.is_explicit = op.is_explicit;
+    const auto add = [&](std::vector<Path>& to, const std::vector<Path>& from, bool deletes) {
+      for (const Path path : from) {
+        const Path target = deletes ? deleted_target(path, opinion) : target_of(path, opinion);
+        if (!target.empty()) {
+          to.push_back(target);
+        }
+      }
+    };
+    add(result.explicit_items, op.explicit_items, false);
+    add(result.deleted, op.deleted, true);
+    add(result.added, op.added, false);
+    add(result.prepended, op.prepended, false);
+    add(result.appended, op.appended, false);
+    add(result.ordered, op.ordered, false);
+    return result;
+  }
+
+  Path absolute(Path path, const PropertyOpinion& opinion) const {
+    return path.absolute(opinion.path.prim());
+  }
+
+  Path deleted_target(Path path, const PropertyOpinion& opinion) {
+    const Path target = map_with_targets(*index_.nodes[opinion.node].map_to_root,
+                                         absolute(path, opinion));
+    if (!target.empty()) {
+      list_.deleted.push_back(target);
+      std::erase_if(errors_, [&](const Found& found) { return found.target == target; });
+    }
+    return target;
+  }
+
+  Path target_of(Path path, const PropertyOpinion& opinion) {
+    const Path in_node = absolute(path, opinion);
+    const Path target = map_with_targets(*index_.nodes[opinion.node].map_to_root, in_node);
+    if (target.empty()) {
+      const ArcKind arc = index_.nodes[opinion.node].arc;
+      const std::uint32_t parent = index_.nodes[opinion.node].parent;
+      const Path introduced =
+          parent == kNoNode ? Path()
+                            : climb_to_introduction(index_, opinion.node, index_.nodes[parent].path);
+      report(error_class::kInvalidExternalTargetPath, opinion, {},
+             quoted(in_node) + " is outside of what the " + arc_name(arc) + " of " +
+                 quoted(introduced) + " brings in; it is ignored",
+             "target something below the prim that the arc leads to");
+      return {};
+    }
+    if (targets_instance_of_class(in_node, target, opinion)) {
+      report(error_class::kInvalidInstanceTargetPath, opinion, target,
+             quoted(in_node) + " is authored in a class but lies in an instance of it; it is ignored",
+             "target something within the class");
+      return {};
+    }
+    return target;
+  }
+
+  /// An opinion in a class may not name what uses the class: the way back would not be unique.
+  bool targets_instance_of_class(Path in_node, Path target, const PropertyOpinion& opinion) {
+    const Node& node = index_.nodes[opinion.node];
+    if (node.arc != ArcKind::Inherit) {
+      return false;
+    }
+    const Path the_class = climb_to_introduction(index_, opinion.node, node.path);
+    if (in_node.has_prefix(the_class)) {
+      return false;
+    }
+    const PrimIndex& there = cache_.index(target.prim());
+    return std::any_of(there.nodes.begin(), there.nodes.end(), [&](const Node& other) {
+      return other.arc == ArcKind::Inherit && other.layer_stack == node.layer_stack &&
+             other.path.has_prefix(the_class);
+    });
+  }
+
+  void report(std::string_view error_class, const PropertyOpinion& opinion, Path target,
+              std::string message, std::string fix) {
+    const char* what = opinion.spec->kind == SpecKind::Attribute ? "connection " : "target ";
+    errors_.push_back(
+        {target, composition_error(error_class, Severity::Error,
+                                   {opinion.layer, opinion.path, index_.path}, what + message,
+                                   std::move(fix))});
+  }
+
+  IndexCache& cache_;
+  const PrimIndex& index_;
+  Token property_;
+  TargetList list_;
+  std::vector<Found> errors_;
+};
+
+}  // namespace
+
+std::vector<PropertyOpinion> property_opinions(const PrimIndex& index, Token name,
+                                               Diagnostics* errors) {
+  std::vector<PropertyOpinion> found;
+  for (const Opinion& opinion : index.opinions) {
+    const Path path = opinion.path.property(name);
+    const layer::Spec* spec = opinion.layer->find(path);
+    if (spec == nullptr) {
+      continue;
+    }
+    if (!found.empty() && found.front().spec->kind != spec->kind) {
+      if (errors != nullptr) {
+        errors->add(composition_error(
+            error_class::kInconsistentPropertyType, Severity::Error,
+            {opinion.layer, path, index.path},
+            quoted(path) + " is an attribute here and a relationship in " +
+                quoted(*found.front().layer, found.front().path) +
+                " or the reverse; it is ignored",
+            "make both the same kind of property"));
+      }
+      continue;
+    }
+    found.push_back({opinion.layer, spec, path, opinion.node});
+  }
+  return found;
+}
+
+TargetList compose_targets(IndexCache& cache, const PrimIndex& index, Token property) {
+  return TargetCombiner(cache, index, property)
+      .combine(property_opinions(index, property, nullptr));
+}
+
+}  // namespace tenon::compose
