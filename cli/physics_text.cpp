@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdio>
+
+#include "cli/physics_json.h"
+
+namespace tenon::cli {
+namespace {
+
+using physics::PhysicsScene;
+
+/// Six digits, as people read numbers.
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.6g", value + 0.0);
+  return buffer;
+}
+
+std::string text(const Vec3d& v) {
+  return "(" + text(v[0]) + ", " + text(v[1]) + ", " + text(v[2]) + ")";
+}
+
+std::string plural(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// Degrees for angles, millimetres would hide scale: metres for lengths.
+std::string range(double lower, double upper, bool angular) {
+  const auto end = [&](double x) {
+    return std::isinf(x) ? std::string("unlimited")
+                         : text(angular ? x * 57.295779513082323 : x) + (angular ? " deg" : " m");
+  };
+  return lower > upper ? "locked" : end(lower) + " to " + end(upper);
+}
+
+std::string shape_text(const PhysicsScene& scene, const physics::Shape& shape) {
+  std::string line(physics::shape_name(shape.kind));
+  switch (shape.kind) {
+    case physics::ShapeKind::Box:
+    case physics::ShapeKind::Ellipsoid:
+      return line + ", half extents " + text(shape.half_extents) + " m";
+    case physics::ShapeKind::Sphere:
+      return line + ", radius " + text(shape.radius) + " m";
+    case physics::ShapeKind::Capsule:
+    case physics::ShapeKind::Cylinder:
+    case physics::ShapeKind::Cone:
+      return line + ", radius " + text(shape.radius) + " m, half height " +
+             text(shape.half_height) + " m";
+    case physics::ShapeKind::ConvexHull:
+    case physics::ShapeKind::Mesh:
+      return line + " of " + std::to_string(scene.meshes[shape.mesh].points.size()) + " points";
+    case physics::ShapeKind::Spheres:
+      return line + ", " + std::to_string(shape.sphere_radii.size());
+    case physics::ShapeKind::Plane:
+      break;
+  }
+  return line;
+}
+
+std::string body_line(const physics::Body& body) {
+  return "  " + body.path.str() + (body.kinematic ? "  kinematic" : "") + "  mass " +
+         text(body.mass) + " kg (" + std::string(physics::mass_source_name(body.mass_source)) +
+         "), at " + text(body.pose.position) + " m, centre of mass " + text(body.center_of_mass) +
+         " m\n";
+}
+
+std::string collider_line(const PhysicsScene& scene, const physics::Collider& collider) {
+  std::string line = "  " + collider.path.str() + "  " + shape_text(scene, collider.shape);
+  line += collider.body ? ", of " + scene.bodies[*collider.body].path.str() : ", static";
+  if (collider.material) {
+    line += ", material " + scene.materials[*collider.material].path.str();
+  }
+  return line + (collider.enabled ? "\n" : ", disabled\n");
+}
+
+std::string side(const PhysicsScene& scene, const std::optional<physics::Index>& body) {
+  return body ? scene.bodies[*body].path.str() : std::string("world");
+}
+
+std::string joint_lines(const PhysicsScene& scene, const physics::Joint& joint) {
+  std::string lines = "  " + joint.path.str() + "  " +
+                      std::string(physics::joint_kind_name(joint.kind)) +
+                      (joint.enabled ? "" : " (disabled)") + "  " + side(scene, joint.body0) +
+                      " - " + side(scene, joint.body1);
+  const bool angular = joint.kind == physics::JointKind::Revolute;
+  if (angular || joint.kind == physics::JointKind::Prismatic ||
+      joint.kind == physics::JointKind::Distance) {
+    lines += ", " + range(joint.lower, joint.upper, angular);
+  }
+  lines += "\n";
+  for (const physics::Limit& limit : joint.limits) {
+    lines += "    limit " + std::string(physics::dof_name(limit.dof)) + ": " +
+             range(limit.lower, limit.upper, physics::is_angular(limit.dof)) + "\n";
+  }
+  for (const physics::Drive& drive : joint.drives) {
+    lines += "    drive " + std::string(physics::dof_name(drive.dof)) +
+             (drive.acceleration ? " (acceleration)" : "") + ": stiffness " +
+             text(drive.stiffness) + ", damping " + text(drive.damping) + ", at most " +
+             (std::isinf(drive.max_force) ? std::string("unlimited") : text(drive.max_force)) +
+             ", to " + text(drive.target_position) + " at " + text(drive.target_velocity) + "\n";
+  }
+  if (joint.mimic) {
+    lines += "    follows " + scene.joints[joint.mimic->leader].path.str() + ": " +
+             text(joint.mimic->multiplier) + " times, plus " + text(joint.mimic->offset) + " (" +
+             joint.mimic->schema + ")\n";
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string physics_text(const PhysicsScene& scene) {
+  std::string out = plural(scene.scenes.size(), "scene", "scenes") + "\n";
+  for (const physics::Scene& s : scene.scenes) {
+    out += "  " + (s.path.empty() ? std::string("(implicit)") : s.path.str()) + "  gravity " +
+           text(s.gravity) + " m/s^2\n";
+  }
+  out += plural(scene.bodies.size(), "body", "bodies") + "\n";
+  for (const physics::Body& body : scene.bodies) {
+    out += body_line(body);
+  }
+  out += plural(scene.colliders.size(), "collider", "colliders") + "\n";
+  for (const physics::Collider& collider : scene.colliders) {
+    out += collider_line(scene, collider);
+  }
+  out += plural(scene.joints.size(), "joint", "joints") + " (forces in N and N m, angles in radians "
+         "unless marked)\n";
+  for (const physics::Joint& joint : scene.joints) {
+    out += joint_lines(scene, joint);
+  }
+  out += plural(scene.articulations.size(), "articulation", "articulations") + "\n";
+  for (const physics::Articulation& articulation : scene.articulations) {
+    out += "  " + articulation.path.str() + "  root " + articulation.root.str() +
+           (articulation.fixed_base ? ", fixed base, " : ", floating base, ") +
+           plural(articulation.links.size(), "link", "links") + "\n";
+  }
+  out += plural(scene.disabled_pairs().size(), "disabled collider pair",
+                "disabled collider pairs") +
+         "\n";
+  if (!scene.not_read.empty()) {
+    out += "not taken over\n";
+    for (const physics::NotRead& row : scene.not_read) {
+      out += "  " + row.prim.str() + "  " + row.property + ": " + row.why + "\n";
+    }
+  }
+  return out;
+}
+
+}  // namespace tenon::cli

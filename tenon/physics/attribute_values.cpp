@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/physics/attribute_values.h"
+
+#include <cmath>
+#include <utility>
+
+#include "tenon/layer/field_values.h"
+#include "tenon/layer/fields.h"
+#include "tenon/layer/type_names.h"
+
+namespace tenon::physics {
+
+bool stage_is_animated(const stage::Stage& stage) {
+  const Token samples("timeSamples");
+  const Token spline("spline");
+  const Token clips("clips");
+  for (const layer::LayerPtr& layer : stage.used_layers()) {
+    for (const layer::Layer::Entry& entry : layer->entries()) {
+      if (entry.spec.kind == layer::SpecKind::Attribute) {
+        if (entry.spec.has(samples) || entry.spec.has(spline)) {
+          return true;
+        }
+      } else if (entry.spec.kind == layer::SpecKind::Prim && entry.spec.has(clips)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::optional<double> number_of(const layer::Value& value) {
+  if (value.is_array()) {
+    return std::nullopt;
+  }
+  switch (value.type()) {
+    case layer::ValueType::Float:
+      return static_cast<double>(*value.get<float>());
+    case layer::ValueType::Double:
+      return *value.get<double>();
+    case layer::ValueType::Half:
+      return static_cast<double>(static_cast<float>(*value.get<Half>()));
+    case layer::ValueType::Int:
+      return static_cast<double>(*value.get<std::int32_t>());
+    case layer::ValueType::UInt:
+      return static_cast<double>(*value.get<std::uint32_t>());
+    case layer::ValueType::Int64:
+      return static_cast<double>(*value.get<std::int64_t>());
+    case layer::ValueType::UInt64:
+      return static_cast<double>(*value.get<std::uint64_t>());
+    case layer::ValueType::UChar:
+      return static_cast<double>(*value.get<std::uint8_t>());
+    default:
+      return std::nullopt;
+  }
+}
+
+// S-6: the default where one is authored, else the value at the start, held before the first sample.
+layer::Value AttributeValues::resolved(const stage::Attribute& attribute) const {
+  if (animated_ && attribute.value_source() != stage::ValueSource::Default) {
+    return attribute.get(start_);
+  }
+  return attribute.get();
+}
+
+bool AttributeValues::check_number(const stage::Prim& prim, Token name, double value) const {
+  if (!std::isnan(value)) {
+    return true;
+  }
+  // S-4
+  report(prim, name, Severity::Error, "attribute.not-a-number",
+         name.str() + " is not a number; it is taken as unauthored", "author a finite number");
+  return false;
+}
+
+std::optional<double> AttributeValues::number(const stage::Prim& prim, Token name) const {
+  const std::optional<float> value = get<float>(prim, name);
+  if (!value || !check_number(prim, name, static_cast<double>(*value))) {
+    return std::nullopt;
+  }
+  return unlimited_or(static_cast<double>(*value));
+}
+
+std::optional<double> AttributeValues::wide_number(const stage::Prim& prim, Token name) const {
+  const std::optional<double> value = get<double>(prim, name);
+  if (!value || !check_number(prim, name, *value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<Vec3d> AttributeValues::vector(const stage::Prim& prim, Token name) const {
+  const std::optional<Vec3f> value = get<Vec3f>(prim, name);
+  if (!value) {
+    return std::nullopt;
+  }
+  const Vec3d wide = to_double(*value);
+  if (!check_number(prim, name, wide[0] + wide[1] + wide[2]) &&
+      (std::isnan(wide[0]) || std::isnan(wide[1]) || std::isnan(wide[2]))) {
+    return std::nullopt;
+  }
+  return wide;
+}
+
+std::optional<Quatd> AttributeValues::rotation(const stage::Prim& prim, Token name) const {
+  const std::optional<Quatf> value = get<Quatf>(prim, name);
+  if (!value) {
+    return std::nullopt;
+  }
+  const Quatd wide = to_double(*value);
+  const double square = dot(wide, wide);
+  if (!check_number(prim, name, square) || !(square > 0)) {
+    return std::nullopt;
+  }
+  return normalized(wide);
+}
+
+std::optional<double> AttributeValues::authored_number(const stage::Prim& prim,
+                                                       Token name) const {
+  const stage::Attribute attribute = prim.attribute(name);
+  if (!attribute.has_authored_value()) {
+    return std::nullopt;
+  }
+  const layer::Value value = resolved(attribute);
+  const std::optional<double> number = number_of(value);
+  if (!number && !value.empty() && !value.is_block()) {
+    report_type(prim, name, layer::ValueType::Float, false);
+  }
+  if (!number || !check_number(prim, name, *number)) {
+    return std::nullopt;
+  }
+  return unlimited_or(*number);
+}
+
+std::optional<bool> AttributeValues::authored_flag(const stage::Prim& prim, Token name) const {
+  const stage::Attribute attribute = prim.attribute(name);
+  if (!attribute.has_authored_value()) {
+    return std::nullopt;
+  }
+  const layer::Value value = resolved(attribute);
+  if (const bool* flag = value.get<bool>()) {
+    return *flag;
+  }
+  const std::optional<double> number = number_of(value);
+  return number ? std::optional<bool>(*number != 0) : std::nullopt;
+}
+
+void AttributeValues::report(const stage::Prim& prim, Token name, Severity severity,
+                             const char* rule, std::string message, std::string fix) const {
+  Diagnostic finding = prim.attribute(name).located(severity, rule, std::move(message));
+  if (finding.prim.empty()) {
+    finding.prim = prim.path().str();
+  }
+  if (finding.property.empty()) {
+    finding.property = name.str();
+  }
+  finding.fix = std::move(fix);
+  diagnostics_->add(std::move(finding));
+}
+
+// S-3: OpenUSD takes the fallback in silence.
+void AttributeValues::report_type(const stage::Prim& prim, Token name, layer::ValueType wanted,
+                                  bool wanted_array) const {
+  const layer::Value value = resolved(prim.attribute(name));
+  const layer::TypeName* found = layer::type_name_of(value.type(), value.is_array());
+  const layer::TypeName* schema = layer::type_name_of(wanted, wanted_array);
+  const std::string found_name = found == nullptr ? "of another type" : found->name.str();
+  const std::string wanted_name = schema == nullptr ? "another type" : schema->name.str();
+  report(prim, name, Severity::Error, "attribute.wrong-type",
+         name.str() + " is " + found_name + ", the schema says " + wanted_name +
+             "; it is taken as unauthored",
+         "declare it as " + wanted_name);
+}
+
+void report(Diagnostics& diagnostics, const stage::Prim& prim, Severity severity, const char* rule,
+            std::string message, std::string fix) {
+  Diagnostic finding = prim.located(severity, rule, std::move(message));
+  if (finding.prim.empty()) {
+    finding.prim = prim.path().str();
+  }
+  finding.fix = std::move(fix);
+  diagnostics.add(std::move(finding));
+}
+
+}  // namespace tenon::physics

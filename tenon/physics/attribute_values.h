@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/layer/value.h"
+#include "tenon/math/quaternion.h"
+#include "tenon/math/vector.h"
+#include "tenon/physics/units.h"
+#include "tenon/stage/attribute.h"
+#include "tenon/stage/prim.h"
+#include "tenon/stage/stage.h"
+#include "tenon/stage/time.h"
+
+namespace tenon::physics {
+
+/// Some layer of the stage holds time samples, splines or value clips.
+bool stage_is_animated(const stage::Stage& stage);
+
+/// A number of any numeric type; nullopt for anything else.
+std::optional<double> number_of(const layer::Value& value);
+
+/// Reads attribute values as the schema types them, once, at the start of the simulation.
+/// Values of another type, NaN and blocks count as unauthored: then the schema's fallback or
+/// nullopt comes back, with a diagnostic for the first two (S-3, S-4, S-5).
+class AttributeValues {
+ public:
+  /// `animated`: some attribute of the stage varies over time (`stage_is_animated`).
+  AttributeValues(stage::Time start, bool animated, Diagnostics& diagnostics)
+      : start_(start), animated_(animated), diagnostics_(&diagnostics) {}
+
+  stage::Time start() const { return start_; }
+  bool stage_is_animated() const { return animated_; }
+  Diagnostics& diagnostics() const { return *diagnostics_; }
+
+  /// The value where it is exactly a T.
+  template <class T>
+  std::optional<T> get(const stage::Prim& prim, Token name) const {
+    const layer::Value value = resolved(prim.attribute(name));
+    if (value.empty() || value.is_block()) {
+      return std::nullopt;
+    }
+    const T* contents = value.get<T>();
+    if (contents == nullptr) {
+      report_type(prim, name, layer::ValueTraits<T>::type, layer::ValueTraits<T>::is_array);
+      return std::nullopt;
+    }
+    return *contents;
+  }
+  bool flag(const stage::Prim& prim, Token name, bool fallback) const {
+    return get<bool>(prim, name).value_or(fallback);
+  }
+  /// A float that is a number; sentinels come back as infinities (S-4).
+  std::optional<double> number(const stage::Prim& prim, Token name) const;
+  /// The same for attributes that are double in their schema (shapes).
+  std::optional<double> wide_number(const stage::Prim& prim, Token name) const;
+  std::optional<Vec3d> vector(const stage::Prim& prim, Token name) const;
+  /// Unit quaternion; nullopt for a zero one (S-89).
+  std::optional<Quatd> rotation(const stage::Prim& prim, Token name) const;
+  /// A number that the asset authors, of any numeric type: vendor schemas are written both ways.
+  std::optional<double> authored_number(const stage::Prim& prim, Token name) const;
+  std::optional<bool> authored_flag(const stage::Prim& prim, Token name) const;
+
+  /// One finding with the place of the strongest opinion about the attribute.
+  void report(const stage::Prim& prim, Token name, Severity severity, const char* rule,
+              std::string message, std::string fix) const;
+
+ private:
+  layer::Value resolved(const stage::Attribute& attribute) const;
+  void report_type(const stage::Prim& prim, Token name, layer::ValueType wanted,
+                   bool wanted_array) const;
+  bool check_number(const stage::Prim& prim, Token name, double value) const;
+
+  stage::Time start_;
+  bool animated_ = false;
+  Diagnostics* diagnostics_;
+};
+
+/// One finding about a prim as a whole.
+void report(Diagnostics& diagnostics, const stage::Prim& prim, Severity severity, const char* rule,
+            std::string message, std::string fix);
+
+}  // namespace tenon::physics

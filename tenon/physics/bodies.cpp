@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "tenon/physics/read_state.h"
+#include "tenon/physics/scenes.h"
+#include "tenon/physics/world_pose.h"
+#include "tenon/stage/transform_at.h"
+
+namespace tenon::physics {
+namespace {
+
+bool differs(const Vec3d& a, const Vec3d& b) {
+  return length(a - b) > 1e-9 * (length(a) + length(b));
+}
+
+/// The space that velocities are given in: that of the prim's transform (S-30).
+Mat4d velocity_space(const ReadState& state, const PhysicsPrim& found) {
+  if (stage::local_transform(found.prim, state.values.start()).resets_stack) {
+    return Mat4d::identity();
+  }
+  return stage::local_to_world(found.prim.parent(), state.values.start());
+}
+
+/// S-30, S-31: parent space, its scale included; S-32: angular velocity is a rotation vector.
+void read_velocities(const ReadState& state, const PhysicsPrim& found, Body& body) {
+  const Vec3d zero;
+  const Vec3d linear = state.values.vector(found.prim, state.tokens.velocity).value_or(zero);
+  const Vec3d angular =
+      state.values.vector(found.prim, state.tokens.angular_velocity).value_or(zero);
+  if (linear == zero && angular == zero) {
+    return;
+  }
+  if (body.kinematic) {
+    // S-27
+    state.report(found.prim, state.tokens.velocity, Severity::Warning, "body.kinematic-velocity",
+                 "the velocity of a kinematic body is ignored; it follows from its poses",
+                 "animate its transform instead");
+    return;
+  }
+  const Mat4d space = velocity_space(state, found);
+  const Quatd turn = rigid_part(space).orientation;
+  body.linear_velocity = transform_direction(linear, space) * state.units.length;
+  body.angular_velocity = rotate(turn, angular * kRadians);
+  const Vec3d as_world = linear * state.units.length;
+  const bool ambiguous =
+      differs(body.linear_velocity, as_world) ||
+      differs(as_world, rotate(body.pose.orientation, as_world)) ||
+      differs(body.angular_velocity, angular * kRadians) ||
+      differs(angular * kRadians, rotate(body.pose.orientation, angular * kRadians));
+  if (ambiguous) {
+    state.report(found.prim, linear == zero ? state.tokens.angular_velocity : state.tokens.velocity,
+                 Severity::Warning, "body.velocity-space",
+                 "velocities are read in the space of the parent; engines that take world or body "
+                 "axes start this body differently",
+                 "leave the prim and its ancestors unrotated and unscaled, or check the result");
+  }
+}
+
+void check_frame(const ReadState& state, const PhysicsPrim& found) {
+  const Factored parts = factor(found.world);
+  if (parts.sheared) {
+    // S-33
+    state.report(found.prim, Severity::Warning, "body.sheared",
+                 "the body is sheared by a rotation under a non-uniform scale; its colliders are "
+                 "placed exactly, its frame is the nearest rotation",
+                 "remove the non-uniform scale above the body");
+  }
+  if (parts.scale[0] == 0 || parts.scale[1] == 0 || parts.scale[2] == 0) {
+    state.report(found.prim, Severity::Error, "body.zero-scale",
+                 "the body is scaled to zero along an axis", "author a scale that is not zero");
+  }
+}
+
+void read_damping(const ReadState& state, const PhysicsPrim& found, Body& body) {
+  if (!found.roles.has(Api::PhysxRigidBody)) {
+    return;
+  }
+  const AttributeValues& values = state.values;
+  body.linear_damping =
+      values.authored_number(found.prim, state.tokens.physx_linear_damping).value_or(0);
+  body.angular_damping =
+      values.authored_number(found.prim, state.tokens.physx_angular_damping).value_or(0);
+  if (values.authored_flag(found.prim, state.tokens.physx_disable_gravity).value_or(false)) {
+    body.gravity_scale = 0;
+  }
+}
+
+Body read_body(const ReadState& state, const PhysicsPrim& found, Index scene) {
+  Body body;
+  body.path = found.path;
+  body.kinematic = state.values.flag(found.prim, state.tokens.kinematic, false);
+  body.starts_asleep = state.values.flag(found.prim, state.tokens.starts_asleep, false);
+  body.pose = world_pose(found.world, state.units);
+  check_frame(state, found);
+  const OwnerScene owner = owner_scene(state, found.prim, scene);
+  body.scene = owner.scene;
+  if (!owner.found) {
+    body.kinematic = true;  // stands still (S-19)
+  }
+  read_velocities(state, found, body);
+  read_damping(state, found, body);
+  return body;
+}
+
+/// Nested bodies are bodies of their own (S-24); one warning per outermost body.
+void report_nesting(const ReadState& state) {
+  std::vector<std::uint32_t> nested(state.walk.prims.size(), 0);
+  for (const PhysicsPrim& found : state.walk.prims) {
+    if (!found.is_body || found.outer_body == kNone || found.resets_below_body) {
+      continue;
+    }
+    std::uint32_t outermost = found.outer_body;
+    while (state.walk.prims[outermost].outer_body != kNone) {
+      outermost = state.walk.prims[outermost].outer_body;
+    }
+    ++nested[outermost];
+  }
+  for (std::size_t i = 0; i < nested.size(); ++i) {
+    if (nested[i] > 0) {
+      state.report(state.walk.prims[i].prim, Severity::Warning, "body.nested",
+                   std::to_string(nested[i]) +
+                       " rigid bodies lie below this one; each moves on its own",
+                   "author !resetXformStack! on them, or place them beside each other, for engines "
+                   "that reject nested bodies");
+    }
+  }
+}
+
+}  // namespace
+
+void read_bodies(ReadState& state) {
+  state.body_prims = sorted_prims(state.walk, [](const PhysicsPrim& p) { return p.is_body; });
+  state.body_of_prim.assign(state.walk.prims.size(), kNone);
+  state.scene.bodies.reserve(state.body_prims.size());
+  const Index scene = default_scene(state);
+  for (const std::uint32_t i : state.body_prims) {
+    state.body_of_prim[i] = static_cast<std::uint32_t>(state.scene.bodies.size());
+    state.scene.bodies.push_back(read_body(state, state.walk.prims[i], scene));
+  }
+  state.colliders_of_body.resize(state.scene.bodies.size());
+  report_nesting(state);
+}
+
+}  // namespace tenon::physics

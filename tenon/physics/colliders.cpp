@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "tenon/physics/read_state.h"
+#include "tenon/physics/scenes.h"
+#include "tenon/physics/shapes.h"
+#include "tenon/physics/world_pose.h"
+
+namespace tenon::physics {
+namespace {
+
+/// Distances and hull sizes that vendors' APIs ask for: Newton before PhysX before MuJoCo.
+void read_contact_settings(const ReadState& state, const PhysicsPrim& found, Collider& collider) {
+  const AttributeValues& values = state.values;
+  const Roles& roles = found.roles;
+  const auto distance = [&](Token name) -> std::optional<double> {
+    const std::optional<double> authored = values.authored_number(found.prim, name);
+    return authored && std::isfinite(*authored)
+               ? std::optional<double>(*authored * state.units.length)
+               : std::nullopt;
+  };
+  if (roles.has(Api::NewtonCollision) || roles.has(Api::MjcCollision)) {
+    collider.rest_offset = distance(state.tokens.newton_contact_margin);
+    const std::optional<double> gap = distance(state.tokens.newton_contact_gap);
+    if (gap) {
+      collider.contact_offset = *gap + collider.rest_offset.value_or(0);
+    }
+  }
+  if (roles.has(Api::PhysxCollision)) {
+    if (!collider.contact_offset) {
+      collider.contact_offset = distance(state.tokens.physx_contact_offset);
+    }
+    if (!collider.rest_offset) {
+      collider.rest_offset = distance(state.tokens.physx_rest_offset);
+    }
+  }
+  std::optional<double> vertices;
+  if (roles.has(Api::NewtonMeshCollision) || roles.has(Api::MjcMeshCollision)) {
+    vertices = values.authored_number(found.prim, state.tokens.newton_hull_vertices);
+  }
+  if (!vertices && roles.has(Api::PhysxConvexHull)) {
+    vertices = values.authored_number(found.prim, state.tokens.physx_hull_vertices);
+  }
+  if (!vertices && roles.has(Api::MjcMeshCollision)) {
+    vertices = values.authored_number(found.prim, state.tokens.mjc_hull_vertices);
+  }
+  if (vertices && *vertices >= 4 && *vertices < 1e6) {
+    collider.max_hull_vertices = static_cast<int>(*vertices);
+  }
+}
+
+bool has_zero_scale(const ReadState& state, const PhysicsPrim& found, const Factored& parts) {
+  if (found.roles.kind == PrimKind::Plane) {
+    return false;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(std::fabs(parts.scale[i]) > 1e-12)) {
+      state.report(found.prim, Severity::Error, "collider.zero-scale",
+                   "the shape is scaled to nothing along an axis; it does not collide",
+                   "author a scale that is not zero");
+      return true;
+    }
+  }
+  return false;
+}
+
+void check_apis(const ReadState& state, const PhysicsPrim& found) {
+  if (found.roles.has(Api::Material)) {
+    // S-74
+    state.report(found.prim, Severity::Error, "collider.is-material",
+                 "PhysicsMaterialAPI on a collider is ignored",
+                 "apply it to a Material prim and bind that");
+  }
+  if (found.roles.has(Api::MeshCollision) && found.roles.kind != PrimKind::Mesh) {
+    // S-63
+    state.report(found.prim, Severity::Warning, "collider.mesh-api-ignored",
+                 "PhysicsMeshCollisionAPI on a prim that is no Mesh is ignored", "remove it");
+  }
+}
+
+/// The collider of one prim without its index in the scene; nullopt when it has no usable shape.
+std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found,
+                                      std::optional<SolidIntegrals>& integrals) {
+  check_apis(state, found);
+  ShapeSource source{found, factor(found.world), {}, false, false};
+  source.frame = {source.parts.translation * state.units.length, rotation_of(source.parts.rotation)};
+  if (has_zero_scale(state, found, source.parts)) {
+    return std::nullopt;
+  }
+  Collider collider;
+  collider.path = found.path;
+  if (found.body != kNone) {
+    collider.body = state.body_of_prim[found.body];
+    collider.scene = state.scene.bodies[*collider.body].scene;  // S-20
+    source.on_body = true;
+    source.dynamic = state.is_dynamic(*collider.body);
+  } else {
+    const OwnerScene owner = owner_scene(state, found.prim, default_scene(state));
+    collider.scene = owner.scene;
+  }
+  std::optional<ShapeReading> reading = read_shape(state, source);
+  if (!reading) {
+    return std::nullopt;
+  }
+  const Pose world = source.frame * reading->pose;
+  collider.pose = collider.body ? inverse(state.scene.bodies[*collider.body].pose) * world : world;
+  collider.shape = std::move(reading->shape);
+  collider.enabled = state.values.flag(found.prim, state.tokens.collision_enabled, true);
+  integrals = reading->integrals;
+  read_contact_settings(state, found, collider);
+  return collider;
+}
+
+}  // namespace
+
+void read_colliders(ReadState& state) {
+  state.collider_of_prim.assign(state.walk.prims.size(), kNone);
+  const auto prims = sorted_prims(
+      state.walk, [](const PhysicsPrim& p) { return p.roles.has(Api::Collision); });
+  state.scene.colliders.reserve(prims.size());
+  for (const std::uint32_t i : prims) {
+    std::optional<SolidIntegrals> integrals;
+    std::optional<Collider> collider = read_collider(state, state.walk.prims[i], integrals);
+    if (!collider) {
+      continue;
+    }
+    const auto index = static_cast<Index>(state.scene.colliders.size());
+    if (collider->body) {
+      state.colliders_of_body[*collider->body].push_back(index);
+    }
+    if (integrals) {
+      state.integrals_of_collider.emplace(index, *integrals);
+    }
+    state.collider_of_prim[i] = index;
+    state.collider_prims.push_back(i);
+    state.scene.colliders.push_back(*std::move(collider));
+  }
+}
+
+}  // namespace tenon::physics

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pairs of colliders that never touch: named by the filtered pairs API, joined by a joint, or links of
+// an articulation without self collision (S-81, S-82, S-92, S-115).
+#include <algorithm>
+
+#include "tenon/physics/joint_frames.h"
+#include "tenon/physics/read_state.h"
+
+namespace tenon::physics {
+namespace {
+
+using Colliders = std::vector<Index>;
+
+class PairFilter {
+ public:
+  explicit PairFilter(ReadState& state) : state_(state), pairs_(state.scene.filter.pairs_off) {}
+
+  void run() {
+    for (std::uint32_t i = 0; i < state_.walk.prims.size(); ++i) {
+      if (state_.walk.prims[i].roles.has(Api::FilteredPairs)) {
+        add_filtered_pairs(i);
+      }
+    }
+    for (const Joint& joint : state_.scene.joints) {
+      if (joint.enabled && !joint.collision_enabled) {
+        add_joint(joint);
+      }
+    }
+    for (const Articulation& articulation : state_.scene.articulations) {
+      if (!articulation.self_collision) {
+        add_links(articulation);
+      }
+    }
+    std::sort(pairs_.begin(), pairs_.end());
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+  }
+
+ private:
+  /// Pairs of different bodies; two static colliders never touch anyway.
+  void add(Index a, Index b) {
+    const std::vector<Collider>& colliders = state_.scene.colliders;
+    if (a != b && colliders[a].body != colliders[b].body) {
+      pairs_.emplace_back(std::min(a, b), std::max(a, b));
+    }
+  }
+  void add_all(const Colliders& a, const Colliders& b) {
+    for (const Index i : a) {
+      for (const Index j : b) {
+        add(i, j);
+      }
+    }
+  }
+
+  void append(Index body, Colliders& list) const {
+    const Colliders& own = state_.colliders_of_body[body];
+    list.insert(list.end(), own.begin(), own.end());
+  }
+  void append_links(Path root, Colliders& list) const {
+    for (const Articulation& articulation : state_.scene.articulations) {
+      if (articulation.path == root) {
+        for (const Index link : articulation.links) {
+          append(link, list);
+        }
+      }
+    }
+  }
+  /// Colliders at or below a path, which lists sorted by path hold side by side.
+  Colliders below(Path path) const {
+    const std::vector<Collider>& colliders = state_.scene.colliders;
+    auto at = std::lower_bound(colliders.begin(), colliders.end(), path,
+                               [](const Collider& c, const Path& p) { return c.path < p; });
+    Colliders list;
+    for (; at != colliders.end() && at->path.has_prefix(path); ++at) {
+      list.push_back(static_cast<Index>(at - colliders.begin()));
+    }
+    return list;
+  }
+
+  /// What a prim of a filtered pair stands for: an articulation's links, a body's colliders, one
+  /// collider, or all that lies below any other prim (S-81).
+  Colliders meant_by(Path path) const {
+    Colliders list;
+    const auto found = state_.walk.index_of.find(path);
+    if (found != state_.walk.index_of.end()) {
+      const PhysicsPrim& prim = state_.walk.prims[found->second];
+      if (prim.roles.has(Api::ArticulationRoot)) {
+        append_links(path, list);
+      }
+      if (prim.is_body) {
+        append(state_.body_of_prim[found->second], list);
+      }
+      if (list.empty() && state_.collider_of_prim[found->second] != kNone) {
+        list.push_back(state_.collider_of_prim[found->second]);
+      }
+    }
+    return list.empty() ? below(path) : list;
+  }
+
+  void add_filtered_pairs(std::uint32_t prim_index) {
+    const PhysicsPrim& found = state_.walk.prims[prim_index];
+    const Token name = state_.tokens.filtered_pairs;
+    const Colliders own = meant_by(found.path);
+    for (const Path& target : found.prim.relationship(name).targets()) {
+      if (!state_.stage.prim(target)) {
+        state_.report(found.prim, name, Severity::Warning, "filter.target-missing",
+                      "physics:filteredPairs names <" + target.str() +
+                          ">, which does not exist; it is ignored",
+                      "name an existing prim");
+        continue;
+      }
+      if (target == found.path) {
+        // S-82
+        state_.report(found.prim, name, Severity::Warning, "filter.self",
+                      "physics:filteredPairs names its own prim: contacts within it are off",
+                      "use the self collision switch of the articulation");
+      }
+      add_all(own, meant_by(target));
+    }
+  }
+
+  /// The colliders of the body that a side is attached to, or the static ones below the prim that it
+  /// names; none for the world. Bodies nested below are bodies of their own.
+  Colliders side(const std::optional<Index>& body, Path target, Path other) const {
+    if (body) {
+      return state_.colliders_of_body[*body];
+    }
+    if (target.empty() || other.has_prefix(target)) {
+      return {};  // the world, or a prim above the other side that stands for it
+    }
+    Colliders list = below(target);
+    std::erase_if(list, [&](Index i) { return state_.scene.colliders[i].body.has_value(); });
+    return list;
+  }
+
+  // S-92
+  void add_joint(const Joint& joint) {
+    if (joint.target0.empty() || joint.target1.empty()) {
+      return;
+    }
+    add_all(side(joint.body0, joint.target0, joint.target1),
+            side(joint.body1, joint.target1, joint.target0));
+  }
+
+  void add_links(const Articulation& articulation) {
+    Colliders all;
+    for (const Index link : articulation.links) {
+      append(link, all);
+    }
+    add_all(all, all);
+  }
+
+  ReadState& state_;
+  std::vector<std::pair<Index, Index>>& pairs_;
+};
+
+}  // namespace
+
+void read_filtered_pairs(ReadState& state) { PairFilter(state).run(); }
+
+}  // namespace tenon::physics

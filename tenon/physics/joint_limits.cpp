@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/physics/joint_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tenon/base/text_number.h"
+
+namespace tenon::physics {
+namespace {
+
+/// From the stage's units to SI for one degree of freedom.
+double unit_of(const Units& units, Dof dof) { return is_angular(dof) ? kRadians : units.length; }
+
+/// S-96: negative means unlimited, each angle by itself.
+double cone_angle(const ReadState& state, const stage::Prim& prim, Token name) {
+  const double degrees = state.values.number(prim, name).value_or(-1);
+  return degrees < 0 || std::isinf(degrees) ? kUnlimited : degrees * kRadians;
+}
+
+/// S-97
+void read_distances(const ReadState& state, const stage::Prim& prim, Joint& joint) {
+  const double low = state.values.number(prim, state.tokens.min_distance).value_or(-1);
+  const double high = state.values.number(prim, state.tokens.max_distance).value_or(-1);
+  joint.lower = low < 0 || std::isinf(low) ? -kUnlimited : low * state.units.length;
+  joint.upper = high < 0 || std::isinf(high) ? kUnlimited : high * state.units.length;
+  if (joint.lower > joint.upper) {
+    state.report(prim, state.tokens.min_distance, Severity::Error, "joint.distance-order",
+                 "minDistance " + shortest(low) + " exceeds maxDistance " + shortest(high) +
+                     "; the distance is held at the maximum",
+                 "author a minDistance that is at most maxDistance");
+    joint.lower = joint.upper;
+  }
+}
+
+/// S-98: lower > upper locks; open sides stay open.
+void read_own_limits(const ReadState& state, const stage::Prim& prim, Joint& joint) {
+  const double unit = unit_of(state.units, joint.dof());
+  joint.lower = state.values.number(prim, state.tokens.lower_limit).value_or(-kUnlimited) * unit;
+  joint.upper = state.values.number(prim, state.tokens.upper_limit).value_or(kUnlimited) * unit;
+}
+
+struct NamedLimit {
+  Token instance;
+  std::optional<Dof> dof;
+  Limit limit;
+};
+
+NamedLimit read_limit(const ReadState& state, const stage::Prim& prim, Token instance) {
+  NamedLimit named{instance, dof_of(instance.view()), {}};
+  if (!named.dof) {
+    return named;
+  }
+  const std::string prefix = "limit:" + instance.str() + ":physics:";
+  const double unit = unit_of(state.units, *named.dof);
+  named.limit.dof = *named.dof;
+  named.limit.lower = state.values.number(prim, prefix + "low").value_or(-kUnlimited) * unit;
+  named.limit.upper = state.values.number(prim, prefix + "high").value_or(kUnlimited) * unit;
+  return named;
+}
+
+bool has_one_dof(const Joint& joint) {
+  return joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic ||
+         joint.kind == JointKind::Distance;
+}
+
+/// S-100: on a D6 joint every axis; on others only the joint's own one, where it narrows.
+void apply_limit(const ReadState& state, const stage::Prim& prim, const NamedLimit& named,
+                 Joint& joint) {
+  const std::string name = "PhysicsLimitAPI:" + named.instance.str();
+  if (!named.dof) {
+    state.report(prim, Severity::Warning, "limit.unknown-axis",
+                 name + " names no degree of freedom; it is ignored",
+                 "use transX, transY, transZ, rotX, rotY, rotZ or distance");
+    return;
+  }
+  if (joint.kind == JointKind::D6) {
+    joint.limits.push_back(named.limit);
+    return;
+  }
+  if (!has_one_dof(joint) || joint.dof() != *named.dof) {
+    state.report(prim, Severity::Warning, "limit.other-axis",
+                 name + " is ignored: the joint does not move along it", "remove it");
+    return;
+  }
+  joint.lower = std::max(joint.lower, named.limit.lower);
+  joint.upper = std::min(joint.upper, named.limit.upper);
+}
+
+}  // namespace
+
+std::optional<Dof> dof_of(std::string_view token) {
+  constexpr std::pair<std::string_view, Dof> kNames[] = {
+      {"transX", Dof::TransX}, {"transY", Dof::TransY}, {"transZ", Dof::TransZ},
+      {"rotX", Dof::RotX},     {"rotY", Dof::RotY},     {"rotZ", Dof::RotZ},
+      {"distance", Dof::Distance}};
+  for (const auto& [name, dof] : kNames) {
+    if (token == name) {
+      return dof;
+    }
+  }
+  return std::nullopt;
+}
+
+void read_joint_limits(const ReadState& state, const PhysicsPrim& found, Joint& joint) {
+  switch (joint.kind) {
+    case JointKind::Revolute:
+    case JointKind::Prismatic:
+      read_own_limits(state, found.prim, joint);
+      break;
+    case JointKind::Spherical:
+      joint.cone_angle0 = cone_angle(state, found.prim, state.tokens.cone_angle0);
+      joint.cone_angle1 = cone_angle(state, found.prim, state.tokens.cone_angle1);
+      break;
+    case JointKind::Distance:
+      read_distances(state, found.prim, joint);
+      break;
+    case JointKind::Fixed:
+    case JointKind::D6:
+      break;
+  }
+  if (!found.roles.has(Api::Limit)) {
+    return;
+  }
+  for (const Token& instance : found.prim.api_instances("PhysicsLimitAPI")) {
+    apply_limit(state, found.prim, read_limit(state, found.prim, instance), joint);
+  }
+  std::stable_sort(joint.limits.begin(), joint.limits.end(),
+                   [](const Limit& a, const Limit& b) { return a.dof < b.dof; });
+}
+
+Limit limit_of(const Joint& joint, Dof dof) {
+  if (has_one_dof(joint) && joint.dof() == dof) {
+    return {dof, joint.lower, joint.upper};
+  }
+  for (const Limit& limit : joint.limits) {
+    if (limit.dof == dof) {
+      return limit;
+    }
+  }
+  return {dof, -kUnlimited, kUnlimited};
+}
+
+bool is_locked(const Joint& joint, Dof dof) {
+  const Limit limit = limit_of(joint, dof);
+  if (limit.locked() || limit.lower == limit.upper) {
+    return true;
+  }
+  switch (joint.kind) {
+    case JointKind::Revolute:
+    case JointKind::Prismatic:
+      return joint.dof() != dof;
+    case JointKind::Spherical:
+      return !is_angular(dof);
+    case JointKind::Fixed:
+      return true;
+    case JointKind::Distance:
+    case JointKind::D6:
+      return false;
+  }
+  return false;
+}
+
+}  // namespace tenon::physics

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "tenon/base/text_number.h"
+#include "tenon/physics/read_state.h"
+#include "tenon/stage/material_binding.h"
+
+namespace tenon::physics {
+namespace {
+
+/// A coefficient that is not negative; unauthored 0 (S-71).
+double coefficient(const ReadState& state, const stage::Prim& prim, Token name) {
+  const double value = state.values.number(prim, name).value_or(0);
+  if (value < 0) {
+    // S-73
+    state.report(prim, name, Severity::Error, "material.negative",
+                 name.str() + " is " + shortest(value) + "; 0 is used instead",
+                 "author a value that is not negative");
+    return 0;
+  }
+  return value;
+}
+
+Material read_material(const ReadState& state, const PhysicsPrim& found) {
+  Material material;
+  material.path = found.path;
+  material.static_friction = coefficient(state, found.prim, state.tokens.static_friction);
+  material.dynamic_friction = coefficient(state, found.prim, state.tokens.dynamic_friction);
+  material.restitution = coefficient(state, found.prim, state.tokens.restitution);
+  const double density = state.values.number(found.prim, state.tokens.density).value_or(0);
+  if (density > 0 && std::isfinite(density)) {
+    material.density = density * state.units.density();
+  }
+  // S-73
+  if (material.dynamic_friction > material.static_friction) {
+    state.report(found.prim, state.tokens.dynamic_friction, Severity::Warning,
+                 "material.friction-order",
+                 "dynamic friction " + shortest(material.dynamic_friction) +
+                     " exceeds static friction " + shortest(material.static_friction) +
+                     "; both become the larger one at rest",
+                 "author a staticFriction that is at least dynamicFriction");
+    material.static_friction = material.dynamic_friction;
+  }
+  if (material.restitution > 1) {
+    state.report(found.prim, state.tokens.restitution, Severity::Warning, "material.restitution",
+                 "restitution " + shortest(material.restitution) + " adds energy; 1 is used instead",
+                 "author a restitution from 0 to 1");
+    material.restitution = 1;
+  }
+  return material;
+}
+
+}  // namespace
+
+void read_materials(ReadState& state) {
+  const auto prims = sorted_prims(state.walk, [](const PhysicsPrim& p) {
+    return p.roles.has(Api::Material) && !p.roles.has(Api::Collision);
+  });
+  for (const std::uint32_t i : prims) {
+    const auto index = static_cast<Index>(state.scene.materials.size());
+    state.material_of_path.emplace(state.walk.prims[i].path, index);
+    state.scene.materials.push_back(read_material(state, state.walk.prims[i]));
+  }
+}
+
+void bind_materials(ReadState& state) {
+  if (state.scene.materials.empty()) {
+    return;  // nothing that a binding could find
+  }
+  const Token purpose("physics");
+  for (Index i = 0; i < state.scene.colliders.size(); ++i) {
+    const PhysicsPrim& found = state.prim_of_collider(i);
+    const stage::MaterialBinding binding = stage::find_material_binding(found.prim, purpose);
+    // S-67, S-68: a binding that wins and has no physics means no physics material.
+    const auto material = state.material_of_path.find(binding.material);
+    if (material == state.material_of_path.end()) {
+      continue;
+    }
+    state.scene.colliders[i].material = material->second;
+    if (binding.binding_api_missing) {
+      // S-69
+      state.report(found.prim, Severity::Warning, "material.binding-api-missing",
+                   "<" + binding.material.str() +
+                       "> is bound without MaterialBindingAPI applied; it counts here, not in "
+                       "OpenUSD",
+                   "apply MaterialBindingAPI to the prim that binds it");
+    }
+  }
+}
+
+}  // namespace tenon::physics

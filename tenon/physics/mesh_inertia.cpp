@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Each triangle (a, b, c) spans a tetrahedron with a reference point o. Signed volumes, first and
+// second moments of the tetrahedra add up to those of the solid (M-8):
+//   v = det(a, b, c) / 6,   first = v (a + b + c) / 4,
+//   second_ij = v / 20 (a_i a_j + b_i b_j + c_i c_j + s_i s_j),   s = a + b + c.
+// The inertia is I = tr(C) E - C for the second moments C about the centre of mass.
+#include "tenon/physics/mesh_inertia.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace tenon::physics {
+namespace {
+
+struct Moments {
+  double volume = 0;
+  Vec3d first;
+  Mat3d second;
+};
+
+void add_tetrahedron(const Vec3d& a, const Vec3d& b, const Vec3d& c, Moments& sum) {
+  const double v = dot(a, cross(b, c)) / 6;
+  const Vec3d s = a + b + c;
+  sum.volume += v;
+  sum.first += s * (v / 4);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      sum.second[i][j] += v / 20 * (a[i] * a[j] + b[i] * b[j] + c[i] * c[j] + s[i] * s[j]);
+    }
+  }
+}
+
+/// A point near the mesh keeps the sums free of cancellation.
+Vec3d middle(const TriangleMesh& mesh) {
+  Vec3d low = mesh.points.front();
+  Vec3d high = low;
+  for (const Vec3d& p : mesh.points) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  }
+  return (low + high) * 0.5;
+}
+
+Mat3d inertia_of(const Mat3d& second) {
+  const double trace = second[0][0] + second[1][1] + second[2][2];
+  Mat3d inertia;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      inertia[i][j] = (i == j ? trace : 0.0) - second[i][j];
+    }
+  }
+  return inertia;
+}
+
+}  // namespace
+
+SolidIntegrals mesh_integrals(const TriangleMesh& mesh) {
+  SolidIntegrals result;
+  if (mesh.points.empty()) {
+    return result;
+  }
+  const Vec3d origin = middle(mesh);
+  Moments sum;
+  double area_volume = 0;  // scale against which a volume is zero
+  for (const Vec3i& t : mesh.triangles) {
+    const Vec3d a = mesh.points[static_cast<std::size_t>(t[0])] - origin;
+    const Vec3d b = mesh.points[static_cast<std::size_t>(t[1])] - origin;
+    const Vec3d c = mesh.points[static_cast<std::size_t>(t[2])] - origin;
+    add_tetrahedron(a, b, c, sum);
+    area_volume += length(cross(b - a, c - a)) * (length(a) + length(b) + length(c));
+  }
+  if (std::fabs(sum.volume) <= 1e-12 * area_volume) {
+    return result;
+  }
+  const double sign = sum.volume < 0 ? -1 : 1;  // M-9
+  result.volume = sign * sum.volume;
+  const Vec3d offset = sum.first * (1 / sum.volume);
+  Mat3d second = sum.second;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      second[i][j] = sign * (second[i][j] - sum.volume * offset[i] * offset[j]);
+    }
+  }
+  result.center = origin + offset;
+  result.inertia = inertia_of(second);
+  return result;
+}
+
+bool is_closed(const TriangleMesh& mesh) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  edges.reserve(mesh.triangles.size() * 3);
+  for (const Vec3i& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      edges.emplace_back(t[i], t[(i + 1) % 3]);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  if (edges.empty() || std::adjacent_find(edges.begin(), edges.end()) != edges.end()) {
+    return false;
+  }
+  return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
+    return std::binary_search(edges.begin(), edges.end(), std::pair(edge.second, edge.first));
+  });
+}
+
+}  // namespace tenon::physics

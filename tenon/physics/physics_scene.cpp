@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/physics/physics_scene.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tenon::physics {
+namespace {
+
+/// Place of `seconds` between two samples.
+struct Place {
+  std::size_t before = 0;
+  std::size_t after = 0;
+  double fraction = 0;
+};
+
+/// `times` is not empty and ascending; outside it the first or last sample holds.
+Place place_of(const std::vector<double>& times, double seconds) {
+  const auto above = std::upper_bound(times.begin(), times.end(), seconds);
+  if (above == times.begin()) {
+    return {};
+  }
+  const auto after = static_cast<std::size_t>(above - times.begin());
+  if (above == times.end()) {
+    return {after - 1, after - 1, 0};
+  }
+  const double span = times[after] - times[after - 1];
+  return {after - 1, after, (seconds - times[after - 1]) / span};
+}
+
+bool groups_allow(const CollisionFilter& filter, Index a, Index b) {
+  if (filter.group_paths.empty()) {
+    return true;
+  }
+  const std::vector<Index>& of_a = filter.groups_of_collider[a];
+  const std::vector<Index>& of_b = filter.groups_of_collider[b];
+  const auto touches_ungrouped = [&](const std::vector<Index>& groups) {
+    return std::none_of(groups.begin(), groups.end(),
+                        [&](Index g) { return filter.ungrouped_off[g] != 0; });
+  };
+  if (of_a.empty() || of_b.empty()) {
+    return touches_ungrouped(of_a) && touches_ungrouped(of_b);
+  }
+  // S-77: off when any pair of memberships is off.
+  return std::none_of(of_a.begin(), of_a.end(), [&](Index g) {
+    return std::any_of(of_b.begin(), of_b.end(), [&](Index h) {
+      return filter.group_pair_off[g * filter.group_paths.size() + h] != 0;
+    });
+  });
+}
+
+/// Nothing but filters keeps the two apart.
+bool could_touch(const Collider& a, const Collider& b) {
+  return a.enabled && b.enabled && a.scene == b.scene && a.body != b.body;
+}
+
+}  // namespace
+
+std::string_view mass_source_name(MassSource source) {
+  constexpr std::array<std::string_view, 3> kNames{"authored", "density", "default"};
+  return kNames[static_cast<std::size_t>(source)];
+}
+
+std::string_view shape_name(ShapeKind kind) {
+  constexpr std::array<std::string_view, 10> kNames{"box",  "sphere", "ellipsoid",  "capsule",
+                                                    "cylinder", "cone", "plane", "convexHull",
+                                                    "mesh", "spheres"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string_view joint_kind_name(JointKind kind) {
+  constexpr std::array<std::string_view, 6> kNames{"revolute", "prismatic", "spherical",
+                                                   "fixed",    "distance",  "d6"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string_view dof_name(Dof dof) {
+  constexpr std::array<std::string_view, 7> kNames{"transX", "transY", "transZ",  "rotX",
+                                                   "rotY",   "rotZ",   "distance"};
+  return kNames[static_cast<std::size_t>(dof)];
+}
+
+Dof Joint::dof() const {
+  if (kind == JointKind::Distance) {
+    return Dof::Distance;
+  }
+  const Dof first = kind == JointKind::Prismatic ? Dof::TransX : Dof::RotX;
+  return static_cast<Dof>(static_cast<unsigned>(first) + static_cast<unsigned>(axis));
+}
+
+double ScalarTrack::at(double seconds) const {
+  if (times.empty()) {
+    return 0;
+  }
+  const Place place = place_of(times, seconds);
+  if (held || place.before == place.after) {
+    return values[place.before];
+  }
+  return values[place.before] + (values[place.after] - values[place.before]) * place.fraction;
+}
+
+Pose PoseTrack::at(double seconds) const {
+  if (times.empty()) {
+    return {};
+  }
+  const Place place = place_of(times, seconds);
+  const Pose& a = poses[place.before];
+  if (held || place.before == place.after) {
+    return a;
+  }
+  const Pose& b = poses[place.after];
+  return {a.position + (b.position - a.position) * place.fraction,
+          normalized(slerp(a.orientation, b.orientation, place.fraction))};
+}
+
+bool PhysicsScene::may_collide(Index collider_a, Index collider_b) const {
+  const Index low = std::min(collider_a, collider_b);
+  const Index high = std::max(collider_a, collider_b);
+  return could_touch(colliders[low], colliders[high]) &&
+         groups_allow(filter, low, high) &&
+         !std::binary_search(filter.pairs_off.begin(), filter.pairs_off.end(),
+                             std::pair(low, high));
+}
+
+std::vector<std::pair<Index, Index>> PhysicsScene::disabled_pairs() const {
+  std::vector<std::pair<Index, Index>> result;
+  for (const auto& [a, b] : filter.pairs_off) {
+    if (could_touch(colliders[a], colliders[b])) {
+      result.emplace_back(a, b);
+    }
+  }
+  if (filter.group_paths.empty()) {
+    return result;
+  }
+  const auto count = static_cast<Index>(colliders.size());
+  for (Index a = 0; a < count; ++a) {
+    for (Index b = a + 1; b < count; ++b) {
+      if (could_touch(colliders[a], colliders[b]) && !groups_allow(filter, a, b)) {
+        result.emplace_back(a, b);
+      }
+    }
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+}  // namespace tenon::physics

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/physics/prim_roles.h"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace tenon::physics {
+namespace {
+
+struct KindOfType {
+  const char* type;
+  PrimKind kind;
+};
+
+/// Derived types stand before their bases: the first that fits counts.
+constexpr KindOfType kKinds[] = {
+    {"PhysicsScene", PrimKind::Scene},
+    {"PhysicsCollisionGroup", PrimKind::CollisionGroup},
+    {"PhysicsRevoluteJoint", PrimKind::RevoluteJoint},
+    {"PhysicsPrismaticJoint", PrimKind::PrismaticJoint},
+    {"PhysicsSphericalJoint", PrimKind::SphericalJoint},
+    {"PhysicsFixedJoint", PrimKind::FixedJoint},
+    {"PhysicsDistanceJoint", PrimKind::DistanceJoint},
+    {"PhysicsJoint", PrimKind::D6Joint},
+    {"Cube", PrimKind::Cube},
+    {"Sphere", PrimKind::Sphere},
+    {"Capsule", PrimKind::Capsule},
+    {"Capsule_1", PrimKind::Capsule1},
+    {"Cylinder", PrimKind::Cylinder},
+    {"Cylinder_1", PrimKind::Cylinder1},
+    {"Cone", PrimKind::Cone},
+    {"Plane", PrimKind::Plane},
+    {"Points", PrimKind::Points},
+    {"Mesh", PrimKind::Mesh},
+    {"Gprim", PrimKind::OtherGprim},
+    {"PointInstancer", PrimKind::PointInstancer},
+    {"MjcActuator", PrimKind::Actuator},
+};
+
+PrimKind kind_of(const stage::Prim& prim) {
+  const Token type = prim.type_name();
+  if (type.empty()) {
+    return PrimKind::Other;
+  }
+  for (const KindOfType& row : kKinds) {
+    if (type == row.type) {
+      return row.kind;
+    }
+  }
+  for (const KindOfType& row : kKinds) {
+    if (prim.is_a(Token(row.type))) {
+      return row.kind;
+    }
+  }
+  return PrimKind::Other;
+}
+
+}  // namespace
+
+bool Roles::matters() const {
+  constexpr std::uint64_t kNot = std::uint64_t{1} << static_cast<unsigned>(Api::MaterialBinding);
+  const bool shape = kind >= PrimKind::Cube && kind <= PrimKind::OtherGprim;
+  return (apis & ~kNot) != 0 || (kind != PrimKind::Other && !shape);
+}
+
+RoleFinder::RoleFinder() {
+  static constexpr const char* kNames[] = {
+#define TENON_API(enumerator, name) name,
+#include "tenon/physics/api_schemas.def"
+  };
+  for (const char* name : kNames) {
+    api_names_.emplace_back(name);
+  }
+}
+
+std::size_t RoleFinder::KeyHash::operator()(const Key& key) const {
+  std::size_t hash = std::hash<Token>()(key.type);
+  for (const Token& schema : key.schemas) {
+    hash = hash * 0x100000001B3ull ^ std::hash<Token>()(schema);
+  }
+  return hash;
+}
+
+const Roles& RoleFinder::roles_of(const stage::Prim& prim) {
+  Key key{prim.type_name(), prim.authored_api_schemas()};
+  if (key.schemas.empty()) {
+    const auto found = plain_.find(key.type);
+    return found != plain_.end() ? found->second
+                                 : plain_.emplace(key.type, find(prim, {})).first->second;
+  }
+  const auto found = known_.find(key);
+  if (found != known_.end()) {
+    return found->second;
+  }
+  Roles roles = find(prim, key.schemas);
+  return known_.emplace(std::move(key), roles).first->second;
+}
+
+Roles RoleFinder::find(const stage::Prim& prim, const std::vector<Token>& schemas) const {
+  Roles roles;
+  roles.kind = kind_of(prim);
+  roles.xformable = prim.is_a(Token("Xformable"));
+  for (std::size_t i = 0; i < api_names_.size(); ++i) {
+    const std::string prefix = api_names_[i].str() + ":";
+    bool has = prim.has_api(api_names_[i]);
+    for (const Token& schema : schemas) {
+      has = has || schema == api_names_[i] || schema.view().starts_with(prefix);
+    }
+    roles.apis |= std::uint64_t{has} << i;
+  }
+  return roles;
+}
+
+}  // namespace tenon::physics

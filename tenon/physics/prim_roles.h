@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "tenon/base/token.h"
+#include "tenon/physics/physics_scene.h"
+#include "tenon/stage/prim.h"
+
+namespace tenon::physics {
+
+/// API schemas that the reader asks for; one bit each in Roles::apis.
+enum class Api : std::uint8_t {
+#define TENON_API(enumerator, name) enumerator,
+#include "tenon/physics/api_schemas.def"
+  kCount
+};
+
+/// What a prim is by its type.
+enum class PrimKind : std::uint8_t {
+  Other,
+  Scene,
+  CollisionGroup,
+  RevoluteJoint,
+  PrismaticJoint,
+  SphericalJoint,
+  FixedJoint,
+  DistanceJoint,
+  D6Joint,
+  Cube,
+  Sphere,
+  Capsule,
+  Capsule1,
+  Cylinder,
+  Cylinder1,
+  Cone,
+  Plane,
+  Points,
+  Mesh,
+  OtherGprim,
+  PointInstancer,
+  Actuator,
+};
+
+inline bool is_joint(PrimKind kind) {
+  return kind >= PrimKind::RevoluteJoint && kind <= PrimKind::D6Joint;
+}
+
+/// What one prim means to physics: the same for all prims of one type with the same applied APIs.
+struct Roles {
+  std::uint64_t apis = 0;
+  PrimKind kind = PrimKind::Other;
+  bool xformable = false;
+
+  bool has(Api api) const { return (apis >> static_cast<unsigned>(api) & 1u) != 0; }
+  /// The reader has something to do with this prim.
+  bool matters() const;
+};
+
+/// Finds the roles of prims; asks the schemas once per combination of type and applied APIs.
+class RoleFinder {
+ public:
+  RoleFinder();
+  const Roles& roles_of(const stage::Prim& prim);
+
+ private:
+  struct Key {
+    Token type;
+    std::vector<Token> schemas;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const;
+  };
+  Roles find(const stage::Prim& prim, const std::vector<Token>& schemas) const;
+
+  std::vector<Token> api_names_;
+  std::unordered_map<Key, Roles, KeyHash> known_;
+  std::unordered_map<Token, Roles> plain_;  // prims without applied APIs
+};
+
+}  // namespace tenon::physics

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A stage becomes a PhysicsScene in passes over the prims that one walk found. Each pass reads one
+// concept, converts its units to SI, and reports what it cannot take over. The S-numbers in the
+// comments of the passes name the semantic rules of docs/physics.md.
+#include "tenon/physics/read_physics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tenon/physics/read_state.h"
+
+namespace tenon::physics {
+namespace {
+
+ReadState begin(const stage::Stage& stage, const ReadOptions& options, Diagnostics& diagnostics) {
+  const Units units = read_units(stage, diagnostics);
+  const double start = std::isnan(options.start_time_code) ? stage.start_time_code()
+                                                           : options.start_time_code;
+  const AttributeValues values(stage::Time(start), stage_is_animated(stage), diagnostics);
+  ReadState state{stage, diagnostics, physics_tokens(), units, values};
+  state.scene.meters_per_unit = units.length;
+  state.scene.kilograms_per_unit = units.mass;
+  state.scene.up = units.up;
+  state.scene.start_time_code = start;
+  state.scene.time_codes_per_second = stage.time_codes_per_second();
+  state.scene.end_time_code = std::max(start, stage.end_time_code());
+  return state;
+}
+
+}  // namespace
+
+PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
+                          Diagnostics& diagnostics) {
+  ReadState state = begin(stage, options, diagnostics);
+  state.walk = walk_stage(stage, state.values);
+  read_scenes(state);
+  read_bodies(state);
+  read_materials(state);
+  read_colliders(state);
+  bind_materials(state);
+  read_masses(state);
+  read_joints(state);
+  read_drives(state);
+  read_actuators(state);
+  read_joint_settings(state);
+  read_mimics(state);
+  read_articulations(state);
+  read_collision_groups(state);
+  read_filtered_pairs(state);
+  read_tracks(state);
+  note_what_is_not_read(state);
+  return std::move(state.scene);
+}
+
+}  // namespace tenon::physics

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "tenon/physics/attribute_values.h"
+#include "tenon/physics/mesh_inertia.h"
+#include "tenon/physics/physics_scene.h"
+#include "tenon/physics/physics_tokens.h"
+#include "tenon/physics/stage_walk.h"
+#include "tenon/physics/units.h"
+#include "tenon/stage/stage.h"
+
+namespace tenon::physics {
+
+/// Where a drive of a joint was read from.
+struct DriveInstance {
+  Index joint = 0;
+  Index drive = 0;
+  Token instance;
+};
+
+/// What the passes of read_physics share: the stage, what was found on it, and the description that
+/// grows pass by pass. Lives for one reading.
+struct ReadState {
+  const stage::Stage& stage;
+  Diagnostics& diagnostics;
+  const PhysicsTokens& tokens;
+  Units units;
+  AttributeValues values;
+  Walk walk{};
+  PhysicsScene scene{};
+
+  /// Prim of each body, collider, joint of `scene`, into walk.prims; (body_count) and so on.
+  std::vector<std::uint32_t> body_prims{};
+  std::vector<std::uint32_t> collider_prims{};
+  std::vector<std::uint32_t> joint_prims{};
+  /// Object of a prim, or kNone; (walk.prims.size()).
+  std::vector<std::uint32_t> body_of_prim{};
+  std::vector<std::uint32_t> collider_of_prim{};
+  std::vector<std::uint32_t> joint_of_prim{};
+  /// Colliders of each body, ascending; (body_count).
+  std::vector<std::vector<Index>> colliders_of_body{};
+  /// Integrals of colliders whose shape stands for a rounder solid.
+  std::unordered_map<Index, SolidIntegrals> integrals_of_collider{};
+  /// Drives of the drive API, in the order of joints.
+  std::vector<DriveInstance> drive_instances{};
+  /// Materials of the scene by prim path.
+  std::unordered_map<Path, Index> material_of_path{};
+
+  const PhysicsPrim& prim_of_body(Index body) const { return walk.prims[body_prims[body]]; }
+  const PhysicsPrim& prim_of_collider(Index i) const { return walk.prims[collider_prims[i]]; }
+  const PhysicsPrim& prim_of_joint(Index i) const { return walk.prims[joint_prims[i]]; }
+  bool is_dynamic(Index body) const { return !scene.bodies[body].kinematic; }
+
+  void report(const stage::Prim& prim, Severity severity, const char* rule, std::string message,
+              std::string fix) const {
+    physics::report(diagnostics, prim, severity, rule, std::move(message), std::move(fix));
+  }
+  void report(const stage::Prim& prim, Token property, Severity severity, const char* rule,
+              std::string message, std::string fix) const {
+    values.report(prim, property, severity, rule, std::move(message), std::move(fix));
+  }
+  void not_read(const stage::Prim& prim, std::string property, std::string why) {
+    scene.not_read.push_back({prim.path(), std::move(property), std::move(why)});
+  }
+};
+
+/// Prims of walk.prims for which `wanted(prim)` holds, sorted by path.
+template <class Wanted>
+std::vector<std::uint32_t> sorted_prims(const Walk& walk, Wanted wanted) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < walk.prims.size(); ++i) {
+    if (wanted(walk.prims[i])) {
+      found.push_back(i);
+    }
+  }
+  const auto less = [&](std::uint32_t a, std::uint32_t b) {
+    return walk.prims[a].path < walk.prims[b].path;
+  };
+  if (!std::is_sorted(found.begin(), found.end(), less)) {
+    std::sort(found.begin(), found.end(), less);
+  }
+  return found;
+}
+
+// The passes, in the order in which they run; each needs those before it.
+void read_scenes(ReadState& state);
+void read_bodies(ReadState& state);
+void read_materials(ReadState& state);
+void read_colliders(ReadState& state);
+void bind_materials(ReadState& state);
+void read_masses(ReadState& state);
+void read_joints(ReadState& state);
+void read_drives(ReadState& state);
+void read_actuators(ReadState& state);
+void read_joint_settings(ReadState& state);
+void read_mimics(ReadState& state);
+void read_articulations(ReadState& state);
+void read_collision_groups(ReadState& state);
+void read_filtered_pairs(ReadState& state);
+void read_tracks(ReadState& state);
+void note_what_is_not_read(ReadState& state);
+
+}  // namespace tenon::physics

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <limits>
+
+#include "tenon/base/text_number.h"
+#include "tenon/physics/read_state.h"
+#include "tenon/physics/scenes.h"
+
+namespace tenon::physics {
+namespace {
+
+constexpr double kEarthGravity = 9.81;  ///< [m/s^2] (S-16)
+
+/// Magnitude in m/s^2: any negative value means earth (S-15).
+double gravity_magnitude(const ReadState& state, const stage::Prim& prim) {
+  const std::optional<double> authored = state.values.number(prim, state.tokens.gravity_magnitude);
+  if (!authored || *authored < 0 || std::isinf(*authored)) {
+    if (authored && *authored < 0 && std::isfinite(*authored)) {
+      state.report(prim, state.tokens.gravity_magnitude, Severity::Warning,
+                   "scene.negative-gravity",
+                   "physics:gravityMagnitude is " + shortest(*authored) +
+                       "; a negative magnitude means earth gravity",
+                   "turn physics:gravityDirection instead, or leave the magnitude out");
+    }
+    return kEarthGravity;
+  }
+  return *authored * state.units.length;
+}
+
+Vec3d read_gravity(const ReadState& state, const stage::Prim& prim, const Roles& roles) {
+  // S-14, S-17: world axes; zero means down.
+  const Vec3d authored =
+      state.values.vector(prim, state.tokens.gravity_direction).value_or(Vec3d{});
+  const Vec3d direction = normalized(authored, -state.units.up);
+  double magnitude = gravity_magnitude(state, prim);
+  if ((roles.has(Api::NewtonScene) || roles.has(Api::MjcScene)) &&
+      !state.values.authored_flag(prim, state.tokens.newton_gravity_enabled).value_or(true)) {
+    magnitude = 0;
+  }
+  return direction * magnitude;
+}
+
+/// The step that the strongest of the vendors' APIs asks for: Newton, PhysX, MuJoCo.
+std::optional<double> read_time_step(const ReadState& state, const stage::Prim& prim,
+                                     const Roles& roles) {
+  const AttributeValues& values = state.values;
+  std::optional<double> rate;
+  if (roles.has(Api::NewtonScene) || roles.has(Api::MjcScene)) {
+    rate = values.authored_number(prim, state.tokens.newton_steps);
+  }
+  if (!rate && roles.has(Api::PhysxScene)) {
+    rate = values.authored_number(prim, state.tokens.physx_steps);
+  }
+  if (rate && *rate > 0 && std::isfinite(*rate)) {
+    return 1 / *rate;
+  }
+  if (roles.has(Api::MjcScene)) {
+    const std::optional<double> step = values.authored_number(prim, state.tokens.mjc_time_step);
+    if (step && *step > 0 && std::isfinite(*step)) {
+      return step;
+    }
+  }
+  return std::nullopt;
+}
+
+/// A stage with physics but without a scene gets one with earth's gravity (S-18).
+void add_implicit_scene(ReadState& state) {
+  Scene made_up;
+  made_up.gravity = -state.units.up * kEarthGravity;
+  state.scene.scenes.push_back(made_up);
+  for (const PhysicsPrim& found : state.walk.prims) {
+    if (found.is_body) {
+      state.report(found.prim, Severity::Warning, "scene.missing",
+                   "there are bodies but no PhysicsScene; earth gravity is assumed",
+                   "add a PhysicsScene prim");
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+void read_scenes(ReadState& state) {
+  const auto prims = sorted_prims(
+      state.walk, [](const PhysicsPrim& p) { return p.roles.kind == PrimKind::Scene; });
+  for (const std::uint32_t i : prims) {
+    const PhysicsPrim& found = state.walk.prims[i];
+    Scene scene;
+    scene.path = found.path;
+    scene.gravity = read_gravity(state, found.prim, found.roles);
+    scene.time_step = read_time_step(state, found.prim, found.roles);
+    state.scene.scenes.push_back(std::move(scene));
+  }
+  if (prims.empty()) {
+    add_implicit_scene(state);
+  }
+}
+
+std::optional<Index> scene_at(const ReadState& state, Path path) {
+  for (Index i = 0; i < state.scene.scenes.size(); ++i) {
+    if (state.scene.scenes[i].path == path) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+Index default_scene(const ReadState& state) {
+  if (state.scene.scenes.size() > 1) {
+    for (const PhysicsPrim& found : state.walk.prims) {
+      if (found.roles.kind == PrimKind::Scene) {
+        return scene_at(state, found.path).value_or(0);
+      }
+    }
+  }
+  return 0;
+}
+
+OwnerScene owner_scene(const ReadState& state, const stage::Prim& prim, Index fallback) {
+  const std::vector<Path> targets = prim.relationship(state.tokens.simulation_owner).targets();
+  if (targets.empty()) {
+    return {fallback, true};
+  }
+  if (targets.size() > 1) {
+    state.report(prim, Severity::Error, "scene.several-owners",
+                 "physics:simulationOwner has " + std::to_string(targets.size()) +
+                     " targets; only the first counts",
+                 "leave one target");
+  }
+  const std::optional<Index> scene = scene_at(state, targets.front());
+  if (!scene) {
+    state.report(prim, Severity::Error, "scene.owner-missing",
+                 "physics:simulationOwner names <" + targets.front().str() +
+                     ">, which is no PhysicsScene; it is not simulated",
+                 "name a PhysicsScene, or none");
+    return {fallback, false};
+  }
+  return {*scene, true};
+}
+
+}  // namespace tenon::physics

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+#include "tenon/base/path.h"
+#include "tenon/math/matrix.h"
+#include "tenon/physics/attribute_values.h"
+#include "tenon/physics/prim_roles.h"
+#include "tenon/stage/stage.h"
+
+namespace tenon::physics {
+
+inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// A prim that means something to physics, met on the walk.
+struct PhysicsPrim {
+  stage::Prim prim;
+  Path path;
+  Roles roles;
+  Mat4d world = Mat4d::identity();  ///< local to world, stage units, at the start
+  /// Nearest enabled body at or above, into Walk::prims (S-23).
+  std::uint32_t body = kNone;
+  std::uint32_t outer_body = kNone;  ///< of a body: the nearest enabled body above
+  /// Nearest prim with the mass API at or above that is not above the body, into Walk::prims.
+  std::uint32_t mass = kNone;
+  std::uint32_t mass_above = kNone;  ///< the same, without this prim
+  /// Nearest articulation root at or above, into Walk::prims.
+  std::uint32_t articulation_root = kNone;
+  bool is_body = false;           ///< an enabled rigid body
+  bool resets_below_body = false; ///< a transform stack reset lies between it and the body above
+};
+
+/// The physics prims of a stage in traversal order.
+struct Walk {
+  std::vector<PhysicsPrim> prims;
+  std::unordered_map<Path, std::uint32_t> index_of;  ///< by path
+
+  const PhysicsPrim* find(Path path) const {
+    const auto found = index_of.find(path);
+    return found == index_of.end() ? nullptr : &prims[found->second];
+  }
+};
+
+/// Visits active, loaded, defined, non-abstract prims, instance proxies included (S-1); prims below a
+/// point instancer are left out (S-38).
+Walk walk_stage(const stage::Stage& stage, const AttributeValues& values);
+
+}  // namespace tenon::physics
