@@ -9,6 +9,7 @@
 
 #include "tenon/base/limits.h"
 #include "tenon/bytes/integer_coding.h"
+#include "tenon/formats/crate/storage_form.h"
 #include "tenon/layer/field_values.h"
 
 namespace tenon::formats::crate {
@@ -19,18 +20,6 @@ using layer::Value;
 using layer::ValueType;
 
 constexpr std::uint64_t kSmallArray = 96;  // bytes; decoded at once, cheaper than remembering
-
-template <class T>
-constexpr bool kIsInteger = std::is_same_v<T, std::int32_t> || std::is_same_v<T, std::uint32_t> ||
-                            std::is_same_v<T, std::int64_t> || std::is_same_v<T, std::uint64_t>;
-template <class T>
-constexpr bool kIsReal =
-    std::is_same_v<T, Half> || std::is_same_v<T, float> || std::is_same_v<T, double>;
-/// Elements that are an index of a token or a string.
-template <class T>
-constexpr bool kIsText =
-    std::is_same_v<T, Token> || std::is_same_v<T, std::string> ||
-    std::is_same_v<T, layer::AssetPath> || std::is_same_v<T, layer::PathExpression>;
 
 /// Where the elements are and how many.
 struct ArrayHeader {

@@ -45,7 +45,7 @@ layer::Value as_payload_list(layer::Value value) {
   if (payload == nullptr) {
     return value;
   }
-  const bool none = payload->asset_path.empty() && payload->prim_path.empty();
+  const bool none = payload->asset_path.empty();  // what such files mean by it
   return layer::Value(layer::ListOp<layer::Payload>::make_explicit(
       none ? std::vector<layer::Payload>() : std::vector<layer::Payload>{*payload}));
 }

@@ -8,46 +8,13 @@
 #include <cstring>
 #include <type_traits>
 
-#include "tenon/base/limits.h"
+#include "tenon/formats/crate/storage_form.h"
 
 namespace tenon::formats::crate {
 namespace {
 
 using layer::Value;
 using layer::ValueType;
-
-template <class T>
-struct VectorTraits {
-  static constexpr std::size_t size = 0;
-};
-template <class T, std::size_t N>
-struct VectorTraits<Vec<T, N>> {
-  using Element = T;
-  static constexpr std::size_t size = N;
-};
-template <class T>
-struct MatrixTraits {
-  static constexpr std::size_t size = 0;
-};
-template <std::size_t N>
-struct MatrixTraits<Matrix<N>> {
-  static constexpr std::size_t size = N;
-};
-
-/// Stored byte by byte as in memory.
-template <class T>
-constexpr bool kIsPlain =
-    std::is_arithmetic_v<T> || std::is_same_v<T, Half> || VectorTraits<T>::size != 0 ||
-    MatrixTraits<T>::size != 0 || std::is_same_v<T, Quatd> || std::is_same_v<T, Quatf> ||
-    std::is_same_v<T, Quath>;
-template <class T>
-constexpr bool kIsEmpty =
-    std::is_same_v<T, layer::ValueBlock> || std::is_same_v<T, layer::AnimationBlock>;
-/// Never at an offset, whatever the flag of the word says.
-template <class T>
-constexpr bool kAlwaysInlined = (kIsPlain<T> && sizeof(T) <= 4) || kIsEmpty<T> ||
-                                std::is_enum_v<T> || std::is_same_v<T, std::string> ||
-                                std::is_same_v<T, Token> || std::is_same_v<T, layer::AssetPath>;
 
 template <class T>
 T small_vector(std::uint32_t bits) {

@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/formats/crate/table_writer.h"
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <string>
+
+#include "tenon/bytes/integer_coding.h"
+#include "tenon/bytes/lz4_block.h"
+
+namespace tenon::formats::crate {
+namespace {
+
+template <class T>
+void write_packed(bytes::ByteWriter& out, const std::vector<T>& integers) {
+  const std::string packed = bytes::encode_integers<T>(integers);
+  out.write(std::uint64_t{packed.size()});
+  out.write_text(packed);
+}
+
+/// A property directly below a prim; others are written with their dot.
+bool is_prim_property(Path path) { return path.kind() == PathKind::Property; }
+
+/// The last element of a path as text.
+Token element_of(Path path) {
+  switch (path.kind()) {
+    case PathKind::Prim:
+    case PathKind::Property:
+      return path.name();
+    case PathKind::VariantSelection:
+      return Token("{" + path.name().str() + "=" + path.variant().str() + "}");
+    case PathKind::Target:
+      return Token("[" + path.target().str() + "]");
+    case PathKind::RelationalAttribute:
+    case PathKind::MapperArg:
+      return Token("." + path.name().str());
+    case PathKind::Mapper:
+      return Token(".mapper[" + path.target().str() + "]");
+    case PathKind::Expression:
+      return Token(".expression");
+    case PathKind::Empty:
+    case PathKind::AbsoluteRoot:
+    case PathKind::RelativeRoot:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+TableWriter::TableWriter() {
+  token(Token());  // index 0: a property's name must have a negative form
+}
+
+std::uint32_t TableWriter::token(Token token) {
+  const auto [it, added] =
+      token_index_.try_emplace(token, static_cast<std::uint32_t>(tokens_.size()));
+  if (added) {
+    tokens_.push_back(token);
+  }
+  return it->second;
+}
+
+std::uint32_t TableWriter::string(std::string_view text) {
+  const std::uint32_t index = token(Token(text));
+  const auto [it, added] =
+      string_index_.try_emplace(index, static_cast<std::uint32_t>(strings_.size()));
+  if (added) {
+    strings_.push_back(index);
+  }
+  return it->second;
+}
+
+std::uint32_t TableWriter::path(Path path) {
+  std::vector<Path> missing;
+  for (Path at = path; !path_index_.contains(at); at = at.parent()) {
+    missing.push_back(at);
+    if (at.empty() || at.is_absolute_root()) {
+      break;
+    }
+  }
+  std::for_each(missing.rbegin(), missing.rend(), [this](Path at) {
+    path_index_.emplace(at, static_cast<std::uint32_t>(paths_.size()));
+    paths_.push_back(at);
+    path_tokens_.push_back(token(element_of(at)));
+  });
+  return path_index_.find(path)->second;
+}
+
+std::uint32_t TableWriter::field(Token name, ValueWord value) {
+  const std::uint32_t index = token(name);
+  const auto [it, added] = field_index_.try_emplace(
+      {index, value.bits}, static_cast<std::uint32_t>(field_names_.size()));
+  if (added) {
+    field_names_.push_back(index);
+    field_words_.push_back(value.bits);
+  }
+  return it->second;
+}
+
+std::uint32_t TableWriter::field_set(const std::vector<std::uint32_t>& fields) {
+  const auto [it, added] =
+      field_set_index_.try_emplace(fields, static_cast<std::uint32_t>(field_sets_.size()));
+  if (added) {
+    field_sets_.insert(field_sets_.end(), fields.begin(), fields.end());
+    field_sets_.push_back(kEndOfSet);
+  }
+  return it->second;
+}
+
+void TableWriter::spec(Path spec_path, std::uint32_t kind, std::uint32_t field_set) {
+  spec_paths_.push_back(path(spec_path));
+  spec_kinds_.push_back(kind);
+  spec_sets_.push_back(field_set);
+}
+
+bool TableWriter::fits() const {
+  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+  return tokens_.size() < kMost && paths_.size() < kMost && field_names_.size() < kMost &&
+         field_sets_.size() < kMost && spec_paths_.size() < kMost;
+}
+
+void TableWriter::write_tokens(bytes::ByteWriter& out) const {
+  std::string text;
+  for (const Token token : tokens_) {
+    text += token.str();
+    text += '\0';
+  }
+  const std::string packed = bytes::lz4_compress(std::as_bytes(std::span(text)));
+  out.write(std::uint64_t{tokens_.size()});
+  out.write(std::uint64_t{text.size()});
+  out.write(std::uint64_t{packed.size()});
+  out.write_text(packed);
+}
+
+void TableWriter::write_fields(bytes::ByteWriter& out) const {
+  out.write(std::uint64_t{field_names_.size()});
+  write_packed(out, field_names_);
+  const std::string packed = bytes::lz4_compress(std::as_bytes(std::span(field_words_)));
+  out.write(std::uint64_t{packed.size()});
+  out.write_text(packed);
+}
+
+/// The three columns of path_tree.cpp.
+struct TableWriter::PathTree {
+  std::vector<std::uint32_t> paths;
+  std::vector<std::int32_t> tokens;
+  std::vector<std::int32_t> jumps;
+
+  explicit PathTree(const TableWriter& table) {
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t i = 0; i < table.paths_.size(); ++i) {
+      if (!table.paths_[i].empty()) {
+        order.push_back(i);
+      }
+    }
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return table.paths_[a] < table.paths_[b]; });
+    std::vector<std::size_t> open;  // rows from the root to the row before
+    for (const std::uint32_t index : order) {
+      add(table, index, open);
+    }
+  }
+
+ private:
+  /// Appends a row, and tells its parent or its elder sibling of it. A row without either is -2.
+  void add(const TableWriter& table, std::uint32_t index, std::vector<std::size_t>& open) {
+    const Path path = table.paths_[index];
+    const std::size_t row = paths.size();
+    std::size_t sibling = row;
+    while (!open.empty() && table.paths_[paths[open.back()]] != path.parent()) {
+      sibling = open.back();
+      open.pop_back();
+    }
+    if (sibling != row) {
+      const bool has_child = jumps[sibling] == -1;
+      jumps[sibling] = has_child ? static_cast<std::int32_t>(row - sibling) : 0;
+    } else if (!open.empty()) {
+      jumps[open.back()] = -1;
+    }
+    const auto token = static_cast<std::int32_t>(table.path_tokens_[index]);
+    paths.push_back(index);
+    tokens.push_back(is_prim_property(path) ? -token : token);
+    jumps.push_back(-2);
+    open.push_back(row);
+  }
+};
+
+void TableWriter::write_paths(bytes::ByteWriter& out) const {
+  const PathTree tree(*this);
+  out.write(std::uint64_t{paths_.size()});
+  out.write(std::uint64_t{tree.paths.size()});
+  write_packed(out, tree.paths);
+  write_packed(out, tree.tokens);
+  write_packed(out, tree.jumps);
+}
+
+void TableWriter::write_specs(bytes::ByteWriter& out) const {
+  out.write(std::uint64_t{spec_paths_.size()});
+  write_packed(out, spec_paths_);
+  write_packed(out, spec_sets_);
+  write_packed(out, spec_kinds_);
+}
+
+std::size_t TableWriter::write(bytes::ByteWriter& out) {
+  std::vector<Section> sections;
+  const auto section = [&](const char* name, const std::function<void()>& content) {
+    Section row = {};
+    std::strncpy(row.name, name, sizeof(row.name) - 1);
+    row.start = static_cast<std::int64_t>(out.offset());
+    content();
+    row.size = static_cast<std::int64_t>(out.offset()) - row.start;
+    sections.push_back(row);
+  };
+  section("TOKENS", [&] { write_tokens(out); });
+  section("STRINGS", [&] {
+    out.write(std::uint64_t{strings_.size()});
+    out.write_array(std::span<const std::uint32_t>(strings_));
+  });
+  section("FIELDS", [&] { write_fields(out); });
+  section("FIELDSETS", [&] {
+    out.write(std::uint64_t{field_sets_.size()});
+    write_packed(out, field_sets_);
+  });
+  section("PATHS", [&] { write_paths(out); });
+  section("SPECS", [&] { write_specs(out); });
+  const std::size_t contents = out.offset();
+  out.write(std::uint64_t{sections.size()});
+  out.write_array(std::span<const Section>(sections));
+  return contents;
+}
+
+}  // namespace tenon::formats::crate

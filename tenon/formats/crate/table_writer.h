@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <unordered_map>
+#include <vector>
+
+#include "tenon/base/path.h"
+#include "tenon/base/token.h"
+#include "tenon/bytes/byte_writer.h"
+#include "tenon/formats/crate/layout.h"
+
+namespace tenon::formats::crate {
+
+/// The structural sections of a file to be written: each token, string, path, field and set of
+/// fields once, by index in the order of first use.
+class TableWriter {
+ public:
+  TableWriter();
+
+  std::uint32_t token(Token token);
+  std::uint32_t string(std::string_view text);
+  /// An absolute path or the empty one. Everything above it becomes a row too.
+  std::uint32_t path(Path path);
+  std::uint32_t field(Token name, ValueWord value);
+  std::uint32_t field_set(const std::vector<std::uint32_t>& fields);
+  void spec(Path path, std::uint32_t kind, std::uint32_t field_set);
+
+  /// Appends the sections and the table of contents; the offset of the latter.
+  std::size_t write(bytes::ByteWriter& out);
+  /// False when there are more rows than the format can count.
+  bool fits() const;
+
+ private:
+  struct PathTree;
+  void write_tokens(bytes::ByteWriter& out) const;
+  void write_fields(bytes::ByteWriter& out) const;
+  void write_paths(bytes::ByteWriter& out) const;
+  void write_specs(bytes::ByteWriter& out) const;
+
+  std::vector<Token> tokens_;
+  std::unordered_map<Token, std::uint32_t> token_index_;
+  std::vector<std::uint32_t> strings_;
+  std::unordered_map<std::uint32_t, std::uint32_t> string_index_;  // by token
+  std::vector<Path> paths_;
+  std::vector<std::uint32_t> path_tokens_;  // of their last elements
+  std::unordered_map<Path, std::uint32_t> path_index_;
+  std::vector<std::uint32_t> field_names_;
+  std::vector<std::uint64_t> field_words_;
+  std::map<std::pair<std::uint32_t, std::uint64_t>, std::uint32_t> field_index_;
+  std::vector<std::uint32_t> field_sets_;
+  std::map<std::vector<std::uint32_t>, std::uint32_t> field_set_index_;
+  std::vector<std::uint32_t> spec_paths_;
+  std::vector<std::uint32_t> spec_sets_;
+  std::vector<std::uint32_t> spec_kinds_;
+};
+
+}  // namespace tenon::formats::crate

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/formats/crate/writer.h"
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "tenon/formats/crate/table_writer.h"
+#include "tenon/formats/crate/value_writer.h"
+
+namespace tenon::formats {
+namespace {
+
+using Entry = layer::Layer::Entry;
+
+std::uint32_t kind_number(layer::SpecKind kind) {
+  const auto* it = std::find(std::begin(crate::kSpecKinds), std::end(crate::kSpecKinds), kind);
+  return static_cast<std::uint32_t>(it - std::begin(crate::kSpecKinds));
+}
+
+/// Prims before properties, those grouped by name: equal fields side by side pack well.
+bool comes_before(const Entry* a, const Entry* b) {
+  const bool a_property = a->path.is_property();
+  const bool b_property = b->path.is_property();
+  if (a_property != b_property) {
+    return b_property;
+  }
+  if (a_property && a->path.name() != b->path.name()) {
+    return a->path.name() < b->path.name();
+  }
+  return a->path < b->path;
+}
+
+/// Specs in the order of the file. Those of targets carry nothing that their list does not.
+std::vector<const Entry*> ordered_specs(const layer::Layer& layer) {
+  std::vector<const Entry*> entries;
+  for (const Entry& entry : layer.entries()) {
+    if (!entry.path.empty() && entry.spec.kind != layer::SpecKind::Connection &&
+        entry.spec.kind != layer::SpecKind::RelationshipTarget) {
+      entries.push_back(&entry);
+    }
+  }
+  std::sort(entries.begin(), entries.end(), comes_before);
+  return entries;
+}
+
+Result<void> write_spec(const Entry& entry, crate::TableWriter& tables,
+                        crate::ValueWriter& values) {
+  std::vector<std::uint32_t> fields;
+  for (const layer::Field& field : entry.spec.fields()) {
+    if (field.value.empty() || field.name == layer::fields::targetChildren ||
+        field.name == layer::fields::connectionChildren) {
+      continue;
+    }
+    auto word = values.write(field.name, field.value);
+    if (!word) {
+      return std::move(word).error().with_prim(entry.path.prim().str());
+    }
+    fields.push_back(tables.field(field.name, *word));
+  }
+  tables.spec(entry.path, kind_number(entry.spec.kind), tables.field_set(fields));
+  return {};
+}
+
+}  // namespace
+
+Result<std::string> write_crate(const layer::Layer& layer) {
+  bytes::ByteWriter out;
+  out.write(crate::Bootstrap{});
+  crate::TableWriter tables;
+  crate::ValueWriter values(out, tables);
+  for (const Entry* entry : ordered_specs(layer)) {
+    TENON_CHECK(write_spec(*entry, tables, values));
+  }
+  crate::Bootstrap bootstrap = {};
+  bootstrap.contents = static_cast<std::int64_t>(tables.write(out));
+  if (!tables.fits() || out.offset() > crate::ValueWord::kPayloadMask) {
+    return Error(ErrorCode::Limit, "the layer is too large for a binary file")
+        .with_rule("crate.too-much");
+  }
+  std::memcpy(bootstrap.magic, crate::kMagic, crate::kMagicSize);
+  const crate::Version version = values.needed();
+  bootstrap.version[0] = version.major;
+  bootstrap.version[1] = version.minor;
+  bootstrap.version[2] = version.patch;
+  out.patch(0, bootstrap);
+  return out.take();
+}
+
+}  // namespace tenon::formats
