@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "tenon/base/path.h"
 #include "tenon/base/token.h"
+#include "tenon/stage/prim.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::stage {
@@ -17,17 +18,17 @@ namespace tenon::stage {
 class Collection {
  public:
   /// The collection `prim`.collection:`name`; an empty one when the API is not applied there.
-  static Collection read(const Stage& stage, const Prim& prim, Token name);
+  static Collection read(const Prim& prim, Token name);
 
   bool contains(Path path) const;
   /// All prims (and properties, under expandPrimsAndProperties) that belong, sorted.
   std::vector<Path> members(const Stage& stage) const;
 
  private:
-  friend struct CollectionReader;
+  friend class CollectionReader;
   enum class Rule : unsigned char { Exclude, ExplicitOnly, ExpandPrims, ExpandPrimsAndProperties };
 
-  std::map<Path, Rule> rules_;
+  std::unordered_map<Path, Rule> rules_;
   std::string expression_;  // used when there are no rules
   Path anchor_;             // of relative patterns in the expression
 };

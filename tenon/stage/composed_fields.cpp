@@ -4,27 +4,34 @@
 
 #include <set>
 
+#include "tenon/compose/variable_expression.h"
+
 namespace tenon::stage {
 namespace {
 
 using layer::Value;
 using layer::ValueType;
 
-layer::AssetPath resolved(const StageData& stage, const compose::Opinion& opinion,
-                          const layer::AssetPath& asset) {
+layer::AssetPath resolved(const StageData& stage, const PrimData& prim,
+                          const compose::Opinion& opinion, const layer::AssetPath& asset) {
   layer::AssetPath result = asset;
-  const std::string& path = asset.evaluated.empty() ? asset.authored : asset.evaluated;
+  if (compose::is_variable_expression(asset.authored) && opinion.node < prim.index->nodes.size()) {
+    const compose::LayerStack& stack = *prim.index->nodes[opinion.node].layer_stack;
+    result.evaluated = compose::evaluate_text(asset.authored, stack.expression_variables).text;
+  }
+  const std::string& path = result.evaluated.empty() ? result.authored : result.evaluated;
   if (stage.options.resolve_asset && !path.empty()) {
     result.resolved = stage.options.resolve_asset(path, *opinion.layer);
   }
   return result;
 }
 
-Value localize_array(const StageData& stage, const compose::Opinion& opinion, const Value& value) {
+Value localize_array(const StageData& stage, const PrimData& prim,
+                     const compose::Opinion& opinion, const Value& value) {
   if (const auto* assets = value.get<std::vector<layer::AssetPath>>()) {
     std::vector<layer::AssetPath> result;
     for (const layer::AssetPath& asset : *assets) {
-      result.push_back(resolved(stage, opinion, asset));
+      result.push_back(resolved(stage, prim, opinion, asset));
     }
     return result;
   }
@@ -95,10 +102,11 @@ Value localize(const StageData& stage, const PrimData& prim, const compose::Opin
                const Value& value) {
   switch (value.type()) {
     case ValueType::Asset:
-      return value.is_array() ? localize_array(stage, opinion, value)
-                              : Value(resolved(stage, opinion, *value.get<layer::AssetPath>()));
+      return value.is_array()
+                 ? localize_array(stage, prim, opinion, value)
+                 : Value(resolved(stage, prim, opinion, *value.get<layer::AssetPath>()));
     case ValueType::TimeCode:
-      return value.is_array() ? localize_array(stage, opinion, value)
+      return value.is_array() ? localize_array(stage, prim, opinion, value)
                               : Value(layer::TimeCode{
                                     opinion.offset.apply(value.get<layer::TimeCode>()->value)});
     case ValueType::Dictionary:

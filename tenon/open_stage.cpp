@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Files, registry and composition wired together. What the caller asks for (a variant, overridden
+// attributes) becomes opinions of a session layer in memory; no file changes.
+#include <memory>
+
+#include "tenon/formats/open_layer.h"
+#include "tenon/formats/text/reader.h"
+#include "tenon/session_opinions.h"
+#include "tenon/tenon.h"
+
+namespace tenon {
+namespace {
+
+using Registry = std::shared_ptr<formats::LayerRegistry>;
+
+Result<stage::StageOptions> stage_options(const OpenOptions& options, const Registry& registry) {
+  stage::StageOptions result;
+  result.compose.load_payloads = options.load_payloads;
+  result.compose.variant_fallbacks = options.variant_fallbacks;
+  for (const std::string& text : options.mask) {
+    TENON_TRY(const Path path, Path::parse(text));
+    if (!path.is_absolute() || !path.is_prim_or_root()) {
+      return Error(ErrorCode::Invalid, "the mask `" + text + "` is not the path of a prim")
+          .with_fix("write it from the root, as in /World/Robot");
+    }
+    result.mask.insert(path);
+  }
+  result.resolve_asset = [registry](const std::string& asset, const layer::Layer& anchor) {
+    return registry->resolver().resolve(asset, anchor.identifier()).value_or(std::string());
+  };
+  return result;
+}
+
+Result<stage::Stage> compose_stage(const Registry& registry, const layer::LayerPtr& root,
+                             const layer::LayerPtr& session, const OpenOptions& options) {
+  TENON_TRY(auto composed, stage_options(options, registry));
+  auto opener = [registry](const std::string& asset, const layer::Layer& anchor) {
+    return registry->open(asset, &anchor);
+  };
+  return stage::Stage::open(root, session, std::move(opener), std::move(composed));
+}
+
+}  // namespace
+
+Result<layer::LayerPtr> open_layer(const std::string& path, Diagnostics& diagnostics) {
+  TENON_TRY(auto layer, formats::open_layer_file(path, diagnostics));
+  return layer::LayerPtr(std::make_shared<const layer::Layer>(std::move(layer)));
+}
+
+Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& options,
+                                Diagnostics& diagnostics) {
+  bytes::ResolverOptions resolver;
+  resolver.roots = options.sandbox_roots;
+  const auto registry =
+      std::make_shared<formats::LayerRegistry>(bytes::AssetResolver(std::move(resolver)));
+  TENON_TRY(const layer::LayerPtr root, registry->open_root(path));
+  layer::LayerPtr session;
+  if (!options.session_path.empty()) {
+    TENON_TRY(session, registry->open(options.session_path, nullptr));
+  }
+  if (!options.physics_variant.empty()) {
+    TENON_TRY(session, with_variant(session, *root, "Physics", options.physics_variant));
+  }
+  TENON_TRY(auto stage, compose_stage(registry, root, session, options));
+  if (!options.overrides.empty()) {
+    // The types of the attributes are known only once the stage is composed.
+    TENON_TRY(session, with_overrides(session, stage, options.overrides, formats::read_text));
+    TENON_TRY(stage, compose_stage(registry, root, session, options));
+  }
+  diagnostics.append(registry->diagnostics());
+  diagnostics.append(stage.diagnostics());
+  return stage;
+}
+
+}  // namespace tenon

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/stage/flatten.h"
+
+#include <set>
+#include <unordered_map>
+
+#include "tenon/stage/composed_fields.h"
+#include "tenon/stage/stage_data.h"
+
+namespace tenon::stage {
+namespace {
+
+using layer::Layer;
+using layer::Spec;
+using layer::SpecKind;
+using layer::Value;
+namespace fields = layer::fields;
+
+// A flattened layer may stand anywhere, so asset paths become what they resolve to.
+Value anchored(const Value& value) {
+  if (const auto* asset = value.get<layer::AssetPath>()) {
+    return layer::AssetPath{asset->resolved.empty() ? asset->authored : asset->resolved, {}, {}};
+  }
+  if (const auto* assets = value.get<std::vector<layer::AssetPath>>()) {
+    std::vector<layer::AssetPath> result;
+    for (const layer::AssetPath& asset : *assets) {
+      result.push_back({asset.resolved.empty() ? asset.authored : asset.resolved, {}, {}});
+    }
+    return result;
+  }
+  if (const auto* dictionary = value.get<layer::Dictionary>()) {
+    layer::Dictionary result;
+    for (const auto& [key, item] : dictionary->items) {
+      result.items.emplace(key, anchored(item));
+    }
+    return result;
+  }
+  return value;
+}
+
+class Flattener {
+ public:
+  explicit Flattener(const Stage& stage)
+      : stage_(stage), layer_("anon:flattened.usda") {
+    std::size_t number = 0;
+    for (const Prim& prototype : stage.prototypes()) {
+      const std::string name = "Flattened_Prototype_" + std::to_string(++number);
+      prototype_paths_.emplace(prototype.path(), Path::absolute_root().child(Token(name)));
+    }
+  }
+
+  Layer run() {
+    for (const auto& [name, value] : stage_.all_authored_metadata()) {
+      layer_.root().set(Token(name), anchored(value));
+    }
+    layer_.root().erase(fields::subLayers);
+    layer_.root().erase("expressionVariables");
+    copy_below(stage_.pseudo_root(), Path::absolute_root());
+    for (const Prim& prototype : stage_.prototypes()) {
+      copy_prototype(prototype);
+    }
+    return std::move(layer_);
+  }
+
+ private:
+  struct Copy {
+    Prim prim;
+    Path path;
+  };
+
+  void copy_prototype(const Prim& prototype) {
+    const Path path = prototype_paths_.at(prototype.path());
+    Spec& spec = layer_.create(path, SpecKind::Prim);
+    spec.set(fields::specifier, layer::Specifier::Over);
+    add_child(Path::absolute_root(), fields::primChildren, path.name());
+    copy_below(prototype, path);
+  }
+
+  void copy_below(const Prim& root, Path root_path) {
+    std::vector<Copy> pending{{root, root_path}};
+    while (!pending.empty()) {
+      const Copy copy = pending.back();
+      pending.pop_back();
+      if (copy.path != root_path) {
+        copy_prim(copy.prim, copy.path);
+      }
+      if (copy.prim.is_instance()) {
+        continue;
+      }
+      const std::vector<Prim> children = copy.prim.children();
+      std::vector<Token> names;
+      for (auto child = children.rbegin(); child != children.rend(); ++child) {
+        pending.push_back({*child, copy.path.child(child->name())});
+      }
+      for (const Prim& child : children) {
+        names.push_back(child.name());
+      }
+      if (!names.empty()) {
+        layer_.find(copy.path)->set(fields::primChildren, std::move(names));
+      }
+    }
+  }
+
+  void add_child(Path parent, Token field, Token name) {
+    Spec& spec = *layer_.find(parent);
+    std::vector<Token> names = Layer::children(spec, field);
+    names.push_back(name);
+    spec.set(field, std::move(names));
+  }
+
+  // Paths into prototypes become paths into their flattened copies.
+  Path moved(Path path) const {
+    for (Path at = path; !at.empty(); at = at.parent()) {
+      const auto it = prototype_paths_.find(at);
+      if (it != prototype_paths_.end()) {
+        return path.replace_prefix(it->first, it->second);
+      }
+    }
+    return path;
+  }
+
+  void copy_prim(const Prim& prim, Path path) {
+    Spec& spec = layer_.create(path, SpecKind::Prim);
+    spec.set(fields::specifier, prim.specifier());
+    if (!prim.type_name().empty()) {
+      spec.set(fields::typeName, prim.type_name());
+    }
+    for (const auto& [name, value] : prim.all_authored_metadata()) {
+      if (name != "specifier" && name != "typeName") {
+        spec.set(Token(name), anchored(value));
+      }
+    }
+    if (prim.is_instance()) {
+      layer::Reference reference;
+      reference.prim_path = prototype_paths_.at(prim.prototype().path());
+      spec.set(fields::references,
+               layer::ListOp<layer::Reference>::make_explicit({std::move(reference)}));
+    } else {
+      spec.erase(fields::instanceable);
+    }
+    const std::vector<Token> names = prim.authored_property_names();
+    if (!names.empty()) {
+      spec.set(fields::properties, names);
+    }
+    for (const Token name : names) {
+      if (prim.is_relationship(name)) {
+        copy_relationship(prim.relationship(name), path.property(name));
+      } else {
+        copy_attribute(prim.attribute(name), path.property(name));
+      }
+    }
+  }
+
+  void copy_targets(Spec& spec, Token field, std::vector<Path> targets) {
+    for (Path& target : targets) {
+      target = moved(target);
+    }
+    spec.set(field, layer::ListOp<Path>::make_explicit(std::move(targets)));
+  }
+
+  void copy_relationship(const Relationship& relationship, Path path) {
+    Spec& spec = layer_.create(path, SpecKind::Relationship);
+    for (const auto& [name, value] : relationship.all_authored_metadata()) {
+      if (name != "targetPaths") {
+        spec.set(Token(name), anchored(value));
+      }
+    }
+    spec.set(fields::custom, relationship.is_custom());
+    if (relationship.has_authored_targets()) {
+      copy_targets(spec, fields::targetPaths, relationship.targets());
+    }
+  }
+
+  void copy_attribute(const Attribute& attribute, Path path) {
+    Spec& spec = layer_.create(path, SpecKind::Attribute);
+    for (const auto& [name, value] : attribute.all_authored_metadata()) {
+      if (name != "connectionPaths") {
+        spec.set(Token(name), anchored(value));
+      }
+    }
+    spec.set(fields::typeName, attribute.type_name());
+    spec.set(fields::custom, attribute.is_custom());
+    spec.set(fields::variability, attribute.variability());
+    copy_values(attribute, spec);
+    if (attribute.has_authored_connections()) {
+      copy_targets(spec, fields::connectionPaths, attribute.connections());
+    }
+  }
+
+  static void copy_values(const Attribute& attribute, Spec& spec) {
+    if (attribute.is_blocked()) {
+      spec.set(fields::default_value, layer::ValueBlock{});
+    } else if (attribute.value_source() == ValueSource::Default) {
+      spec.set(fields::default_value, anchored(attribute.get()));
+    }
+    layer::TimeSamples samples;
+    for (const double time : attribute.time_samples()) {
+      const Value value = attribute.get(time);
+      samples.times.push_back(time);
+      samples.values.push_back(value.empty() ? Value(layer::ValueBlock{}) : anchored(value));
+    }
+    if (!samples.empty()) {
+      spec.set(fields::timeSamples, std::move(samples));
+    }
+    if (const layer::Spline* spline = attribute.spline()) {
+      spec.set(fields::spline, *spline);
+    }
+  }
+
+  const Stage& stage_;
+  Layer layer_;
+  std::unordered_map<Path, Path> prototype_paths_;
+};
+
+}  // namespace
+
+layer::Layer flatten(const Stage& stage) { return Flattener(stage).run(); }
+
+}  // namespace tenon::stage

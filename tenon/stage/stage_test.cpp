@@ -1,0 +1,358 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/stage/stage.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tenon/formats/text/reader.h"
+#include "tenon/stage/collection.h"
+#include "tenon/stage/flatten.h"
+#include "tenon/stage/material_binding.h"
+#include "tenon/stage/stage_units.h"
+#include "tenon/stage/transform_at.h"
+
+namespace tenon::stage {
+namespace {
+
+// Layers given as text, by name; "root" is the root layer.
+Stage open_text(const std::map<std::string, std::string>& texts, StageOptions options = {}) {
+  std::map<std::string, layer::LayerPtr> layers;
+  for (const auto& [name, text] : texts) {
+    Diagnostics diagnostics;
+    auto layer = formats::read_text("#usda 1.0\n" + text, name, diagnostics);
+    EXPECT_TRUE(layer) << layer.error().to_string();
+    layers[name] = std::make_shared<const layer::Layer>(*std::move(layer));
+  }
+  auto opener = [layers](const std::string& path, const layer::Layer&) -> Result<layer::LayerPtr> {
+    const auto it = layers.find(path);
+    if (it == layers.end()) {
+      return Error(ErrorCode::NotFound, "no " + path);
+    }
+    return it->second;
+  };
+  auto stage = Stage::open(layers.at("root"), nullptr, opener, std::move(options));
+  EXPECT_TRUE(stage);
+  return *std::move(stage);
+}
+
+Stage open_text(const std::string& text) { return open_text({{"root", text}}); }
+
+Prim at(const Stage& stage, const char* path) { return stage.prim(Path::from(path)); }
+
+TEST(Stage, FlagsFollowSpecifiersActivityAndKinds) {
+  const Stage stage = open_text(R"(
+def "A" (kind = "group") { def "B" (kind = "component") { def "C" (kind = "component") {} } }
+class "K" { def "Inside" {} }
+over "O" { def "D" {} }
+def "Off" (active = false) { def "Gone" {} }
+)");
+  EXPECT_TRUE(at(stage, "/A").is_group());
+  EXPECT_TRUE(at(stage, "/A/B").is_model());
+  EXPECT_FALSE(at(stage, "/A/B/C").is_model());
+  EXPECT_TRUE(at(stage, "/K/Inside").is_abstract());
+  EXPECT_TRUE(at(stage, "/K").is_defined());
+  EXPECT_FALSE(at(stage, "/O/D").is_defined());
+  EXPECT_FALSE(at(stage, "/Off").is_active());
+  EXPECT_FALSE(at(stage, "/Off/Gone").is_valid());
+}
+
+TEST(Stage, AClassThatComesOverAnInheritIsWeakerThanADef) {
+  const Stage stage = open_text(R"(
+class "C" {}
+def "D" {}
+over "A" (inherits = </C> references = </D>) {}
+over "B" (references = </C>) {}
+)");
+  EXPECT_EQ(at(stage, "/A").specifier(), layer::Specifier::Def);
+  EXPECT_EQ(at(stage, "/B").specifier(), layer::Specifier::Class);
+}
+
+TEST(Stage, InstancesShareAPrototypeAndShowProxies) {
+  const Stage stage = open_text(R"(
+def "R" {
+    double z = 1
+    def "C" { double y = 1
+        rel up = </R>
+        rel outside = </A>
+    }
+}
+def "A" (instanceable = true references = </R>) { over "C" { double y = 3 } }
+def "B" (instanceable = true references = </R>) { double z = 2 }
+)");
+  ASSERT_TRUE(at(stage, "/A").is_instance());
+  EXPECT_EQ(at(stage, "/A").prototype(), at(stage, "/B").prototype());
+  EXPECT_EQ(stage.prototypes().size(), 1u);
+  const Prim proxy = at(stage, "/B/C");
+  ASSERT_TRUE(proxy.is_instance_proxy());
+  EXPECT_EQ(proxy.path(), Path::from("/B/C"));
+  EXPECT_EQ(proxy.parent(), at(stage, "/B"));
+  EXPECT_EQ(at(stage, "/A/C").attribute("y").get_as<double>(), 1);
+  EXPECT_EQ(at(stage, "/B").attribute("z").get_as<double>(), 2);
+  EXPECT_EQ(proxy.relationship("up").targets(), std::vector{Path::from("/B")});
+  EXPECT_EQ(proxy.relationship("outside").targets(), std::vector{Path::from("/A")});
+  EXPECT_TRUE(at(stage, "/A").prototype().authored_property_names().empty());
+}
+
+TEST(Stage, AMaskKeepsAncestorsAndDescendants) {
+  StageOptions options;
+  options.mask.insert(Path::from("/A/B"));
+  const Stage stage =
+      open_text({{"root", R"(def "A" { def "B" { def "C" {} } def "X" {} } def "Y" {})"}}, options);
+  EXPECT_TRUE(at(stage, "/A/B/C").is_valid());
+  EXPECT_FALSE(at(stage, "/A/X").is_valid());
+  EXPECT_FALSE(at(stage, "/Y").is_valid());
+}
+
+TEST(Attribute, SamplesComeBeforeDefaultsLayerByLayer) {
+  const Stage stage = open_text({{"root", R"((subLayers = [@sub@ (offset = 10; scale = 2)])
+over "A" {
+    double blocked = None
+    double animated = AnimationBlock
+    double strong.timeSamples = { 1: 2, 3: None, 5: 6 }
+})"},
+                                 {"sub", R"(def "A" {
+    double moved.timeSamples = { 0: 1, 10: 5 }
+    double blocked = 4
+    double blocked.timeSamples = { 0: 7 }
+    double animated = 3
+    double animated.timeSamples = { 0: 7 }
+    double strong = 3
+    timecode when = 5
+})"}});
+  const Prim a = at(stage, "/A");
+  EXPECT_EQ(a.attribute("moved").time_samples(), (std::vector<double>{10, 30}));
+  EXPECT_EQ(a.attribute("moved").get_as<double>(20), 3);
+  EXPECT_EQ(a.attribute("moved").get_as<double>(0), 1);
+  EXPECT_TRUE(a.attribute("moved").get().empty());
+  EXPECT_TRUE(a.attribute("blocked").is_blocked());
+  EXPECT_TRUE(a.attribute("blocked").get(0).empty());
+  EXPECT_EQ(a.attribute("animated").get_as<double>(0), 3);
+  EXPECT_EQ(a.attribute("strong").get_as<double>(2), 2);
+  EXPECT_TRUE(a.attribute("strong").get(3).empty());
+  EXPECT_TRUE(a.attribute("strong").get(4).empty());
+  EXPECT_EQ(a.attribute("strong").get_as<double>(), 3);
+  EXPECT_EQ(a.attribute("when").get_as<layer::TimeCode>(), layer::TimeCode{20});
+}
+
+TEST(Attribute, FallbacksAndDeclaredTypesComeFromSchemas) {
+  const Stage stage = open_text(R"(
+def Cube "A" (prepend apiSchemas = ["PhysicsDriveAPI:angular", "PhysxJointAPI", "Unknown"]) {
+    custom uniform token visibility
+    double size = None
+}
+)");
+  const Prim a = at(stage, "/A");
+  EXPECT_EQ(a.attribute("doubleSided").get_as<bool>(), false);
+  EXPECT_EQ(a.attribute("drive:angular:physics:damping").get_as<float>(), 0.0f);
+  EXPECT_EQ(a.attribute("visibility").variability(), layer::Variability::Varying);
+  EXPECT_FALSE(a.attribute("visibility").is_custom());
+  EXPECT_TRUE(a.attribute("size").get().empty());
+  EXPECT_EQ(a.attribute("size").value_source(), ValueSource::Fallback);
+  EXPECT_EQ(a.attribute("size").fallback(), layer::Value(2.0));
+  EXPECT_TRUE(a.has_api("Unknown"));
+  EXPECT_EQ(a.applied_schemas(), std::vector<Token>{"PhysicsDriveAPI:angular"});
+  EXPECT_EQ(a.api_instances("PhysicsDriveAPI"), std::vector<Token>{"angular"});
+  EXPECT_TRUE(a.is_a("Gprim"));
+}
+
+TEST(Attribute, WeakestOpinionDecidesVariabilityAndAnyOpinionCustom) {
+  const Stage stage = open_text(R"(
+def "R" {
+    uniform double a
+    custom double c
+}
+def "A" (references = </R>) {
+    double a
+    double c
+}
+)");
+  EXPECT_EQ(at(stage, "/A").attribute("a").variability(), layer::Variability::Uniform);
+  EXPECT_TRUE(at(stage, "/A").attribute("c").is_custom());
+}
+
+TEST(Prim, MetadataIsComposed) {
+  const Stage stage = open_text({{"root", R"((subLayers = [@sub@])
+over "A" (prepend apiSchemas = ["Strong"] customData = { int a = 1 }) {
+    reorder properties = ["b"]
+    int a = 1
+})"},
+                                 {"sub", R"(def "A" (
+    prepend apiSchemas = ["Weak"]
+    customData = { int a = 2
+ int b = 3 }
+    variants = { string v = "one" }
+    prepend variantSets = "v"
+) {
+    int b = 2
+    variantSet "v" = { "one" { int c = 1 } "two" {} }
+})"}});
+  const Prim a = at(stage, "/A");
+  EXPECT_EQ(a.authored_api_schemas(), (std::vector<Token>{"Strong", "Weak"}));
+  const layer::Value data = a.metadata("customData");
+  ASSERT_TRUE(data.holds<layer::Dictionary>());
+  EXPECT_EQ(*data.get<layer::Dictionary>()->find("a"), layer::Value(std::int32_t{1}));
+  EXPECT_EQ(*data.get<layer::Dictionary>()->find("b"), layer::Value(std::int32_t{3}));
+  EXPECT_EQ(a.authored_property_names(), (std::vector<Token>{"a", "b", "c"}));
+  EXPECT_EQ(a.variant_set_names(), std::vector<std::string>{"v"});
+  EXPECT_EQ(a.variant_names("v"), (std::vector<std::string>{"one", "two"}));
+  EXPECT_EQ(a.variant_selection("v"), "one");
+}
+
+TEST(Relationship, ForwardedTargetsFollowRelationships) {
+  const Stage stage = open_text(R"(
+def "A" {
+    rel direct = [</B.further>, </C>]
+    double x.connect = </B.further>
+}
+def "B" { rel further = [</A.direct>, </D>, </C>] }
+)");
+  const Relationship direct = at(stage, "/A").relationship("direct");
+  EXPECT_EQ(direct.targets(), (std::vector{Path::from("/B.further"), Path::from("/C")}));
+  EXPECT_EQ(direct.forwarded_targets(), (std::vector{Path::from("/D"), Path::from("/C")}));
+  EXPECT_EQ(at(stage, "/A").attribute("x").connections(), std::vector{Path::from("/B.further")});
+}
+
+struct XformCase {
+  const char* ops;
+  Vec3d image;  // of the point (1, 2, 3)
+};
+
+TEST(TransformAt, EveryKindOfOperation) {
+  const XformCase cases[] = {
+      {"double3 xformOp:translate = (10, 0, 0)|xformOp:translate", {{11, 2, 3}}},
+      {"half xformOp:translateY = 5|xformOp:translateY", {{1, 7, 3}}},
+      {"float3 xformOp:scale = (2, 3, 4)|xformOp:scale", {{2, 6, 12}}},
+      {"float xformOp:scaleZ = 2|xformOp:scaleZ", {{1, 2, 6}}},
+      {"double xformOp:rotateZ = 90|xformOp:rotateZ", {{-2, 1, 3}}},
+      {"float3 xformOp:rotateXYZ = (90, 0, 90)|xformOp:rotateXYZ", {{3, 1, 2}}},
+      {"float3 xformOp:rotateZYX = (90, 0, 90)|xformOp:rotateZYX", {{-2, -3, 1}}},
+      {"quatf xformOp:orient = (0.70710678, 0, 0, 0.70710678)|xformOp:orient", {{-2, 1, 3}}},
+      {"double xformOp:rotateX = 90|!invert!xformOp:rotateX", {{1, 3, -2}}},
+      {"matrix4d xformOp:transform = ((0,1,0,0),(-1,0,0,0),(0,0,1,0),(5,0,0,1))|xformOp:transform",
+       {{3, 1, 3}}},
+  };
+  for (const XformCase& c : cases) {
+    const std::string text = c.ops;
+    const std::size_t bar = text.find('|');
+    const Stage stage = open_text("def Xform \"A\" {\n" + text.substr(0, bar) +
+                                  "\nuniform token[] xformOpOrder = [\"" + text.substr(bar + 1) +
+                                  "\"]\n}\n");
+    Diagnostics diagnostics;
+    const LocalTransform local = local_transform(at(stage, "/A"), {}, &diagnostics);
+    EXPECT_TRUE(diagnostics.empty()) << text;
+    const Vec3d image = transform_point({{1, 2, 3}}, local.matrix);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(image[i], c.image[i], 1e-6) << text;
+    }
+  }
+}
+
+TEST(TransformAt, ResetDropsTheParentAndInversePairsCancel) {
+  const Stage stage = open_text(R"(
+def Xform "A" {
+    double3 xformOp:translate = (1, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+    def Xform "B" {
+        double3 xformOp:translate = (0, 2, 0)
+        double xformOp:scaleX:pivot = 0
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scaleX:pivot", "!invert!xformOp:scaleX:pivot"]
+    }
+    def Xform "R" { uniform token[] xformOpOrder = ["!resetXformStack!"] }
+    def Scope "S" { def Xform "T" {} }
+}
+)");
+  const Vec3d origin;
+  EXPECT_EQ(transform_point(origin, local_to_world(at(stage, "/A/B"), {})), (Vec3d{{1, 2, 0}}));
+  EXPECT_EQ(transform_point(origin, local_to_world(at(stage, "/A/R"), {})), (Vec3d{{0, 0, 0}}));
+  TransformCache cache{Time()};
+  EXPECT_EQ(transform_point(origin, cache.local_to_world(at(stage, "/A/S/T"))),
+            (Vec3d{{1, 0, 0}}));
+  EXPECT_EQ(transform_point(origin, cache.local_to_world(at(stage, "/A/B"))), (Vec3d{{1, 2, 0}}));
+}
+
+TEST(StageUnits, FallbacksAndBrokenValues) {
+  Diagnostics diagnostics;
+  const StageUnits plain = read_stage_units(open_text("def \"A\" {}"), diagnostics);
+  EXPECT_EQ(plain.meters_per_unit, 0.01);
+  EXPECT_EQ(plain.kilograms_per_unit, 1);
+  EXPECT_EQ(plain.up_axis, UpAxis::Y);
+  EXPECT_TRUE(diagnostics.empty());
+  const Stage broken = open_text("(metersPerUnit = -1\nkilogramsPerUnit = 0\nupAxis = \"W\")");
+  EXPECT_EQ(read_stage_units(broken, diagnostics).meters_per_unit, 0.01);
+  EXPECT_EQ(diagnostics.size(), 3u);
+}
+
+constexpr const char* kMaterials = R"(
+def Material "M" {}
+def Material "P" {}
+def Material "C" {}
+def Xform "W" (prepend apiSchemas = ["MaterialBindingAPI", "CollectionAPI:some"]) {
+    rel material:binding = </M>
+    rel material:binding:physics = </P>
+    rel material:binding:collection:physics:some = [</W.collection:some>, </C>]
+    rel collection:some:includes = </W/In>
+    rel collection:some:excludes = </W/In/Out>
+    def Cube "In" { def Cube "Out" {} def Cube "Own" { rel material:binding:physics = </M> } }
+    def Cube "Plain" {}
+}
+def Cube "Alone" { rel material:binding = </M> }
+)";
+
+TEST(MaterialBinding, PurposesCollectionsAndInheritance) {
+  const Stage stage = open_text(kMaterials);
+  const struct {
+    const char* prim;
+    const char* purpose;
+    const char* material;
+  } cases[] = {
+      {"/W/Plain", "physics", "/P"}, {"/W/Plain", "", "/M"},       {"/W/Plain", "full", "/M"},
+      {"/W/In", "physics", "/C"},    {"/W/In/Out", "physics", "/P"}, {"/W/In/Own", "physics", "/M"},
+      {"/Alone", "physics", "/M"},
+  };
+  for (const auto& c : cases) {
+    EXPECT_EQ(bound_material(at(stage, c.prim), c.purpose), Path::from(c.material))
+        << c.prim << " " << c.purpose;
+  }
+  EXPECT_TRUE(find_material_binding(at(stage, "/Alone"), "physics").binding_api_missing);
+  EXPECT_FALSE(find_material_binding(at(stage, "/W/Plain"), "physics").binding_api_missing);
+}
+
+TEST(Collection, ExpressionsMatchPaths) {
+  const struct {
+    const char* expression;
+    const char* path;
+    bool matches;
+  } cases[] = {
+      {"/W/a*", "/W/abc", true},     {"/W/a*", "/W/b", false},      {"/W/a*", "/W/a/b", false},
+      {"//", "/W/a/b", true},        {"/W//", "/W/a/b", true},      {"/W//b", "/W/x/y/b", true},
+      {"/W//b", "/W/x/y/c", false},  {"/A + /B", "/B", true},       {"/A /B", "/A", true},
+      {"// - /A//", "/A/x", false},  {"// - /A//", "/B", true},     {"~/A", "/B", true},
+      {"//a? & /W//", "/W/ab", true}, {"(/A | /B) - /B", "/B", false}, {"./x", "/Root/x", true},
+      {"/W/[ab]c", "/W/bc", true},   {"/W.size", "/W.size", true},  {"/W.size", "/W", false},
+  };
+  for (const auto& c : cases) {
+    EXPECT_EQ(expression_matches(c.expression, Path::from("/Root"), Path::from(c.path)), c.matches)
+        << c.expression << " " << c.path;
+  }
+}
+
+TEST(Flatten, HasNoArcsAndTheSameValues) {
+  const Stage stage = open_text(R"(
+def "R" (customData = { int a = 1 }) { double z = 1
+ def "C" { rel up = </R> } }
+def "A" (instanceable = true references = </R>) { double z.timeSamples = { 0: 1 } }
+def "B" (references = </R>) {}
+)");
+  const layer::Layer flat = flatten(stage);
+  EXPECT_FALSE(flat.find(Path::from("/B"))->has("references"));
+  EXPECT_TRUE(flat.has(Path::from("/B/C.up")));
+  EXPECT_TRUE(flat.find(Path::from("/A"))->has("references"));
+  EXPECT_TRUE(flat.has(Path::from("/Flattened_Prototype_1/C.up")));
+  EXPECT_EQ(flat.find(Path::from("/B.z"))->get_or("default", 0.0), 1);
+  EXPECT_TRUE(flat.find(Path::from("/A.z"))->has("timeSamples"));
+}
+
+}  // namespace
+}  // namespace tenon::stage
