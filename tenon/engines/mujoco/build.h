@@ -12,6 +12,15 @@
 /// The passes that turn a PhysicsScene into a MuJoCo model. Each fills its part of one Build.
 namespace tenon::engines::mujoco {
 
+inline constexpr double kGhostRatio = 1e-3;  ///< mass of an auxiliary body to that of body1
+
+/// The auxiliary body of a loop joint.
+struct Ghost {
+  mjsBody* body = nullptr;
+  mjsBody* welded_to = nullptr;
+  physics::Index joint = 0;
+};
+
 /// What the passes share until the model is compiled.
 struct Build {
   Build(const physics::PhysicsScene& source, Diagnostics& findings)
@@ -30,6 +39,7 @@ struct Build {
   std::vector<std::vector<mjsJoint*>> joints;        ///< (joint_count), in the order of dofs.free
   std::vector<mjsJoint*> balls;                      ///< (joint_count), nullptr where there is none
   std::vector<std::vector<mjsActuator*>> actuators;  ///< (joint_count), one per drive or nullptr
+  std::vector<Ghost> ghosts;
   std::vector<NotMapped> not_mapped;
   double driven_mass = 0;  ///< of bodies that follow a pose track [kg]
 
@@ -38,7 +48,7 @@ struct Build {
   }
 };
 
-/// Options of the solver; solref of hard constraints.
+/// Options of the solver.
 void add_options(Build& build);
 /// MuJoCo bodies along the plan, with explicit inertia; free joints of roots.
 void add_bodies(Build& build);
@@ -73,8 +83,8 @@ Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOp
 
 // ---- shared by the passes
 
-/// {time constant, damping ratio} of a constraint that is as hard as the time step allows.
-std::array<double, 2> hard_solref(double time_step);
+/// Makes a limit or an equality as hard as the time step allows.
+void make_hard(double time_step, mjtNum* solref, mjtNum* solimp);
 /// Joints that carry `dofs` between MuJoCo body `child` and its parent; see joints.cpp.
 void add_chain(Build& build, physics::Index joint, mjsBody* child, const Pose& joint_in_child,
                bool reversed);

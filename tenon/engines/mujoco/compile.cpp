@@ -150,6 +150,27 @@ void set_mean_inertia(const Build& build, Model& result) {
   }
 }
 
+// MuJoCo softens constraints in proportion to 1 / inertia of what they act on. An auxiliary body's
+// own would make its limits and its weld a thousand times too soft: it gets that of its partner.
+void stiffen_ghosts(const Build& build, Model& result) {
+  mjModel& m = *result.model;
+  for (const Ghost& ghost : build.ghosts) {
+    const int id = mjs_getId(ghost.body->element);
+    const int partner = mjs_getId(ghost.welded_to->element);
+    double weight[2] = {m.body_invweight0[2 * partner], m.body_invweight0[2 * partner + 1]};
+    if (!(weight[0] > 0)) {  // welded to the world
+      weight[0] = m.body_invweight0[2 * id] * kGhostRatio;
+      weight[1] = m.body_invweight0[2 * id + 1] * kGhostRatio;
+    }
+    std::copy(weight, weight + 2, m.body_invweight0 + 2 * id);
+    for (int i = 0; i < m.body_dofnum[id]; ++i) {
+      const int dof = m.body_dofadr[id] + i;
+      const bool angular = m.jnt_type[m.dof_jntid[dof]] != mjJNT_SLIDE;
+      m.dof_invweight0[dof] = weight[angular ? 1 : 0];
+    }
+  }
+}
+
 // Implicit in velocity is enough for damping; drives that are stiff against their inertia need the
 // step that is implicit in position too.
 void choose_integrator(const Build& build, Model& result) {
@@ -200,6 +221,7 @@ Result<Model> compile(Build& build) {
   result.data.reset(data);
   set_free_damping(build, result);
   set_mean_inertia(build, result);
+  stiffen_ghosts(build, result);
   choose_integrator(build, result);
   result.plan = build.plan;
   result.not_mapped = build.not_mapped;

@@ -16,15 +16,7 @@ using physics::Joint;
 using physics::kUnlimited;
 
 constexpr double kRecoverySpeed = 0.9;  // [m/s] at most, out of a violated distance bound
-constexpr double kGhostRatio = 1e-3;    // mass of an auxiliary body to that of body1
-constexpr double kHardImpedance[mjNIMP] = {0.99, 0.9999, 1e-4, 0.5, 2};
 constexpr double kMimicImpedance[mjNIMP] = {0.9999, 0.9999, 1e-3, 0.5, 2};
-
-void make_hard(Build& build, mjtNum* solref, mjtNum* solimp) {
-  const auto hard = hard_solref(build.time_step);
-  std::copy(hard.begin(), hard.end(), solref);
-  std::copy(std::begin(kHardImpedance), std::end(kHardImpedance), solimp);
-}
 
 std::string add_site(mjsBody* body, const std::string& name, const Pose& pose) {
   mjsSite* site = mjs_addSite(body, nullptr);
@@ -44,7 +36,7 @@ mjsEquality* add_equality(Build& build, mjtEq type, const std::string& name, mjt
   mjs_setString(equality->name2, second.c_str());
   std::fill(std::begin(equality->data), std::end(equality->data), 0.0);
   equality->active = 1;
-  make_hard(build, equality->solref, equality->solimp);
+  make_hard(build.time_step, equality->solref, equality->solimp);
   return equality;
 }
 
@@ -103,6 +95,7 @@ void add_ghost(Build& build, physics::Index index) {
   write_quaternion(ghost->iquat, kIdentityRotation);
   ghost->explicitinertial = 1;
   ghost->gravcomp = 1;
+  build.ghosts.push_back({ghost, sides.body1, index});
   add_chain(build, index, ghost, {}, false);
   hold_frames(build, name, ghost, {}, sides.body1, sides.frame1);
   build.report(
@@ -147,7 +140,7 @@ mjsTendon* add_tendon(Build& build, const std::string& name, const std::string& 
   tendon->limited = mjLIMITED_TRUE;
   tendon->range[0] = lower;
   tendon->range[1] = std::max(upper, lower + 1e-9);
-  make_hard(build, tendon->solref_limit, tendon->solimp_limit);
+  make_hard(build.time_step, tendon->solref_limit, tendon->solimp_limit);
   return tendon;
 }
 
@@ -231,7 +224,14 @@ void add_mimic(Build& build, physics::Index index) {
 
 }  // namespace
 
-std::array<double, 2> hard_solref(double time_step) { return {2.5 * time_step, 1}; }
+void make_hard(double time_step, mjtNum* solref, mjtNum* solimp) {
+  // Critically damped, as fast as MuJoCo's own guard (two steps) allows; nearly no give.
+  constexpr mjtNum kReference[mjNREF] = {2.5, 1};
+  constexpr mjtNum kImpedance[mjNIMP] = {0.99, 0.9999, 1e-4, 0.5, 2};
+  solref[0] = kReference[0] * time_step;
+  solref[1] = kReference[1];
+  std::copy(std::begin(kImpedance), std::end(kImpedance), solimp);
+}
 
 void add_equalities(Build& build) {
   for (physics::Index j = 0; j < build.scene.joints.size(); ++j) {

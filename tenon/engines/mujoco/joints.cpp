@@ -23,8 +23,7 @@ void set_limit(mjsJoint* joint, const FreeDof& dof, double time_step) {
   }
   joint->range[0] = std::max(dof.lower, -kOpenEnd);
   joint->range[1] = std::min(dof.upper, kOpenEnd);
-  const auto solref = hard_solref(time_step);
-  std::copy(solref.begin(), solref.end(), joint->solref_limit);
+  make_hard(time_step, joint->solref_limit, joint->solimp_limit);
 }
 
 void set_passive(mjsJoint* target, const physics::Joint& joint) {

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "tenon/engines/mujoco/surfaces.h"
+#include "tenon/engines/mujoco/test_scene.h"
+
+namespace tenon::engines::mujoco {
+namespace {
+
+physics::Index add_material(TestScene& scene, const std::string& name, double friction,
+                            double restitution = 0) {
+  physics::Material material;
+  material.path = named(name);
+  material.static_friction = friction;
+  material.dynamic_friction = friction;
+  material.restitution = restitution;
+  scene.materials.push_back(material);
+  return static_cast<physics::Index>(scene.materials.size() - 1);
+}
+
+// A flat box on the ground plane.
+TestScene box_on_ground(double height = 0.1) {
+  TestScene scene;
+  const auto body = scene.add_body("Box", {{0, 0, height}}, 2, {{0.03, 0.03, 0.05}});
+  scene.add_collider("BoxShape", body, box({{0.2, 0.2, 0.1}}));
+  scene.add_collider("Ground", {}, ground());
+  return scene;
+}
+
+TEST(Contacts, BoxRestsOnThePlane) {
+  TestScene scene = box_on_ground(0.3);
+  auto sim = simulation(scene);
+  run(*sim, 2);
+  EXPECT_NEAR(sim->body_state(0).pose.position[2], 0.1, 1e-3);
+  EXPECT_LT(length(sim->body_state(0).linear_velocity), 1e-3);
+  EXPECT_EQ(sim->contact_count(), 4u);
+}
+
+TEST(Contacts, SlidingBoxStopsAfterItsWay) {
+  TestScene scene = box_on_ground();
+  scene.bodies[0].linear_velocity = {{5, 0, 0}};
+  auto sim = simulation(scene);
+  run(*sim, 2);
+  // E-81, no material: mu = 0.5, way = v^2 / (2 mu g) = 2.548 m.
+  EXPECT_NEAR(sim->body_state(0).pose.position[0], 25 / (2 * 0.5 * kG), 0.03);
+}
+
+struct InclineCase {
+  double degrees;
+  bool slides;
+};
+
+TEST(Contacts, FrictionHoldsUpToItsAngle) {
+  for (const InclineCase& c : {InclineCase{20, false}, InclineCase{35, true}}) {
+    TestScene scene = box_on_ground();
+    const double slope = c.degrees * M_PI / 180;
+    scene.scenes[0].gravity = {{kG * std::sin(slope), 0, -kG * std::cos(slope)}};
+    auto sim = simulation(scene);
+    run(*sim, 1);
+    // E-82: mu = 0.5 holds below atan(0.5) = 26.6 degrees, above a = g (sin - mu cos).
+    const double expected = c.slides ? kG * (std::sin(slope) - 0.5 * std::cos(slope)) / 2 : 0.0;
+    EXPECT_NEAR(sim->body_state(0).pose.position[0], expected, 0.02 * expected + 1e-3) << c.degrees;
+  }
+}
+
+TEST(Contacts, FrictionOfAPairIsTheAverage) {
+  TestScene scene = box_on_ground();
+  scene.colliders[0].material = add_material(scene, "Ice", 0.0);
+  scene.colliders[1].material = add_material(scene, "Rubber", 0.8);
+  scene.bodies[0].linear_velocity = {{3, 0, 0}};
+  auto sim = simulation(scene);
+  run(*sim, 2);
+  // S-72: mu = 0.4; way = v^2 / (2 mu g).
+  EXPECT_NEAR(sim->body_state(0).pose.position[0], 9 / (2 * 0.4 * kG), 0.03);
+}
+
+struct BounceCase {
+  double restitution;
+  double tolerance;  // of the apex [m]
+};
+
+TEST(Contacts, BallReboundsWithItsRestitution) {
+  for (const BounceCase& c :
+       {BounceCase{0.2, 0.01}, BounceCase{0.5, 0.02}, BounceCase{0.8, 0.03}}) {
+    TestScene scene;
+    const auto ball = scene.add_body("Ball", {{0, 0, 1.1}}, 1, {{0.004, 0.004, 0.004}});
+    scene.add_collider("BallShape", ball, sphere(0.1));
+    scene.add_collider("Ground", {}, ground());
+    const auto material = add_material(scene, "Rubber", 0.5, c.restitution);
+    scene.colliders[0].material = scene.colliders[1].material = material;
+    auto sim = simulation(scene);
+    run(*sim, 0.46);
+    double apex = 0;
+    for (int i = 0; i < 500; ++i) {
+      ASSERT_TRUE(sim->step().has_value());
+      apex = std::max(apex, sim->body_state(ball).pose.position[2] - 0.1);
+    }
+    // A fall of h = 1 m rebounds to e^2 h.
+    EXPECT_NEAR(apex, c.restitution * c.restitution, c.tolerance) << c.restitution;
+    EXPECT_TRUE(mentions(sim->not_mapped(), "/Rubber", "physics:restitution"));
+  }
+}
+
+TEST(Contacts, TwoFrictionsOfOneMaterialAreReported) {
+  TestScene scene = box_on_ground();
+  const auto material = add_material(scene, "Odd", 0.3);
+  scene.materials[material].static_friction = 0.6;
+  scene.colliders[0].material = material;
+  auto sim = simulation(scene);
+  EXPECT_TRUE(mentions(sim->not_mapped(), "/Odd", "physics:staticFriction"));
+}
+
+struct ShapeCase {
+  const char* name;
+  physics::ShapeKind kind;
+  physics::Axis axis;
+  Vec3d size;     // half extents, or radius and half height
+  double height;  // centre above the ground at rest
+};
+
+TEST(Contacts, EveryShapeRestsAtItsHeight) {
+  using physics::Axis;
+  using physics::ShapeKind;
+  const ShapeCase cases[] = {
+      {"box", ShapeKind::Box, Axis::Z, {{0.2, 0.2, 0.1}}, 0.1},
+      {"sphere", ShapeKind::Sphere, Axis::Z, {{0.1, 0, 0}}, 0.1},
+      {"ellipsoid", ShapeKind::Ellipsoid, Axis::Z, {{0.2, 0.2, 0.1}}, 0.1},
+      {"capsule", ShapeKind::Capsule, Axis::X, {{0.1, 0.2, 0}}, 0.1},
+      {"cylinder", ShapeKind::Cylinder, Axis::Z, {{0.2, 0.1, 0}}, 0.1},
+      {"cylinder on its side", ShapeKind::Cylinder, Axis::Y, {{0.1, 0.2, 0}}, 0.1},
+      {"cone", ShapeKind::Cone, Axis::Z, {{0.2, 0.1, 0}}, 0.1},
+  };
+  for (const ShapeCase& c : cases) {
+    TestScene scene;
+    const auto body = scene.add_body("Body", {{0, 0, 0.15}}, 1, {{0.01, 0.01, 0.01}});
+    physics::Shape shape;
+    shape.kind = c.kind;
+    shape.axis = c.axis;
+    shape.half_extents = c.size;
+    shape.radius = c.size[0];
+    shape.half_height = c.size[1];
+    scene.add_collider("Shape", body, shape);
+    scene.add_collider("Ground", {}, ground());
+    auto sim = simulation(scene);
+    run(*sim, 1.5);
+    EXPECT_NEAR(sim->body_state(body).pose.position[2], c.height, 2e-3) << c.name;
+    EXPECT_EQ(mentions(sim->not_mapped(), "/Shape", "radius"), c.kind == ShapeKind::Cone) << c.name;
+  }
+}
+
+// A 2 m quad in the plane z = 0.
+physics::TriangleMesh quad() {
+  physics::TriangleMesh mesh;
+  mesh.points = {{{-1, -1, 0}}, {{1, -1, 0}}, {{1, 1, 0}}, {{-1, 1, 0}}};
+  mesh.triangles = {{{0, 1, 2}}, {{0, 2, 3}}};
+  mesh.flat = true;
+  return mesh;
+}
+
+TEST(Contacts, SphereRestsOnAFlatQuadAtItsRadius) {
+  for (const physics::ShapeKind kind : {physics::ShapeKind::ConvexHull, physics::ShapeKind::Mesh}) {
+    TestScene scene;
+    const auto ball = scene.add_body("Ball", {{0.3, 0.1, 0.5}}, 1, {{0.004, 0.004, 0.004}});
+    scene.add_collider("BallShape", ball, sphere(0.1));
+    scene.meshes.push_back(quad());
+    physics::Shape shape;
+    shape.kind = kind;
+    scene.add_collider("Quad", {}, shape);
+    auto sim = simulation(scene);
+    run(*sim, 2);
+    EXPECT_NEAR(sim->body_state(ball).pose.position[2], 0.1, 1e-3);  // E-54, S-65
+    EXPECT_TRUE(mentions(sim->not_mapped(), "/Quad", "physics:approximation"));
+  }
+}
+
+TEST(Contacts, BallLiesInAnOpenTrough) {
+  TestScene scene;
+  const auto ball = scene.add_body("Ball", {{0.2, 0, 0.6}}, 1, {{0.004, 0.004, 0.004}});
+  scene.bodies[ball].linear_damping = 2;
+  scene.add_collider("BallShape", ball, sphere(0.1));
+  physics::TriangleMesh mesh;  // two slopes of 45 degrees that meet in the line x = z = 0
+  mesh.points = {{{-1, -1, 1}}, {{0, -1, 0}}, {{1, -1, 1}}, {{-1, 1, 1}}, {{0, 1, 0}}, {{1, 1, 1}}};
+  mesh.triangles = {{{0, 1, 4}}, {{0, 4, 3}}, {{1, 2, 5}}, {{1, 5, 4}}};
+  scene.meshes.push_back(mesh);
+  physics::Shape shape;
+  shape.kind = physics::ShapeKind::Mesh;
+  scene.add_collider("Trough", {}, shape);
+  auto sim = simulation(scene);
+  run(*sim, 5);
+  // Touching both slopes the centre is r sqrt(2) above the line; a hull would be full.
+  EXPECT_NEAR(sim->body_state(ball).pose.position[2], 0.1 * std::sqrt(2), 3e-3);
+  EXPECT_NEAR(sim->body_state(ball).pose.position[0], 0, 1e-2);
+}
+
+TEST(Contacts, MovingTriangleMeshIsReportedAsHull) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {{0, 0, 1}});
+  physics::TriangleMesh mesh;
+  mesh.points = {{{0, 0, 0}}, {{0.2, 0, 0}}, {{0, 0.2, 0}}, {{0, 0, 0.2}}};
+  mesh.triangles = {{{0, 2, 1}}, {{0, 1, 3}}, {{0, 3, 2}}, {{1, 2, 3}}};
+  scene.meshes.push_back(mesh);
+  physics::Shape shape;
+  shape.kind = physics::ShapeKind::Mesh;
+  scene.add_collider("Shape", body, shape);
+  scene.add_collider("Ground", {}, ground());
+  auto sim = simulation(scene);
+  run(*sim, 2);
+  EXPECT_TRUE(mentions(sim->not_mapped(), "/Shape", "physics:approximation"));
+  EXPECT_GT(sim->body_state(body).pose.position[2], -0.01);
+}
+
+TEST(Contacts, OverlapAtTheStartIsReportedAndLeftGently) {
+  TestScene scene(0);
+  const auto a = scene.add_body("A", {{0, 0, 0}});
+  const auto b = scene.add_body("B", {{0.19, 0, 0}});
+  scene.add_collider("ShapeA", a, sphere(0.1));
+  scene.add_collider("ShapeB", b, sphere(0.1));
+  Diagnostics findings;
+  auto sim = simulation(scene, 0.002, &findings);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings.items()[0].rule, "collider.overlap-at-start");
+  EXPECT_EQ(findings.items()[0].prim, "/ShapeA");
+  for (int i = 0; i < 500; ++i) {
+    ASSERT_TRUE(sim->step().has_value());
+    ASSERT_LT(length(sim->body_state(b).linear_velocity), 0.5);
+  }
+}
+
+}  // namespace
+}  // namespace tenon::engines::mujoco

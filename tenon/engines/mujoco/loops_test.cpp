@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/mujoco/test_scene.h"
+
+namespace tenon::engines::mujoco {
+namespace {
+
+using physics::Axis;
+using physics::JointKind;
+
+// A four-bar parallelogram in the xz plane: crank 1 m up from the origin, coupler 2 m along x,
+// rocker 1 m up from (2, 0, 0). The last joint closes the loop.
+TestScene four_bar(JointKind closing) {
+  TestScene scene;
+  const Vec3d thin{{0.05, 0.05, 0.05}};
+  const auto crank = scene.add_body("Crank", {{0, 0, 0.5}}, 1, thin);
+  const auto coupler = scene.add_body("Coupler", {{1, 0, 1}}, 1, thin);
+  const auto rocker = scene.add_body("Rocker", {{2, 0, 0.5}}, 1, thin);
+  scene.add_joint("A", JointKind::Revolute, {}, crank, Axis::Y).frame1.position = {{0, 0, -0.5}};
+  auto& b = scene.add_joint("B", JointKind::Revolute, crank, coupler, Axis::Y);
+  b.frame0.position = {{0, 0, 0.5}};
+  b.frame1.position = {{-1, 0, 0}};
+  auto& c = scene.add_joint("C", JointKind::Revolute, {}, rocker, Axis::Y);
+  c.frame0.position = {{2, 0, 0}};
+  c.frame1.position = {{0, 0, -0.5}};
+  auto& d = scene.add_joint("D", closing, coupler, rocker, Axis::Y);
+  d.frame0.position = {{1, 0, 0}};
+  d.frame1.position = {{0, 0, 0.5}};
+  d.exclude_from_articulation = true;
+  scene.joints[0].initial_velocity = 0.5;
+  scene.joints[1].initial_velocity = -0.5;
+  scene.joints[2].initial_velocity = 0.5;
+  return scene;
+}
+
+double gap(const MujocoSimulation& sim) {
+  const Vec3d a = transform_point(sim.body_state(1).pose, {{1, 0, 0}});
+  const Vec3d b = transform_point(sim.body_state(2).pose, {{0, 0, 0.5}});
+  return length(a - b);
+}
+
+TEST(Loops, FourBarStaysClosedAndMovesAsAParallelogram) {
+  for (const JointKind closing : {JointKind::Revolute, JointKind::Spherical}) {
+    TestScene scene = four_bar(closing);
+    auto sim = simulation(scene);
+    double worst = 0;
+    for (int i = 0; i < 1500; ++i) {
+      ASSERT_TRUE(sim->step().has_value());
+      worst = std::max(worst, gap(*sim));
+      // Opposite sides are equal: crank and rocker turn alike, the coupler stays level.
+      ASSERT_NEAR(sim->joint_state(0).position[0], sim->joint_state(2).position[0], 5e-3);
+    }
+    EXPECT_LT(worst, 1e-3);  // E-129
+  }
+}
+
+TEST(Loops, LimitOnALoopJointActs) {
+  TestScene scene = four_bar(JointKind::Revolute);
+  scene.joints[3].lower = -0.3;
+  scene.joints[3].upper = 0.3;
+  scene.joints[0].damping = 1;
+  auto sim = simulation(scene);
+  run(*sim, 4);
+  // The rocker falls until it makes 0.3 rad with the level coupler.
+  EXPECT_NEAR(std::fabs(sim->joint_state(3).position[0]), 0.3, 0.02);
+  EXPECT_NEAR(std::fabs(sim->joint_state(2).position[0]), 0.3, 0.02);
+  EXPECT_LT(gap(*sim), 2e-3);
+  EXPECT_TRUE(mentions(sim->not_mapped(), "/D", "physics:excludeFromArticulation"));
+}
+
+TEST(Loops, WeldClosesALoop) {
+  TestScene scene;
+  const auto a = scene.add_body("A", {{0, 0, 0}});
+  const auto b = scene.add_body("B", {{1, 0, 0}});
+  scene.add_joint("Rail", JointKind::Prismatic, {}, a, Axis::Z);
+  auto& rail = scene.add_joint("Rail2", JointKind::Prismatic, {}, b, Axis::Z);
+  rail.frame0.position = {{1, 0, 0}};
+  auto& weld = scene.add_joint("Weld", JointKind::Fixed, a, b);
+  weld.frame0.position = {{1, 0, 0}};
+  scene.bodies[a].gravity_scale = 0;
+  auto sim = simulation(scene);
+  run(*sim, 1);
+  // Both fall together with half of the weight: a = g / 2.
+  EXPECT_NEAR(sim->joint_state(0).velocity[0], -kG / 2, 0.02);
+  EXPECT_NEAR(sim->joint_state(1).velocity[0], -kG / 2, 0.02);
+}
+
+TEST(Loops, PlanPutsExcludedJointsLast) {
+  const TestScene scene = four_bar(JointKind::Revolute);
+  const TreePlan plan = plan_tree(scene);
+  EXPECT_EQ(plan.joints, (std::vector<JointRole>{JointRole::Tree, JointRole::Tree, JointRole::Tree,
+                                                 JointRole::Hinge}));
+  EXPECT_EQ(plan.order.size(), 3u);
+  EXPECT_EQ(plan.depth, 2u);
+}
+
+TEST(Loops, PlanRootsAFloatingArticulationAtItsRoot) {
+  TestScene scene;
+  for (const char* name : {"A", "B", "C"}) {
+    scene.add_body(name, {});
+  }
+  scene.add_joint("J1", JointKind::Revolute, 0, 1);
+  scene.add_joint("J2", JointKind::Revolute, 2, 1);
+  physics::Articulation articulation;
+  articulation.links = {1, 0, 2};
+  articulation.joints = {0, 1};
+  scene.articulations.push_back(articulation);
+  const TreePlan plan = plan_tree(scene);
+  EXPECT_EQ(plan.bodies[1].base, BodyBase::Free);
+  EXPECT_TRUE(plan.bodies[0].reversed);  // body0 of J1 hangs on body1
+  EXPECT_TRUE(plan.bodies[2].reversed);
+  EXPECT_EQ(plan.order, (std::vector<physics::Index>{1, 0, 2}));
+}
+
+TEST(Loops, PlanKeepsTwoKinematicBodiesApart) {
+  TestScene scene;
+  scene.add_body("K1", {});
+  scene.add_body("Middle", {});
+  scene.add_body("K2", {});
+  scene.bodies[0].kinematic = scene.bodies[2].kinematic = true;
+  scene.add_joint("J1", JointKind::Spherical, 0, 1);
+  scene.add_joint("J2", JointKind::Spherical, 1, 2);
+  const TreePlan plan = plan_tree(scene);
+  EXPECT_EQ(plan.joints, (std::vector<JointRole>{JointRole::Tree, JointRole::Connect}));
+}
+
+}  // namespace
+}  // namespace tenon::engines::mujoco

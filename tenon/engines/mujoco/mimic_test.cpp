@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/mujoco/test_scene.h"
+
+namespace tenon::engines::mujoco {
+namespace {
+
+using physics::Axis;
+using physics::Dof;
+using physics::JointKind;
+
+constexpr double kHalfDegree = 0.5 * M_PI / 180;
+
+// A finger of light links (5 g, 1e-7 kg m^2, 2 cm long) hanging sideways on a fixed palm.
+TestScene finger(int links) {
+  TestScene scene;
+  std::optional<physics::Index> parent;
+  for (int i = 0; i < links; ++i) {
+    const auto link =
+        scene.add_body("Link" + std::to_string(i), {{0.02 * i, 0, 0}}, 0.005, {{1e-7, 1e-7, 1e-7}});
+    scene.bodies[link].center_of_mass = {{0.01, 0, 0}};
+    auto& joint =
+        scene.add_joint("Joint" + std::to_string(i), JointKind::Revolute, parent, link, Axis::Y);
+    joint.frame0.position = {{i == 0 ? 0.0 : 0.02, 0, 0}};
+    joint.lower = -0.2;
+    joint.upper = 1.2;
+    parent = link;
+  }
+  return scene;
+}
+
+void follow(TestScene& scene, physics::Index follower, physics::Index leader, double multiplier,
+            double offset = 0) {
+  physics::Mimic mimic;
+  mimic.schema = "NewtonMimicAPI";
+  mimic.leader = leader;
+  mimic.multiplier = multiplier;
+  mimic.offset = offset;
+  scene.joints[follower].mimic = mimic;
+}
+
+TEST(Mimic, LimpChainOfFollowersKeepsItsLaw) {
+  TestScene scene = finger(3);
+  follow(scene, 1, 0, 0.6);
+  follow(scene, 2, 1, 0.9);  // a follower of a follower
+  auto sim = simulation(scene);
+  for (int i = 0; i < 2500; ++i) {
+    ASSERT_TRUE(sim->step().has_value());
+    const double leader = sim->joint_state(0).position[0];
+    const double first = sim->joint_state(1).position[0];
+    const double second = sim->joint_state(2).position[0];
+    ASSERT_NEAR(first, 0.6 * leader, kHalfDegree) << sim->time();
+    ASSERT_NEAR(second, 0.9 * first, kHalfDegree) << sim->time();
+  }
+}
+
+TEST(Mimic, DrivenChainClosesAndOpens) {
+  TestScene scene = finger(3);
+  follow(scene, 1, 0, 0.7508, 0.001745);
+  follow(scene, 2, 0, 0.5);
+  physics::Drive d = drive(Dof::RotY, 0.5, 0.02);
+  d.max_force = 1;
+  scene.joints[0].drives.push_back(d);
+  scene.scalar_tracks.push_back(
+      {physics::Animated::DriveTargetPosition, 0, 0, {0, 1, 2}, {0, 1.0, 0.1}, false});
+  auto sim = simulation(scene);
+  for (int i = 0; i < 1500; ++i) {
+    ASSERT_TRUE(sim->step().has_value());
+    const double leader = sim->joint_state(0).position[0];
+    // At the start the offset is not met yet; from then on within half a degree.
+    ASSERT_NEAR(sim->joint_state(1).position[0], 0.7508 * leader + 0.001745, kHalfDegree);
+    ASSERT_NEAR(sim->joint_state(2).position[0], 0.5 * leader, kHalfDegree);
+  }
+  EXPECT_NEAR(sim->joint_state(0).position[0], 0.1, 0.05);
+}
+
+TEST(Mimic, FollowerAtItsLimitStopsTheLeader) {
+  TestScene scene = finger(2);
+  scene.joints[1].upper = 0.3;
+  follow(scene, 1, 0, 1);
+  auto sim = simulation(scene);
+  run(*sim, 3);
+  EXPECT_NEAR(sim->joint_state(1).position[0], 0.3, 2 * kHalfDegree);
+  EXPECT_NEAR(sim->joint_state(0).position[0], sim->joint_state(1).position[0], kHalfDegree);
+}
+
+TEST(Mimic, PolynomialLaw) {
+  TestScene scene = finger(2);
+  follow(scene, 1, 0, 0.2, 0.05);
+  scene.joints[1].mimic->higher = {0.3, 0, 0};
+  auto sim = simulation(scene);
+  run(*sim, 3);
+  const double x = sim->joint_state(0).position[0];
+  EXPECT_NEAR(sim->joint_state(1).position[0], 0.05 + 0.2 * x + 0.3 * x * x, kHalfDegree);
+}
+
+TEST(Mimic, CompliantMimicStaysNearItsLaw) {
+  TestScene scene = finger(2);
+  follow(scene, 1, 0, 0.75);
+  scene.joints[1].mimic->natural_frequency = 25;
+  scene.joints[1].mimic->damping_ratio = 0.5;
+  auto sim = simulation(scene);
+  run(*sim, 5);
+  EXPECT_NEAR(sim->joint_state(1).position[0], 0.75 * sim->joint_state(0).position[0], kHalfDegree);
+}
+
+TEST(Mimic, WithoutACoordinateItIsReported) {
+  TestScene scene = finger(2);
+  scene.joints[0].lower = 1;
+  scene.joints[0].upper = -1;
+  follow(scene, 1, 0, 1);
+  auto sim = simulation(scene);
+  EXPECT_TRUE(mentions(sim->not_mapped(), "/Joint1", "NewtonMimicAPI"));
+}
+
+}  // namespace
+}  // namespace tenon::engines::mujoco
