@@ -178,7 +178,8 @@ double circular_cone(const Joint& joint) {
 namespace {
 
 // R = R_i(a) R_j(b) R_k(c) about the axes i, j, k, each angle by its own entries, so that a chain
-// of two has no blind side: https://en.wikipedia.org/wiki/Euler_angles, matrices of the six orders.
+// of two has no blind side. Even orders have R[i][k] = sin b, R[j][k] = -sin a cos b, R[k][k] =
+// cos a cos b, R[i][j] = -cos b sin c, R[i][i] = cos b cos c; odd ones turn the sign of every sine.
 std::array<double, 3> three_angles(const Mat3d& r, std::array<std::size_t, 3> axes) {
   const auto [i, j, k] = axes;
   const double sign = (i + 1) % 3 == j ? 1 : -1;
