@@ -34,8 +34,7 @@ AuthoredGroup read_group(const ReadState& state, const PhysicsPrim& found,
 
 /// Membership is asked of the colliders' own paths (S-76).
 void find_members(ReadState& state, const PhysicsPrim& found, Index group) {
-  const stage::Collection members =
-      stage::Collection::read(state.stage, found.prim, Token("colliders"));
+  const stage::Collection members = stage::Collection::read(found.prim, Token("colliders"));
   for (std::size_t i = 0; i < state.scene.colliders.size(); ++i) {
     if (members.contains(state.scene.colliders[i].path)) {
       state.scene.filter.groups_of_collider[i].push_back(group);
