@@ -21,7 +21,7 @@ LIBRARIES = {
     "tl/*": ["tenon/base/result.h"],
     "Eigen/*": ["tenon/math/*.cpp", "tenon/physics/*.cpp"],
     "lz4*.h": ["tenon/bytes/*.cpp"],
-    "mujoco/*": ["tenon/engines/mujoco/*"],
+    "mujoco/*": ["tenon/engines/mujoco/*", "bench/step_mujoco.cpp"],
     "CLI/*": ["cli/*"],
     "nlohmann/*": ["cli/*", "tests/*", "bench/*"],
 }

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// step_mujoco FILE [--chunk STEPS] [--chunks N]: steps the asset through tenon's interface and a
+// copy of the same compiled model through plain calls of mj_step, in turns, from the same state.
+// Where targets are animated the plain side copies the controls that a run before has recorded:
+// what a program that calls MuJoCo itself would do. Count `difference`: largest difference of the
+// coordinates at the end, zero when both sides did the same work.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <mujoco/mujoco.h>
+
+#include "bench/measure.h"
+#include "tenon/engines/mujoco/mujoco_simulation.h"
+#include "tenon/physics/read_physics.h"
+#include "tenon/tenon.h"
+
+namespace tenon::bench {
+namespace {
+
+struct Options {
+  std::string file;
+  std::size_t chunk = 200;  // steps of one lap
+  std::size_t chunks = 40;
+};
+
+Options read_options(int count, char** values) {
+  Options options;
+  for (int i = 1; i < count; ++i) {
+    const std::string word = values[i];
+    if ((word == "--chunk" || word == "--chunks") && i + 1 < count) {
+      (word == "--chunk" ? options.chunk : options.chunks) = std::strtoul(values[++i], nullptr, 10);
+    } else {
+      options.file = word;
+    }
+  }
+  if (options.file.empty() || options.chunk == 0 || options.chunks == 0) {
+    fail("usage: step_mujoco FILE [--chunk STEPS] [--chunks N]");
+  }
+  return options;
+}
+
+using SimulationPtr = std::unique_ptr<engines::Simulation>;
+
+const engines::mujoco::MujocoSimulation& adapter(const engines::Simulation& simulation) {
+  return static_cast<const engines::mujoco::MujocoSimulation&>(simulation);
+}
+
+SimulationPtr make(const physics::PhysicsScene& scene) {
+  Diagnostics diagnostics;
+  return value_or_fail(make_simulation("mujoco", scene, {}, diagnostics));
+}
+
+void step(engines::Simulation& simulation) {
+  if (auto done = simulation.step(); !done) {
+    fail(done.error().to_string());
+  }
+}
+
+// What a program sets before each step: controls and poses of kinematic bodies.
+class Inputs {
+ public:
+  explicit Inputs(const mjModel& model)
+      : controls_(static_cast<std::size_t>(model.nu)),
+        bodies_(static_cast<std::size_t>(model.nmocap)) {}
+
+  void record(const mjData& data) {
+    append(data.ctrl, controls_);
+    append(data.mocap_pos, 3 * bodies_);
+    append(data.mocap_quat, 4 * bodies_);
+  }
+  bool change() const {
+    return !std::equal(values_.begin() + static_cast<std::ptrdiff_t>(row()), values_.end(),
+                       values_.begin());
+  }
+  void apply(std::size_t step, mjData& data) const {
+    const double* at = values_.data() + step * row();
+    take(data.ctrl, at, controls_);
+    take(data.mocap_pos, at + controls_, 3 * bodies_);
+    take(data.mocap_quat, at + controls_ + 3 * bodies_, 4 * bodies_);
+  }
+
+ private:
+  std::size_t row() const { return controls_ + 7 * bodies_; }
+  void append(const double* from, std::size_t count) {
+    values_.insert(values_.end(), from, from + count);
+  }
+  static void take(double* to, const double* from, std::size_t count) {
+    if (count > 0) {
+      std::memcpy(to, from, count * sizeof(double));
+    }
+  }
+  std::size_t controls_;
+  std::size_t bodies_;
+  std::vector<double> values_;  // (step_count x row)
+};
+
+Inputs record_inputs(const physics::PhysicsScene& scene, std::size_t steps) {
+  const SimulationPtr simulation = make(scene);
+  Inputs inputs(adapter(*simulation).engine_model());
+  for (std::size_t i = 0; i < steps; ++i) {
+    step(*simulation);
+    inputs.record(adapter(*simulation).engine_data());
+  }
+  return inputs;
+}
+
+// The copy that is stepped by plain calls.
+struct Plain {
+  explicit Plain(const engines::Simulation& simulation)
+      : model(mj_copyModel(nullptr, &adapter(simulation).engine_model())),
+        data(mj_makeData(model)) {
+    mj_copyData(data, model, &adapter(simulation).engine_data());
+  }
+  ~Plain() {
+    mj_deleteData(data);
+    mj_deleteModel(model);
+  }
+  Plain(const Plain&) = delete;
+  Plain& operator=(const Plain&) = delete;
+
+  mjModel* model;
+  mjData* data;
+};
+
+double difference(const Plain& plain, const engines::Simulation& simulation) {
+  const mjData& data = adapter(simulation).engine_data();
+  double largest = 0;
+  for (int i = 0; i < plain.model->nq; ++i) {
+    largest = std::max(largest, std::abs(plain.data->qpos[i] - data.qpos[i]));
+  }
+  return largest;
+}
+
+void time_steps(Report& report, const physics::PhysicsScene& scene, const Options& options) {
+  const Inputs inputs = record_inputs(scene, options.chunk * options.chunks);
+  const bool animated = inputs.change();
+  const SimulationPtr simulation = make(scene);
+  const Plain plain(*simulation);
+  std::size_t plain_step = 0;
+  const auto ours = [&] {
+    for (std::size_t i = 0; i < options.chunk; ++i) {
+      step(*simulation);
+    }
+    return true;
+  };
+  const auto theirs = [&] {
+    for (std::size_t i = 0; i < options.chunk; ++i, ++plain_step) {
+      if (animated) {
+        inputs.apply(plain_step, *plain.data);
+      }
+      mj_step(plain.model, plain.data);
+    }
+    return true;
+  };
+  for (std::size_t i = 0; i < options.chunks; ++i) {
+    if (i % 2 == 0) {  // neither side is always the first
+      report.time("tenon", ours);
+      report.time("plain", theirs);
+    } else {
+      report.time("plain", theirs);
+      report.time("tenon", ours);
+    }
+  }
+  report.count("difference", difference(plain, *simulation));
+  report.count("animated", animated ? 1 : 0);
+}
+
+}  // namespace
+}  // namespace tenon::bench
+
+int main(int count, char** values) {
+  using namespace tenon;
+  using namespace tenon::bench;
+  const Options options = read_options(count, values);
+  Diagnostics diagnostics;
+  const stage::Stage stage = value_or_fail(open_stage(options.file, {}, diagnostics));
+  const physics::PhysicsScene scene = physics::read_physics(stage, {}, diagnostics);
+  Report report("step_mujoco");
+  time_steps(report, scene, options);
+  report.count("steps_per_lap", static_cast<double>(options.chunk));
+  report.count("bodies", static_cast<double>(scene.bodies.size()));
+  report.print();
+  return 0;
+}
