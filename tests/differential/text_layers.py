@@ -5,9 +5,8 @@ canonical text. Needs Python with OpenUSD's modules.
 
 usage: text_layers.py RETEXT [FOLDER...]
 
-RETEXT is the program tests/tools/retext.cpp. Without FOLDER the conformance files, scenes and assets
-of the folder named by TENON_SHARED_DIR (default: ../shared) are read, and files whose names end
-with `_baseline` or `.baseline` stand for the text that their neighbours must give.
+RETEXT is built from tests/tools/retext.cpp. Without FOLDER the conformance files, scenes and assets
+below the folder named by TENON_SHARED_DIR (default: ../shared) are read.
 Known misses are named in text_misses.txt: one more or one less makes this fail.
 """
 

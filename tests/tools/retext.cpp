@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// Reads text layers for tests/differential/text_layers.py. `tenon_retext FILE...` prints the errors;
-// `tenon_retext --into DIRECTORY FILE...` writes the canonical text of the N-th file to DIRECTORY/N.
+// Reads text layers, for tests/differential/text_layers.py. `tenon_retext FILE...` prints errors;
+// `tenon_retext --into FOLDER FILE...` writes the canonical text of the N-th file to FOLDER/N.
 #include <cstdio>
 #include <fstream>
 #include <iterator>

@@ -140,7 +140,8 @@ bool read_references(LayerState& state, Path prim, ListEdit edit) {
     return read_arc_target(cursor, item) &&
            read_arc_parameters(cursor, item.offset, [&](bool& taken) {
              taken = cursor.accept_word("customData");
-             return !taken || (read_assignment(cursor) && read_dictionary(cursor, item.custom_data));
+             return !taken ||
+                    (read_assignment(cursor) && read_dictionary(cursor, item.custom_data));
            });
   });
   if (!ok || !check_items(cursor, start, edit, items)) {

@@ -211,6 +211,9 @@ class PropertyReader {
       value = Value(std::vector<Path>{path});
       return ok;
     }
+    if (is_array_ && cursor_.peek() == 'e' && cursor_.peek_identifier() == "edit") {
+      return read_array_edit(value);
+    }
     if (type_ != nullptr) {
       return read_value(cursor_, type_->type, is_array_, value);
     }
@@ -219,6 +222,29 @@ class PropertyReader {
       return false;
     }
     value = Value(layer::UnregisteredValue{Value(std::move(text))});
+    return true;
+  }
+
+  /// `edit [append 1; write 2 to 0]` changes the array of a weaker layer. It is kept as its source
+  /// text but never applied.
+  bool read_array_edit(Value& value) {
+    const std::size_t start = cursor_.offset();
+    cursor_.accept_word("edit");
+    cursor_.skip_inline();
+    if (cursor_.peek() != '[') {
+      return cursor_.fail_expected("'[' after `edit`");
+    }
+    const std::size_t open = cursor_.offset();
+    const std::size_t close = cursor_.text().find(']', open);
+    if (close == std::string_view::npos) {
+      return cursor_.fail_at(open, ErrorCode::Parse, "text.syntax", "this edit is never closed",
+                             "add the closing ']'");
+    }
+    state_.warn(start, "text.array-edit", "edits of arrays are kept but not applied",
+                "give the whole array");
+    cursor_.seek(close + 1);
+    value = Value(layer::UnregisteredValue{
+        Value("edit " + std::string(cursor_.text().substr(open, close + 1 - open)))});
     return true;
   }
 

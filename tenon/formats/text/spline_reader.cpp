@@ -107,12 +107,28 @@ class SplineReader {
       for (const auto& [word, mode] : kLoops) {
         if (cursor_.accept_word(word)) {
           end.mode = mode;
-          return true;
+          return read_boundary(end);
         }
       }
       return cursor_.fail_expected("repeat, reset or oscillate");
     }
     return cursor_.fail_expected("none, held, linear, sloped or loop");
+  }
+
+  /// The `(time)` that may follow a loop at an end.
+  bool read_boundary(layer::SplineEnd& end) {
+    const std::size_t before = cursor_.offset();
+    cursor_.skip_inline();
+    if (!cursor_.accept('(')) {
+      cursor_.seek(before);
+      return true;
+    }
+    cursor_.skip_inline();
+    if (!number(end.boundary.emplace())) {
+      return false;
+    }
+    cursor_.skip_inline();
+    return cursor_.expect(')', "after the boundary of the loop");
   }
 
   bool read_loop(layer::SplineLoop& loop) {
@@ -155,13 +171,26 @@ class SplineReader {
     } else {
       cursor_.seek(before);
     }
+    return read_parameters(knot);
+  }
+
+  /// `; parameter; parameter`, also one per line after the first; a last ';' is allowed.
+  bool read_parameters(SplineKnot& knot) {
     cursor_.skip_inline();
-    while (cursor_.accept(';')) {
+    if (!cursor_.accept(';')) {
+      return true;
+    }
+    bool more = true;
+    while (more) {
       cursor_.skip_multi_line();
+      if (cursor_.peek() == '}' || cursor_.peek() == ',') {
+        return true;
+      }
       if (!read_parameter(knot)) {
         return false;
       }
-      cursor_.skip_inline();
+      cursor_.skip_single_line();
+      more = cursor_.accept_statement_end();
     }
     return true;
   }

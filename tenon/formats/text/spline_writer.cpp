@@ -48,6 +48,9 @@ void append_end(std::string& out, const char* label, const layer::SplineEnd& end
   if (end.mode == SplineExtrapolation::Sloped) {
     out += '(' + layer_text(end.slope) + ')';
   }
+  if (end.boundary) {
+    out += '(' + layer_text(*end.boundary) + ')';
+  }
   out += ",\n";
 }
 
@@ -87,15 +90,18 @@ void append_knot(std::string& out, const Spline& spline, const SplineKnot& knot,
   out += ",\n";
 }
 
+/// True when two neighbouring knots are joined by a curve.
+bool has_curve_segment(const Spline& spline) {
+  return !spline.knots.empty() &&
+         std::any_of(spline.knots.begin(), spline.knots.end() - 1, [](const SplineKnot& knot) {
+           return knot.next == SplineInterpolation::Curve;
+         });
+}
+
 }  // namespace
 
 void append_spline(std::string& out, const Spline& spline, std::size_t indent) {
-  const bool has_curve =
-      std::any_of(spline.knots.begin(), spline.knots.end(), [](const SplineKnot& knot) {
-        return knot.next == SplineInterpolation::Curve;
-      });
-  // The last knot leads nowhere, but its interpolation counts all the same.
-  if (has_curve) {
+  if (spline.curve == SplineCurve::Hermite || has_curve_segment(spline)) {
     append_indent(out, indent + 1);
     out += spline.curve == SplineCurve::Bezier ? "bezier,\n" : "hermite,\n";
   }
@@ -117,11 +123,16 @@ void append_spline(std::string& out, const Spline& spline, std::size_t indent) {
   }
 }
 
-bool has_tangent_algorithms(const Spline& spline) {
-  return std::any_of(spline.knots.begin(), spline.knots.end(), [](const SplineKnot& knot) {
-    return knot.pre_tangent.algorithm != TangentAlgorithm::None ||
-           knot.post_tangent.algorithm != TangentAlgorithm::None;
-  });
+int minor_version_of(const Spline& spline) {
+  if (spline.pre.boundary || spline.post.boundary) {
+    return 3;
+  }
+  const bool has_algorithms =
+      std::any_of(spline.knots.begin(), spline.knots.end(), [](const SplineKnot& knot) {
+        return knot.pre_tangent.algorithm != TangentAlgorithm::None ||
+               knot.post_tangent.algorithm != TangentAlgorithm::None;
+      });
+  return has_algorithms ? 1 : 0;
 }
 
 }  // namespace tenon::formats::text

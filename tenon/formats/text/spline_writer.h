@@ -11,7 +11,8 @@ namespace tenon::formats::text {
 /// Appends the lines between the braces of `.spline = { }`.
 void append_spline(std::string& out, const layer::Spline& spline, std::size_t indent);
 
-/// True when a tangent has an algorithm, which version 1.1 of the text format introduced.
-bool has_tangent_algorithms(const layer::Spline& spline);
+/// Minor version of the text format that has all that the spline uses: 1 brought algorithms of
+/// tangents, 3 boundaries of loops.
+int minor_version_of(const layer::Spline& spline);
 
 }  // namespace tenon::formats::text

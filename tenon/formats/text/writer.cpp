@@ -37,7 +37,7 @@ class LayerWriter {
         append_prim(path, *prim, 0);
       }
     }
-    return (needs_version_1_1_ ? "#usda 1.1\n" : "#usda 1.0\n") + out_ + '\n';
+    return "#usda 1." + std::to_string(minor_version_) + '\n' + out_ + '\n';
   }
 
  private:
@@ -180,7 +180,7 @@ class LayerWriter {
       append_time_samples(declaration, *samples, indent);
     }
     if (spline != nullptr) {
-      needs_version_1_1_ = needs_version_1_1_ || has_tangent_algorithms(*spline);
+      minor_version_ = std::max(minor_version_, minor_version_of(*spline));
       append_indent(out_, indent);
       out_ += declaration + ".spline = {\n";
       append_spline(out_, *spline, indent);
@@ -265,7 +265,7 @@ class LayerWriter {
 
   const Layer& layer_;
   std::string out_;
-  bool needs_version_1_1_ = false;
+  int minor_version_ = 0;  // the lowest that has all that is written
 };
 
 }  // namespace

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/formats/text/reader.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tenon/base/limits.h"
+
+namespace tenon::formats {
+namespace {
+
+using layer::Layer;
+using layer::ListOp;
+using layer::Spec;
+namespace fields = layer::fields;
+
+Result<Layer> read(const std::string& body) {
+  Diagnostics diagnostics;
+  return read_text("#usda 1.0\n" + body, "t.usda", diagnostics);
+}
+
+/// The spec at `path` of a text that must be right.
+Spec spec_of(const std::string& body, const char* path) {
+  const auto layer = read(body);
+  if (!layer) {
+    ADD_FAILURE() << layer.error().to_string();
+    return {};
+  }
+  const Spec* spec = layer->find(Path::from(path));
+  EXPECT_NE(spec, nullptr) << path;
+  return spec == nullptr ? Spec{} : *spec;
+}
+
+struct ErrorRow {
+  const char* body;  // after the header line, so it starts at line 2
+  std::uint32_t line;
+  std::uint32_t column;
+  const char* part;  // of the message
+};
+
+TEST(TextReader, ErrorsSayWhereAndWhatWasExpected) {
+  const ErrorRow rows[] = {
+      {"def \"A\"\n{\n}\n}\n", 5, 1,
+       "expected def, over, class, reorder rootPrims or the end of the file, found '}'; an "
+       "earlier '}' closed </A> at line 4"},
+      {"def \"A\"\n{\n}\n    float a = 1\n", 5, 5, "found `float`; an earlier '}' closed </A>"},
+      {"(\ndefaultPrim = \"W\"\n)\ndef \"W\" {\n}\ndef \"B\" {\n}\n)\n", 9, 1,
+       "closed </B> at line 8, and another closed </W> at line 6"},
+      {"def \"A\" {\n  def \"B\" (\n  )\n}\n", 5, 1,
+       "expected '{' before the contents of </A/B>, declared at line 3, found '}'"},
+      {"def \"A\" {\n", 3, 1, "or the '}' of </A>, found the end of the file"},
+      {"def \"A\" {\n int a = x\n}\n", 3, 10, "expected a whole number, found `x`"},
+      {"def \"A\" {\n int a = 3000000000\n}\n", 3, 10, "3000000000 does not fit"},
+      {"def \"A\" {\n float3 a = (1, 2)\n}\n", 3, 13, "2 items where 3 are expected"},
+      {"def \"A\" {\n float3 a = (1, 2, 3, 4)\n}\n", 3, 13, "more than 3 items"},
+      {"def \"A\" {\n int[] a = 1\n}\n", 3, 12, "expected '[', as the type name ends with []"},
+      {"def \"A\" {\n int a = [1]\n}\n", 3, 10, "expected a single value"},
+      {"def \"A\" {\n int[] a = [[1, 2], [3]]\n}\n", 3, 21, "differ in size"},
+      {"def \"A\" {\n string a = \"x\n}\n", 3, 13, "this string is not closed on its line"},
+      {"def \"A\" {\n asset a = @x\n}\n", 3, 12, "this asset path is not closed on its line"},
+      {"def \"A\" {\n rel a = </A\n}\n", 3, 10, "this path is not closed on its line"},
+      {"def \"A\" {\n rel a = </A{v=x}B>\n}\n", 3, 10, "have no variant selections"},
+      {"def \"A\" {\n rel a = [</A>, </A>]\n}\n", 3, 10, "this list names one item twice"},
+      {"def \"A\" {\n int a\n float a\n}\n", 4, 2, "already has type int, not float"},
+      {"def \"A\" {\n}\ndef \"A\" {\n}\n", 4, 5, "was already given at line 2"},
+      {"def \"1a\" {\n}\n", 2, 5, "\"1a\" cannot name a prim"},
+      {"def \"A\" (\n kind = 3\n) {\n}\n", 3, 9, "expected a string in quotes, found a number"},
+      {"def \"A\" (\n specifier = \"x\"\n) {\n}\n", 3, 2, "is a field of its own"},
+      {"def \"A\" (\n displayName = None\n) {\n}\n", 3, 2, "`displayName` cannot be None"},
+      {"def \"A\" (\n add inherits = []\n) {\n}\n", 3, 17, "an empty list can only be set"},
+      {"/* x\n", 2, 1, "this comment is never closed"},
+      {"def \"A\" {\n varying int a\n}\n", 3, 10, "expected `rel`, found `int`"},
+      {"def \"A\" {\n string a = \"\xff\"\n}\n", 3, 14, "this byte is no UTF-8"},
+  };
+  for (const ErrorRow& row : rows) {
+    const auto layer = read(row.body);
+    ASSERT_FALSE(layer) << row.body;
+    const Diagnostic& found = layer.error().diagnostic();
+    EXPECT_EQ(found.file, "t.usda");
+    EXPECT_EQ(found.line, row.line) << row.body << layer.error().to_string();
+    EXPECT_EQ(found.column, row.column) << row.body << layer.error().to_string();
+    EXPECT_NE(found.message.find(row.part), std::string::npos)
+        << row.part << "\nis not in\n" << found.message;
+  }
+}
+
+TEST(TextReader, HeadersAreChecked) {
+  const std::pair<const char*, bool> rows[] = {
+      {"#usda 1.0\n", true},      {"#usda 1.0", true},     {"#usda 1.4\n", true},
+      {"#usda 1.0.32\r\n", true}, {"#usda  1.1 x\n", true}, {"#usda 1.5\n", false},
+      {"#usda 2.0\n", false},     {"#usda 1\n", false},    {"#usda1.0\n", false},
+      {"#sdf 1.4.32\n", false},   {"", false},             {"#usda 1.0foo\n", false},
+      {"\xEF\xBB\xBF#usda 1.0\n", false}};
+  for (const auto& [text, accepted] : rows) {
+    Diagnostics diagnostics;
+    EXPECT_EQ(read_text(text, "t.usda", diagnostics).has_value(), accepted) << text;
+  }
+}
+
+TEST(TextReader, MetadataHaveTheTypesOfTheirFields) {
+  const Spec root = spec_of(
+      "(\n kilogramsPerUnit = 1\n upAxis = \"Z\"\n framePrecision = 2.5\n"
+      " customLayerData = {int a = 1}\n)\n",
+      "/");
+  EXPECT_EQ(root.get_or(fields::kilogramsPerUnit, 0.0), 1.0);
+  EXPECT_EQ(root.get_or(fields::upAxis, Token()), "Z");
+  EXPECT_EQ(root.get_or(fields::framePrecision, 0), 2);
+  EXPECT_NE(root.get<layer::Dictionary>(fields::customLayerData), nullptr);
+}
+
+TEST(TextReader, UnknownMetadataAreKeptAsText) {
+  const Spec prim = spec_of(
+      "def \"A\" (\n x = [1.50,  'a']\n prepend y = [1]\n z = {int a = 1}\n) {\n}\n", "/A");
+  const auto* x = prim.get<layer::UnregisteredValue>("x");
+  ASSERT_NE(x, nullptr);
+  EXPECT_EQ(x->value.get_or(std::string()), "[1.5, \"a\"]");
+  const auto* y = prim.get<layer::UnregisteredValue>("y");
+  ASSERT_NE(y, nullptr);
+  EXPECT_TRUE(y->value.holds<ListOp<layer::UnregisteredValue>>());
+  const auto* z = prim.get<layer::UnregisteredValue>("z");
+  ASSERT_NE(z, nullptr);
+  EXPECT_TRUE(z->value.holds<layer::Dictionary>());
+}
+
+TEST(TextReader, ListEditsAreCollected) {
+  const Spec prim = spec_of(
+      "def \"A\" (\n prepend references = @a@\n append references = [@b@</B>, </C>]\n"
+      " delete apiSchemas = [\"X\"]\n inherits = <../B>\n) {\n}\n",
+      "/A");
+  const auto* references = prim.get<ListOp<layer::Reference>>(fields::references);
+  ASSERT_NE(references, nullptr);
+  ASSERT_EQ(references->prepended.size(), 1u);
+  ASSERT_EQ(references->appended.size(), 2u);
+  EXPECT_EQ(references->appended[0].asset_path, "b");
+  EXPECT_EQ(references->appended[1].prim_path, Path::from("/C"));
+  const auto* schemas = prim.get<ListOp<Token>>(fields::apiSchemas);
+  ASSERT_NE(schemas, nullptr);
+  EXPECT_EQ(schemas->deleted, std::vector<Token>{"X"});
+  const auto* inherits = prim.get<ListOp<Path>>(fields::inheritPaths);
+  ASSERT_NE(inherits, nullptr);
+  EXPECT_EQ(inherits->explicit_items, std::vector<Path>{Path::from("/B")});
+}
+
+TEST(TextReader, AttributesHaveValuesSamplesAndPlaces) {
+  const std::string body =
+      "def \"A\" {\n  float3[] p = [(1, 2, 3),\n (4, 5, 6)]\n"
+      "  custom uniform bool b = no\n  double t.timeSamples = {2: 1, 1: None, 2: 3}\n}\n";
+  const Spec points = spec_of(body, "/A.p");
+  const auto* values = points.get<std::vector<Vec3f>>(fields::default_value);
+  ASSERT_NE(values, nullptr);
+  EXPECT_EQ((*values)[1], (Vec3f{{4, 5, 6}}));
+  EXPECT_EQ(points.line, 3u);
+  EXPECT_EQ(points.column, 3u);
+  const Spec flag = spec_of(body, "/A.b");
+  EXPECT_TRUE(flag.get_or(fields::custom, false));
+  EXPECT_EQ(flag.get_or(fields::variability, layer::Variability::Varying),
+            layer::Variability::Uniform);
+  EXPECT_FALSE(flag.get_or(fields::default_value, true));
+  const Spec animated = spec_of(body, "/A.t");
+  const auto* samples = animated.get<layer::TimeSamples>(fields::timeSamples);
+  ASSERT_NE(samples, nullptr);
+  EXPECT_EQ(samples->times, (std::vector<double>{1, 2}));
+  EXPECT_TRUE(samples->values[0].is_block());
+  EXPECT_EQ(samples->values[1].get_or(0.0), 3.0);
+}
+
+TEST(TextReader, ChildrenKeepTheirOrder) {
+  const auto layer = read(
+      "def \"B\" {\n}\ndef \"A\" {\n int z\n int a\n variantSet \"v\" = {\n \"y\" {\n def \"C\" {\n"
+      "}\n}\n \"x\" {\n}\n}\n}\n");
+  ASSERT_TRUE(layer) << layer.error().to_string();
+  const Path a = Path::from("/A");
+  EXPECT_EQ(Layer::children(layer->root(), fields::primChildren),
+            (std::vector<Token>{"B", "A"}));
+  EXPECT_EQ(layer->children(a, fields::properties), (std::vector<Token>{"z", "a"}));
+  EXPECT_EQ(layer->children(a, fields::variantSetChildren), (std::vector<Token>{"v"}));
+  EXPECT_EQ(layer->children(a.variant_selection("v", Token()), fields::variantChildren),
+            (std::vector<Token>{"y", "x"}));
+  EXPECT_TRUE(layer->has(a.variant_selection("v", "y").child("C")));
+}
+
+TEST(TextReader, NestingHasALimitAndNoCrash) {
+  std::string prims;
+  std::string dictionaries = "(\n customLayerData = ";
+  std::string lists = "(\n a = ";
+  for (std::size_t i = 0; i < limits::kTextNestingDepth + 10; ++i) {
+    prims += "def \"A\" {\n";
+    dictionaries += "{dictionary a = ";
+    lists += "[(";
+  }
+  for (const std::string& body : {prims, dictionaries, lists}) {
+    const auto layer = read(body);
+    ASSERT_FALSE(layer);
+    EXPECT_EQ(layer.error().code(), ErrorCode::Limit) << layer.error().to_string();
+  }
+}
+
+TEST(TextReader, RepeatedItemsOfMetadataListsAreReported) {
+  Diagnostics diagnostics;
+  const auto layer = read_text("#usda 1.0\ndef \"A\" (\n apiSchemas = [\"X\", \"X\"]\n) {\n}\n",
+                               "t.usda", diagnostics);
+  ASSERT_TRUE(layer);
+  ASSERT_EQ(diagnostics.size(), 1u);
+  EXPECT_EQ(diagnostics.items()[0].line, 3u);
+  EXPECT_FALSE(layer->find(Path::from("/A"))->has(fields::apiSchemas));
+}
+
+}  // namespace
+}  // namespace tenon::formats

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tenon/formats/text/reader.h"
+#include "tenon/formats/text/writer.h"
+
+namespace tenon::formats {
+namespace {
+
+std::vector<std::string> seed_texts() {
+  std::vector<std::string> texts;
+  const std::filesystem::path folder =
+      std::filesystem::path(TENON_SOURCE_DIR) / "fuzz" / "corpus" / "text_fuzz";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::ifstream file(entry.path(), std::ios::binary);
+    texts.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  return texts;
+}
+
+/// The canonical text, or "" when the text is rejected.
+std::string canonical(const std::string& text) {
+  Diagnostics diagnostics;
+  const auto layer = read_text(text, "t.usda", diagnostics);
+  return layer ? write_text(*layer) : std::string();
+}
+
+TEST(TextRoundTrip, CanonicalTextGivesItselfAgain) {
+  int accepted = 0;
+  for (const std::string& text : seed_texts()) {
+    const std::string once = canonical(text);
+    accepted += once.empty() ? 0 : 1;
+    EXPECT_EQ(once, once.empty() ? once : canonical(once));
+  }
+  EXPECT_GE(accepted, 3);
+}
+
+/// One to four bytes changed, removed or doubled, or the end cut off.
+std::string mutated(const std::string& seed, std::mt19937& random) {
+  constexpr std::string_view kMarks = "{}()[]<>@\"'=:;,.#/\\\n 0-enN\x80\xff";
+  std::string text = seed;
+  const auto below = [&](std::size_t limit) {
+    return static_cast<std::size_t>(random()) % std::max<std::size_t>(limit, 1);
+  };
+  const std::size_t changes = 1 + below(4);
+  for (std::size_t i = 0; i < changes && !text.empty(); ++i) {
+    const std::size_t at = below(text.size());
+    switch (below(5)) {
+      case 0:
+        text.erase(at, 1 + below(8));
+        break;
+      case 1:
+        text.insert(at, 1, kMarks[below(kMarks.size())]);
+        break;
+      case 2:
+        text.insert(at, text.substr(at, below(40)));
+        break;
+      case 3:
+        text[at] = kMarks[below(kMarks.size())];
+        break;
+      default:
+        text.resize(below(8) == 0 ? at : text.size());
+        break;
+    }
+  }
+  return text;
+}
+
+TEST(TextRoundTrip, MutatedTextsAreReadOrRejectedWithAPlace) {
+  std::mt19937 random(20261121);
+  int accepted = 0;
+  int rejected = 0;
+  for (const std::string& seed : seed_texts()) {
+    for (int i = 0; i < 400; ++i) {
+      const std::string text = mutated(seed, random);
+      Diagnostics diagnostics;
+      const auto layer = read_text(text, "t.usda", diagnostics);
+      if (layer) {
+        ++accepted;
+        const std::string once = write_text(*layer);
+        EXPECT_EQ(once, canonical(once)) << text;
+      } else {
+        ++rejected;
+        EXPECT_GT(layer.error().diagnostic().line, 0u) << text;
+        EXPECT_FALSE(layer.error().message().empty());
+      }
+    }
+  }
+  EXPECT_GT(accepted, 100);
+  EXPECT_GT(rejected, 1000);
+}
+
+}  // namespace
+}  // namespace tenon::formats
