@@ -290,8 +290,7 @@ class StageDump {
   void write_properties(const Prim& prim) {
     json_.key("properties");
     json_.begin_object();
-    const auto names =
-        options_.builtins ? prim.property_names() : prim.authored_property_names();
+    const auto names = options_.builtins ? prim.property_names() : prim.authored_property_names();
     for (const Token name : names) {
       json_.key(name.view());
       json_.begin_object();

@@ -10,10 +10,10 @@
 namespace tenon::cli {
 
 struct DumpOptions {
-  bool stacks = false;       ///< layers and paths of every opinion
-  bool builtins = false;     ///< also properties that only schemas give
-  bool xforms = false;       ///< world transforms at the default time
-  bool no_payloads = false;  ///< for the caller that opens the stage
+  bool stacks = false;            ///< layers and paths of every opinion
+  bool builtins = false;          ///< also properties that only schemas give
+  bool xforms = false;            ///< world transforms at the default time
+  bool no_payloads = false;       ///< for the caller that opens the stage
   std::size_t full_arrays = 256;  ///< longest array that is written out in full
 };
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <set>
 
+#include "tenon/layer/type_names.h"
 #include "tenon/schema/registry.h"
 
 namespace tenon::cli {
@@ -105,14 +106,33 @@ void write_metadata_if_any(JsonWriter& json, std::map<std::string, layer::Value>
 }  // namespace
 
 bool is_composition_field(std::string_view name) {
-  static const std::set<std::string_view> fields{
-      "references",       "payload",         "inheritPaths",    "specializes",
-      "subLayers",        "subLayerOffsets", "layerRelocates",  "relocates",
-      "variantSetNames",  "variantSelection", "primChildren",   "properties",
-      "propertyChildren", "variantSetChildren", "variantChildren", "timeSamples",
-      "default",          "spline",          "connectionPaths", "targetPaths",
-      "connectionChildren", "targetChildren", "specifier",      "typeName",
-      "variability",      "custom",          "apiSchemas"};
+  static const std::set<std::string_view> fields{"references",
+                                                 "payload",
+                                                 "inheritPaths",
+                                                 "specializes",
+                                                 "subLayers",
+                                                 "subLayerOffsets",
+                                                 "layerRelocates",
+                                                 "relocates",
+                                                 "variantSetNames",
+                                                 "variantSelection",
+                                                 "primChildren",
+                                                 "properties",
+                                                 "propertyChildren",
+                                                 "variantSetChildren",
+                                                 "variantChildren",
+                                                 "timeSamples",
+                                                 "default",
+                                                 "spline",
+                                                 "connectionPaths",
+                                                 "targetPaths",
+                                                 "connectionChildren",
+                                                 "targetChildren",
+                                                 "specifier",
+                                                 "typeName",
+                                                 "variability",
+                                                 "custom",
+                                                 "apiSchemas"};
   return fields.contains(name);
 }
 
@@ -132,7 +152,8 @@ void write_attribute(JsonWriter& json, const Attribute& attribute, const ValueSt
   json.key("kind");
   json.string("attribute");
   json.key("type");
-  json.string(attribute.type_name().view());
+  const Token type = attribute.type_name();
+  json.string(layer::find_type_name(type) == nullptr ? "" : type.view());
   json.key("variability");
   json.string(attribute.variability() == layer::Variability::Uniform ? "uniform" : "varying");
   json.key("custom");

@@ -60,13 +60,9 @@ struct ValueWriter {
   void write(const layer::AssetPath& x) {
     json.begin_object();
     json.key("$asset");
-    json.string(x.authored);
+    json.string(x.evaluated.empty() ? x.authored : x.evaluated);
     json.key("resolved");
     x.resolved.empty() ? json.null() : json.string(style.file_text(x.resolved));
-    if (!x.evaluated.empty() && x.evaluated != x.authored) {
-      json.key("evaluated");
-      json.string(x.evaluated);
-    }
     json.end_object();
   }
   void write(const layer::PathExpression& x) {
@@ -121,7 +117,9 @@ struct ValueWriter {
     json.string(x == layer::Permission::Public ? "Public" : "Private");
   }
   void write(layer::Specifier x) {
-    json.string(x == layer::Specifier::Def ? "Def" : x == layer::Specifier::Over ? "Over" : "Class");
+    json.string(x == layer::Specifier::Def    ? "Def"
+                : x == layer::Specifier::Over ? "Over"
+                                              : "Class");
   }
   void write(layer::Variability x) {
     json.string(x == layer::Variability::Uniform ? "Uniform" : "Varying");
@@ -189,8 +187,8 @@ struct ValueWriter {
       for (const T& item : array) {
         const std::string resolved =
             item.resolved.empty() ? "null" : ascii_quoted(style.file_text(item.resolved));
-        sha.update("{\"$asset\": " + ascii_quoted(item.authored) + ", \"resolved\": " + resolved +
-                   "}");
+        const std::string path = item.evaluated.empty() ? item.authored : item.evaluated;
+        sha.update("{\"$asset\": " + ascii_quoted(path) + ", \"resolved\": " + resolved + "}");
         sha.update(std::string_view("\0", 1));
       }
     } else if constexpr (std::is_trivially_copyable_v<T>) {

@@ -99,7 +99,7 @@ void JsonWriter::number(double value) {
 void JsonWriter::integer(std::int64_t value) {
   constexpr std::int64_t kExact = std::int64_t{1} << 53;
   const std::string text = std::to_string(value);
-  value >= -kExact && value <= kExact ? raw(text) : string(text);
+  value >= -kExact&& value <= kExact ? raw(text) : string(text);
 }
 
 void JsonWriter::unsigned_integer(std::uint64_t value) {

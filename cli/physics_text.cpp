@@ -124,7 +124,8 @@ std::string physics_text(const PhysicsScene& scene) {
   for (const physics::Collider& collider : scene.colliders) {
     out += collider_line(scene, collider);
   }
-  out += plural(scene.joints.size(), "joint", "joints") + " (forces in N and N m, angles in radians "
+  out += plural(scene.joints.size(), "joint", "joints") +
+         " (forces in N and N m, angles in radians "
          "unless marked)\n";
   for (const physics::Joint& joint : scene.joints) {
     out += joint_lines(scene, joint);
@@ -135,9 +136,9 @@ std::string physics_text(const PhysicsScene& scene) {
            (articulation.fixed_base ? ", fixed base, " : ", floating base, ") +
            plural(articulation.links.size(), "link", "links") + "\n";
   }
-  out += plural(scene.disabled_pairs().size(), "disabled collider pair",
-                "disabled collider pairs") +
-         "\n";
+  out +=
+      plural(scene.disabled_pairs().size(), "disabled collider pair", "disabled collider pairs") +
+      "\n";
   if (!scene.not_read.empty()) {
     out += "not taken over\n";
     for (const physics::NotRead& row : scene.not_read) {

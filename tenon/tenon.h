@@ -9,6 +9,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/compose/index_cache.h"
 #include "tenon/engines/engines.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/layer/layer.h"
@@ -26,7 +27,7 @@ struct OpenOptions {
   /// A session layer file; the two options above are written over its opinions, in memory.
   std::string session_path;
   bool load_payloads = true;
-  std::vector<std::string> mask;   ///< prim paths; empty: everything
+  std::vector<std::string> mask;  ///< prim paths; empty: everything
   std::map<std::string, std::vector<std::string>> variant_fallbacks;
   /// When not empty, no file outside these folders is opened.
   std::vector<std::string> sandbox_roots;
@@ -39,6 +40,11 @@ Result<layer::LayerPtr> open_layer(const std::string& path, Diagnostics& diagnos
 /// `diagnostics`.
 Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& options,
                                 Diagnostics& diagnostics);
+
+/// The composition of a file before it is populated, for those who look at indices.
+Result<std::unique_ptr<compose::IndexCache>> open_indices(const std::string& path,
+                                                          const OpenOptions& options,
+                                                          Diagnostics& diagnostics);
 
 /// The engines of this build, sorted by name; those not built are listed as not available.
 std::vector<engines::EngineInfo> list_engines();

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+
+#include "cli/report.h"
+#include "cli/simulate.h"
+#include "cli/verb.h"
+
+namespace tenon::cli {
+namespace {
+
+struct Options {
+  SimulateArguments simulate;
+  std::string output;
+};
+
+int run_bake(const Globals& globals, const Options& options) {
+  Report report(globals, "bake", options.simulate.asset.asset);
+  auto simulated = simulate(options.simulate, report);
+  if (!simulated) {
+    return report.fail(simulated.error());
+  }
+  if (simulated->run.interrupted) {
+    return report.finish(kInterrupted);
+  }
+  if (auto written = write_bake(*simulated, options.simulate, options.output, report); !written) {
+    return report.fail(written.error());
+  }
+  const std::size_t frames = simulated->run.recording.frame_count();
+  const std::size_t bodies = simulated->scene->bodies.size();
+  if (options.output != "-") {
+    report.note(shown_path(options.output) + ": " + std::to_string(frames) + " frames of " +
+                std::to_string(bodies) + " bodies");
+  }
+  return report.finish(simulated->exit_code(), {{"output", options.output},
+                                                {"frames", frames},
+                                                {"bodies", bodies},
+                                                {"time", simulated->run.time}});
+}
+
+}  // namespace
+
+void add_bake(CLI::App& app, const Globals& globals, Chosen& chosen) {
+  CLI::App* verb = app.add_subcommand(
+      "bake", "Simulate and write the motion into a layer over the asset, which stays untouched");
+  auto options = std::make_shared<Options>();
+  options->simulate.add_to(*verb);
+  verb->add_option("-o,--output", options->output, "The layer to write: .usda, .usdc or .usd")
+      ->required();
+  verb->footer("Example:\n  tenon bake grasp.usda -o motion.usda --fps 60 --duration 4");
+  choose(*verb, chosen, [&globals, options] { return run_bake(globals, *options); });
+}
+
+}  // namespace tenon::cli

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+
+#include "cli/report.h"
+#include "cli/verb.h"
+#include "tenon/formats/save_layer.h"
+#include "tenon/stage/flatten.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+namespace {
+
+struct Options {
+  AssetArguments asset;
+  std::string output = "-";
+  std::string format;
+  bool flatten = false;
+};
+
+Result<layer::Layer> read_input(const Options& options, Diagnostics& diagnostics) {
+  const bool compose =
+      options.flatten || !options.asset.mask.empty() || !options.asset.physics.empty();
+  if (!compose) {
+    TENON_TRY(const layer::LayerPtr layer, open_layer(options.asset.asset, diagnostics));
+    return *layer;
+  }
+  TENON_TRY(const stage::Stage stage,
+            open_stage(options.asset.asset, options.asset.open_options(), diagnostics));
+  return stage::flatten(stage);
+}
+
+Result<formats::LayerFormat> output_format(const Options& options) {
+  if (!options.format.empty()) {
+    return formats::layer_format_named(options.format);
+  }
+  return options.output == "-" ? formats::LayerFormat::Text
+                               : formats::layer_format_for(options.output);
+}
+
+Result<void> write(const Options& options, Diagnostics& diagnostics) {
+  TENON_TRY(const formats::LayerFormat format, output_format(options));
+  TENON_TRY(const layer::Layer layer, read_input(options, diagnostics));
+  TENON_TRY(const std::string bytes, formats::encode_layer(layer, format));
+  return write_output(options.output, bytes);
+}
+
+int run_cat(const Globals& globals, const Options& options) {
+  Report report(globals, "cat", options.asset.asset);
+  if (globals.json && options.output == "-") {
+    return report.fail(
+        Error(ErrorCode::Invalid, "--json and a layer cannot both go to standard output")
+            .with_fix("name an output file with -o"));
+  }
+  if (auto written = write(options, report.diagnostics); !written) {
+    return report.fail(written.error());
+  }
+  return report.finish(kOk, {{"output", options.output}});
+}
+
+}  // namespace
+
+void add_cat(CLI::App& app, const Globals& globals, Chosen& chosen) {
+  CLI::App* verb = app.add_subcommand("cat", "Read any layer, write it as text or binary");
+  auto options = std::make_shared<Options>();
+  options->asset.add_to(*verb);
+  verb->add_option("-o,--output", options->output, "Where to write; - is standard output");
+  verb->add_flag("-f,--flatten", options->flatten, "Compose first and write one layer");
+  verb->add_option("--format,--usdFormat", options->format, "usda, usdc or usdz");
+  verb->footer(
+      "Examples:\n  tenon cat geometry.usdc\n  tenon cat hand.usda --flatten -o flat.usdc\n"
+      "Selecting with --mask or --physics composes, too.");
+  choose(*verb, chosen, [&globals, options] { return run_cat(globals, *options); });
+}
+
+}  // namespace tenon::cli

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <sstream>
+#include <string>
+
+#include "cli/dump.h"
+#include "cli/report.h"
+#include "cli/variant_fallbacks.h"
+#include "cli/verb.h"
+
+namespace tenon::cli {
+namespace {
+
+struct Options {
+  AssetArguments asset;
+  DumpOptions dump;
+  std::string session;
+  std::string fallbacks;
+  std::string output = "-";
+};
+
+int run_dump(const Globals& globals, const Options& options) {
+  Report report(globals, "dump", options.asset.asset);
+  OpenOptions open = options.asset.open_options();
+  open.session_path = options.session;
+  open.load_payloads = !options.dump.no_payloads && open.load_payloads;
+  auto fallbacks = parse_variant_fallbacks(options.fallbacks);
+  if (!fallbacks) {
+    return report.fail(fallbacks.error());
+  }
+  open.variant_fallbacks = *std::move(fallbacks);
+  auto stage = open_stage(options.asset.asset, open, report.diagnostics);
+  if (!stage) {
+    return report.fail(stage.error());
+  }
+  std::ostringstream text;
+  write_stage_dump(*stage, options.dump, text);
+  if (auto written = write_output(options.output, text.str()); !written) {
+    return report.fail(written.error());
+  }
+  report.speak_as_text();  // the dump itself is the JSON object
+  return report.finish(kOk);
+}
+
+}  // namespace
+
+void add_dump(CLI::App& app, const Globals& globals, Chosen& chosen) {
+  CLI::App* verb = app.add_subcommand("dump", "Canonical JSON of the composed stage, to compare");
+  auto options = std::make_shared<Options>();
+  options->asset.add_to(*verb);
+  verb->add_option("-o,--output", options->output, "Where to write; - is standard output");
+  verb->add_option("--session", options->session, "A session layer");
+  verb->add_flag("--no-payloads", options->dump.no_payloads, "Leave payloads out");
+  verb->add_flag("--builtins", options->dump.builtins, "Also properties that only schemas give");
+  verb->add_flag("--stacks", options->dump.stacks, "Layers and paths of every opinion");
+  verb->add_flag("--xforms", options->dump.xforms, "World transforms");
+  verb->add_option("--variant-fallback", options->fallbacks, "set=variant|variant,set=...");
+  verb->add_option("--full-arrays", options->dump.full_arrays,
+                   "Longest array that is written out in full");
+  verb->footer("Example:\n  tenon dump hand.usda --physics physx --stacks -o hand.json");
+  choose(*verb, chosen, [&globals, options] { return run_dump(globals, *options); });
+}
+
+}  // namespace tenon::cli

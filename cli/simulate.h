@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cli/report.h"
+#include "cli/verb.h"
+#include "tenon/bake/run_simulation.h"
+#include "tenon/engines/simulation.h"
+#include "tenon/physics/physics_scene.h"
+#include "tenon/stage/stage.h"
+
+/// What `sim` and `bake` share: open, read the physics, run.
+namespace tenon::cli {
+
+struct SimulateArguments {
+  AssetArguments asset;
+  std::string engine = "mujoco";
+  double duration = 0;   ///< [s]; 0: what the stage's time range says, else 5
+  double time_step = 0;  ///< [s]; 0: the asset's, else the engine's
+  double frames_per_second = 60;
+
+  void add_to(CLI::App& verb);
+};
+
+/// A finished run and everything that it was made of; the simulation refers to the scene.
+struct Simulated {
+  std::unique_ptr<stage::Stage> stage;
+  std::unique_ptr<physics::PhysicsScene> scene;
+  std::unique_ptr<engines::Simulation> simulation;
+  std::string engine_version;
+  bake::Run run;
+  double wall_seconds = 0;
+
+  bool unstable() const { return run.failure && run.failure->code() == ErrorCode::Unstable; }
+  int exit_code() const;
+};
+
+/// Runs; progress goes to a terminal's standard error. A run that failed on its way is a result
+/// (see Run::failure), one that could not begin is an Error.
+Result<Simulated> simulate(const SimulateArguments& arguments, Report& report);
+
+/// Writes the overlay layer that plays the run.
+Result<void> write_bake(const Simulated& simulated, const SimulateArguments& arguments,
+                        const std::string& output, Report& report);
+
+}  // namespace tenon::cli

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "cli/kinematic_tree.h"
+#include "cli/report.h"
+#include "cli/verb.h"
+#include "tenon/formats/text/value_text.h"
+#include "tenon/physics/read_physics.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+namespace {
+
+struct Options {
+  AssetArguments asset;
+  bool attributes = false;
+  bool metadata = false;
+  bool kinematic = false;
+};
+
+std::string specifier_word(layer::Specifier specifier) {
+  switch (specifier) {
+    case layer::Specifier::Def:
+      return "def";
+    case layer::Specifier::Class:
+      return "class";
+    case layer::Specifier::Over:
+      break;
+  }
+  return "over";
+}
+
+std::string prim_words(const stage::Prim& prim) {
+  std::string words = specifier_word(prim.specifier());
+  if (!prim.type_name().empty()) {
+    words += " " + prim.type_name().str();
+  }
+  if (prim.is_instance()) {
+    words += ", instance";
+  }
+  if (!prim.is_active()) {
+    words += ", inactive";
+  }
+  return words;
+}
+
+/// One prim and how deep its branch stands.
+struct Branch {
+  stage::Prim prim;
+  std::string indent;
+  bool last = true;
+};
+
+void print_attributes(const stage::Prim& prim, const std::string& indent) {
+  for (const Token& name : prim.authored_property_names()) {
+    if (prim.is_relationship(name)) {
+      std::printf("%s  .%s -> %zu\n", indent.c_str(), name.str().c_str(),
+                  prim.relationship(name).targets().size());
+      continue;
+    }
+    const stage::Attribute attribute = prim.attribute(name);
+    const layer::Value value = attribute.get();
+    std::string text = value.size() > 8 ? "[" + std::to_string(value.size()) + " values]"
+                                        : formats::value_text(value);
+    std::printf("%s  .%s %s = %s\n", indent.c_str(), name.str().c_str(),
+                attribute.type_name().str().c_str(), text.c_str());
+  }
+}
+
+void print_metadata(const stage::Prim& prim, const std::string& indent) {
+  for (const auto& [field, value] : prim.all_authored_metadata()) {
+    if (field != "specifier" && field != "typeName") {
+      std::printf("%s  (%s = %s)\n", indent.c_str(), field.c_str(),
+                  formats::value_text(value).c_str());
+    }
+  }
+}
+
+void print_tree(const stage::Stage& stage, const Options& options) {
+  std::printf("/\n");
+  std::vector<Branch> open;
+  auto push_children = [&](const stage::Prim& prim, const std::string& indent) {
+    const std::vector<stage::Prim> children = prim.children();
+    for (std::size_t i = children.size(); i-- > 0;) {
+      open.push_back({children[i], indent, i + 1 == children.size()});
+    }
+  };
+  push_children(stage.pseudo_root(), " ");
+  while (!open.empty()) {
+    const Branch branch = open.back();
+    open.pop_back();
+    std::printf("%s%s%s [%s]\n", branch.indent.c_str(), branch.last ? "`--" : "|--",
+                branch.prim.name().str().c_str(), prim_words(branch.prim).c_str());
+    const std::string below = branch.indent + (branch.last ? "   " : "|  ");
+    if (options.metadata) {
+      print_metadata(branch.prim, below);
+    }
+    if (options.attributes) {
+      print_attributes(branch.prim, below);
+    }
+    push_children(branch.prim, below);
+  }
+}
+
+Json tree_json(const stage::Stage& stage) {
+  Json prims = Json::array();
+  std::vector<stage::Prim> open = {stage.pseudo_root()};
+  while (!open.empty()) {
+    const stage::Prim prim = open.back();
+    open.pop_back();
+    if (!prim.is_pseudo_root()) {
+      prims.push_back({{"path", prim.path().str()},
+                       {"specifier", specifier_word(prim.specifier())},
+                       {"type", prim.type_name().str()},
+                       {"active", prim.is_active()},
+                       {"instance", prim.is_instance()}});
+    }
+    const std::vector<stage::Prim> children = prim.children();
+    open.insert(open.end(), children.rbegin(), children.rend());
+  }
+  return prims;
+}
+
+int run_tree(const Globals& globals, const Options& options) {
+  Report report(globals, "tree", options.asset.asset);
+  auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
+  if (!stage) {
+    return report.fail(stage.error());
+  }
+  Json body = Json::object();
+  const bool prims = !options.kinematic || !options.asset.physics.empty();
+  if (prims && globals.json) {
+    body["prims"] = tree_json(*stage);
+  } else if (prims) {
+    print_tree(*stage, options);
+  }
+  if (options.kinematic) {
+    const physics::PhysicsScene scene = physics::read_physics(*stage, {}, report.diagnostics);
+    const KinematicTree tree = make_kinematic_tree(scene);
+    body["kinematicTree"] = kinematic_json(scene, tree);
+    if (!globals.json) {
+      std::fputs(kinematic_text(scene, tree).c_str(), stdout);
+    }
+  }
+  return report.finish(kOk, body);
+}
+
+/// `tree --physics A` reads as "the kinematic tree of A", although --physics may take a value.
+void untangle_physics(Options& options, bool physics_given) {
+  options.kinematic = physics_given;
+  if (options.asset.asset.empty()) {
+    std::swap(options.asset.asset, options.asset.physics);
+  }
+}
+
+}  // namespace
+
+void add_tree(CLI::App& app, const Globals& globals, Chosen& chosen) {
+  CLI::App* verb =
+      app.add_subcommand("tree", "The prim tree; with --physics the tree of bodies and joints");
+  auto options = std::make_shared<Options>();
+  options->asset.add_to(*verb);
+  verb->get_option("asset")->required(false);
+  CLI::Option* physics = verb->get_option("--physics");
+  physics->expected(0, 1)->description(
+      "Also bodies, joint types, degrees of freedom and masses, under this variant of the default "
+      "prim's variant set \"Physics\"; without a value only those, under the selection in force");
+  verb->add_flag("-a,--attributes", options->attributes, "Also attributes and their values");
+  verb->add_flag("-m,--metadata", options->metadata, "Also metadata");
+  verb->footer("Examples:\n  tenon tree hand.usda -a\n  tenon tree hand.usda --physics");
+  choose(*verb, chosen, [&globals, options, physics] {
+    untangle_physics(*options, physics->count() > 0);
+    return run_tree(globals, *options);
+  });
+}
+
+}  // namespace tenon::cli

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "cli/report.h"
+#include "cli/verb.h"
+#include "tenon/bake/over_specs.h"
+#include "tenon/bytes/file_bytes.h"
+#include "tenon/formats/open_layer.h"
+#include "tenon/formats/save_layer.h"
+#include "tenon/formats/text/selection_edit.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+namespace {
+
+struct Options {
+  AssetArguments asset;
+  std::string assignment;
+  std::string prim;
+  std::string output;
+  bool in_place = false;
+};
+
+Json variants_json(const stage::Stage& stage, const std::string& only) {
+  Json variants = Json::array();
+  std::vector<stage::Prim> open = {stage.pseudo_root()};
+  while (!open.empty()) {
+    const stage::Prim prim = open.back();
+    open.pop_back();
+    for (const std::string& set : prim.variant_set_names()) {
+      if (only.empty() || prim.path().str() == only) {
+        variants.push_back({{"prim", prim.path().str()},
+                            {"set", set},
+                            {"selection", prim.variant_selection(set)},
+                            {"options", prim.variant_names(set)}});
+      }
+    }
+    const std::vector<stage::Prim> children = prim.children();
+    open.insert(open.end(), children.rbegin(), children.rend());
+  }
+  return variants;
+}
+
+void print_variants(const Json& variants) {
+  for (const auto& v : variants) {
+    std::printf("%s  %s\n", v["prim"].get<std::string>().c_str(),
+                v["set"].get<std::string>().c_str());
+    for (const auto& option : v["options"]) {
+      std::printf("  %s %s\n", option == v["selection"] ? "*" : " ",
+                  option.get<std::string>().c_str());
+    }
+  }
+}
+
+struct Selection {
+  Path prim;
+  std::string set;
+  std::string variant;
+};
+
+/// Checks that the prim, the set and the variant exist, and says what does exist otherwise.
+Result<Selection> find_selection(const stage::Stage& stage, const Options& options) {
+  TENON_TRY(auto assignment, split_assignment(options.assignment));
+  const stage::Prim prim =
+      options.prim.empty() ? stage.default_prim() : stage.prim(Path::from(options.prim));
+  if (!prim.is_valid()) {
+    return Error(ErrorCode::NotFound, options.prim.empty()
+                                          ? "the layer has no default prim"
+                                          : "there is no prim <" + options.prim + ">")
+        .with_fix("name the prim with --prim");
+  }
+  const auto [set, variant] = assignment;
+  const auto sets = prim.variant_set_names();
+  if (std::find(sets.begin(), sets.end(), set) == sets.end()) {
+    std::string known;
+    for (const std::string& name : sets) {
+      known += (known.empty() ? "" : ", ") + name;
+    }
+    return Error(ErrorCode::NotFound,
+                 "<" + prim.path().str() + "> has no variant set \"" + set + "\"")
+        .with_fix(known.empty() ? "tenon variant lists all sets" : "sets there: " + known);
+  }
+  const auto names = prim.variant_names(set);
+  if (std::find(names.begin(), names.end(), variant) == names.end()) {
+    std::string known;
+    for (const std::string& name : names) {
+      known += (known.empty() ? "" : ", ") + name;
+    }
+    return Error(ErrorCode::NotFound,
+                 "variant set \"" + set + "\" has no variant \"" + variant + "\"")
+        .with_fix("choose one of: " + known);
+  }
+  return Selection{prim.path(), set, variant};
+}
+
+layer::Layer with_selection(layer::Layer layer, const Selection& selection) {
+  layer::Spec& spec = bake::over_prim(layer, selection.prim);
+  auto selections = spec.get_or("variantSelection", layer::VariantSelections{});
+  selections.items[selection.set] = selection.variant;
+  spec.set("variantSelection", layer::Value(std::move(selections)));
+  return layer;
+}
+
+/// The layer's text with nothing but the selection changed; an Error when that cannot be proved.
+Result<std::string> edited_text(const layer::Layer& layer, const Selection& selection) {
+  const layer::Spec* spec = layer.find(selection.prim);
+  TENON_TRY(const auto bytes, bytes::FileBytes::open(layer.identifier()));
+  const auto edited = spec == nullptr ? std::nullopt
+                                      : formats::text::with_variant_selection(
+                                            bytes->text(), {spec->line, spec->column},
+                                            selection.set, selection.variant);
+  if (edited) {
+    Diagnostics ignored;
+    const auto again =
+        formats::read_layer(bytes::FileBytes::own(*edited), layer.identifier(), ignored);
+    const layer::Spec* changed = again ? again->find(selection.prim) : nullptr;
+    const auto* selections =
+        changed == nullptr ? nullptr : changed->get<layer::VariantSelections>("variantSelection");
+    const auto* expected = with_selection(layer, selection)
+                               .find(selection.prim)
+                               ->get<layer::VariantSelections>("variantSelection");
+    if (selections != nullptr && *selections == *expected &&
+        again->spec_count() == layer.spec_count()) {
+      return *edited;
+    }
+  }
+  return Error(ErrorCode::Unsupported, "the selection cannot be edited in place in this text");
+}
+
+Result<void> write_selection(const layer::Layer& layer, const Selection& selection,
+                             const Options& options, Report& report) {
+  namespace fs = std::filesystem;
+  const std::string output = options.in_place ? layer.identifier() : options.output;
+  const bool same_folder = output != "-" && fs::absolute(output).parent_path().lexically_normal() ==
+                                                fs::path(layer.identifier()).parent_path();
+  if (!options.in_place && output != "-" && !same_folder) {
+    // Relative asset paths would break elsewhere: lay a layer over the asset instead.
+    layer::Layer over("selection.usda");
+    const auto folder = fs::absolute(output).parent_path().lexically_normal();
+    over.root().set("subLayers",
+                    layer::Value(std::vector<std::string>{
+                        fs::path(layer.identifier()).lexically_relative(folder).generic_string()}));
+    for (const char* field : {"defaultPrim", "kilogramsPerUnit", "metersPerUnit", "upAxis",
+                              "startTimeCode", "endTimeCode", "timeCodesPerSecond"}) {
+      if (const layer::Value* value = layer.root().find(field)) {
+        over.root().set(field, *value);
+      }
+    }
+    report.note(shown_path(output) + " is a layer over " + shown_path(layer.identifier()));
+    return formats::save_layer(with_selection(std::move(over), selection), output);
+  }
+  if (auto text = edited_text(layer, selection)) {
+    return write_output(output, *text);
+  }
+  const layer::Layer changed = with_selection(layer, selection);
+  if (output == "-") {
+    TENON_TRY(const std::string text, formats::encode_layer(changed, formats::LayerFormat::Text));
+    return write_output(output, text);
+  }
+  return formats::save_layer(changed, output);
+}
+
+int run_variant(const Globals& globals, const Options& options) {
+  Report report(globals, "variant", options.asset.asset);
+  auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
+  if (!stage) {
+    return report.fail(stage.error());
+  }
+  if (options.assignment.empty()) {
+    const Json variants = variants_json(*stage, options.prim);
+    if (!globals.json) {
+      print_variants(variants);
+    }
+    return report.finish(kOk, {{"variants", variants}});
+  }
+  if (options.output.empty() != options.in_place) {
+    return report.fail(Error(ErrorCode::Invalid, "a selection needs a place to be written to")
+                           .with_fix("give either -o FILE or --in-place"));
+  }
+  auto selection = find_selection(*stage, options);
+  if (!selection) {
+    return report.fail(selection.error());
+  }
+  Diagnostics known;  // the stage has reported them
+  auto layer = open_layer(options.asset.asset, known);
+  if (!layer) {
+    return report.fail(layer.error());
+  }
+  if (auto written = write_selection(**layer, *selection, options, report); !written) {
+    return report.fail(written.error());
+  }
+  return report.finish(kOk, {{"prim", selection->prim.str()},
+                             {"set", selection->set},
+                             {"selection", selection->variant}});
+}
+
+}  // namespace
+
+void add_variant(CLI::App& app, const Globals& globals, Chosen& chosen) {
+  CLI::App* verb = app.add_subcommand("variant", "List variant sets, or author a selection");
+  auto options = std::make_shared<Options>();
+  options->asset.add_to(*verb);
+  verb->add_option("selection", options->assignment, "SET=VARIANT; without it all sets are listed");
+  verb->add_option("--prim", options->prim, "The prim with the set; without it the default prim");
+  verb->add_option("-o,--output", options->output, "Write the changed layer here");
+  verb->add_flag("--in-place", options->in_place,
+                 "Change the asset's root layer; comments and layout of text stay");
+  verb->footer(
+      "Examples:\n  tenon variant hand.usda\n"
+      "  tenon variant hand.usda Physics=mujoco --in-place\n"
+      "  tenon variant hand.usda Physics=physx -o hand_physx.usda");
+  choose(*verb, chosen, [&globals, options] { return run_variant(globals, *options); });
+}
+
+}  // namespace tenon::cli

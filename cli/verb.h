@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "tenon/base/result.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+
+/// Options that every verb understands.
+struct Globals {
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  std::string color = "auto";
+};
+
+/// The verb that the command line chose; run after parsing.
+struct Chosen {
+  std::function<int()> run;
+};
+
+/// The asset and how it is to be composed: shared by the verbs that open a stage.
+struct AssetArguments {
+  std::string asset;
+  std::string physics;                 ///< --physics V
+  std::vector<std::string> overrides;  ///< --set PATH.attr=value
+  std::vector<std::string> mask;
+  bool unloaded = false;
+
+  /// Adds the positional and the options to `verb`.
+  void add_to(CLI::App& verb);
+  OpenOptions open_options() const;
+};
+
+/// Lets `verb` run `run` when it is chosen.
+inline void choose(CLI::App& verb, Chosen& chosen, std::function<int()> run) {
+  verb.callback([&chosen, run = std::move(run)] { chosen.run = run; });
+}
+
+using AddVerb = void(CLI::App& app, const Globals& globals, Chosen& chosen);
+AddVerb add_bake;
+AddVerb add_cat;
+AddVerb add_doctor;
+AddVerb add_dump;
+AddVerb add_dump_index;
+AddVerb add_info;
+AddVerb add_physics;
+AddVerb add_sim;
+AddVerb add_tree;
+AddVerb add_variant;
+
+/// "NAME=VALUE" taken apart at the first '='.
+Result<std::pair<std::string, std::string>> split_assignment(const std::string& text);
+
+}  // namespace tenon::cli
