@@ -3,6 +3,8 @@
 #include "tenon/formats/save_layer.h"
 
 #include "tenon/bytes/atomic_write.h"
+#include "tenon/formats/crate/writer.h"
+#include "tenon/formats/package/writer.h"
 #include "tenon/formats/text/writer.h"
 
 namespace tenon::formats {
@@ -35,10 +37,11 @@ Result<std::string> encode_layer(const layer::Layer& layer, LayerFormat format) 
     case LayerFormat::Text:
       return write_text(layer);
     case LayerFormat::Crate:
+      return write_crate(layer);
     case LayerFormat::Package:
       break;
   }
-  return Error(ErrorCode::Unsupported, "binary layers cannot be written yet");
+  return write_package(layer, {});
 }
 
 Result<void> save_layer(const layer::Layer& layer, const std::string& path) {

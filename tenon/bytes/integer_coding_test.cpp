@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/bytes/integer_coding.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tenon/bytes/lz4_block.h"
+
+namespace tenon::bytes {
+namespace {
+
+std::span<const std::byte> bytes_of(const std::string& text) {
+  return std::as_bytes(std::span(text));
+}
+
+template <class T>
+void expect_round_trip(const std::vector<T>& integers) {
+  const std::string packed = encode_integers<T>(integers);
+  const auto back = decode_integers<T>(bytes_of(packed), integers.size());
+  ASSERT_TRUE(back) << back.error().to_string();
+  EXPECT_EQ(*back, integers);
+}
+
+TEST(IntegerCoding, GivesBackWhatWasPacked) {
+  expect_round_trip<std::int32_t>({});
+  expect_round_trip<std::int32_t>({5});
+  expect_round_trip<std::int32_t>({123, 124, 125, 100125, 100125, 100126, 100126});
+  expect_round_trip<std::int32_t>({std::numeric_limits<std::int32_t>::min(),
+                                   std::numeric_limits<std::int32_t>::max(), 0, -1, 1});
+  expect_round_trip<std::uint32_t>({0, 0xffffffffu, 1, 0x80000000u, 0x7fffffffu});
+  expect_round_trip<std::int64_t>({std::numeric_limits<std::int64_t>::min(),
+                                   std::numeric_limits<std::int64_t>::max(), 0, 70000, -70000});
+  expect_round_trip<std::uint64_t>({0, ~0ull, 1, 1ull << 63});
+  std::vector<std::int32_t> longer;
+  for (int i = 0; i < 1003; ++i) {
+    longer.push_back(i * i % 257 - 40 * (i % 3));
+  }
+  expect_round_trip(longer);
+}
+
+// The worked example of the format: commonest difference 1, codes 01 00 00 11 | 01 00 01, then
+// 123 in one byte, 100000 in four, 0 and 0 in one each.
+TEST(IntegerCoding, PacksAsTheFormatSays) {
+  const std::string packed = encode_integers<std::int32_t>(
+      std::vector<std::int32_t>{123, 124, 125, 100125, 100125, 100126, 100126});
+  const auto plain = lz4_decompress(bytes_of(packed), 100);
+  ASSERT_TRUE(plain);
+  const std::string expected("\x01\0\0\0\xC1\x11\x7B\xA0\x86\x01\0\0\0", 13);
+  EXPECT_EQ(*plain, expected);
+}
+
+TEST(IntegerCoding, RefusesMoreThanTheDataHold) {
+  const std::vector<std::int32_t> integers(100, 3);
+  const std::string packed = encode_integers<std::int32_t>(integers);
+  EXPECT_FALSE(decode_integers<std::int32_t>(bytes_of(packed), 105));
+  EXPECT_FALSE(decode_integers<std::int32_t>(bytes_of(packed), 1ull << 62));
+  EXPECT_FALSE(decode_integers<std::int32_t>({}, 1));
+  const std::string tail_missing = lz4_compress(bytes_of(std::string("\0\0\0\0\xFF", 5)));
+  EXPECT_FALSE(decode_integers<std::int32_t>(bytes_of(tail_missing), 4));
+}
+
+TEST(Lz4Block, RefusesDamagedData) {
+  const std::string packed = lz4_compress(bytes_of(std::string(1000, 'x')));
+  EXPECT_EQ(lz4_decompress(bytes_of(packed), 1000)->size(), 1000u);
+  EXPECT_FALSE(lz4_decompress(bytes_of(packed), 999));
+  EXPECT_FALSE(lz4_decompress(bytes_of(packed.substr(0, packed.size() - 1)), 1000));
+  EXPECT_FALSE(lz4_decompress({}, 1000));
+  EXPECT_FALSE(lz4_decompress(bytes_of(std::string("\x02\xFF\xFF\xFF\x7F", 5)), 1000));
+}
+
+TEST(Lz4Block, ReadsSeveralChunks) {
+  const std::string one = lz4_compress(bytes_of(std::string("first"))).substr(1);
+  std::string chunks("\x02", 1);
+  for (int i = 0; i < 2; ++i) {
+    chunks += static_cast<char>(one.size());
+    chunks += std::string(3, '\0') + one;
+  }
+  EXPECT_EQ(*lz4_decompress(bytes_of(chunks), 100), "firstfirst");
+}
+
+}  // namespace
+}  // namespace tenon::bytes

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/formats/crate/writer.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tenon/bytes/byte_reader.h"
+#include "tenon/formats/crate/layout.h"
+#include "tenon/formats/crate/reader.h"
+#include "tenon/formats/crate/sample_layer.h"
+#include "tenon/layer/fields.h"
+
+namespace tenon::formats {
+namespace {
+
+using layer::Layer;
+using layer::SpecKind;
+using layer::Value;
+
+Result<Layer> read_back(const std::string& bytes) {
+  Diagnostics diagnostics;
+  auto layer = read_crate(bytes::FileBytes::own(bytes), "back.usdc", diagnostics);
+  EXPECT_TRUE(diagnostics.empty());
+  return layer;
+}
+
+void expect_equal(const Layer& a, const Layer& b) {
+  EXPECT_EQ(a.spec_count(), b.spec_count());
+  for (const Layer::Entry& entry : a.entries()) {
+    const layer::Spec* other = b.find(entry.path);
+    ASSERT_NE(other, nullptr) << entry.path.str();
+    EXPECT_EQ(other->kind, entry.spec.kind) << entry.path.str();
+    EXPECT_EQ(other->fields().size(), entry.spec.fields().size()) << entry.path.str();
+    for (const layer::Field& field : entry.spec.fields()) {
+      const Value* value = other->find(field.name);
+      ASSERT_NE(value, nullptr) << entry.path.str() << " " << field.name.str();
+      EXPECT_TRUE(*value == field.value) << entry.path.str() << " " << field.name.str();
+    }
+  }
+}
+
+Layer layer_with(Value value) {
+  Layer layer("made");
+  layer.root().set("primChildren", std::vector<Token>{"A"});
+  layer.create(Path::from("/A"), SpecKind::Prim).set("field", std::move(value));
+  return layer;
+}
+
+TEST(CrateWriter, GivesBackEveryTypeOfValue) {
+  const Layer layer = crate::layer_of_all_types();
+  const auto bytes = write_crate(layer);
+  ASSERT_TRUE(bytes) << bytes.error().to_string();
+  const auto back = read_back(*bytes);
+  ASSERT_TRUE(back) << back.error().to_string();
+  expect_equal(layer, *back);
+  EXPECT_EQ(*write_crate(*back), *bytes);
+}
+
+TEST(CrateWriter, KeepsNegativeZeroInfinityAndNan) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double number : {-0.0, kInfinity, -kInfinity, 1e300, 1e-300, 0.1}) {
+    const auto back = read_back(*write_crate(layer_with(number)));
+    const auto* value = back->find(Path::from("/A"))->get<double>("field");
+    EXPECT_EQ(*value, number);
+    EXPECT_EQ(std::signbit(*value), std::signbit(number));
+  }
+  std::vector<double> zeros(20, 0.0);
+  zeros[3] = -0.0;
+  const auto back = read_back(*write_crate(layer_with(zeros)));
+  EXPECT_TRUE(std::signbit((*back->find(Path::from("/A"))->get<std::vector<double>>("field"))[3]));
+  const auto nan = read_back(*write_crate(layer_with(std::nan(""))));
+  EXPECT_TRUE(std::isnan(*nan->find(Path::from("/A"))->get<double>("field")));
+}
+
+TEST(CrateWriter, WritesTheLowestVersionThatHoldsTheLayer) {
+  layer::Spline spline;
+  spline.knots.push_back({});
+  layer::Spline eased = spline;
+  eased.knots[0].post_tangent.algorithm = layer::TangentAlgorithm::AutoEase;
+  layer::Spline bounded = spline;
+  bounded.pre.mode = layer::SplineExtrapolation::LoopRepeat;
+  bounded.pre.boundary = 2.5;
+  const std::pair<Value, int> cases[] = {
+      {Value(1.5), 8},
+      {Value(layer::ListOp<layer::Payload>::make_prepended({{}})), 8},
+      {Value(layer::TimeCode{1}), 9},
+      {Value(std::vector<layer::TimeCode>{{1}}), 9},
+      {Value(layer::PathExpression{"//"}), 10},
+      {Value(layer::Relocates{{{Path::from("/A"), Path::from("/B")}}}), 11},
+      {Value(spline), 12},
+      {Value(eased), 13},
+      {Value(bounded), 15},
+  };
+  for (const auto& [value, minor] : cases) {
+    const Layer layer = layer_with(value);
+    const std::string bytes = *write_crate(layer);
+    EXPECT_EQ(bytes[9], minor);
+    expect_equal(layer, *read_back(bytes));
+  }
+}
+
+TEST(CrateWriter, WritesEqualValuesOnce) {
+  Layer layer("made");
+  std::vector<double> values;
+  for (int i = 0; i < 1000; ++i) {
+    values.push_back(i * 0.1);
+  }
+  const std::size_t empty = write_crate(layer)->size();
+  for (const char* name : {"a", "b", "c"}) {
+    layer.root().set(name, values);
+  }
+  EXPECT_LT(write_crate(layer)->size(), empty + 8 * 1000 + 300);
+}
+
+TEST(CrateWriter, StoresVariantsTargetsAndRelationalAttributes) {
+  Layer layer("made");
+  for (const char* path : {"/A", "/A/B"}) {
+    layer.create(Path::from(path), SpecKind::Prim);
+  }
+  layer.create(Path::from("/A{set=}"), SpecKind::VariantSet);
+  layer.create(Path::from("/A{set=one}"), SpecKind::Variant);
+  layer.create(Path::from("/A{set=one}C"), SpecKind::Prim);
+  layer.create(Path::from("/A{set=one}.x"), SpecKind::Attribute);
+  layer.create(Path::from("/A.ns:rel"), SpecKind::Relationship)
+      .set(layer::fields::targetPaths,
+           layer::ListOp<Path>::make_explicit({Path::from("/A/B.x"), Path::from("/A.r[/B].y")}));
+  layer.create(Path::from("/A.ns:rel[/A/B].attr"), SpecKind::Attribute);
+  const auto back = read_back(*write_crate(layer));
+  ASSERT_TRUE(back) << back.error().to_string();
+  expect_equal(layer, *back);
+}
+
+TEST(CrateWriter, RefusesRelativePaths) {
+  const auto bytes = write_crate(
+      layer_with(layer::ListOp<Path>::make_explicit({Path::from("B"), Path::from("../C")})));
+  ASSERT_FALSE(bytes);
+  EXPECT_EQ(bytes.error().code(), ErrorCode::Invalid);
+}
+
+TEST(CrateReader, ReadsNamesOfTypesOfLongAgo) {
+  Layer layer("made");
+  layer.create(Path::from("/A"), SpecKind::Prim).set(layer::fields::typeName, Token("Vector"));
+  layer.create(Path::from("/A.x"), SpecKind::Attribute)
+      .set(layer::fields::typeName, Token("Vector"));
+  const auto back = read_back(*write_crate(layer));
+  EXPECT_EQ(back->find(Path::from("/A"))->get_or(layer::fields::typeName, Token()), "Vector");
+  EXPECT_EQ(back->find(Path::from("/A.x"))->get_or(layer::fields::typeName, Token()), "vector3d");
+}
+
+TEST(CrateReader, ReadsOnePayloadAsAList) {
+  Layer layer("made");
+  layer.create(Path::from("/A"), SpecKind::Prim)
+      .set(layer::fields::payload, layer::Payload{"./p.usda", Path::from("/P"), {1, 2}});
+  const auto back = read_back(*write_crate(layer));
+  const auto* payloads =
+      back->find(Path::from("/A"))->get<layer::ListOp<layer::Payload>>(layer::fields::payload);
+  ASSERT_NE(payloads, nullptr);
+  EXPECT_TRUE(payloads->is_explicit);
+  EXPECT_EQ(payloads->explicit_items[0].asset_path, "./p.usda");
+}
+
+TEST(CrateReader, RefusesOtherVersionsByName) {
+  const std::string bytes = *write_crate(Layer("made"));
+  for (const auto& [major, minor] : {std::pair(0, 3), std::pair(0, 17), std::pair(1, 0)}) {
+    std::string other = bytes;
+    other[8] = static_cast<char>(major);
+    other[9] = static_cast<char>(minor);
+    Diagnostics diagnostics;
+    const auto layer = read_crate(bytes::FileBytes::own(other), "x.usdc", diagnostics);
+    ASSERT_FALSE(layer);
+    EXPECT_EQ(layer.error().code(), ErrorCode::Unsupported);
+    const std::string version = std::to_string(major) + "." + std::to_string(minor) + ".0";
+    EXPECT_NE(layer.error().message().find(version), std::string::npos);
+    EXPECT_EQ(layer.error().diagnostic().file, "x.usdc");
+  }
+}
+
+TEST(CrateReader, LeavesLongArraysInTheFile) {
+  const Layer layer = layer_with(crate::sample_array<float>(1000, false));
+  const auto back = read_back(*write_crate(layer));
+  const Value* value = back->find(Path::from("/A"))->find("field");
+  EXPECT_TRUE(value->is_deferred());
+  EXPECT_EQ(value->size(), 1000u);
+  expect_equal(layer, *back);
+}
+
+}  // namespace
+}  // namespace tenon::formats
