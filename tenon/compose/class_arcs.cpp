@@ -16,16 +16,30 @@ Path containing_variant(Path path) {
   return path;
 }
 
-/// The class that something at `path` uses under `map`: variant selections are taken off before and
-/// put back after, as maps know nothing of them. Empty: there is none from here.
-Path class_path(Path path, const MapFunction& map) {
-  if (!path.has_variants()) {
-    return map.map_target_to_source(path);
+/// The path that `path` of a node stands for in the map of a class arc: below a relocate that map
+/// speaks of the prim at its target.
+Path class_of(const Node& parent, ArcKind parent_arc, Path path, const MapFunction& map) {
+  if (parent_arc == ArcKind::Relocate) {
+    const Path target =
+        relocates_map(*parent.layer_stack, Path::absolute_root()).map_source_to_target(path);
+    const Path found = target.empty() ? target : map.map_target_to_source(target);
+    if (!found.empty() && found != target) {
+      return found;
+    }
   }
-  const Path variant = containing_variant(path);
-  const Path mapped = map.map_target_to_source(path.strip_variants());
-  return mapped.empty() ? mapped
-                        : mapped.replace_prefix(variant.strip_variants(), variant, false);
+  return map.map_target_to_source(path);
+}
+
+/// The class that a node uses under `map`; empty: there is none from here. Maps know nothing of
+/// variants. What is authored in a variant uses the class as a whole, and its variants with it; an
+/// arc implied into a variant stays within.
+Path class_path(const Node& parent, ArcKind parent_arc, const ClassArcRequest& request) {
+  const Path path = class_of(parent, parent_arc, parent.path.strip_variants(), request.map);
+  if (path.empty() || !request.implied || !parent.path.has_variants()) {
+    return path;
+  }
+  const Path variant = containing_variant(parent.path);
+  return path.replace_prefix(variant.strip_variants(), variant, false);
 }
 
 Arc arc_of(Indexer& indexer, const ClassArcRequest& request) {
@@ -79,11 +93,12 @@ NodeId find_matching_child(const Indexer& indexer, NodeId parent, ArcKind parent
 NodeId add_class_arc(Indexer& indexer, const ClassArcRequest& request) {
   const NodeGraph& graph = indexer.graph;
   const Path parent_path = graph[request.parent].path;
-  const Site site{graph[request.parent].layer_stack, class_path(parent_path, request.map)};
-  if (site.path.empty()) {
-    return kNoNode;  // not reachable from here, as from a variant to a class outside of it
-  }
   const ArcKind parent_arc = FrameCursor{&graph, request.parent, indexer.frame}.arc();
+  const Site site{graph[request.parent].layer_stack,
+                  class_path(graph[request.parent], parent_arc, request)};
+  if (site.path.empty()) {
+    return kNoNode;
+  }
   const NodeId known =
       find_matching_child(indexer, request.parent, parent_arc, site, request.kind, request.map,
                           graph.depth_below_introduction(request.origin));

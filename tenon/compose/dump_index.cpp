@@ -254,7 +254,7 @@ std::string dump_nodes(const PrimIndex& index, const LayerLabel& label) {
     depths[id] = node.parent == kNoNode ? 0 : depths[node.parent] + 1;
     text += std::string(2 * depths[id], ' ') + arc_name(node.arc) + " " +
             label(*node.layer_stack->root) + " " + node.path.str();
-    text += node.inert ? " inert" : "";
+    text += node.can_contribute() ? "" : " inert";
     text += node.culled ? " culled" : "";
     text += node.has_specs ? "" : " no-specs";
     text += node.due_to_ancestor ? " ancestral" : "";

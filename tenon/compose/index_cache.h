@@ -17,8 +17,8 @@ namespace tenon::compose {
 /// Which payloads are included and which variants are taken when none is selected.
 struct ComposeOptions {
   bool load_payloads = true;
-  std::set<Path> loaded;      ///< payloads of these prims and below, whatever load_payloads says
-  std::set<Path> unloaded;    ///< not these and below; the nearer of the two sets wins
+  std::set<Path> loaded;    ///< payloads of these prims and below, whatever load_payloads says
+  std::set<Path> unloaded;  ///< not these and below; the nearer of the two sets wins
   /// Variant set -> variants to fall back to, best first.
   std::map<std::string, std::vector<std::string>> variant_fallbacks;
   std::set<std::string> muted;  ///< identifiers of layers that count as absent

@@ -44,15 +44,18 @@ struct Frame {
 struct Indexer {
   Indexer(const IndexServices& its_services, const Frame* outer, NodeGraph& its_graph,
           Diagnostics& its_errors)
-      : services(its_services), frame(outer), graph(its_graph), errors(its_errors),
+      : services(its_services),
+        frame(outer),
+        graph(its_graph),
+        errors(its_errors),
         tasks(its_graph) {}
 
   const IndexServices& services;
-  const Frame* frame;           ///< nullptr for the index of a stage prim
+  const Frame* frame;  ///< nullptr for the index of a stage prim
   NodeGraph& graph;
   Diagnostics& errors;
   TaskQueue tasks;
-  Path root_prim;               ///< the stage prim that all this is for
+  Path root_prim;  ///< the stage prim that all this is for
   bool has_payloads = false;
   bool payload_loaded = false;
 
@@ -77,9 +80,9 @@ struct FrameCursor {
 };
 
 struct ArcOptions {
-  bool contributes = true;               ///< the new node itself may have opinions
-  bool include_ancestral = false;        ///< also what applies to the site because of its ancestors
-  bool skip_duplicates = false;          ///< no second node for a site
+  bool contributes = true;         ///< the new node itself may have opinions
+  bool include_ancestral = false;  ///< also what applies to the site because of its ancestors
+  bool skip_duplicates = false;    ///< no second node for a site
 };
 
 /// Builds the graph of `site`: everything but culling. Tasks run level by level from the top of the
@@ -121,7 +124,7 @@ struct ClassArcRequest {
   NodeId origin = kNoNode;
   MapFunction map;
   std::uint16_t number = 0;
-  Site ignored;        ///< a node at this site is added without opinions
+  Site ignored;  ///< a node at this site is added without opinions
   bool implied = false;
 };
 void add_class_arcs(Indexer& indexer, NodeId node, ArcKind kind, Token field);

@@ -13,7 +13,7 @@ namespace tenon::compose {
 /// How composition gets at other layers: opens the layer that `asset_path`, authored in `anchor`,
 /// means. Must return the same pointer for the same identifier. Knows files so that compose does
 /// not have to.
-using LayerOpener =
-    std::function<Result<layer::LayerPtr>(const std::string& asset_path, const layer::Layer& anchor)>;
+using LayerOpener = std::function<Result<layer::LayerPtr>(const std::string& asset_path,
+                                                          const layer::Layer& anchor)>;
 
 }  // namespace tenon::compose

@@ -67,8 +67,8 @@ struct LayerStackInputs {
   layer::LayerPtr root;
   layer::LayerPtr session;  ///< may be null
   const LayerOpener* opener = nullptr;
-  const std::set<std::string>* muted = nullptr;   ///< identifiers of layers to leave out
-  const LayerStack* override_source = nullptr;    ///< whose expression variables win; may be null
+  const std::set<std::string>* muted = nullptr;  ///< identifiers of layers to leave out
+  const LayerStack* override_source = nullptr;   ///< whose expression variables win; may be null
 };
 
 /// Opens all sublayers and composes offsets, expression variables and relocates. Never fails: what

@@ -10,8 +10,8 @@
 #include "tenon/compose/prim_index.h"
 #include "tenon/compose/site.h"
 
-/// The graph of sites that a prim index grows in: a tree of arcs whose siblings are kept in order of
-/// strength, with an `origin` link from implied arcs to the arcs that imply them.
+/// The graph of sites that a prim index grows in: a tree of arcs whose siblings are kept in order
+/// of strength, with an `origin` link from implied arcs to the arcs that imply them.
 namespace tenon::compose {
 
 using NodeId = std::uint32_t;

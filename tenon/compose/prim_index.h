@@ -21,23 +21,25 @@ inline constexpr std::uint32_t kNoNode = 0xFFFFFFFFu;
 /// Stacks and maps belong to the cache and live as long as it.
 struct Node {
   const LayerStack* layer_stack = nullptr;
-  Path path;                         ///< in the namespace of layer_stack, variant selections included
+  Path path;  ///< in the namespace of layer_stack, variant selections included
   const MapFunction* map_to_parent = nullptr;
   const MapFunction* map_to_root = nullptr;  ///< from this node's namespace and time to the stage's
   std::uint32_t parent = kNoNode;
-  std::uint32_t origin = kNoNode;    ///< the node that caused this one; not the parent for implied arcs
-  std::uint32_t first_child = kNoNode;   ///< the strongest; follow next_sibling
+  std::uint32_t origin =
+      kNoNode;  ///< the node that caused this one; not the parent for implied arcs
+  std::uint32_t first_child = kNoNode;  ///< the strongest; follow next_sibling
   std::uint32_t last_child = kNoNode;
   std::uint32_t next_sibling = kNoNode;
   std::uint32_t previous_sibling = kNoNode;
-  std::uint16_t namespace_depth = 0;   ///< depth of the parent node's path when the arc was added
-  std::uint16_t sibling_number = 0;    ///< order among arcs of one kind at one site
-  std::uint16_t restriction_depth = 0; ///< contributes only above this depth of its path; 0: everywhere
+  std::uint16_t namespace_depth = 0;  ///< depth of the parent node's path when the arc was added
+  std::uint16_t sibling_number = 0;   ///< order among arcs of one kind at one site
+  std::uint16_t restriction_depth =
+      0;  ///< contributes only above this depth of its path; 0: everywhere
   ArcKind arc = ArcKind::Root;
-  bool inert = false;                ///< kept for structure, contributes no opinions
-  bool culled = false;               ///< neither it nor anything below it contributes opinions
-  bool has_specs = false;            ///< some layer of the stack has a prim spec at `path`
-  bool due_to_ancestor = false;      ///< the arc was introduced by a namespace ancestor
+  bool inert = false;            ///< kept for structure, contributes no opinions
+  bool culled = false;           ///< neither it nor anything below it contributes opinions
+  bool has_specs = false;        ///< some layer of the stack has a prim spec at `path`
+  bool due_to_ancestor = false;  ///< the arc was introduced by a namespace ancestor
 
   bool can_contribute() const { return !inert && !culled; }
   bool same_site(const Node& other) const {
@@ -57,19 +59,20 @@ struct Opinion {
 /// Everything that composition found out about one prim.
 struct PrimIndex {
   Path path;
-  std::vector<Node> nodes;               ///< strongest first; node 0 is the root
-  std::vector<Opinion> opinions;         ///< prim specs, strongest first
-  std::vector<Token> child_names;        ///< composed, ordered, prohibited names removed
+  std::vector<Node> nodes;                    ///< strongest first; node 0 is the root
+  std::vector<Opinion> opinions;              ///< prim specs, strongest first
+  std::vector<Token> child_names;             ///< composed, ordered, prohibited names removed
   std::vector<Token> prohibited_child_names;  ///< relocated away; sorted
-  std::vector<Token> property_names;     ///< authored ones; weakest specs first, propertyOrder not applied
+  std::vector<Token>
+      property_names;  ///< authored ones; weakest specs first, propertyOrder not applied
   /// Selections in force: the variant whose opinions contribute.
   std::map<std::string, std::string> variant_selections;
-  bool has_payloads = false;             ///< some payload arc is authored
-  bool payload_loaded = false;           ///< and included under the load rules
-  bool instanceable = false;             ///< an instance: some arc, and instanceable = true
+  bool has_payloads = false;    ///< some payload arc is authored
+  bool payload_loaded = false;  ///< and included under the load rules
+  bool instanceable = false;    ///< an instance: some arc, and instanceable = true
   /// Equal for prims that share a prototype; empty when not instanceable.
   std::string instance_key;
-  Diagnostics errors;                    ///< rule = "compose.<class>", see composition_error.h
+  Diagnostics errors;  ///< rule = "compose.<class>", see composition_error.h
 
   /// `path` of node's namespace in the stage's; empty when it has no image.
   Path map_to_root(std::uint32_t node, Path path_in_node) const {

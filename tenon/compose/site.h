@@ -36,10 +36,10 @@ AuthoredArcs authored_arcs(const LayerStack& stack, Path path);
 
 /// A reference or payload that survived list editing.
 struct AssetArc {
-  std::string asset_path;       ///< expressions evaluated; empty: the same layer stack
-  Path prim_path;               ///< empty: the default prim
-  layer::LayerOffset offset;    ///< as authored
-  layer::LayerPtr layer;        ///< where it is authored
+  std::string asset_path;           ///< expressions evaluated; empty: the same layer stack
+  Path prim_path;                   ///< empty: the default prim
+  layer::LayerOffset offset;        ///< as authored
+  layer::LayerPtr layer;            ///< where it is authored
   layer::LayerOffset layer_offset;  ///< of that layer in its stack
 };
 

@@ -38,7 +38,11 @@ NodeId propagate_to_root(Indexer& indexer, NodeId node) {
   ArcOptions options;
   options.skip_duplicates = true;
   options.include_ancestral = site.path.depth() != 1;
-  return add_arc(indexer, arc, site, options);
+  const NodeId copy = add_arc(indexer, arc, site, options);
+  if (copy != kNoNode) {
+    indexer.graph[copy].due_to_ancestor = graph[node].due_to_ancestor;
+  }
+  return copy;
 }
 
 void eval_implied_specializes(Indexer& indexer, NodeId node) {

@@ -16,8 +16,8 @@ class IndexCache;
 struct PropertyOpinion {
   const layer::Layer* layer = nullptr;
   const layer::Spec* spec = nullptr;
-  Path path;                ///< of the spec in that layer
-  std::uint32_t node = 0;   ///< into PrimIndex::nodes
+  Path path;               ///< of the spec in that layer
+  std::uint32_t node = 0;  ///< into PrimIndex::nodes
 };
 
 /// Specs of property `name`, strongest first. Those of another kind (attribute, relationship) than
@@ -30,7 +30,7 @@ struct TargetList {
   std::vector<Path> paths;
   std::vector<Path> deleted;  ///< removed by list edits
   bool has_opinions = false;
-  Diagnostics errors;         ///< invalid-external-target-path and the like
+  Diagnostics errors;  ///< invalid-external-target-path and the like
 };
 
 /// Combines the list edits of all opinions, each mapped through its node.

@@ -36,7 +36,7 @@ enum class TaskKind : std::uint8_t {
 struct Task {
   TaskKind kind = TaskKind::References;
   NodeId node = kNoNode;
-  Path set_path = {};          ///< of variant tasks: the prim or variant that has the set
+  Path set_path = {};  ///< of variant tasks: the prim or variant that has the set
   std::string set_name = {};
   std::uint16_t set_number = 0;
 };

@@ -1,0 +1,239 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Compares composition with the published composition suites, case by case.
+
+usage: run_composition.py DUMP [CASE...] [-v]
+
+DUMP is the program tests/tools/composition_dump.cpp. Cases are those that conformance/cases.txt of
+the folder named by TENON_SHARED_DIR (default: ../shared) lists for the suites aousd_composition
+(each through text and binary layers) and openusd_museum. Everything but findings must be equal to
+the byte; findings are compared per prim by class. A case whose record is only a parse error of its
+root layer passes when the layer is rejected.
+Known misses are named in composition_misses.txt beside this folder: one more or one less makes
+this fail. Exit 77: the material is absent.
+"""
+
+import collections
+import glob
+import os
+import re
+import subprocess
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+REPO = os.path.dirname(os.path.dirname(os.path.dirname(HERE)))
+SHARED = os.environ.get("TENON_SHARED_DIR", os.path.join(os.path.dirname(REPO), "shared"))
+CONFORMANCE = os.path.join(SHARED, "conformance")
+MISSES = os.path.join(os.path.dirname(HERE), "composition_misses.txt")
+RULE = "-" * 72 + "\n"
+SKIPPED = 77
+
+# How the records word a finding -> its class.
+CLASSES = (
+    (r"Cycle detected:", "arc-cycle"),
+    (r"which is a prohibited child", "arc-to-prohibited-child"),
+    (r"^Unresolved \w+ prim path", "unresolved-prim-path"),
+    (r"^Could not open asset", "invalid-asset-path"),
+    (r"^Could not load sublayer", "invalid-sublayer-path"),
+    (r"has inconsistent spec types", "inconsistent-property-type"),
+    (r"refers to an instance of that class", "invalid-instance-target-path"),
+    (r"outside the scope of the", "invalid-external-target-path"),
+    (r"is the target of multiple relocations", "invalid-same-target-relocations"),
+    (r"conflicts with another relocation", "invalid-conflicting-relocation"),
+    (r"is invalid and will be ignored", "invalid-authored-relocation"),
+    (r"has an invalid opinion at the relocation source", "opinion-at-relocation-source"),
+    (r"^Sublayer hierarchy with root layer", "sublayer-cycle"),
+    (r"have the same owner", "invalid-sublayer-ownership"),
+    (r"^Error evaluating expression", "variable-expression-error"),
+    (r"must be an absolute prim path", "invalid-prim-path"),
+    (r"^Invalid sublayer offset", "invalid-sublayer-offset"),
+    (r"^Invalid \w+ offset", "invalid-reference-offset"),
+)
+
+# Cases of the museum that are recorded with other settings than all payloads and no session layer.
+OPTIONS = {
+    "testPcpMuseum_BasicOwner_session": ["--session", "session.usda"],
+    "testPcpMuseum_BasicPayload_session": ["--session", "session.usda"],
+    "testPcpMuseum_BasicPayloadDiamond": ["--unloaded", "/RootUnloaded"],
+    "testPcpMuseum_BasicReference_session": ["--session", "session.usda"],
+    "testPcpMuseum_BasicOwner": ["--session", "session.usda"],
+    "testPcpMuseum_BasicPayload": ["--session", "session.usda"],
+    "testPcpMuseum_BasicReference": ["--session", "session.usda"],
+    "testPcpMuseum_ErrorOwner": ["--session", "session.usda"],
+    "testPcpMuseum_ExpressionsInSublayers": ["--session", "session.usda"],
+    "testPcpMuseum_PayloadsAndAncestralArcs": ["--unloaded", "/Root/UnloadedInheritedPayload"],
+    "testPcpMuseum_PayloadsAndAncestralArcs3_refpayloadsonly": [
+        "--no-payloads", "--loaded", "/ReferencePayloadedModel",
+        "--loaded", "/InternalReferencePayloadedModel"],
+    "testPcpMuseum_TimeCodesPerSecond_root_24tcps_12fps_session_48tcps": [
+        "--session", "session_48tcps.usda"],
+    "testPcpMuseum_TimeCodesPerSecond_root_48tcps_session_24fps": ["--session", "session_24fps.usda"],
+    "testPcpMuseum_TimeCodesPerSecond_root_12fps_session_24fps": ["--session", "session_24fps.usda"],
+    "testPcpMuseum_TimeCodesPerSecond_root_12fps_session": ["--session", "session.usda"],
+}
+
+
+class Case:
+    """One comparison: a root layer and what is recorded of it."""
+
+    def __init__(self, name, root, record, options=(), renamed=False):
+        self.name = name
+        self.root = root
+        self.record = record
+        self.options = list(options)
+        self.renamed = renamed  # layers got longer names after the record was made
+
+
+def read(path):
+    with open(path, encoding="utf-8", errors="replace", newline="") as file:
+        return file.read().replace("\r\n", "\n")
+
+
+def aousd_case(name, folder, binary):
+    layer = "session.usd" if name.endswith("_session") else "root.usd"
+    root = os.path.join(folder, layer) if binary else os.path.join(folder, "usda", layer)
+    record = os.path.join(folder, "pcp.txt")
+    if not os.path.exists(record):
+        return None
+    text = read(record)
+    if binary and not os.path.exists(root):
+        return None  # its text cannot be parsed, so there is no binary form
+    return Case(f"{name} {'binary' if binary else 'text'}", root, text)
+
+
+def baseline(name, folder, kind):
+    """The record for caches in USD mode: of several that of the case, not a legacy one."""
+    found = glob.glob(os.path.join(folder, "baseline", f"composition{kind}_*.txt"))
+    found = [path for path in sorted(found) if "_Legacy" not in path]
+    exact = [path for path in found if name.endswith(path.rsplit("composition" + kind, 1)[1][:-4])]
+    for_usd = [path for path in found if path.endswith("_usd.txt")]
+    best = for_usd or exact or found
+    return best[0] if best else None
+
+
+def museum_case(name, folder):
+    result = baseline(name, folder, "Results")
+    if result is None:
+        return None
+    text = read(result)
+    loading = re.search(r"Loading @(.*?)@\n\n-", text)
+    if loading is None:
+        return None
+    root = os.path.join(folder, loading.group(1))
+    errors = baseline(name, folder, "Errors")
+    text += "" if errors is None else "\n" + read(errors)
+    options = OPTIONS.get(name, [])
+    if "--session" in options:
+        options = ["--session", os.path.join(os.path.dirname(root), options[1])]
+    return Case(name, root, text, options, renamed=True)
+
+
+def find_cases(wanted):
+    cases = []
+    with open(os.path.join(CONFORMANCE, "cases.txt"), encoding="utf-8") as file:
+        for line in file:
+            fields = line.rstrip("\n").split("\t")
+            if line.startswith("#") or len(fields) < 3:
+                continue
+            suite, name, folder = fields[0], fields[1], os.path.join(CONFORMANCE, fields[2])
+            if suite == "aousd_composition":
+                cases += [aousd_case(name, folder, False), aousd_case(name, folder, True)]
+            elif suite == "openusd_museum":
+                cases.append(museum_case(name, folder))
+    cases = [case for case in cases if case is not None]
+    return [case for case in cases if not wanted or any(w in case.name for w in wanted)]
+
+
+def class_of(line):
+    for pattern, name in CLASSES:
+        if re.search(pattern, line):
+            return name
+    return None
+
+
+def split(text):
+    """-> (blocks of the dump, {heading of findings: counted classes})."""
+    text = re.sub(r"^Loading .*?\n\n(?=-)", "", text, flags=re.S | re.M)
+    text = re.sub(r"\n-{80}\nWarning: .*?(?=\n-{72}\n|\nERROR|\Z)", "", text, flags=re.S)
+    text = re.sub(r"^ERROR: Unexpected.*", "", text, flags=re.S | re.M)
+    blocks, findings = [], {}
+    for block in text.split(RULE):
+        if not block.strip():
+            continue
+        heading, _, rest = block.partition("\n")
+        if not heading.startswith("Errors while"):
+            blocks.append(block.rstrip("\n"))
+            continue
+        found = collections.Counter()
+        for line in rest.split("\n"):
+            name = line[8:].split(" ")[0] if line.startswith("compose.") else class_of(line)
+            if name:
+                found[name] += 1
+        findings[heading] = findings.get(heading, collections.Counter()) + found
+    return blocks, findings
+
+
+def unpadded(text):
+    """Columns one blank apart: their width depends on the names of layers."""
+    return re.sub(r"(?<=\S) {2,}", " ", text)
+
+
+def compare(dump, case):
+    """What differs, an empty string when nothing does."""
+    process = subprocess.run([dump, case.root, *case.options], capture_output=True, timeout=120,
+                             check=False)
+    is_rejected = "Traceback" in case.record or "Results for composing" not in case.record
+    if process.returncode != 0:
+        message = process.stderr.decode("utf-8", "replace").strip().split("\n")[-1]
+        return "" if is_rejected and process.returncode == 3 else f"not dumped: {message}"
+    if is_rejected:
+        return "accepted, though it must be rejected"
+    record, own = case.record, process.stdout.decode("utf-8", "replace")
+    if case.renamed:
+        record, own = unpadded(record), unpadded(own)
+    blocks, findings = split(record)
+    own_blocks, own_findings = split(own)
+    for counts in findings.values():  # the record asks twice for each property and notes both
+        counts["inconsistent-property-type"] //= 2
+    for block, own_block in zip(blocks, own_blocks):
+        if block != own_block:
+            return f"--- recorded\n{block}\n--- composed\n{own_block}"
+    if len(blocks) != len(own_blocks):
+        return f"{len(blocks)} prims are recorded, {len(own_blocks)} were composed"
+    for heading in sorted(set(findings) | set(own_findings)):
+        recorded = +findings.get(heading, collections.Counter())
+        composed = own_findings.get(heading, collections.Counter())
+        if recorded != composed:
+            return f"{heading}: recorded {dict(recorded)}, composed {dict(composed)}"
+    return ""
+
+
+def read_misses():
+    with open(MISSES, encoding="utf-8") as file:
+        return {line.split("#")[0].strip() for line in file} - {""}
+
+
+def main():
+    arguments = [argument for argument in sys.argv[1:] if argument != "-v"]
+    if not os.path.exists(os.path.join(CONFORMANCE, "cases.txt")):
+        print(f"skipped: no {CONFORMANCE}")
+        return SKIPPED
+    cases = find_cases(arguments[1:])
+    failed = {}
+    for case in cases:
+        difference = compare(arguments[0], case)
+        if difference:
+            failed[case.name] = difference
+    misses = read_misses() & {case.name for case in cases}
+    for name, difference in failed.items():
+        if name not in misses or "-v" in sys.argv:
+            print(f"FAILED {name}: {difference}")
+    for name in sorted(misses - set(failed)):
+        print(f"{name} passes now: remove it from {os.path.basename(MISSES)}")
+    print(f"{len(cases) - len(failed)} of {len(cases)} cases pass, {len(misses)} misses are known")
+    return 1 if set(failed) ^ misses else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
