@@ -122,13 +122,15 @@ def write_as(version, files, folder):
     """Files written as `version` or, where they need it, a later one; by another process, because
     OpenUSD reads the setting once."""
     script = (
-        "import sys\nfrom pxr import Sdf\n"
+        "import os\nimport sys\nfrom pxr import Sdf\n"
         "for i, path in enumerate(sys.argv[2:]):\n"
+        "    out = f'{sys.argv[1]}/{i}.usdc'\n"
         "    try:\n"
         "        layer = Sdf.Layer.OpenAsAnonymous(path)\n"
-        "        layer and layer.Export(f'{sys.argv[1]}/{i}.usdc')\n"
+        "        layer and layer.Export(out)\n"
         "    except Exception:\n"
-        "        pass\n"
+        "        if os.path.exists(out):\n"
+        "            os.remove(out)  # what it could not write it leaves broken\n"
     )
     environment = dict(
         os.environ,

@@ -3,6 +3,7 @@
 #include "tenon/formats/crate/reader.h"
 
 #include <map>
+#include <string_view>
 #include <vector>
 
 #include "tenon/formats/crate/tables.h"
@@ -52,6 +53,15 @@ layer::Value as_payload_list(layer::Value value) {
       none ? std::vector<layer::Payload>() : std::vector<layer::Payload>{*payload}));
 }
 
+/// Old names of types that OpenUSD does not replace by the new ones.
+bool keeps_old_name(std::string_view name) {
+  if (name.ends_with("[]")) {
+    name.remove_suffix(2);
+  }
+  return name == "Transform" || name == "PointIndex" || name == "EdgeIndex" ||
+         name == "FaceIndex" || name == "Schema";
+}
+
 class LayerBuilder {
  public:
   LayerBuilder(crate::Tables tables, std::string identifier, Diagnostics& diagnostics)
@@ -98,7 +108,7 @@ class LayerBuilder {
   void note_old_type_name(Token name, const layer::Value& value) {
     const auto* text = name == layer::fields::typeName ? value.get<Token>() : nullptr;
     const layer::TypeName* type = text == nullptr ? nullptr : layer::find_type_name(*text);
-    if (type != nullptr && type->name != *text) {
+    if (type != nullptr && type->name != *text && !keeps_old_name(text->view())) {
       type_names_.emplace(values_.size(), type->name);
     }
   }
