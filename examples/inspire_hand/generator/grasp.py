@@ -10,6 +10,7 @@ say world."""
 import math
 
 from . import hand
+from . import layers
 from . import usda
 
 FRAMES_PER_SECOND = 60
@@ -48,11 +49,7 @@ def _samples(layer, declaration, keys, text):
 
 def _hand(layer):
     root = math.sqrt(0.5)
-    with layer.prim(
-        'def Xform "inspire_hand"',
-        "prepend references = @./inspire_hand.usda@",
-        'variants = {\n            string Physics = "physics"\n        }',
-    ):
+    with layer.prim('def Xform "inspire_hand"', "prepend references = @./inspire_hand.usda@"):
         layer.attribute("quatf xformOp:orient", usda.group((root, root, 0, 0)))
         layer.attribute("double3 xformOp:translate", usda.group(MOUNT))
         layer.attribute(
@@ -62,6 +59,16 @@ def _hand(layer):
             for link, keys in TARGETS:
                 with layer.prim(f'over "{link}_joint"'):
                     _samples(layer, "float drive:angular:physics:targetPosition", keys, usda.number)
+
+
+def _physics_of_the_scene(layer):
+    layer.line()
+    layer.comment("The scene's choice of physics is the hand's.")
+    with layer.block('variantSet "Physics" ='):
+        for variant in layers.VARIANTS:
+            with layer.block(f'"{variant}"'):
+                with layer.prim('over "inspire_hand"', layers.selection(variant)):
+                    pass
 
 
 def _can(layer):
@@ -117,7 +124,12 @@ def grasp():
             f"framesPerSecond = {FRAMES_PER_SECOND}",
         ],
     )
-    with layer.prim('def Xform "World"', 'kind = "assembly"'):
+    with layer.prim(
+        'def Xform "World"',
+        'kind = "assembly"',
+        layers.selection("physics"),
+        'append variantSets = "Physics"',
+    ):
         with layer.prim('def PhysicsScene "PhysicsScene"', apis=("NewtonSceneAPI",)):
             layer.attribute("uniform int newton:timeStepsPerSecond", "500")
             layer.attribute("vector3f physics:gravityDirection", "(0, 0, -1)")
@@ -134,9 +146,10 @@ def grasp():
         with layer.prim('def Material "Tin"', apis=("PhysicsMaterialAPI",)):
             layer.attribute("float physics:dynamicFriction", "0.7")
             layer.attribute("float physics:restitution", "0")
-            layer.attribute("float physics:staticFriction", "0.8")
+            layer.attribute("float physics:staticFriction", "0.7")
         with layer.prim('def DistantLight "sun"'):
             layer.attribute("float inputs:intensity", "3000")
             layer.attribute("quatf xformOp:orient", "(0.9238795, 0.3826834, 0, 0)")
             layer.attribute("uniform token[] xformOpOrder", '["xformOp:orient"]')
+        _physics_of_the_scene(layer)
     return layer.text()

@@ -9,11 +9,17 @@ from . import hand
 from . import usda
 
 ROBOT = "inspire_hand"
+VARIANTS = ("mujoco", "none", "physics", "physx")
 PADDED = ("r_base_link", "right_thumb_4") + tuple(f"right_{finger}_2" for finger in hand.FINGERS)
 
 
 def physics_path(name):
     return usda.path(f"/{ROBOT}/Physics/{name}")
+
+
+def selection(variant):
+    """Metadata that selects a variant of the set Physics."""
+    return f'variants = {{\n    string Physics = "{variant}"\n}}'
 
 
 def interface():
@@ -24,11 +30,11 @@ def interface():
     with layer.prim(
         f'def Xform "{ROBOT}"',
         "prepend references = @./payloads/base.usda@",
-        'variants = {\n        string Physics = "physics"\n    }',
+        selection("physics"),
         'append variantSets = "Physics"',
     ):
         with layer.block('variantSet "Physics" ='):
-            for variant in ("mujoco", "none", "physics", "physx"):
+            for variant in VARIANTS:
                 if variant == "none":
                     layer.line('"none" {')
                 else:
@@ -88,11 +94,12 @@ def _look(layer, name, color, roughness):
             layer.line("token outputs:surface")
 
 
-def _contact(layer, name, static, dynamic):
+def _contact(layer, name, friction):
+    """Static and dynamic friction are equal, so that every engine can mean the same."""
     with layer.prim(f'def Material "{name}"', apis=("PhysicsMaterialAPI",)):
-        layer.attribute("float physics:dynamicFriction", usda.number(dynamic))
+        layer.attribute("float physics:dynamicFriction", usda.number(friction))
         layer.attribute("float physics:restitution", "0")
-        layer.attribute("float physics:staticFriction", usda.number(static))
+        layer.attribute("float physics:staticFriction", usda.number(friction))
 
 
 def material():
@@ -105,8 +112,8 @@ def material():
     with layer.prim('def Scope "Materials"'):
         _look(layer, "Plastic_ABS", (0.13, 0.14, 0.16), 0.45)
         _look(layer, "Rubber_Smooth", (0.30, 0.31, 0.33), 0.8)
-        _contact(layer, "Plastic_Contact", 0.5, 0.4)
-        _contact(layer, "Rubber_Contact", 1.1, 1.0)
+        _contact(layer, "Plastic_Contact", 0.4)
+        _contact(layer, "Rubber_Contact", 1.0)
     return layer.text()
 
 
@@ -168,7 +175,7 @@ def base(links):
     )
     with layer.prim(
         f'def Xform "{ROBOT}"',
-        f'assetInfo = {{\n        string name = "{ROBOT}"\n    }}',
+        f'assetInfo = {{\n    string name = "{ROBOT}"\n}}',
         'kind = "component"',
     ):
         for link in links:

@@ -81,8 +81,8 @@ class Layer:
             fields.append(f"prepend apiSchemas = {tokens(apis)}")
         if fields:
             self.line(header + " (")
-            for field in fields:
-                self.line("    " + field)
+            for text in "\n".join(fields).split("\n"):
+                self.line("    " + text)
             self.line(")")
         else:
             self.line(header)
