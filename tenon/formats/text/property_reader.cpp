@@ -25,6 +25,11 @@ bool keeps_old_name(std::string_view word) {
          word == "FaceIndex" || word == "Schema";
 }
 
+/// True for a prim or a property of a prim; the root has no properties.
+bool is_target(Path path) {
+  return path.is_prim() || (path.is_property() && path.prim().is_prim());
+}
+
 Token type_name_of(const WrittenType& written) {
   if (written.type != nullptr && !keeps_old_name(written.name)) {
     return written.type->name;
@@ -336,7 +341,7 @@ class PropertyReader {
     }
     for (Path& path : paths) {
       const Path absolute = path.absolute(owner_.strip_variants().prim());
-      if (path.has_variants() || !(absolute.is_prim() || absolute.is_property())) {
+      if (path.has_variants() || !is_target(absolute)) {
         return fail_target(start, path, "connections lead to prims or properties");
       }
       path = absolute;
@@ -398,8 +403,7 @@ class PropertyReader {
     }
     for (Path& path : paths) {
       const Path absolute = path.absolute(owner_.strip_variants().prim());
-      const bool fits = absolute.is_prim() || absolute.is_property() ||
-                        absolute.kind() == PathKind::Mapper;
+      const bool fits = is_target(absolute) || absolute.kind() == PathKind::Mapper;
       if (path.has_variants() || !fits) {
         return fail_target(start, path, "relationships lead to prims or properties");
       }
