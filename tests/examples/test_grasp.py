@@ -62,7 +62,8 @@ def main():
     # The same with a hand too weak to hold: proof that the measure can tell the two apart.
     weak = [f"{HAND}/right_{link}_joint.drive:angular:physics:maxForce=0.001"
             for link in ("thumb_2", "index_1", "middle_1", "ring_1", "little_1")]
-    dropped = run(tenon, scene, "--duration", 4, *[word for text in weak for word in ("--set", text)])
+    overrides = [word for text in weak for word in ("--set", text)]
+    dropped = run(tenon, scene, "--duration", 4, *overrides)
     if math.dist(dropped["bodies"]["/World/can"]["position"], CAN_AT_START) < TABLE_DROP / 2:
         faults.append("a hand without force holds the can as well: the scene proves nothing")
     for fault in faults:
