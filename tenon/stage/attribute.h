@@ -40,8 +40,8 @@ class Attribute {
   bool is_custom() const;
 
   /// The resolved value: time samples, then default, per layer from strongest to weakest; then the
-  /// schema fallback. Empty when there is none or it is blocked. Interpolated linearly where the type
-  /// allows it.
+  /// schema fallback. Empty when there is none or it is blocked. Interpolated linearly where the
+  /// type allows it.
   layer::Value get(Time time = {}) const;
   /// The value when it is exactly a T.
   template <class T>

@@ -42,8 +42,8 @@ void visit_property_opinions(const PrimData& prim, Token name, Visit visit) {
 }
 
 /// A value as authored, moved to the stage: asset paths resolved, time codes and paths mapped.
-layer::Value localize(const StageData& stage, const PrimData& prim,
-                      const compose::Opinion& opinion, const layer::Value& value);
+layer::Value localize(const StageData& stage, const PrimData& prim, const compose::Opinion& opinion,
+                      const layer::Value& value);
 
 /// The composed value of a field; empty when no opinion has it. Dictionaries are merged, list edits
 /// combined to an explicit list, else the strongest opinion wins.

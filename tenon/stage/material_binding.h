@@ -10,8 +10,8 @@ namespace tenon::stage {
 
 /// The material bound to `prim` for `purpose` ("physics", "full", "preview"; empty: all purposes),
 /// falling back to the all-purpose binding; an empty path when there is none. Bindings of ancestors
-/// are inherited, a nearer one wins unless the farther says "strongerThanDescendants"; at one prim a
-/// collection binding wins over a direct one. Bindings count also where MaterialBindingAPI is not
+/// are inherited, a nearer one wins unless the farther says "strongerThanDescendants"; at one prim
+/// a collection binding wins over a direct one. Bindings count also where MaterialBindingAPI is not
 /// applied (S-69): `binding_api_missing` then tells so.
 struct MaterialBinding {
   Path material;

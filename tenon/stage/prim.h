@@ -41,8 +41,8 @@ class Prim {
   bool is_pseudo_root() const;
   bool is_active() const;
   bool is_loaded() const;
-  bool is_defined() const;    ///< this and all ancestors are def or class
-  bool is_abstract() const;   ///< this or an ancestor is a class
+  bool is_defined() const;   ///< this and all ancestors are def or class
+  bool is_abstract() const;  ///< this or an ancestor is a class
   bool is_model() const;
   bool is_group() const;
   bool is_instance() const;

@@ -19,12 +19,20 @@ bool authored(const PrimData& prim, Token property) {
   return std::find(names.begin(), names.end(), property) != names.end();
 }
 
+// In dictionary order; those that the strongest propertyOrder names come first, in its order.
 void put_in_order(const PrimData& prim, std::vector<Token>& names) {
   std::sort(names.begin(), names.end(),
             [](Token a, Token b) { return dictionary_less(a.view(), b.view()); });
   for (const compose::Opinion& opinion : prim.index->opinions) {
     if (const auto* order = opinion.spec->get<std::vector<Token>>(fields::propertyOrder)) {
-      layer::ListOp<Token>::reorder(names, *order);
+      auto next = names.begin();
+      for (const Token name : *order) {
+        const auto found = std::find(next, names.end(), name);
+        if (found != names.end()) {
+          std::rotate(next, found, found + 1);
+          ++next;
+        }
+      }
       return;
     }
   }
@@ -126,9 +134,23 @@ std::map<std::string, layer::Value> Prim::all_authored_metadata() const {
 }
 
 std::vector<std::string> Prim::variant_set_names() const {
-  return data_ == nullptr ? std::vector<std::string>()
-                          : compose_list<std::string>(data_->index->opinions,
-                                                      fields::variantSetNames);
+  std::vector<std::string> names;
+  if (data_ == nullptr) {
+    return names;
+  }
+  // List edits combine within a site; sites add to each other, strongest first.
+  const std::vector<compose::Opinion>& opinions = data_->index->opinions;
+  for (auto first = opinions.begin(); first != opinions.end();) {
+    const auto last = std::find_if(
+        first, opinions.end(), [&](const auto& opinion) { return opinion.node != first->node; });
+    for (const std::string& name : compose_list<std::string>({first, last}, fields::variantSetNames)) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) {
+        names.push_back(name);
+      }
+    }
+    first = last;
+  }
+  return names;
 }
 
 std::vector<std::string> Prim::variant_names(const std::string& set) const {

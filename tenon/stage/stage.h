@@ -23,15 +23,16 @@ struct StageOptions {
   /// Only these prims, their ancestors and descendants are populated; empty = all.
   std::set<Path> mask;
   /// Asset path authored in a layer -> where it is, "" when nowhere; for resolved asset values.
-  std::function<std::string(const std::string& asset_path, const layer::Layer& anchor)> resolve_asset;
+  std::function<std::string(const std::string& asset_path, const layer::Layer& anchor)>
+      resolve_asset;
 };
 
 /// A composed scene. Move-only; prims, attributes and relationships are handles into it and must
 /// not outlive it.
 class Stage {
  public:
-  /// Composes and populates. Fails only when nothing can be composed at all; unresolved arcs and the
-  /// like are in `diagnostics`.
+  /// Composes and populates. Fails only when nothing can be composed at all; unresolved arcs and
+  /// the like are in `diagnostics`.
   static Result<Stage> open(layer::LayerPtr root, layer::LayerPtr session,
                             compose::LayerOpener opener, StageOptions options = {});
   Stage(Stage&&) noexcept;

@@ -20,8 +20,8 @@ struct XformOp {
 /// Names without the prefix "xformOp:" have an empty kind.
 XformOp parse_xform_op(Token name);
 
-/// Row-vector matrix of the operation at a time; identity when its attribute is missing, has no value
-/// or is of an unknown kind or type (diagnosed as "xform.op").
+/// Row-vector matrix of the operation at a time; identity when its attribute is missing, has no
+/// value or is of an unknown kind or type (diagnosed as "xform.op").
 Mat4d xform_op_matrix(const Prim& prim, const XformOp& op, Time time, Diagnostics* diagnostics);
 
 }  // namespace tenon::stage

@@ -30,7 +30,8 @@ STAGE_SUITES += ("aousd_composition", "aousd_value_resolution", "aousd_binary", 
 OWN_OPTIONS = ("--stacks", "--builtins", "--xforms")
 SESSION = '#usda 1.0\nover "%s" (variants = { string Physics = "%s" })\n{\n}\n'
 SECONDS = 60
-TOLERANCE = {"half": 2e-3}
+TOLERANCE = 1e-6
+HALF_TOLERANCE = 2e-3
 
 
 class Case:
@@ -147,15 +148,15 @@ def differences(expected, actual, where=""):
     if isinstance(expected, dict) and isinstance(actual, dict):
         if list(expected) != list(actual) and sorted(expected) == sorted(actual):
             yield f"{where}: order of keys: expected {list(expected)}, actual {list(actual)}"
-        kind = str(expected.get("type", ""))
+        kind = str(expected.get("type", "")).removesuffix("[]")
+        half = "half" in kind or kind.endswith("h")
         for key in expected.keys() | actual.keys():
             if key not in actual:
                 yield f"{where}/{key}: missing"
             elif key not in expected:
                 yield f"{where}/{key}: not expected: {json.dumps(actual[key])[:160]}"
             elif key in ("interpolated", "splineSamples", "localToWorld"):
-                tolerance = TOLERANCE["half"] if "half" in kind or kind[-1:] == "h" else 1e-6
-                if not close(expected[key], actual[key], tolerance):
+                if not close(expected[key], actual[key], HALF_TOLERANCE if half else TOLERANCE):
                     yield f"{where}/{key}: {expected[key]} != {actual[key]}"
             else:
                 yield from differences(expected[key], actual[key], f"{where}/{key}")
