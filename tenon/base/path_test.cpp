@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/base/path.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tenon/base/limits.h"
+
+namespace tenon {
+namespace {
+
+struct KindRow {
+  const char* text;
+  PathKind kind;
+};
+
+TEST(Path, AllKindsReadAndPrint) {
+  const KindRow rows[] = {
+      {"/", PathKind::AbsoluteRoot},
+      {".", PathKind::RelativeRoot},
+      {"/A", PathKind::Prim},
+      {"/A/B_1", PathKind::Prim},
+      {"A/B", PathKind::Prim},
+      {"..", PathKind::Prim},
+      {"../..", PathKind::Prim},
+      {"../A", PathKind::Prim},
+      {"/A{v=x}", PathKind::VariantSelection},
+      {"/A{v=}", PathKind::VariantSelection},
+      {"/A{v=x}{w=y}", PathKind::VariantSelection},
+      {"/A{v=x}B", PathKind::Prim},
+      {"/A{v=x}B/C{w=1-a|}D", PathKind::Prim},
+      {"/A.b", PathKind::Property},
+      {".b", PathKind::Property},
+      {"../A.b:c:d", PathKind::Property},
+      {"../.b", PathKind::Property},
+      {"/A{v=x}.b", PathKind::Property},
+      {"/A.r[/B]", PathKind::Target},
+      {"/A.r[/B.c]", PathKind::Target},
+      {"/A.r[/B].d", PathKind::RelationalAttribute},
+      {"/A.r[/B.s[/C]].d", PathKind::RelationalAttribute},
+      {"/A.b.mapper[/B.c]", PathKind::Mapper},
+      {"/A.b.mapper[/B.c].d", PathKind::MapperArg},
+      {"/A.b.expression", PathKind::Expression},
+      {"/\xC3\xA9t\xC3\xA9", PathKind::Prim},
+  };
+  for (const KindRow& row : rows) {
+    const auto path = Path::parse(row.text);
+    ASSERT_TRUE(path) << row.text << ": " << path.error().to_string();
+    EXPECT_EQ(path->kind(), row.kind) << row.text;
+    EXPECT_EQ(path->str(), row.text);
+    EXPECT_EQ(Path::from(path->str()), *path);
+  }
+}
+
+TEST(Path, IllFormedTextIsRejected) {
+  for (const char* text :
+       {"", "//", "/A/", "/A//B", "/1A", "/A-B", "A B", "/A.", "/A.b.c", "/.a", "/A{v}", "/A{=x}",
+        "/A{v=x", "/A.r[", "/A.r[/B", "/A.r[]", "/A]", "../", "/A{v=x}/", "/\xff"}) {
+    EXPECT_FALSE(Path::parse(text)) << text;
+    EXPECT_TRUE(Path::from(text).empty()) << text;
+  }
+  const std::string deep(4 * limits::kPathElements, '/');
+  std::string names;
+  for (std::size_t i = 0; i <= limits::kPathElements; ++i) {
+    names += "/a";
+  }
+  EXPECT_FALSE(Path::parse(deep));
+  EXPECT_FALSE(Path::parse(names));
+}
+
+TEST(Path, ElementsAreReached) {
+  const Path path = Path::from("/A/B{v=x}C.rel[/T].attr");
+  EXPECT_EQ(path.name(), "attr");
+  EXPECT_EQ(path.parent().target(), Path::from("/T"));
+  EXPECT_EQ(path.prim(), Path::from("/A/B{v=x}C"));
+  EXPECT_EQ(path.prim().parent(), Path::from("/A/B{v=x}"));
+  EXPECT_EQ(path.prim().parent().variant(), "x");
+  EXPECT_EQ(path.strip_variants(), Path::from("/A/B/C.rel[/T].attr"));
+  EXPECT_TRUE(path.has_variants());
+  EXPECT_EQ(Path::from("/A").parent(), Path::absolute_root());
+  EXPECT_TRUE(Path::absolute_root().parent().empty());
+  EXPECT_EQ(Path::from("/A{v=x}.b").prim_or_variant(), Path::from("/A{v=x}"));
+  EXPECT_EQ(Path::from("/A{v=x}.b").prim(), Path::from("/A"));
+}
+
+TEST(Path, PrefixesAreReplaced) {
+  const Path path = Path::from("/A/B.rel[/A/C].x");
+  EXPECT_TRUE(path.has_prefix(Path::from("/A/B")));
+  EXPECT_FALSE(path.has_prefix(Path::from("/A/B2")));
+  EXPECT_TRUE(path.has_prefix(Path::absolute_root()));
+  EXPECT_EQ(path.replace_prefix(Path::from("/A"), Path::from("/X/Y")),
+            Path::from("/X/Y/B.rel[/X/Y/C].x"));
+  EXPECT_EQ(path.replace_prefix(Path::from("/A"), Path::from("/X"), false),
+            Path::from("/X/B.rel[/A/C].x"));
+  EXPECT_EQ(path.replace_prefix(Path::from("/Q"), Path::from("/X")), path);
+}
+
+TEST(Path, RelativePathsAreResolvedAndMade) {
+  struct Row {
+    const char* relative;
+    const char* anchor;
+    const char* absolute;
+  };
+  const Row rows[] = {
+      {"B", "/A", "/A/B"},       {"../B", "/A/C", "/A/B"},    {".b", "/A", "/A.b"},
+      {"../.b", "/A/C", "/A.b"}, {"../../B.c", "/A/C", "/B.c"}, {".", "/A", "/A"},
+  };
+  for (const Row& row : rows) {
+    const Path anchor = Path::from(row.anchor);
+    EXPECT_EQ(Path::from(row.relative).absolute(anchor), Path::from(row.absolute))
+        << row.relative;
+    EXPECT_EQ(Path::from(row.absolute).relative(anchor), Path::from(row.relative))
+        << row.absolute << " from " << row.anchor;
+  }
+  EXPECT_TRUE(Path::from("../../..").absolute(Path::from("/A")).empty());
+}
+
+TEST(Path, OrderPutsAPathBeforeWhatIsBelowIt) {
+  std::vector<Path> sorted;
+  for (const char* text : {"/", "/A", "/A/B", "/A/B/C", "/A2", "/B"}) {
+    sorted.push_back(Path::from(text));
+  }
+  std::vector<Path> shuffled = sorted;
+  std::mt19937 random(7);
+  for (int i = 0; i < 20; ++i) {
+    std::shuffle(shuffled.begin(), shuffled.end(), random);
+    std::sort(shuffled.begin(), shuffled.end());
+    EXPECT_EQ(shuffled, sorted);
+  }
+}
+
+TEST(Path, NamesAreChecked) {
+  EXPECT_TRUE(is_identifier("_a1"));
+  EXPECT_FALSE(is_identifier("1a"));
+  EXPECT_FALSE(is_identifier("a:b"));
+  EXPECT_FALSE(is_identifier(""));
+  EXPECT_TRUE(is_namespaced_identifier("a:b:c"));
+  EXPECT_FALSE(is_namespaced_identifier("a:"));
+  EXPECT_FALSE(is_namespaced_identifier("a::b"));
+  EXPECT_TRUE(is_variant_name("1-a|b"));
+  EXPECT_TRUE(is_variant_name(".x"));
+  EXPECT_FALSE(is_variant_name("a b"));
+}
+
+}  // namespace
+}  // namespace tenon

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/layer/layer.h"
+
+#include <gtest/gtest.h>
+
+namespace tenon::layer {
+namespace {
+
+TEST(Layer, StartsWithItsRoot) {
+  const Layer layer("a.usda");
+  EXPECT_EQ(layer.identifier(), "a.usda");
+  EXPECT_EQ(layer.root().kind, SpecKind::PseudoRoot);
+  EXPECT_EQ(layer.spec_count(), 1u);
+  EXPECT_TRUE(layer.default_prim().empty());
+  EXPECT_TRUE(layer.sublayers().empty());
+  EXPECT_EQ(layer.time_codes_per_second(), 24.0);
+}
+
+TEST(Layer, SpecsAreFoundAfterGrowthAndErasure) {
+  Layer layer("a.usda");
+  std::vector<Path> paths;
+  for (int i = 0; i < 1000; ++i) {
+    paths.push_back(Path::absolute_root().child("P" + std::to_string(i)));
+    Spec& spec = layer.create(paths.back(), SpecKind::Prim);
+    spec.set(fields::displayName, Value(std::to_string(i)));
+    EXPECT_EQ(&layer.create(paths.back(), SpecKind::Attribute), &spec);
+  }
+  for (std::size_t i = 0; i < paths.size(); i += 2) {
+    layer.erase(paths[i]);
+  }
+  EXPECT_EQ(layer.spec_count(), 501u);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const Spec* spec = layer.find(paths[i]);
+    ASSERT_EQ(spec != nullptr, i % 2 == 1);
+    if (spec != nullptr) {
+      EXPECT_EQ(spec->get_or(fields::displayName, std::string()), std::to_string(i));
+    }
+  }
+  layer.create(paths[0], SpecKind::Prim);
+  EXPECT_TRUE(layer.has(paths[0]));
+  EXPECT_FALSE(layer.find(paths[0])->has(fields::displayName));
+}
+
+TEST(Layer, ChildrenAndLayerFieldsAreRead) {
+  Layer layer("a.usda");
+  Spec& root = layer.root();
+  root.set(fields::primChildren, Value(std::vector<Token>{"B", "A"}));
+  root.set(fields::defaultPrim, Value(Token("B")));
+  root.set(fields::subLayers, Value(std::vector<std::string>{"x.usda", "y.usda"}));
+  root.set(fields::subLayerOffsets, Value(std::vector<LayerOffset>{{1, 2}}));
+  root.set(fields::framesPerSecond, Value(30.0));
+  EXPECT_EQ(layer.children(Path::absolute_root(), fields::primChildren),
+            (std::vector<Token>{"B", "A"}));
+  EXPECT_TRUE(layer.children(Path::from("/Q"), fields::primChildren).empty());
+  EXPECT_EQ(layer.default_prim(), "B");
+  EXPECT_EQ(layer.sublayers().size(), 2u);
+  EXPECT_EQ(layer.sublayer_offset(0), (LayerOffset{1, 2}));
+  EXPECT_TRUE(layer.sublayer_offset(1).is_identity());
+  EXPECT_EQ(layer.time_codes_per_second(), 30.0);
+  root.set(fields::timeCodesPerSecond, Value(48.0));
+  EXPECT_EQ(layer.time_codes_per_second(), 48.0);
+}
+
+TEST(Layer, CopiesAreIndependent) {
+  Layer layer("a.usda");
+  layer.create(Path::from("/A"), SpecKind::Prim).set(fields::active, Value(true));
+  Layer copy = layer;
+  copy.find(Path::from("/A"))->set(fields::active, Value(false));
+  copy.create(Path::from("/B"), SpecKind::Prim);
+  EXPECT_TRUE(layer.find(Path::from("/A"))->get_or(fields::active, false));
+  EXPECT_FALSE(layer.has(Path::from("/B")));
+}
+
+TEST(Spec, FieldsAreSetReplacedAndErased) {
+  Spec spec;
+  spec.set(fields::kind, Value(Token("a")));
+  spec.set(fields::kind, Value(Token("b")));
+  spec.append(fields::active, Value(false));
+  EXPECT_EQ(spec.fields().size(), 2u);
+  EXPECT_EQ(spec.get_or(fields::kind, Token()), "b");
+  EXPECT_EQ(spec.get<double>(fields::kind), nullptr);
+  spec.erase(fields::kind);
+  EXPECT_FALSE(spec.has(fields::kind));
+}
+
+}  // namespace
+}  // namespace tenon::layer
