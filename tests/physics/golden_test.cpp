@@ -5,16 +5,17 @@
 //   "about"        what the case shows, with its E- or S-number
 //   "diagnostics"  the rule ids that reading gives, all of them, sorted
 //   "counts"       how many scenes, bodies, colliders, joints ... there are
-//   anything else  a part of `tenon physics --json`; rows of lists are matched by "path", numbers with
+//   anything else  a part of `tenon physics --json`; rows of lists are matched by "path", numbers
+//   with
 //                  a tolerance of 1e-6
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "cli/physics_json.h"
 #include "tenon/formats/open_layer.h"
