@@ -366,5 +366,36 @@ def "B" (references = </R>) {}
   EXPECT_TRUE(flat.find(Path::from("/A.z"))->has("timeSamples"));
 }
 
+TEST(Flatten, ALayerStackBecomesOneLayer) {
+  const Stage stage = open_text({{"root", R"((
+    subLayers = [@sub@ (offset = 10)]
+    upAxis = "Z"
+)
+over "A" (prepend references = </R>; customData = { int a = 1 }) {
+    double hidden = 1
+    double y = 1
+})"},
+                                 {"sub", R"((upAxis = "Y")
+def Xform "A" (prepend references = </S>; customData = { int a = 2
+ int b = 2 }) {
+    double hidden.timeSamples = { 0: 1 }
+    double x.timeSamples = { 0: 1 }
+}
+def "R" {}
+def "S" {})"}});
+  const layer::Layer flat = flatten_layer_stack(stage);
+  EXPECT_EQ(flat.root().get_or<Token>("upAxis", Token()), "Z");
+  EXPECT_FALSE(flat.root().has("subLayers"));
+  const layer::Spec& a = *flat.find(Path::from("/A"));
+  EXPECT_EQ(a.get_or("specifier", layer::Specifier::Over), layer::Specifier::Def);
+  EXPECT_EQ(a.get_or<Token>("typeName", Token()), "Xform");
+  EXPECT_EQ(a.get<layer::ListOp<layer::Reference>>("references")->prepended.size(), 2u);
+  EXPECT_EQ(*a.get<layer::Dictionary>("customData")->find("b"), layer::Value(std::int32_t{2}));
+  EXPECT_FALSE(flat.find(Path::from("/A.hidden"))->has("timeSamples"));
+  EXPECT_EQ(flat.find(Path::from("/A.x"))->get<layer::TimeSamples>("timeSamples")->times,
+            std::vector<double>{10});
+  EXPECT_EQ(layer::Layer::children(a, "properties"), (std::vector<Token>{"hidden", "x", "y"}));
+}
+
 }  // namespace
 }  // namespace tenon::stage

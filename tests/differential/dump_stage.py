@@ -26,7 +26,7 @@ REPO = os.path.dirname(os.path.dirname(HERE))
 SHARED = os.environ.get("TENON_SHARED_DIR", os.path.join(os.path.dirname(REPO), "shared"))
 ORACLE = os.path.join(SHARED, "tools", "dump_stage.py")
 STAGE_SUITES = ("openusd_usd", "mxpv_fixtures", "tinyusdz", "physics_parse", "openusd_other")
-STAGE_SUITES += ("aousd_composition", "aousd_value_resolution", "aousd_binary", "openusd_museum")
+STAGE_SUITES += ("aousd_composition", "aousd_value_resolution", "aousd_binary")
 OWN_OPTIONS = ("--stacks", "--builtins", "--xforms")
 SESSION = '#usda 1.0\nover "%s" (variants = { string Physics = "%s" })\n{\n}\n'
 SECONDS = 60
@@ -74,12 +74,18 @@ def published_cases(suites):
     with open(os.path.join(SHARED, "conformance", "cases.txt"), encoding="utf-8") as file:
         rows = [line.rstrip("\n").split("\t") for line in file if not line.startswith("#")]
     for suite, name, path in (row for row in rows if len(row) == 3):
-        path = os.path.join(SHARED, "conformance", path)
-        if suite in suites and os.path.isdir(path):
-            path = os.path.join(path, "root.usd")
-        if suite in suites and path.endswith((".usd", ".usda", ".usdc", ".usdz")):
-            if os.path.isfile(path):
+        if suite in suites:
+            path = root_layer(os.path.join(SHARED, "conformance", path))
+            if os.path.isfile(path) and path.endswith((".usd", ".usda", ".usdc", ".usdz")):
                 yield Case(f"{suite} {name}", path)
+
+
+def root_layer(path):
+    """The layer to open where a case is a folder."""
+    for name in ("root.usd", "entry.usd", "usda/root.usd"):
+        if os.path.isdir(path) and os.path.isfile(os.path.join(path, name)):
+            return os.path.join(path, name)
+    return path
 
 
 def oracle_module():
