@@ -15,6 +15,9 @@ using layer::Value;
 
 const Token kTranslate{"xformOp:translate"};
 const Token kOrient{"xformOp:orient"};
+// Beside an orient op of single precision: OpenUSD takes the angle of such a quaternion by the arc
+// cosine of its real part, which loses turns below 3e-4 rad.
+const Token kBakedOrient{"xformOp:orient:baked"};
 const Token kScale{"xformOp:scale"};
 const Token kTransform{"xformOp:transform"};
 const Token kReset{"!resetXformStack!"};
@@ -47,10 +50,6 @@ std::optional<Vec3d> read_vector(const Value& value) {
 
 Value vector_value(const Vec3d& v, Token type) {
   return type == "float3" ? Value(to_float(v)) : Value(v);
-}
-
-Value quaternion_value(const Quatd& q, Token type) {
-  return type == "quatf" ? Value(to_float(q)) : Value(q);
 }
 
 /// Translate, then one rotation, then scale: each at most once, in this order.
@@ -89,7 +88,7 @@ OpStack OpStack::of(const stage::Prim& prim, double start_code) {
     }
     at = *next;
     has_translate = has_translate || op == kTranslate;
-    has_orient = has_orient || op == kOrient;
+    has_orient = has_orient || (op == kOrient && prim.attribute(op).type_name() == "quatd");
     if (op == kScale) {
       const auto scale = read_vector(prim.attribute(kScale).get(start_code));
       if (!scale) {
@@ -100,13 +99,11 @@ OpStack OpStack::of(const stage::Prim& prim, double start_code) {
       stack.scale_ = *scale;
     }
   }
-  // Half precision cannot hold a pose; such an op gets a new type together with a new opinion.
+  // A half-precision translate cannot hold a pose: it becomes a double3.
   if (has_translate && prim.attribute(kTranslate).type_name() == "float3") {
     stack.translate_type_ = "float3";
   }
-  if (has_orient && prim.attribute(kOrient).type_name() == "quatf") {
-    stack.orient_type_ = "quatf";
-  }
+  stack.orient_ = has_orient ? kOrient : kBakedOrient;
   stack.order_is_new_ = !has_translate || !has_orient;
   return stack;
 }
@@ -166,7 +163,7 @@ void OpStack::write(layer::Layer& layer, Path prim) const {
     over_attribute(layer, prim, kTransform, "matrix4d")
         .set(layer::fields::timeSamples, Value(std::move(samples)));
   } else {
-    order.insert(order.end(), {kTranslate, kOrient});
+    order.insert(order.end(), {kTranslate, orient_});
     if (has_scale_) {
       order.push_back(kScale);
     }
@@ -174,11 +171,11 @@ void OpStack::write(layer::Layer& layer, Path prim) const {
     TimeSamples orientations;
     for (std::size_t i = 0; i < codes_.size(); ++i) {
       translations.set(codes_[i], vector_value(translations_[i], translate_type_));
-      orientations.set(codes_[i], quaternion_value(orientations_[i], orient_type_));
+      orientations.set(codes_[i], Value(orientations_[i]));
     }
     over_attribute(layer, prim, kTranslate, translate_type_)
         .set(layer::fields::timeSamples, Value(std::move(translations)));
-    over_attribute(layer, prim, kOrient, orient_type_)
+    over_attribute(layer, prim, orient_, "quatd")
         .set(layer::fields::timeSamples, Value(std::move(orientations)));
   }
   if (as_matrix_ || order_is_new_) {

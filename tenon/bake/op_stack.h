@@ -30,7 +30,7 @@ class OpStack {
 
  private:
   Token translate_type_ = "double3";
-  Token orient_type_ = "quatd";
+  Token orient_;  // name of the op that gets the orientations, quatd
   bool has_scale_ = false;
   Vec3d scale_{{1, 1, 1}};
   bool resets_stack_ = false;
