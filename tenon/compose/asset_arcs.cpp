@@ -69,9 +69,11 @@ class AssetArcAdder {
     return false;
   }
 
+  /// In the stack's time. An internal arc stays within the stack, whose layers have their offsets
+  /// already: as OpenUSD 26.11 has it, only what the arc itself says counts.
   layer::LayerOffset checked_offset(const AssetArc& item) {
     if (is_usable(item.offset)) {
-      return item.layer_offset * item.offset;
+      return item.asset_path.empty() ? item.offset : item.layer_offset * item.offset;
     }
     report(error_class::kInvalidReferenceOffset, item,
            "the layer offset of the " + std::string(noun(kind_)) + " to @" + item.asset_path +
@@ -158,9 +160,9 @@ const layer::Layer* introducing_layer(const Indexer& indexer, NodeId node, Path 
   const Node& at = indexer.graph[node];
   const LayerStack& stack = *indexer.graph[at.parent].layer_stack;
   const auto identity = [](const std::string& path, const layer::Layer&) { return path; };
-  const std::vector<AssetArc> arcs = at.arc == ArcKind::Payload
-                                         ? composed_payloads(stack, parent_path, identity, nullptr)
-                                         : composed_references(stack, parent_path, identity, nullptr);
+  const auto composed =
+      at.arc == ArcKind::Payload ? composed_payloads : composed_references;
+  const std::vector<AssetArc> arcs = composed(stack, parent_path, identity, nullptr);
   return at.sibling_number < arcs.size() ? arcs[at.sibling_number].layer.get() : stack.root.get();
 }
 

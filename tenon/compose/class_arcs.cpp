@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// Inherits and specializes: arcs to a class within the same layer stack. The map of such an arc says
-// where the class is relative to what uses it, so that the same arc can be implied elsewhere.
+// Inherits and specializes: arcs to a class within the same layer stack. The map of such an arc
+// says where the class is relative to what uses it, so that the same arc can be implied elsewhere.
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/indexer.h"
 #include "tenon/layer/fields.h"

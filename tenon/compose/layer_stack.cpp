@@ -199,8 +199,8 @@ void compose_variables(LayerStack& stack, const LayerStack* override_source) {
     return;
   }
   stack.expression_variables = layer::merge(override_source->expression_variables, own);
-  stack.expression_source =
-      stack.expression_variables == override_source->expression_variables ? override_source : &stack;
+  const bool same = stack.expression_variables == override_source->expression_variables;
+  stack.expression_source = same ? override_source : &stack;
 }
 
 const Path* find_pair(const MapFunction::Pairs& pairs, Path path) {

@@ -270,23 +270,22 @@ std::pair<NodeId, NodeId> NodeGraph::start_of_class_hierarchy(NodeId id) const {
   return {instance, the_class};
 }
 
-/// A culled node stays when a node that is not culled has it in its chain of origins, and so do
-/// its parents.
+/// A culled node stays when one that stays is below it or originates from it.
 std::vector<bool> NodeGraph::erasable() const {
-  std::vector<bool> result(nodes_.size());
+  std::vector<bool> result(nodes_.size(), true);
+  std::vector<NodeId> open;
   for (NodeId id = 0; id < nodes_.size(); ++id) {
-    result[id] = nodes_[id].culled;
+    if (!nodes_[id].culled) {
+      open.push_back(id);
+    }
   }
-  for (NodeId id = 1; id < nodes_.size(); ++id) {
-    bool needed = false;
-    for (NodeId at = id;; at = nodes_[at].origin) {
-      needed = needed || !result[at];
-      for (NodeId up = at; needed && up != kNoNode && result[up]; up = nodes_[up].parent) {
-        result[up] = false;
-      }
-      if (nodes_[at].origin == nodes_[at].parent) {
-        break;
-      }
+  while (!open.empty()) {
+    const NodeId id = open.back();
+    open.pop_back();
+    if (id != kNoNode && result[id]) {
+      result[id] = false;
+      open.push_back(nodes_[id].parent);
+      open.push_back(nodes_[id].origin);
     }
   }
   return result;

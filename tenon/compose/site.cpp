@@ -49,7 +49,7 @@ struct EditedArc {
 template <class Item>
 void apply_and_attribute(const ListOp<Item>& op, std::vector<Item>& list) {
   op.apply_to(list);
-  for (const std::vector<Item>* named : {&op.explicit_items, &op.prepended, &op.appended, &op.added}) {
+  for (const auto* named : {&op.explicit_items, &op.prepended, &op.appended, &op.added}) {
     for (const Item& item : *named) {
       const auto found = std::find(list.begin(), list.end(), item);
       if (found != list.end()) {

@@ -143,18 +143,17 @@ class TargetCombiner {
     if (target.empty()) {
       const ArcKind arc = index_.nodes[opinion.node].arc;
       const std::uint32_t parent = index_.nodes[opinion.node].parent;
-      const Path introduced =
-          parent == kNoNode ? Path()
-                            : climb_to_introduction(index_, opinion.node, index_.nodes[parent].path);
+      const Path introduced = parent == kNoNode ? Path() : index_.nodes[parent].path;
+      const Path introduced_at = climb_to_introduction(index_, opinion.node, introduced);
       report(error_class::kInvalidExternalTargetPath, opinion, {},
              quoted(in_node) + " is outside of what the " + arc_name(arc) + " of " +
-                 quoted(introduced) + " brings in; it is ignored",
+                 quoted(introduced_at) + " brings in; it is ignored",
              "target something below the prim that the arc leads to");
       return {};
     }
     if (targets_instance_of_class(in_node, target, opinion)) {
       report(error_class::kInvalidInstanceTargetPath, opinion, target,
-             quoted(in_node) + " is authored in a class but lies in an instance of it; it is ignored",
+             quoted(in_node) + " is authored in a class but lies in what uses it; it is ignored",
              "target something within the class");
       return {};
     }

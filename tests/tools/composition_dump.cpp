@@ -11,6 +11,7 @@
 #include <string>
 
 #include "tenon/compose/dump_index.h"
+#include "tenon/compose/targets.h"
 #include "tenon/formats/open_layer.h"
 
 namespace {
@@ -52,7 +53,35 @@ std::string folder_of(const std::string& identifier) {
   return identifier.substr(0, identifier.rfind('/') + 1);
 }
 
-/// All prims depth-first, each with its nodes, the classes of its findings and its children.
+/// Lines of properties that have targets or connections.
+std::string targets_of(compose::IndexCache& cache, const compose::PrimIndex& index) {
+  std::string text;
+  for (const Token name : index.property_names) {
+    const compose::TargetList targets = compose_targets(cache, index, name);
+    std::string line;
+    for (const Path path : targets.paths) {
+      line += " " + path.str();
+    }
+    for (const Path path : targets.deleted) {
+      line += " -" + path.str();
+    }
+    for (const Diagnostic& found : targets.errors) {
+      line += " " + found.rule;
+    }
+    text += line.empty() ? "" : "targets " + name.str() + line + "\n";
+  }
+  return text;
+}
+
+std::string joined(const char* heading, const std::vector<Token>& names) {
+  std::string text;
+  for (const Token name : names) {
+    text += " " + name.str();
+  }
+  return text.empty() ? text : heading + text + "\n";
+}
+
+/// All prims depth-first, each with its nodes, findings, names and targets.
 std::string nodes_of_all(compose::IndexCache& cache, const compose::LayerLabel& label) {
   std::string text;
   std::vector<const compose::PrimIndex*> open{&cache.index(Path::absolute_root())};
@@ -64,11 +93,10 @@ std::string nodes_of_all(compose::IndexCache& cache, const compose::LayerLabel& 
     for (const Diagnostic& found : index.errors) {
       text += "!! " + found.rule + "\n";
     }
-    std::string children;
-    for (const Token name : index.child_names) {
-      children += " " + name.str();
-    }
-    text += children.empty() ? "" : "children" + children + "\n";
+    text += joined("children", index.child_names);
+    text += joined("prohibited", index.prohibited_child_names);
+    text += joined("properties", index.property_names);
+    text += targets_of(cache, index);
     for (auto name = index.child_names.rbegin(); name != index.child_names.rend(); ++name) {
       open.push_back(&cache.child_index(index, *name));
     }
