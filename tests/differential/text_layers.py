@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Compares the text reader and writer with OpenUSD: which files are accepted, and the bytes of the
-canonical text. Needs Python with OpenUSD's modules.
+"""Compares layers read and written as text with OpenUSD: which files are accepted, and the bytes of
+the canonical text. Text and binary layers are read. Needs Python with OpenUSD's modules.
 
 usage: text_layers.py RETEXT [FOLDER...]
 
@@ -28,24 +28,15 @@ LARGEST = 30_000_000  # bytes
 
 
 def layer_files(folders):
-    """All text layers below the folders, sorted."""
+    """All layers below the folders, sorted."""
     found = []
     for folder in folders:
         for directory, _, names in os.walk(folder):
             for name in names:
                 path = os.path.join(directory, name)
-                if name.endswith((".usda", ".usd")) and is_text(path):
+                if name.endswith((".usda", ".usd", ".usdc")) and os.path.getsize(path) <= LARGEST:
                     found.append(path)
     return sorted(found)
-
-
-def is_text(path):
-    if os.path.getsize(path) > LARGEST:
-        return False
-    if path.endswith(".usda"):
-        return True
-    with open(path, "rb") as file:
-        return file.read(5) == b"#usda"
 
 
 def expected_text(path):
