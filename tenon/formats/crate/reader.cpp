@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/crate/reader.h"
 
-#include <map>
 #include <string_view>
 #include <vector>
 
 #include "tenon/formats/crate/tables.h"
 #include "tenon/formats/crate/value_reader.h"
 #include "tenon/layer/fields.h"
-#include "tenon/layer/type_names.h"
 
 namespace tenon::formats {
 namespace {
@@ -53,15 +51,6 @@ layer::Value as_payload_list(layer::Value value) {
       none ? std::vector<layer::Payload>() : std::vector<layer::Payload>{*payload}));
 }
 
-/// Old names of types that OpenUSD does not replace by the new ones.
-bool keeps_old_name(std::string_view name) {
-  if (name.ends_with("[]")) {
-    name.remove_suffix(2);
-  }
-  return name == "Transform" || name == "PointIndex" || name == "EdgeIndex" ||
-         name == "FaceIndex" || name == "Schema";
-}
-
 class LayerBuilder {
  public:
   LayerBuilder(crate::Tables tables, std::string identifier, Diagnostics& diagnostics)
@@ -93,7 +82,6 @@ class LayerBuilder {
         diagnostic.message += " (field \"" + field.name.str() + "\")";
         return Error(error.code(), std::move(diagnostic));
       }
-      note_old_type_name(field.name, *value);
       const bool payload = field.name == layer::fields::payload;
       values_.push_back(payload ? as_payload_list(*std::move(value)) : *std::move(value));
     }
@@ -102,15 +90,6 @@ class LayerBuilder {
       diagnostics_.add(std::move(diagnostic));
     }
     return {};
-  }
-
-  /// "Vec3f" and its like are written "float3" by now; names of prim types are left alone.
-  void note_old_type_name(Token name, const layer::Value& value) {
-    const auto* text = name == layer::fields::typeName ? value.get<Token>() : nullptr;
-    const layer::TypeName* type = text == nullptr ? nullptr : layer::find_type_name(*text);
-    if (type != nullptr && type->name != *text && !keeps_old_name(text->view())) {
-      type_names_.emplace(values_.size(), type->name);
-    }
   }
 
   Result<void> add_spec(const crate::SpecRow& row) {
@@ -138,10 +117,7 @@ class LayerBuilder {
     spec.reserve_fields(end - set);
     for (std::size_t i = set; i < end; ++i) {
       const layer::Value& value = values_[sets[i]];
-      if (!type_names_.empty() && spec.kind == SpecKind::Attribute &&
-          type_names_.contains(sets[i])) {
-        spec.append(layer::fields::typeName, type_names_.at(sets[i]));
-      } else if (!value.empty()) {
+      if (!value.empty()) {
         spec.append(tables_.fields[sets[i]].name, value);
       }
     }
@@ -152,8 +128,7 @@ class LayerBuilder {
   crate::WorkBudget budget_;
   Diagnostics& diagnostics_;
   layer::Layer layer_;
-  std::vector<layer::Value> values_;         // by index of the field
-  std::map<std::size_t, Token> type_names_;  // of attributes, by index of the field
+  std::vector<layer::Value> values_;  // by index of the field
   bool root_seen_ = false;
 };
 

@@ -165,32 +165,41 @@ Result<void> ValueWriter::item(bytes::ByteWriter& to, const T& value) {
     need(kRelocates);
     return item(to, value.pairs);
   } else if constexpr (std::is_same_v<T, layer::TimeSamples>) {
-    TENON_TRY(const ValueWord times, stored(kDoubleVector, value.times));
-    std::vector<ValueWord> words;
-    for (const Value& sample : value.values) {
-      TENON_TRY(const ValueWord word, write(sample));
-      words.push_back(word);
-    }
-    to.write(kNoDistance);
-    to.write(times);
-    to.write(kNoDistance);
-    to.write(std::uint64_t{words.size()});
-    to.write_array(std::span<const ValueWord>(words));
+    return samples(to, value);
   } else {
     static_assert(std::is_same_v<T, layer::Spline>);
-    const EncodedSpline spline = encode_spline(value);
-    need(spline.needed);
-    to.write(std::uint64_t{spline.bytes.size()});
-    to.write_text(spline.bytes);
-    std::vector<std::pair<double, layer::Dictionary>> custom_data;
-    for (const layer::SplineKnot& knot : value.knots) {
-      if (!knot.custom_data.empty()) {
-        custom_data.emplace_back(knot.time, knot.custom_data);
-      }
-    }
-    return item(to, custom_data);
+    return curve(to, value);
   }
   return {};
+}
+
+Result<void> ValueWriter::samples(bytes::ByteWriter& to, const layer::TimeSamples& samples) {
+  TENON_TRY(const ValueWord times, stored(kDoubleVector, samples.times));
+  std::vector<ValueWord> words;
+  for (const Value& sample : samples.values) {
+    TENON_TRY(const ValueWord word, write(sample));
+    words.push_back(word);
+  }
+  to.write(kNoDistance);
+  to.write(times);
+  to.write(kNoDistance);
+  to.write(std::uint64_t{words.size()});
+  to.write_array(std::span<const ValueWord>(words));
+  return {};
+}
+
+Result<void> ValueWriter::curve(bytes::ByteWriter& to, const layer::Spline& spline) {
+  const EncodedSpline encoded = encode_spline(spline);
+  need(encoded.needed);
+  to.write(std::uint64_t{encoded.bytes.size()});
+  to.write_text(encoded.bytes);
+  std::vector<std::pair<double, layer::Dictionary>> custom_data;
+  for (const layer::SplineKnot& knot : spline.knots) {
+    if (!knot.custom_data.empty()) {
+      custom_data.emplace_back(knot.time, knot.custom_data);
+    }
+  }
+  return item(to, custom_data);
 }
 
 template <class T>

@@ -40,6 +40,8 @@ class ValueWriter {
   Result<void> item(bytes::ByteWriter& to, const layer::ListOp<T>& edit);
   template <class A, class B>
   Result<void> item(bytes::ByteWriter& to, const std::pair<A, B>& pair);
+  Result<void> samples(bytes::ByteWriter& to, const layer::TimeSamples& samples);
+  Result<void> curve(bytes::ByteWriter& to, const layer::Spline& spline);
 
   template <class T>
   Result<ValueWord> single(unsigned type, const T& value);
