@@ -61,10 +61,15 @@ class ClassTree {
       }
       const MapFunction map = implied_map(step.transfer, *graph_[child].map_to_parent);
       const NodeId implied = find_or_add(step, child, map);
-      if (implied != kNoNode && graph_.has_class_based_child(child)) {
-        MapFunction transfer =
-            map.inverse().compose(step.transfer.compose(*graph_[child].map_to_parent));
-        deeper.push_back({graph_.owner_of_children(implied), child, std::move(transfer), false});
+      if (implied == kNoNode || !graph_.has_class_based_child(child)) {
+        continue;
+      }
+      // A specialize may be implied by what is its copy already.
+      const NodeId dest = graph_.owner_of_children(implied);
+      if (dest != graph_.owner_of_children(child)) {
+        deeper.push_back(
+            {dest, child,
+             map.inverse().compose(step.transfer.compose(*graph_[child].map_to_parent)), false});
       }
     }
   }

@@ -186,30 +186,39 @@ def target_line(cache, index, path):
     return f"targets {path.name} {' '.join(words)}" if words else ""
 
 
+def prim_lines(cache, path, folder):
+    """-> ((heading, lines) of one prim, names of its children)."""
+    index, _ = cache.ComputePrimIndex(path)
+    lines = node_lines(index, folder)
+    lines += sorted({"!! " + class_name(error) for error in index.localErrors})
+    names, prohibited = index.ComputePrimChildNames()
+    properties = index.ComputePrimPropertyNames()
+    for heading, words in (("children", names), ("prohibited", sorted(prohibited)),
+                           ("properties", properties)):
+        if words:
+            lines.append(f"{heading} {' '.join(words)}")
+    lines += filter(None, (target_line(cache, index, path.AppendProperty(name))
+                           for name in properties))
+    return (str(path) + (" instanceable" if index.IsInstanceable() else ""), lines), names
+
+
 def expected(root_path):
-    """What OpenUSD makes of a scene: {prim: lines}."""
+    """What OpenUSD makes of a scene with all payloads: {prim: lines}."""
     root = Sdf.Layer.FindOrOpen(root_path)
     folder = os.path.dirname(root_path)
-    cache = Pcp.Cache(Pcp.LayerStackIdentifier(root), usd=True)
-    result = {}
-    open_paths = [Sdf.Path("/")]
-    while open_paths:
-        path = open_paths.pop()
-        if path != Sdf.Path("/"):
-            cache.RequestPayloads([path], [])
-        index, _ = cache.ComputePrimIndex(path)
-        lines = node_lines(index, folder)
-        lines += sorted({"!! " + class_name(error) for error in index.localErrors})
-        names, prohibited = index.ComputePrimChildNames()
-        properties = index.ComputePrimPropertyNames()
-        for heading, words in (("children", names), ("prohibited", sorted(prohibited)),
-                               ("properties", properties)):
-            if words:
-                lines.append(f"{heading} {' '.join(words)}")
-        lines += filter(None, (target_line(cache, index, path.AppendProperty(name))
-                               for name in properties))
-        result[str(path) + (" instanceable" if index.IsInstanceable() else "")] = lines
-        open_paths += [path.AppendChild(name) for name in reversed(names)]
+    loaded, before = set(), None
+    while loaded != before:  # an ancestral payload may belong to a prim that comes later
+        before = set(loaded)
+        cache = Pcp.Cache(Pcp.LayerStackIdentifier(root), usd=True)
+        cache.RequestPayloads([p for p in sorted(loaded) if p.IsPrimPath()], [])
+        result = {}
+        open_paths = [Sdf.Path("/")]
+        while open_paths:
+            path = open_paths.pop()
+            loaded.add(path)
+            (heading, result_lines), names = prim_lines(cache, path, folder)
+            result[heading] = result_lines
+            open_paths += [path.AppendChild(name) for name in reversed(names)]
     return result
 
 
