@@ -65,7 +65,7 @@ std::string json_number(double value) {
 
 void JsonWriter::begin(char bracket) {
   before_item();
-  out_ << bracket;
+  text_ += bracket;
   has_items_.push_back(false);
 }
 
@@ -75,12 +75,13 @@ void JsonWriter::end(char bracket) {
   if (items) {
     new_line();
   }
-  out_ << bracket;
+  text_ += bracket;
 }
 
 void JsonWriter::key(std::string_view name) {
   before_item();
-  out_ << json_quoted(name) << ": ";
+  text_ += json_quoted(name);
+  text_ += ": ";
   after_key_ = true;
 }
 
@@ -109,7 +110,7 @@ void JsonWriter::unsigned_integer(std::uint64_t value) {
 
 void JsonWriter::raw(std::string_view text) {
   before_item();
-  out_ << text;
+  text_ += text;
 }
 
 void JsonWriter::before_item() {
@@ -121,17 +122,24 @@ void JsonWriter::before_item() {
     return;
   }
   if (has_items_.back()) {
-    out_ << ',';
+    text_ += ',';
   }
   has_items_.back() = true;
   new_line();
 }
 
 void JsonWriter::new_line() {
-  out_ << '\n';
-  for (std::size_t i = 0; i < has_items_.size(); ++i) {
-    out_ << ' ';
+  constexpr std::size_t kHeldBack = 1u << 16;  // bytes
+  if (text_.size() >= kHeldBack) {
+    flush();
   }
+  text_ += '\n';
+  text_.append(has_items_.size(), ' ');
+}
+
+void JsonWriter::flush() {
+  out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
+  text_.clear();
 }
 
 }  // namespace tenon::cli

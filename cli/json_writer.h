@@ -15,6 +15,10 @@ namespace tenon::cli {
 class JsonWriter {
  public:
   explicit JsonWriter(std::ostream& out) : out_(out) {}
+  JsonWriter(const JsonWriter&) = delete;
+  JsonWriter& operator=(const JsonWriter&) = delete;
+  /// Hands on what is still held back.
+  ~JsonWriter() { flush(); }
 
   void begin_object() { begin('{'); }
   void end_object() { end('}'); }
@@ -35,10 +39,12 @@ class JsonWriter {
   void begin(char bracket);
   void end(char bracket);
   void raw(std::string_view text);
+  void flush();
   void before_item();
   void new_line();
 
   std::ostream& out_;
+  std::string text_;             // not yet in out_
   std::vector<bool> has_items_;  // per open bracket
   bool after_key_ = false;
 };

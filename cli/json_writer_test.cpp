@@ -61,5 +61,20 @@ TEST(Sha256, PublishedDigests) {
             "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
 }
 
+TEST(JsonWriter, LongOutputArrivesWhole) {
+  std::ostringstream out;
+  {
+    JsonWriter json(out);
+    json.begin_array();
+    for (int i = 0; i < 50000; ++i) {
+      json.integer(i);
+    }
+    json.end_array();
+  }
+  const std::string text = out.str();
+  EXPECT_EQ(text.substr(0, 8), "[\n 0,\n 1");
+  EXPECT_EQ(text.substr(text.size() - 9), "\n 49999\n]");
+}
+
 }  // namespace
 }  // namespace tenon::cli

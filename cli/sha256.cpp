@@ -18,20 +18,46 @@ constexpr std::array<std::uint32_t, 64> kRound{
     0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
-std::uint32_t schedule(std::array<std::uint32_t, 64>& w, std::size_t i) {
+constexpr std::size_t kBlock = 64;  // bytes
+
+std::uint32_t big_endian(const unsigned char* bytes) {
+  return (std::uint32_t{bytes[0]} << 24u) | (std::uint32_t{bytes[1]} << 16u) |
+         (std::uint32_t{bytes[2]} << 8u) | std::uint32_t{bytes[3]};
+}
+
+std::uint32_t schedule(const std::array<std::uint32_t, 64>& w, std::size_t i) {
   const std::uint32_t a = w[i - 15];
   const std::uint32_t b = w[i - 2];
   return w[i - 16] + (std::rotr(a, 7) ^ std::rotr(a, 18) ^ (a >> 3u)) + w[i - 7] +
          (std::rotr(b, 17) ^ std::rotr(b, 19) ^ (b >> 10u));
 }
 
+// One round; the caller passes the eight words turned by one place each time, so that none moves.
+void round(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t& d, std::uint32_t e,
+           std::uint32_t f, std::uint32_t g, std::uint32_t& h, std::uint32_t word) {
+  const std::uint32_t t =
+      h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) + (g ^ (e & (f ^ g))) + word;
+  d += t;
+  h = t + (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) | (c & (a | b)));
+}
+
 }  // namespace
 
 void Sha256::update(std::string_view bytes) {
   total_ += bytes.size();
-  for (const char byte : bytes) {
-    pending_[pending_size_++] = static_cast<unsigned char>(byte);
-    if (pending_size_ == pending_.size()) {
+  const auto* at = reinterpret_cast<const unsigned char*>(bytes.data());
+  const unsigned char* const end = at + bytes.size();
+  while (at != end) {
+    if (pending_size_ == 0 && static_cast<std::size_t>(end - at) >= kBlock) {
+      block(at);
+      at += kBlock;
+      continue;
+    }
+    const std::size_t taken = std::min(kBlock - pending_size_, static_cast<std::size_t>(end - at));
+    std::copy(at, at + taken, pending_.begin() + static_cast<std::ptrdiff_t>(pending_size_));
+    at += taken;
+    pending_size_ += taken;
+    if (pending_size_ == kBlock) {
       block(pending_.data());
       pending_size_ = 0;
     }
@@ -39,26 +65,27 @@ void Sha256::update(std::string_view bytes) {
 }
 
 void Sha256::block(const unsigned char* bytes) {
-  std::array<std::uint32_t, 64> w{};
+  std::array<std::uint32_t, 64> w;
   for (std::size_t i = 0; i < 16; ++i) {
-    w[i] = (std::uint32_t{bytes[4 * i]} << 24u) | (std::uint32_t{bytes[4 * i + 1]} << 16u) |
-           (std::uint32_t{bytes[4 * i + 2]} << 8u) | std::uint32_t{bytes[4 * i + 3]};
+    w[i] = big_endian(bytes + 4 * i);
   }
-  auto s = state_;
-  for (std::size_t i = 0; i < 64; ++i) {
-    if (i >= 16) {
-      w[i] = schedule(w, i);
-    }
-    const std::uint32_t e = s[4];
-    const std::uint32_t a = s[0];
-    const std::uint32_t t1 = s[7] + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) +
-                             ((e & s[5]) ^ (~e & s[6])) + kRound[i] + w[i];
-    const std::uint32_t t2 = (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) +
-                             ((a & s[1]) ^ (a & s[2]) ^ (s[1] & s[2]));
-    s = {t1 + t2, s[0], s[1], s[2], s[3] + t1, s[4], s[5], s[6]};
+  for (std::size_t i = 16; i < 64; ++i) {
+    w[i] = schedule(w, i);
   }
+  auto [a, b, c, d, e, f, g, h] = state_;
+  for (std::size_t i = 0; i < 64; i += 8) {
+    round(a, b, c, d, e, f, g, h, kRound[i] + w[i]);
+    round(h, a, b, c, d, e, f, g, kRound[i + 1] + w[i + 1]);
+    round(g, h, a, b, c, d, e, f, kRound[i + 2] + w[i + 2]);
+    round(f, g, h, a, b, c, d, e, kRound[i + 3] + w[i + 3]);
+    round(e, f, g, h, a, b, c, d, kRound[i + 4] + w[i + 4]);
+    round(d, e, f, g, h, a, b, c, kRound[i + 5] + w[i + 5]);
+    round(c, d, e, f, g, h, a, b, kRound[i + 6] + w[i + 6]);
+    round(b, c, d, e, f, g, h, a, kRound[i + 7] + w[i + 7]);
+  }
+  const std::array<std::uint32_t, 8> mixed{a, b, c, d, e, f, g, h};
   for (std::size_t i = 0; i < 8; ++i) {
-    state_[i] += s[i];
+    state_[i] += mixed[i];
   }
 }
 
