@@ -139,16 +139,6 @@ TEST(CrateWriter, RefusesRelativePaths) {
   EXPECT_EQ(bytes.error().code(), ErrorCode::Invalid);
 }
 
-TEST(CrateReader, ReadsNamesOfTypesOfLongAgo) {
-  Layer layer("made");
-  layer.create(Path::from("/A"), SpecKind::Prim).set(layer::fields::typeName, Token("Vector"));
-  layer.create(Path::from("/A.x"), SpecKind::Attribute)
-      .set(layer::fields::typeName, Token("Vector"));
-  const auto back = read_back(*write_crate(layer));
-  EXPECT_EQ(back->find(Path::from("/A"))->get_or(layer::fields::typeName, Token()), "Vector");
-  EXPECT_EQ(back->find(Path::from("/A.x"))->get_or(layer::fields::typeName, Token()), "vector3d");
-}
-
 TEST(CrateReader, ReadsOnePayloadAsAList) {
   Layer layer("made");
   layer.create(Path::from("/A"), SpecKind::Prim)
