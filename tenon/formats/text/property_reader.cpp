@@ -9,6 +9,7 @@
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/metadata_reader.h"
 #include "tenon/formats/text/value_reader.h"
+#include "tenon/layer/written_type_name.h"
 
 namespace tenon::formats::text {
 namespace {
@@ -19,19 +20,14 @@ using layer::ValueType;
 using layer::Variability;
 namespace fields = layer::fields;
 
-/// Old names of types that OpenUSD reads but does not replace by the new ones.
-bool keeps_old_name(std::string_view word) {
-  return word == "Transform" || word == "PointIndex" || word == "EdgeIndex" ||
-         word == "FaceIndex" || word == "Schema";
-}
-
 /// True for a prim or a property of a prim; the root has no properties.
 bool is_target(Path path) {
   return path.is_prim() || (path.is_property() && path.prim().is_prim());
 }
 
+/// The name as written; the token of a current name is at hand.
 Token type_name_of(const WrittenType& written) {
-  if (written.type != nullptr && !keeps_old_name(written.name)) {
+  if (written.type != nullptr && written.type->scalar_name == written.name) {
     return written.type->name;
   }
   return Token(written.is_array ? std::string(written.name) + "[]" : std::string(written.name));
@@ -169,7 +165,7 @@ class PropertyReader {
                              "`" + path_.name().str() + "` is already a relationship; " + first);
     }
     const Token old_type = spec.get_or(fields::typeName, Token());
-    if (old_type != type_name) {
+    if (layer::written_type_name(old_type) != layer::written_type_name(type_name)) {
       return cursor_.fail_at(start_, ErrorCode::Parse, "text.duplicate",
                              "`" + path_.name().str() + "` already has type " + old_type.str() +
                                  ", not " + type_name.str() + "; " + first);

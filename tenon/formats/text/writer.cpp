@@ -10,6 +10,7 @@
 #include "tenon/formats/text/metadata_writer.h"
 #include "tenon/formats/text/spline_writer.h"
 #include "tenon/formats/text/value_text.h"
+#include "tenon/layer/written_type_name.h"
 
 namespace tenon::formats {
 namespace text {
@@ -157,9 +158,9 @@ class LayerWriter {
   void append_attribute(Token name, const Spec& spec, std::size_t indent) {
     const bool uniform = spec.get_or(fields::variability, Variability::Varying) ==
                          Variability::Uniform;
-    const std::string declaration = std::string(uniform ? "uniform " : "") +
-                                    spec.get_or(fields::typeName, Token()).str() + ' ' +
-                                    name.str();
+    const Token type = layer::written_type_name(spec.get_or(fields::typeName, Token()));
+    const std::string declaration =
+        std::string(uniform ? "uniform " : "") + type.str() + ' ' + name.str();
     const Value* value = spec.find(fields::default_value);
     const auto* samples = spec.get<layer::TimeSamples>(fields::timeSamples);
     const auto* spline = spec.get<layer::Spline>(fields::spline);
