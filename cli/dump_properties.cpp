@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 
+#include "cli/spline_text.h"
 #include "tenon/layer/type_names.h"
 #include "tenon/schema/registry.h"
 
@@ -65,6 +67,25 @@ void write_samples(JsonWriter& json, const Attribute& attribute, const ValueStyl
   between.push_back(times.back() + 1);
   json.key("interpolated");
   write_sampled(json, attribute, between, style);
+}
+
+void write_spline(JsonWriter& json, const Attribute& attribute, const ValueStyle& style) {
+  const std::optional<layer::Spline> spline = attribute.spline();
+  if (!spline) {
+    return;
+  }
+  json.key("spline");
+  json.string(spline_text(*spline));
+  std::vector<double> times{spline->knots.front().time - 1};
+  for (const layer::SplineKnot& knot : spline->knots) {
+    times.push_back(knot.time);
+  }
+  for (std::size_t i = 0; i + 1 < spline->knots.size(); ++i) {
+    times.push_back((spline->knots[i].time + spline->knots[i + 1].time) / 2);
+  }
+  times.push_back(spline->knots.back().time + 1);
+  json.key("splineSamples");
+  write_sampled(json, attribute, times, style);
 }
 
 void write_default(JsonWriter& json, const Attribute& attribute, const ValueStyle& style) {
@@ -162,6 +183,7 @@ void write_attribute(JsonWriter& json, const Attribute& attribute, const ValueSt
   json.boolean(attribute.is_authored());
   write_default(json, attribute, style);
   write_samples(json, attribute, style);
+  write_spline(json, attribute, style);
   const std::vector<Path> connections = attribute.connections();
   if (!connections.empty() || attribute.has_authored_connections()) {
     write_paths(json, "connections", connections, style);

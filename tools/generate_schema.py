@@ -50,7 +50,7 @@ def flat(value, single):
 
 
 def fallback_text(value, type_name):
-    """Numbers separated by blanks; token-like arrays one per line; None without a fallback."""
+    """Numbers separated by blanks; token-like arrays a line each; None without a fallback."""
     if value is None:
         return None
     if isinstance(value, str):
@@ -60,7 +60,7 @@ def fallback_text(value, type_name):
     if isinstance(value, Sdf.TimeCode):
         return number(value.GetValue(), False)
     if type_name.startswith(("token[", "string[")):
-        return "\n".join(value)
+        return "".join(item + "\n" for item in value)
     return " ".join(flat(value, not type_name.startswith(("double", "matrix"))))
 
 

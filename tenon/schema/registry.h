@@ -24,7 +24,7 @@ struct PropertyDefinition {
   layer::Variability variability = layer::Variability::Varying;
   layer::Value fallback;                   ///< empty when there is none
   std::vector<Token> allowed_tokens;       ///< empty: any
-  bool vendor = false;                     ///< only there through a schema that stock OpenUSD does not know
+  bool vendor = false;  ///< only there through a schema that stock OpenUSD does not know
 };
 
 struct Schema {

@@ -53,6 +53,9 @@ TEST(PrimDefinition, FallbacksOfAType) {
   EXPECT_EQ(joint.find("physics:localRot0")->fallback, layer::Value(Quatf{0, 0, 0, 1}));
   EXPECT_TRUE(joint.find("physics:body0")->is_relationship);
   EXPECT_EQ(cube.find("nothing"), nullptr);
+  const PrimDefinition settings("RenderSettings", {});
+  EXPECT_EQ(settings.find("materialBindingPurposes")->fallback,
+            layer::Value(std::vector<Token>{"full", ""}));
 }
 
 TEST(PrimDefinition, MultipleApplySchemasFillTheirTemplates) {

@@ -25,7 +25,7 @@ struct PropertyRow {
   const char* name;      ///< with __INSTANCE_NAME__ in multiple-apply schemas
   const char* type;      ///< empty for relationships
   std::uint8_t flags;    ///< kUniform, kRelationship, kFallback
-  const char* fallback;  ///< numbers separated by blanks, or text; arrays of text one per line
+  const char* fallback;  ///< numbers separated by blanks, or text; of text arrays a line each
   const char* allowed;   ///< allowed tokens separated by blanks
 };
 

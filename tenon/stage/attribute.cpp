@@ -3,6 +3,7 @@
 #include "tenon/stage/attribute.h"
 
 #include "tenon/stage/composed_fields.h"
+#include "tenon/stage/evaluate_spline.h"
 #include "tenon/stage/property_facts.h"
 #include "tenon/stage/resolve_value.h"
 #include "tenon/stage/stage_data.h"
@@ -131,8 +132,14 @@ bool Attribute::is_animated() const {
          (resolved.samples != nullptr && resolved.samples->size() > 1);
 }
 
-const layer::Spline* Attribute::spline() const {
-  return prim_ == nullptr ? nullptr : resolve_value(*prim_, name_, Asked::AnyTime).spline;
+std::optional<layer::Spline> Attribute::spline() const {
+  if (prim_ == nullptr) {
+    return std::nullopt;
+  }
+  const ResolvedValue resolved = resolve_value(*prim_, name_, Asked::AnyTime);
+  return resolved.spline == nullptr
+             ? std::nullopt
+             : std::optional(moved_spline(*resolved.spline, resolved.opinion.offset));
 }
 
 bool Attribute::has_authored_connections() const {

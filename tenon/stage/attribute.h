@@ -62,8 +62,8 @@ class Attribute {
   std::vector<double> time_samples() const;
   /// Value may differ between times: several samples, or a spline.
   bool is_animated() const;
-  /// The spline that gives the value; nullptr when something else does.
-  const layer::Spline* spline() const;
+  /// The spline that gives the value, in stage time; nothing when something else does.
+  std::optional<layer::Spline> spline() const;
 
   bool has_authored_connections() const;
   std::vector<Path> connections() const;

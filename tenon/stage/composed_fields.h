@@ -14,14 +14,13 @@
 /// How the opinions of one field become one value. Internal to tenon/stage.
 namespace tenon::stage {
 
-/// Opinions on a property of a prim, strongest first; those of another spec kind than the strongest
-/// do not count.
+/// Opinions on a property of a prim, strongest first. Their spec kinds may differ; composition
+/// diagnoses that.
 std::vector<compose::Opinion> property_opinions(const PrimData& prim, Token name);
 
 /// Calls `visit(opinion)` for each of them until it returns true.
 template <class Visit>
 void visit_property_opinions(const PrimData& prim, Token name, Visit visit) {
-  layer::SpecKind kind = layer::SpecKind::None;
   for (const compose::Opinion& opinion : prim.index->opinions) {
     // A short list is searched faster than a path is made.
     const auto& names = layer::Layer::children(*opinion.spec, layer::fields::properties);
@@ -31,11 +30,7 @@ void visit_property_opinions(const PrimData& prim, Token name, Visit visit) {
     compose::Opinion found = opinion;
     found.path = opinion.path.property(name);
     found.spec = opinion.layer->find(found.path);
-    if (found.spec == nullptr || (kind != layer::SpecKind::None && kind != found.spec->kind)) {
-      continue;
-    }
-    kind = found.spec->kind;
-    if (visit(found)) {
+    if (found.spec != nullptr && visit(found)) {
       return;
     }
   }

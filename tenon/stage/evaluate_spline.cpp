@@ -170,7 +170,30 @@ std::vector<SplineKnot> unrolled(const Spline& spline) {
   return result;
 }
 
+void move_tangent(layer::SplineTangent& tangent, double scale) {
+  tangent.width *= scale;
+  tangent.slope /= scale;
+}
+
 }  // namespace
+
+layer::Spline moved_spline(Spline spline, const layer::LayerOffset& offset) {
+  if (offset.is_identity() || offset.scale == 0) {
+    return spline;
+  }
+  spline.pre.slope /= offset.scale;
+  spline.post.slope /= offset.scale;
+  if (spline.loop) {
+    spline.loop->start = offset.apply(spline.loop->start);
+    spline.loop->end = offset.apply(spline.loop->end);
+  }
+  for (SplineKnot& knot : spline.knots) {
+    knot.time = offset.apply(knot.time);
+    move_tangent(knot.pre_tangent, offset.scale);
+    move_tangent(knot.post_tangent, offset.scale);
+  }
+  return spline;
+}
 
 layer::Value evaluate_spline(const Spline& spline, double time) {
   if (spline.knots.empty()) {

@@ -10,4 +10,7 @@ namespace tenon::stage {
 /// (interpolation or extrapolation "none", no knots).
 layer::Value evaluate_spline(const layer::Spline& spline, double time);
 
+/// The same curve over times moved by `offset`.
+layer::Spline moved_spline(layer::Spline spline, const layer::LayerOffset& offset);
+
 }  // namespace tenon::stage

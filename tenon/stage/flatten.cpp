@@ -203,7 +203,7 @@ class Flattener {
     if (!samples.empty()) {
       spec.set(fields::timeSamples, std::move(samples));
     }
-    if (const layer::Spline* spline = attribute.spline()) {
+    if (const std::optional<layer::Spline> spline = attribute.spline()) {
       spec.set(fields::spline, *spline);
     }
   }

@@ -210,8 +210,10 @@ void lay_over(layer::Layer& result, const layer::Layer::Entry& entry, const Move
     }
     const Value* below = merged.find(field.name);
     Value value = mover.moved(field.value);
-    merged.set(field.name,
-               below == nullptr ? std::move(value) : composed(field.name, std::move(value), *below));
+    if (below != nullptr) {
+      value = composed(field.name, std::move(value), *below);
+    }
+    merged.set(field.name, std::move(value));
   }
   result.create(entry.path, entry.spec.kind) = std::move(merged);
 }

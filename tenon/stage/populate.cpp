@@ -120,8 +120,11 @@ class Populator {
     }
     std::vector<PrimData*> next;
     for (PrimData* child = parent.first_child; child != nullptr; child = child->next_sibling) {
-      PrimData* walked = child->active && child->index->instanceable ? use_prototype(*child) : child;
-      if (child->active && walked != nullptr) {
+      if (!child->active) {
+        continue;
+      }
+      PrimData* walked = child->index->instanceable ? use_prototype(*child) : child;
+      if (walked != nullptr) {
         next.push_back(walked);
       }
     }

@@ -143,7 +143,8 @@ std::vector<std::string> Prim::variant_set_names() const {
   for (auto first = opinions.begin(); first != opinions.end();) {
     const auto last = std::find_if(
         first, opinions.end(), [&](const auto& opinion) { return opinion.node != first->node; });
-    for (const std::string& name : compose_list<std::string>({first, last}, fields::variantSetNames)) {
+    const std::vector<compose::Opinion> site(first, last);
+    for (const std::string& name : compose_list<std::string>(site, fields::variantSetNames)) {
       if (std::find(names.begin(), names.end(), name) == names.end()) {
         names.push_back(name);
       }

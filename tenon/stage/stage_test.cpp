@@ -148,6 +148,44 @@ over "A" {
   EXPECT_EQ(a.attribute("when").get_as<layer::TimeCode>(), layer::TimeCode{20});
 }
 
+// Values as OpenUSD 26.11 evaluates these splines.
+TEST(Attribute, SplinesAreEvaluated) {
+  const Stage stage = open_text(R"(def "A" {
+    double a.spline = {
+        bezier,
+        pre: sloped(1.5),
+        post: linear,
+        loop: (15, 25, 0, 2, 11.7),
+        7: 5.5 & 7.21; post held,
+        15: 8.18; post held,
+        20: 14.72; pre (3.1, 1.5); post curve (5.2, 2.5),
+        30: 1; post linear,
+    }
+    float b.spline = {
+        hermite,
+        post: loop repeat,
+        1: 5; post held,
+        2: 6; post none,
+    }
+})");
+  const struct {
+    const char* name;
+    double time;
+    double value;
+  } cases[] = {
+      {"a", 0, -5},    {"a", 6.999, 5.4985}, {"a", 7, 7.21},
+      {"a", 17, 8.18}, {"a", 20, 14.72},     {"a", 22, 19.23654900991516},
+      {"a", 25, 19.88}, {"a", 33, 32.662272707184144},
+      {"b", 0, 5},     {"b", 6.999, 10},     {"b", 20, 24},
+  };
+  for (const auto& c : cases) {
+    const layer::Value value = at(stage, "/A").attribute(c.name).get(c.time);
+    const double actual = value.holds<float>() ? static_cast<double>(*value.get<float>())
+                                               : value.get_or(0.0);
+    EXPECT_NEAR(actual, c.value, 1e-9) << c.name << " at " << c.time;
+  }
+}
+
 TEST(Attribute, FallbacksAndDeclaredTypesComeFromSchemas) {
   const Stage stage = open_text(R"(
 def Cube "A" (prepend apiSchemas = ["PhysicsDriveAPI:angular", "PhysxJointAPI", "Unknown"]) {
@@ -269,7 +307,8 @@ def Xform "A" {
     def Xform "B" {
         double3 xformOp:translate = (0, 2, 0)
         double xformOp:scaleX:pivot = 0
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scaleX:pivot", "!invert!xformOp:scaleX:pivot"]
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scaleX:pivot",
+            "!invert!xformOp:scaleX:pivot"]
     }
     def Xform "R" { uniform token[] xformOpOrder = ["!resetXformStack!"] }
     def Scope "S" { def Xform "T" {} }

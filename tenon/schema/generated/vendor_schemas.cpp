@@ -216,7 +216,7 @@ const PropertyRow kVendorProperties[] = {
     {"newton:mpm:gridType", "token", kUniform | kFallback, "sparse", "sparse dense fixed"},
     {"newton:mpm:integrationScheme", "token", kUniform | kFallback, "pic", "pic gimp"},
     {"newton:mpm:maxActiveCellCount", "int", kUniform | kFallback, "-1", ""},
-    {"newton:mpm:rheologySolvers", "token[]", kUniform | kFallback, "auto", "auto gauss-seidel gauss-seidel-soa gauss-seidel-batched jacobi conjugate-gradient conjugate-residual generalized-minimal-residual"},
+    {"newton:mpm:rheologySolvers", "token[]", kUniform | kFallback, "auto\n", "auto gauss-seidel gauss-seidel-soa gauss-seidel-batched jacobi conjugate-gradient conjugate-residual generalized-minimal-residual"},
     {"newton:mpm:strainBasisOrder", "int", kUniform | kFallback, "0", ""},
     {"newton:mpm:strainBasisType", "token", kUniform | kFallback, "linear", "linear trilinear particle"},
     {"newton:mpm:strainDiscontinuousBasis", "bool", kUniform | kFallback, "0", ""},
