@@ -33,8 +33,10 @@ std::uint32_t schedule(const std::array<std::uint32_t, 64>& w, std::size_t i) {
 }
 
 // One round; the caller passes the eight words turned by one place each time, so that none moves.
-void round(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t& d, std::uint32_t e,
-           std::uint32_t f, std::uint32_t g, std::uint32_t& h, std::uint32_t word) {
+// Inlined by order: a call would keep the words in memory.
+[[gnu::always_inline]] inline void round(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                         std::uint32_t& d, std::uint32_t e, std::uint32_t f,
+                                         std::uint32_t g, std::uint32_t& h, std::uint32_t word) {
   const std::uint32_t t =
       h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) + (g ^ (e & (f ^ g))) + word;
   d += t;
