@@ -4,8 +4,9 @@
 // A MuJoCo actuator on a joint: force = gain ctrl + b0 + b1 l + b2 l', with l = gear q, acting as
 // gear * force. With fixed gain and affine bias this is a drive:
 //   stiffness -b1 gear^2, damping -b2 gear^2, rest at q = -b0 / (b1 gear) for ctrl = 0.
-// Numbers are per radian. No control is authored on a stage, so ctrl is 0; where the joint has a drive
-// of its own for the axis, its targets are the control and the actuator gives gains and limits.
+// Numbers are per radian. No control is authored on a stage, so ctrl is 0; where the joint has a
+// drive of its own for the axis, its targets are the control and the actuator gives gains and
+// limits.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,8 +29,7 @@ struct ActuatorTokens {
 };
 
 /// The first three of an array of numbers, floats or doubles.
-std::array<double, 3> leading(const stage::Prim& prim, Token name,
-                              std::array<double, 3> fallback) {
+std::array<double, 3> leading(const stage::Prim& prim, Token name, std::array<double, 3> fallback) {
   const layer::Value value = prim.attribute(name).get();
   if (const auto* wide = value.get<layer::Array<double>>()) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -54,8 +54,7 @@ class ActuatorReader {
       return;
     }
     const Joint& driven = state_.scene.joints[*joint];
-    const bool one_axis =
-        driven.kind == JointKind::Revolute || driven.kind == JointKind::Prismatic;
+    const bool one_axis = driven.kind == JointKind::Revolute || driven.kind == JointKind::Prismatic;
     if (!one_axis) {
       state_.not_read(found.prim, "mjc:target",
                       "only actuators of revolute and prismatic joints are read");
@@ -83,8 +82,7 @@ class ActuatorReader {
     const std::vector<Path> targets = prim.relationship(tokens_.target).targets();
     if (targets.size() == 1) {
       const auto found = state_.walk.index_of.find(targets.front());
-      if (found != state_.walk.index_of.end() &&
-          state_.joint_of_prim[found->second] != kNone) {
+      if (found != state_.walk.index_of.end() && state_.joint_of_prim[found->second] != kNone) {
         return state_.joint_of_prim[found->second];
       }
     }
@@ -133,9 +131,8 @@ class ActuatorReader {
   void add(const stage::Prim& prim, Index index) {
     Joint& joint = state_.scene.joints[index];
     Drive drive = drive_of(prim, joint);
-    const auto same =
-        std::find_if(joint.drives.begin(), joint.drives.end(),
-                     [&](const Drive& other) { return other.dof == drive.dof; });
+    const auto same = std::find_if(joint.drives.begin(), joint.drives.end(),
+                                   [&](const Drive& other) { return other.dof == drive.dof; });
     if (same == joint.drives.end()) {
       joint.drives.push_back(std::move(drive));
       return;

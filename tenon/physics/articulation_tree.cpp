@@ -122,8 +122,7 @@ JointGraph::Tree JointGraph::tree(const std::vector<Index>& component,
   Tree result;
   std::vector<Index> inside;
   collect(component, inside, result.loops);
-  std::sort(inside.begin(), inside.end(),
-            [&](Index a, Index b) { return rank_[a] < rank_[b]; });
+  std::sort(inside.begin(), inside.end(), [&](Index a, Index b) { return rank_[a] < rank_[b]; });
   Sets sets(scene_.bodies.size());
   for (const Index i : inside) {
     const Joint& joint = scene_.joints[i];
@@ -149,8 +148,8 @@ std::optional<Index> JointGraph::world_joint(const std::vector<Index>& component
 
 std::vector<Index> JointGraph::distances(Index from, const std::vector<Index>& component) const {
   const auto place = [&](Index body) {
-    return static_cast<std::size_t>(
-        std::lower_bound(component.begin(), component.end(), body) - component.begin());
+    return static_cast<std::size_t>(std::lower_bound(component.begin(), component.end(), body) -
+                                    component.begin());
   };
   std::vector<Index> distance(component.size(), kFar);
   std::vector<Index> queue{from};

@@ -9,9 +9,9 @@
 
 namespace tenon::physics {
 
-/// The bodies and joints of a scene as a graph. The world is no node: a joint to it belongs to its one
-/// body (S-110). Joints that are disabled, excluded, or that no tree can hold (S-112, S-114) are set
-/// aside.
+/// The bodies and joints of a scene as a graph. The world is no node: a joint to it belongs to its
+/// one body (S-110). Joints that are disabled, excluded, or that no tree can hold (S-112, S-114)
+/// are set aside.
 class JointGraph {
  public:
   /// `order`: all joints of the scene in traversal order.
@@ -27,13 +27,14 @@ class JointGraph {
     std::vector<Index> loops;   ///< closed by constraints, ascending
   };
   /// Spanning tree of a component: `root_joint` first, then joints in traversal order; a joint that
-  /// would close a circle is a loop, so circles break at their last joint (S-111). Further joints to
-  /// the world close loops (S-110).
+  /// would close a circle is a loop, so circles break at their last joint (S-111). Further joints
+  /// to the world close loops (S-110).
   Tree tree(const std::vector<Index>& component, std::optional<Index> root_joint) const;
 
   /// First joint to the world in traversal order that touches the component.
   std::optional<Index> world_joint(const std::vector<Index>& component) const;
-  /// The body from which the farthest one is nearest; ties: more joints, then `earlier` order (S-109).
+  /// The body from which the farthest one is nearest; ties: more joints, then `earlier` order
+  /// (S-109).
   Index center(const std::vector<Index>& component, const std::vector<Index>& traversal_rank) const;
 
  private:

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/physics/articulation_tree.h"
 
-#include <gtest/gtest.h>
-
 #include <numeric>
+
+#include <gtest/gtest.h>
 
 namespace tenon::physics {
 namespace {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which joints a reduced-coordinate solver takes as trees, and where each tree starts (S-108..S-115).
+// Which joints a reduced-coordinate solver takes as trees, and where each tree starts
+// (S-108..S-115).
 #include <algorithm>
 #include <numeric>
 
@@ -70,16 +71,18 @@ class ArticulationReader {
   void read_on_joint(const PhysicsPrim& found, std::uint32_t prim_index) {
     const std::uint32_t index = state_.joint_of_prim[prim_index];
     if (index == kNone || !joint(index).enabled || joint(index).exclude_from_articulation) {
-      drop(found, "articulation.root-joint-unusable",
-           "the articulation root is a joint that is not simulated or is excluded",
-           "apply PhysicsArticulationRootAPI to a joint to the world, a body, or a prim above them");
+      drop(
+          found, "articulation.root-joint-unusable",
+          "the articulation root is a joint that is not simulated or is excluded",
+          "apply PhysicsArticulationRootAPI to a joint to the world, a body, or a prim above them");
       return;
     }
     if (joint(index).body0 && joint(index).body1) {
       // S-109
-      drop(found, "articulation.root-between-bodies",
-           "the articulation root is a joint between two bodies",
-           "apply PhysicsArticulationRootAPI to a joint to the world, a body, or a prim above them");
+      drop(
+          found, "articulation.root-between-bodies",
+          "the articulation root is a joint between two bodies",
+          "apply PhysicsArticulationRootAPI to a joint to the world, a body, or a prim above them");
       return;
     }
     const Index body = body_of_world_joint(index);

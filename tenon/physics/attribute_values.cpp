@@ -55,7 +55,8 @@ std::optional<double> number_of(const layer::Value& value) {
   }
 }
 
-// S-6: the default where one is authored, else the value at the start, held before the first sample.
+// S-6: the default where one is authored, else the value at the start, held before the first
+// sample.
 layer::Value AttributeValues::resolved(const stage::Attribute& attribute) const {
   if (animated_ && attribute.value_source() != stage::ValueSource::Default) {
     return attribute.get(start_);
@@ -115,8 +116,7 @@ std::optional<Quatd> AttributeValues::rotation(const stage::Prim& prim, Token na
   return normalized(wide);
 }
 
-std::optional<double> AttributeValues::authored_number(const stage::Prim& prim,
-                                                       Token name) const {
+std::optional<double> AttributeValues::authored_number(const stage::Prim& prim, Token name) const {
   const stage::Attribute attribute = prim.attribute(name);
   if (!attribute.has_authored_value()) {
     return std::nullopt;

@@ -118,11 +118,11 @@ void report_nesting(const ReadState& state) {
   }
   for (std::size_t i = 0; i < nested.size(); ++i) {
     if (nested[i] > 0) {
-      state.report(state.walk.prims[i].prim, Severity::Warning, "body.nested",
-                   std::to_string(nested[i]) +
-                       " rigid bodies lie below this one; each moves on its own",
-                   "author !resetXformStack! on them, or place them beside each other, for engines "
-                   "that reject nested bodies");
+      state.report(
+          state.walk.prims[i].prim, Severity::Warning, "body.nested",
+          std::to_string(nested[i]) + " rigid bodies lie below this one; each moves on its own",
+          "author !resetXformStack! on them, or place them beside each other, for engines "
+          "that reject nested bodies");
     }
   }
 }

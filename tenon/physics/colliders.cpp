@@ -84,7 +84,8 @@ std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found
                                       std::optional<SolidIntegrals>& integrals) {
   check_apis(state, found);
   ShapeSource source{found, factor(found.world), {}, false, false};
-  source.frame = {source.parts.translation * state.units.length, rotation_of(source.parts.rotation)};
+  source.frame = {source.parts.translation * state.units.length,
+                  rotation_of(source.parts.rotation)};
   if (has_zero_scale(state, found, source.parts)) {
     return std::nullopt;
   }
@@ -116,8 +117,8 @@ std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found
 
 void read_colliders(ReadState& state) {
   state.collider_of_prim.assign(state.walk.prims.size(), kNone);
-  const auto prims = sorted_prims(
-      state.walk, [](const PhysicsPrim& p) { return p.roles.has(Api::Collision); });
+  const auto prims =
+      sorted_prims(state.walk, [](const PhysicsPrim& p) { return p.roles.has(Api::Collision); });
   state.scene.colliders.reserve(prims.size());
   for (const std::uint32_t i : prims) {
     std::optional<SolidIntegrals> integrals;

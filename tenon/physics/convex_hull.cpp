@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hulls come from Qhull (reentrant library), told to triangulate its facets. Qhull cannot work on flat
-// input, so flatness is tested first.
+// Hulls come from Qhull (reentrant library), told to triangulate its facets. Qhull cannot work on
+// flat input, so flatness is tested first.
 #include "tenon/physics/convex_hull.h"
 
 extern "C" {

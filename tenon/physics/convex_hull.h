@@ -8,8 +8,8 @@
 
 namespace tenon::physics {
 
-/// Hull of points in space: its corners and outward triangles. Empty (and `flat`) when all points lie in
-/// one plane, on a line or in one place.
+/// Hull of points in space: its corners and outward triangles. Empty (and `flat`) when all points
+/// lie in one plane, on a line or in one place.
 TriangleMesh convex_hull(const std::vector<Vec3d>& points);
 
 /// All points lie in one plane, within 1e-9 of their extent.
@@ -17,7 +17,7 @@ bool is_flat(const std::vector<Vec3d>& points);
 
 /// A box or a ball around points.
 struct BoundingBox {
-  Pose pose;            ///< of its centre, in the frame of the points
+  Pose pose;  ///< of its centre, in the frame of the points
   Vec3d half_extents;
 };
 struct BoundingBall {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/physics/convex_hull.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "tenon/physics/mesh_inertia.h"
 

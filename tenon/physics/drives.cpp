@@ -68,7 +68,8 @@ void check_effect(const ReadState& state, const stage::Prim& prim, const Joint& 
   } else if (is_locked(joint, drive.dof)) {
     // S-107
     state.report(prim, Severity::Warning, "drive.locked-axis",
-                 name + " has no effect: limits lock that axis", "open the limit or remove the drive");
+                 name + " has no effect: limits lock that axis",
+                 "open the limit or remove the drive");
   }
 }
 
@@ -91,8 +92,8 @@ DriveUnits drive_units(const Units& units, Dof dof, bool acceleration) {
   return result;
 }
 
-std::optional<Drive> read_drive(const ReadState& state, const stage::Prim& prim,
-                                const Joint& joint, Token instance) {
+std::optional<Drive> read_drive(const ReadState& state, const stage::Prim& prim, const Joint& joint,
+                                Token instance) {
   const std::optional<Dof> dof = driven_dof(state, prim, joint, instance);
   if (!dof) {
     return std::nullopt;
@@ -123,8 +124,7 @@ void read_drives(ReadState& state) {
     for (const Token& instance : found.prim.api_instances("PhysicsDriveAPI")) {
       std::optional<Drive> drive = read_drive(state, found.prim, joint, instance);
       if (drive) {
-        state.drive_instances.push_back(
-            {i, static_cast<Index>(joint.drives.size()), instance});
+        state.drive_instances.push_back({i, static_cast<Index>(joint.drives.size()), instance});
         joint.drives.push_back(*std::move(drive));
       }
     }

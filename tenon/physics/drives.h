@@ -26,7 +26,7 @@ struct DriveUnits {
 DriveUnits drive_units(const Units& units, Dof dof, bool acceleration);
 
 /// One instance of the drive API; nullopt where it drives nothing.
-std::optional<Drive> read_drive(const ReadState& state, const stage::Prim& prim,
-                                const Joint& joint, Token instance);
+std::optional<Drive> read_drive(const ReadState& state, const stage::Prim& prim, const Joint& joint,
+                                Token instance);
 
 }  // namespace tenon::physics

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pairs of colliders that never touch: named by the filtered pairs API, joined by a joint, or links of
-// an articulation without self collision (S-81, S-82, S-92, S-115).
+// Pairs of colliders that never touch: named by the filtered pairs API, joined by a joint, or links
+// of an articulation without self collision (S-81, S-82, S-92, S-115).
 #include <algorithm>
 
 #include "tenon/physics/joint_frames.h"
@@ -78,24 +78,35 @@ class PairFilter {
     return list;
   }
 
-  /// What a prim of a filtered pair stands for: an articulation's links, a body's colliders, one
+  /// What a prim of a filtered pair stands for: a body's colliders, an articulation's links, one
   /// collider, or all that lies below any other prim (S-81).
   Colliders meant_by(Path path) const {
     Colliders list;
     const auto found = state_.walk.index_of.find(path);
     if (found != state_.walk.index_of.end()) {
       const PhysicsPrim& prim = state_.walk.prims[found->second];
-      if (prim.roles.has(Api::ArticulationRoot)) {
-        append_links(path, list);
-      }
       if (prim.is_body) {
         append(state_.body_of_prim[found->second], list);
+        report_two_meanings(prim);
+        return list;
+      }
+      if (prim.roles.has(Api::ArticulationRoot)) {
+        append_links(path, list);
       }
       if (list.empty() && state_.collider_of_prim[found->second] != kNone) {
         list.push_back(state_.collider_of_prim[found->second]);
       }
     }
     return list.empty() ? below(path) : list;
+  }
+
+  void report_two_meanings(const PhysicsPrim& prim) const {
+    if (prim.roles.has(Api::ArticulationRoot)) {
+      state_.report(prim.prim, Severity::Info, "filter.body-or-articulation",
+                    "a filtered pair names a body that is an articulation root too; the body is "
+                    "meant, not all links",
+                    "apply PhysicsArticulationRootAPI above the body if all links are meant");
+    }
   }
 
   void add_filtered_pairs(std::uint32_t prim_index) {
@@ -120,8 +131,8 @@ class PairFilter {
     }
   }
 
-  /// The colliders of the body that a side is attached to, or the static ones below the prim that it
-  /// names; none for the world. Bodies nested below are bodies of their own.
+  /// The colliders of the body that a side is attached to, or the static ones below the prim that
+  /// it names; none for the world. Bodies nested below are bodies of their own.
   Colliders side(const std::optional<Index>& body, Path target, Path other) const {
     if (body) {
       return state_.colliders_of_body[*body];

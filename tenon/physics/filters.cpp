@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Groups with the same merge name have their members and their filters in common (S-79): what one of
-// them says, all say. An inverted group turns off all groups but those that it names itself (S-78).
+// Groups with the same merge name have their members and their filters in common (S-79): what one
+// of them says, all say. An inverted group turns off all groups but those that it names itself
+// (S-78).
 #include "tenon/physics/filters.h"
 
 #include <map>

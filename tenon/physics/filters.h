@@ -16,8 +16,8 @@ struct AuthoredGroup {
   std::string merge;            ///< groups of equal non-empty names are one
 };
 
-/// Which pairs of groups do not touch, from what each says (S-77..S-80): (group_count x group_count) and
-/// whether each touches ungrouped colliders.
+/// Which pairs of groups do not touch, from what each says (S-77..S-80): (group_count x
+/// group_count) and whether each touches ungrouped colliders.
 struct GroupTable {
   std::vector<char> pair_off;
   std::vector<char> ungrouped_off;

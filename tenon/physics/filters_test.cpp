@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/physics/filters.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
+
+#include <gtest/gtest.h>
 
 namespace tenon::physics {
 namespace {
@@ -16,7 +16,8 @@ constexpr Index kC = 2;
 struct Row {
   const char* name;
   std::vector<AuthoredGroup> groups;
-  std::vector<std::pair<Index, Index>> off;  // all other pairs, a group with itself included, are on
+  std::vector<std::pair<Index, Index>>
+      off;  // all other pairs, a group with itself included, are on
   std::vector<Index> ungrouped_off;
 };
 
@@ -42,8 +43,8 @@ TEST(Filters, GroupTableFollowsTheRules) {
     const std::size_t count = row.groups.size();
     for (Index i = 0; i < count; ++i) {
       for (Index j = i; j < count; ++j) {
-        const bool off = std::find(row.off.begin(), row.off.end(), std::pair(i, j)) !=
-                         row.off.end();
+        const bool off =
+            std::find(row.off.begin(), row.off.end(), std::pair(i, j)) != row.off.end();
         EXPECT_EQ(table.pair_off[i * count + j] != 0, off) << i << " " << j;
         EXPECT_EQ(table.pair_off[j * count + i] != 0, off) << j << " " << i;
       }

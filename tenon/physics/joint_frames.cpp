@@ -20,6 +20,9 @@ void drop(const ReadState& state, const stage::Prim& joint, Token name, const ch
 
 /// The prim that a side names; an invalid one when it is unusable (S-87), reported.
 stage::Prim find_target(const ReadState& state, const stage::Prim& joint, Token name, Path target) {
+  if (const PhysicsPrim* met = state.walk.find(target)) {
+    return met->prim;  // the walk meets usable prims only
+  }
   if (!target.is_prim_or_root()) {
     drop(state, joint, name, "joint.target-not-prim",
          name.str() + " names <" + target.str() + ">, which is no prim", "name a prim");
@@ -27,8 +30,8 @@ stage::Prim find_target(const ReadState& state, const stage::Prim& joint, Token 
   }
   const stage::Prim prim =
       target.is_absolute_root() ? state.stage.pseudo_root() : state.stage.prim(target);
-  const bool there = prim.is_valid() && prim.is_active() && prim.is_defined() &&
-                     !prim.is_abstract();
+  const bool there =
+      prim.is_valid() && prim.is_active() && prim.is_defined() && !prim.is_abstract();
   if (!there) {
     drop(state, joint, name, "joint.body-missing",
          name.str() + " names <" + target.str() + ">, which does not exist",
@@ -77,10 +80,10 @@ std::optional<JointSide> read_joint_side(const ReadState& state, const stage::Pr
     return result;
   }
   if (targets.size() > 1) {
-    state.report(joint, name, Severity::Error, "joint.several-targets",
-                 name.str() + " has " + std::to_string(targets.size()) +
-                     " targets; only the first counts",
-                 "leave one target");
+    state.report(
+        joint, name, Severity::Error, "joint.several-targets",
+        name.str() + " has " + std::to_string(targets.size()) + " targets; only the first counts",
+        "leave one target");
   }
   const stage::Prim prim = find_target(state, joint, name, targets.front());
   if (!prim) {

@@ -15,7 +15,8 @@ struct JointSide {
   Pose frame;                 ///< X_BJ in the body, or X_WJ [m]
 };
 
-/// Reads side 0 or 1 of a joint (S-83..S-89); nullopt with a diagnostic when its target is unusable.
+/// Reads side 0 or 1 of a joint (S-83..S-89); nullopt with a diagnostic when its target is
+/// unusable.
 std::optional<JointSide> read_joint_side(const ReadState& state, const stage::Prim& joint,
                                          int side);
 

@@ -92,8 +92,8 @@ void apply_limit(const ReadState& state, const stage::Prim& prim, const NamedLim
 
 std::optional<Dof> dof_of(std::string_view token) {
   constexpr std::pair<std::string_view, Dof> kNames[] = {
-      {"transX", Dof::TransX}, {"transY", Dof::TransY}, {"transZ", Dof::TransZ},
-      {"rotX", Dof::RotX},     {"rotY", Dof::RotY},     {"rotZ", Dof::RotZ},
+      {"transX", Dof::TransX},    {"transY", Dof::TransY}, {"transZ", Dof::TransZ},
+      {"rotX", Dof::RotX},        {"rotY", Dof::RotY},     {"rotZ", Dof::RotZ},
       {"distance", Dof::Distance}};
   for (const auto& [name, dof] : kNames) {
     if (token == name) {

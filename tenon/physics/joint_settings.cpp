@@ -36,8 +36,8 @@ const SettingTokens& setting_tokens() {
 struct SettingUnits {
   double armature = 1;
   double force = 1;
-  double per_velocity = 1;   ///< of damping per degree/s or length/s
-  double per_radian = 1;     ///< of damping and stiffness per radian or length
+  double per_velocity = 1;  ///< of damping per degree/s or length/s
+  double per_radian = 1;    ///< of damping and stiffness per radian or length
   double velocity = 1;
 };
 

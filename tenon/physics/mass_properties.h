@@ -18,10 +18,10 @@ inline constexpr double kDefaultRadius = 0.1;    ///< [m] of the ball that gives
 
 /// What is authored about the mass of one prim, in SI; absent where unset (S-41, S-44..S-46).
 struct AuthoredMass {
-  std::optional<double> mass;         ///< [kg]
-  std::optional<double> density;      ///< [kg/m^3]
-  std::optional<Vec3d> center;        ///< of mass, in the frame of the body [m]
-  std::optional<Mat3d> inertia;       ///< about the centre of mass, axes of the body [kg m^2]
+  std::optional<double> mass;     ///< [kg]
+  std::optional<double> density;  ///< [kg/m^3]
+  std::optional<Vec3d> center;    ///< of mass, in the frame of the body [m]
+  std::optional<Mat3d> inertia;   ///< about the centre of mass, axes of the body [kg m^2]
 };
 
 /// Mass, centre of mass and inertia about it, in one frame.
@@ -44,8 +44,8 @@ MassProperties sum_masses(const std::vector<MassProperties>& parts);
 /// All of it times mass / its mass (M-14).
 MassProperties scaled_to(MassProperties whole, double mass);
 
-/// What the body's own mass API says over the sum of its colliders (M-14..M-18). A `sum` of zero mass
-/// means that there are no shapes to weigh.
+/// What the body's own mass API says over the sum of its colliders (M-14..M-18). A `sum` of zero
+/// mass means that there are no shapes to weigh.
 MassProperties body_mass(const MassProperties& sum, const AuthoredMass& authored);
 
 /// Moments are positive (or all zero) and no one exceeds the sum of the others (S-45, M-19).

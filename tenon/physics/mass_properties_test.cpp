@@ -28,8 +28,8 @@ TEST(MassProperties, ColliderMassWinsOverDensity) {
 TEST(MassProperties, PartsAddUpAboutTheCommonCentre) {
   AuthoredMass heavy;
   heavy.mass = 7;
-  const MassProperties sum = sum_masses({collider_mass(unit_box(), {}, 2),
-                                         collider_mass(unit_box({{2, 0, 0}}), heavy, 1000)});
+  const MassProperties sum = sum_masses(
+      {collider_mass(unit_box(), {}, 2), collider_mass(unit_box({{2, 0, 0}}), heavy, 1000)});
   EXPECT_DOUBLE_EQ(sum.mass, 9);
   EXPECT_NEAR(sum.center[0], 14.0 / 9, 1e-14);
   // reduced mass 14/9 at distance 2 across the line

@@ -35,18 +35,18 @@ Material read_material(const ReadState& state, const PhysicsPrim& found) {
   }
   // S-73
   if (material.dynamic_friction > material.static_friction) {
-    state.report(found.prim, state.tokens.dynamic_friction, Severity::Warning,
-                 "material.friction-order",
-                 "dynamic friction " + shortest(material.dynamic_friction) +
-                     " exceeds static friction " + shortest(material.static_friction) +
-                     "; both become the larger one at rest",
-                 "author a staticFriction that is at least dynamicFriction");
+    state.report(
+        found.prim, state.tokens.dynamic_friction, Severity::Warning, "material.friction-order",
+        "dynamic friction " + shortest(material.dynamic_friction) + " exceeds static friction " +
+            shortest(material.static_friction) + "; both become the larger one at rest",
+        "author a staticFriction that is at least dynamicFriction");
     material.static_friction = material.dynamic_friction;
   }
   if (material.restitution > 1) {
-    state.report(found.prim, state.tokens.restitution, Severity::Warning, "material.restitution",
-                 "restitution " + shortest(material.restitution) + " adds energy; 1 is used instead",
-                 "author a restitution from 0 to 1");
+    state.report(
+        found.prim, state.tokens.restitution, Severity::Warning, "material.restitution",
+        "restitution " + shortest(material.restitution) + " adds energy; 1 is used instead",
+        "author a restitution from 0 to 1");
     material.restitution = 1;
   }
   return material;

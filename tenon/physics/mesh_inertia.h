@@ -9,13 +9,13 @@ namespace tenon::physics {
 
 /// Volume integrals of a solid of density 1.
 struct SolidIntegrals {
-  double volume = 0;    ///< [m^3]
-  Vec3d center;         ///< of mass [m]
-  Mat3d inertia;        ///< about `center`, in the axes of the shape [m^5]
+  double volume = 0;  ///< [m^3]
+  Vec3d center;       ///< of mass [m]
+  Mat3d inertia;      ///< about `center`, in the axes of the shape [m^5]
 };
 
-/// Integrals of a closed triangle mesh (M-8); inside-out meshes count as if turned (M-9). Zero volume
-/// for a flat one.
+/// Integrals of a closed triangle mesh (M-8); inside-out meshes count as if turned (M-9). Zero
+/// volume for a flat one.
 SolidIntegrals mesh_integrals(const TriangleMesh& mesh);
 
 /// Every edge is used once in each direction: the mesh has an inside (M-9).

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/physics/mesh_inertia.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 namespace tenon::physics {
 namespace {
@@ -20,17 +20,17 @@ TriangleMesh right_tetrahedron() {
 TriangleMesh box_mesh(const Vec3d& half, const Vec3d& center) {
   TriangleMesh mesh;
   for (unsigned i = 0; i < 8; ++i) {
-    mesh.points.push_back(center + Vec3d{{(i & 1u) != 0 ? half[0] : -half[0],
-                                          (i & 2u) != 0 ? half[1] : -half[1],
-                                          (i & 4u) != 0 ? half[2] : -half[2]}});
+    mesh.points.push_back(
+        center + Vec3d{{(i & 1u) != 0 ? half[0] : -half[0], (i & 2u) != 0 ? half[1] : -half[1],
+                        (i & 4u) != 0 ? half[2] : -half[2]}});
   }
   mesh.triangles = {{{0, 2, 1}}, {{1, 2, 3}}, {{4, 5, 6}}, {{5, 7, 6}}, {{0, 1, 4}}, {{1, 5, 4}},
                     {{2, 6, 3}}, {{3, 6, 7}}, {{0, 4, 2}}, {{2, 4, 6}}, {{1, 3, 5}}, {{3, 7, 5}}};
   return mesh;
 }
 
-// M-8: at density 1000 the unit right tetrahedron weighs 166.667; about the origin the second moments
-// are 1/60 and 1/120, which gives 12.5 and 2.0833 about the centre (1/4, 1/4, 1/4).
+// M-8: at density 1000 the unit right tetrahedron weighs 166.667; about the origin the second
+// moments are 1/60 and 1/120, which gives 12.5 and 2.0833 about the centre (1/4, 1/4, 1/4).
 TEST(MeshInertia, RightTetrahedronHasTheTextbookMoments) {
   const SolidIntegrals solid = mesh_integrals(right_tetrahedron());
   EXPECT_NEAR(1000 * solid.volume, 1000.0 / 6, 1e-10);

@@ -113,13 +113,13 @@ std::optional<TriangleMesh> read_triangles(const ReadState& state, const ShapeSo
   const bool left_handed =
       state.values.get<Token>(prim, state.tokens.orientation) == Token("leftHanded");
   const bool mirrored = determinant(upper_left(source.found.world)) < 0;
-  const bool whole =
-      triangulate(faces, mesh.points.size(), left_handed != mirrored, mesh);
+  const bool whole = triangulate(faces, mesh.points.size(), left_handed != mirrored, mesh);
   if (!whole || mesh.triangles.empty()) {
     state.report(prim, Severity::Error, "collider.mesh-invalid",
-                 whole ? "the mesh has no faces; it does not collide"
-                       : "faceVertexCounts, faceVertexIndices and points contradict each other; the "
-                         "mesh does not collide",
+                 whole
+                     ? "the mesh has no faces; it does not collide"
+                     : "faceVertexCounts, faceVertexIndices and points contradict each other; the "
+                       "mesh does not collide",
                  "author points, faceVertexCounts and faceVertexIndices that fit");
     return std::nullopt;
   }

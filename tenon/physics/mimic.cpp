@@ -132,8 +132,7 @@ class MimicReader {
       offset = number("mjc:coef0", 0) / unit(follower_);  // MuJoCo's own are radians
       multiplier = number("mjc:coef1", 1);
     }
-    Mimic mimic =
-        law(*lead, multiplier, offset, mujoco ? "MjcEqualityJointAPI" : "NewtonMimicAPI");
+    Mimic mimic = law(*lead, multiplier, offset, mujoco ? "MjcEqualityJointAPI" : "NewtonMimicAPI");
     if (mujoco) {
       mimic.higher = {number("mjc:coef2", 0), number("mjc:coef3", 0), number("mjc:coef4", 0)};
       mimic.mujoco_solref = numbers("mjc:solref");

@@ -63,9 +63,9 @@ std::string_view mass_source_name(MassSource source) {
 }
 
 std::string_view shape_name(ShapeKind kind) {
-  constexpr std::array<std::string_view, 10> kNames{"box",  "sphere", "ellipsoid",  "capsule",
-                                                    "cylinder", "cone", "plane", "convexHull",
-                                                    "mesh", "spheres"};
+  constexpr std::array<std::string_view, 10> kNames{"box",      "sphere", "ellipsoid", "capsule",
+                                                    "cylinder", "cone",   "plane",     "convexHull",
+                                                    "mesh",     "spheres"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -117,8 +117,7 @@ Pose PoseTrack::at(double seconds) const {
 bool PhysicsScene::may_collide(Index collider_a, Index collider_b) const {
   const Index low = std::min(collider_a, collider_b);
   const Index high = std::max(collider_a, collider_b);
-  return could_touch(colliders[low], colliders[high]) &&
-         groups_allow(filter, low, high) &&
+  return could_touch(colliders[low], colliders[high]) && groups_allow(filter, low, high) &&
          !std::binary_search(filter.pairs_off.begin(), filter.pairs_off.end(),
                              std::pair(low, high));
 }

@@ -24,9 +24,10 @@ inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 using Index = std::uint32_t;
 
 struct Scene {
-  Path path;       ///< empty: made up because the stage has none (S-18)
-  Vec3d gravity;   ///< [m/s^2]
-  std::optional<double> time_step;  ///< [s] asked for by the asset (Newton, PhysX or MuJoCo scene API)
+  Path path;      ///< empty: made up because the stage has none (S-18)
+  Vec3d gravity;  ///< [m/s^2]
+  std::optional<double>
+      time_step;  ///< [s] asked for by the asset (Newton, PhysX or MuJoCo scene API)
 };
 
 enum class MassSource : std::uint8_t { Authored, Density, Default };
@@ -36,14 +37,14 @@ std::string_view mass_source_name(MassSource source);
 
 struct Body {
   Path path;
-  bool kinematic = false;      ///< pose is given, never computed (S-27)
+  bool kinematic = false;  ///< pose is given, never computed (S-27)
   bool starts_asleep = false;
-  Index scene = 0;             ///< into PhysicsScene::scenes
-  Pose pose;                   ///< X_WB at the start: world <- body, unscaled
-  Vec3d linear_velocity;       ///< of the centre of mass, world axes [m/s]
-  Vec3d angular_velocity;      ///< world axes [rad/s]
-  double mass = 1;             ///< [kg]
-  Vec3d center_of_mass;        ///< in the body frame [m]
+  Index scene = 0;                    ///< into PhysicsScene::scenes
+  Pose pose;                          ///< X_WB at the start: world <- body, unscaled
+  Vec3d linear_velocity;              ///< of the centre of mass, world axes [m/s]
+  Vec3d angular_velocity;             ///< world axes [rad/s]
+  double mass = 1;                    ///< [kg]
+  Vec3d center_of_mass;               ///< in the body frame [m]
   Mat3d inertia = Mat3d::identity();  ///< about the centre of mass, body axes [kg m^2], symmetric
   MassSource mass_source = MassSource::Default;
   double linear_damping = 0;   ///< [1/s]
@@ -64,32 +65,33 @@ enum class ShapeKind : std::uint8_t {
   Spheres,     ///< sphere_centers and sphere_radii (UsdGeomPoints)
 };
 
-/// "box", "sphere", "ellipsoid", "capsule", "cylinder", "cone", "plane", "convexHull", "mesh", "spheres".
+/// "box", "sphere", "ellipsoid", "capsule", "cylinder", "cone", "plane", "convexHull", "mesh",
+/// "spheres".
 std::string_view shape_name(ShapeKind kind);
 
 enum class Axis : std::uint8_t { X, Y, Z };
 
 /// Triangles in the collider's frame, scale included [m]; outward winding is counter-clockwise.
 struct TriangleMesh {
-  std::vector<Vec3d> points;      // (point_count)
-  std::vector<Vec3i> triangles;   // (triangle_count), indices into points
-  bool flat = false;              ///< all points in one plane: no volume, touched from both sides
+  std::vector<Vec3d> points;     // (point_count)
+  std::vector<Vec3i> triangles;  // (triangle_count), indices into points
+  bool flat = false;             ///< all points in one plane: no volume, touched from both sides
 };
 
 struct Shape {
   ShapeKind kind = ShapeKind::Box;
-  Vec3d half_extents;             ///< [m]
-  double radius = 0;              ///< [m]
-  double half_height = 0;         ///< [m]
+  Vec3d half_extents;      ///< [m]
+  double radius = 0;       ///< [m]
+  double half_height = 0;  ///< [m]
   Axis axis = Axis::Z;
-  Index mesh = 0;                 ///< into PhysicsScene::meshes, of ConvexHull and Mesh
+  Index mesh = 0;                     ///< into PhysicsScene::meshes, of ConvexHull and Mesh
   std::vector<Vec3d> sphere_centers;  ///< [m], in the collider frame
   std::vector<double> sphere_radii;   ///< [m]
 };
 
 struct Collider {
   Path path;
-  std::optional<Index> body;      ///< none: static
+  std::optional<Index> body;  ///< none: static
   Index scene = 0;
   Shape shape;
   Pose pose;                      ///< X_BC relative to the body, or X_WC for a static one
@@ -105,7 +107,7 @@ struct Material {
   double static_friction = 0;
   double dynamic_friction = 0;
   double restitution = 0;
-  double density = 0;             ///< [kg/m^3]; 0: none given
+  double density = 0;  ///< [kg/m^3]; 0: none given
 };
 
 enum class JointKind : std::uint8_t { Revolute, Prismatic, Spherical, Fixed, Distance, D6 };
@@ -132,7 +134,7 @@ struct Limit {
 /// force = stiffness (target_position - q) + damping (target_velocity - v), clamped to +-max_force
 /// (S-102). [N, m] or [N m, rad]; with `acceleration` the gains are per unit of effective inertia.
 struct Drive {
-  Path source;                    ///< the prim that authors it: the joint, or an actuator prim
+  Path source;  ///< the prim that authors it: the joint, or an actuator prim
   Dof dof = Dof::RotX;
   bool acceleration = false;
   double stiffness = 0;
@@ -142,11 +144,11 @@ struct Drive {
   double target_velocity = 0;
 };
 
-/// q = offset + multiplier * leader (+ higher powers) [m or rad]. The compliance is that of a spring
-/// of `natural_frequency` [rad/s] and `damping_ratio`; both 0 means rigid.
+/// q = offset + multiplier * leader (+ higher powers) [m or rad]. The compliance is that of a
+/// spring of `natural_frequency` [rad/s] and `damping_ratio`; both 0 means rigid.
 struct Mimic {
-  std::string schema;             ///< the API that says so, for example "NewtonMimicAPI"
-  Index leader = 0;               ///< into PhysicsScene::joints
+  std::string schema;  ///< the API that says so, for example "NewtonMimicAPI"
+  Index leader = 0;    ///< into PhysicsScene::joints
   double multiplier = 1;
   double offset = 0;
   std::array<double, 3> higher{};  ///< coefficients of leader^2..leader^4
@@ -159,18 +161,19 @@ struct Mimic {
 struct Joint {
   Path path;
   JointKind kind = JointKind::D6;
-  std::optional<Index> body0;     ///< none: world
-  std::optional<Index> body1;     ///< none: world
-  Path target0;                   ///< prim named by the relationship (may be static), empty: world
+  std::optional<Index> body0;  ///< none: world
+  std::optional<Index> body1;  ///< none: world
+  Path target0;                ///< prim named by the relationship (may be static), empty: world
   Path target1;
-  Pose frame0;                    ///< X_B0J in body0, or X_WJ [m]
-  Pose frame1;                    ///< X_B1J in body1, or X_WJ [m]
+  Pose frame0;  ///< X_B0J in body0, or X_WJ [m]
+  Pose frame1;  ///< X_B1J in body1, or X_WJ [m]
   Axis axis = Axis::X;
-  double lower = -kUnlimited;     ///< of revolute and prismatic; min distance of Distance (S-97)
-  double upper = kUnlimited;      ///< max distance of Distance
-  double cone_angle0 = kUnlimited;  ///< spherical: tilt of the axis toward the next axis [rad] (S-96)
+  double lower = -kUnlimited;  ///< of revolute and prismatic; min distance of Distance (S-97)
+  double upper = kUnlimited;   ///< max distance of Distance
+  double cone_angle0 =
+      kUnlimited;  ///< spherical: tilt of the axis toward the next axis [rad] (S-96)
   double cone_angle1 = kUnlimited;  ///< toward the one after
-  std::vector<Limit> limits;      ///< of D6 joints, and LimitAPI on others (S-100)
+  std::vector<Limit> limits;        ///< of D6 joints, and LimitAPI on others (S-100)
   std::vector<Drive> drives;
   std::optional<Mimic> mimic;
   bool enabled = true;
@@ -179,11 +182,11 @@ struct Joint {
   double break_force = kUnlimited;   ///< [N]
   double break_torque = kUnlimited;  ///< [N m]
   std::optional<Index> articulation;
-  double armature = 0;               ///< added to the joint's inertia [kg m^2] or [kg]
-  double friction = 0;               ///< Coulomb friction [N m] or [N]
-  double damping = 0;                ///< passive [N m s/rad] or [N s/m]
-  double stiffness = 0;              ///< passive spring [N m/rad] or [N/m]
-  double spring_reference = 0;       ///< rest position of the passive spring [rad or m]
+  double armature = 0;                 ///< added to the joint's inertia [kg m^2] or [kg]
+  double friction = 0;                 ///< Coulomb friction [N m] or [N]
+  double damping = 0;                  ///< passive [N m s/rad] or [N s/m]
+  double stiffness = 0;                ///< passive spring [N m/rad] or [N/m]
+  double spring_reference = 0;         ///< rest position of the passive spring [rad or m]
   double velocity_limit = kUnlimited;  ///< [rad/s] or [m/s]
   /// Initial coordinate and velocity from the joint state API [rad or m]; none: from the poses.
   std::optional<double> initial_position;
@@ -194,18 +197,19 @@ struct Joint {
 };
 
 struct Articulation {
-  Path path;                      ///< prim with the articulation root API
-  Path root;                      ///< root body, or the joint that fixes it to the world
+  Path path;  ///< prim with the articulation root API
+  Path root;  ///< root body, or the joint that fixes it to the world
   bool fixed_base = false;
-  std::vector<Index> links;       ///< bodies, root first, then in path order
+  std::vector<Index> links;  ///< bodies, root first, then in path order
   std::vector<Index> joints;
-  std::vector<Index> loop_joints; ///< closed by constraints, not part of the tree
+  std::vector<Index> loop_joints;  ///< closed by constraints, not part of the tree
   bool self_collision = true;
 };
 
 /// Which colliders may touch. Only ever removes pairs.
 struct CollisionFilter {
-  /// Groups of each collider (indices into `group_paths`); empty for ungrouped ones. (collider_count)
+  /// Groups of each collider (indices into `group_paths`); empty for ungrouped ones.
+  /// (collider_count)
   std::vector<std::vector<Index>> groups_of_collider;
   std::vector<Path> group_paths;
   /// (group_count x group_count) row-major: 1 where contacts between the groups are off.
@@ -228,10 +232,10 @@ enum class Animated : std::uint8_t {
 struct ScalarTrack {
   Animated what = Animated::DriveTargetPosition;
   Index joint = 0;
-  Index drive = 0;                ///< into Joint::drives
-  std::vector<double> times;      ///< [s] from the start, ascending (sample_count)
-  std::vector<double> values;     ///< SI (sample_count)
-  bool held = false;              ///< stage interpolation: held instead of linear
+  Index drive = 0;             ///< into Joint::drives
+  std::vector<double> times;   ///< [s] from the start, ascending (sample_count)
+  std::vector<double> values;  ///< SI (sample_count)
+  bool held = false;           ///< stage interpolation: held instead of linear
   double at(double seconds) const;
 };
 
@@ -254,7 +258,7 @@ struct NotRead {
 };
 
 struct PhysicsScene {
-  std::vector<Scene> scenes;      ///< at least one
+  std::vector<Scene> scenes;  ///< at least one
   std::vector<Body> bodies;
   std::vector<Collider> colliders;
   std::vector<TriangleMesh> meshes;
@@ -266,14 +270,15 @@ struct PhysicsScene {
   std::vector<PoseTrack> pose_tracks;
   std::vector<NotRead> not_read;
 
-  double meters_per_unit = 0.01;      ///< of the stage, to go back to its units
+  double meters_per_unit = 0.01;  ///< of the stage, to go back to its units
   double kilograms_per_unit = 1;
   Vec3d up{{0, 1, 0}};
-  double start_time_code = 0;         ///< stage time of the start of the simulation
+  double start_time_code = 0;  ///< stage time of the start of the simulation
   double time_codes_per_second = 24;
-  double end_time_code = 0;           ///< authored end, or the start when none is authored
+  double end_time_code = 0;  ///< authored end, or the start when none is authored
 
-  /// Contacts between two colliders are possible: different bodies, enabled, same scene, not filtered.
+  /// Contacts between two colliders are possible: different bodies, enabled, same scene, not
+  /// filtered.
   bool may_collide(Index collider_a, Index collider_b) const;
   /// All filtered collider pairs (groups expanded), sorted; for reports.
   std::vector<std::pair<Index, Index>> disabled_pairs() const;

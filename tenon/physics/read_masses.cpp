@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who decides what a body weighs (S-39..S-46): its own mass API; else the sum of its enabled colliders,
-// each by its own mass, or by the nearest density at or above it within the body, the density of
-// its material, or 1000 kg/m^3.
+// Who decides what a body weighs (S-39..S-46): its own mass API; else the sum of its enabled
+// colliders, each by its own mass, or by the nearest density at or above it within the body, the
+// density of its material, or 1000 kg/m^3.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -37,8 +37,7 @@ std::optional<Mat3d> newton_inertia(const ReadState& state, const PhysicsPrim& f
   if (!found.roles.has(Api::NewtonMass)) {
     return std::nullopt;
   }
-  const auto six =
-      state.values.get<layer::Array<double>>(found.prim, state.tokens.newton_inertia);
+  const auto six = state.values.get<layer::Array<double>>(found.prim, state.tokens.newton_inertia);
   if (!six || six->empty()) {
     return std::nullopt;
   }
@@ -226,13 +225,12 @@ class BodyWeigher {
     const auto found = groups_.find(prim);
     return found != groups_.end()
                ? found->second
-               : groups_
-                     .emplace(prim, read_authored(state_, state_.walk.prims[prim], body_.pose))
+               : groups_.emplace(prim, read_authored(state_, state_.walk.prims[prim], body_.pose))
                      .first->second;
   }
 
-  /// A mass on a prim between body and colliders is that of all colliders below it (S-40); deeper ones
-  /// first.
+  /// A mass on a prim between body and colliders is that of all colliders below it (S-40); deeper
+  /// ones first.
   void apply_group_masses(std::vector<Weighed>& parts) {
     for (const Weighed& part : parts) {
       for (std::uint32_t at = part.group; at != kNone; at = state_.walk.prims[at].mass_above) {
@@ -276,8 +274,8 @@ class BodyWeigher {
     } else if (sum.mass > 0 && has_density_) {
       body_.mass_source = MassSource::Density;
     }
-    const bool usable = std::isfinite(result.mass) && result.mass > 0 &&
-                        is_positive_definite(result.inertia);
+    const bool usable =
+        std::isfinite(result.mass) && result.mass > 0 && is_positive_definite(result.inertia);
     if (!usable) {
       // M-19
       state_.report(found_.prim, Severity::Error, "mass.unusable",
@@ -303,8 +301,8 @@ void read_masses(ReadState& state) {
     BodyWeigher(state, i).run(state.colliders_of_body[i]);
   }
   for (const PhysicsPrim& found : state.walk.prims) {
-    const bool counts = found.body != kNone || found.roles.has(Api::Collision) ||
-                        found.roles.has(Api::RigidBody);
+    const bool counts =
+        found.body != kNone || found.roles.has(Api::Collision) || found.roles.has(Api::RigidBody);
     if (found.roles.has(Api::Mass) && !counts) {
       // S-40
       state.report(found.prim, Severity::Warning, "mass.outside-body",

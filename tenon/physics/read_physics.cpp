@@ -16,8 +16,8 @@ namespace {
 
 ReadState begin(const stage::Stage& stage, const ReadOptions& options, Diagnostics& diagnostics) {
   const Units units = read_units(stage, diagnostics);
-  const double start = std::isnan(options.start_time_code) ? stage.start_time_code()
-                                                           : options.start_time_code;
+  const double start =
+      std::isnan(options.start_time_code) ? stage.start_time_code() : options.start_time_code;
   const AttributeValues values(stage::Time(start), stage_is_animated(stage), diagnostics);
   ReadState state{stage, diagnostics, physics_tokens(), units, values};
   state.scene.meters_per_unit = units.length;

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include "tenon/physics/scenes.h"
+
 #include <cmath>
 #include <limits>
 
 #include "tenon/base/text_number.h"
 #include "tenon/physics/read_state.h"
-#include "tenon/physics/scenes.h"
 
 namespace tenon::physics {
 namespace {

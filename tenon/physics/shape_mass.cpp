@@ -16,9 +16,9 @@ SolidIntegrals box_integrals(const Vec3d& h) {
   SolidIntegrals result;
   result.volume = 8 * h[0] * h[1] * h[2];
   const Vec3d square{{h[0] * h[0], h[1] * h[1], h[2] * h[2]}};
-  result.inertia = diagonal_matrix(
-      Vec3d{{square[1] + square[2], square[0] + square[2], square[0] + square[1]}} *
-      (result.volume / 3));
+  result.inertia =
+      diagonal_matrix(Vec3d{{square[1] + square[2], square[0] + square[2], square[0] + square[1]}} *
+                      (result.volume / 3));
   return result;
 }
 
@@ -27,9 +27,9 @@ SolidIntegrals ellipsoid_integrals(const Vec3d& r) {
   SolidIntegrals result;
   result.volume = 4.0 / 3 * kPi * r[0] * r[1] * r[2];
   const Vec3d square{{r[0] * r[0], r[1] * r[1], r[2] * r[2]}};
-  result.inertia = diagonal_matrix(
-      Vec3d{{square[1] + square[2], square[0] + square[2], square[0] + square[1]}} *
-      (result.volume / 5));
+  result.inertia =
+      diagonal_matrix(Vec3d{{square[1] + square[2], square[0] + square[2], square[0] + square[1]}} *
+                      (result.volume / 5));
   return result;
 }
 
@@ -44,8 +44,8 @@ Mat3d about_axis(Axis axis, double along, double across) {
 SolidIntegrals cylinder_integrals(double r, double h, Axis axis) {
   SolidIntegrals result;
   result.volume = kPi * r * r * h;
-  result.inertia = about_axis(axis, result.volume * r * r / 2,
-                              result.volume * (3 * r * r + h * h) / 12);
+  result.inertia =
+      about_axis(axis, result.volume * r * r / 2, result.volume * (3 * r * r + h * h) / 12);
   return result;
 }
 
@@ -66,8 +66,8 @@ SolidIntegrals capsule_integrals(double r, double h, Axis axis) {
   SolidIntegrals result;
   result.volume = cylinder + caps;
   const double along = cylinder * r * r / 2 + caps * r * r * 2 / 5;
-  const double across = cylinder * (h * h / 12 + r * r / 4) +
-                        caps * (r * r * 2 / 5 + h * h / 4 + h * r * 3 / 8);
+  const double across =
+      cylinder * (h * h / 12 + r * r / 4) + caps * (r * r * 2 / 5 + h * h / 4 + h * r * 3 / 8);
   result.inertia = about_axis(axis, along, across);
   return result;
 }

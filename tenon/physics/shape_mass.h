@@ -9,8 +9,8 @@
 
 namespace tenon::physics {
 
-/// Integrals of a collision shape in its own frame (M-1..M-11). Zero volume for planes and flat meshes.
-/// `used_hull` is set when an open mesh had to be closed by its convex hull (M-9).
+/// Integrals of a collision shape in its own frame (M-1..M-11). Zero volume for planes and flat
+/// meshes. `used_hull` is set when an open mesh had to be closed by its convex hull (M-9).
 SolidIntegrals shape_integrals(const Shape& shape, const std::vector<TriangleMesh>& meshes,
                                bool* used_hull = nullptr);
 
@@ -21,7 +21,7 @@ struct Profile {
   double top = 0;
   double bottom_radius = 0;  ///< of the frustum, or of the lower ball with `capped`
   double top_radius = 0;
-  bool capped = false;       ///< hull of two balls whose centres are `bottom` and `top`
+  bool capped = false;  ///< hull of two balls whose centres are `bottom` and `top`
 };
 SolidIntegrals profile_integrals(const Profile& profile);
 

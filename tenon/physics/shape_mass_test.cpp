@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/physics/shape_mass.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 namespace tenon::physics {
 namespace {
@@ -40,12 +40,21 @@ std::vector<Row> rows() {
   return {
       {"box M-1", box, 1000, {{1000.0 / 6, 1000.0 / 6, 1000.0 / 6}}, {}},
       {"ellipsoid M-2", ellipsoid, ball, {{ball * 13 / 5, ball * 10 / 5, ball}}, {}},
-      {"cylinder M-3", round_shape(ShapeKind::Cylinder, 1, 2, Axis::Y), cylinder,
-       {{cylinder * 7 / 12, cylinder / 2, cylinder * 7 / 12}}, {}},
-      {"cone M-4", round_shape(ShapeKind::Cone, 1, 2, Axis::Z), cone,
-       {{cone * 0.3, cone * 0.3, cone * 0.3}}, {{0, 0, -0.5}}},
-      {"capsule M-5", round_shape(ShapeKind::Capsule, 0.5, 1, Axis::X), 1308.9969389957,
-       {{150.5346, 395.9716, 395.9716}}, {}},
+      {"cylinder M-3",
+       round_shape(ShapeKind::Cylinder, 1, 2, Axis::Y),
+       cylinder,
+       {{cylinder * 7 / 12, cylinder / 2, cylinder * 7 / 12}},
+       {}},
+      {"cone M-4",
+       round_shape(ShapeKind::Cone, 1, 2, Axis::Z),
+       cone,
+       {{cone * 0.3, cone * 0.3, cone * 0.3}},
+       {{0, 0, -0.5}}},
+      {"capsule M-5",
+       round_shape(ShapeKind::Capsule, 0.5, 1, Axis::X),
+       1308.9969389957,
+       {{150.5346, 395.9716, 395.9716}},
+       {}},
   };
 }
 

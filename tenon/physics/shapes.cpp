@@ -18,12 +18,14 @@ namespace {
 constexpr double kUniform = 1e-5;  ///< relative difference of scales that still counts as uniform
 
 struct Sizes {
-  Vec3d scale;           ///< signed, along the shape's axes, stage units to metres
-  std::size_t along = 2; ///< of the shape's axis
+  Vec3d scale;            ///< signed, along the shape's axes, stage units to metres
+  std::size_t along = 2;  ///< of the shape's axis
   std::size_t side0 = 0;
   std::size_t side1 = 1;
   double scale_along() const { return std::fabs(scale[along]); }
-  double scale_across() const { return std::fmax(std::fabs(scale[side0]), std::fabs(scale[side1])); }
+  double scale_across() const {
+    return std::fmax(std::fabs(scale[side0]), std::fabs(scale[side1]));
+  }
 };
 
 bool is_uniform(double a, double b) {
@@ -109,8 +111,8 @@ std::optional<ShapeReading> read_sphere(ReadState& state, const ShapeSource& sou
   const double radius = positive(state, source.found.prim, state.tokens.radius, 1);
   const Sizes sizes = sizes_for(state, source, Axis::Z);
   ShapeReading reading;
-  const bool uniform = is_uniform(sizes.scale[0], sizes.scale[1]) &&
-                       is_uniform(sizes.scale[0], sizes.scale[2]);
+  const bool uniform =
+      is_uniform(sizes.scale[0], sizes.scale[1]) && is_uniform(sizes.scale[0], sizes.scale[2]);
   if (uniform) {
     reading.shape.kind = ShapeKind::Sphere;
     reading.shape.radius = radius * std::fmax(sizes.scale_along(), sizes.scale_across());

@@ -31,8 +31,8 @@ struct PhysicsPrim {
   std::uint32_t mass_above = kNone;  ///< the same, without this prim
   /// Nearest articulation root at or above, into Walk::prims.
   std::uint32_t articulation_root = kNone;
-  bool is_body = false;           ///< an enabled rigid body
-  bool resets_below_body = false; ///< a transform stack reset lies between it and the body above
+  bool is_body = false;            ///< an enabled rigid body
+  bool resets_below_body = false;  ///< a transform stack reset lies between it and the body above
 };
 
 /// The physics prims of a stage in traversal order.
@@ -46,8 +46,8 @@ struct Walk {
   }
 };
 
-/// Visits active, loaded, defined, non-abstract prims, instance proxies included (S-1); prims below a
-/// point instancer are left out (S-38).
+/// Visits active, loaded, defined, non-abstract prims, instance proxies included (S-1); prims below
+/// a point instancer are left out (S-38).
 Walk walk_stage(const stage::Stage& stage, const AttributeValues& values);
 
 }  // namespace tenon::physics

@@ -49,8 +49,8 @@ class TrackReader {
     const double span = authored.back() - authored.front();
     const double fps = state_.stage.frames_per_second();
     const double frame = fps > 0 ? state_.scene.time_codes_per_second / fps : 1;
-    const double step = std::max(frame / kSamplesPerFrame,
-                                 span / static_cast<double>(limits::kTrackSamples));
+    const double step =
+        std::max(frame / kSamplesPerFrame, span / static_cast<double>(limits::kTrackSamples));
     const double first = authored.front();
     const auto count = static_cast<std::size_t>(span / step);
     authored.reserve(authored.size() + count);
@@ -141,8 +141,7 @@ class TrackReader {
       return;
     }
     const Pose start = world_pose(found.world, state_.units);
-    PoseTrack track =
-        poses(found.prim, codes, inverse(start) * state_.scene.colliders[i].pose);
+    PoseTrack track = poses(found.prim, codes, inverse(start) * state_.scene.colliders[i].pose);
     track.collider = i;
     state_.scene.pose_tracks.push_back(std::move(track));
   }

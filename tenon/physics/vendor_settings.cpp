@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the asset says and the description does not hold: vendors' settings, per-face materials, point
-// instancers, switches that change during the simulation. Listed, so that nothing is lost in silence.
+// What the asset says and the description does not hold: vendors' settings, per-face materials,
+// point instancers, switches that change during the simulation. Listed, so that nothing is lost in
+// silence.
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -13,32 +14,74 @@ namespace tenon::physics {
 namespace {
 
 /// Properties that some pass reads; a '*' stands for one instance name.
-constexpr std::string_view kRead[] = {
-    "mjc:armature", "mjc:biasPrm", "mjc:biasType", "mjc:coef0", "mjc:coef1", "mjc:coef2",
-    "mjc:coef3", "mjc:coef4", "mjc:damping", "mjc:dynType", "mjc:forceRange:max",
-    "mjc:forceRange:min", "mjc:frictionloss", "mjc:gainPrm", "mjc:gainType", "mjc:gear",
-    "mjc:maxhullvert", "mjc:option:timestep", "mjc:ref", "mjc:solimp", "mjc:solref",
-    "mjc:springref", "mjc:stiffness", "mjc:target", "newton:armature", "newton:contactGap",
-    "newton:contactMargin", "newton:damping", "newton:friction", "newton:gravityEnabled",
-    "newton:inertia", "newton:maxHullVertices", "newton:mimicCoef0", "newton:mimicCoef1",
-    "newton:mimicEnabled", "newton:mimicJoint", "newton:selfCollisionEnabled",
-    "newton:timeStepsPerSecond", "newton:velocityLimit",
-    "physxArticulation:enabledSelfCollisions", "physxCollision:contactOffset",
-    "physxCollision:restOffset", "physxConvexHullCollision:hullVertexLimit",
-    "physxJoint:armature", "physxJoint:jointFriction", "physxJoint:maxJointVelocity",
-    "physxJointAxis:*:armature", "physxJointAxis:*:dynamicFrictionEffort",
-    "physxJointAxis:*:maxJointVelocity", "physxJointAxis:*:staticFrictionEffort",
-    "physxJointAxis:*:viscousFrictionCoefficient", "physxMimicJoint:*:dampingRatio",
-    "physxMimicJoint:*:gearing", "physxMimicJoint:*:naturalFrequency", "physxMimicJoint:*:offset",
-    "physxMimicJoint:*:referenceJoint", "physxMimicJoint:*:referenceJointAxis",
-    "physxRigidBody:angularDamping", "physxRigidBody:disableGravity",
-    "physxRigidBody:linearDamping", "physxScene:timeStepsPerSecond"};
+constexpr std::string_view kRead[] = {"mjc:armature",
+                                      "mjc:biasPrm",
+                                      "mjc:biasType",
+                                      "mjc:coef0",
+                                      "mjc:coef1",
+                                      "mjc:coef2",
+                                      "mjc:coef3",
+                                      "mjc:coef4",
+                                      "mjc:damping",
+                                      "mjc:dynType",
+                                      "mjc:forceRange:max",
+                                      "mjc:forceRange:min",
+                                      "mjc:frictionloss",
+                                      "mjc:gainPrm",
+                                      "mjc:gainType",
+                                      "mjc:gear",
+                                      "mjc:maxhullvert",
+                                      "mjc:option:timestep",
+                                      "mjc:ref",
+                                      "mjc:solimp",
+                                      "mjc:solref",
+                                      "mjc:springref",
+                                      "mjc:stiffness",
+                                      "mjc:target",
+                                      "newton:armature",
+                                      "newton:contactGap",
+                                      "newton:contactMargin",
+                                      "newton:damping",
+                                      "newton:friction",
+                                      "newton:gravityEnabled",
+                                      "newton:inertia",
+                                      "newton:maxHullVertices",
+                                      "newton:mimicCoef0",
+                                      "newton:mimicCoef1",
+                                      "newton:mimicEnabled",
+                                      "newton:mimicJoint",
+                                      "newton:selfCollisionEnabled",
+                                      "newton:timeStepsPerSecond",
+                                      "newton:velocityLimit",
+                                      "physxArticulation:enabledSelfCollisions",
+                                      "physxCollision:contactOffset",
+                                      "physxCollision:restOffset",
+                                      "physxConvexHullCollision:hullVertexLimit",
+                                      "physxJoint:armature",
+                                      "physxJoint:jointFriction",
+                                      "physxJoint:maxJointVelocity",
+                                      "physxJointAxis:*:armature",
+                                      "physxJointAxis:*:dynamicFrictionEffort",
+                                      "physxJointAxis:*:maxJointVelocity",
+                                      "physxJointAxis:*:staticFrictionEffort",
+                                      "physxJointAxis:*:viscousFrictionCoefficient",
+                                      "physxMimicJoint:*:dampingRatio",
+                                      "physxMimicJoint:*:gearing",
+                                      "physxMimicJoint:*:naturalFrequency",
+                                      "physxMimicJoint:*:offset",
+                                      "physxMimicJoint:*:referenceJoint",
+                                      "physxMimicJoint:*:referenceJointAxis",
+                                      "physxRigidBody:angularDamping",
+                                      "physxRigidBody:disableGravity",
+                                      "physxRigidBody:linearDamping",
+                                      "physxScene:timeStepsPerSecond"};
 
 bool is_vendor(std::string_view name) {
   return name.starts_with("physx") || name.starts_with("newton:") || name.starts_with("mjc:");
 }
 
-/// "physxMimicJoint:rotX:gearing" -> "physxMimicJoint:*:gearing" for instances of multiple-apply APIs.
+/// "physxMimicJoint:rotX:gearing" -> "physxMimicJoint:*:gearing" for instances of multiple-apply
+/// APIs.
 std::string without_instance(std::string_view name) {
   const std::size_t first = name.find(':');
   const std::size_t last = name.rfind(':');
@@ -54,16 +97,18 @@ bool is_read(std::string_view name) {
 }
 
 bool has_vendor_role(const Roles& roles) {
-  constexpr Api kVendors[] = {
-      Api::NewtonScene,    Api::NewtonMass,        Api::NewtonCollision,  Api::NewtonMeshCollision,
-      Api::NewtonJoint,    Api::NewtonMimic,       Api::PhysxScene,       Api::PhysxRigidBody,
-      Api::PhysxCollision, Api::PhysxConvexHull,   Api::PhysxJoint,       Api::PhysxJointAxis,
-      Api::PhysxMimicJoint, Api::PhysxArticulation, Api::MjcScene,        Api::MjcCollision,
-      Api::MjcMeshCollision, Api::MjcJoint,        Api::MjcEqualityJoint,
-      Api::NewtonArticulationRoot};
-  return roles.kind == PrimKind::Actuator ||
-         std::any_of(std::begin(kVendors), std::end(kVendors),
-                     [&](Api api) { return roles.has(api); });
+  constexpr Api kVendors[] = {Api::NewtonScene,      Api::NewtonMass,
+                              Api::NewtonCollision,  Api::NewtonMeshCollision,
+                              Api::NewtonJoint,      Api::NewtonMimic,
+                              Api::PhysxScene,       Api::PhysxRigidBody,
+                              Api::PhysxCollision,   Api::PhysxConvexHull,
+                              Api::PhysxJoint,       Api::PhysxJointAxis,
+                              Api::PhysxMimicJoint,  Api::PhysxArticulation,
+                              Api::MjcScene,         Api::MjcCollision,
+                              Api::MjcMeshCollision, Api::MjcJoint,
+                              Api::MjcEqualityJoint, Api::NewtonArticulationRoot};
+  return roles.kind == PrimKind::Actuator || std::any_of(std::begin(kVendors), std::end(kVendors),
+                                                         [&](Api api) { return roles.has(api); });
 }
 
 void note_vendor_settings(ReadState& state, const PhysicsPrim& found) {
@@ -85,9 +130,10 @@ void note_instancer(ReadState& state, const PhysicsPrim& found) {
     pending.pop_back();
     if (prim.has_api("PhysicsRigidBodyAPI") || prim.has_api("PhysicsCollisionAPI")) {
       state.not_read(found.prim, "prototypes", "instances of a point instancer are not simulated");
-      state.report(found.prim, Severity::Warning, "point-instancer.not-simulated",
-                   "the point instancer has prototypes with physics; its instances are not simulated",
-                   "use instanceable references");
+      state.report(
+          found.prim, Severity::Warning, "point-instancer.not-simulated",
+          "the point instancer has prototypes with physics; its instances are not simulated",
+          "use instanceable references");
       return;
     }
     const std::vector<stage::Prim> children = prim.children();
@@ -102,8 +148,8 @@ void note_face_materials(ReadState& state, const PhysicsPrim& found) {
     return;
   }
   for (const stage::Prim& child : found.prim.children()) {
-    if (child.type_name() == "GeomSubset" &&
-        (child.has_property("material:binding:physics") || child.has_property("material:binding"))) {
+    if (child.type_name() == "GeomSubset" && (child.has_property("material:binding:physics") ||
+                                              child.has_property("material:binding"))) {
       state.not_read(child, "material:binding", "one collider has one material");
     }
   }
