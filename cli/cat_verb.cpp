@@ -16,18 +16,19 @@ struct Options {
   std::string output = "-";
   std::string format;
   bool flatten = false;
+  bool flatten_layer_stack = false;
 };
 
 Result<layer::Layer> read_input(const Options& options, Diagnostics& diagnostics) {
-  const bool compose =
-      options.flatten || !options.asset.mask.empty() || !options.asset.physics.empty();
+  const bool compose = options.flatten || options.flatten_layer_stack ||
+                       !options.asset.mask.empty() || !options.asset.physics.empty();
   if (!compose) {
     TENON_TRY(const layer::LayerPtr layer, open_layer(options.asset.asset, diagnostics));
     return *layer;
   }
   TENON_TRY(const stage::Stage stage,
             open_stage(options.asset.asset, options.asset.open_options(), diagnostics));
-  return stage::flatten(stage);
+  return options.flatten_layer_stack ? stage::flatten_layer_stack(stage) : stage::flatten(stage);
 }
 
 Result<formats::LayerFormat> output_format(const Options& options) {
@@ -66,6 +67,8 @@ void add_cat(CLI::App& app, const Globals& globals, Chosen& chosen) {
   options->asset.add_to(*verb);
   verb->add_option("-o,--output", options->output, "Where to write; - is standard output");
   verb->add_flag("-f,--flatten", options->flatten, "Compose first and write one layer");
+  verb->add_flag("--flatten-layer-stack,--flattenLayerStack", options->flatten_layer_stack,
+                 "Merge the sublayers, keep references and the like");
   verb->add_option("--format,--usdFormat", options->format, "usda, usdc or usdz");
   verb->footer(
       "Examples:\n  tenon cat geometry.usdc\n  tenon cat hand.usda --flatten -o flat.usdc\n"

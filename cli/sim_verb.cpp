@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cli/report.h"
 #include "cli/simulate.h"
@@ -78,6 +82,26 @@ void print_numbers(const Json& numbers) {
   }
 }
 
+/// One line per reason, with the first prim and how many more there are.
+void print_not_mapped(const Json& items) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+  for (const auto& item : items) {
+    const std::string reason =
+        item["property"].get<std::string>() + ": " + item["why"].get<std::string>();
+    auto found = std::find_if(reasons.begin(), reasons.end(),
+                              [&](const auto& known) { return known.first == reason; });
+    if (found == reasons.end()) {
+      found = reasons.insert(reasons.end(), {reason, {}});
+    }
+    found->second.push_back(item["prim"].get<std::string>());
+  }
+  for (const auto& [reason, prims] : reasons) {
+    const std::string more =
+        prims.size() > 1 ? " and " + std::to_string(prims.size() - 1) + " more" : "";
+    std::printf("not mapped  %s (<%s>%s)\n", reason.c_str(), prims.front().c_str(), more.c_str());
+  }
+}
+
 void print_text(const Json& state) {
   std::printf(
       "%s %s  %zu steps of %g s = %g s  %.1fx real time%s\n",
@@ -100,11 +124,7 @@ void print_text(const Json& state) {
     print_numbers(body["position"]);
     std::printf("\n");
   }
-  for (const auto& item : state["notMapped"]) {
-    std::printf("not mapped  <%s> %s: %s\n", item["prim"].get<std::string>().c_str(),
-                item["property"].get<std::string>().c_str(),
-                item["why"].get<std::string>().c_str());
-  }
+  print_not_mapped(state["notMapped"]);
 }
 
 Result<void> write_files(const Simulated& s, const Options& options, Report& report) {

@@ -119,9 +119,9 @@ Result<std::string> edited_text(const layer::Layer& layer, const Selection& sele
     const layer::Spec* changed = again ? again->find(selection.prim) : nullptr;
     const auto* selections =
         changed == nullptr ? nullptr : changed->get<layer::VariantSelections>("variantSelection");
-    const auto* expected = with_selection(layer, selection)
-                               .find(selection.prim)
-                               ->get<layer::VariantSelections>("variantSelection");
+    const layer::Layer wanted = with_selection(layer, selection);
+    const auto* expected =
+        wanted.find(selection.prim)->get<layer::VariantSelections>("variantSelection");
     if (selections != nullptr && *selections == *expected &&
         again->spec_count() == layer.spec_count()) {
       return *edited;

@@ -3,6 +3,7 @@
 //
 // Files, registry and composition wired together. What the caller asks for (a variant, overridden
 // attributes) becomes opinions of a session layer in memory; no file changes.
+#include <algorithm>
 #include <memory>
 
 #include "tenon/formats/open_layer.h"
@@ -34,12 +35,40 @@ Result<stage::StageOptions> stage_options(const OpenOptions& options, const Regi
 }
 
 Result<stage::Stage> compose_stage(const Registry& registry, const layer::LayerPtr& root,
-                             const layer::LayerPtr& session, const OpenOptions& options) {
+                                   const layer::LayerPtr& session, const OpenOptions& options) {
   TENON_TRY(auto composed, stage_options(options, registry));
   auto opener = [registry](const std::string& asset, const layer::Layer& anchor) {
     return registry->open(asset, &anchor);
   };
   return stage::Stage::open(root, session, std::move(opener), std::move(composed));
+}
+
+/// The variant that was asked for must exist; a stage without the set says so and opens as it is.
+Result<void> check_physics_variant(const stage::Stage& stage, const std::string& variant,
+                                   Diagnostics& diagnostics) {
+  const stage::Prim prim = stage.default_prim();
+  const auto sets = prim.variant_set_names();
+  if (std::find(sets.begin(), sets.end(), "Physics") == sets.end()) {
+    Diagnostic finding = prim.located(
+        Severity::Warning, "variant.no-physics-set",
+        "the default prim has no variant set \"Physics\" to select \"" + variant + "\" in");
+    finding.file = stage.root_layer().identifier();
+    diagnostics.add(std::move(finding));
+    return {};
+  }
+  const auto names = prim.variant_names("Physics");
+  if (std::find(names.begin(), names.end(), variant) != names.end()) {
+    return {};
+  }
+  std::string known;
+  for (const std::string& name : names) {
+    known += (known.empty() ? "" : ", ") + name;
+  }
+  return Error(ErrorCode::NotFound, "variant set \"Physics\" has no variant \"" + variant + "\"")
+      .in_file(stage.root_layer().identifier())
+      .with_prim(prim.path().str())
+      .with_fix("choose one of: " + known)
+      .with_rule("variant.unknown");
 }
 
 }  // namespace
@@ -71,6 +100,9 @@ Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& opti
   }
   diagnostics.append(registry->diagnostics());
   diagnostics.append(stage.diagnostics());
+  if (!options.physics_variant.empty()) {
+    TENON_CHECK(check_physics_variant(stage, options.physics_variant, diagnostics));
+  }
   return stage;
 }
 
