@@ -9,6 +9,7 @@
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/text/reader.h"
 #include "tenon/session_opinions.h"
+#include "tenon/stage_sources.h"
 #include "tenon/tenon.h"
 
 namespace tenon {
@@ -34,13 +35,9 @@ Result<stage::StageOptions> stage_options(const OpenOptions& options, const Regi
   return result;
 }
 
-Result<stage::Stage> compose_stage(const Registry& registry, const layer::LayerPtr& root,
-                                   const layer::LayerPtr& session, const OpenOptions& options) {
-  TENON_TRY(auto composed, stage_options(options, registry));
-  auto opener = [registry](const std::string& asset, const layer::Layer& anchor) {
-    return registry->open(asset, &anchor);
-  };
-  return stage::Stage::open(root, session, std::move(opener), std::move(composed));
+Result<stage::Stage> compose_stage(const StageSources& sources, const OpenOptions& options) {
+  TENON_TRY(auto composed, stage_options(options, sources.registry));
+  return stage::Stage::open(sources.root, sources.session, sources.opener(), std::move(composed));
 }
 
 /// The variant that was asked for must exist; a stage without the set says so and opens as it is.
@@ -80,25 +77,15 @@ Result<layer::LayerPtr> open_layer(const std::string& path, Diagnostics& diagnos
 
 Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& options,
                                 Diagnostics& diagnostics) {
-  bytes::ResolverOptions resolver;
-  resolver.roots = options.sandbox_roots;
-  const auto registry =
-      std::make_shared<formats::LayerRegistry>(bytes::AssetResolver(std::move(resolver)));
-  TENON_TRY(const layer::LayerPtr root, registry->open_root(path));
-  layer::LayerPtr session;
-  if (!options.session_path.empty()) {
-    TENON_TRY(session, registry->open(options.session_path, nullptr));
-  }
-  if (!options.physics_variant.empty()) {
-    TENON_TRY(session, with_variant(session, *root, "Physics", options.physics_variant));
-  }
-  TENON_TRY(auto stage, compose_stage(registry, root, session, options));
+  TENON_TRY(StageSources sources, open_sources(path, options));
+  TENON_TRY(auto stage, compose_stage(sources, options));
   if (!options.overrides.empty()) {
     // The types of the attributes are known only once the stage is composed.
-    TENON_TRY(session, with_overrides(session, stage, options.overrides, formats::read_text));
-    TENON_TRY(stage, compose_stage(registry, root, session, options));
+    TENON_TRY(sources.session,
+              with_overrides(sources.session, stage, options.overrides, formats::read_text));
+    TENON_TRY(stage, compose_stage(sources, options));
   }
-  diagnostics.append(registry->diagnostics());
+  diagnostics.append(sources.registry->diagnostics());
   diagnostics.append(stage.diagnostics());
   if (!options.physics_variant.empty()) {
     TENON_CHECK(check_physics_variant(stage, options.physics_variant, diagnostics));

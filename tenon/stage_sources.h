@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "tenon/base/result.h"
+#include "tenon/compose/layer_opener.h"
+#include "tenon/formats/open_layer.h"
+#include "tenon/layer/layer.h"
+#include "tenon/tenon.h"
+
+namespace tenon {
+
+/// What composition starts from: the layers of a stage and the way to all others.
+struct StageSources {
+  std::shared_ptr<formats::LayerRegistry> registry;
+  layer::LayerPtr root;
+  layer::LayerPtr session;  ///< null when nothing asks for one
+
+  /// Keeps the registry alive.
+  compose::LayerOpener opener() const;
+};
+
+/// Opens the root layer of `path` and the session layer that the options ask for, with the variant
+/// of "Physics" selected in it.
+Result<StageSources> open_sources(const std::string& path, const OpenOptions& options);
+
+}  // namespace tenon
