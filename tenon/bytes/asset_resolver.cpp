@@ -156,13 +156,13 @@ Result<std::string> AssetResolver::resolve_in_package(const std::string& asset_p
     at.inner = archive.entries().empty() ? "" : archive.entries().front().name;
   }
   TENON_TRY(const ZipArchive archive, open_package(*this, at.package));
-  std::vector<std::string> candidates = {normal(std::string(folder_of(at.inner)) + asset_path)};
-  if (!is_file_relative(asset_path)) {
-    candidates.push_back(normal(asset_path));
+  const std::string candidate = normal(std::string(folder_of(at.inner)) + asset_path);
+  if (archive.find(candidate) != nullptr) {
+    return join_package_path(at.package, candidate);
   }
-  for (const std::string& candidate : candidates) {
-    if (archive.find(candidate) != nullptr) {
-      return join_package_path(at.package, candidate);
+  if (!is_file_relative(asset_path)) {
+    if (Result<std::string> found = resolve_file(asset_path, "")) {
+      return found;
     }
   }
   return not_found(asset_path, anchor);

@@ -36,8 +36,8 @@ struct ResolverOptions {
 };
 
 /// "./x.usda" and "../x.usda" are taken from the anchor's folder; "x.usda" too, then from the
-/// working directory, then from the search paths; inside a package relative paths stay in the
-/// package: first beside the anchor, then (not for "./") from the top of the package.
+/// working directory, then from the search paths. The anchor's folder may be one in a package,
+/// which relative paths cannot leave.
 class AssetResolver {
  public:
   AssetResolver() = default;
