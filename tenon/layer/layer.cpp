@@ -8,10 +8,21 @@
 namespace tenon::layer {
 namespace {
 
-std::size_t slot_of(Path path, std::size_t slot_count) {
-  const std::size_t hash = std::hash<Path>{}(path);
-  return (hash >> 17) & (slot_count - 1);
+constexpr std::uint64_t kIndexMask = 0xFFFFFFFFu;
+
+/// Where to look for a path first, and the upper half of its slot, which tells most others apart
+/// without a look at the entry.
+struct Place {
+  std::size_t at;
+  std::uint64_t tag;
+};
+
+Place place_of(Path path, std::size_t slot_count) {
+  const std::uint64_t hash = std::hash<Path>{}(path);
+  return {(hash >> 17) & (slot_count - 1), hash & ~kIndexMask};
 }
+
+std::size_t entry_of(std::uint64_t slot) { return (slot & kIndexMask) - 1; }
 
 }  // namespace
 
@@ -20,13 +31,14 @@ Layer::Layer(std::string identifier) : identifier_(std::move(identifier)) {
 }
 
 const Spec* Layer::find(Path path) const {
-  std::size_t at = slot_of(path, slots_.size());
-  while (slots_[at] != 0) {
-    const Entry& entry = entries_[slots_[at] - 1];
-    if (entry.path == path) {
-      return &entry.spec;
+  const Place place = place_of(path, slots_.size());
+  for (std::size_t at = place.at; slots_[at] != 0; at = (at + 1) & (slots_.size() - 1)) {
+    if ((slots_[at] & ~kIndexMask) == place.tag) {
+      const Entry& entry = entries_[entry_of(slots_[at])];
+      if (entry.path == path) {
+        return &entry.spec;
+      }
     }
-    at = (at + 1) & (slots_.size() - 1);
   }
   return nullptr;
 }
@@ -49,9 +61,9 @@ Spec& Layer::create(Path path, SpecKind kind) {
 }
 
 void Layer::erase(Path path) {
-  std::size_t at = slot_of(path, slots_.size());
+  std::size_t at = place_of(path, slots_.size()).at;
   while (slots_[at] != 0) {
-    Entry& entry = entries_[slots_[at] - 1];
+    Entry& entry = entries_[entry_of(slots_[at])];
     if (entry.path == path) {
       entry = {};
       ++erased_;
@@ -68,11 +80,12 @@ void Layer::reserve(std::size_t spec_count) {
 }
 
 void Layer::index_entry(std::size_t entry) {
-  std::size_t at = slot_of(entries_[entry].path, slots_.size());
+  const Place place = place_of(entries_[entry].path, slots_.size());
+  std::size_t at = place.at;
   while (slots_[at] != 0) {
     at = (at + 1) & (slots_.size() - 1);
   }
-  slots_[at] = static_cast<std::uint32_t>(entry + 1);
+  slots_[at] = place.tag | (entry + 1);
 }
 
 void Layer::grow() {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <string>
@@ -70,7 +71,7 @@ class Layer {
 
   std::string identifier_;
   std::deque<Entry> entries_;           // erased entries keep an empty path
-  std::vector<std::uint32_t> slots_;    // open addressing: entry index + 1, 0 free
+  std::vector<std::uint64_t> slots_;    // open addressing: part of the hash, entry index + 1
   std::size_t erased_ = 0;
 };
 
