@@ -5,6 +5,7 @@
 // speak, PhysX's axis API counts before Newton's, that before MuJoCo's and PhysX's older joint API.
 #include <cmath>
 
+#include "tenon/physics/joint_checks.h"
 #include "tenon/physics/joint_limits.h"
 #include "tenon/physics/read_state.h"
 
@@ -194,6 +195,7 @@ void read_joint_settings(ReadState& state) {
         break;
       }
     }
+    check_joint_start(state, state.prim_of_joint(i).prim, state.scene.joints[i]);
   }
 }
 

@@ -57,6 +57,15 @@ PrimKind kind_of(const stage::Prim& prim) {
   return PrimKind::Other;
 }
 
+/// Older texts name joints "<Kind>PhysicsJoint".
+Token meant_type_of(std::string_view type) {
+  constexpr std::string_view kOld = "PhysicsJoint";
+  if (type.size() <= kOld.size() || !type.ends_with(kOld)) {
+    return {};
+  }
+  return Token("Physics" + std::string(type.substr(0, type.size() - kOld.size())) + "Joint");
+}
+
 }  // namespace
 
 bool Roles::matters() const {
@@ -102,6 +111,7 @@ Roles RoleFinder::find(const stage::Prim& prim, const std::vector<Token>& schema
   Roles roles;
   roles.kind = kind_of(prim);
   roles.xformable = prim.is_a(Token("Xformable"));
+  roles.meant_type = meant_type_of(prim.type_name().view());
   for (std::size_t i = 0; i < api_names_.size(); ++i) {
     const std::string prefix = api_names_[i].str() + ":";
     bool has = prim.has_api(api_names_[i]);

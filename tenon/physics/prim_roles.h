@@ -55,6 +55,8 @@ struct Roles {
   std::uint64_t apis = 0;
   PrimKind kind = PrimKind::Other;
   bool xformable = false;
+  /// The joint type that an unknown type name such as "DistancePhysicsJoint" seems to mean, or "".
+  Token meant_type;
 
   bool has(Api api) const { return (apis >> static_cast<unsigned>(api) & 1u) != 0; }
   /// The reader has something to do with this prim.

@@ -29,6 +29,16 @@ double gravity_magnitude(const ReadState& state, const stage::Prim& prim) {
   return *authored * state.units.length;
 }
 
+/// A name from before the schema was published.
+void report_legacy_gravity(const ReadState& state, const stage::Prim& prim) {
+  const Token name("gravity");
+  if (prim.has_property(name)) {
+    state.report(prim, name, Severity::Warning, "scene.legacy-gravity",
+                 "the attribute gravity is ignored",
+                 "author physics:gravityDirection and physics:gravityMagnitude");
+  }
+}
+
 Vec3d read_gravity(const ReadState& state, const stage::Prim& prim, const Roles& roles) {
   // S-14, S-17: world axes; zero means down.
   const Vec3d authored =
@@ -87,6 +97,7 @@ void read_scenes(ReadState& state) {
       state.walk, [](const PhysicsPrim& p) { return p.roles.kind == PrimKind::Scene; });
   for (const std::uint32_t i : prims) {
     const PhysicsPrim& found = state.walk.prims[i];
+    report_legacy_gravity(state, found.prim);
     Scene scene;
     scene.path = found.path;
     scene.gravity = read_gravity(state, found.prim, found.roles);

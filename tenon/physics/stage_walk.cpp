@@ -10,6 +10,24 @@
 namespace tenon::physics {
 namespace {
 
+/// Properties that count only where their API is applied (S-2).
+struct ApiProperty {
+  Token name;
+  Api api;
+  const char* api_name;
+};
+
+const std::vector<ApiProperty>& api_properties() {
+  static const std::vector<ApiProperty> list{
+      {"physics:rigidBodyEnabled", Api::RigidBody, "PhysicsRigidBodyAPI"},
+      {"physics:kinematicEnabled", Api::RigidBody, "PhysicsRigidBodyAPI"},
+      {"physics:velocity", Api::RigidBody, "PhysicsRigidBodyAPI"},
+      {"physics:mass", Api::Mass, "PhysicsMassAPI"},
+      {"physics:filteredPairs", Api::FilteredPairs, "PhysicsFilteredPairsAPI"},
+      {"physics:dynamicFriction", Api::Material, "PhysicsMaterialAPI"}};
+  return list;
+}
+
 /// What a prim hands down to its children.
 struct Inherited {
   Mat4d world = Mat4d::identity();
@@ -61,12 +79,31 @@ class Walker {
       state.world = resets ? local.matrix : local.matrix * state.world;
     }
     state.resets_below_body = state.resets_below_body || resets;
+    if (!is_joint(roles.kind)) {
+      report_strays(prim, roles);
+    }
     if (roles.matters()) {
       add(prim, roles, state);
     }
     // S-38: prototypes are not simulated where they stand.
     if (roles.kind != PrimKind::PointInstancer) {
       push_children(prim, state);
+    }
+  }
+
+  /// What looks like physics and is none: properties without their API, types of older texts.
+  void report_strays(const stage::Prim& prim, const Roles& roles) const {
+    for (const ApiProperty& row : api_properties()) {
+      if (!roles.has(row.api) && prim.has_property(row.name)) {
+        values_.report(prim, row.name, Severity::Warning, "attribute.api-missing",
+                       row.name.str() + " is ignored: " + row.api_name + " is not applied",
+                       std::string("apply ") + row.api_name);
+      }
+    }
+    if (!roles.meant_type.empty()) {
+      report(values_.diagnostics(), prim, Severity::Warning, "joint.unknown-type",
+             "there is no type \"" + prim.type_name().str() + "\"; the joint is left out",
+             "write " + roles.meant_type.str());
     }
   }
 

@@ -225,14 +225,8 @@ class Case:
         if kind in SHAPES and SHAPES[kind] != ours["shape"]:
             self.add("collider-shape", path, (kind, ours["shape"]))
             return
-        for theirs, own in (("halfExtents", "halfExtents"), ("radius", "radius"),
-                            ("halfHeight", "halfHeight")):
-            if theirs in row and own in ours and kind in SHAPES:
-                wanted = np.abs(np.array(row[theirs])) * self.length
-                if not close(wanted, ours[own], self.extent):
-                    self.add(f"collider-{own}", path, (wanted.tolist(), ours[own]))
-        if "axis" in row and "axis" in ours and row["axis"] != ours["axis"]:
-            self.add("collider-axis", path, (row["axis"], ours["axis"]))
+        if kind in SHAPES:
+            self.compare_sizes(path, row, ours)
         if ours["shape"] in ("box", "sphere") and kind == "MeshShape":
             return  # a bounding solid has a pose of its own
         wanted = np.array(row["localPos"]) * self.length
@@ -240,6 +234,15 @@ class Case:
             self.add("collider-position", path, (wanted.tolist(), ours["position"]))
         if not same_rotation(row["localRot"], ours["orientation"]):
             self.add("collider-orientation", path, (row["localRot"], ours["orientation"]))
+
+    def compare_sizes(self, path, row, ours):
+        for name in ("halfExtents", "radius", "halfHeight"):
+            if name in row and name in ours:
+                wanted = np.abs(np.array(row[name])) * self.length
+                if not close(wanted, ours[name], self.extent):
+                    self.add(f"collider-{name}", path, (wanted.tolist(), ours[name]))
+        if "axis" in row and "axis" in ours and row["axis"] != ours["axis"]:
+            self.add("collider-axis", path, (row["axis"], ours["axis"]))
 
     def compare_materials(self):
         for _, path, row in self.objects(["RigidBodyMaterial"]):
