@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tenon/base/limits.h"
 #include "tenon/formats/text/reader.h"
 #include "tenon/formats/text/writer.h"
 
@@ -41,6 +42,32 @@ TEST(TextRoundTrip, CanonicalTextGivesItselfAgain) {
     EXPECT_EQ(once, once.empty() ? once : canonical(once));
   }
   EXPECT_GE(accepted, 3);
+}
+
+std::string repeated(const char* text, std::size_t count) {
+  std::string all;
+  for (std::size_t i = 0; i < count; ++i) {
+    all += text;
+  }
+  return all;
+}
+
+TEST(TextRoundTrip, TheDeepestAllowedNestingIsReadAndWritten) {
+  const std::size_t depth = limits::kTextNestingDepth - 1;
+  const std::string header = "#usda 1.0\n";
+  const std::string texts[] = {
+      header + repeated("def \"A\" {\n", depth) + repeated("}\n", depth),
+      header + "(\n customLayerData = {" + repeated("dictionary a = {", depth) +
+          repeated("}\n", depth) + "}\n)\n",
+      header + "(\n a = " + repeated("[", depth) + "1" + repeated("]", depth) + "\n)\n",
+      header + "def \"P\" {\n int[] a = " + repeated("[", depth) + "1" + repeated("]", depth) +
+          "\n}\n",
+  };
+  for (const std::string& text : texts) {
+    const std::string once = canonical(text);
+    EXPECT_FALSE(once.empty());
+    EXPECT_EQ(once, canonical(once));
+  }
 }
 
 /// One to four bytes changed, removed or doubled, or the end cut off.
