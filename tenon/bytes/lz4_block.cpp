@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 
 #include <lz4.h>
 
@@ -28,15 +29,14 @@ Result<void> append_block(std::span<const std::byte> block, std::size_t max_size
   if (block.size() > kChunk + kChunk / 255 + 16) {
     return corrupt();
   }
-  const std::size_t before = out.size();
-  out.resize(before + room);
-  const int made =
-      LZ4_decompress_safe(reinterpret_cast<const char*>(block.data()), out.data() + before,
-                          static_cast<int>(block.size()), static_cast<int>(room));
+  // Not cleared: most of the room is never touched, and then costs no memory.
+  const auto plain = std::make_unique_for_overwrite<char[]>(room);
+  const int made = LZ4_decompress_safe(reinterpret_cast<const char*>(block.data()), plain.get(),
+                                       static_cast<int>(block.size()), static_cast<int>(room));
   if (made < 0) {
     return corrupt();
   }
-  out.resize(before + static_cast<std::size_t>(made));
+  out.append(plain.get(), static_cast<std::size_t>(made));
   return {};
 }
 
