@@ -72,6 +72,16 @@ void check_frame(const ReadState& state, const PhysicsPrim& found) {
   }
 }
 
+/// S-123
+void check_instance(const ReadState& state, const PhysicsPrim& found) {
+  if (found.prim.is_instance_proxy()) {
+    state.report(found.prim, Severity::Warning, "body.in-instance",
+                 "the body lies inside an instance: it is simulated, its motion cannot be written "
+                 "to it",
+                 "apply PhysicsRigidBodyAPI to the instance itself, or make it not instanceable");
+  }
+}
+
 void read_damping(const ReadState& state, const PhysicsPrim& found, Body& body) {
   if (!found.roles.has(Api::PhysxRigidBody)) {
     return;
@@ -93,6 +103,7 @@ Body read_body(const ReadState& state, const PhysicsPrim& found, Index scene) {
   body.starts_asleep = state.values.flag(found.prim, state.tokens.starts_asleep, false);
   body.pose = world_pose(found.world, state.units);
   check_frame(state, found);
+  check_instance(state, found);
   const OwnerScene owner = owner_scene(state, found.prim, scene);
   body.scene = owner.scene;
   if (!owner.found) {

@@ -33,6 +33,11 @@ class TrackReader {
         add_static(i);
       }
     }
+    for (Index i = 0; i < state_.scene.joints.size(); ++i) {
+      const Joint& joint = state_.scene.joints[i];
+      note_moving_anchor(i, joint.body0, joint.target0, "physics:body0");
+      note_moving_anchor(i, joint.body1, joint.target1, "physics:body1");
+    }
     report_dynamic();
   }
 
@@ -144,6 +149,16 @@ class TrackReader {
     PoseTrack track = poses(found.prim, codes, inverse(start) * state_.scene.colliders[i].pose);
     track.collider = i;
     state_.scene.pose_tracks.push_back(std::move(track));
+  }
+
+  // S-86
+  void note_moving_anchor(Index joint, const std::optional<Index>& body, Path target,
+                          const char* name) {
+    if (!body && !target.empty() &&
+        stage::transform_samples(state_.stage.prim(target)).size() > 1) {
+      state_.not_read(state_.prim_of_joint(joint).prim, name,
+                      "the anchor on an animated prim stays where it is at the start");
+    }
   }
 
   // S-117
