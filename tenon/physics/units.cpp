@@ -19,17 +19,20 @@ void report_mixed(const stage::Stage& stage, const char* field, double used,
                   Diagnostics& diagnostics) {
   for (const layer::LayerPtr& layer : stage.used_layers()) {
     const layer::Value* value = layer->root().find(Token(field));
-    const std::optional<double> authored = value == nullptr ? std::nullopt : number_of(*value);
     const bool of_stage =
         layer.get() == &stage.root_layer() || layer.get() == stage.session_layer();
-    if (of_stage || !authored || std::fabs(*authored - used) <= 1e-5 * used) {
+    if (of_stage || value == nullptr) {
+      continue;
+    }
+    const double authored = number_of(*value).value_or(used);
+    if (std::fabs(authored - used) <= 1e-5 * used) {
       continue;
     }
     Diagnostic finding;
     finding.severity = Severity::Warning;
     finding.rule = "units.mixed";
     finding.file = layer->identifier();
-    finding.message = std::string("the layer says ") + field + " = " + shortest(*authored) +
+    finding.message = std::string("the layer says ") + field + " = " + shortest(authored) +
                       ", the stage " + shortest(used) + "; its numbers are not converted";
     finding.fix = "convert the layer, or scale where it is referenced and author masses anew";
     diagnostics.add(std::move(finding));
