@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/base/path.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "tenon/base/limits.h"
 
@@ -56,9 +56,9 @@ TEST(Path, AllKindsReadAndPrint) {
 }
 
 TEST(Path, IllFormedTextIsRejected) {
-  for (const char* text :
-       {"", "//", "/A/", "/A//B", "/1A", "/A-B", "A B", "/A.", "/A.b.c", "/.a", "/A{v}", "/A{=x}",
-        "/A{v=x", "/A.r[", "/A.r[/B", "/A.r[]", "/A]", "../", "/A{v=x}/", "/\xff"}) {
+  for (const char* text : {"",        "//",     "/A/", "/A//B", "/1A",      "/A-B",   "A B",
+                           "/A.",     "/A.b.c", "/.a", "/A{v}", "/A{=x}",   "/A{v=x", "/A.r[",
+                           "/A.r[/B", "/A.r[]", "/A]", "../",   "/A{v=x}/", "/\xff"}) {
     EXPECT_FALSE(Path::parse(text)) << text;
     EXPECT_TRUE(Path::from(text).empty()) << text;
   }
@@ -105,13 +105,12 @@ TEST(Path, RelativePathsAreResolvedAndMade) {
     const char* absolute;
   };
   const Row rows[] = {
-      {"B", "/A", "/A/B"},       {"../B", "/A/C", "/A/B"},    {".b", "/A", "/A.b"},
+      {"B", "/A", "/A/B"},       {"../B", "/A/C", "/A/B"},      {".b", "/A", "/A.b"},
       {"../.b", "/A/C", "/A.b"}, {"../../B.c", "/A/C", "/B.c"}, {".", "/A", "/A"},
   };
   for (const Row& row : rows) {
     const Path anchor = Path::from(row.anchor);
-    EXPECT_EQ(Path::from(row.relative).absolute(anchor), Path::from(row.absolute))
-        << row.relative;
+    EXPECT_EQ(Path::from(row.relative).absolute(anchor), Path::from(row.absolute)) << row.relative;
     EXPECT_EQ(Path::from(row.absolute).relative(anchor), Path::from(row.relative))
         << row.absolute << " from " << row.anchor;
   }

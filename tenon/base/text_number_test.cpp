@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/base/text_number.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
+
+#include <gtest/gtest.h>
 
 namespace tenon {
 namespace {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/base/token.h"
 
-#include <gtest/gtest.h>
-
 #include <thread>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace tenon {
 namespace {

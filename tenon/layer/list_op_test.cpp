@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/layer/list_op.h"
 
-#include <gtest/gtest.h>
-
 #include <string>
+
+#include <gtest/gtest.h>
 
 namespace tenon::layer {
 namespace {
@@ -32,18 +32,12 @@ struct Row {
 TEST(ListOp, EditsApplyInTheirOrder) {
   // Results as OpenUSD 26.11 gives them.
   const Row rows[] = {
-      {"", "", "", "", "", "abc", "abc"},
-      {"b", "", "", "", "", "abc", "ac"},
-      {"", "bd", "", "", "", "abc", "abcd"},
-      {"", "", "dc", "", "", "abc", "dcab"},
-      {"", "", "", "ad", "", "abc", "bcad"},
-      {"", "", "d", "e", "", "abc", "dabce"},
-      {"a", "", "a", "", "", "abc", "abc"},
-      {"", "", "a", "a", "", "abc", "bca"},
-      {"", "", "", "", "cb", "abcd", "acdb"},
-      {"", "", "", "", "xda", "abcd", "dabc"},
-      {"", "", "", "", "", "", ""},
-      {"abc", "x", "y", "z", "zy", "abc", "zyx"},
+      {"", "", "", "", "", "abc", "abc"},     {"b", "", "", "", "", "abc", "ac"},
+      {"", "bd", "", "", "", "abc", "abcd"},  {"", "", "dc", "", "", "abc", "dcab"},
+      {"", "", "", "ad", "", "abc", "bcad"},  {"", "", "d", "e", "", "abc", "dabce"},
+      {"a", "", "a", "", "", "abc", "abc"},   {"", "", "a", "a", "", "abc", "bca"},
+      {"", "", "", "", "cb", "abcd", "acdb"}, {"", "", "", "", "xda", "abcd", "dabc"},
+      {"", "", "", "", "", "", ""},           {"abc", "x", "y", "z", "zy", "abc", "zyx"},
   };
   for (const Row& row : rows) {
     ListOp<std::string> op;

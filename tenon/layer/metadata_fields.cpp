@@ -48,10 +48,10 @@ struct Table {
     add_structural(L | P | A | R, {fields::comment});
     add_structural(L | P, {fields::primChildren, fields::primOrder});
     add_structural(L, {fields::layerRelocates, fields::subLayers, fields::subLayerOffsets});
-    add_structural(P, {fields::inheritPaths, fields::payload, fields::properties,
-                       fields::propertyOrder, fields::references, fields::relocates,
-                       fields::specializes, fields::specifier, fields::variantSelection,
-                       fields::variantSetChildren, fields::variantSetNames});
+    add_structural(
+        P, {fields::inheritPaths, fields::payload, fields::properties, fields::propertyOrder,
+            fields::references, fields::relocates, fields::specializes, fields::specifier,
+            fields::variantSelection, fields::variantSetChildren, fields::variantSetNames});
     add_structural(A | R, {fields::custom, fields::default_value, fields::variability});
     add_structural(A, {fields::connectionChildren, fields::connectionPaths, fields::spline,
                        fields::timeSamples, fields::typeName});

@@ -72,13 +72,13 @@ bool read_arc_target(Cursor& cursor, Arc& arc) {
   if (!read_path(cursor, arc.prim_path)) {
     return false;
   }
-  if (arc.prim_path.empty() || (arc.prim_path.is_prim() && arc.prim_path.is_absolute() &&
-                                !arc.prim_path.has_variants())) {
+  if (arc.prim_path.empty() ||
+      (arc.prim_path.is_prim() && arc.prim_path.is_absolute() && !arc.prim_path.has_variants())) {
     return true;
   }
-  return cursor.fail_at(path_start, ErrorCode::Parse, "text.arc",
-                        "<" + arc.prim_path.str() +
-                            "> is no absolute prim path without variant selections");
+  return cursor.fail_at(
+      path_start, ErrorCode::Parse, "text.arc",
+      "<" + arc.prim_path.str() + "> is no absolute prim path without variant selections");
 }
 
 bool check_relocate(Cursor& cursor, std::size_t start, Path path, bool may_be_empty) {
@@ -204,10 +204,11 @@ bool read_sublayers(LayerState& state) {
   std::vector<std::string> paths;
   std::vector<LayerOffset> offsets;
   cursor.skip_multi_line();
-  const bool ok = cursor.accept(']') || read_items(cursor, ']', "of the sublayers", [&] {
-    return read_asset_path(cursor, paths.emplace_back()) &&
-           read_arc_parameters(cursor, offsets.emplace_back(), [](bool&) { return true; });
-  });
+  const bool ok =
+      cursor.accept(']') || read_items(cursor, ']', "of the sublayers", [&] {
+        return read_asset_path(cursor, paths.emplace_back()) &&
+               read_arc_parameters(cursor, offsets.emplace_back(), [](bool&) { return true; });
+      });
   if (ok && !paths.empty()) {
     state.layer.root().set(layer::fields::subLayers, Value(std::move(paths)));
     state.layer.root().set(layer::fields::subLayerOffsets, Value(std::move(offsets)));
@@ -223,8 +224,8 @@ bool read_layer_relocates(LayerState& state) {
   layer::Relocates relocates;
   cursor.skip_multi_line();
   const bool ok = cursor.accept('}') || read_items(cursor, '}', "of the relocates", [&] {
-    return read_relocate(cursor, relocates);
-  });
+                    return read_relocate(cursor, relocates);
+                  });
   if (ok) {
     state.layer.root().set(layer::fields::layerRelocates, Value(std::move(relocates)));
   }

@@ -28,9 +28,9 @@ bool check_items(Cursor& cursor, std::size_t start, ListEdit edit, const std::ve
                           "an empty list can only be set, not added, prepended or deleted",
                           "remove the statement, or the word in front of it to clear the list");
   }
-  return !has_duplicates(items) || cursor.fail_at(start, ErrorCode::Parse, "text.list",
-                                                  "this list names one item twice",
-                                                  "remove one of the equal items");
+  return !has_duplicates(items) ||
+         cursor.fail_at(start, ErrorCode::Parse, "text.list", "this list names one item twice",
+                        "remove one of the equal items");
 }
 
 }  // namespace tenon::formats::text

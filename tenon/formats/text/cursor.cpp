@@ -196,8 +196,8 @@ bool Cursor::fail_expected(std::string_view expected, std::string_view fix) {
                  "expected " + std::string(expected) + ", found " + found(), fix);
 }
 
-bool Cursor::fail_at(std::size_t offset, ErrorCode code, std::string_view rule,
-                     std::string message, std::string_view fix) {
+bool Cursor::fail_at(std::size_t offset, ErrorCode code, std::string_view rule, std::string message,
+                     std::string_view fix) {
   if (!error_) {
     const SourcePlace place = place_of(offset);
     Diagnostic diagnostic;

@@ -159,9 +159,9 @@ bool read_entry(Cursor& cursor, Dictionary& dictionary, std::size_t depth) {
     return false;
   }
   if (type.type == nullptr) {
-    return cursor.fail_at(start, ErrorCode::Parse, "text.type",
-                          "`" + std::string(type.name) +
-                              "` is no type that a dictionary entry can have");
+    return cursor.fail_at(
+        start, ErrorCode::Parse, "text.type",
+        "`" + std::string(type.name) + "` is no type that a dictionary entry can have");
   }
   Value value;
   if (!read_entry_start(cursor, key) ||

@@ -15,9 +15,8 @@ using layer::Dictionary;
 using layer::Value;
 using layer::ValueType;
 
-
-void append_entry(std::string& out, const std::string& key, const Value& value,
-                  std::size_t indent, Lines lines) {
+void append_entry(std::string& out, const std::string& key, const Value& value, std::size_t indent,
+                  Lines lines) {
   const std::string name = is_identifier(key) ? key : quoted(key);
   if (const auto* inner = value.get<Dictionary>()) {
     out += "dictionary " + name + " = ";

@@ -47,8 +47,8 @@ bool check_encoding(Cursor& cursor) {
                           "the text starts with a byte order mark", kFix);
   }
   const std::size_t bad = first_ill_formed(text);
-  return bad == text.size() || cursor.fail_at(bad, ErrorCode::Parse, "text.encoding",
-                                              "this byte is no UTF-8", kFix);
+  return bad == text.size() ||
+         cursor.fail_at(bad, ErrorCode::Parse, "text.encoding", "this byte is no UTF-8", kFix);
 }
 
 /// Reads "1.0" or "1.0.32"; false when the text has another form.

@@ -11,18 +11,18 @@ namespace {
 
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-constexpr std::array<double, 23> kPowersOfTen = {
-    1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+constexpr std::array<double, 23> kPowersOfTen = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                 1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                                 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 constexpr std::uint64_t kExactMantissa = std::uint64_t{1} << 53;
 
 /// The parts of a number while it is read.
 struct Digits {
   bool negative = false;
-  bool whole = true;          // no point, no exponent
+  bool whole = true;  // no point, no exponent
   std::uint64_t mantissa = 0;
-  int count = 0;              // digits in mantissa, leading zeros left out
-  int point_shift = 0;        // digits after the point
+  int count = 0;        // digits in mantissa, leading zeros left out
+  int point_shift = 0;  // digits after the point
   int exponent = 0;
 };
 
@@ -65,9 +65,8 @@ double value_of(const Digits& digits, const char* start, const char* end) {
   if (digits.count <= 19 && digits.mantissa <= kExactMantissa && exponent >= -22 &&
       exponent <= 22) {
     const auto mantissa = static_cast<double>(digits.mantissa);
-    const double size = exponent < 0
-                            ? mantissa / kPowersOfTen[static_cast<std::size_t>(-exponent)]
-                            : mantissa * kPowersOfTen[static_cast<std::size_t>(exponent)];
+    const double size = exponent < 0 ? mantissa / kPowersOfTen[static_cast<std::size_t>(-exponent)]
+                                     : mantissa * kPowersOfTen[static_cast<std::size_t>(exponent)];
     return digits.negative ? -size : size;
   }
   double value = 0;
@@ -292,11 +291,11 @@ bool read_string(Cursor& cursor, std::string& value) {
     escaped = escaped || c == '\\';
     at += c == '\\' && (next == '\\' || next == quote) ? 2 : 1;
   }
-  return cursor.fail_at(start, ErrorCode::Parse, "text.syntax",
-                        triple ? "this string is never closed"
-                               : "this string is not closed on its line",
-                        triple ? "add the three closing quotes"
-                               : "add the closing quote, or use three quotes for several lines");
+  return cursor.fail_at(
+      start, ErrorCode::Parse, "text.syntax",
+      triple ? "this string is never closed" : "this string is not closed on its line",
+      triple ? "add the three closing quotes"
+             : "add the closing quote, or use three quotes for several lines");
 }
 
 bool read_asset_path(Cursor& cursor, std::string& value) {

@@ -162,8 +162,8 @@ class MetadataReader {
       if (!is_private && !cursor_.accept_word("public")) {
         return cursor_.fail_expected("`public` or `private`");
       }
-      return set(fields::permission, Value(is_private ? layer::Permission::Private
-                                                      : layer::Permission::Public));
+      return set(fields::permission,
+                 Value(is_private ? layer::Permission::Private : layer::Permission::Public));
     }
     if (!read_name(cursor_, "the name of a unit such as cm", word)) {
       return false;
@@ -218,8 +218,8 @@ class MetadataReader {
         return cursor_.fail_at(start, ErrorCode::Parse, "text.value",
                                "the variant of set \"" + set_name + "\" must be a string");
       }
-      const bool is_expression = variant->size() > 1 && variant->front() == '`' &&
-                                 variant->back() == '`';
+      const bool is_expression =
+          variant->size() > 1 && variant->front() == '`' && variant->back() == '`';
       if (!is_expression && !is_variant_name(*variant)) {
         return cursor_.fail_at(start, ErrorCode::Parse, "text.name",
                                "\"" + *variant + "\" cannot name a variant");
@@ -236,22 +236,22 @@ class MetadataReader {
     Dictionary dictionary;
     cursor_.skip_multi_line();
     const bool ok = cursor_.accept('}') || read_items(cursor_, '}', "of the substitutions", [&] {
-      std::string from;
-      std::string to;
-      if (!read_string(cursor_, from)) {
-        return false;
-      }
-      cursor_.skip_inline();
-      if (!cursor_.expect(':', "between the two strings")) {
-        return false;
-      }
-      cursor_.skip_inline();
-      if (!read_string(cursor_, to)) {
-        return false;
-      }
-      dictionary.items.insert_or_assign(std::move(from), Value(std::move(to)));
-      return true;
-    });
+                      std::string from;
+                      std::string to;
+                      if (!read_string(cursor_, from)) {
+                        return false;
+                      }
+                      cursor_.skip_inline();
+                      if (!cursor_.expect(':', "between the two strings")) {
+                        return false;
+                      }
+                      cursor_.skip_inline();
+                      if (!read_string(cursor_, to)) {
+                        return false;
+                      }
+                      dictionary.items.insert_or_assign(std::move(from), Value(std::move(to)));
+                      return true;
+                    });
     return ok && set(field, Value(std::move(dictionary)));
   }
 
@@ -388,8 +388,7 @@ class MetadataReader {
 
 bool read_metadata(LayerState& state, Path path, SpecKind kind) {
   MetadataReader reader(state, path, kind);
-  return read_statements(state.cursor, ')', "of the metadata",
-                         [&] { return reader.read_item(); });
+  return read_statements(state.cursor, ')', "of the metadata", [&] { return reader.read_item(); });
 }
 
 bool read_name_list(Cursor& cursor, std::vector<std::string>& names) {

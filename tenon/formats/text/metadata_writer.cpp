@@ -199,9 +199,8 @@ void append_relocates(std::string& out, const layer::Relocates& relocates) {
 
 bool has_metadata(const Spec& spec) {
   return has_comment(spec) ||
-         std::any_of(spec.fields().begin(), spec.fields().end(), [&](const Field& field) {
-           return stands_in_metadata(field.name, spec.kind);
-         });
+         std::any_of(spec.fields().begin(), spec.fields().end(),
+                     [&](const Field& field) { return stands_in_metadata(field.name, spec.kind); });
 }
 
 bool append_metadata(std::string& out, const Spec& spec, std::size_t indent) {
@@ -221,8 +220,8 @@ bool append_metadata(std::string& out, const Spec& spec, std::size_t indent) {
 void append_layer_metadata(std::string& out, const Spec& root) {
   std::vector<const Field*> found;
   for (const Field& field : root.fields()) {
-    const bool is_sublayers = field.name == fields::subLayers &&
-                              field.value.holds<std::vector<std::string>>();
+    const bool is_sublayers =
+        field.name == fields::subLayers && field.value.holds<std::vector<std::string>>();
     if (is_sublayers || !layer::is_structural_field(field.name, SpecKind::PseudoRoot)) {
       found.push_back(&field);
     }

@@ -171,9 +171,9 @@ class PropertyReader {
                                  ", not " + type_name.str() + "; " + first);
     }
     if (spec.get_or(fields::variability, Variability::Varying) != variability) {
-      return cursor_.fail_at(start_, ErrorCode::Parse, "text.duplicate",
-                             "`" + path_.name().str() +
-                                 "` is both uniform and not uniform; " + first);
+      return cursor_.fail_at(
+          start_, ErrorCode::Parse, "text.duplicate",
+          "`" + path_.name().str() + "` is both uniform and not uniform; " + first);
     }
     if (is_custom_) {
       spec.set(fields::custom, Value(true));
@@ -271,8 +271,8 @@ class PropertyReader {
     bool ascending = true;
     cursor_.skip_multi_line();
     const bool ok = cursor_.accept('}') || read_items(cursor_, '}', "of the time samples", [&] {
-      return read_time_sample(samples, ascending);
-    });
+                      return read_time_sample(samples, ascending);
+                    });
     if (ok && !ascending) {
       sort_samples(samples);
     }

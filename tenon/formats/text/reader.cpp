@@ -28,8 +28,8 @@ struct Block {
   enum class Kind : unsigned char { Layer, Prim, VariantSet, Variant };
   Kind kind = Kind::Layer;
   Path path;
-  std::size_t start = 0;  // offset of its statement
-  std::vector<Token> children{};    // prims; of a variant set its variants
+  std::size_t start = 0;          // offset of its statement
+  std::vector<Token> children{};  // prims; of a variant set its variants
   std::vector<Token> properties{};
 };
 
@@ -158,8 +158,7 @@ class LayerReader {
       }
       cursor_.seek(start);
     }
-    return read_property(state_, top().path, top().properties) &&
-           end_statement("after a property");
+    return read_property(state_, top().path, top().properties) && end_statement("after a property");
   }
 
   bool fail_contents_statement() {
@@ -185,8 +184,8 @@ class LayerReader {
     if (!read_name_list(cursor_, names)) {
       return false;
     }
-    state_.layer.find(top().path)->set(field,
-                                       Value(std::vector<Token>(names.begin(), names.end())));
+    state_.layer.find(top().path)
+        ->set(field, Value(std::vector<Token>(names.begin(), names.end())));
     return true;
   }
 
@@ -200,9 +199,9 @@ class LayerReader {
 
   bool push(Block block) {
     if (blocks_.size() > limits::kTextNestingDepth) {
-      return cursor_.fail_at(block.start, ErrorCode::Limit, "text.depth",
-                             "blocks are nested deeper than " +
-                                 std::to_string(limits::kTextNestingDepth));
+      return cursor_.fail_at(
+          block.start, ErrorCode::Limit, "text.depth",
+          "blocks are nested deeper than " + std::to_string(limits::kTextNestingDepth));
     }
     blocks_.push_back(std::move(block));
     return true;
@@ -228,10 +227,10 @@ class LayerReader {
     }
     const Path path = top().path.child(Token(name));
     if (const layer::Spec* old = state_.layer.find(path)) {
-      return cursor_.fail_at(name_start, ErrorCode::Parse, "text.duplicate",
-                             "prim <" + path.str() + "> was already given at line " +
-                                 std::to_string(old->line),
-                             "rename one of them or put both into one block");
+      return cursor_.fail_at(
+          name_start, ErrorCode::Parse, "text.duplicate",
+          "prim <" + path.str() + "> was already given at line " + std::to_string(old->line),
+          "rename one of them or put both into one block");
     }
     top().children.push_back(path.name());
     layer::Spec& spec = state_.make_spec(path, SpecKind::Prim, start);
@@ -332,9 +331,10 @@ class LayerReader {
     const std::size_t start = cursor_.offset();
     std::string name;
     if (!at_string(cursor_)) {
-      return cursor_.fail_expected("the name of a variant in quotes, or the '}' of the variant "
-                                   "set opened at line " +
-                                   std::to_string(cursor_.place_of(top().start).line));
+      return cursor_.fail_expected(
+          "the name of a variant in quotes, or the '}' of the variant "
+          "set opened at line " +
+          std::to_string(cursor_.place_of(top().start).line));
     }
     if (!read_string(cursor_, name) || !check_variant_name(name, start)) {
       return false;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/text/reader.h"
 
-#include <gtest/gtest.h>
-
 #include <string>
+
+#include <gtest/gtest.h>
 
 #include "tenon/base/limits.h"
 
@@ -81,18 +81,25 @@ TEST(TextReader, ErrorsSayWhereAndWhatWasExpected) {
     EXPECT_EQ(found.file, "t.usda");
     EXPECT_EQ(found.line, row.line) << row.body << layer.error().to_string();
     EXPECT_EQ(found.column, row.column) << row.body << layer.error().to_string();
-    EXPECT_NE(found.message.find(row.part), std::string::npos)
-        << row.part << "\nis not in\n" << found.message;
+    EXPECT_NE(found.message.find(row.part), std::string::npos) << row.part << "\nis not in\n"
+                                                               << found.message;
   }
 }
 
 TEST(TextReader, HeadersAreChecked) {
-  const std::pair<const char*, bool> rows[] = {
-      {"#usda 1.0\n", true},      {"#usda 1.0", true},     {"#usda 1.4\n", true},
-      {"#usda 1.0.32\r\n", true}, {"#usda  1.1 x\n", true}, {"#usda 1.5\n", false},
-      {"#usda 2.0\n", false},     {"#usda 1\n", false},    {"#usda1.0\n", false},
-      {"#sdf 1.4.32\n", false},   {"", false},             {"#usda 1.0foo\n", false},
-      {"\xEF\xBB\xBF#usda 1.0\n", false}};
+  const std::pair<const char*, bool> rows[] = {{"#usda 1.0\n", true},
+                                               {"#usda 1.0", true},
+                                               {"#usda 1.4\n", true},
+                                               {"#usda 1.0.32\r\n", true},
+                                               {"#usda  1.1 x\n", true},
+                                               {"#usda 1.5\n", false},
+                                               {"#usda 2.0\n", false},
+                                               {"#usda 1\n", false},
+                                               {"#usda1.0\n", false},
+                                               {"#sdf 1.4.32\n", false},
+                                               {"", false},
+                                               {"#usda 1.0foo\n", false},
+                                               {"\xEF\xBB\xBF#usda 1.0\n", false}};
   for (const auto& [text, accepted] : rows) {
     Diagnostics diagnostics;
     EXPECT_EQ(read_text(text, "t.usda", diagnostics).has_value(), accepted) << text;
@@ -111,8 +118,8 @@ TEST(TextReader, MetadataHaveTheTypesOfTheirFields) {
 }
 
 TEST(TextReader, UnknownMetadataAreKeptAsText) {
-  const Spec prim = spec_of(
-      "def \"A\" (\n x = [1.50,  'a']\n prepend y = [1]\n z = {int a = 1}\n) {\n}\n", "/A");
+  const Spec prim =
+      spec_of("def \"A\" (\n x = [1.50,  'a']\n prepend y = [1]\n z = {int a = 1}\n) {\n}\n", "/A");
   const auto* x = prim.get<layer::UnregisteredValue>("x");
   ASSERT_NE(x, nullptr);
   EXPECT_EQ(x->value.get_or(std::string()), "[1.5, \"a\"]");
@@ -172,8 +179,7 @@ TEST(TextReader, ChildrenKeepTheirOrder) {
       "}\n}\n \"x\" {\n}\n}\n}\n");
   ASSERT_TRUE(layer) << layer.error().to_string();
   const Path a = Path::from("/A");
-  EXPECT_EQ(Layer::children(layer->root(), fields::primChildren),
-            (std::vector<Token>{"B", "A"}));
+  EXPECT_EQ(Layer::children(layer->root(), fields::primChildren), (std::vector<Token>{"B", "A"}));
   EXPECT_EQ(layer->children(a, fields::properties), (std::vector<Token>{"z", "a"}));
   EXPECT_EQ(layer->children(a, fields::variantSetChildren), (std::vector<Token>{"v"}));
   EXPECT_EQ(layer->children(a.variant_selection("v", Token()), fields::variantChildren),

@@ -262,14 +262,12 @@ class SplineReader {
 
   /// Ascending in time; of equal times the first knot counts.
   static void sort_knots(std::vector<SplineKnot>& knots) {
-    std::stable_sort(knots.begin(), knots.end(), [](const SplineKnot& a, const SplineKnot& b) {
-      return a.time < b.time;
-    });
-    knots.erase(std::unique(knots.begin(), knots.end(),
-                            [](const SplineKnot& a, const SplineKnot& b) {
-                              return a.time == b.time;
-                            }),
-                knots.end());
+    std::stable_sort(knots.begin(), knots.end(),
+                     [](const SplineKnot& a, const SplineKnot& b) { return a.time < b.time; });
+    knots.erase(
+        std::unique(knots.begin(), knots.end(),
+                    [](const SplineKnot& a, const SplineKnot& b) { return a.time == b.time; }),
+        knots.end());
   }
 
   Cursor& cursor_;

@@ -109,10 +109,9 @@ void append_spline(std::string& out, const Spline& spline, std::size_t indent) {
   append_end(out, "post", spline.post, indent);
   if (spline.loop) {
     append_indent(out, indent + 1);
-    out += "loop: (" + layer_text(spline.loop->start) + ", " + layer_text(spline.loop->end) +
-           ", " + std::to_string(spline.loop->pre_loops) + ", " +
-           std::to_string(spline.loop->post_loops) + ", " +
-           layer_text(spline.loop->value_offset) + "),\n";
+    out += "loop: (" + layer_text(spline.loop->start) + ", " + layer_text(spline.loop->end) + ", " +
+           std::to_string(spline.loop->pre_loops) + ", " + std::to_string(spline.loop->post_loops) +
+           ", " + layer_text(spline.loop->value_offset) + "),\n";
   }
   // The first knot has a tangent in front even though no segment ends there.
   SplineInterpolation before = SplineInterpolation::Curve;

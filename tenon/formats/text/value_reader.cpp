@@ -90,11 +90,10 @@ bool read_whole(Cursor& cursor, Int& value) {
     return true;
   }
   const std::string_view written = cursor.text().substr(start, cursor.offset() - start);
-  return cursor.fail_at(
-      start, ErrorCode::Parse, "text.value",
-      std::string(written) + " does not fit: whole numbers from " +
-          std::to_string(std::numeric_limits<Int>::min()) + " to " +
-          std::to_string(std::numeric_limits<Int>::max()) + " are expected");
+  return cursor.fail_at(start, ErrorCode::Parse, "text.value",
+                        std::string(written) + " does not fit: whole numbers from " +
+                            std::to_string(std::numeric_limits<Int>::min()) + " to " +
+                            std::to_string(std::numeric_limits<Int>::max()) + " are expected");
 }
 
 bool read_component(Cursor& cursor, std::int32_t& value) { return read_whole(cursor, value); }
@@ -226,9 +225,8 @@ bool read_scalar(Cursor& cursor, Quat<T>& value) {
 template <std::size_t N>
 bool read_scalar(Cursor& cursor, Matrix<N>& value) {
   return read_tuple(cursor, N, [&](std::size_t row) {
-    return read_tuple(cursor, N, [&](std::size_t column) {
-      return read_component(cursor, value[row][column]);
-    });
+    return read_tuple(
+        cursor, N, [&](std::size_t column) { return read_component(cursor, value[row][column]); });
   });
 }
 
@@ -271,9 +269,8 @@ class ListReader {
     if (sizes_[depth] == 0) {
       sizes_[depth] = count;
     }
-    return sizes_[depth] == count ||
-           cursor_.fail_at(start, ErrorCode::Parse, "text.value",
-                           "the lists within this list differ in size");
+    return sizes_[depth] == count || cursor_.fail_at(start, ErrorCode::Parse, "text.value",
+                                                     "the lists within this list differ in size");
   }
 
   Cursor& cursor_;

@@ -156,8 +156,8 @@ class LayerWriter {
   // Attributes
 
   void append_attribute(Token name, const Spec& spec, std::size_t indent) {
-    const bool uniform = spec.get_or(fields::variability, Variability::Varying) ==
-                         Variability::Uniform;
+    const bool uniform =
+        spec.get_or(fields::variability, Variability::Varying) == Variability::Uniform;
     const Token type = layer::written_type_name(spec.get_or(fields::typeName, Token()));
     const std::string declaration =
         std::string(uniform ? "uniform " : "") + type.str() + ' ' + name.str();
@@ -230,8 +230,8 @@ class LayerWriter {
   // Relationships
 
   void append_relationship(Token name, const Spec& spec, std::size_t indent) {
-    const bool varying = spec.get_or(fields::variability, Variability::Uniform) ==
-                         Variability::Varying;
+    const bool varying =
+        spec.get_or(fields::variability, Variability::Uniform) == Variability::Varying;
     const std::string declaration = (varying ? "varying rel " : "rel ") + name.str();
     const bool custom = spec.get_or(fields::custom, false);
     const auto* targets = spec.get<layer::ListOp<Path>>(fields::targetPaths);
