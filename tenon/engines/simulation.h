@@ -15,7 +15,7 @@
 namespace tenon::engines {
 
 struct SimulationOptions {
-  double time_step = 0;   ///< [s]; 0: what the asset asks for, else the engine's default
+  double time_step = 0;  ///< [s]; 0: what the asset asks for, else the engine's default
 };
 
 struct BodyState {

@@ -100,8 +100,8 @@ void report_materials(Build& build) {
     if (used[i] != 0 && material.restitution > 0) {
       build.report(
           material.path, "physics:restitution",
-          "MuJoCo has no restitution; contacts are springs tuned to rebound with it, which "
-          "gives way by a few per cent of the impact speed times the time step");
+          "MuJoCo has no restitution: contacts are springs tuned to rebound with the average of "
+          "the pair, within a few per cent; below about 0.3 little of the rebound is left");
     }
   }
 }
