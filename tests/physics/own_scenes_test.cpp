@@ -53,7 +53,7 @@ TEST(OwnScenes, SpheresReboundWithTheAverageRestitution) {
   SceneRun run(own_scene("bouncing_spheres.usda"));
   ASSERT_TRUE(run.ready());
   // The ground has no material, restitution 0: averages 0.1 and 0.5. A fall of 1 m rebounds by
-  // e^2: 0.01 and 0.25 m. Contact at sqrt(2 / g) = 0.4515 s.
+  // e^2: 0.01 (which MuJoCo loses, as it reports) and 0.25 m. Contact at sqrt(2 / g) = 0.4515 s.
   run.run_until(0.55);
   double dull = 0;
   double lively = 0;

@@ -1,10 +1,17 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstddef>
+
 #include "tenon/engines/mujoco/build.h"
 
 namespace tenon::engines::mujoco {
 namespace {
 
+// Room for contacts and constraints [bytes]; only what is used is ever touched.
+constexpr std::size_t kLeastMemory = std::size_t{64} << 20u;
+constexpr std::size_t kMemoryPerBody = std::size_t{128} << 10u;
+constexpr std::size_t kMostMemory = std::size_t{4} << 30u;
 constexpr double kFrictionToNormal =
     10;  // impratio: friction this much harder than normal, less creep
 
@@ -57,6 +64,9 @@ void add_options(Build& build) {
   spec.compiler.inertiafromgeom = mjINERTIAFROMGEOM_FALSE;
   // The inertia of the asset is used as it is; compile() writes it again over the balanced one.
   spec.compiler.balanceinertia = 1;
+  // MuJoCo's own guess of its working memory grows with the square of the bodies.
+  spec.memory = static_cast<mjtSize>(
+      std::min(kMostMemory, kLeastMemory + kMemoryPerBody * build.scene.bodies.size()));
   mjOption& option = spec.option;
   option.timestep = build.time_step;
   write_vector(option.gravity, build.scene.scenes.front().gravity);
