@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes tenon/base/generated/unicode_ranges.h from this Python's Unicode tables (str.isidentifier).
+"""Writes tenon/base/generated/unicode_ranges.h from the Unicode tables of this Python
+(str.isidentifier).
 
 usage: generate_unicode.py > tenon/base/generated/unicode_ranges.h
 """

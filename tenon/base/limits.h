@@ -9,28 +9,28 @@
 /// diagnostic, never a crash.
 namespace tenon::limits {
 
-inline constexpr std::size_t kTextNestingDepth = 1000;      ///< prims, dictionaries, tuples in text
-inline constexpr std::size_t kPathElements = 2000;          ///< elements of one path
-inline constexpr std::size_t kPathTextLength = 1u << 20;    ///< bytes of one path
-inline constexpr std::size_t kLayerStackLayers = 10000;     ///< sublayers of one stage, nested
-inline constexpr std::size_t kSublayerDepth = 500;          ///< sublayers of sublayers
-inline constexpr std::size_t kIndexNodes = 20000;           ///< nodes of one prim index
-inline constexpr std::size_t kCacheNodes = 50'000'000;      ///< nodes of all prim indices of a stage
-inline constexpr std::size_t kArcChainDepth = 1000;         ///< arcs from the root to one node
-inline constexpr std::size_t kNestedIndices = 100;          ///< indices built within one another
-inline constexpr std::size_t kExpressionDepth = 100;        ///< calls and lists of an expression
-inline constexpr std::size_t kStagePrims = 50'000'000;      ///< composed prims
-inline constexpr std::size_t kPackageNesting = 8;           ///< packages within packages
-inline constexpr std::uint64_t kDecompressionRatio = 300;   ///< bytes out per byte in, at most
-inline constexpr std::size_t kKinematicChain = 5000;        ///< bodies on one chain of joints
-inline constexpr std::size_t kTrianglePieces = 20000;       ///< triangles taken one by one as colliders
+inline constexpr std::size_t kTextNestingDepth = 1000;     ///< prims, dictionaries, tuples in text
+inline constexpr std::size_t kPathElements = 2000;         ///< elements of one path
+inline constexpr std::size_t kPathTextLength = 1u << 20;   ///< bytes of one path
+inline constexpr std::size_t kLayerStackLayers = 10000;    ///< sublayers of one stage, nested
+inline constexpr std::size_t kSublayerDepth = 500;         ///< sublayers of sublayers
+inline constexpr std::size_t kIndexNodes = 20000;          ///< nodes of one prim index
+inline constexpr std::size_t kCacheNodes = 50'000'000;     ///< nodes of all prim indices of a stage
+inline constexpr std::size_t kArcChainDepth = 1000;        ///< arcs from the root to one node
+inline constexpr std::size_t kNestedIndices = 100;         ///< indices built within one another
+inline constexpr std::size_t kExpressionDepth = 100;       ///< calls and lists of an expression
+inline constexpr std::size_t kStagePrims = 50'000'000;     ///< composed prims
+inline constexpr std::size_t kPackageNesting = 8;          ///< packages within packages
+inline constexpr std::uint64_t kDecompressionRatio = 300;  ///< bytes out per byte in, at most
+inline constexpr std::size_t kKinematicChain = 5000;       ///< bodies on one chain of joints
+inline constexpr std::size_t kTrianglePieces = 20000;  ///< triangles taken one by one as colliders
 inline constexpr std::size_t kConvexityChecks = 100'000'000;  ///< point-plane tests of one mesh
 
 // Binary layers: what a file may ask for in proportion to its size.
-inline constexpr std::uint64_t kCrateRowsPerByte = 16;      ///< rows of a table per byte of the file
-inline constexpr std::uint64_t kCrateWorkPerByte = 64;      ///< decoded elements, characters, fields
-inline constexpr std::uint64_t kCrateWorkBase = 1u << 16;   ///< the same, for the smallest file
-inline constexpr std::size_t kCrateValueDepth = 256;        ///< values within values
-inline constexpr std::size_t kTrackSamples = 1'000'000;     ///< poses between authored samples
+inline constexpr std::uint64_t kCrateRowsPerByte = 16;     ///< rows of a table per byte of the file
+inline constexpr std::uint64_t kCrateWorkPerByte = 64;     ///< decoded elements, characters, fields
+inline constexpr std::uint64_t kCrateWorkBase = 1u << 16;  ///< the same, for the smallest file
+inline constexpr std::size_t kCrateValueDepth = 256;       ///< values within values
+inline constexpr std::size_t kTrackSamples = 1'000'000;    ///< poses between authored samples
 
 }  // namespace tenon::limits

@@ -51,7 +51,8 @@ class Scene:
     def offset(self):
         if self.chance(0.7):
             return ""
-        return f" (offset = {self.random.choice((1, 2.5, -3))}; scale = {self.random.choice((1, 2, 0.5))})"
+        offset, scale = self.random.choice((1, 2.5, -3)), self.random.choice((1, 2, 0.5))
+        return f" (offset = {offset}; scale = {scale})"
 
     def layer(self, i):
         metadata = []
@@ -164,7 +165,8 @@ def node_lines(index, folder):
     def walk(node):
         offset = node.mapToRoot.timeOffset
         if node.CanContributeSpecs() and node.hasSpecs:
-            shown = f"{node.arcType.displayName} {label(node.layerStack.identifier.rootLayer, folder)} {node.path}"
+            layer = label(node.layerStack.identifier.rootLayer, folder)
+            shown = f"{node.arcType.displayName} {layer} {node.path}"
             if not offset.IsIdentity():
                 shown += f" (offset={offset.offset:.2f}, scale={offset.scale:.2f})"
             yield shown

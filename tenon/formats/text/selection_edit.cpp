@@ -178,8 +178,8 @@ std::optional<std::string> edit_metadata(std::string_view text, Scanner scanner,
     if (token == ")") {
       const std::string indent = indent_at(text, open) + "    ";
       return replaced(text, open, 0,
-                      "\n" + indent + "variants = {\n" + indent + "    string " +
-                          std::string(set) + " = " + quoted(variant) + "\n" + indent + "}");
+                      "\n" + indent + "variants = {\n" + indent + "    string " + std::string(set) +
+                          " = " + quoted(variant) + "\n" + indent + "}");
     }
     if (token == "variants") {
       Scanner inner = scanner;
@@ -197,8 +197,7 @@ std::optional<std::string> edit_metadata(std::string_view text, Scanner scanner,
 }  // namespace
 
 std::optional<std::string> with_variant_selection(std::string_view text, TextPlace place,
-                                                  std::string_view set,
-                                                  std::string_view variant) {
+                                                  std::string_view set, std::string_view variant) {
   const auto start = offset_of(text, place);
   if (!start) {
     return std::nullopt;

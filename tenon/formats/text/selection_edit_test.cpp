@@ -16,20 +16,26 @@ struct Case {
 
 const Case kCases[] = {
     {"an entry is replaced, comments stay",
-     "#usda 1.0\ndef \"A\" (\n    variants = {\n        string Physics = \"none\" # ) } {\n    }\n)\n{\n}\n",
+     "#usda 1.0\ndef \"A\" (\n    variants = {\n        string Physics = \"none\" # ) } {\n    "
+     "}\n)\n{\n}\n",
      {2, 1},
-     "#usda 1.0\ndef \"A\" (\n    variants = {\n        string Physics = \"mujoco\" # ) } {\n    }\n)\n{\n}\n"},
+     "#usda 1.0\ndef \"A\" (\n    variants = {\n        string Physics = \"mujoco\" # ) } {\n    "
+     "}\n)\n{\n}\n"},
     {"another set's entry stays",
      "def Xform \"A\" (\n    variants = {\n        string Look = \"red\"\n    }\n)\n{\n}\n",
      {1, 1},
-     "def Xform \"A\" (\n    variants = {\n        string Physics = \"mujoco\"\n        string Look = "
+     "def Xform \"A\" (\n    variants = {\n        string Physics = \"mujoco\"\n        string "
+     "Look = "
      "\"red\"\n    }\n)\n{\n}\n"},
     {"a metadata block without selections gets some",
-     "def \"A\" (\n    doc = \"\"\"variants = { ( \"\"\"\n    append variantSets = \"Physics\"\n)\n{\n}\n",
+     "def \"A\" (\n    doc = \"\"\"variants = { ( \"\"\"\n    append variantSets = "
+     "\"Physics\"\n)\n{\n}\n",
      {1, 1},
      "def \"A\" (\n    variants = {\n        string Physics = \"mujoco\"\n    }\n    doc = "
      "\"\"\"variants = { ( \"\"\"\n    append variantSets = \"Physics\"\n)\n{\n}\n"},
-    {"a prim without metadata gets a block", "def \"A\"\n{\n}\n", {1, 1},
+    {"a prim without metadata gets a block",
+     "def \"A\"\n{\n}\n",
+     {1, 1},
      "def \"A\" (\n    variants = {\n        string Physics = \"mujoco\"\n    }\n)\n{\n}\n"},
 };
 
