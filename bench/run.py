@@ -55,8 +55,8 @@ class Workload:
         self.repeats = repeats
 
 
-def run_lines(command, cpu=None, threads=1):
-    """Runs a command; -> its JSON lines."""
+def run_program(command, cpu=None, threads=1):
+    """Runs a command; -> what it printed."""
     environment = dict(os.environ)
     if threads:
         environment["PXR_WORK_THREAD_LIMIT"] = str(threads)
@@ -65,7 +65,13 @@ def run_lines(command, cpu=None, threads=1):
     if done.returncode != 0:
         tail = "\n".join((done.stdout + done.stderr).strip().split("\n")[-12:])
         raise Failure(f"{' '.join(command)}: exit {done.returncode}\n{tail}")
-    return [json.loads(line) for line in done.stdout.split("\n") if line.startswith("{")]
+    return done.stdout
+
+
+def run_lines(command, cpu=None, threads=1):
+    """Runs a program of the benchmarks; -> its JSON lines."""
+    lines = run_program(command, cpu, threads).split("\n")
+    return [json.loads(line) for line in lines if line.startswith("{")]
 
 
 class Figures:
@@ -173,7 +179,7 @@ class Bench:
             for side, command in enumerate((ours, peer)):
                 if command and (side == 0 or self.peer):
                     start = time.perf_counter()
-                    run_lines(command, self.cpu)
+                    run_program(command, self.cpu)
                     laps[side].append(time.perf_counter() - start)
         medians = [statistics.median(laps[side]) if laps[side] else None for side in (0, 1)]
         self.add_row(name, "process", *medians, note=note)
