@@ -20,10 +20,16 @@ step() { # step WORDS -- COMMAND: say it, show the command, run it
 mkdir -p build/demo
 step "What the asset is, with its neutral physics switched on" -- \
   "$tenon" info "$hand" --physics physics
-step "Simulate five seconds of the grasp on MuJoCo; the drive targets come from grasp.usda" -- \
-  "$tenon" sim "$grasp" --physics mujoco --duration 5 -o "$log"
-step "Bake the motion into a layer that any USD viewer plays" -- \
-  "$tenon" bake "$grasp" --physics mujoco --duration 5 -o "$motion"
+step "Simulate the grasp on MuJoCo, follow the drive targets of grasp.usda, log it and bake it" -- \
+  "$tenon" sim "$grasp" --physics mujoco --duration 4 -o "$log" --bake "$motion"
+
+# Rows of the log at a few times: the table leaves, the can stays.
+printf '\n== The hand holds the can while the table sinks (heights in metres)\n\n'
+awk -F, '
+  NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i
+            printf "%8s %12s %12s\n", "time [s]", "can", "table"; next }
+  (NR - 2) % 60 == 0 { printf "%8.2f %12.4f %12.4f\n", $1, $column["/World/can.position.z"],
+                       $column["/World/table.position.z"] }' "$log"
 
 cat <<END
 

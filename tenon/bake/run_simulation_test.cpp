@@ -55,7 +55,8 @@ physics::PhysicsScene one_body() {
 TEST(RunSimulation, FramesStandAtMultiplesOfTheFrameTimeAndTheLastIsTheFinalState) {
   MadeUpMotion simulation(0.002);
   const physics::PhysicsScene scene = one_body();
-  const Run run = run_simulation(simulation, scene, {.duration = 0.5, .frames_per_second = 60});
+  const bake::Run run =
+      run_simulation(simulation, scene, {.duration = 0.5, .frames_per_second = 60});
   EXPECT_EQ(run.steps, 250u);
   ASSERT_EQ(run.recording.frame_count(), 31u);
   for (std::size_t i = 0; i < 31; ++i) {
@@ -73,7 +74,8 @@ TEST(RunSimulation, FramesStandAtMultiplesOfTheFrameTimeAndTheLastIsTheFinalStat
 TEST(RunSimulation, AnEndBetweenFramesIsRecordedToo) {
   MadeUpMotion simulation(0.01);
   const physics::PhysicsScene scene = one_body();
-  const Run run = run_simulation(simulation, scene, {.duration = 0.25, .frames_per_second = 10});
+  const bake::Run run =
+      run_simulation(simulation, scene, {.duration = 0.25, .frames_per_second = 10});
   ASSERT_EQ(run.recording.frame_count(), 4u);
   EXPECT_DOUBLE_EQ(run.recording.times.back(), 0.25);
 }
@@ -81,7 +83,7 @@ TEST(RunSimulation, AnEndBetweenFramesIsRecordedToo) {
 TEST(RunSimulation, AFailureEndsTheRunAndIsKept) {
   MadeUpMotion simulation(0.01, 5);
   const physics::PhysicsScene scene = one_body();
-  const Run run = run_simulation(simulation, scene, {.duration = 1});
+  const bake::Run run = run_simulation(simulation, scene, {.duration = 1});
   ASSERT_TRUE(run.failure.has_value());
   EXPECT_EQ(run.failure->code(), ErrorCode::Unstable);
   EXPECT_EQ(run.steps, 4u);
@@ -92,7 +94,7 @@ TEST(RunSimulation, TheCallerMayStopIt) {
   const physics::PhysicsScene scene = one_body();
   RunOptions options;
   options.go_on = [](double seconds) { return seconds < 0.5; };
-  const Run run = run_simulation(simulation, scene, options);
+  const bake::Run run = run_simulation(simulation, scene, options);
   EXPECT_TRUE(run.interrupted);
   EXPECT_LT(run.time, 1.5);
 }
@@ -100,7 +102,8 @@ TEST(RunSimulation, TheCallerMayStopIt) {
 TEST(WriteLog, ColumnsAreInStageUnitsAndDegrees) {
   MadeUpMotion simulation(0.5);
   const physics::PhysicsScene scene = one_body();
-  const Run run = run_simulation(simulation, scene, {.duration = 0.5, .frames_per_second = 2});
+  const bake::Run run =
+      run_simulation(simulation, scene, {.duration = 0.5, .frames_per_second = 2});
   const std::string csv = csv_log(scene, run.recording);
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "time,/A.position.x,/A.position.y,/A.position.z,/A.orientation.w,/A.orientation.x,"
