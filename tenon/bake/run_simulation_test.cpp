@@ -41,6 +41,13 @@ class MadeUpMotion : public engines::Simulation {
   std::vector<engines::NotMapped> none_;
 };
 
+RunOptions options_of(double duration, double frames_per_second) {
+  RunOptions options;
+  options.duration = duration;
+  options.frames_per_second = frames_per_second;
+  return options;
+}
+
 physics::PhysicsScene one_body() {
   physics::PhysicsScene scene;
   scene.bodies.resize(1);
@@ -55,8 +62,7 @@ physics::PhysicsScene one_body() {
 TEST(RunSimulation, FramesStandAtMultiplesOfTheFrameTimeAndTheLastIsTheFinalState) {
   MadeUpMotion simulation(0.002);
   const physics::PhysicsScene scene = one_body();
-  const bake::Run run =
-      run_simulation(simulation, scene, {.duration = 0.5, .frames_per_second = 60});
+  const bake::Run run = run_simulation(simulation, scene, options_of(0.5, 60));
   EXPECT_EQ(run.steps, 250u);
   ASSERT_EQ(run.recording.frame_count(), 31u);
   for (std::size_t i = 0; i < 31; ++i) {
@@ -74,8 +80,7 @@ TEST(RunSimulation, FramesStandAtMultiplesOfTheFrameTimeAndTheLastIsTheFinalStat
 TEST(RunSimulation, AnEndBetweenFramesIsRecordedToo) {
   MadeUpMotion simulation(0.01);
   const physics::PhysicsScene scene = one_body();
-  const bake::Run run =
-      run_simulation(simulation, scene, {.duration = 0.25, .frames_per_second = 10});
+  const bake::Run run = run_simulation(simulation, scene, options_of(0.25, 10));
   ASSERT_EQ(run.recording.frame_count(), 4u);
   EXPECT_DOUBLE_EQ(run.recording.times.back(), 0.25);
 }
@@ -83,7 +88,7 @@ TEST(RunSimulation, AnEndBetweenFramesIsRecordedToo) {
 TEST(RunSimulation, AFailureEndsTheRunAndIsKept) {
   MadeUpMotion simulation(0.01, 5);
   const physics::PhysicsScene scene = one_body();
-  const bake::Run run = run_simulation(simulation, scene, {.duration = 1});
+  const bake::Run run = run_simulation(simulation, scene, options_of(1, 60));
   ASSERT_TRUE(run.failure.has_value());
   EXPECT_EQ(run.failure->code(), ErrorCode::Unstable);
   EXPECT_EQ(run.steps, 4u);
@@ -102,8 +107,7 @@ TEST(RunSimulation, TheCallerMayStopIt) {
 TEST(WriteLog, ColumnsAreInStageUnitsAndDegrees) {
   MadeUpMotion simulation(0.5);
   const physics::PhysicsScene scene = one_body();
-  const bake::Run run =
-      run_simulation(simulation, scene, {.duration = 0.5, .frames_per_second = 2});
+  const bake::Run run = run_simulation(simulation, scene, options_of(0.5, 2));
   const std::string csv = csv_log(scene, run.recording);
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "time,/A.position.x,/A.position.y,/A.position.z,/A.orientation.w,/A.orientation.x,"
