@@ -67,7 +67,7 @@ TEST(SessionOpinions, OverridesAreReadInTheTypeOfTheAttribute) {
   const layer::LayerPtr root = read(kScene);
   const stage::Stage before = open(root, nullptr);
   const std::vector<std::string> assignments{"/W.mode=y\"z", "/W.v=(1, 2, 3)", "/W.file=a.png",
-                                             "/W.moving=5", "/W.to=</>", "/W.visibility=invisible"};
+                                             "/W.moving=5", "/W.to=</W>", "/W.visibility=invisible"};
   const auto session = with_overrides(nullptr, before, assignments, formats::read_text);
   ASSERT_TRUE(session) << session.error().to_string();
   const stage::Stage stage = open(root, *session);
@@ -76,7 +76,7 @@ TEST(SessionOpinions, OverridesAreReadInTheTypeOfTheAttribute) {
   EXPECT_EQ(prim.attribute("v").get_as<Vec3d>(), (Vec3d{{1, 2, 3}}));
   EXPECT_EQ(prim.attribute("file").get_as<layer::AssetPath>()->authored, "a.png");
   EXPECT_EQ(prim.attribute("moving").get_as<float>(0.5), 5.0f);
-  EXPECT_EQ(prim.relationship("to").targets(), std::vector{Path::absolute_root()});
+  EXPECT_EQ(prim.relationship("to").targets(), std::vector{Path::from("/W")});
   EXPECT_EQ(prim.attribute("visibility").get_as<Token>(), Token("invisible"));
 }
 
