@@ -66,8 +66,9 @@ TEST(SessionOpinions, AVariantIsSelectedOnTheDefaultPrim) {
 TEST(SessionOpinions, OverridesAreReadInTheTypeOfTheAttribute) {
   const layer::LayerPtr root = read(kScene);
   const stage::Stage before = open(root, nullptr);
-  const std::vector<std::string> assignments{"/W.mode=y\"z", "/W.v=(1, 2, 3)", "/W.file=a.png",
-                                             "/W.moving=5", "/W.to=</W>", "/W.visibility=invisible"};
+  const std::vector<std::string> assignments{"/W.mode=y\"z", "/W.v=(1, 2, 3)",
+                                             "/W.file=a.png", "/W.moving=5",
+                                             "/W.to=</W>",    "/W.visibility=invisible"};
   const auto session = with_overrides(nullptr, before, assignments, formats::read_text);
   ASSERT_TRUE(session) << session.error().to_string();
   const stage::Stage stage = open(root, *session);
