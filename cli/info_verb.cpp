@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "cli/prim_walk.h"
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/physics/physics_counts.h"
@@ -22,19 +23,6 @@ std::string layer_name(const std::string& identifier, const std::string& root) {
     return identifier;
   }
   return path.lexically_proximate(std::filesystem::path(root).parent_path()).generic_string();
-}
-
-/// The prim and everything below it, depth first.
-template <class Visit>
-void walk(const stage::Prim& root, Visit visit) {
-  std::vector<stage::Prim> open = {root};
-  while (!open.empty()) {
-    const stage::Prim prim = open.back();
-    open.pop_back();
-    visit(prim);
-    std::vector<stage::Prim> children = prim.children();
-    open.insert(open.end(), children.rbegin(), children.rend());
-  }
 }
 
 const char* axis_name(stage::UpAxis axis) {
@@ -68,15 +56,6 @@ Json stage_json(const stage::Stage& stage, std::size_t prim_count) {
   result["timeCodesPerSecond"] = stage.time_codes_per_second();
   result["primCount"] = prim_count;
   return result;
-}
-
-void add_variants(const stage::Prim& prim, Json& variants) {
-  for (const std::string& set : prim.variant_set_names()) {
-    variants.push_back({{"prim", prim.path().str()},
-                        {"set", set},
-                        {"selection", prim.variant_selection(set)},
-                        {"options", prim.variant_names(set)}});
-  }
 }
 
 Json physics_json(const physics::PhysicsCounts& counts) {
@@ -152,7 +131,7 @@ int run_info(const Globals& globals, const AssetArguments& arguments) {
   }
   std::size_t prim_count = 0;
   Json variants = Json::array();
-  walk(stage->pseudo_root(), [&](const stage::Prim& prim) {
+  walk_prims(stage->pseudo_root(), [&](const stage::Prim& prim) {
     prim_count += prim.is_pseudo_root() ? 0u : 1u;
     add_variants(prim, variants);
   });

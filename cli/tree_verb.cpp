@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/kinematic_tree.h"
+#include "cli/prim_walk.h"
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/formats/text/value_text.h"
@@ -107,10 +108,7 @@ void print_tree(const stage::Stage& stage, const Options& options) {
 
 Json tree_json(const stage::Stage& stage) {
   Json prims = Json::array();
-  std::vector<stage::Prim> open = {stage.pseudo_root()};
-  while (!open.empty()) {
-    const stage::Prim prim = open.back();
-    open.pop_back();
+  walk_prims(stage.pseudo_root(), [&](const stage::Prim& prim) {
     if (!prim.is_pseudo_root()) {
       prims.push_back({{"path", prim.path().str()},
                        {"specifier", specifier_word(prim.specifier())},
@@ -118,9 +116,7 @@ Json tree_json(const stage::Stage& stage) {
                        {"active", prim.is_active()},
                        {"instance", prim.is_instance()}});
     }
-    const std::vector<stage::Prim> children = prim.children();
-    open.insert(open.end(), children.rbegin(), children.rend());
-  }
+  });
   return prims;
 }
 

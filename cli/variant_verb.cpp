@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "cli/prim_walk.h"
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/bake/over_specs.h"
@@ -26,21 +27,11 @@ struct Options {
 
 Json variants_json(const stage::Stage& stage, const std::string& only) {
   Json variants = Json::array();
-  std::vector<stage::Prim> open = {stage.pseudo_root()};
-  while (!open.empty()) {
-    const stage::Prim prim = open.back();
-    open.pop_back();
-    for (const std::string& set : prim.variant_set_names()) {
-      if (only.empty() || prim.path().str() == only) {
-        variants.push_back({{"prim", prim.path().str()},
-                            {"set", set},
-                            {"selection", prim.variant_selection(set)},
-                            {"options", prim.variant_names(set)}});
-      }
+  walk_prims(stage.pseudo_root(), [&](const stage::Prim& prim) {
+    if (only.empty() || prim.path().str() == only) {
+      add_variants(prim, variants);
     }
-    const std::vector<stage::Prim> children = prim.children();
-    open.insert(open.end(), children.rbegin(), children.rend());
-  }
+  });
   return variants;
 }
 
