@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/stage/flatten.h"
 
+#include <algorithm>
 #include <set>
 #include <unordered_map>
 
@@ -41,8 +42,7 @@ Value anchored(const Value& value) {
 
 class Flattener {
  public:
-  explicit Flattener(const Stage& stage)
-      : stage_(stage), layer_("anon:flattened.usda") {
+  explicit Flattener(const Stage& stage) : stage_(stage), layer_("anon:flattened.usda") {
     std::size_t number = 0;
     for (const Prim& prototype : stage.prototypes()) {
       const std::string name = "Flattened_Prototype_" + std::to_string(++number);
@@ -60,6 +60,7 @@ class Flattener {
     for (const Prim& prototype : stage_.prototypes()) {
       copy_prototype(prototype);
     }
+    put_prototypes_first();
     return std::move(layer_);
   }
 
@@ -77,6 +78,16 @@ class Flattener {
     copy_below(prototype, path);
   }
 
+  // As OpenUSD orders them.
+  void put_prototypes_first() {
+    std::vector<Token> names = layer_.children(Path::absolute_root(), fields::primChildren);
+    if (!names.empty()) {
+      const auto count = static_cast<std::ptrdiff_t>(prototype_paths_.size());
+      std::rotate(names.begin(), names.end() - count, names.end());
+      layer_.root().set(fields::primChildren, std::move(names));
+    }
+  }
+
   void copy_below(const Prim& root, Path root_path) {
     std::vector<Copy> pending{{root, root_path}};
     while (!pending.empty()) {
@@ -88,7 +99,8 @@ class Flattener {
       if (copy.prim.is_instance()) {
         continue;
       }
-      const std::vector<Prim> children = copy.prim.children();
+      std::vector<Prim> children = copy.prim.children();
+      std::erase_if(children, [](const Prim& child) { return !child.is_active(); });
       std::vector<Token> names;
       for (auto child = children.rbegin(); child != children.rend(); ++child) {
         pending.push_back({*child, copy.path.child(child->name())});
@@ -134,10 +146,9 @@ class Flattener {
     if (prim.is_instance()) {
       layer::Reference reference;
       reference.prim_path = prototype_paths_.at(prim.prototype().path());
-      spec.set(fields::references,
-               layer::ListOp<layer::Reference>::make_explicit({std::move(reference)}));
-    } else {
-      spec.erase(fields::instanceable);
+      layer::ListOp<layer::Reference> references;
+      references.appended.push_back(std::move(reference));
+      spec.set(fields::references, std::move(references));
     }
     const std::vector<Token> names = prim.authored_property_names();
     if (!names.empty()) {
@@ -145,34 +156,44 @@ class Flattener {
     }
     for (const Token name : names) {
       if (prim.is_relationship(name)) {
-        copy_relationship(prim.relationship(name), path.property(name));
+        copy_relationship(prim, prim.relationship(name), path.property(name));
       } else {
-        copy_attribute(prim.attribute(name), path.property(name));
+        copy_attribute(prim, prim.attribute(name), path.property(name));
       }
     }
   }
 
+  // An empty list leaves no trace in what OpenUSD flattens.
   void copy_targets(Spec& spec, Token field, std::vector<Path> targets) {
+    if (targets.empty()) {
+      return;
+    }
     for (Path& target : targets) {
       target = moved(target);
     }
     spec.set(field, layer::ListOp<Path>::make_explicit(std::move(targets)));
   }
 
-  void copy_relationship(const Relationship& relationship, Path path) {
+  // The weakest opinion decides, as in OpenUSD; what schemas declare is not custom.
+  static bool is_custom(const Prim& prim, Token name, const std::vector<SpecSite>& sites) {
+    return prim.definition()->find_stock(name) == nullptr && !sites.empty() &&
+           sites.back().spec->get_or(fields::custom, false);
+  }
+
+  void copy_relationship(const Prim& prim, const Relationship& relationship, Path path) {
     Spec& spec = layer_.create(path, SpecKind::Relationship);
     for (const auto& [name, value] : relationship.all_authored_metadata()) {
       if (name != "targetPaths") {
         spec.set(Token(name), anchored(value));
       }
     }
-    spec.set(fields::custom, relationship.is_custom());
+    spec.set(fields::custom, is_custom(prim, relationship.name(), relationship.spec_stack()));
     if (relationship.has_authored_targets()) {
       copy_targets(spec, fields::targetPaths, relationship.targets());
     }
   }
 
-  void copy_attribute(const Attribute& attribute, Path path) {
+  void copy_attribute(const Prim& prim, const Attribute& attribute, Path path) {
     Spec& spec = layer_.create(path, SpecKind::Attribute);
     for (const auto& [name, value] : attribute.all_authored_metadata()) {
       if (name != "connectionPaths") {
@@ -180,7 +201,7 @@ class Flattener {
       }
     }
     spec.set(fields::typeName, attribute.type_name());
-    spec.set(fields::custom, attribute.is_custom());
+    spec.set(fields::custom, is_custom(prim, attribute.name(), attribute.spec_stack()));
     spec.set(fields::variability, attribute.variability());
     copy_values(attribute, spec);
     if (attribute.has_authored_connections()) {

@@ -6,7 +6,7 @@
 // (depth first). Inactive prims end the walk. An explicit stack keeps deep trees off ours.
 #include "tenon/base/limits.h"
 #include "tenon/schema/kinds.h"
-#include "tenon/stage/composed_fields.h"
+#include "tenon/stage/composed_type.h"
 #include "tenon/stage/stage_data.h"
 
 namespace tenon::stage {
@@ -18,58 +18,6 @@ namespace fields = layer::fields;
 const compose::PrimIndex& empty_index() {
   static const compose::PrimIndex index;
   return index;
-}
-
-template <class T>
-const T* strongest(const compose::PrimIndex& index, Token field) {
-  for (const compose::Opinion& opinion : index.opinions) {
-    if (const T* value = opinion.spec->get<T>(field)) {
-      return value;
-    }
-  }
-  return nullptr;
-}
-
-// The strongest def or class wins over any over; a class that comes over a direct inherit or
-// specialize arc only where nothing else defines the prim.
-Specifier composed_specifier(const compose::PrimIndex& index) {
-  Specifier result = Specifier::Over;
-  for (const compose::Opinion& opinion : index.opinions) {
-    const auto* specifier = opinion.spec->get<Specifier>(fields::specifier);
-    if (specifier == nullptr || *specifier == Specifier::Over) {
-      continue;
-    }
-    const compose::Node& node = index.nodes[opinion.node];
-    const bool from_class_arc =
-        (node.arc == compose::ArcKind::Inherit || node.arc == compose::ArcKind::Specialize) &&
-        !node.due_to_ancestor;
-    if (*specifier == Specifier::Class && from_class_arc) {
-      result = Specifier::Class;
-      continue;
-    }
-    return *specifier;
-  }
-  return result;
-}
-
-Token composed_type_name(const compose::PrimIndex& index) {
-  static const Token any_type{"__AnyType__"};
-  for (const compose::Opinion& opinion : index.opinions) {
-    const auto* name = opinion.spec->get<Token>(fields::typeName);
-    if (name != nullptr && !name->empty() && *name != any_type) {
-      return *name;
-    }
-  }
-  return {};
-}
-
-std::vector<Token> composed_apis(const compose::PrimIndex& index) {
-  for (const compose::Opinion& opinion : index.opinions) {
-    if (opinion.spec->has(fields::apiSchemas)) {
-      return compose_list<Token>(index.opinions, fields::apiSchemas);
-    }
-  }
-  return {};
 }
 
 class Populator {
@@ -169,12 +117,12 @@ class Populator {
     data_.diagnostics.append(prim.index->errors);
     set_flags(prim, parent);
     prim.type_name = composed_type_name(*prim.index);
-    prim.definition = data_.definitions.get(prim.type_name, composed_apis(*prim.index));
+    prim.definition = data_.definitions.get(prim.type_name, composed_api_schemas(*prim.index));
   }
 
   static void set_flags(PrimData& prim, const PrimData& parent) {
     const compose::PrimIndex& index = *prim.index;
-    const bool* active = strongest<bool>(index, fields::active);
+    const bool* active = strongest_opinion<bool>(index, fields::active);
     prim.active = active == nullptr || *active;
     prim.loaded = prim.active && (index.has_payloads ? index.payload_loaded : parent.loaded);
     prim.specifier = composed_specifier(index);
@@ -182,7 +130,7 @@ class Populator {
     prim.defined = parent.defined && prim.specifier != Specifier::Over;
     prim.model = prim.group = false;
     if (parent.group) {
-      if (const Token* kind = strongest<Token>(index, fields::kind)) {
+      if (const Token* kind = strongest_opinion<Token>(index, fields::kind)) {
         prim.group = schema::is_kind(*kind, "group");
         prim.model = prim.group || schema::is_kind(*kind, "model");
       }
