@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/edit/edit_target.h"
+
+#include "tenon/layer/field_values.h"
+
+namespace tenon::edit {
+namespace {
+
+using compose::MapFunction;
+using layer::LayerOffset;
+using layer::Value;
+
+MapFunction variant_map(Path variant_path) {
+  const Path root = Path::absolute_root();
+  return MapFunction::make({{variant_path, variant_path.strip_variants()}, {root, root}});
+}
+
+/// Offset of a layer in its stack; identity for layers that are not in it.
+LayerOffset offset_in(const compose::LayerStack& stack, const std::string& layer) {
+  for (const compose::StackedLayer& stacked : stack.layers) {
+    if (stacked.layer->identifier() == layer) {
+      return stacked.offset;
+    }
+  }
+  return {};
+}
+
+layer::TimeCode moved(layer::TimeCode code, const LayerOffset& by) {
+  return {by.apply(code.value)};
+}
+
+Value moved(const Value& value, const LayerOffset& by);
+
+layer::Dictionary moved(layer::Dictionary dictionary, const LayerOffset& by) {
+  for (auto& [name, value] : dictionary.items) {
+    value = moved(value, by);
+  }
+  return dictionary;
+}
+
+Value moved(const Value& value, const LayerOffset& by) {
+  if (const auto* code = value.get<layer::TimeCode>()) {
+    return moved(*code, by);
+  }
+  if (const auto* codes = value.get<layer::Array<layer::TimeCode>>()) {
+    layer::Array<layer::TimeCode> result = *codes;
+    for (layer::TimeCode& code : result) {
+      code = moved(code, by);
+    }
+    return result;
+  }
+  if (const auto* dictionary = value.get<layer::Dictionary>()) {
+    return moved(*dictionary, by);
+  }
+  return value;
+}
+
+}  // namespace
+
+Path EditTarget::spec_path(Path scene_path) const { return map.map_target_to_source(scene_path); }
+
+Path EditTarget::target_path(Path scene_path) const {
+  return spec_path(scene_path).strip_variants();
+}
+
+Value EditTarget::layer_value(const Value& value) const {
+  return map.offset().is_identity() ? value : moved(value, map.offset().inverse());
+}
+
+EditTarget layer_target(const compose::LayerStack& stack, const std::string& layer) {
+  return {layer, MapFunction::identity().compose_offset(offset_in(stack, layer))};
+}
+
+EditTarget variant_target(std::string layer, Path variant_path) {
+  return {std::move(layer), variant_map(variant_path)};
+}
+
+EditTarget node_target(const compose::PrimIndex& index, std::uint32_t node,
+                       const std::string& layer) {
+  const compose::Node& at = index.nodes[node];
+  MapFunction map = *at.map_to_root;
+  if (at.path.has_variants()) {
+    map = map.compose(variant_map(at.path));
+  }
+  return {layer, map.compose_offset(offset_in(*at.layer_stack, layer))};
+}
+
+}  // namespace tenon::edit
