@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "cli/prim_walk.h"
 #include "cli/report.h"
@@ -11,7 +12,7 @@
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/save_layer.h"
-#include "tenon/formats/text/selection_edit.h"
+#include "tenon/formats/text/layout_edit.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -95,30 +96,17 @@ layer::Layer with_selection(layer::Layer layer, const Selection& selection) {
   return layer;
 }
 
-/// The layer's text with nothing but the selection changed; an Error when that cannot be proved.
-Result<std::string> edited_text(const layer::Layer& layer, const Selection& selection) {
-  const layer::Spec* spec = layer.find(selection.prim);
-  TENON_TRY(const auto bytes, bytes::FileBytes::open(layer.identifier()));
-  const auto edited = spec == nullptr ? std::nullopt
-                                      : formats::text::with_variant_selection(
-                                            bytes->text(), {spec->line, spec->column},
-                                            selection.set, selection.variant);
-  if (edited) {
-    Diagnostics ignored;
-    const auto again =
-        formats::read_layer(bytes::FileBytes::own(*edited), layer.identifier(), ignored);
-    const layer::Spec* changed = again ? again->find(selection.prim) : nullptr;
-    const auto* selections =
-        changed == nullptr ? nullptr : changed->get<layer::VariantSelections>("variantSelection");
-    const layer::Layer wanted = with_selection(layer, selection);
-    const auto* expected =
-        wanted.find(selection.prim)->get<layer::VariantSelections>("variantSelection");
-    if (selections != nullptr && *selections == *expected &&
-        again->spec_count() == layer.spec_count()) {
-      return *edited;
-    }
+/// The file's text with nothing but what differs changed; nothing for files that are no text.
+Result<std::optional<std::string>> edited_text(const layer::Layer& edited, Report& report) {
+  TENON_TRY(const auto bytes, bytes::FileBytes::open(edited.identifier()));
+  if (formats::format_of(*bytes) != formats::LayerFormat::Text) {
+    return std::optional<std::string>();
   }
-  return Error(ErrorCode::Unsupported, "the selection cannot be edited in place in this text");
+  formats::EditedText text = formats::edit_text(bytes->text(), edited);
+  if (!text.kept_layout) {
+    report.note("comments and layout of " + shown_path(edited.identifier()) + " are not kept");
+  }
+  return std::optional<std::string>(std::move(text.text));
 }
 
 Result<void> write_selection(const layer::Layer& layer, const Selection& selection,
@@ -143,10 +131,14 @@ Result<void> write_selection(const layer::Layer& layer, const Selection& selecti
     report.note(shown_path(output) + " is a layer over " + shown_path(layer.identifier()));
     return formats::save_layer(with_selection(std::move(over), selection), output);
   }
-  if (auto text = edited_text(layer, selection)) {
-    return write_output(output, *text);
-  }
   const layer::Layer changed = with_selection(layer, selection);
+  const auto format = formats::layer_format_for(output);
+  if (options.in_place || output == "-" || (format && *format == formats::LayerFormat::Text)) {
+    TENON_TRY(const auto text, edited_text(changed, report));
+    if (text) {
+      return write_output(output, *text);
+    }
+  }
   if (output == "-") {
     TENON_TRY(const std::string text, formats::encode_layer(changed, formats::LayerFormat::Text));
     return write_output(output, text);

@@ -8,7 +8,8 @@ usage: edit_stage.py PROGRAM [--scripts N] [--seed S] [--edits N] [--keep FOLDER
 PROGRAM is tests/tools/edit_script.cpp. Per script these must agree: which edits are accepted, the
 text of every edited layer, and the text of the flattened stage after the last edit. An edit that
 OpenUSD refuses half-way is taken back on its side: tenon does all of an edit or nothing. PROGRAM
-also takes all edits back and does them again. Exit 77: no OpenUSD.
+also takes all edits back and does them again, and edits the text of each file, which OpenUSD must
+read as the edited layer. Exit 77: no OpenUSD.
 """
 
 import argparse
@@ -330,6 +331,13 @@ def difference(want, have, script):
             return f"{name} is edited only by {side}"
         if want["layers"][name] != have["layers"][name]:
             return f"{name} {lines_that_differ(want['layers'][name], have['layers'][name])}"
+    for name, edited in have["edited"].items():
+        layer = Sdf.Layer.CreateAnonymous(".usda")
+        if not layer.ImportFromString(edited["text"]):
+            return f"{name}: OpenUSD cannot read the edited text"
+        if layer.ExportToString() != have["layers"][name]:
+            again = lines_that_differ(have["layers"][name], layer.ExportToString())
+            return f"{name} edited in its text {again}"
     if not have["history"]:
         return "undo or redo lead elsewhere"
     flats, flat = [same_flat(text) for text in want["flats"]], same_flat(have["flat"])
@@ -353,7 +361,8 @@ def check_script(arguments, seed):
             for side, result in (("openusd", want), ("tenon", have)):
                 with open(os.path.join(folder, side + ".json"), "w", encoding="utf-8") as file:
                     json.dump(result, file, indent=1)
-        return difference(want, have, script), sum(want["results"])
+        kept = [edited["kept"] for edited in have.get("edited", {}).values()]
+        return difference(want, have, script), sum(want["results"]), kept
 
 
 def main():
@@ -367,15 +376,17 @@ def main():
     arguments = parser.parse_args()
     if not arguments.v:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # OpenUSD's warnings
-    different, accepted = 0, 0
+    different, accepted, kept = 0, 0, []
     for seed in range(arguments.seed, arguments.seed + arguments.scripts):
-        found, count = check_script(arguments, seed)
+        found, count, layouts = check_script(arguments, seed)
         accepted += count
+        kept += layouts
         if found:
             different += 1
             print(f"script {seed}: {found}")
     print(f"{arguments.scripts - different} scripts equal, {different} differ; "
-          f"{accepted} of {arguments.scripts * arguments.edits} edits accepted")
+          f"{accepted} of {arguments.scripts * arguments.edits} edits accepted; "
+          f"{sum(kept)} of {len(kept)} edited texts kept their layout")
     return 1 if different else 0
 
 

@@ -3,7 +3,8 @@
 // Runs a script of edits for tests/differential/edit_stage.py.
 //
 // usage: tenon_edit_script SCRIPT.json, with {"root": FILE, "session": bool, "edits": [...]}
-// Prints {"results": [true | "message"...], "layers": {name: text}, "flat": text, "history": bool}.
+// Prints {"results": [true | "message"...], "layers": {name: text}, "flat": text, "history": bool,
+// "edited": {name: {"text": the file's text edited, "kept": its layout was kept}}}.
 // Exit: 0 printed; 2 wrong usage or script; 3 a layer could not be opened.
 #include <cstdio>
 #include <filesystem>
@@ -16,6 +17,7 @@
 
 #include "tenon/edit/stage_editor.h"
 #include "tenon/formats/open_layer.h"
+#include "tenon/formats/text/layout_edit.h"
 #include "tenon/formats/text/value_text.h"
 #include "tenon/formats/text/writer.h"
 #include "tenon/stage/flatten.h"
@@ -261,14 +263,20 @@ int run(const Json& script) {
   add_prim_ops(ops);
   add_property_ops(ops);
   add_arc_ops(ops);
-  Json output = {{"results", Json::array()}, {"layers", Json::object()}};
+  Json output = {
+      {"results", Json::array()}, {"layers", Json::object()}, {"edited", Json::object()}};
   for (const Json& one : script.at("edits")) {
     const Done done = ops.at(text_in(one, "op"))(editor, one);
     output["results"].push_back(done ? Json(true) : Json(done.error().to_string()));
   }
   output["history"] = history_holds(editor);
   for (const auto& [identifier, layer] : editor.edited_layers()) {
-    output["layers"][identifier.substr(g_folder.size())] = formats::write_text(*layer);
+    const std::string name = identifier.substr(g_folder.size());
+    output["layers"][name] = formats::write_text(*layer);
+    std::ifstream file(identifier, std::ios::binary);
+    const std::string original{std::istreambuf_iterator<char>(file), {}};
+    const formats::EditedText edited = formats::edit_text(original, *layer);
+    output["edited"][name] = {{"text", edited.text}, {"kept", edited.kept_layout}};
   }
   const auto stage = editor.stage();
   output["flat"] = formats::write_text(stage::flatten(**stage));

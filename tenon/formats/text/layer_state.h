@@ -6,6 +6,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/formats/text/cursor.h"
+#include "tenon/formats/text/source_map.h"
 #include "tenon/layer/layer.h"
 
 namespace tenon::formats::text {
@@ -16,6 +17,7 @@ struct LayerState {
   layer::Layer layer;
   Diagnostics& diagnostics;
   layer::TimeSamples samples_buffer{};  ///< kept between attributes to spare allocations
+  SourceMap* sources = nullptr;         ///< filled where somebody wants to know
 
   LayerState(std::string_view text, std::string identifier, Diagnostics& findings)
       : cursor(text, {}), layer(std::move(identifier)), diagnostics(findings) {

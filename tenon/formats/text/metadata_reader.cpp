@@ -388,7 +388,21 @@ class MetadataReader {
 
 bool read_metadata(LayerState& state, Path path, SpecKind kind) {
   MetadataReader reader(state, path, kind);
-  return read_statements(state.cursor, ')', "of the metadata", [&] { return reader.read_item(); });
+  Cursor& cursor = state.cursor;
+  if (state.sources == nullptr) {
+    return read_statements(cursor, ')', "of the metadata", [&] { return reader.read_item(); });
+  }
+  MetadataBlock block;
+  block.range.begin = cursor.offset() - 1;
+  const bool ok = read_statements(cursor, ')', "of the metadata", [&] {
+    const std::size_t begin = cursor.offset();
+    const bool read = reader.read_item();
+    block.statements.push_back({begin, cursor.offset()});
+    return read;
+  });
+  block.range.end = cursor.offset();
+  state.sources->metadata.insert_or_assign(path, std::move(block));
+  return ok;
 }
 
 bool read_name_list(Cursor& cursor, std::vector<std::string>& names) {

@@ -203,6 +203,36 @@ bool has_metadata(const Spec& spec) {
                      [&](const Field& field) { return stands_in_metadata(field.name, spec.kind); });
 }
 
+bool stands_in_parentheses(Token field, SpecKind kind) {
+  if (field == fields::comment) {
+    return true;
+  }
+  if (kind == SpecKind::PseudoRoot) {
+    return field == fields::subLayers || field == fields::layerRelocates ||
+           !layer::is_structural_field(field, kind);
+  }
+  return stands_in_metadata(field, kind);
+}
+
+std::string metadata_field_text(const Spec& spec, Token field) {
+  std::string out;
+  const Value* value = spec.find(field);
+  if (value == nullptr || !stands_in_parentheses(field, spec.kind)) {
+    return out;
+  }
+  const bool is_layer = spec.kind == SpecKind::PseudoRoot;
+  if (field == fields::comment) {
+    append_comment(out, spec, is_layer ? 1 : 0);
+  } else if (const auto* relocates = value->get<layer::Relocates>(); relocates && is_layer) {
+    append_relocates(out, *relocates);
+  } else if (is_layer) {
+    append_layer_field(out, spec, {field, *value});
+  } else {
+    append_field(out, {field, *value}, 0);
+  }
+  return out;
+}
+
 bool append_metadata(std::string& out, const Spec& spec, std::size_t indent) {
   if (!has_metadata(spec)) {
     return false;

@@ -14,6 +14,13 @@ bool append_metadata(std::string& out, const layer::Spec& spec, std::size_t inde
 /// True when `append_metadata` would write something.
 bool has_metadata(const layer::Spec& spec);
 
+/// The statements of one field in parentheses, each on lines of its own, `indent` steps in; those
+/// of a layer stand one step in. Empty for fields that are written elsewhere. The comment of a spec
+/// is the field "comment"; subLayerOffsets belong to subLayers.
+std::string metadata_field_text(const layer::Spec& spec, Token field);
+/// True for fields that stand in the parentheses of a spec.
+bool stands_in_parentheses(Token field, layer::SpecKind kind);
+
 /// Appends the layer's own block, `(` lines `)`, when there is anything to say.
 void append_layer_metadata(std::string& out, const layer::Spec& root);
 

@@ -40,6 +40,16 @@ class PropertyReader {
       : state_(state), cursor_(state.cursor), owner_(owner), properties_(properties) {}
 
   bool read() {
+    const bool ok = read_statement();
+    if (ok && state_.sources != nullptr) {
+      statement_.range = {start_, cursor_.offset()};
+      state_.sources->properties[path_].push_back(statement_);
+    }
+    return ok;
+  }
+
+ private:
+  bool read_statement() {
     start_ = cursor_.offset();
     edit_ = accept_list_edit(cursor_);
     if (edit_ != ListEdit::Explicit && !separator()) {
@@ -66,7 +76,6 @@ class PropertyReader {
     return read_attribute();
   }
 
- private:
   bool separator() {
     return cursor_.accept_separator() || cursor_.fail_expected("a blank between two words");
   }
@@ -78,6 +87,7 @@ class PropertyReader {
     }
     cursor_.advance(name.size());
     path_ = owner_.property(Token(name));
+    statement_.name_end = cursor_.offset();
     return true;
   }
 
@@ -183,6 +193,7 @@ class PropertyReader {
 
   bool read_attribute_part() {
     const bool plain = edit_ == ListEdit::Explicit;
+    statement_.part = PropertyPart::Other;
     if (cursor_.accept_word("connect")) {
       return read_assignment(cursor_) && read_connections();
     }
@@ -251,6 +262,7 @@ class PropertyReader {
 
   bool read_default() {
     Value value;
+    statement_.value.begin = cursor_.offset();
     if (cursor_.accept_word("None")) {
       value = layer::ValueBlock{};
     } else if (cursor_.accept_word("AnimationBlock")) {
@@ -258,10 +270,13 @@ class PropertyReader {
     } else if (!read_own_value(value)) {
       return false;
     }
+    statement_.value.end = cursor_.offset();
     return set(fields::default_value, std::move(value));
   }
 
   bool read_time_samples() {
+    statement_.part = PropertyPart::Samples;
+    statement_.value.begin = cursor_.offset();
     if (!cursor_.expect('{', "before the time samples")) {
       return false;
     }
@@ -273,6 +288,7 @@ class PropertyReader {
     const bool ok = cursor_.accept('}') || read_items(cursor_, '}', "of the time samples", [&] {
                       return read_time_sample(samples, ascending);
                     });
+    statement_.value.end = cursor_.offset();
     if (ok && !ascending) {
       sort_samples(samples);
     }
@@ -297,10 +313,15 @@ class PropertyReader {
     }
     cursor_.skip_inline();
     Value value;
+    const std::size_t value_start = cursor_.offset();
     if (cursor_.accept_word("None")) {
       value = layer::ValueBlock{};
     } else if (!read_own_value(value)) {
       return false;
+    }
+    if (state_.sources != nullptr) {
+      const std::size_t end = cursor_.offset();
+      state_.sources->samples[path_].push_back({time, {start, end}, {value_start, end}});
     }
     ascending = ascending && (samples.empty() || samples.times.back() < time);
     samples.times.push_back(time);
@@ -363,17 +384,26 @@ class PropertyReader {
     }
     if (edit_ == ListEdit::Explicit) {
       if (accept_dot()) {
+        statement_.part = PropertyPart::Other;
         return read_relationship_default();
       }
       const std::size_t before = cursor_.offset();
       cursor_.skip_inline();
       if (cursor_.accept('[')) {
+        statement_.part = PropertyPart::Other;
         return read_unlisted_target();
       }
       cursor_.seek(before);
     }
-    if (accept_equals() && !read_targets()) {
-      return false;
+    if (accept_equals()) {
+      statement_.value.begin = cursor_.offset();
+      if (!read_targets()) {
+        return false;
+      }
+      statement_.value.end = cursor_.offset();
+    }
+    if (edit_ != ListEdit::Explicit) {
+      statement_.part = PropertyPart::Other;
     }
     return edit_ != ListEdit::Explicit || read_optional_metadata(SpecKind::Relationship);
   }
@@ -437,6 +467,7 @@ class PropertyReader {
   Path owner_;
   std::vector<Token>& properties_;
   std::size_t start_ = 0;
+  PropertyStatement statement_;
   ListEdit edit_ = ListEdit::Explicit;
   bool is_custom_ = false;
   bool is_varying_ = false;

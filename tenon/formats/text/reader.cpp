@@ -40,13 +40,15 @@ std::string block_name(const Block& block) {
 
 class LayerReader {
  public:
-  LayerReader(std::string_view text, std::string identifier, Diagnostics& diagnostics)
+  LayerReader(std::string_view text, std::string identifier, Diagnostics& diagnostics,
+              SourceMap* sources)
       : state_(text, std::move(identifier), diagnostics), cursor_(state_.cursor) {
+    state_.sources = sources;
     blocks_.push_back({Block::Kind::Layer, Path::absolute_root()});
   }
 
   Result<layer::Layer> read() {
-    if (read_header(state_) && read_layer_metadata()) {
+    if (read_header(state_) && note_header() && read_layer_metadata()) {
       while (read_step()) {
       }
     }
@@ -62,6 +64,29 @@ class LayerReader {
 
  private:
   Block& top() { return blocks_.back(); }
+
+  // Where sources are wanted
+
+  bool note_header() {
+    if (state_.sources != nullptr) {
+      state_.sources->header_end = cursor_.offset();
+    }
+    return true;
+  }
+
+  void note_open(Path path, SourceBlock block) {
+    if (state_.sources != nullptr) {
+      block.body.begin = cursor_.offset() - 1;
+      state_.sources->blocks.insert_or_assign(path, block);
+    }
+  }
+
+  void note_close(Path path) {
+    if (state_.sources != nullptr) {
+      SourceBlock& block = state_.sources->blocks[path];
+      block.body.end = block.range.end = cursor_.offset();
+    }
+  }
 
   bool read_layer_metadata() {
     cursor_.skip_multi_line();
@@ -97,11 +122,12 @@ class LayerReader {
     if (word != "reorder") {
       return fail_layer_statement();
     }
+    const std::size_t start = cursor_.offset();
     cursor_.advance(word.size());
     if (!cursor_.accept_separator() || !cursor_.accept_word("rootPrims")) {
       return cursor_.fail_expected("`rootPrims`");
     }
-    return read_order(fields::primOrder) && end_statement("after reorder rootPrims");
+    return read_order(fields::primOrder, start) && end_statement("after reorder rootPrims");
   }
 
   /// Something that is no prim between the prims of the layer: often a '}' stands too early.
@@ -150,10 +176,12 @@ class LayerReader {
       cursor_.advance(word.size());
       if (cursor_.accept_separator()) {
         if (cursor_.accept_word("nameChildren")) {
-          return read_order(fields::primOrder) && end_statement("after reorder nameChildren");
+          return read_order(fields::primOrder, start) &&
+                 end_statement("after reorder nameChildren");
         }
         if (cursor_.accept_word("properties")) {
-          return read_order(fields::propertyOrder) && end_statement("after reorder properties");
+          return read_order(fields::propertyOrder, start) &&
+                 end_statement("after reorder properties");
         }
       }
       cursor_.seek(start);
@@ -174,7 +202,7 @@ class LayerReader {
         fix);
   }
 
-  bool read_order(Token field) {
+  bool read_order(Token field, std::size_t start) {
     cursor_.skip_inline();
     if (!cursor_.expect('=', "before the names")) {
       return false;
@@ -186,6 +214,9 @@ class LayerReader {
     }
     state_.layer.find(top().path)
         ->set(field, Value(std::vector<Token>(names.begin(), names.end())));
+    if (state_.sources != nullptr) {
+      state_.sources->orders[top().path].push_back({start, cursor_.offset()});
+    }
     return true;
   }
 
@@ -225,6 +256,7 @@ class LayerReader {
     if (!read_string(cursor_, name) || !check_prim_name(name, name_start)) {
       return false;
     }
+    const std::size_t name_end = cursor_.offset();
     const Path path = top().path.child(Token(name));
     if (const layer::Spec* old = state_.layer.find(path)) {
       return cursor_.fail_at(
@@ -241,8 +273,11 @@ class LayerReader {
     if (!type_name.empty()) {
       spec.append(fields::typeName, Value(Token(type_name)));
     }
-    return read_block_metadata(path, SpecKind::Prim) && open_brace(path, start) &&
-           push({Block::Kind::Prim, path, start});
+    if (!read_block_metadata(path, SpecKind::Prim) || !open_brace(path, start)) {
+      return false;
+    }
+    note_open(path, {{start, 0}, name_start, name_end, {}});
+    return push({Block::Kind::Prim, path, start});
   }
 
   /// `Name` or `Name.Name`, with the blank behind it.
@@ -317,7 +352,11 @@ class LayerReader {
       sets.emplace_back(name);
       owner.set(fields::variantSetChildren, Value(std::move(sets)));
     }
-    return open_brace(path, start) && push({Block::Kind::VariantSet, path, start});
+    if (!open_brace(path, start)) {
+      return false;
+    }
+    note_open(path, {{start, 0}, start, start, {}});
+    return push({Block::Kind::VariantSet, path, start});
   }
 
   bool check_variant_name(std::string_view name, std::size_t offset) {
@@ -339,6 +378,7 @@ class LayerReader {
     if (!read_string(cursor_, name) || !check_variant_name(name, start)) {
       return false;
     }
+    const std::size_t name_end = cursor_.offset();
     const Token variant(name);
     const Path path = top().path.parent().variant_selection(top().path.name(), variant);
     if (state_.layer.has(path)) {
@@ -353,8 +393,11 @@ class LayerReader {
     Block block{Block::Kind::Variant, path, start};
     block.children = layer::Layer::children(spec, fields::primChildren);
     block.properties = layer::Layer::children(spec, fields::properties);
-    return read_block_metadata(path, SpecKind::Variant) && open_brace(path, start) &&
-           push(std::move(block));
+    if (!read_block_metadata(path, SpecKind::Variant) || !open_brace(path, start)) {
+      return false;
+    }
+    note_open(path, {{start, 0}, start, name_end, {}});
+    return push(std::move(block));
   }
 
   void store_children(Block& block) {
@@ -375,6 +418,7 @@ class LayerReader {
     const std::size_t brace = cursor_.offset() - 1;
     Block block = std::move(top());
     blocks_.pop_back();
+    note_close(block.path);
     store_children(block);
     if (top().kind == Block::Kind::Layer) {
       last_closed_ = block_name(block);
@@ -410,7 +454,12 @@ class LayerReader {
 
 Result<layer::Layer> read_text(std::string_view source, std::string identifier,
                                Diagnostics& diagnostics) {
-  return text::LayerReader(source, std::move(identifier), diagnostics).read();
+  return text::LayerReader(source, std::move(identifier), diagnostics, nullptr).read();
+}
+
+Result<layer::Layer> read_text_with_sources(std::string_view source, std::string identifier,
+                                            Diagnostics& diagnostics, text::SourceMap& sources) {
+  return text::LayerReader(source, std::move(identifier), diagnostics, &sources).read();
 }
 
 }  // namespace tenon::formats

@@ -10,6 +10,9 @@
 #include "tenon/layer/layer.h"
 
 namespace tenon::formats {
+namespace text {
+struct SourceMap;
+}
 
 /// Reads a text layer (.usda). Accepts what OpenUSD 26.11 accepts (Core Spec 1.0.1 section 16.2),
 /// headers `#usda 1.0` to `#usda 1.4`. Every spec knows its source line and column.
@@ -18,5 +21,9 @@ namespace tenon::formats {
 /// Diagnostics: warnings about text that is read but does not mean what it seems to.
 Result<layer::Layer> read_text(std::string_view text, std::string identifier,
                                Diagnostics& diagnostics);
+
+/// The same; notes in `sources` (source_map.h) where all statements stand.
+Result<layer::Layer> read_text_with_sources(std::string_view text, std::string identifier,
+                                            Diagnostics& diagnostics, text::SourceMap& sources);
 
 }  // namespace tenon::formats

@@ -27,6 +27,13 @@ class LayerWriter {
  public:
   explicit LayerWriter(const Layer& layer) : layer_(layer) {}
 
+  /// A part of the text, written at the left margin.
+  template <class Append>
+  std::string part(Append append) {
+    append(*this);
+    return std::move(out_);
+  }
+
   std::string write() {
     const Spec& root = layer_.root();
     append_layer_metadata(out_, root);
@@ -52,6 +59,7 @@ class LayerWriter {
     }
   }
 
+ public:
   void append_prim(Path path, const Spec& spec, std::size_t indent) {
     const auto specifier = spec.get_or(fields::specifier, layer::Specifier::Over);
     constexpr const char* kWords[] = {"def ", "over ", "class "};
@@ -71,6 +79,43 @@ class LayerWriter {
     out_ += "}\n";
   }
 
+  void append_property(Path path) {
+    const Spec& spec = *layer_.find(path);
+    spec.kind == SpecKind::Attribute ? append_attribute(path.name(), spec, 0)
+                                     : append_relationship(path.name(), spec, 0);
+  }
+
+  void append_variant_set(Path path, std::size_t indent) {
+    const std::vector<Token> variants =
+        sorted(Layer::children(*layer_.find(path), fields::variantChildren));
+    if (variants.empty()) {
+      return;
+    }
+    append_indent(out_, indent);
+    out_ += "variantSet " + quoted(path.name().view()) + " = {\n";
+    for (const Token& variant : variants) {
+      append_variant(path.parent().variant_selection(path.name(), variant), indent + 1);
+    }
+    append_indent(out_, indent);
+    out_ += "}\n";
+  }
+
+  void append_variant(Path path, std::size_t indent) {
+    const Spec* spec = layer_.find(path);
+    if (spec == nullptr) {
+      return;
+    }
+    append_indent(out_, indent);
+    out_ += quoted(path.variant().view());
+    append_metadata(out_, *spec, indent);
+    out_ += " {\n";
+    append_body(path, *spec, indent);
+    out_ += '\n';
+    append_indent(out_, indent);
+    out_ += "}\n";
+  }
+
+ private:
   /// What stands in the braces of a prim or a variant. Recursion follows the path.
   void append_body(Path path, const Spec& spec, std::size_t indent) {
     if (path.depth() > limits::kPathElements) {
@@ -115,42 +160,16 @@ class LayerWriter {
 
   void append_variant_sets(Path path, const Spec& spec, std::size_t indent) {
     for (const Token& set_name : Layer::children(spec, fields::variantSetChildren)) {
-      const Spec* set = layer_.find(path.variant_selection(set_name, Token()));
-      if (set == nullptr) {
-        continue;
+      const Path set = path.variant_selection(set_name, Token());
+      if (layer_.has(set)) {
+        append_variant_set(set, indent);
       }
-      const std::vector<Token> variants = sorted(Layer::children(*set, fields::variantChildren));
-      if (variants.empty()) {
-        continue;
-      }
-      append_indent(out_, indent);
-      out_ += "variantSet " + quoted(set_name.view()) + " = {\n";
-      for (const Token& variant : variants) {
-        append_variant(path.variant_selection(set_name, variant), indent + 1);
-      }
-      append_indent(out_, indent);
-      out_ += "}\n";
     }
   }
 
   static std::vector<Token> sorted(std::vector<Token> names) {
     std::sort(names.begin(), names.end());
     return names;
-  }
-
-  void append_variant(Path path, std::size_t indent) {
-    const Spec* spec = layer_.find(path);
-    if (spec == nullptr) {
-      return;
-    }
-    append_indent(out_, indent);
-    out_ += quoted(path.variant().view());
-    append_metadata(out_, *spec, indent);
-    out_ += " {\n";
-    append_body(path, *spec, indent);
-    out_ += '\n';
-    append_indent(out_, indent);
-    out_ += "}\n";
   }
 
   // Attributes
@@ -271,6 +290,21 @@ class LayerWriter {
 
 }  // namespace
 }  // namespace text
+
+std::string text::part_text(const layer::Layer& layer, Path path) {
+  const layer::Spec& spec = *layer.find(path);
+  return LayerWriter(layer).part([&](LayerWriter& writer) {
+    if (path.is_property()) {
+      writer.append_property(path);
+    } else if (spec.kind == layer::SpecKind::VariantSet) {
+      writer.append_variant_set(path, 0);
+    } else if (path.is_variant_selection()) {
+      writer.append_variant(path, 0);
+    } else {
+      writer.append_prim(path, spec, 0);
+    }
+  });
+}
 
 std::string write_text(const layer::Layer& layer) { return text::LayerWriter(layer).write(); }
 

@@ -12,4 +12,11 @@ namespace tenon::formats {
 /// the lowest that has all features used. Deferred arrays are decoded; corrupt ones become `[]`.
 std::string write_text(const layer::Layer& layer);
 
+namespace text {
+
+/// The text of one prim, property, variant set or variant that the layer has, at the left margin.
+std::string part_text(const layer::Layer& layer, Path path);
+
+}  // namespace text
+
 }  // namespace tenon::formats

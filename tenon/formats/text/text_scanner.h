@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace tenon::formats::text {
+
+/// Walks over text that is known to be a layer's. Knows just enough of the grammar to skip what may
+/// contain brackets without meaning them: comments, strings and asset paths.
+class Scanner {
+ public:
+  Scanner(std::string_view text, std::size_t at) : text_(text), at_(at) {}
+
+  std::size_t at() const { return at_; }
+  bool at_end() const { return at_ >= text_.size(); }
+  char peek() const { return at_end() ? '\0' : text_[at_]; }
+
+  void skip_blanks_and_comments() {
+    while (!at_end() && (is_blank(peek()) || peek() == '#' || starts("//") || starts("/*"))) {
+      if (starts("/*")) {
+        to_after("*/", 2);
+      } else if (is_blank(peek())) {
+        ++at_;
+      } else {
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      }
+    }
+  }
+
+  /// Past the next word, string, asset path or single sign.
+  std::string_view next() {
+    skip_blanks_and_comments();
+    const std::size_t start = at_;
+    if (at_end()) {
+      return {};
+    }
+    const char c = peek();
+    if (c == '"' || c == '\'') {
+      skip_string(c);
+    } else if (c == '@') {
+      starts("@@@") ? to_after("@@@", 3) : to_after("@", 1);
+    } else if (is_word(c)) {
+      while (is_word(peek())) {
+        ++at_;
+      }
+    } else {
+      ++at_;
+    }
+    return text_.substr(start, at_ - start);
+  }
+
+  /// After an opening bracket was taken: past its partner. False at the end of the text.
+  bool skip_block() {
+    std::size_t depth = 1;
+    while (depth > 0 && !at_end()) {
+      const std::string_view token = next();
+      depth += token == "(" || token == "{" || token == "[" ? 1u : 0u;
+      depth -= token == ")" || token == "}" || token == "]" ? 1u : 0u;
+    }
+    return depth == 0;
+  }
+
+ private:
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+  static bool is_word(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == ':' || static_cast<unsigned char>(c) >= 0x80;
+  }
+  bool starts(std::string_view word) const { return text_.substr(at_, word.size()) == word; }
+  void to_after(std::string_view end, std::size_t from) {
+    const std::size_t found = text_.find(end, at_ + from);
+    at_ = found == std::string_view::npos ? text_.size() : found + end.size();
+  }
+  void skip_string(char quote) {
+    const std::string three(3, quote);
+    const bool triple = starts(three);
+    at_ += triple ? 3 : 1;
+    while (!at_end()) {
+      if (peek() == '\\') {
+        at_ += 2;
+      } else if (triple ? starts(three) : peek() == quote) {
+        at_ += triple ? 3 : 1;
+        return;
+      } else {
+        ++at_;
+      }
+    }
+    at_ = text_.size();
+  }
+
+  std::string_view text_;
+  std::size_t at_;
+};
+
+}  // namespace tenon::formats::text
