@@ -152,6 +152,14 @@ Json colliders_json(const PhysicsScene& scene) {
     row["material"] = path_of(scene.materials, collider.material);
     row["enabled"] = collider.enabled;
     row["scene"] = path_or_null(scene.scenes[collider.scene].path);
+    if (collider.approximation) {
+      row["approximation"] = physics::approximation_name(*collider.approximation);
+    }
+    for (const physics::FaceMaterial& faces : collider.face_materials) {
+      row["faceMaterials"].push_back({{"subset", faces.subset.str()},
+                                      {"material", path_of(scene.materials, faces.material)},
+                                      {"triangles", faces.triangles}});
+    }
     if (collider.contact_offset) {
       row["contactOffset"] = number(*collider.contact_offset);
     }
@@ -296,13 +304,15 @@ Json tracks_json(const PhysicsScene& scene) {
     list.push_back({{"joint", scene.joints[track.joint].path.str()},
                     {"drive", track.drive},
                     {"value", kNames[static_cast<std::size_t>(track.what)]},
-                    {"samples", track.times.size()}});
+                    {"samples", track.times.size()},
+                    {"held", track.held}});
   }
   for (const physics::PoseTrack& track : scene.pose_tracks) {
     Json row = track.body ? Json{{"body", scene.bodies[*track.body].path.str()}}
                           : Json{{"collider", scene.colliders[*track.collider].path.str()}};
     row["value"] = "pose";
     row["samples"] = track.times.size();
+    row["held"] = track.held;
     list.push_back(std::move(row));
   }
   return list;

@@ -96,9 +96,10 @@ std::optional<Vec3d> AttributeValues::vector(const stage::Prim& prim, Token name
     return std::nullopt;
   }
   const Vec3d wide = to_double(*value);
-  if (!check_number(prim, name, wide[0] + wide[1] + wide[2]) &&
-      (std::isnan(wide[0]) || std::isnan(wide[1]) || std::isnan(wide[2]))) {
-    return std::nullopt;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!check_number(prim, name, wide[i])) {
+      return std::nullopt;
+    }
   }
   return wide;
 }

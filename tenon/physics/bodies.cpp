@@ -14,16 +14,39 @@ bool differs(const Vec3d& a, const Vec3d& b) {
   return length(a - b) > 1e-9 * (length(a) + length(b));
 }
 
-/// The space that velocities are given in: that of the prim's transform (S-30).
-Mat4d velocity_space(const ReadState& state, const PhysicsPrim& found) {
+/// The space that velocities are given in: that of the prim's transform (S-30), or by option the
+/// body's own axes or the world's, which have no scale.
+Mat4d velocity_space(const ReadState& state, const PhysicsPrim& found, const Body& body) {
+  if (state.readings.velocity_space == VelocitySpace::Body) {
+    return pose_matrix({{}, body.pose.orientation});
+  }
+  if (state.readings.velocity_space == VelocitySpace::World) {
+    return Mat4d::identity();
+  }
   if (stage::local_transform(found.prim, state.values.start()).resets_stack) {
     return Mat4d::identity();
   }
   return stage::local_to_world(found.prim.parent(), state.values.start());
 }
 
+/// S-118
+void report_animated_velocity(const ReadState& state, const PhysicsPrim& found) {
+  if (!state.values.stage_is_animated()) {
+    return;
+  }
+  for (const Token name : {state.tokens.velocity, state.tokens.angular_velocity}) {
+    if (found.prim.attribute(name).is_animated()) {
+      state.report(found.prim, name, Severity::Warning, "body.velocity-animated",
+                   name.str() + " is animated; it acts at the start only",
+                   "author one value, or make the body kinematic and animate its transform");
+      return;
+    }
+  }
+}
+
 /// S-30, S-31: parent space, its scale included; S-32: angular velocity is a rotation vector.
 void read_velocities(const ReadState& state, const PhysicsPrim& found, Body& body) {
+  report_animated_velocity(state, found);
   const Vec3d zero;
   const Vec3d linear = state.values.vector(found.prim, state.tokens.velocity).value_or(zero);
   const Vec3d angular =
@@ -38,16 +61,17 @@ void read_velocities(const ReadState& state, const PhysicsPrim& found, Body& bod
                  "animate its transform instead");
     return;
   }
-  const Mat4d space = velocity_space(state, found);
+  const Mat4d space = velocity_space(state, found, body);
   const Quatd turn = rigid_part(space).orientation;
-  body.linear_velocity = transform_direction(linear, space) * state.units.length;
-  body.angular_velocity = rotate(turn, angular * kRadians);
-  const Vec3d as_world = linear * state.units.length;
-  const bool ambiguous =
-      differs(body.linear_velocity, as_world) ||
-      differs(as_world, rotate(body.pose.orientation, as_world)) ||
-      differs(body.angular_velocity, angular * kRadians) ||
-      differs(angular * kRadians, rotate(body.pose.orientation, angular * kRadians));
+  const double speed = state.units.length * state.units.rate;
+  const Vec3d spin = angular * (kRadians * state.units.rate);
+  body.linear_velocity = transform_direction(linear, space) * speed;
+  body.angular_velocity = rotate(turn, spin);
+  const Vec3d as_world = linear * speed;
+  const bool ambiguous = differs(body.linear_velocity, as_world) ||
+                         differs(as_world, rotate(body.pose.orientation, as_world)) ||
+                         differs(body.angular_velocity, spin) ||
+                         differs(spin, rotate(body.pose.orientation, spin));
   if (ambiguous) {
     state.report(found.prim, linear == zero ? state.tokens.angular_velocity : state.tokens.velocity,
                  Severity::Warning, "body.velocity-space",

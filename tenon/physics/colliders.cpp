@@ -79,6 +79,24 @@ void check_apis(const ReadState& state, const PhysicsPrim& found) {
   }
 }
 
+/// Pose of the collider's rigid frame in that of its body, or in the world (S-51).
+Pose offset_of(const ReadState& state, const ShapeSource& source, const Collider& collider) {
+  if (!collider.body) {
+    return source.frame;
+  }
+  const PhysicsPrim& body = state.prim_of_body(*collider.body);
+  if (state.readings.sheared_offsets == ShearedOffsets::Exact || &body == &source.found) {
+    return inverse(state.scene.bodies[*collider.body].pose) * source.frame;
+  }
+  // As OpenUSD: the offset in the body's own space, scaled along its axes (S-33).
+  Pose pose = rigid_part(source.found.world * inverse(body.world));
+  const Vec3d scale = factor(body.world).scale;
+  for (std::size_t i = 0; i < 3; ++i) {
+    pose.position[i] *= scale[i] * state.units.length;
+  }
+  return pose;
+}
+
 /// The collider of one prim without its index in the scene; nullopt when it has no usable shape.
 std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found,
                                       std::optional<SolidIntegrals>& integrals) {
@@ -104,18 +122,30 @@ std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found
   if (!reading) {
     return std::nullopt;
   }
-  const Pose world = source.frame * reading->pose;
-  collider.pose = collider.body ? inverse(state.scene.bodies[*collider.body].pose) * world : world;
+  collider.pose = offset_of(state, source, collider) * reading->pose;
   collider.shape = std::move(reading->shape);
   collider.enabled = state.values.flag(found.prim, state.tokens.collision_enabled, true);
+  collider.approximation = reading->approximation;
   integrals = reading->integrals;
   read_contact_settings(state, found, collider);
   return collider;
 }
 
+/// S-63
+void report_lone_mesh_apis(const ReadState& state) {
+  for (const PhysicsPrim& found : state.walk.prims) {
+    if (found.roles.has(Api::MeshCollision) && !found.roles.has(Api::Collision)) {
+      state.report(found.prim, Severity::Warning, "collider.mesh-api-alone",
+                   "PhysicsMeshCollisionAPI without PhysicsCollisionAPI is no collider",
+                   "apply PhysicsCollisionAPI too, or remove it");
+    }
+  }
+}
+
 }  // namespace
 
 void read_colliders(ReadState& state) {
+  report_lone_mesh_apis(state);
   state.collider_of_prim.assign(state.walk.prims.size(), kNone);
   const auto prims =
       sorted_prims(state.walk, [](const PhysicsPrim& p) { return p.roles.has(Api::Collision); });

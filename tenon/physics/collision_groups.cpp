@@ -42,6 +42,25 @@ void find_members(ReadState& state, const PhysicsPrim& found, Index group) {
   }
 }
 
+/// S-78
+void report_ungrouped(const ReadState& state, const std::vector<std::uint32_t>& prims,
+                      const std::vector<AuthoredGroup>& groups) {
+  const std::vector<std::vector<Index>>& of = state.scene.filter.groups_of_collider;
+  const auto alone = [](const std::vector<Index>& list) { return list.empty(); };
+  if (std::none_of(of.begin(), of.end(), alone)) {
+    return;
+  }
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (groups[i].inverted) {
+      state.report(state.walk.prims[prims[i]].prim, state.tokens.invert_groups, Severity::Info,
+                   "group.inverted-and-ungrouped",
+                   "colliders in no group do not touch this inverted group; in OpenUSD's table of "
+                   "groups they do",
+                   "put every collider into a group");
+    }
+  }
+}
+
 }  // namespace
 
 void read_collision_groups(ReadState& state) {
@@ -58,9 +77,10 @@ void read_collision_groups(ReadState& state) {
     groups.push_back(read_group(state, state.walk.prims[i], filter.group_paths));
     find_members(state, state.walk.prims[i], index);
   }
-  GroupTable table = group_table(groups);
+  GroupTable table = group_table(groups, state.readings.ungrouped);
   filter.group_pair_off = std::move(table.pair_off);
   filter.ungrouped_off = std::move(table.ungrouped_off);
+  report_ungrouped(state, prims, groups);
 }
 
 }  // namespace tenon::physics

@@ -61,6 +61,13 @@ double read_max_force(const ReadState& state, const stage::Prim& prim, Token nam
 void check_effect(const ReadState& state, const stage::Prim& prim, const Joint& joint,
                   const Drive& drive) {
   const std::string name = "the drive of " + std::string(dof_name(drive.dof));
+  if (drive.acceleration && is_angular(drive.dof)) {
+    state.report(prim, Severity::Info, "drive.angular-acceleration",
+                 name +
+                     " is an angular acceleration drive: its gains are taken per degree, as "
+                     "PhysX does; read literally they are 57.3 times weaker",
+                 "use a force drive, whose gains all readers take alike");
+  }
   if (drive.stiffness == 0 && drive.damping == 0) {
     // S-106
     state.report(prim, Severity::Info, "drive.no-effect",
@@ -81,14 +88,20 @@ DriveNames drive_names(Token instance) {
           prefix + "targetVelocity", prefix + "stiffness", prefix + "damping"};
 }
 
-DriveUnits drive_units(const Units& units, Dof dof, bool acceleration) {
-  DriveUnits result;
+DriveUnits drive_units(const ReadState& state, Dof dof, bool acceleration) {
+  const Units& units = state.units;
   const bool angular = is_angular(dof);
   // S-12, S-13: gains are per degree; S-104: those of acceleration drives hold no mass.
   const double inertia = acceleration ? 1 : (angular ? units.inertia() : units.mass);
-  result.gain = angular ? inertia / kRadians : inertia;
-  result.force = angular ? units.torque() : units.force();
-  result.target = angular ? kRadians : units.length;
+  const bool literal =
+      acceleration && state.readings.angular_acceleration == AngularAcceleration::Literal;
+  const double gain = angular && !literal ? inertia / kRadians : inertia;
+  DriveUnits result;
+  result.stiffness = gain * units.rate * units.rate;
+  result.damping = gain * units.rate;
+  result.force = (angular ? units.torque() : units.force()) * units.rate * units.rate;
+  result.position = angular ? kRadians : units.length;
+  result.velocity = result.position * units.rate;
   return result;
 }
 
@@ -104,12 +117,12 @@ std::optional<Drive> read_drive(const ReadState& state, const stage::Prim& prim,
   drive.source = joint.path;
   drive.dof = *dof;
   drive.acceleration = read_acceleration(state, prim, names.type);
-  const DriveUnits unit = drive_units(state.units, *dof, drive.acceleration);
-  drive.stiffness = values.number(prim, names.stiffness).value_or(0) * unit.gain;
-  drive.damping = values.number(prim, names.damping).value_or(0) * unit.gain;
+  const DriveUnits unit = drive_units(state, *dof, drive.acceleration);
+  drive.stiffness = values.number(prim, names.stiffness).value_or(0) * unit.stiffness;
+  drive.damping = values.number(prim, names.damping).value_or(0) * unit.damping;
   drive.max_force = read_max_force(state, prim, names.max_force, unit.force);
-  drive.target_position = values.number(prim, names.target_position).value_or(0) * unit.target;
-  drive.target_velocity = values.number(prim, names.target_velocity).value_or(0) * unit.target;
+  drive.target_position = values.number(prim, names.target_position).value_or(0) * unit.position;
+  drive.target_velocity = values.number(prim, names.target_velocity).value_or(0) * unit.velocity;
   check_effect(state, prim, joint, drive);
   return drive;
 }

@@ -19,11 +19,13 @@ DriveNames drive_names(Token instance);
 
 /// Factors from the stage's units to SI for one degree of freedom.
 struct DriveUnits {
-  double gain = 1;    ///< of stiffness and damping
-  double force = 1;   ///< of the largest force
-  double target = 1;  ///< of target position and velocity
+  double stiffness = 1;
+  double damping = 1;
+  double force = 1;  ///< of the largest force
+  double position = 1;
+  double velocity = 1;
 };
-DriveUnits drive_units(const Units& units, Dof dof, bool acceleration);
+DriveUnits drive_units(const ReadState& state, Dof dof, bool acceleration);
 
 /// One instance of the drive API; nullopt where it drives nothing.
 std::optional<Drive> read_drive(const ReadState& state, const stage::Prim& prim, const Joint& joint,

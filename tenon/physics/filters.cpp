@@ -31,7 +31,7 @@ std::vector<std::vector<Index>> merged(const std::vector<AuthoredGroup>& groups)
 
 }  // namespace
 
-GroupTable group_table(const std::vector<AuthoredGroup>& groups) {
+GroupTable group_table(const std::vector<AuthoredGroup>& groups, Ungrouped ungrouped) {
   const std::size_t count = groups.size();
   GroupTable table{std::vector<char>(count * count, 0), std::vector<char>(count, 0)};
   const std::vector<std::vector<Index>> sets = merged(groups);
@@ -59,7 +59,7 @@ GroupTable group_table(const std::vector<AuthoredGroup>& groups) {
         turn_off(set_of[i], s);
       }
     }
-    if (groups[i].inverted) {
+    if (groups[i].inverted && ungrouped == Ungrouped::Off) {
       for (const Index j : sets[set_of[i]]) {
         table.ungrouped_off[j] = 1;
       }

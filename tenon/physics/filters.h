@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tenon/physics/physics_scene.h"
+#include "tenon/physics/readings.h"
 
 namespace tenon::physics {
 
@@ -22,6 +23,7 @@ struct GroupTable {
   std::vector<char> pair_off;
   std::vector<char> ungrouped_off;
 };
-GroupTable group_table(const std::vector<AuthoredGroup>& groups);
+GroupTable group_table(const std::vector<AuthoredGroup>& groups,
+                       Ungrouped ungrouped = Ungrouped::Off);
 
 }  // namespace tenon::physics

@@ -14,7 +14,9 @@ namespace {
 
 void drop(const ReadState& state, const stage::Prim& joint, Token name, const char* rule,
           std::string why, std::string fix) {
-  state.report(joint, name, Severity::Error, rule, std::move(why) + "; the joint is left out",
+  const bool world = state.readings.missing_target == MissingTarget::World;
+  state.report(joint, name, Severity::Error, rule,
+               std::move(why) + (world ? "; the world is taken" : "; the joint is left out"),
                std::move(fix));
 }
 
@@ -87,11 +89,24 @@ std::optional<JointSide> read_joint_side(const ReadState& state, const stage::Pr
   }
   const stage::Prim prim = find_target(state, joint, name, targets.front());
   if (!prim) {
-    return std::nullopt;
+    if (state.readings.missing_target == MissingTarget::Drop) {
+      return std::nullopt;
+    }
+    result.frame = {position * state.units.length, rotation};
+    return result;
   }
   const Attachment attached = find_attachment(state, prim);
   result.target = targets.front();
   result.body = attached.body;
+  const PhysicsPrim* itself = state.walk.find(targets.front());
+  if (state.readings.sheared_offsets == ShearedOffsets::Factored && itself != nullptr &&
+      itself->is_body) {
+    // As OpenUSD: scaled along the body's own axes (S-84).
+    const Vec3d scale = factor(attached.world).scale * state.units.length;
+    result.frame = {{{position[0] * scale[0], position[1] * scale[1], position[2] * scale[2]}},
+                    rotation};
+    return result;
+  }
   const Pose world{transform_point(position, attached.world) * state.units.length,
                    world_pose(attached.world, state.units).orientation * rotation};
   result.frame = result.body ? inverse(state.scene.bodies[*result.body].pose) * world : world;

@@ -19,6 +19,27 @@ double cone_angle(const ReadState& state, const stage::Prim& prim, Token name) {
   return degrees < 0 || std::isinf(degrees) ? kUnlimited : degrees * kRadians;
 }
 
+/// S-96, S-98
+void report_one_sided(const ReadState& state, const stage::Prim& prim, const std::string& what) {
+  const bool keep = state.readings.one_sided_limits == OneSidedLimits::Keep;
+  state.report(prim, Severity::Info, "joint.one-sided-limit",
+               what + " open on one side; the other " + (keep ? "holds" : "is dropped") +
+                   ". OpenUSD's parser drops both",
+               "author both sides for readers that want them");
+}
+
+void read_cone(const ReadState& state, const stage::Prim& prim, Joint& joint) {
+  joint.cone_angle0 = cone_angle(state, prim, state.tokens.cone_angle0);
+  joint.cone_angle1 = cone_angle(state, prim, state.tokens.cone_angle1);
+  if (std::isinf(joint.cone_angle0) != std::isinf(joint.cone_angle1)) {
+    report_one_sided(state, prim, "the cone is");
+    if (state.readings.one_sided_limits == OneSidedLimits::Drop) {
+      joint.cone_angle0 = kUnlimited;
+      joint.cone_angle1 = kUnlimited;
+    }
+  }
+}
+
 /// S-97
 void read_distances(const ReadState& state, const stage::Prim& prim, Joint& joint) {
   const double low = state.values.number(prim, state.tokens.min_distance).value_or(-1);
@@ -39,6 +60,13 @@ void read_own_limits(const ReadState& state, const stage::Prim& prim, Joint& joi
   const double unit = unit_of(state.units, joint.dof());
   joint.lower = state.values.number(prim, state.tokens.lower_limit).value_or(-kUnlimited) * unit;
   joint.upper = state.values.number(prim, state.tokens.upper_limit).value_or(kUnlimited) * unit;
+  if (joint.kind == JointKind::Revolute && std::isinf(joint.lower) != std::isinf(joint.upper)) {
+    report_one_sided(state, prim, "the limit is");
+    if (state.readings.one_sided_limits == OneSidedLimits::Drop) {
+      joint.lower = -kUnlimited;
+      joint.upper = kUnlimited;
+    }
+  }
 }
 
 struct NamedLimit {
@@ -110,8 +138,7 @@ void read_joint_limits(const ReadState& state, const PhysicsPrim& found, Joint& 
       read_own_limits(state, found.prim, joint);
       break;
     case JointKind::Spherical:
-      joint.cone_angle0 = cone_angle(state, found.prim, state.tokens.cone_angle0);
-      joint.cone_angle1 = cone_angle(state, found.prim, state.tokens.cone_angle1);
+      read_cone(state, found.prim, joint);
       break;
     case JointKind::Distance:
       read_distances(state, found.prim, joint);

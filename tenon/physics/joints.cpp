@@ -102,9 +102,11 @@ std::optional<Joint> read_joint(const ReadState& state, const PhysicsPrim& found
   joint.enabled = values.flag(found.prim, state.tokens.joint_enabled, true);
   joint.collision_enabled = values.flag(found.prim, state.tokens.collision_enabled, false);
   joint.exclude_from_articulation = values.flag(found.prim, state.tokens.exclude, false);
-  joint.break_force = break_limit(state, found.prim, state.tokens.break_force, state.units.force());
+  const double per_time = state.units.rate * state.units.rate;
+  joint.break_force =
+      break_limit(state, found.prim, state.tokens.break_force, state.units.force() * per_time);
   joint.break_torque =
-      break_limit(state, found.prim, state.tokens.break_torque, state.units.torque());
+      break_limit(state, found.prim, state.tokens.break_torque, state.units.torque() * per_time);
   const bool has_axis = joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic ||
                         joint.kind == JointKind::Spherical;
   if (has_axis) {

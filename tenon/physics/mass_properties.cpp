@@ -76,7 +76,8 @@ MassProperties scaled_to(MassProperties whole, double mass) {
   return whole;
 }
 
-MassProperties body_mass(const MassProperties& sum, const AuthoredMass& authored) {
+MassProperties body_mass(const MassProperties& sum, const AuthoredMass& authored,
+                         CenterShift shift) {
   MassProperties result = sum;
   if (!(sum.mass > 0)) {
     // S-42, M-18
@@ -90,7 +91,9 @@ MassProperties body_mass(const MassProperties& sum, const AuthoredMass& authored
     }
     if (authored.center) {
       // M-15: the term of the parallel axis is added, as OpenUSD does.
-      result.inertia = shift_inertia(result.inertia, result.mass, *authored.center - sum.center);
+      if (shift == CenterShift::ParallelAxis) {
+        result.inertia = shift_inertia(result.inertia, result.mass, *authored.center - sum.center);
+      }
       result.center = *authored.center;
     }
   }

@@ -9,6 +9,7 @@
 #include "tenon/math/transform.h"
 #include "tenon/physics/mesh_inertia.h"
 #include "tenon/physics/physics_scene.h"
+#include "tenon/physics/readings.h"
 
 namespace tenon::physics {
 
@@ -46,7 +47,8 @@ MassProperties scaled_to(MassProperties whole, double mass);
 
 /// What the body's own mass API says over the sum of its colliders (M-14..M-18). A `sum` of zero
 /// mass means that there are no shapes to weigh.
-MassProperties body_mass(const MassProperties& sum, const AuthoredMass& authored);
+MassProperties body_mass(const MassProperties& sum, const AuthoredMass& authored,
+                         CenterShift shift = CenterShift::ParallelAxis);
 
 /// Moments are positive (or all zero) and no one exceeds the sum of the others (S-45, M-19).
 bool satisfies_triangle_rule(const Mat3d& inertia);

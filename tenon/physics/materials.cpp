@@ -5,6 +5,7 @@
 
 #include "tenon/base/text_number.h"
 #include "tenon/physics/read_state.h"
+#include "tenon/physics/shapes.h"
 #include "tenon/stage/material_binding.h"
 
 namespace tenon::physics {
@@ -52,6 +53,23 @@ Material read_material(const ReadState& state, const PhysicsPrim& found) {
   return material;
 }
 
+/// S-71: one finding where some colliders have a material and others none.
+void report_unbound(const ReadState& state) {
+  const std::vector<Collider>& colliders = state.scene.colliders;
+  const auto is_unbound = [](const Collider& c) { return c.enabled && !c.material; };
+  const auto first = std::find_if(colliders.begin(), colliders.end(), is_unbound);
+  if (first == colliders.end()) {
+    return;
+  }
+  const auto count = std::count_if(first, colliders.end(), is_unbound);
+  state.report(state.prim_of_collider(static_cast<Index>(first - colliders.begin())).prim,
+               Severity::Info, "material.none-bound",
+               std::to_string(count) + " colliders have no physics material, others do: friction " +
+                   shortest(state.scene.unbound.dynamic_friction) +
+                   " is taken; PhysX takes 0.5, Newton and MuJoCo 1",
+               "bind a physics material to every collider");
+}
+
 }  // namespace
 
 void read_materials(ReadState& state) {
@@ -70,6 +88,7 @@ void bind_materials(ReadState& state) {
     return;  // nothing that a binding could find
   }
   const Token purpose("physics");
+  bool bound = false;
   for (Index i = 0; i < state.scene.colliders.size(); ++i) {
     const PhysicsPrim& found = state.prim_of_collider(i);
     const stage::MaterialBinding binding = stage::find_material_binding(found.prim, purpose);
@@ -78,6 +97,7 @@ void bind_materials(ReadState& state) {
     if (material == state.material_of_path.end()) {
       continue;
     }
+    bound = true;
     state.scene.colliders[i].material = material->second;
     if (binding.binding_api_missing) {
       // S-69
@@ -87,6 +107,14 @@ void bind_materials(ReadState& state) {
                        "OpenUSD",
                    "apply MaterialBindingAPI to the prim that binds it");
     }
+  }
+  for (Index i = 0; i < state.scene.colliders.size(); ++i) {
+    if (state.prim_of_collider(i).roles.kind == PrimKind::Mesh) {
+      read_face_materials(state, i);
+    }
+  }
+  if (bound) {
+    report_unbound(state);
   }
 }
 

@@ -8,12 +8,11 @@
 #include "tenon/physics/convex_hull.h"
 #include "tenon/physics/shapes.h"
 #include "tenon/physics/world_pose.h"
+#include "tenon/stage/material_binding.h"
+#include "tenon/stage/transform_at.h"
 
 namespace tenon::physics {
 namespace {
-
-/// How a mesh is to collide (S-62).
-enum class Approximation { None, Hull, Decomposition, Simplification, Ball, Box };
 
 Approximation approximation_of(const ReadState& state, const ShapeSource& source) {
   const PhysicsPrim& found = source.found;
@@ -30,16 +29,9 @@ Approximation approximation_of(const ReadState& state, const ShapeSource& source
     return Approximation::None;
   }
   const Token token = state.values.get<Token>(found.prim, name).value_or(Token("none"));
-  constexpr std::pair<std::string_view, Approximation> kTokens[] = {
-      {"none", Approximation::None},
-      {"convexHull", Approximation::Hull},
-      {"convexDecomposition", Approximation::Decomposition},
-      {"meshSimplification", Approximation::Simplification},
-      {"boundingSphere", Approximation::Ball},
-      {"boundingCube", Approximation::Box}};
-  for (const auto& [text, kind] : kTokens) {
-    if (token == text) {
-      return kind;
+  for (int i = 0; i <= static_cast<int>(Approximation::BoundingCube); ++i) {
+    if (token == approximation_name(static_cast<Approximation>(i))) {
+      return static_cast<Approximation>(i);
     }
   }
   state.report(found.prim, name, Severity::Warning, "collider.approximation-unknown",
@@ -47,18 +39,19 @@ Approximation approximation_of(const ReadState& state, const ShapeSource& source
                    (source.dynamic ? "the convex hull" : "the mesh itself") + " is used instead",
                "use none, convexHull, convexDecomposition, meshSimplification, boundingSphere or "
                "boundingCube");
-  return source.dynamic ? Approximation::Hull : Approximation::None;
+  return source.dynamic ? Approximation::ConvexHull : Approximation::None;
 }
 
-/// Points of the mesh in the collider's rigid frame, exact under any matrix [m].
+/// Points in the collider's rigid frame, exact under any matrix `world` of their prim [m].
 std::vector<Vec3d> placed_points(const ReadState& state, const ShapeSource& source,
-                                 const layer::Array<Vec3f>& points) {
-  const Mat3d linear = upper_left(source.found.world);
+                                 const Mat4d& world, const layer::Array<Vec3f>& points) {
+  const Mat3d linear = upper_left(world);
   const Quatd back = conjugate(source.frame.orientation);
+  const Vec3d offset = Vec3d{{world[3][0], world[3][1], world[3][2]}} - source.parts.translation;
   std::vector<Vec3d> placed;
   placed.reserve(points.size());
   for (const Vec3f& p : points) {
-    placed.push_back(rotate(back, to_double(p) * linear) * state.units.length);
+    placed.push_back(rotate(back, to_double(p) * linear + offset) * state.units.length);
   }
   return placed;
 }
@@ -95,25 +88,27 @@ bool triangulate(const Faces& faces, std::size_t point_count, bool turned, Trian
   return true;
 }
 
+Faces read_faces(const ReadState& state, const stage::Prim& prim) {
+  const layer::Array<std::int32_t> none;
+  return {
+      state.values.get<layer::Array<std::int32_t>>(prim, state.tokens.face_counts).value_or(none),
+      state.values.get<layer::Array<std::int32_t>>(prim, state.tokens.face_indices).value_or(none),
+      state.values.get<layer::Array<std::int32_t>>(prim, state.tokens.hole_indices).value_or(none)};
+}
+
 /// S-59: a mesh without faces, or with broken ones, cannot collide.
-std::optional<TriangleMesh> read_triangles(const ReadState& state, const ShapeSource& source) {
-  const stage::Prim& prim = source.found.prim;
+std::optional<TriangleMesh> read_triangles(const ReadState& state, const ShapeSource& source,
+                                           const stage::Prim& prim, const Mat4d& world) {
   const auto points = state.values.get<layer::Array<Vec3f>>(prim, state.tokens.points);
-  Faces faces;
-  faces.counts = state.values.get<layer::Array<std::int32_t>>(prim, state.tokens.face_counts)
-                     .value_or(layer::Array<std::int32_t>());
-  faces.indices = state.values.get<layer::Array<std::int32_t>>(prim, state.tokens.face_indices)
-                      .value_or(layer::Array<std::int32_t>());
-  faces.holes = state.values.get<layer::Array<std::int32_t>>(prim, state.tokens.hole_indices)
-                    .value_or(layer::Array<std::int32_t>());
   TriangleMesh mesh;
   if (points) {
-    mesh.points = placed_points(state, source, *points);
+    mesh.points = placed_points(state, source, world, *points);
   }
   const bool left_handed =
       state.values.get<Token>(prim, state.tokens.orientation) == Token("leftHanded");
-  const bool mirrored = determinant(upper_left(source.found.world)) < 0;
-  const bool whole = triangulate(faces, mesh.points.size(), left_handed != mirrored, mesh);
+  const bool mirrored = determinant(upper_left(world)) < 0;
+  const bool whole =
+      triangulate(read_faces(state, prim), mesh.points.size(), left_handed != mirrored, mesh);
   if (!whole || mesh.triangles.empty()) {
     state.report(prim, Severity::Error, "collider.mesh-invalid",
                  whole
@@ -123,8 +118,52 @@ std::optional<TriangleMesh> read_triangles(const ReadState& state, const ShapeSo
                  "author points, faceVertexCounts and faceVertexIndices that fit");
     return std::nullopt;
   }
-  mesh.flat = is_flat(mesh.points);
   return mesh;
+}
+
+/// Mesh prims below a mesh that collides, without the API of their own (S-61).
+std::vector<stage::Prim> submeshes(const stage::Prim& prim) {
+  std::vector<stage::Prim> found;
+  std::vector<stage::Prim> pending = prim.children();
+  while (!pending.empty()) {
+    const stage::Prim next = pending.back();
+    pending.pop_back();
+    const bool counts = next.is_active() && next.is_defined() && !next.is_abstract();
+    if (!counts || next.has_api("PhysicsCollisionAPI") || next.has_api("PhysicsRigidBodyAPI")) {
+      continue;
+    }
+    if (next.is_a("Mesh")) {
+      found.push_back(next);
+    }
+    const std::vector<stage::Prim> children = next.children();
+    pending.insert(pending.end(), children.rbegin(), children.rend());
+  }
+  return found;
+}
+
+void append(const TriangleMesh& part, TriangleMesh& mesh) {
+  const auto first = static_cast<std::int32_t>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), part.points.begin(), part.points.end());
+  for (const Vec3i& t : part.triangles) {
+    mesh.triangles.push_back({{t[0] + first, t[1] + first, t[2] + first}});
+  }
+}
+
+void add_submeshes(const ReadState& state, const ShapeSource& source, TriangleMesh& mesh) {
+  const std::vector<stage::Prim> parts = submeshes(source.found.prim);
+  for (const stage::Prim& prim : parts) {
+    const Mat4d world = stage::local_to_world(prim, state.values.start());
+    if (const auto part = read_triangles(state, source, prim, world)) {
+      append(*part, mesh);
+    }
+  }
+  if (!parts.empty()) {
+    state.report(source.found.prim, Severity::Warning, "collider.submeshes",
+                 std::to_string(parts.size()) +
+                     " meshes below this one are part of its collider, as the proposal says; no "
+                     "engine does it",
+                 "apply PhysicsCollisionAPI to each mesh that is to collide");
+  }
 }
 
 /// S-59: subdivision is not evaluated; the cage collides.
@@ -160,22 +199,22 @@ ShapeReading bounded_by_ball(const TriangleMesh& mesh) {
 /// What replaces the tokens that are not carried out, said aloud (S-62, S-64).
 Approximation settle(ReadState& state, const ShapeSource& source, Approximation wanted) {
   const stage::Prim& prim = source.found.prim;
-  if (wanted == Approximation::Decomposition) {
+  if (wanted == Approximation::ConvexDecomposition) {
     state.not_read(prim, "physics:approximation",
                    "convexDecomposition is not carried out; one convex hull is used");
-    return Approximation::Hull;
+    return Approximation::ConvexHull;
   }
-  if (wanted == Approximation::Simplification && !source.dynamic) {
+  if (wanted == Approximation::MeshSimplification && !source.dynamic) {
     state.not_read(prim, "physics:approximation",
                    "meshSimplification is not carried out; the mesh itself is used");
     return Approximation::None;
   }
   if (source.dynamic &&
-      (wanted == Approximation::None || wanted == Approximation::Simplification)) {
+      (wanted == Approximation::None || wanted == Approximation::MeshSimplification)) {
     state.report(prim, Severity::Warning, "collider.dynamic-mesh",
                  "a triangle mesh on a body that moves collides as its convex hull",
                  "author physics:approximation = \"convexHull\" to say so");
-    return Approximation::Hull;
+    return Approximation::ConvexHull;
   }
   return wanted;
 }
@@ -183,21 +222,25 @@ Approximation settle(ReadState& state, const ShapeSource& source, Approximation 
 }  // namespace
 
 std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource& source) {
-  std::optional<TriangleMesh> mesh = read_triangles(state, source);
+  std::optional<TriangleMesh> mesh =
+      read_triangles(state, source, source.found.prim, source.found.world);
   if (!mesh) {
     return std::nullopt;
   }
+  add_submeshes(state, source, *mesh);
+  mesh->flat = is_flat(mesh->points);
   note_subdivision(state, source);
-  const Approximation kind = settle(state, source, approximation_of(state, source));
-  if (kind == Approximation::Ball) {
-    return bounded_by_ball(*mesh);
-  }
-  if (kind == Approximation::Box) {
-    return bounded_by_box(*mesh);
-  }
+  const Approximation asked = approximation_of(state, source);
+  const Approximation kind = settle(state, source, asked);
   ShapeReading reading;
-  reading.shape.kind = kind == Approximation::Hull ? ShapeKind::ConvexHull : ShapeKind::Mesh;
-  if (mesh->flat && kind == Approximation::Hull) {
+  if (kind == Approximation::BoundingSphere || kind == Approximation::BoundingCube) {
+    reading = kind == Approximation::BoundingCube ? bounded_by_box(*mesh) : bounded_by_ball(*mesh);
+    reading.approximation = asked;
+    return reading;
+  }
+  reading.approximation = asked;
+  reading.shape.kind = kind == Approximation::ConvexHull ? ShapeKind::ConvexHull : ShapeKind::Mesh;
+  if (mesh->flat && kind == Approximation::ConvexHull) {
     // S-65
     state.report(source.found.prim, Severity::Info, "collider.flat-hull",
                  "the points lie in one plane: the hull is a flat polygon, solid from both sides",
@@ -205,6 +248,73 @@ std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource&
   }
   reading.shape.mesh = add_mesh(state, *std::move(mesh));
   return reading;
+}
+
+namespace {
+
+/// First triangle of each face, and one past the last: holes and degenerate faces have none.
+std::vector<Index> first_triangles(const Faces& faces) {
+  std::vector<Index> first{0};
+  for (std::size_t face = 0; face < faces.counts.size(); ++face) {
+    const bool hole = std::find(faces.holes.begin(), faces.holes.end(),
+                                static_cast<std::int32_t>(face)) != faces.holes.end();
+    const std::int32_t count = hole ? 0 : std::max(0, faces.counts[face] - 2);
+    first.push_back(first.back() + static_cast<Index>(count));
+  }
+  return first;
+}
+
+std::vector<Index> triangles_of(const layer::Array<std::int32_t>& faces,
+                                const std::vector<Index>& first) {
+  std::vector<Index> triangles;
+  for (const std::int32_t face : faces) {
+    if (face < 0 || static_cast<std::size_t>(face) + 1 >= first.size()) {
+      continue;
+    }
+    for (Index i = first[static_cast<std::size_t>(face)];
+         i < first[static_cast<std::size_t>(face) + 1]; ++i) {
+      triangles.push_back(i);
+    }
+  }
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  return triangles;
+}
+
+}  // namespace
+
+void read_face_materials(ReadState& state, Index index) {
+  const stage::Prim& prim = state.prim_of_collider(index).prim;
+  std::vector<Index> first;
+  for (const stage::Prim& child : prim.children()) {
+    if (!(child.type_name() == "GeomSubset") ||
+        state.values.get<Token>(child, "elementType").value_or(Token("face")) != Token("face")) {
+      continue;
+    }
+    const Path bound = stage::find_material_binding(child, Token("physics")).material;
+    const auto found = state.material_of_path.find(bound);
+    std::optional<Index> material;
+    if (found != state.material_of_path.end()) {
+      material = found->second;
+    }
+    Collider& collider = state.scene.colliders[index];
+    if (material == collider.material) {
+      continue;
+    }
+    if (collider.shape.kind != ShapeKind::Mesh) {
+      state.not_read(
+          child, "material:binding",
+          "what stands for the mesh has no faces of it; the material of the mesh counts");
+      continue;
+    }
+    const auto faces = state.values.get<layer::Array<std::int32_t>>(child, "indices");
+    if (first.empty()) {
+      first = first_triangles(read_faces(state, prim));
+    }
+    collider.face_materials.push_back(
+        {child.path(), material,
+         triangles_of(faces.value_or(layer::Array<std::int32_t>()), first)});
+  }
 }
 
 std::optional<ShapeReading> read_points_shape(ReadState& state, const ShapeSource& source) {
@@ -228,7 +338,7 @@ std::optional<ShapeReading> read_points_shape(ReadState& state, const ShapeSourc
       std::fmax(std::fabs(s[0]), std::fmax(std::fabs(s[1]), std::fabs(s[2]))) * state.units.length;
   ShapeReading reading;
   reading.shape.kind = ShapeKind::Spheres;
-  reading.shape.sphere_centers = placed_points(state, source, *points);
+  reading.shape.sphere_centers = placed_points(state, source, source.found.world, *points);
   for (std::size_t i = 0; i < points->size(); ++i) {
     const float width = (*widths)[widths->size() == 1 ? 0 : i];
     reading.shape.sphere_radii.push_back(std::fabs(static_cast<double>(width)) / 2 * scale);

@@ -69,6 +69,13 @@ std::string_view shape_name(ShapeKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
+std::string_view approximation_name(Approximation approximation) {
+  constexpr std::array<std::string_view, 6> kNames{
+      "none",           "convexHull",  "convexDecomposition", "meshSimplification",
+      "boundingSphere", "boundingCube"};
+  return kNames[static_cast<std::size_t>(approximation)];
+}
+
 std::string_view joint_kind_name(JointKind kind) {
   constexpr std::array<std::string_view, 6> kNames{"revolute", "prismatic", "spherical",
                                                    "fixed",    "distance",  "d6"};

@@ -89,6 +89,26 @@ struct Shape {
   std::vector<double> sphere_radii;   ///< [m]
 };
 
+/// How a mesh asks to collide (S-62). `Collider::shape` is what it does collide as.
+enum class Approximation : std::uint8_t {
+  None,
+  ConvexHull,
+  ConvexDecomposition,
+  MeshSimplification,
+  BoundingSphere,
+  BoundingCube,
+};
+
+/// The schema's token.
+std::string_view approximation_name(Approximation approximation);
+
+/// Triangles of a Mesh shape that have another material than the collider (S-70).
+struct FaceMaterial {
+  Path subset;                    ///< the GeomSubset
+  std::optional<Index> material;  ///< into PhysicsScene::materials; none: no physics material
+  std::vector<Index> triangles;   ///< into TriangleMesh::triangles, ascending
+};
+
 struct Collider {
   Path path;
   std::optional<Index> body;  ///< none: static
@@ -96,6 +116,8 @@ struct Collider {
   Shape shape;
   Pose pose;                      ///< X_BC relative to the body, or X_WC for a static one
   std::optional<Index> material;  ///< into PhysicsScene::materials
+  std::vector<FaceMaterial> face_materials;    ///< where shape is a Mesh, by subset path
+  std::optional<Approximation> approximation;  ///< of meshes: what the asset asks for
   bool enabled = true;
   std::optional<double> contact_offset;  ///< distance at which contacts begin to be made [m]
   std::optional<double> rest_offset;     ///< [m]
@@ -263,6 +285,7 @@ struct PhysicsScene {
   std::vector<Collider> colliders;
   std::vector<TriangleMesh> meshes;
   std::vector<Material> materials;
+  Material unbound{{}, 0.5, 0.5, 0, 0};  ///< of colliders without a material (S-71)
   std::vector<Joint> joints;
   std::vector<Articulation> articulations;
   CollisionFilter filter;

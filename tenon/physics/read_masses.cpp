@@ -145,7 +145,8 @@ class BodyWeigher {
                       "author physics:mass and physics:diagonalInertia");
       }
     }
-    store(body_mass(sum, own_), sum);
+    report_shift(sum);
+    store(body_mass(sum, own_, state_.readings.center_shift), sum);
   }
 
  private:
@@ -170,7 +171,24 @@ class BodyWeigher {
     return sum_masses(all);
   }
 
+  /// M-15
+  void report_shift(const MassProperties& sum) const {
+    const bool moved = own_.center && !own_.inertia && sum.mass > 0 &&
+                       length(*own_.center - sum.center) > 1e-6 * (1 + length(sum.center));
+    if (moved) {
+      state_.report(found_.prim, state_.tokens.center_of_mass, Severity::Info, "mass.center-moved",
+                    "physics:centerOfMass lies beside that of the colliders; the moments of "
+                    "inertia grow by the parallel-axis term, as in OpenUSD, or stay as in Newton",
+                    "author physics:diagonalInertia with it");
+    }
+  }
+
+  bool inherits() const { return state_.readings.mass_inheritance == MassInheritance::Subtree; }
+
   std::uint32_t group_of(Index collider) const {
+    if (!inherits()) {
+      return kNone;
+    }
     const PhysicsPrim& found = state_.prim_of_collider(collider);
     return found.roles.has(Api::Mass) ? found.mass_above : found.mass;
   }
@@ -205,7 +223,10 @@ class BodyWeigher {
     std::optional<double> density = authored.density;
     std::uint32_t at = found.roles.has(Api::Mass) ? found.mass_above : found.mass;
     while (!density && at != kNone) {
-      density = group(at).density;
+      const bool of_body = &state_.walk.prims[at] == &found_;
+      if (inherits() || of_body) {
+        density = group(at).density;
+      }
       at = state_.walk.prims[at].mass_above;
     }
     if (!density && found.is_body) {
@@ -294,9 +315,26 @@ class BodyWeigher {
   bool has_density_ = false;
 };
 
+/// S-40: where the proposal and OpenUSD's parser differ.
+void report_between(const ReadState& state) {
+  for (const PhysicsPrim& found : state.walk.prims) {
+    const bool between = found.roles.has(Api::Mass) && found.body != kNone && !found.is_body &&
+                         !found.roles.has(Api::RigidBody) && !found.roles.has(Api::Collision);
+    if (between) {
+      const bool counts = state.readings.mass_inheritance == MassInheritance::Subtree;
+      state.report(found.prim, Severity::Warning, "mass.between",
+                   std::string("PhysicsMassAPI between a body and its colliders ") +
+                       (counts ? "counts for what lies below; OpenUSD passes over it"
+                               : "is ignored, as in OpenUSD"),
+                   "apply it to the body or to the colliders");
+    }
+  }
+}
+
 }  // namespace
 
 void read_masses(ReadState& state) {
+  report_between(state);
   for (Index i = 0; i < state.scene.bodies.size(); ++i) {
     BodyWeigher(state, i).run(state.colliders_of_body[i]);
   }

@@ -14,18 +14,31 @@
 namespace tenon::physics {
 namespace {
 
+/// S-71
+Material unbound_material(UnboundFriction reading) {
+  constexpr double kFriction[] = {0.5, 1, 0};
+  Material material;
+  material.static_friction = kFriction[static_cast<std::size_t>(reading)];
+  material.dynamic_friction = material.static_friction;
+  return material;
+}
+
 ReadState begin(const stage::Stage& stage, const ReadOptions& options, Diagnostics& diagnostics) {
-  const Units units = read_units(stage, diagnostics);
+  Units units = read_units(stage, diagnostics);
+  if (options.readings.time == TimeUnit::Stage) {
+    units.rate = stage.time_codes_per_second();  // S-10
+  }
   const double start =
       std::isnan(options.start_time_code) ? stage.start_time_code() : options.start_time_code;
   const AttributeValues values(stage::Time(start), stage_is_animated(stage), diagnostics);
-  ReadState state{stage, diagnostics, physics_tokens(), units, values};
+  ReadState state{stage, diagnostics, physics_tokens(), options.readings, units, values};
   state.scene.meters_per_unit = units.length;
   state.scene.kilograms_per_unit = units.mass;
   state.scene.up = units.up;
   state.scene.start_time_code = start;
   state.scene.time_codes_per_second = stage.time_codes_per_second();
   state.scene.end_time_code = std::max(start, stage.end_time_code());
+  state.scene.unbound = unbound_material(options.readings.unbound_friction);
   return state;
 }
 
@@ -34,7 +47,7 @@ ReadState begin(const stage::Stage& stage, const ReadOptions& options, Diagnosti
 PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
                           Diagnostics& diagnostics) {
   ReadState state = begin(stage, options, diagnostics);
-  state.walk = walk_stage(stage, state.values);
+  state.walk = walk_stage(stage, state.values, options.readings);
   read_scenes(state);
   read_bodies(state);
   read_materials(state);

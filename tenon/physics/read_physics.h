@@ -6,6 +6,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/physics/physics_scene.h"
+#include "tenon/physics/readings.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::physics {
@@ -14,6 +15,8 @@ struct ReadOptions {
   /// Stage time at which the simulation starts; NaN: the stage's startTimeCode when it is authored,
   /// else the default time (S-6).
   double start_time_code = std::numeric_limits<double>::quiet_NaN();
+  /// Which reading counts where the proposal, OpenUSD and engines disagree.
+  Readings readings;
 };
 
 /// Reads every physics prim of the stage. Findings about the asset go to `diagnostics` with stable

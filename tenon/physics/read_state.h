@@ -12,6 +12,7 @@
 #include "tenon/physics/mesh_inertia.h"
 #include "tenon/physics/physics_scene.h"
 #include "tenon/physics/physics_tokens.h"
+#include "tenon/physics/readings.h"
 #include "tenon/physics/stage_walk.h"
 #include "tenon/physics/units.h"
 #include "tenon/stage/stage.h"
@@ -31,6 +32,7 @@ struct ReadState {
   const stage::Stage& stage;
   Diagnostics& diagnostics;
   const PhysicsTokens& tokens;
+  const Readings& readings;
   Units units;
   AttributeValues values;
   Walk walk{};

@@ -16,8 +16,9 @@ constexpr double kEarthGravity = 9.81;  ///< [m/s^2] (S-16)
 /// Magnitude in m/s^2: any negative value means earth (S-15).
 double gravity_magnitude(const ReadState& state, const stage::Prim& prim) {
   const std::optional<double> authored = state.values.number(prim, state.tokens.gravity_magnitude);
-  if (!authored || *authored < 0 || std::isinf(*authored)) {
-    if (authored && *authored < 0 && std::isfinite(*authored)) {
+  const bool literal = state.readings.negative_gravity == NegativeGravity::Literal;
+  if (!authored || std::isinf(*authored) || (*authored < 0 && !literal)) {
+    if (authored && std::isfinite(*authored)) {
       state.report(prim, state.tokens.gravity_magnitude, Severity::Warning,
                    "scene.negative-gravity",
                    "physics:gravityMagnitude is " + shortest(*authored) +
@@ -26,7 +27,7 @@ double gravity_magnitude(const ReadState& state, const stage::Prim& prim) {
     }
     return kEarthGravity;
   }
-  return *authored * state.units.length;
+  return *authored * state.units.length * state.units.rate * state.units.rate;
 }
 
 /// A name from before the schema was published.

@@ -113,9 +113,12 @@ std::optional<ShapeReading> read_sphere(ReadState& state, const ShapeSource& sou
   ShapeReading reading;
   const bool uniform =
       is_uniform(sizes.scale[0], sizes.scale[1]) && is_uniform(sizes.scale[0], sizes.scale[2]);
-  if (uniform) {
+  const bool ball = state.readings.stretched_sphere == StretchedSphere::Ball;
+  if (uniform || ball) {
     reading.shape.kind = ShapeKind::Sphere;
     reading.shape.radius = radius * std::fmax(sizes.scale_along(), sizes.scale_across());
+  }
+  if (uniform) {
     return reading;
   }
   // S-53: the image of a ball is an ellipsoid, along the scale's own axes under shear too.
@@ -123,6 +126,9 @@ std::optional<ShapeReading> read_sphere(ReadState& state, const ShapeSource& sou
                "a sphere under a non-uniform scale is an ellipsoid; some engines take a sphere of "
                "the largest radius",
                "scale the sphere uniformly");
+  if (ball) {
+    return reading;
+  }
   reading.shape.kind = ShapeKind::Ellipsoid;
   for (std::size_t i = 0; i < 3; ++i) {
     reading.shape.half_extents[i] = radius * std::fabs(sizes.scale[i]);

@@ -15,6 +15,7 @@ struct ShapeReading {
   Pose pose;  ///< of the shape in the collider's rigid frame
   /// Integrals in the shape's frame where the shape stands for a rounder solid.
   std::optional<SolidIntegrals> integrals;
+  std::optional<Approximation> approximation;  ///< of meshes: what the asset asks for
 };
 
 /// What a shape is read from.
@@ -31,6 +32,8 @@ std::optional<ShapeReading> read_shape(ReadState& state, const ShapeSource& sour
 
 /// A Mesh prim, approximated as the asset asks (S-62..S-66).
 std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource& source);
+/// Materials of the faces of a mesh that its GeomSubsets bind otherwise (S-70).
+void read_face_materials(ReadState& state, Index collider);
 /// Spheres of a Points prim (S-58).
 std::optional<ShapeReading> read_points_shape(ReadState& state, const ShapeSource& source);
 

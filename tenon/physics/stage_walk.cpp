@@ -5,28 +5,11 @@
 #include <utility>
 
 #include "tenon/physics/physics_tokens.h"
+#include "tenon/physics/stray_properties.h"
 #include "tenon/stage/transform_at.h"
 
 namespace tenon::physics {
 namespace {
-
-/// Properties that count only where their API is applied (S-2).
-struct ApiProperty {
-  Token name;
-  Api api;
-  const char* api_name;
-};
-
-const std::vector<ApiProperty>& api_properties() {
-  static const std::vector<ApiProperty> list{
-      {"physics:rigidBodyEnabled", Api::RigidBody, "PhysicsRigidBodyAPI"},
-      {"physics:kinematicEnabled", Api::RigidBody, "PhysicsRigidBodyAPI"},
-      {"physics:velocity", Api::RigidBody, "PhysicsRigidBodyAPI"},
-      {"physics:mass", Api::Mass, "PhysicsMassAPI"},
-      {"physics:filteredPairs", Api::FilteredPairs, "PhysicsFilteredPairsAPI"},
-      {"physics:dynamicFriction", Api::Material, "PhysicsMaterialAPI"}};
-  return list;
-}
 
 /// What a prim hands down to its children.
 struct Inherited {
@@ -35,6 +18,7 @@ struct Inherited {
   std::uint32_t mass = kNone;
   std::uint32_t articulation_root = kNone;
   bool resets_below_body = false;
+  bool collides = false;  ///< the collision API of a prim above means its shapes (S-47)
 };
 
 struct Pending {
@@ -44,7 +28,8 @@ struct Pending {
 
 class Walker {
  public:
-  Walker(const AttributeValues& values, Walk& walk) : values_(values), walk_(walk) {}
+  Walker(const AttributeValues& values, const Readings& readings, Walk& walk)
+      : values_(values), readings_(readings), walk_(walk) {}
 
   void run(const stage::Prim& root) {
     push_children(root, {});
@@ -70,8 +55,19 @@ class Walker {
     }
   }
 
+  Roles collision_from_above(Roles roles, Inherited& state) const {
+    if (readings_.collision_on_group == CollisionOnGroup::ShapesBelow) {
+      const bool shape = roles.kind >= PrimKind::Cube && roles.kind < PrimKind::OtherGprim;
+      if (shape && state.collides) {
+        roles.apis |= std::uint64_t{1} << static_cast<unsigned>(Api::Collision);
+      }
+      state.collides = state.collides || (roles.has(Api::Collision) && !shape);
+    }
+    return roles;
+  }
+
   void visit(const stage::Prim& prim, Inherited state) {
-    const Roles& roles = finder_.roles_of(prim);
+    const Roles roles = collision_from_above(finder_.roles_of(prim), state);
     bool resets = false;
     if (roles.xformable) {
       const stage::LocalTransform local = stage::local_transform(prim, values_.start());
@@ -80,7 +76,7 @@ class Walker {
     }
     state.resets_below_body = state.resets_below_body || resets;
     if (!is_joint(roles.kind)) {
-      report_strays(prim, roles);
+      report_stray_properties(values_, prim, roles);
     }
     if (roles.matters()) {
       add(prim, roles, state);
@@ -88,22 +84,6 @@ class Walker {
     // S-38: prototypes are not simulated where they stand.
     if (roles.kind != PrimKind::PointInstancer) {
       push_children(prim, state);
-    }
-  }
-
-  /// What looks like physics and is none: properties without their API, types of older texts.
-  void report_strays(const stage::Prim& prim, const Roles& roles) const {
-    for (const ApiProperty& row : api_properties()) {
-      if (!roles.has(row.api) && prim.has_property(row.name)) {
-        values_.report(prim, row.name, Severity::Warning, "attribute.api-missing",
-                       row.name.str() + " is ignored: " + row.api_name + " is not applied",
-                       std::string("apply ") + row.api_name);
-      }
-    }
-    if (!roles.meant_type.empty()) {
-      report(values_.diagnostics(), prim, Severity::Warning, "joint.unknown-type",
-             "there is no type \"" + prim.type_name().str() + "\"; the joint is left out",
-             "write " + roles.meant_type.str());
     }
   }
 
@@ -115,7 +95,8 @@ class Walker {
     found.roles = roles;
     found.world = state.world;
     found.resets_below_body = state.resets_below_body;
-    if (roles.has(Api::RigidBody) && is_enabled_body(prim, roles)) {
+    const bool enabled = roles.has(Api::RigidBody) && is_enabled_body(prim, roles);
+    if (enabled && stands_alone(prim, state)) {
       found.is_body = true;
       found.outer_body = state.body;
       state.body = index;
@@ -149,7 +130,27 @@ class Walker {
     return values_.flag(prim, physics_tokens().body_enabled, true);
   }
 
+  /// S-24: whether a body below another is one of its own.
+  bool stands_alone(const stage::Prim& prim, const Inherited& above) const {
+    if (readings_.nesting == Nesting::Independent || above.body == kNone) {
+      return true;
+    }
+    if (readings_.nesting == Nesting::Error) {
+      if (above.resets_below_body) {
+        return true;
+      }
+      report(values_.diagnostics(), prim, Severity::Error, "body.nested-rejected",
+             "the body lies below another one; it is part of that",
+             "author !resetXformStack! on it, or place it beside the other");
+      return false;
+    }
+    report(values_.diagnostics(), prim, Severity::Warning, "body.nested-ignored",
+           "the body lies below another one; it is part of that", "place it beside the other body");
+    return false;
+  }
+
   const AttributeValues& values_;
+  const Readings& readings_;
   Walk& walk_;
   RoleFinder finder_;
   std::vector<Pending> pending_;
@@ -157,9 +158,10 @@ class Walker {
 
 }  // namespace
 
-Walk walk_stage(const stage::Stage& stage, const AttributeValues& values) {
+Walk walk_stage(const stage::Stage& stage, const AttributeValues& values,
+                const Readings& readings) {
   Walk walk;
-  Walker(values, walk).run(stage.pseudo_root());
+  Walker(values, readings, walk).run(stage.pseudo_root());
   return walk;
 }
 

@@ -11,6 +11,7 @@
 #include "tenon/math/matrix.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/prim_roles.h"
+#include "tenon/physics/readings.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::physics {
@@ -48,6 +49,6 @@ struct Walk {
 
 /// Visits active, loaded, defined, non-abstract prims, instance proxies included (S-1); prims below
 /// a point instancer are left out (S-38).
-Walk walk_stage(const stage::Stage& stage, const AttributeValues& values);
+Walk walk_stage(const stage::Stage& stage, const AttributeValues& values, const Readings& readings);
 
 }  // namespace tenon::physics

@@ -85,6 +85,7 @@ class TrackReader {
     track.what = what;
     track.joint = drive.joint;
     track.drive = drive.drive;
+    track.held = state_.readings.held_samples == HeldSamples::Held;
     for (const double code : sample_codes(attribute)) {
       const std::optional<double> value = number_of(attribute.get(stage::Time(code)));
       if (value && !std::isnan(*value)) {
@@ -100,14 +101,14 @@ class TrackReader {
   void add_drive(const DriveInstance& instance) {
     const Drive& drive = state_.scene.joints[instance.joint].drives[instance.drive];
     const DriveNames names = drive_names(instance.instance);
-    const DriveUnits unit = drive_units(state_.units, drive.dof, drive.acceleration);
-    add_scalar(instance, names.target_position, Animated::DriveTargetPosition, unit.target);
-    add_scalar(instance, names.target_velocity, Animated::DriveTargetVelocity, unit.target);
+    const DriveUnits unit = drive_units(state_, drive.dof, drive.acceleration);
+    add_scalar(instance, names.target_position, Animated::DriveTargetPosition, unit.position);
+    add_scalar(instance, names.target_velocity, Animated::DriveTargetVelocity, unit.velocity);
     if (!(drive.source == state_.scene.joints[instance.joint].path)) {
       return;  // an actuator gives gains and limits
     }
-    add_scalar(instance, names.stiffness, Animated::DriveStiffness, unit.gain);
-    add_scalar(instance, names.damping, Animated::DriveDamping, unit.gain);
+    add_scalar(instance, names.stiffness, Animated::DriveStiffness, unit.stiffness);
+    add_scalar(instance, names.damping, Animated::DriveDamping, unit.damping);
     add_scalar(instance, names.max_force, Animated::DriveMaxForce, unit.force);
   }
 
@@ -115,7 +116,8 @@ class TrackReader {
   PoseTrack poses(const stage::Prim& prim, const std::vector<double>& codes,
                   const Pose& fixed) const {
     PoseTrack track;
-    for (const double code : dense(codes)) {
+    track.held = state_.readings.held_samples == HeldSamples::Held;
+    for (const double code : track.held ? codes : dense(codes)) {
       const Mat4d world = stage::local_to_world(prim, stage::Time(code));
       track.times.push_back(seconds(code));
       track.poses.push_back(world_pose(world, state_.units) * fixed);

@@ -19,6 +19,7 @@ struct Units {
   double length = 0.01;  ///< metres per unit; unauthored 0.01 (S-7)
   double mass = 1;       ///< kilograms per unit (S-8)
   Vec3d up{{0, 1, 0}};
+  double rate = 1;  ///< units of time per second in UsdPhysics attributes (S-10)
 
   double density() const { return mass / (length * length * length); }
   double inertia() const { return mass * length * length; }

@@ -141,20 +141,6 @@ void note_instancer(ReadState& state, const PhysicsPrim& found) {
   }
 }
 
-/// S-70
-void note_face_materials(ReadState& state, const PhysicsPrim& found) {
-  if (!found.roles.has(Api::Collision) || found.roles.kind != PrimKind::Mesh ||
-      state.scene.materials.empty()) {
-    return;
-  }
-  for (const stage::Prim& child : found.prim.children()) {
-    if (child.type_name() == "GeomSubset" && (child.has_property("material:binding:physics") ||
-                                              child.has_property("material:binding"))) {
-      state.not_read(child, "material:binding", "one collider has one material");
-    }
-  }
-}
-
 /// S-28
 void note_switches(ReadState& state, const PhysicsPrim& found) {
   if (!found.roles.has(Api::RigidBody) || !state.values.stage_is_animated()) {
@@ -172,7 +158,6 @@ void note_switches(ReadState& state, const PhysicsPrim& found) {
 void note_what_is_not_read(ReadState& state) {
   for (const PhysicsPrim& found : state.walk.prims) {
     note_vendor_settings(state, found);
-    note_face_materials(state, found);
     note_switches(state, found);
     if (found.roles.kind == PrimKind::PointInstancer) {
       note_instancer(state, found);

@@ -211,6 +211,15 @@ class Contract(unittest.TestCase):
         follower = next(j for j in answer["joints"] if j["path"].endswith("right_thumb_4_joint"))
         self.assertAlmostEqual(follower["mimic"]["multiplier"], 0.7508, places=6)
 
+    def test_a_reading_can_be_chosen(self):
+        answer = self.json("physics", HAND, "--reading", "mass-inheritance=own",
+                           "--reading", "nesting=ignore")
+        self.assertEqual(len(answer["bodies"]), 1 + 12)
+        for wrong in ("nesting=upwards", "nestling=ignore", "nesting"):
+            process = tenon("physics", HAND, "--reading", wrong)
+            self.assertEqual(process.returncode, 2)
+            self.assertIn("nest", process.stderr)
+
     def test_bake_leaves_the_asset_untouched(self):
         copy = self.folder / "hand"
         shutil.copytree(HAND.parent, copy)

@@ -5,9 +5,10 @@
 //   "about"        what the case shows, with its E- or S-number
 //   "diagnostics"  the rule ids that reading gives, all of them, sorted
 //   "counts"       how many scenes, bodies, colliders, joints ... there are
+//   "also"         the same again for other readings: each with "readings", their names and values,
+//                  and with "diagnostics" and "counts" where these differ
 //   anything else  a part of `tenon physics --json`; rows of lists are matched by "path", numbers
-//   with
-//                  a tolerance of 1e-6
+//                  with a tolerance of 1e-6
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -83,20 +84,11 @@ void expect_part(const Json& expected, const Json& actual, const std::string& wh
   }
 }
 
-class PhysicsGolden : public testing::TestWithParam<std::string> {};
-
-TEST_P(PhysicsGolden, ReadsAsExpected) {
-  const std::string folder = std::string(TENON_GOLDEN_DIR) + "/" + GetParam();
-  std::ifstream file(folder + "/expected.json");
-  Json expected = Json::parse(file, nullptr, false);
-  ASSERT_TRUE(expected.is_object()) << "expected.json cannot be read";
-
-  formats::LayerRegistry registry;
-  Result<stage::Stage> stage = open(registry, folder + "/input.usda");
-  ASSERT_TRUE(stage.has_value()) << stage.error().to_string();
+void expect_reading(const stage::Stage& stage, Json expected, const physics::Readings& readings) {
   Diagnostics diagnostics;
-  const Json actual = cli::physics_json(physics::read_physics(*stage, {}, diagnostics));
-
+  physics::ReadOptions options;
+  options.readings = readings;
+  const Json actual = cli::physics_json(physics::read_physics(stage, options, diagnostics));
   std::set<std::string> rules;
   for (const Diagnostic& finding : diagnostics) {
     rules.insert(finding.rule);
@@ -107,10 +99,40 @@ TEST_P(PhysicsGolden, ReadsAsExpected) {
   for (const auto& [list, count] : expected["counts"].items()) {
     EXPECT_EQ(actual[list].size(), count.get<std::size_t>()) << list;
   }
-  for (const char* key : {"about", "diagnostics", "counts"}) {
+  for (const char* key : {"about", "diagnostics", "counts", "readings"}) {
     expected.erase(key);
   }
   expect_part(expected, actual, "");
+}
+
+class PhysicsGolden : public testing::TestWithParam<std::string> {};
+
+TEST_P(PhysicsGolden, ReadsAsExpected) {
+  const std::string folder = std::string(TENON_GOLDEN_DIR) + "/" + GetParam();
+  std::ifstream file(folder + "/expected.json");
+  Json expected = Json::parse(file, nullptr, false);
+  ASSERT_TRUE(expected.is_object()) << "expected.json cannot be read";
+  const Json others = expected.value("also", Json::array());
+  expected.erase("also");
+
+  formats::LayerRegistry registry;
+  Result<stage::Stage> stage = open(registry, folder + "/input.usda");
+  ASSERT_TRUE(stage.has_value()) << stage.error().to_string();
+  expect_reading(*stage, expected, {});
+  for (Json other : others) {
+    SCOPED_TRACE(other["readings"].dump());
+    physics::Readings readings;
+    for (const auto& [name, value] : other["readings"].items()) {
+      const auto set = physics::set_reading(readings, name, value.get<std::string>());
+      ASSERT_TRUE(set.has_value()) << set.error().to_string();
+    }
+    for (const char* key : {"diagnostics", "counts"}) {
+      if (!other.contains(key)) {
+        other[key] = expected[key];
+      }
+    }
+    expect_reading(*stage, other, readings);
+  }
 }
 
 std::string case_name(const testing::TestParamInfo<std::string>& row) { return row.param; }

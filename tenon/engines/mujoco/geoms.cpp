@@ -174,6 +174,10 @@ class ColliderPass {
 
   void add_mesh() {
     const physics::TriangleMesh& mesh = build_.scene.meshes[collider_.shape.mesh];
+    for (const physics::FaceMaterial& faces : collider_.face_materials) {
+      build_.report(faces.subset, "material:binding",
+                    "MuJoCo has one material per mesh; that of the whole mesh is used");
+    }
     if (!moves_freely_) {
       add_pieces(triangle_pieces(mesh, up()));
       return;

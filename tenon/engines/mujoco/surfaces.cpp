@@ -16,8 +16,7 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-constexpr double kNoMaterialFriction = 0.5;  // S-71
-constexpr double kLowImpedance = 0.9;        // MuJoCo's default solimp
+constexpr double kLowImpedance = 0.9;  // MuJoCo's default solimp
 constexpr double kHighImpedance = 0.95;
 constexpr double kImpedanceWidth = 0.001;  // [m]
 constexpr double kStiffSteps = 0.25;       // natural frequency times time step, elastic contacts
@@ -25,7 +24,7 @@ constexpr double kSoftSteps = 0.16;        // the same without bounce
 constexpr double kMostDamping = 0.9;       // damping times time step: below 1, or the contact rings
 
 struct Surface {
-  double friction = kNoMaterialFriction;
+  double friction = 0;
   double restitution = 0;
   auto operator<=>(const Surface&) const = default;
 };
@@ -60,10 +59,8 @@ double mean_rebound(double stiffness, double damping, double time_step) {
 }
 
 Surface surface_of(const physics::PhysicsScene& scene, const physics::Collider& collider) {
-  if (!collider.material.has_value()) {
-    return {};
-  }
-  const physics::Material& material = scene.materials[*collider.material];
+  const physics::Material& material =
+      collider.material.has_value() ? scene.materials[*collider.material] : scene.unbound;
   return {material.dynamic_friction, std::clamp(material.restitution, 0.0, 1.0)};
 }
 
