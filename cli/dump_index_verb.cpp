@@ -57,9 +57,15 @@ int run_dump_index(const Globals& globals, const Options& options) {
 }  // namespace
 
 void add_dump_index(CLI::App& app, const Globals& globals, Chosen& chosen) {
+  add_index_dump(app, "dump-index", "", globals, chosen);
+}
+
+void add_index_dump(CLI::App& app, const std::string& name, const std::string& fallbacks,
+                    const Globals& globals, Chosen& chosen) {
   CLI::App* verb =
-      app.add_subcommand("dump-index", "How prims are composed: layers, specs, offsets, targets");
+      app.add_subcommand(name, "How prims are composed: layers, specs, offsets, targets");
   auto options = std::make_shared<Options>();
+  options->fallbacks = fallbacks;
   options->asset.add_to(*verb);
   verb->add_option("prims", options->prims, "Prim paths; without them all prims");
   verb->add_option("--variant-fallback", options->fallbacks, "set=variant|variant,set=...");

@@ -31,6 +31,8 @@ class JsonWriter {
   void null() { raw("null"); }
   /// Not finite: the strings "nan", "inf" and "-inf".
   void number(double value);
+  /// A number that is text already: valid JSON, any width.
+  void number_text(std::string_view text) { raw(text); }
   /// Beyond 2^53 a string, so that no reader rounds it.
   void integer(std::int64_t value);
   void unsigned_integer(std::uint64_t value);

@@ -57,6 +57,11 @@ AddVerb add_physics;
 AddVerb add_sim;
 AddVerb add_tree;
 AddVerb add_variant;
+AddVerb add_test_runner;
+
+/// The verb dump-index under the name `name`, with variant fallbacks for where none are given.
+void add_index_dump(CLI::App& app, const std::string& name, const std::string& fallbacks,
+                    const Globals& globals, Chosen& chosen);
 
 /// "NAME=VALUE" taken apart at the first '='.
 Result<std::pair<std::string, std::string>> split_assignment(const std::string& text);

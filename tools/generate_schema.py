@@ -4,11 +4,13 @@
 """Writes the schema tables of tenon/schema/generated: names, types, fallbacks and allowed tokens.
 
 usage: generate_schema.py core > tenon/schema/generated/core_schemas.cpp
-       generate_schema.py vendor SCHEMA.usda... > tenon/schema/generated/vendor_schemas.cpp
-Needs usd-core (and numpy). `core` writes what Usd.SchemaRegistry registers; `vendor` what files in
-the form of a generatedSchema.usda describe (schemas that OpenUSD itself does not know).
+       generate_schema.py vendor WHEELS > tenon/schema/generated/vendor_schemas.cpp
+Needs usd-core (and numpy). `core` writes what Usd.SchemaRegistry registers; `vendor` what the
+schema wheels of tests/schema_requirements.txt, installed into the folder WHEELS, describe in files
+of the form of a generatedSchema.usda, and after them tools/vendor_schemas.usda.
 """
 
+import os
 import sys
 
 import numpy
@@ -73,7 +75,7 @@ def property_row(name, spec):
     fallback = fallback_text(spec.default, str(spec.typeName))
     if fallback is not None:
         flags.append("kFallback")
-    allowed = " ".join(spec.GetInfo("allowedTokens") or [])
+    allowed = "".join(token + "\n" for token in spec.GetInfo("allowedTokens") or [])
     return (name, str(spec.typeName), " | ".join(flags) or "0", fallback or "", allowed)
 
 
@@ -94,7 +96,8 @@ def core_schemas():
                 rows.append(property_row(prop, definition.GetSchemaPropertySpec(prop)))
         own = {name, name + ":__INSTANCE_NAME__"}
         built_in = [api for api in built_in if api not in own]
-        yield name, kind, base, built_in, rows
+        applies_to = registry.GetAPISchemaCanOnlyApplyToTypeNames(name)
+        yield name, kind, base, built_in, applies_to, rows
 
 
 def vendor_kind(spec, kinds):
@@ -107,15 +110,15 @@ def vendor_kind(spec, kinds):
 
 
 def vendor_kinds(path):
-    """plugInfo.json next to the layer -> {schema: apiSchemaType}, {schema: first base type}."""
+    """plugInfo.json next to the layer -> of each schema its apiSchemaType, first base type, and
+    the types that it may be applied to."""
     import json
-    import os
     import re
 
-    kinds, bases = {}, {}
+    kinds, bases, applies_to = {}, {}, {}
     info = os.path.join(os.path.dirname(path), "plugInfo.json")
     if not os.path.exists(info):
-        return kinds, bases
+        return kinds, bases, applies_to
     text = re.sub(r"^\s*#.*$", "", open(info, encoding="utf-8").read(), flags=re.M)
     names = {}
     for plugin in json.loads(text)["Plugins"]:
@@ -129,6 +132,7 @@ def vendor_kinds(path):
                 "nonAppliedAPI": "nonApplied",
             }.get(entry.get("schemaKind"))
             bases[name] = (entry.get("bases") or [""])[0]
+            applies_to[name] = entry.get("apiSchemaCanOnlyApplyTo") or []
     for name, base in bases.items():
         if base not in names:
             base = {"UsdTyped": "Typed", "UsdAPISchemaBase": "APISchemaBase"}.get(base, base)
@@ -136,32 +140,45 @@ def vendor_kinds(path):
                 stem = "Physics" if prefix == "UsdPhysics" else ""
                 base = stem + base[len(prefix) :] if base.startswith(prefix) else base
         bases[name] = names.get(base, base)
-    return kinds, bases
+    return kinds, bases, applies_to
+
+
+def vendor_layers(wheels):
+    """Schema layers of the wheels, in the order in which the first description counts."""
+    parts = ("newton_usd_schemas", "mujoco/_usd/mujoco-usd-resources/mjcPhysics",
+             "physx_usd_schemas/OmniUsdPhysicsDeformableSchema/resources",
+             "physx_usd_schemas/PhysxSchema/resources")
+    own = os.path.join(os.path.dirname(os.path.abspath(__file__)), "vendor_schemas.usda")
+    return [os.path.join(wheels, part, "generatedSchema.usda") for part in parts] + [own]
 
 
 def vendor_schemas(paths):
     found = {}
     for path in paths:
-        kinds, bases = vendor_kinds(path)
+        kinds, bases, applies_to = vendor_kinds(path)
         layer = Sdf.Layer.FindOrOpen(path)
         for spec in layer.rootPrims:
-            if spec.name == "GLOBAL" or Usd.SchemaRegistry().FindSchemaInfo(spec.name):
+            is_known = spec.name in found or Usd.SchemaRegistry().FindSchemaInfo(spec.name)
+            if spec.name == "GLOBAL" or is_known:
                 continue
             applied = spec.GetInfo("apiSchemas")
             built_in = list(applied.prependedItems) + list(applied.explicitItems)
             rows = [property_row(prop.name, prop) for prop in spec.properties]
             kind = vendor_kind(spec, kinds)
-            base = bases.get(spec.name) or ("APISchemaBase" if "API" in kind else "Typed")
-            found[spec.name] = (spec.name, kind, base, built_in, sorted(rows))
+            base = bases.get(spec.name) or spec.customData.get("baseSchema")
+            base = base or ("APISchemaBase" if "API" in kind else "Typed")
+            types = applies_to.get(spec.name, [])
+            found[spec.name] = (spec.name, kind, base, built_in, types, sorted(rows))
     return [found[name] for name in sorted(found)]
 
 
 def write(table, schemas):
     pool, rows, indices, heads = {}, [], [], []
-    for name, kind, base, built_in, properties in schemas:
+    for name, kind, base, built_in, applies_to, properties in schemas:
         assert kind in KINDS, (name, kind)
         head = [quote(name), "SchemaKind::" + kind.replace("API", "Api"), quote(base)]
-        head += [quote(" ".join(built_in)), str(len(indices)), str(len(properties))]
+        head += [quote(" ".join(built_in)), quote(" ".join(applies_to))]
+        head += [str(len(indices)), str(len(properties))]
         heads.append(head)
         for row in properties:
             if row not in pool:
@@ -186,7 +203,7 @@ def write(table, schemas):
 if __name__ == "__main__":
     if sys.argv[1:] == ["core"]:
         write("Core", list(core_schemas()))
-    elif sys.argv[1:2] == ["vendor"] and len(sys.argv) > 2:
-        write("Vendor", vendor_schemas(sys.argv[2:]))
+    elif sys.argv[1:2] == ["vendor"] and len(sys.argv) == 3:
+        write("Vendor", vendor_schemas(vendor_layers(sys.argv[2])))
     else:
         sys.exit(__doc__)

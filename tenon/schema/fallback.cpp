@@ -56,8 +56,7 @@ template <class T>
 struct Scalar<Quat<T>> {
   static constexpr std::size_t count = 4;
   static Quat<T> make(const double* x) {
-    return {static_cast<T>(x[1]), static_cast<T>(x[2]), static_cast<T>(x[3]),
-            static_cast<T>(x[0])};
+    return {static_cast<T>(x[1]), static_cast<T>(x[2]), static_cast<T>(x[3]), static_cast<T>(x[0])};
   }
 };
 template <>
@@ -103,36 +102,26 @@ Value read_fallback(const layer::TypeName& type, std::string_view text) {
     case ValueType::Asset:
       return is_array ? Value(layer::Array<layer::AssetPath>())
                       : Value(layer::AssetPath{std::string(text), {}, {}});
-    case ValueType::Bool:
-      return numeric<bool>(numbers(text), is_array);
-    case ValueType::Int:
-      return numeric<std::int32_t>(numbers(text), is_array);
-    case ValueType::UInt:
-      return numeric<std::uint32_t>(numbers(text), is_array);
-    case ValueType::Int64:
-      return numeric<std::int64_t>(numbers(text), is_array);
-    case ValueType::Float:
-      return numeric<float>(numbers(text), is_array);
-    case ValueType::Double:
-      return numeric<double>(numbers(text), is_array);
-    case ValueType::Int2:
-      return numeric<Vec2i>(numbers(text), is_array);
-    case ValueType::Int3:
-      return numeric<Vec3i>(numbers(text), is_array);
-    case ValueType::Float2:
-      return numeric<Vec2f>(numbers(text), is_array);
-    case ValueType::Float3:
-      return numeric<Vec3f>(numbers(text), is_array);
-    case ValueType::Float4:
-      return numeric<Vec4f>(numbers(text), is_array);
-    case ValueType::Double2:
-      return numeric<Vec2d>(numbers(text), is_array);
-    case ValueType::Double3:
-      return numeric<Vec3d>(numbers(text), is_array);
-    case ValueType::Quatf:
-      return numeric<Quatf>(numbers(text), is_array);
-    case ValueType::TimeCode:
-      return numeric<layer::TimeCode>(numbers(text), is_array);
+#define TENON_NUMERIC(enumerator, type) \
+  case ValueType::enumerator:           \
+    return numeric<type>(numbers(text), is_array);
+      TENON_NUMERIC(Bool, bool)
+      TENON_NUMERIC(Int, std::int32_t)
+      TENON_NUMERIC(UInt, std::uint32_t)
+      TENON_NUMERIC(Int64, std::int64_t)
+      TENON_NUMERIC(UInt64, std::uint64_t)
+      TENON_NUMERIC(Float, float)
+      TENON_NUMERIC(Double, double)
+      TENON_NUMERIC(Int2, Vec2i)
+      TENON_NUMERIC(Int3, Vec3i)
+      TENON_NUMERIC(Float2, Vec2f)
+      TENON_NUMERIC(Float3, Vec3f)
+      TENON_NUMERIC(Float4, Vec4f)
+      TENON_NUMERIC(Double2, Vec2d)
+      TENON_NUMERIC(Double3, Vec3d)
+      TENON_NUMERIC(Quatf, Quatf)
+      TENON_NUMERIC(TimeCode, layer::TimeCode)
+#undef TENON_NUMERIC
     default:
       return {};
   }

@@ -9,10 +9,10 @@
 namespace tenon::schema {
 namespace {
 
-std::vector<Token> words(std::string_view text) {
+std::vector<Token> words(std::string_view text, char separator = ' ') {
   std::vector<Token> result;
   while (!text.empty()) {
-    const std::size_t end = text.find(' ');
+    const std::size_t end = text.find(separator);
     result.emplace_back(text.substr(0, end));
     text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
   }
@@ -32,7 +32,7 @@ PropertyDefinition make_property(const PropertyRow& row, bool vendor) {
   }
   property.type_name = Token(row.type);
   property.type = layer::find_type_name(property.type_name);
-  property.allowed_tokens = words(row.allowed);
+  property.allowed_tokens = words(row.allowed, '\n');
   if ((row.flags & kFallback) != 0 && property.type != nullptr) {
     property.fallback = read_fallback(*property.type, row.fallback);
   }
@@ -77,6 +77,7 @@ void Registry::add(const SchemaRow& row, const PropertyRow* properties,
   schema->kind = row.kind;
   schema->base = Token(row.base);
   schema->built_in_apis = words(row.built_in_apis);
+  schema->can_only_apply_to = words(row.applies_to);
   schema->vendor = vendor;
   schema->properties.reserve(row.count);
   for (std::size_t i = 0; i < row.count; ++i) {
@@ -98,8 +99,8 @@ const Schema* Registry::find(Token name) const {
 
 bool Registry::is_a(Token type, Token base) const {
   const Schema* schema = find(type);
-  return schema != nullptr && std::find(schema->chain.begin(), schema->chain.end(), base) !=
-                                  schema->chain.end();
+  return schema != nullptr &&
+         std::find(schema->chain.begin(), schema->chain.end(), base) != schema->chain.end();
 }
 
 }  // namespace tenon::schema

@@ -19,11 +19,11 @@ namespace tenon::schema {
 struct PropertyDefinition {
   Token name;  ///< may hold __INSTANCE_NAME__ in a Schema, never in a PrimDefinition
   bool is_relationship = false;
-  Token type_name;                         ///< empty for relationships
-  const layer::TypeName* type = nullptr;   ///< of type_name
+  Token type_name;                        ///< empty for relationships
+  const layer::TypeName* type = nullptr;  ///< of type_name
   layer::Variability variability = layer::Variability::Varying;
-  layer::Value fallback;                   ///< empty when there is none
-  std::vector<Token> allowed_tokens;       ///< empty: any
+  layer::Value fallback;              ///< empty when there is none
+  std::vector<Token> allowed_tokens;  ///< empty: any
   bool vendor = false;  ///< only there through a schema that stock OpenUSD does not know
 };
 
@@ -31,8 +31,9 @@ struct Schema {
   Token name;
   SchemaKind kind = SchemaKind::ConcreteTyped;
   Token base;
-  std::vector<Token> chain;          ///< itself, its base, and so on
-  std::vector<Token> built_in_apis;  ///< complete, strongest first; may hold __INSTANCE_NAME__
+  std::vector<Token> chain;              ///< itself, its base, and so on
+  std::vector<Token> built_in_apis;      ///< complete, strongest first; may hold __INSTANCE_NAME__
+  std::vector<Token> can_only_apply_to;  ///< types, of an API schema; empty: any
   std::vector<PropertyDefinition> properties;
   bool vendor = false;  ///< physx, newton, mjc, isaac: unknown to stock OpenUSD
 

@@ -26,7 +26,7 @@ struct PropertyRow {
   const char* type;      ///< empty for relationships
   std::uint8_t flags;    ///< kUniform, kRelationship, kFallback
   const char* fallback;  ///< numbers separated by blanks, or text; of text arrays a line each
-  const char* allowed;   ///< allowed tokens separated by blanks
+  const char* allowed;   ///< allowed tokens, a line each
 };
 
 struct SchemaRow {
@@ -34,7 +34,8 @@ struct SchemaRow {
   SchemaKind kind;
   const char* base;           ///< the schema that this one derives from; empty at the top
   const char* built_in_apis;  ///< separated by blanks, strongest first
-  std::uint16_t first;        ///< into the index table
+  const char* applies_to;  ///< types that an API may be applied to, separated by blanks; empty: any
+  std::uint16_t first;     ///< into the index table
   std::uint16_t count;
 };
 
