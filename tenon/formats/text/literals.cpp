@@ -348,7 +348,12 @@ bool read_path(Cursor& cursor, Path& path) {
   }
   path = Path();
   if (close != 0) {
-    auto parsed = Path::parse(rest.substr(0, close));
+    const std::string_view text = rest.substr(0, close);
+    if (text == ".") {  // a path elsewhere, but text layers have no way to write it
+      return cursor.fail_at(start, ErrorCode::Parse, "text.path", "\".\" is no path in a layer",
+                            "write the path of the prim");
+    }
+    auto parsed = Path::parse(text);
     if (!parsed) {
       return cursor.fail_at(start, parsed.error().code(), "text.path", parsed.error().message());
     }
