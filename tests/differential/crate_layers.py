@@ -18,15 +18,16 @@ import subprocess
 import sys
 import tempfile
 
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(os.path.dirname(HERE), "conformance"))
+import suite  # noqa: E402  pylint: disable=wrong-import-position
+
 try:
     from pxr import Sdf
 except ImportError:
-    print("skipped: no OpenUSD modules in this Python")
-    sys.exit(77)
+    suite.skip("no OpenUSD modules in this Python")
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-REPO = os.path.dirname(os.path.dirname(HERE))
-SHARED = os.environ.get("TENON_SHARED_DIR", os.path.join(os.path.dirname(REPO), "shared"))
+SHARED = suite.SHARED
 LARGEST = 8_000_000  # bytes
 VERSIONS = [f"0.{minor}.0" for minor in range(4, 17)]
 BATCH = 50
@@ -160,21 +161,10 @@ def version_misses(program, files, folder):
                 yield f"{source}@{version}", difference
 
 
-def run(name, misses, program, files, known):
-    """Prints what is new in one check; True when there is nothing."""
+def run(results, label, name, misses, program, files):
     with tempfile.TemporaryDirectory() as folder:
-        results = [
-            ((name, os.path.relpath(path, SHARED)), difference)
-            for path, difference in misses(program, files, folder)
-        ]
-    found = {key: difference for key, difference in results if difference}
-    fixed = {key for key, difference in results if not difference} & known
-    for key in sorted(set(found) - known):
-        print(f"MISS {name} {key[1]}: {found[key]}")
-    for key in sorted(fixed):
-        print(f"FIXED {name} {key[1]}: remove it from crate_misses.txt")
-    print(f"{name}: {len(results) - len(found)} of {len(results)} equal")
-    return not fixed and not set(found) - known
+        for path, difference in misses(program, files, folder):
+            results.add(label, f"{name} {os.path.relpath(path, SHARED)}", difference)
 
 
 def main():
@@ -186,18 +176,18 @@ def main():
     ]
     folders = [folder for folder in folders if os.path.isdir(folder)]
     if not folders:
-        print(f"skipped: no {SHARED}")
-        sys.exit(77)
-    with open(os.path.join(HERE, "crate_misses.txt"), encoding="utf-8") as file:
-        known = {tuple(line.split()[:2]) for line in file if line.strip() and line[0] != "#"}
+        suite.skip(f"no {SHARED}")
+    results = suite.Results("crate", os.path.join(HERE, "crate_misses.txt"))
     binary, text = layer_files(folders)
-    some = text if "--versions" in sys.argv else text[::25]
-    held = [
-        run("read", read_misses, arguments[0], binary, known),
-        run("written", written_misses, arguments[0], text, known),
-        run("versions", version_misses, arguments[0], some, known),
-    ]
-    sys.exit(0 if all(held) else 1)
+    all_versions = "--versions" in sys.argv
+    some = text if all_versions else text[::25]
+    program = arguments[0]
+    run(results, "binary layers: read as OpenUSD reads them", "read", read_misses, program, binary)
+    run(results, "text layers written as binary ones: as OpenUSD reads both", "written",
+        written_misses, program, text)
+    run(results, "layers that OpenUSD writes in each version, 0.4 to 0.16: read alike", "versions",
+        version_misses, program, some)
+    sys.exit(results.finish(is_whole=not arguments[1:] and not all_versions))
 
 
 if __name__ == "__main__":

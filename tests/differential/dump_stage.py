@@ -23,7 +23,11 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 REPO = os.path.dirname(os.path.dirname(HERE))
-SHARED = os.environ.get("TENON_SHARED_DIR", os.path.join(os.path.dirname(REPO), "shared"))
+sys.path.insert(0, os.path.join(os.path.dirname(HERE), "conformance"))
+import suite as measured  # noqa: E402  pylint: disable=wrong-import-position
+
+SHARED = measured.SHARED
+MISSES = os.path.join(HERE, "dump_misses.txt")
 ORACLE = os.path.join(SHARED, "tools", "dump_stage.py")
 STAGE_SUITES = ("openusd_usd", "mxpv_fixtures", "tinyusdz", "physics_parse", "openusd_other")
 STAGE_SUITES += ("aousd_composition", "aousd_value_resolution", "aousd_binary")
@@ -198,13 +202,12 @@ def collect(suites, folder):
 
 
 def known_misses(suites):
-    with open(os.path.join(HERE, "dump_misses.txt"), encoding="utf-8") as file:
-        lines = {line.strip() for line in file if line.strip() and line[0] != "#"}
-    return {line for line in lines if line.split()[0] in suites}
+    return {name for name in measured.read_misses(MISSES) if name.split()[0] in suites}
 
 
-def report(results, known, show):
-    """Prints misses and counts; true when they are the known ones."""
+def report(results, known, show, is_whole):
+    """Prints misses and counts; true when they are the known ones. Those of all suites are noted
+    for CONFORMANCE.md."""
     missed = {name for name, lines in results.items() if lines}
     for name in sorted(missed - known if not show else missed):
         print(f"MISS {name}")
@@ -212,10 +215,15 @@ def report(results, known, show):
             print(f"   {line}")
     for name in sorted(known & set(results) - missed):
         print(f"FIXED {name}: remove it from dump_misses.txt")
-    suites = sorted({name.split()[0] for name in results})
-    for suite in suites:
+    figures = []
+    for suite in sorted({name.split()[0] for name in results}):
         ran = [n for n, lines in results.items() if n.split()[0] == suite and lines is not None]
-        print(f"{suite}: {len([n for n in ran if n not in missed])} of {len(ran)} equal")
+        equal = len([name for name in ran if name not in missed])
+        figures.append((f"stage dumps: {suite}", equal, len(ran)))
+        print(f"{suite}: {equal} of {len(ran)} equal")
+    if is_whole:
+        reasons = measured.read_misses(MISSES)
+        measured.record("dump", figures, {name: reasons[name] for name in missed & known})
     return not (missed - known) and not (known & set(results) - missed)
 
 
@@ -234,6 +242,7 @@ def main():
     if not os.path.exists(ORACLE):
         print(f"skipped: no {ORACLE}")
         return 77
+    measured.forget("dump")
     suites = arguments.suite or ["hand", "scenes", "examples", *STAGE_SUITES]
     module = oracle_module()
     with tempfile.TemporaryDirectory() as temporary:
@@ -241,7 +250,7 @@ def main():
         os.makedirs(folder, exist_ok=True)
         cases = collect(suites, folder)
         results = {c.name: judge(module, arguments.tenon, c, folder) for c in cases}
-    return 0 if report(results, known_misses(suites), arguments.show) else 1
+    return 0 if report(results, known_misses(suites), arguments.show, not arguments.suite) else 1
 
 
 if __name__ == "__main__":

@@ -15,15 +15,16 @@ import subprocess
 import sys
 import tempfile
 
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(os.path.dirname(HERE), "conformance"))
+import suite  # noqa: E402  pylint: disable=wrong-import-position
+
 try:
     from pxr import Sdf
 except ImportError:
-    print("skipped: no OpenUSD modules in this Python")
-    sys.exit(77)
+    suite.skip("no OpenUSD modules in this Python")
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-REPO = os.path.dirname(os.path.dirname(HERE))
-SHARED = os.environ.get("TENON_SHARED_DIR", os.path.join(os.path.dirname(REPO), "shared"))
+SHARED = suite.SHARED
 LARGEST = 30_000_000  # bytes
 
 
@@ -94,21 +95,14 @@ def main():
     folders = sys.argv[2:] or [os.path.join(SHARED, n) for n in ("conformance", "scenes", "assets")]
     folders = [folder for folder in folders if os.path.isdir(folder)]
     if not folders:
-        print(f"skipped: no {SHARED}")
-        sys.exit(77)
-    with open(os.path.join(HERE, "text_misses.txt"), encoding="utf-8") as file:
-        known = {line.split()[0] for line in file if line.strip() and line[0] != "#"}
+        suite.skip(f"no {SHARED}")
+    results = suite.Results("text", os.path.join(HERE, "text_misses.txt"))
     files = layer_files(folders)
     found = misses(sys.argv[1], files)
-    names = {os.path.relpath(path, SHARED): what for path, what in found.items()}
-    for name in sorted(set(names) - known):
-        print(f"MISS {name}: {names[name]}")
-    read = {os.path.relpath(path, SHARED) for path in files}
-    fixed = sorted((known & read) - set(names))
-    for name in fixed:
-        print(f"FIXED {name}: remove it from text_misses.txt")
-    print(f"{len(files) - len(names)} of {len(files)} equal, {len(known)} known misses")
-    sys.exit(1 if fixed or set(names) - known else 0)
+    for path in files:
+        results.add("text of layers: bytes as OpenUSD's, or rejected by both",
+                    os.path.relpath(path, SHARED), found.get(path))
+    sys.exit(results.finish(is_whole=not sys.argv[2:]))
 
 
 if __name__ == "__main__":

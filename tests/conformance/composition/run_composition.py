@@ -22,12 +22,12 @@ import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-REPO = os.path.dirname(os.path.dirname(os.path.dirname(HERE)))
-SHARED = os.environ.get("TENON_SHARED_DIR", os.path.join(os.path.dirname(REPO), "shared"))
-CONFORMANCE = os.path.join(SHARED, "conformance")
+sys.path.insert(0, os.path.dirname(HERE))
+import suite  # noqa: E402  pylint: disable=wrong-import-position
+
+CONFORMANCE = suite.CONFORMANCE
 MISSES = os.path.join(os.path.dirname(HERE), "composition_misses.txt")
 RULE = "-" * 72 + "\n"
-SKIPPED = 77
 
 # How the records word a finding -> its class.
 CLASSES = (
@@ -136,10 +136,10 @@ def find_cases(wanted):
             fields = line.rstrip("\n").split("\t")
             if line.startswith("#") or len(fields) < 3:
                 continue
-            suite, name, folder = fields[0], fields[1], os.path.join(CONFORMANCE, fields[2])
-            if suite == "aousd_composition":
+            source, name, folder = fields[0], fields[1], os.path.join(CONFORMANCE, fields[2])
+            if source == "aousd_composition":
                 cases += [aousd_case(name, folder, False), aousd_case(name, folder, True)]
-            elif suite == "openusd_museum":
+            elif source == "openusd_museum":
                 cases.append(museum_case(name, folder))
     cases = [case for case in cases if case is not None]
     return [case for case in cases if not wanted or any(w in case.name for w in wanted)]
@@ -209,30 +209,23 @@ def compare(dump, case):
     return ""
 
 
-def read_misses():
-    with open(MISSES, encoding="utf-8") as file:
-        return {line.split("#")[0].strip() for line in file} - {""}
+def label_of(case):
+    if case.renamed:
+        return "museum of OpenUSD: composition"
+    return f"AOUSD composition through {case.name.rsplit(' ', 1)[1]} layers"
 
 
 def main():
     arguments = [argument for argument in sys.argv[1:] if argument != "-v"]
     if not os.path.exists(os.path.join(CONFORMANCE, "cases.txt")):
-        print(f"skipped: no {CONFORMANCE}")
-        return SKIPPED
-    cases = find_cases(arguments[1:])
-    failed = {}
-    for case in cases:
+        suite.skip(f"no {CONFORMANCE}")
+    results = suite.Results("composition", MISSES)
+    for case in sorted(find_cases(arguments[1:]), key=label_of):
         difference = compare(arguments[0], case)
-        if difference:
-            failed[case.name] = difference
-    misses = read_misses() & {case.name for case in cases}
-    for name, difference in failed.items():
-        if name not in misses or "-v" in sys.argv:
-            print(f"FAILED {name}: {difference}")
-    for name in sorted(misses - set(failed)):
-        print(f"{name} passes now: remove it from {os.path.basename(MISSES)}")
-    print(f"{len(cases) - len(failed)} of {len(cases)} cases pass, {len(misses)} misses are known")
-    return 1 if set(failed) ^ misses else 0
+        results.add(label_of(case), case.name, difference)
+        if difference and "-v" in sys.argv:
+            print(f"{case.name}: {difference}")
+    return results.finish(is_whole=not arguments[1:])
 
 
 if __name__ == "__main__":

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every layer of the published material, written as text and as a binary layer and read again.
+
+usage: run_round_trip.py ROUND_TRIP [--all]
+
+ROUND_TRIP is the program tests/tools/round_trip.cpp.
+ourselves  text -> binary -> text and back: same fields, same text
+OpenUSD    reads what was written, text and binary, as it reads the original: same text
+Without --all one in SAMPLE of the layers, and of those the smaller ones: what takes a minute with
+sanitizers. Exit 77: the material or OpenUSD's modules are absent.
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+
+import suite
+
+os.environ["PXR_USDC_EMIT_DEPRECATION_WARNINGS"] = "0"  # read when OpenUSD is loaded
+try:
+    from pxr import Sdf
+except ImportError:
+    suite.skip("no OpenUSD modules in this Python")
+
+SAMPLE = 12
+LARGEST = {False: 300_000, True: 50_000_000}  # bytes, in a sample and with --all
+BATCH = 40
+
+
+def layer_files(everything):
+    found = []
+    for folder, _, names in os.walk(suite.CONFORMANCE):
+        for name in names:
+            path = os.path.join(folder, name)
+            if (name.endswith((".usda", ".usd", ".usdc")) and not os.path.islink(path)
+                    and os.path.getsize(path) <= LARGEST[everything]):
+                found.append(path)
+    return sorted(found) if everything else sorted(found)[::SAMPLE]
+
+
+def text_by_openusd(path):
+    try:
+        layer = Sdf.Layer.OpenAsAnonymous(path)
+        return None if layer is None else layer.ExportToString()
+    except Exception:  # pylint: disable=broad-except
+        return None
+
+
+def first_difference(expected, actual):
+    if actual is None:
+        return "OpenUSD does not read it"
+    for number, pair in enumerate(zip(expected.split("\n"), actual.split("\n")), 1):
+        if pair[0] != pair[1]:
+            return f"line {number}: expected {pair[0][:120]!r}, actual {pair[1][:120]!r}"
+    return None if expected == actual else "one text ends early"
+
+
+def check(program, batch, folder, results):
+    run = subprocess.run([program, folder, *batch], capture_output=True, text=True, check=False)
+    verdicts = run.stdout.splitlines()
+    if run.returncode != 0 or len(verdicts) != len(batch):
+        sys.exit(f"{program} broke after {len(verdicts)} of {batch}:\n{run.stderr[-3000:]}")
+    for number, (path, verdict) in enumerate(zip(batch, verdicts)):
+        name = os.path.relpath(path, suite.CONFORMANCE)
+        if verdict == "rejected":
+            continue
+        results.add("round trips: text, binary and back", name,
+                    None if verdict == "equal" else verdict)
+        expected = text_by_openusd(path)
+        if expected is None:
+            continue  # rejected by OpenUSD alone: a case for the tests of readers
+        for suffix, label in ((".usda", "text"), (".usdc", "binary")):
+            actual = text_by_openusd(os.path.join(folder, str(number)) + suffix)
+            results.add(f"round trips: OpenUSD reads the {label} layers alike", name,
+                        first_difference(expected, actual))
+
+
+def main():
+    arguments = [argument for argument in sys.argv[1:] if argument != "--all"]
+    if len(arguments) != 1:
+        sys.exit(__doc__)
+    if not os.path.isdir(suite.CONFORMANCE):
+        suite.skip(f"no {suite.CONFORMANCE}")
+    everything = "--all" in sys.argv
+    files = layer_files(everything)
+    results = suite.Results("round_trip_all" if everything else "round_trip")
+    for start in range(0, len(files), BATCH):
+        with tempfile.TemporaryDirectory() as folder:
+            check(arguments[0], files[start:start + BATCH], folder, results)
+    sys.exit(results.finish())
+
+
+if __name__ == "__main__":
+    main()
