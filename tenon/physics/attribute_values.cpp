@@ -75,11 +75,23 @@ bool AttributeValues::check_number(const stage::Prim& prim, Token name, double v
 }
 
 std::optional<double> AttributeValues::number(const stage::Prim& prim, Token name) const {
-  const std::optional<float> value = get<float>(prim, name);
-  if (!value || !check_number(prim, name, static_cast<double>(*value))) {
+  const layer::Value value = resolved(prim.attribute(name));
+  if (value.empty() || value.is_block()) {
     return std::nullopt;
   }
-  return unlimited_or(static_cast<double>(*value));
+  const float* exact = value.get<float>();
+  std::optional<double> number = exact != nullptr ? static_cast<double>(*exact) : number_of(value);
+  if (exact == nullptr) {
+    const bool converted = types_ == ValueTypes::Lenient && number.has_value();
+    report_type(prim, name, layer::ValueType::Float, false, converted);
+    if (!converted) {
+      return std::nullopt;
+    }
+  }
+  if (!number || !check_number(prim, name, *number)) {
+    return std::nullopt;
+  }
+  return unlimited_or(*number);
 }
 
 std::optional<double> AttributeValues::wide_number(const stage::Prim& prim, Token name) const {
@@ -161,15 +173,15 @@ void AttributeValues::report(const stage::Prim& prim, Token name, Severity sever
 
 // S-3: OpenUSD takes the fallback in silence.
 void AttributeValues::report_type(const stage::Prim& prim, Token name, layer::ValueType wanted,
-                                  bool wanted_array) const {
+                                  bool wanted_array, bool converted) const {
   const layer::Value value = resolved(prim.attribute(name));
   const layer::TypeName* found = layer::type_name_of(value.type(), value.is_array());
   const layer::TypeName* schema = layer::type_name_of(wanted, wanted_array);
   const std::string found_name = found == nullptr ? "of another type" : found->name.str();
   const std::string wanted_name = schema == nullptr ? "another type" : schema->name.str();
-  report(prim, name, Severity::Error, "attribute.wrong-type",
+  report(prim, name, converted ? Severity::Warning : Severity::Error, "attribute.wrong-type",
          name.str() + " is " + found_name + ", the schema says " + wanted_name +
-             "; it is taken as unauthored",
+             (converted ? "; it is converted" : "; it is taken as unauthored"),
          "declare it as " + wanted_name);
 }
 

@@ -9,6 +9,7 @@
 #include "tenon/layer/value.h"
 #include "tenon/math/quaternion.h"
 #include "tenon/math/vector.h"
+#include "tenon/physics/readings.h"
 #include "tenon/physics/units.h"
 #include "tenon/stage/attribute.h"
 #include "tenon/stage/prim.h"
@@ -29,8 +30,8 @@ std::optional<double> number_of(const layer::Value& value);
 class AttributeValues {
  public:
   /// `animated`: some attribute of the stage varies over time (`stage_is_animated`).
-  AttributeValues(stage::Time start, bool animated, Diagnostics& diagnostics)
-      : start_(start), animated_(animated), diagnostics_(&diagnostics) {}
+  AttributeValues(stage::Time start, bool animated, ValueTypes types, Diagnostics& diagnostics)
+      : start_(start), animated_(animated), types_(types), diagnostics_(&diagnostics) {}
 
   stage::Time start() const { return start_; }
   bool stage_is_animated() const { return animated_; }
@@ -70,12 +71,13 @@ class AttributeValues {
 
  private:
   layer::Value resolved(const stage::Attribute& attribute) const;
-  void report_type(const stage::Prim& prim, Token name, layer::ValueType wanted,
-                   bool wanted_array) const;
+  void report_type(const stage::Prim& prim, Token name, layer::ValueType wanted, bool wanted_array,
+                   bool converted = false) const;
   bool check_number(const stage::Prim& prim, Token name, double value) const;
 
   stage::Time start_;
   bool animated_ = false;
+  ValueTypes types_ = ValueTypes::Strict;
   Diagnostics* diagnostics_;
 };
 

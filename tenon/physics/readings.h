@@ -27,6 +27,7 @@ enum class TimeUnit : std::uint8_t { Seconds, Stage };                 ///< S-10
 enum class ShearedOffsets : std::uint8_t { Exact, Factored };          ///< S-33, S-84
 enum class StretchedSphere : std::uint8_t { Ellipsoid, Ball };         ///< S-53
 enum class CollisionOnGroup : std::uint8_t { Ignore, ShapesBelow };    ///< S-47
+enum class ValueTypes : std::uint8_t { Strict, Lenient };              ///< S-3
 enum class HeldSamples : std::uint8_t { Linear, Held };                ///< S-117
 
 struct Readings {
@@ -44,6 +45,7 @@ struct Readings {
   ShearedOffsets sheared_offsets = ShearedOffsets::Exact;
   StretchedSphere stretched_sphere = StretchedSphere::Ellipsoid;
   CollisionOnGroup collision_on_group = CollisionOnGroup::Ignore;
+  ValueTypes value_types = ValueTypes::Strict;
   HeldSamples held_samples = HeldSamples::Linear;
 };
 

@@ -106,9 +106,10 @@ class RandomCase(physics.Case):
 
 
 def sheared_collider(case, kind, path):
-    body = case.rows("colliders")[path]["body"] if kind.startswith("collider-") else None
-    return kind.startswith("collider-") and any(
-        is_sheared(case.stage, p) for p in [path, *([body] if body else [])])
+    ours = case.rows("colliders").get(path)
+    if not kind.startswith("collider-") or ours is None:
+        return False
+    return any(is_sheared(case.stage, p) for p in (path, ours["body"]) if p)
 
 
 def sheared_mass(case, kind, path):
@@ -150,20 +151,24 @@ def several_bases(case, kind, path):
 
 
 def unusable_root(case, kind, path):
-    """OpenUSD accepts kinematic and disabled bodies as roots."""
+    """OpenUSD accepts kinematic and disabled bodies as roots, and joints to the world of such."""
     found = articulation(case, kind, path)
-    dynamic = [p for p, body in case.rows("bodies").items() if not body["kinematic"]]
-    bodies = [p for _, p, _ in case.objects(["RigidBody"])]
-    return found is not None and any(root in bodies and root not in dynamic
-                                     for root in found[0]["rootPrims"])
+    if found is None:
+        return False
+    dynamic = {p for p, body in case.rows("bodies").items() if not body["kinematic"]}
+    bodies = {p for _, p, _ in case.objects(["RigidBody"])}
+    sides = {p: {row["body0"], row["body1"]} & bodies for _, p, row in case.objects(physics.JOINTS)}
+    roots = [sides.get(root, {root} & bodies) for root in found[0]["rootPrims"]]
+    return any(root and not root & dynamic for root in roots)
 
 
 def sheared_anchor(case, kind, path):
     """OpenUSD scales anchors on sheared bodies along axes in the order of its eigenvalue solver."""
     if not kind.startswith("joint-position"):
         return False
-    body = case.rows("joints")[path][f"body{kind[-1]}"]
-    return body is not None and is_sheared(case.stage, body)
+    row = next(row for _, p, row in case.objects(physics.JOINTS) if p == path)
+    target = row[f"body{kind[-1]}"]
+    return bool(target) and is_sheared(case.stage, target)
 
 
 def no_body(case, kind, path):
@@ -191,11 +196,12 @@ def moments_without_axes(case, kind, path):
 
 def body_and_collider(case, kind, path):
     """OpenUSD takes the mass API of a body that is a collider too for both, then adds up."""
+    if kind not in ("center-of-mass", "inertia"):
+        return False
     authored = any(case.authored(path, name) is not None
                    for name in ("mass", "centerOfMass", "diagonalInertia"))
     collisions = case.bodies().get(path, {"collisions": []})["collisions"]
-    return kind in ("mass", "center-of-mass", "inertia") and authored and \
-        path in collisions and len(collisions) > 1
+    return authored and path in collisions and len(collisions) > 1
 
 
 FAULTS = {

@@ -30,7 +30,7 @@ One row per numbered rule: S for reading, M for mass properties, Q for findings 
 published UsdPhysics examples, E for scenes that show one idea each. Written by
 `tests/physics/check_table.py` from `tests/physics/conformance.txt`; the test `check.physics_table`
 holds it to the tree. A test named `like_this` is a case of `tests/golden/physics`, one named
-`Suite.Case` a unit test or a run.
+`Suite.Case` a unit test or a run, one named `check.like_this` a script that ctest runs.
 """
 
 
@@ -54,7 +54,8 @@ def golden_cases():
     return cases
 
 
-def unit_tests():
+def test_names():
+    """Unit tests as Suite.Case, and scripts that ctest runs by their name."""
     names = set()
     for place in ("tenon", "cli", "tests"):
         for folder, _, files in os.walk(os.path.join(ROOT, place)):
@@ -63,6 +64,10 @@ def unit_tests():
                     with open(os.path.join(folder, name), encoding="utf-8") as file:
                         names |= set(".".join(pair) for pair in re.findall(
                             r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", file.read(), re.MULTILINE))
+                elif name == "CMakeLists.txt":
+                    with open(os.path.join(folder, name), encoding="utf-8") as file:
+                        names |= set(re.findall(r"^ *tenon_check\(([\w.]+) ", file.read(),
+                                                re.MULTILINE))
     return names
 
 
@@ -136,7 +141,7 @@ def table(rows, cases):
 def main():
     rows, count = read_rows(os.path.join(ROOT, DATA))
     cases = golden_cases()
-    faults = list(faults_of(rows, count, cases, unit_tests()))
+    faults = list(faults_of(rows, count, cases, test_names()))
     text = table(rows, cases)
     path = os.path.join(ROOT, TABLE)
     if "--write" in sys.argv[1:]:

@@ -113,5 +113,29 @@ TEST(OwnScenes, TetherBoundsTheDistanceBothWays) {
   }
 }
 
+TEST(OwnScenes, PendulumSwingsAlikeAsArticulationAndAsJoint) {
+  SceneRun run(own_scene("pendulums.usda"));
+  ASSERT_TRUE(run.ready());
+  ASSERT_EQ(run.scene().articulations.size(), 1u);
+  // I = m l^2 + 2 m r^2 / 5 about the pivot; T = 2 pi sqrt(I / (m g l)), l = 1 m, r = 0.1 m.
+  const double period = 2 * M_PI * std::sqrt((1 + 0.4 * 0.01) / kG);
+  const std::string balls[] = {"/World/Reduced/Ball", "/World/Ball"};
+  double returns[] = {0, 0};
+  double before[] = {0, 0};
+  while (run.time() < 1.2 * period && !testing::Test::HasFailure()) {
+    run.step();
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vec3d at = run.position(balls[i]);
+      EXPECT_NEAR(length(at - Vec3d{{0, i == 0 ? 0.0 : 5.0, 3}}), 1, 1e-4);
+      if (run.time() > 0.7 * period && before[i] < 0 && at[0] >= 0) {
+        returns[i] = run.time() - run.simulation().time_step() * at[0] / (at[0] - before[i]);
+      }
+      before[i] = at[0];
+    }
+  }
+  EXPECT_NEAR(returns[0], period, 0.005 * period);
+  EXPECT_NEAR(returns[1], period, 0.005 * period);
+}
+
 }  // namespace
 }  // namespace tenon

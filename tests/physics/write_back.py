@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Bakes scenes/write_back.usda and reads the layer with OpenUSD: every body stands, at every frame,
+where the log of the same run says, its scale and shear as at the start, its scale op untouched.
+
+usage: write_back.py --tenon PROGRAM
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+
+try:
+    import numpy as np
+    from pxr import Usd, UsdGeom
+except ImportError:
+    print("skipped: no OpenUSD modules in this Python")
+    sys.exit(77)
+
+SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scenes", "write_back.usda")
+BODIES = ("/World/Outer", "/World/Outer/Free", "/World/Outer/Held", "/World/Turned/Slab")
+RUN = ("--duration", "0.5", "--fps", "24")
+TOLERANCE = 1e-4  # stage units; positions are written as doubles, rotations as doubles
+
+
+def pose_matrix(position, w, x, y, z):
+    """Row-vector 4x4 matrix of a pose."""
+    turn = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
+                     [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
+                     [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)]])
+    result = np.eye(4)
+    result[:3, :3] = turn
+    result[3, :3] = position
+    return result
+
+
+def worlds(stage, code):
+    cache = UsdGeom.XformCache(code)
+    return [np.array(cache.GetLocalToWorldTransform(stage.GetPrimAtPath(path)))
+            for path in BODIES]
+
+
+def run(program, *arguments):
+    done = subprocess.run([program, *arguments], capture_output=True, text=True, check=False)
+    if done.returncode not in (0, 1):
+        sys.exit(f"{arguments}: exit {done.returncode}\n{done.stdout}{done.stderr}")
+
+
+def faults(baked, log):
+    asset = Usd.Stage.Open(SCENE)
+    start = worlds(asset, Usd.TimeCode.Default())
+    poses = [[pose_matrix(p, *q) for p, q in zip(log["position"][frame], log["orientation"][frame])]
+             for frame in range(len(log["position"]))]
+    stretch = [world @ np.linalg.inv(pose) for world, pose in zip(start, poses[0])]
+    for frame, placed in enumerate(poses):
+        code = frame * baked.GetTimeCodesPerSecond() / 24
+        for path, actual, pose, shape in zip(BODIES, worlds(baked, code), placed, stretch):
+            error = np.abs(actual - shape @ pose).max()
+            if not error < TOLERANCE:
+                yield f"{path} at frame {frame}: off by {error}\n{actual}\n{shape @ pose}"
+    for path in BODIES:
+        scale = baked.GetPrimAtPath(path).GetAttribute("xformOp:scale")
+        before = asset.GetPrimAtPath(path).GetAttribute("xformOp:scale")
+        if before and (scale.GetNumTimeSamples() or scale.Get() != before.Get()):
+            yield f"{path}: the scale op is not as it was"
+    moved = [np.abs(poses[-1][i] - poses[0][i]).max() for i in range(len(BODIES))]
+    for path, distance in zip(BODIES, moved):
+        if (distance < 1) != (path == "/World/Outer/Held"):
+            yield f"{path}: moved by {distance}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("--tenon", required=True)
+    program = parser.parse_args().tenon
+    with tempfile.TemporaryDirectory() as folder:
+        layer, table = os.path.join(folder, "baked.usda"), os.path.join(folder, "run.npz")
+        run(program, "bake", SCENE, "-o", layer, *RUN)
+        run(program, "sim", SCENE, "-o", table, *RUN)
+        with np.load(table) as log:
+            found = list(faults(Usd.Stage.Open(layer), log))
+    for fault in found:
+        print(fault)
+    print(f"{len(BODIES)} bodies, {len(found)} faults")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
