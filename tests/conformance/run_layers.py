@@ -8,6 +8,7 @@ usage: run_layers.py TENON
 text     `tenon test-runner layer` against the published JSON, after the normalisations that
          NORMALISED names for a case, each of which must be needed; and against OpenUSD's layer.
 binary   against the facts of binary_facts.py, and against OpenUSD's layer.
+package  the root layer of every package of all suites, against OpenUSD's layer.
 Exit 77: the material or OpenUSD's modules are absent.
 """
 
@@ -118,7 +119,8 @@ def compare_with_record(tenon, name, path, folder):
 def compare_with_openusd(tenon, path):
     actual, message = layer_json(tenon, path)
     try:
-        layer = Sdf.Layer.OpenAsAnonymous(path)
+        is_package = path.endswith(".usdz")
+        layer = (Sdf.Layer.FindOrOpen if is_package else Sdf.Layer.OpenAsAnonymous)(path)
     except Exception:  # pylint: disable=broad-except
         layer = None
     if layer is None or actual is None:
@@ -138,6 +140,11 @@ def compare_with_facts(tenon, name, path):
     return None
 
 
+def files_below(folder, suffix):
+    return sorted(os.path.join(inside, name) for inside, _, names in os.walk(folder)
+                  for name in names if name.endswith(suffix))
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -153,9 +160,13 @@ def main():
         binary.add("AOUSD binary layers: facts", name, compare_with_facts(tenon, name, path))
         binary.add("AOUSD binary layers: as OpenUSD reads them", name,
                    compare_with_openusd(tenon, path))
+    packages = suite.Results("packages")
+    for path in files_below(suite.CONFORMANCE, ".usdz"):
+        packages.add("packages: as OpenUSD reads them", os.path.relpath(path, suite.CONFORMANCE),
+                     compare_with_openusd(tenon, path))
     for name, names in sorted(NORMALISED.items()):
         print(f"{name}: " + "; ".join(REASONS[reason] for reason in names))
-    sys.exit(text.finish() | binary.finish())
+    sys.exit(text.finish() | binary.finish() | packages.finish())
 
 
 if __name__ == "__main__":
