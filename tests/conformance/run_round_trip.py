@@ -3,21 +3,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every layer of the published material, written as text and as a binary layer and read again.
 
-usage: run_round_trip.py ROUND_TRIP [--all]
+usage: run_round_trip.py ROUND_TRIP TENON [--all]
 
 ROUND_TRIP is the program tests/tools/round_trip.cpp.
 ourselves  text -> binary -> text and back: same fields, same text
 OpenUSD    reads what was written, text and binary, as it reads the original: same text
+stages     of the composition suite, all text layers replaced by binary ones: same dump, by both
 Without --all one in SAMPLE of the layers, and of those the smaller ones: what takes a minute with
 sanitizers. Exit 77: the material or OpenUSD's modules are absent.
 """
 
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
 
 import suite
+
+sys.path.insert(0, os.path.join(suite.REPO, "tests", "differential"))
+import dump_stage  # noqa: E402  pylint: disable=wrong-import-position
 
 os.environ["PXR_USDC_EMIT_DEPRECATION_WARNINGS"] = "0"  # read when OpenUSD is loaded
 try:
@@ -25,7 +30,8 @@ try:
 except ImportError:
     suite.skip("no OpenUSD modules in this Python")
 
-SAMPLE = 12
+SAMPLE = 12  # of layers
+SAMPLE_OF_STAGES = 5
 LARGEST = {False: 300_000, True: 50_000_000}  # bytes, in a sample and with --all
 BATCH = 40
 
@@ -78,9 +84,48 @@ def check(program, batch, folder, results):
                         first_difference(expected, actual))
 
 
+def rewrite(program, folder, made):
+    """Replaces every layer below `folder` by the binary one that ROUND_TRIP makes of it."""
+    layers = [os.path.join(inside, name) for inside, _, names in os.walk(folder)
+              for name in names if name.endswith((".usd", ".usda"))]
+    subprocess.run([program, made, *layers], capture_output=True, check=True)
+    for number, path in enumerate(layers):
+        binary = os.path.join(made, f"{number}.usdc")
+        if os.path.exists(binary):
+            os.remove(path)
+            shutil.copyfile(binary, path)
+
+
+def check_stages(program, tenon, everything, results):
+    oracle = dump_stage.ORACLE
+    if not os.path.exists(oracle):
+        return
+    module = dump_stage.oracle_module()
+    found = suite.cases("aousd_composition")
+    for name, path in found if everything else found[::SAMPLE_OF_STAGES]:
+        original = os.path.join(path, "usda", "root.usd")
+        if not os.path.exists(original):
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            copy, made = os.path.join(folder, "usda"), os.path.join(folder, "made")
+            shutil.copytree(os.path.dirname(original), copy)
+            for inside, _, _ in os.walk(copy):
+                os.chmod(inside, 0o755)
+            os.mkdir(made)
+            rewrite(program, copy, made)
+            cases = [dump_stage.Case(name, original),
+                     dump_stage.Case(name + " rewritten", os.path.join(copy, "root.usd"))]
+            for side, dump in (
+                    ("tenon", lambda case: dump_stage.actual_dump(tenon, case)),
+                    ("OpenUSD", lambda case: dump_stage.expected_dump(module, case, made))):
+                same = dump(cases[0]) == dump(cases[1])
+                results.add(f"round trips: stages of binary layers dump alike, by {side}", name,
+                            None if same else f"{side} dumps the rewritten stage otherwise")
+
+
 def main():
     arguments = [argument for argument in sys.argv[1:] if argument != "--all"]
-    if len(arguments) != 1:
+    if len(arguments) != 2:
         sys.exit(__doc__)
     if not os.path.isdir(suite.CONFORMANCE):
         suite.skip(f"no {suite.CONFORMANCE}")
@@ -90,6 +135,7 @@ def main():
     for start in range(0, len(files), BATCH):
         with tempfile.TemporaryDirectory() as folder:
             check(arguments[0], files[start:start + BATCH], folder, results)
+    check_stages(*arguments, everything, results)
     sys.exit(results.finish())
 
 
