@@ -73,7 +73,8 @@ std::string arc_name(ArcKind kind) {
 
 class TargetCombiner {
  public:
-  TargetCombiner(IndexCache& cache, const PrimIndex& index, Token property)
+  /// Without a cache the rules are those of a stage.
+  TargetCombiner(IndexCache* cache, const PrimIndex& index, Token property)
       : cache_(cache), index_(index), property_(property) {}
 
   TargetList combine(const std::vector<PropertyOpinion>& opinions) {
@@ -140,7 +141,7 @@ class TargetCombiner {
   Path target_of(Path path, const PropertyOpinion& opinion) {
     const Path in_node = absolute(path, opinion);
     const Path target = map_with_targets(*index_.nodes[opinion.node].map_to_root, in_node);
-    if (target.empty()) {
+    if (target.empty() || (cache_ == nullptr && relocated_from_instance(in_node, opinion))) {
       const ArcKind arc = index_.nodes[opinion.node].arc;
       const std::uint32_t parent = index_.nodes[opinion.node].parent;
       const Path introduced = parent == kNoNode ? Path() : index_.nodes[parent].path;
@@ -151,7 +152,7 @@ class TargetCombiner {
              "target something below the prim that the arc leads to");
       return {};
     }
-    if (targets_instance_of_class(in_node, target, opinion)) {
+    if (cache_ != nullptr && targets_instance_of_class(in_node, target, opinion)) {
       report(error_class::kInvalidInstanceTargetPath, opinion, target,
              quoted(in_node) + " is authored in a class but lies in what uses it; it is ignored",
              "target something within the class");
@@ -170,11 +171,27 @@ class TargetCombiner {
     if (in_node.has_prefix(the_class)) {
       return false;
     }
-    const PrimIndex& there = cache_.index(target.prim());
+    const PrimIndex& there = cache_->index(target.prim());
     return std::any_of(there.nodes.begin(), there.nodes.end(), [&](const Node& other) {
       return other.arc == ArcKind::Inherit && other.layer_stack == node.layer_stack &&
              other.path.has_prefix(the_class);
     });
+  }
+
+  /// What lies in the prim that uses the class, before relocates, has no way back into the class.
+  bool relocated_from_instance(Path in_node, const PropertyOpinion& opinion) const {
+    const Node& node = index_.nodes[opinion.node];
+    if (node.arc != ArcKind::Inherit || !node.layer_stack->has_relocates()) {
+      return false;
+    }
+    const Path user =
+        climb_to_introduction(index_, opinion.node, index_.nodes[node.parent].path);
+    for (Path at = in_node; !at.empty(); at = at.parent()) {
+      if (const Path* source = node.layer_stack->relocation_source(at)) {
+        return source->has_prefix(user);
+      }
+    }
+    return false;
   }
 
   void report(std::string_view error_class, const PropertyOpinion& opinion, Path target,
@@ -186,7 +203,7 @@ class TargetCombiner {
                                    std::move(fix))});
   }
 
-  IndexCache& cache_;
+  IndexCache* cache_;
   const PrimIndex& index_;
   Token property_;
   TargetList list_;
@@ -222,7 +239,12 @@ std::vector<PropertyOpinion> property_opinions(const PrimIndex& index, Token nam
 }
 
 TargetList compose_targets(IndexCache& cache, const PrimIndex& index, Token property) {
-  return TargetCombiner(cache, index, property)
+  return TargetCombiner(&cache, index, property)
+      .combine(property_opinions(index, property, nullptr));
+}
+
+TargetList compose_stage_targets(const PrimIndex& index, Token property) {
+  return TargetCombiner(nullptr, index, property)
       .combine(property_opinions(index, property, nullptr));
 }
 

@@ -33,7 +33,12 @@ struct TargetList {
   Diagnostics errors;  ///< invalid-external-target-path and the like
 };
 
-/// Combines the list edits of all opinions, each mapped through its node.
+/// Combines the list edits of all opinions, each mapped through its node. A class may not target
+/// what uses it; such targets are left out.
 TargetList compose_targets(IndexCache& cache, const PrimIndex& index, Token property);
+
+/// The same as a stage has it: targets in other prims that use the class stay, what relocates bring
+/// into the one that is composed does not. As OpenUSD's stages; safe to use from several threads.
+TargetList compose_stage_targets(const PrimIndex& index, Token property);
 
 }  // namespace tenon::compose
