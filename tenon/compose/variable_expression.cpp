@@ -176,8 +176,11 @@ class Parser {
     return result;
   }
 
-  /// A variable within text must be text, or nothing.
+  /// A variable within text must be text, or nothing; an unknown one stays as it is written.
   std::string substituted(const std::string& name) {
+    if (error_.empty() && variables_.find(name) == nullptr) {
+      return "${" + name + "}";
+    }
     const ExpressionValue found = variable(name);
     if (found.kind != Kind::Text && found.kind != Kind::None) {
       fail("variable '" + name + "' is no string");

@@ -32,6 +32,7 @@ TEST(VariableExpression, GivesText) {
       {"`${NAME}`", "robot"},
       {"`${INDIRECT}`", "robot_x"},
       {"`\"\\${NAME}\"`", "${NAME}"},
+      {"`\"${NOT}_${NAME}\"`", "${NOT}_robot"},
       {"`None`", ""},
       {"`if(${ON}, \"yes\", \"no\")`", "yes"},
       {"`if(eq(${LOD}, 3), \"yes\", \"no\")`", "no"},
