@@ -239,6 +239,11 @@ void write_field(ValueWriter& writer, const Value& value) {
   switch (value.type()) {
     case ValueType::ValueBlock:
       return write_block(writer.json);
+    case ValueType::PathVector: {  // a path written where a value is expected
+      const auto& paths = *value.get<std::vector<Path>>();
+      return paths.empty() ? writer.json.null()
+                           : writer.json.string(writer.style.path_text(paths.front()));
+    }
 #define TENON_DUMP(enumerator, type) \
   case ValueType::enumerator:        \
     return writer.write(*value.get<type>());
