@@ -212,7 +212,7 @@ IndexCache::IndexCache(layer::LayerPtr root, layer::LayerPtr session, LayerOpene
   state.opener = std::move(opener);
   state.options = std::move(options);
   state.root_stack = state.build_stack(root, session, nullptr);
-  if (session == nullptr) {
+  if (session == nullptr && state.options.shares_root_stack) {
     state.stacks.emplace(StackKey{root.get(), state.root_stack.get()}, state.root_stack);
   }
   state.services.maps = &state.maps;

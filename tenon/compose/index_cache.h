@@ -22,6 +22,9 @@ struct ComposeOptions {
   /// Variant set -> variants to fall back to, best first.
   std::map<std::string, std::vector<std::string>> variant_fallbacks;
   std::set<std::string> muted;  ///< identifiers of layers that count as absent
+  /// A reference to the root layer leads into the root layer stack itself. Not so where the stack
+  /// has a session layer, and in a stage, which always has one, if only an empty one.
+  bool shares_root_stack = true;
 };
 
 /// Path -> PrimIndex, computed on demand and kept; the only state of composition.

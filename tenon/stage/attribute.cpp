@@ -114,6 +114,9 @@ std::vector<double> Attribute::time_samples() const {
   std::vector<double> result;
   if (prim_ != nullptr) {
     const ResolvedValue resolved = resolve_value(*prim_, name_, Asked::AnyTime);
+    if (resolved.clips != nullptr) {
+      return resolved.clips->time_samples(resolved.opinion.path);
+    }
     if (resolved.samples != nullptr) {
       for (const double time : resolved.samples->times) {
         result.push_back(resolved.opinion.offset.apply(time));
@@ -128,6 +131,9 @@ bool Attribute::is_animated() const {
     return false;
   }
   const ResolvedValue resolved = resolve_value(*prim_, name_, Asked::AnyTime);
+  if (resolved.clips != nullptr) {
+    return resolved.clips->may_vary(resolved.opinion.path);
+  }
   return resolved.spline != nullptr ||
          (resolved.samples != nullptr && resolved.samples->size() > 1);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/stage/composed_fields.h"
 
+#include <filesystem>
 #include <set>
 
 #include "tenon/compose/variable_expression.h"
@@ -12,33 +13,59 @@ namespace {
 using layer::Value;
 using layer::ValueType;
 
-layer::AssetPath resolved(const StageData& stage, const PrimData& prim,
-                          const compose::Opinion& opinion, const layer::AssetPath& asset) {
+// What localizing takes beside the value.
+struct Place {
+  const StageData& stage;
+  const PrimData& prim;
+  const compose::Opinion& opinion;
+  AssetForm form;
+};
+
+// Relative paths start from the layer's folder; others do where the asset is there.
+std::string anchored_path(const layer::Layer& layer, const std::string& path,
+                          const std::string& resolved) {
+  const std::string& identifier = layer.identifier();
+  if (identifier.find('[') != std::string::npos) {
+    return resolved.empty() ? path : resolved;
+  }
+  if (identifier.empty() || identifier.front() != '/' || path.empty() || path.front() == '/') {
+    return path;
+  }
+  const std::string folder = identifier.substr(0, identifier.rfind('/') + 1);
+  std::string joined = std::filesystem::path(folder + path).lexically_normal().string();
+  const bool relative = path.starts_with("./") || path.starts_with("../");
+  return relative || joined == resolved ? joined : path;
+}
+
+layer::AssetPath resolved(const Place& place, const layer::AssetPath& asset) {
+  const compose::PrimIndex& index = *place.prim.index;
   layer::AssetPath result = asset;
-  if (compose::is_variable_expression(asset.authored) && opinion.node < prim.index->nodes.size()) {
-    const compose::LayerStack& stack = *prim.index->nodes[opinion.node].layer_stack;
+  if (compose::is_variable_expression(asset.authored) && place.opinion.node < index.nodes.size()) {
+    const compose::LayerStack& stack = *index.nodes[place.opinion.node].layer_stack;
     result.evaluated = compose::evaluate_text(asset.authored, stack.expression_variables).text;
   }
   const std::string& path = result.evaluated.empty() ? result.authored : result.evaluated;
-  if (stage.options.resolve_asset && !path.empty()) {
-    result.resolved = stage.options.resolve_asset(path, *opinion.layer);
+  if (place.stage.options.resolve_asset && !path.empty()) {
+    result.resolved = place.stage.options.resolve_asset(path, *place.opinion.layer);
+  }
+  if (place.form == AssetForm::Anchored) {
+    return {anchored_path(*place.opinion.layer, path, result.resolved), {}, {}};
   }
   return result;
 }
 
-Value localize_array(const StageData& stage, const PrimData& prim,
-                     const compose::Opinion& opinion, const Value& value) {
+Value localize_array(const Place& place, const Value& value) {
   if (const auto* assets = value.get<std::vector<layer::AssetPath>>()) {
     std::vector<layer::AssetPath> result;
     for (const layer::AssetPath& asset : *assets) {
-      result.push_back(resolved(stage, prim, opinion, asset));
+      result.push_back(resolved(place, asset));
     }
     return result;
   }
   if (const auto* times = value.get<std::vector<layer::TimeCode>>()) {
     std::vector<layer::TimeCode> result;
     for (const layer::TimeCode time : *times) {
-      result.push_back({opinion.offset.apply(time.value)});
+      result.push_back({place.opinion.offset.apply(time.value)});
     }
     return result;
   }
@@ -46,12 +73,36 @@ Value localize_array(const StageData& stage, const PrimData& prim,
 }
 
 // Nested dictionaries are as deep as the reader allows (limits::kTextNestingDepth).
-layer::Dictionary localize_dictionary(const StageData& stage, const PrimData& prim,
-                                      const compose::Opinion& opinion,
-                                      const layer::Dictionary& dictionary) {
+layer::Dictionary localize_dictionary(const Place& place, const layer::Dictionary& dictionary) {
   layer::Dictionary result;
   for (const auto& [key, item] : dictionary.items) {
-    result.items.emplace(key, localize(stage, prim, opinion, item));
+    result.items.emplace(key, localize(place.stage, place.prim, place.opinion, item, place.form));
+  }
+  return result;
+}
+
+// Legacy edits (add, reorder) do not combine with others: they are passed over, and alone count
+// where the strongest is one. As OpenUSD combines list-valued metadata.
+template <class T>
+std::vector<T> combined_list(const std::vector<compose::Opinion>& opinions, Token field) {
+  std::vector<const layer::ListOp<T>*> edits;
+  for (const compose::Opinion& opinion : opinions) {
+    const auto* edit = opinion.spec->get<layer::ListOp<T>>(field);
+    if (edit == nullptr) {
+      continue;
+    }
+    const bool legacy = !edit->is_explicit && !(edit->added.empty() && edit->ordered.empty());
+    if (edits.empty() && legacy) {
+      edits.push_back(edit);
+      break;
+    }
+    if (!legacy) {
+      edits.push_back(edit);
+    }
+  }
+  std::vector<T> result;
+  for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit) {
+    (*edit)->apply_to(result);
   }
   return result;
 }
@@ -62,7 +113,7 @@ bool fold_list(const std::vector<compose::Opinion>& opinions, Token field, const
   if (!strongest.holds<layer::ListOp<T>>()) {
     return false;
   }
-  result = layer::ListOp<T>::make_explicit(compose_list<T>(opinions, field));
+  result = layer::ListOp<T>::make_explicit(combined_list<T>(opinions, field));
   return true;
 }
 
@@ -78,12 +129,28 @@ bool fold_any_list(const std::vector<compose::Opinion>& opinions, Token field,
 
 const std::set<Token>& fields_that_are_no_metadata() {
   using namespace layer::fields;
-  static const std::set<Token> fields{
-      inheritPaths,  payload,        references,         specializes,        subLayers,
-      subLayerOffsets, variantSelection, variantSetNames, clips,             clipSets,
-      default_value, timeSamples,    spline,             primChildren,       properties,
-      variantSetChildren, variantChildren, connectionChildren, targetChildren, "mapperChildren",
-      "expressionChildren", "mapperArgChildren"};
+  static const std::set<Token> fields{inheritPaths,
+                                      payload,
+                                      references,
+                                      specializes,
+                                      subLayers,
+                                      subLayerOffsets,
+                                      variantSelection,
+                                      variantSetNames,
+                                      clips,
+                                      clipSets,
+                                      default_value,
+                                      timeSamples,
+                                      spline,
+                                      primChildren,
+                                      properties,
+                                      variantSetChildren,
+                                      variantChildren,
+                                      connectionChildren,
+                                      targetChildren,
+                                      "mapperChildren",
+                                      "expressionChildren",
+                                      "mapperArgChildren"};
   return fields;
 }
 
@@ -99,25 +166,25 @@ std::vector<compose::Opinion> property_opinions(const PrimData& prim, Token name
 }
 
 Value localize(const StageData& stage, const PrimData& prim, const compose::Opinion& opinion,
-               const Value& value) {
+               const Value& value, AssetForm form) {
+  const Place place{stage, prim, opinion, form};
   switch (value.type()) {
     case ValueType::Asset:
-      return value.is_array()
-                 ? localize_array(stage, prim, opinion, value)
-                 : Value(resolved(stage, prim, opinion, *value.get<layer::AssetPath>()));
+      return value.is_array() ? localize_array(place, value)
+                              : Value(resolved(place, *value.get<layer::AssetPath>()));
     case ValueType::TimeCode:
-      return value.is_array() ? localize_array(stage, prim, opinion, value)
+      return value.is_array() ? localize_array(place, value)
                               : Value(layer::TimeCode{
                                     opinion.offset.apply(value.get<layer::TimeCode>()->value)});
     case ValueType::Dictionary:
-      return localize_dictionary(stage, prim, opinion, *value.get<layer::Dictionary>());
+      return localize_dictionary(place, *value.get<layer::Dictionary>());
     default:
       return value;
   }
 }
 
 Value compose_field(const StageData& stage, const PrimData& prim,
-                    const std::vector<compose::Opinion>& opinions, Token field) {
+                    const std::vector<compose::Opinion>& opinions, Token field, AssetForm form) {
   Value result;
   for (const compose::Opinion& opinion : opinions) {
     const Value* value = opinion.spec->find(field);
@@ -128,28 +195,28 @@ Value compose_field(const StageData& stage, const PrimData& prim,
       if (fold_any_list(opinions, field, *value, result)) {
         return result;
       }
-      result = localize(stage, prim, opinion, *value);
+      result = localize(stage, prim, opinion, *value, form);
       if (!result.holds<layer::Dictionary>()) {
         return result;
       }
     } else if (const auto* weaker = value->get<layer::Dictionary>()) {
       result = layer::merge(*result.get<layer::Dictionary>(),
-                            localize_dictionary(stage, prim, opinion, *weaker));
+                            localize_dictionary({stage, prim, opinion, form}, *weaker));
     }
   }
   return result;
 }
 
 std::map<std::string, Value> compose_metadata(const StageData& stage, const PrimData& prim,
-                                              const std::vector<compose::Opinion>& opinions) {
+                                              const std::vector<compose::Opinion>& opinions,
+                                              AssetForm form) {
   std::map<std::string, Value> result;
   for (const compose::Opinion& opinion : opinions) {
     for (const layer::Field& field : opinion.spec->fields()) {
-      if (fields_that_are_no_metadata().contains(field.name) ||
-          result.contains(field.name.str())) {
+      if (fields_that_are_no_metadata().contains(field.name) || result.contains(field.name.str())) {
         continue;
       }
-      result.emplace(field.name.str(), compose_field(stage, prim, opinions, field.name));
+      result.emplace(field.name.str(), compose_field(stage, prim, opinions, field.name, form));
     }
   }
   return result;

@@ -36,18 +36,27 @@ void visit_property_opinions(const PrimData& prim, Token name, Visit visit) {
   }
 }
 
+/// Resolved: as authored, with what they resolve to. Anchored: rewritten so that they mean the same
+/// in a layer that stands anywhere.
+enum class AssetForm : unsigned char { Resolved, Anchored };
+
 /// A value as authored, moved to the stage: asset paths resolved, time codes and paths mapped.
 layer::Value localize(const StageData& stage, const PrimData& prim, const compose::Opinion& opinion,
-                      const layer::Value& value);
+                      const layer::Value& value, AssetForm form = AssetForm::Resolved);
+
+/// Opinions on the stage itself: of the session layer and the root layer.
+std::vector<compose::Opinion> root_opinions(const StageData& stage);
 
 /// The composed value of a field; empty when no opinion has it. Dictionaries are merged, list edits
 /// combined to an explicit list, else the strongest opinion wins.
 layer::Value compose_field(const StageData& stage, const PrimData& prim,
-                           const std::vector<compose::Opinion>& opinions, Token field);
+                           const std::vector<compose::Opinion>& opinions, Token field,
+                           AssetForm form = AssetForm::Resolved);
 
 /// All fields that count as metadata (no values, arcs or lists of children), composed.
 std::map<std::string, layer::Value> compose_metadata(const StageData& stage, const PrimData& prim,
-                                                     const std::vector<compose::Opinion>& opinions);
+                                                     const std::vector<compose::Opinion>& opinions,
+                                                     AssetForm form = AssetForm::Resolved);
 
 /// The composed list of a list-edited field.
 template <class T>

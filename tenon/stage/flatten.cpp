@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "tenon/stage/composed_fields.h"
+#include "tenon/stage/resolve_value.h"
 #include "tenon/stage/stage_data.h"
 
 namespace tenon::stage {
@@ -18,41 +19,25 @@ using layer::SpecKind;
 using layer::Value;
 namespace fields = layer::fields;
 
-// A flattened layer may stand anywhere, so asset paths become what they resolve to.
-Value anchored(const Value& value) {
-  if (const auto* asset = value.get<layer::AssetPath>()) {
-    return layer::AssetPath{asset->resolved.empty() ? asset->authored : asset->resolved, {}, {}};
-  }
-  if (const auto* assets = value.get<std::vector<layer::AssetPath>>()) {
-    std::vector<layer::AssetPath> result;
-    for (const layer::AssetPath& asset : *assets) {
-      result.push_back({asset.resolved.empty() ? asset.authored : asset.resolved, {}, {}});
-    }
-    return result;
-  }
-  if (const auto* dictionary = value.get<layer::Dictionary>()) {
-    layer::Dictionary result;
-    for (const auto& [key, item] : dictionary->items) {
-      result.items.emplace(key, anchored(item));
-    }
-    return result;
-  }
-  return value;
-}
-
 class Flattener {
  public:
   explicit Flattener(const Stage& stage) : stage_(stage), layer_("anon:flattened.usda") {
     std::size_t number = 0;
     for (const Prim& prototype : stage.prototypes()) {
-      const std::string name = "Flattened_Prototype_" + std::to_string(++number);
-      prototype_paths_.emplace(prototype.path(), Path::absolute_root().child(Token(name)));
+      Path path;
+      do {
+        const std::string name = "Flattened_Prototype_" + std::to_string(++number);
+        path = Path::absolute_root().child(Token(name));
+      } while (stage.prim(path));
+      prototype_paths_.emplace(prototype.path(), path);
     }
   }
 
   Layer run() {
-    for (const auto& [name, value] : stage_.all_authored_metadata()) {
-      layer_.root().set(Token(name), anchored(value));
+    const StageData& data = stage_.data();
+    for (const auto& [name, value] :
+         compose_metadata(data, *data.root, root_opinions(data), AssetForm::Anchored)) {
+      layer_.root().set(Token(name), value);
     }
     layer_.root().erase(fields::subLayers);
     layer_.root().erase("expressionVariables");
@@ -138,9 +123,11 @@ class Flattener {
     if (!prim.type_name().empty()) {
       spec.set(fields::typeName, prim.type_name());
     }
-    for (const auto& [name, value] : prim.all_authored_metadata()) {
+    const PrimData& data = *stage_.data().by_path.at(prim.path());
+    for (const auto& [name, value] :
+         compose_metadata(stage_.data(), data, data.index->opinions, AssetForm::Anchored)) {
       if (name != "specifier" && name != "typeName") {
-        spec.set(Token(name), anchored(value));
+        spec.set(Token(name), value);
       }
     }
     if (prim.is_instance()) {
@@ -150,17 +137,31 @@ class Flattener {
       references.appended.push_back(std::move(reference));
       spec.set(fields::references, std::move(references));
     }
-    const std::vector<Token> names = prim.authored_property_names();
+    const std::vector<Token> names = property_names(prim, data);
     if (!names.empty()) {
       spec.set(fields::properties, names);
     }
     for (const Token name : names) {
       if (prim.is_relationship(name)) {
-        copy_relationship(prim, prim.relationship(name), path.property(name));
+        copy_relationship(data, prim.relationship(name), path.property(name));
       } else {
-        copy_attribute(prim, prim.attribute(name), path.property(name));
+        copy_attribute(data, prim.attribute(name), path.property(name));
       }
     }
+  }
+
+  // Clips may give values to attributes that no layer of the stage names.
+  static std::vector<Token> property_names(const Prim& prim, const PrimData& data) {
+    if (data.clips == nullptr) {
+      return prim.authored_property_names();
+    }
+    std::vector<Token> names = prim.property_names();
+    const std::vector<Token>& authored = data.index->property_names;
+    std::erase_if(names, [&](Token name) {
+      return std::find(authored.begin(), authored.end(), name) == authored.end() &&
+             (prim.is_relationship(name) || !prim.attribute(name).has_authored_value());
+    });
+    return names;
   }
 
   // An empty list leaves no trace in what OpenUSD flattens.
@@ -175,51 +176,55 @@ class Flattener {
   }
 
   // The weakest opinion decides, as in OpenUSD; what schemas declare is not custom.
-  static bool is_custom(const Prim& prim, Token name, const std::vector<SpecSite>& sites) {
-    return prim.definition()->find_stock(name) == nullptr && !sites.empty() &&
+  static bool is_custom(const PrimData& prim, Token name, const std::vector<SpecSite>& sites) {
+    return prim.definition->find_stock(name) == nullptr && !sites.empty() &&
            sites.back().spec->get_or(fields::custom, false);
   }
 
-  void copy_relationship(const Prim& prim, const Relationship& relationship, Path path) {
-    Spec& spec = layer_.create(path, SpecKind::Relationship);
-    for (const auto& [name, value] : relationship.all_authored_metadata()) {
-      if (name != "targetPaths") {
-        spec.set(Token(name), anchored(value));
+  void copy_metadata(const PrimData& prim, Token name, Spec& spec) {
+    for (const auto& [field, value] : compose_metadata(
+             stage_.data(), prim, property_opinions(prim, name), AssetForm::Anchored)) {
+      if (field != "targetPaths" && field != "connectionPaths") {
+        spec.set(Token(field), value);
       }
     }
+  }
+
+  void copy_relationship(const PrimData& prim, const Relationship& relationship, Path path) {
+    Spec& spec = layer_.create(path, SpecKind::Relationship);
+    copy_metadata(prim, relationship.name(), spec);
     spec.set(fields::custom, is_custom(prim, relationship.name(), relationship.spec_stack()));
     if (relationship.has_authored_targets()) {
       copy_targets(spec, fields::targetPaths, relationship.targets());
     }
   }
 
-  void copy_attribute(const Prim& prim, const Attribute& attribute, Path path) {
+  void copy_attribute(const PrimData& prim, const Attribute& attribute, Path path) {
     Spec& spec = layer_.create(path, SpecKind::Attribute);
-    for (const auto& [name, value] : attribute.all_authored_metadata()) {
-      if (name != "connectionPaths") {
-        spec.set(Token(name), anchored(value));
-      }
-    }
+    copy_metadata(prim, attribute.name(), spec);
     spec.set(fields::typeName, attribute.type_name());
     spec.set(fields::custom, is_custom(prim, attribute.name(), attribute.spec_stack()));
     spec.set(fields::variability, attribute.variability());
-    copy_values(attribute, spec);
+    copy_values(prim, attribute, spec);
     if (attribute.has_authored_connections()) {
       copy_targets(spec, fields::connectionPaths, attribute.connections());
     }
   }
 
-  static void copy_values(const Attribute& attribute, Spec& spec) {
-    if (attribute.is_blocked()) {
+  void copy_values(const PrimData& prim, const Attribute& attribute, Spec& spec) const {
+    const Token name = attribute.name();
+    const ResolvedValue unanimated = resolve_value(prim, name, Asked::DefaultTime);
+    if (unanimated.blocked) {
       spec.set(fields::default_value, layer::ValueBlock{});
-    } else if (attribute.value_source() == ValueSource::Default) {
-      spec.set(fields::default_value, anchored(attribute.get()));
+    } else if (unanimated.source == ValueSource::Default) {
+      spec.set(fields::default_value, read(prim, name, unanimated, Time()));
     }
+    const ResolvedValue animated = resolve_value(prim, name, Asked::AnyTime);
     layer::TimeSamples samples;
     for (const double time : attribute.time_samples()) {
-      const Value value = attribute.get(time);
+      Value value = read(prim, name, animated, time);
       samples.times.push_back(time);
-      samples.values.push_back(value.empty() ? Value(layer::ValueBlock{}) : anchored(value));
+      samples.values.push_back(value.empty() ? Value(layer::ValueBlock{}) : std::move(value));
     }
     if (!samples.empty()) {
       spec.set(fields::timeSamples, std::move(samples));
@@ -227,6 +232,10 @@ class Flattener {
     if (const std::optional<layer::Spline> spline = attribute.spline()) {
       spec.set(fields::spline, *spline);
     }
+  }
+
+  Value read(const PrimData& prim, Token name, const ResolvedValue& resolved, Time time) const {
+    return read_value(stage_.data(), prim, name, resolved, time, AssetForm::Anchored);
   }
 
   const Stage& stage_;

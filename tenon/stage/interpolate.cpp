@@ -62,6 +62,25 @@ Value mix_values(const Value& a, const Value& b, double t) {
 
 }  // namespace
 
+// Types that blend, as a table for what is done with each.
+#define TENON_INTERPOLATED(apply)                                                                \
+  apply(Half, Half) apply(Float, float) apply(Double, double) apply(TimeCode, layer::TimeCode)   \
+      apply(Matrix2d, Mat2d) apply(Matrix3d, Mat3d) apply(Matrix4d, Mat4d) apply(Quatd, Quatd)   \
+          apply(Quatf, Quatf) apply(Quath, Quath) apply(Double2, Vec2d) apply(Float2, Vec2f)     \
+              apply(Half2, Vec2h) apply(Double3, Vec3d) apply(Float3, Vec3f) apply(Half3, Vec3h) \
+                  apply(Double4, Vec4d) apply(Float4, Vec4f) apply(Half4, Vec4h)
+
+bool is_interpolated(const Value& value) {
+  switch (value.type()) {
+#define TENON_IS_MIXED(enumerator, type) case ValueType::enumerator:
+    TENON_INTERPOLATED(TENON_IS_MIXED)
+#undef TENON_IS_MIXED
+    return true;
+    default:
+      return false;
+  }
+}
+
 Value interpolate(const Value& a, const Value& b, double fraction) {
   if (a.type() != b.type() || a.is_array() != b.is_array()) {
     return a;
@@ -70,37 +89,19 @@ Value interpolate(const Value& a, const Value& b, double fraction) {
 #define TENON_MIX(enumerator, type) \
   case ValueType::enumerator:       \
     return mix_values<type>(a, b, fraction);
-    TENON_MIX(Half, Half)
-    TENON_MIX(Float, float)
-    TENON_MIX(Double, double)
-    TENON_MIX(TimeCode, layer::TimeCode)
-    TENON_MIX(Matrix2d, Mat2d)
-    TENON_MIX(Matrix3d, Mat3d)
-    TENON_MIX(Matrix4d, Mat4d)
-    TENON_MIX(Quatd, Quatd)
-    TENON_MIX(Quatf, Quatf)
-    TENON_MIX(Quath, Quath)
-    TENON_MIX(Double2, Vec2d)
-    TENON_MIX(Float2, Vec2f)
-    TENON_MIX(Half2, Vec2h)
-    TENON_MIX(Double3, Vec3d)
-    TENON_MIX(Float3, Vec3f)
-    TENON_MIX(Half3, Vec3h)
-    TENON_MIX(Double4, Vec4d)
-    TENON_MIX(Float4, Vec4f)
-    TENON_MIX(Half4, Vec4h)
+    TENON_INTERPOLATED(TENON_MIX)
 #undef TENON_MIX
     default:
       return a;
   }
 }
 
-Value value_at(const layer::TimeSamples& samples, double time) {
+Value value_at(const layer::TimeSamples& samples, double time, Interpolation interpolation) {
   const layer::TimeSamples::Bracket bracket = samples.bracket(time);
   const Value& lower = samples.values[bracket.lower];
   const double from = samples.times[bracket.lower];
   const double to = samples.times[bracket.upper];
-  if (bracket.lower == bracket.upper || time == from) {
+  if (interpolation == Interpolation::Held || to - from < kSameTime) {
     return lower;
   }
   const Value& upper = samples.values[bracket.upper];

@@ -6,6 +6,15 @@
 
 namespace tenon::stage {
 
+/// Linear: where the type allows it. Held: the sample before counts until the next.
+enum class Interpolation : unsigned char { Linear, Held };
+
+/// Samples nearer than this count as one, as in OpenUSD.
+inline constexpr double kSameTime = 1e-6;
+
+/// The type is one that linear interpolation changes.
+bool is_interpolated(const layer::Value& value);
+
 /// The value at `fraction` (0 to 1) of the way from `a` to `b`: linear for floating point types and
 /// their vectors and matrices, spherical for quaternions, arrays of equal size element by element;
 /// anything else holds `a`.
@@ -13,6 +22,7 @@ layer::Value interpolate(const layer::Value& a, const layer::Value& b, double fr
 
 /// The value of samples at a time in the samples' own time, which must not be empty; a ValueBlock
 /// where the sample in force is one.
-layer::Value value_at(const layer::TimeSamples& samples, double time);
+layer::Value value_at(const layer::TimeSamples& samples, double time,
+                      Interpolation interpolation = Interpolation::Linear);
 
 }  // namespace tenon::stage

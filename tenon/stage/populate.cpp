@@ -82,8 +82,13 @@ class Populator {
 
   // The prototype when it is new and must be walked.
   PrimData* use_prototype(PrimData& instance) {
-    const auto [it, inserted] =
-        data_.prototype_of_key.try_emplace(instance.index->instance_key, nullptr);
+    Diagnostics known;  // from when the instance was added
+    const std::vector<ClipDefinition> clips = own_clips(*instance.index, known);
+    std::string key = instance.index->instance_key;
+    for (const ClipDefinition& definition : clips) {
+      key += definition.key();
+    }
+    const auto [it, inserted] = data_.prototype_of_key.try_emplace(key, nullptr);
     if (inserted) {
       PrimData& root = data_.prims.emplace_back();
       const std::string name = "__Prototype_" + std::to_string(data_.prototypes.size() + 1);
@@ -95,6 +100,7 @@ class Populator {
       root.specifier = Specifier::Def;
       root.is_prototype_root = true;
       root.in_prototype = true;
+      root.clips = add_clips(clips, nullptr, instance.path, known);
       data_.by_path.emplace(root.path, &root);
       data_.prototypes.push_back(&root);
       it->second = &root;
@@ -116,8 +122,32 @@ class Populator {
     data_.by_path.emplace(path, &prim);
     data_.diagnostics.append(prim.index->errors);
     set_flags(prim, parent);
+    prim.clips = add_clips(own_clips(*prim.index, data_.diagnostics), parent.clips, path,
+                           data_.diagnostics);
     prim.type_name = composed_type_name(*prim.index);
     prim.definition = data_.definitions.get(prim.type_name, composed_api_schemas(*prim.index));
+  }
+
+  // Without the ancestors'.
+  std::vector<ClipDefinition> own_clips(const compose::PrimIndex& index,
+                                        Diagnostics& diagnostics) {
+    if (!has_clips(index)) {
+      return {};
+    }
+    const auto exists = [&](const std::string& asset, const layer::Layer& anchor) {
+      return !data_.options.resolve_asset || !data_.options.resolve_asset(asset, anchor).empty();
+    };
+    return clip_definitions(index, exists, diagnostics);
+  }
+
+  const ClipSets* add_clips(const std::vector<ClipDefinition>& definitions,
+                            const ClipSets* inherited, Path path, Diagnostics& diagnostics) {
+    if (definitions.empty()) {
+      return inherited;
+    }
+    ClipSets sets =
+        clip_sets(definitions, inherited, *data_.clip_layers, path.str(), diagnostics);
+    return sets.empty() ? nullptr : &data_.clip_sets.emplace_back(std::move(sets));
   }
 
   static void set_flags(PrimData& prim, const PrimData& parent) {

@@ -43,10 +43,11 @@ std::vector<Path> Relationship::targets() const {
                           : composed_targets(*stage_, *prim_, proxy_path_, name_);
 }
 
-// Depth first, in order; a relationship is followed once and is no target itself.
+// Depth first, in order; a relationship is followed once and is no target itself. This one counts
+// like any other where a cycle leads back.
 std::vector<Path> Relationship::forwarded_targets() const {
   std::vector<Path> result;
-  std::set<Path> seen{path()};
+  std::set<Path> seen;
   std::vector<Path> pending = targets();
   std::reverse(pending.begin(), pending.end());
   while (!pending.empty()) {

@@ -14,6 +14,12 @@ namespace {
 using layer::Value;
 namespace fields = layer::fields;
 
+// What stands for a manifest that was generated; asset paths start from nowhere in it.
+const layer::Layer& no_layer() {
+  static const layer::Layer layer("anon:generated_manifest.usda");
+  return layer;
+}
+
 // True when this opinion decides.
 bool take_animation(const compose::Opinion& opinion, ResolvedValue& result) {
   const auto* samples = opinion.spec->get<layer::TimeSamples>(fields::timeSamples);
@@ -31,12 +37,12 @@ bool take_animation(const compose::Opinion& opinion, ResolvedValue& result) {
   return false;
 }
 
-}  // namespace
-
-ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
+struct Search {
   ResolvedValue result;
-  bool animation_blocked = asked == Asked::DefaultTime;
-  visit_property_opinions(prim, name, [&](const compose::Opinion& opinion) {
+  bool animation_blocked = false;
+
+  // True when this opinion decides.
+  bool take(const compose::Opinion& opinion) {
     if (!animation_blocked && take_animation(opinion, result)) {
       result.opinion = opinion;
       return true;
@@ -56,7 +62,65 @@ ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
       result.opinion = opinion;
     }
     return true;
-  });
+  }
+
+  // One node's layers; clips also count where no layer has a spec.
+  bool take_node(const compose::Node& node, std::uint32_t id, Token name,
+                 const std::vector<const ClipSet*>& sets) {
+    compose::Opinion opinion;
+    opinion.node = id;
+    opinion.path = node.path.property(name);
+    for (const compose::StackedLayer& stacked : node.layer_stack->layers) {
+      opinion.layer = stacked.layer.get();
+      opinion.offset = node.map_to_root->offset() * stacked.offset;
+      opinion.spec = node.has_specs ? stacked.layer->find(opinion.path) : nullptr;
+      if (opinion.spec != nullptr && take(opinion)) {
+        return true;
+      }
+      for (const ClipSet* set : sets) {
+        if (&set->layer() == opinion.layer) {
+          result.source = ValueSource::ValueClips;
+          result.clips = set;
+          result.opinion = opinion;
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  void take_nodes(const PrimData& prim, Token name) {
+    const std::vector<compose::Node>& nodes = prim.index->nodes;
+    for (std::uint32_t id = 0; id < nodes.size(); ++id) {
+      const compose::Node& node = nodes[id];
+      if (!node.can_contribute()) {
+        continue;
+      }
+      std::vector<const ClipSet*> sets;
+      for (const auto& set : *prim.clips) {
+        if (set->applies_to(node) && set->declares(node.path.property(name))) {
+          sets.push_back(set.get());
+        }
+      }
+      if ((node.has_specs || !sets.empty()) && take_node(node, id, name, sets)) {
+        return;
+      }
+    }
+  }
+};
+
+}  // namespace
+
+ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
+  Search search;
+  search.animation_blocked = asked == Asked::DefaultTime;
+  if (prim.clips != nullptr && asked == Asked::AnyTime) {
+    search.take_nodes(prim, name);
+  } else {
+    visit_property_opinions(prim, name,
+                            [&](const compose::Opinion& opinion) { return search.take(opinion); });
+  }
+  ResolvedValue result = search.result;
   if (result.source == ValueSource::None) {
     const schema::PropertyDefinition* definition = prim.definition->find(name);
     if (definition != nullptr && !definition->fallback.empty()) {
@@ -67,18 +131,26 @@ ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
 }
 
 Value read_value(const StageData& stage, const PrimData& prim, Token name,
-                 const ResolvedValue& resolved, Time time) {
+                 const ResolvedValue& resolved, Time time, AssetForm form) {
   switch (resolved.source) {
     case ValueSource::Default:
-      return localize(stage, prim, resolved.opinion, *resolved.value);
+      return localize(stage, prim, resolved.opinion, *resolved.value, form);
     case ValueSource::TimeSamples: {
-      const double at = resolved.opinion.offset.inverse().apply(time.code());
-      const Value value = value_at(*resolved.samples, at);
-      return value.is_block() ? Value() : localize(stage, prim, resolved.opinion, value);
+      const double at = layer_time(resolved.opinion.offset, time.code());
+      const Value value = value_at(*resolved.samples, at, stage.options.interpolation);
+      return value.is_block() ? Value() : localize(stage, prim, resolved.opinion, value, form);
     }
     case ValueSource::Spline: {
-      const double at = resolved.opinion.offset.inverse().apply(time.code());
+      const double at = layer_time(resolved.opinion.offset, time.code());
       return localize(stage, prim, resolved.opinion, evaluate_spline(*resolved.spline, at));
+    }
+    case ValueSource::ValueClips: {
+      const ClipSet::Found found =
+          resolved.clips->value_at(resolved.opinion.path, time.code(), stage.options.interpolation);
+      compose::Opinion opinion = resolved.opinion;
+      opinion.layer = found.anchor == nullptr ? &no_layer() : found.anchor;
+      opinion.offset = resolved.clips->offset();
+      return localize(stage, prim, opinion, found.value, form);
     }
     case ValueSource::Fallback:
       return resolved.blocked ? Value() : prim.definition->find(name)->fallback;

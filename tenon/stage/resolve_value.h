@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tenon/stage/attribute.h"
+#include "tenon/stage/clip_set.h"
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/stage_data.h"
 
@@ -12,20 +13,23 @@ namespace tenon::stage {
 struct ResolvedValue {
   ValueSource source = ValueSource::None;
   bool blocked = false;                         ///< a ValueBlock ended the search
-  compose::Opinion opinion;                     ///< of Default, TimeSamples and Spline
+  compose::Opinion opinion;                     ///< that decides
   const layer::Value* value = nullptr;          ///< of Default
   const layer::TimeSamples* samples = nullptr;  ///< of TimeSamples, in the layer's time
   const layer::Spline* spline = nullptr;        ///< of Spline, in the layer's time
+  const ClipSet* clips = nullptr;               ///< of ValueClips; `opinion` has node and path
 };
 
 enum class Asked : unsigned char { DefaultTime, AnyTime };
 
-/// Strongest to weakest layer: time samples, then spline, then default; at the default time only
-/// defaults. Fallback when a schema has one and nothing is authored (also when blocked).
+/// Strongest to weakest layer: time samples, then spline, then default, then clips that come in
+/// there; at the default time only defaults. Fallback when a schema has one and nothing is authored
+/// (also when blocked).
 ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked);
 
 /// The value of what was resolved, in the stage's terms; empty when blocked or nowhere.
 layer::Value read_value(const StageData& stage, const PrimData& prim, Token name,
-                        const ResolvedValue& resolved, Time time);
+                        const ResolvedValue& resolved, Time time,
+                        AssetForm form = AssetForm::Resolved);
 
 }  // namespace tenon::stage

@@ -31,6 +31,15 @@ Value registered_fallback(Token field) {
   return {};
 }
 
+double number(const Value& value) {
+  if (const double* x = value.get<double>()) {
+    return *x;
+  }
+  return value.get_or<float>(0);
+}
+
+}  // namespace
+
 std::vector<compose::Opinion> root_opinions(const StageData& data) {
   std::vector<compose::Opinion> result;
   const compose::LayerStack& stack = *data.cache->layer_stack();
@@ -45,15 +54,6 @@ std::vector<compose::Opinion> root_opinions(const StageData& data) {
   }
   return result;
 }
-
-double number(const Value& value) {
-  if (const double* x = value.get<double>()) {
-    return *x;
-  }
-  return value.get_or<float>(0);
-}
-
-}  // namespace
 
 Prim StageData::find(Path path) const {
   if (path.empty() || !path.is_absolute()) {
@@ -93,6 +93,8 @@ Result<Stage> Stage::open(layer::LayerPtr root, layer::LayerPtr session,
   }
   auto data = std::make_unique<StageData>();
   data->options = std::move(options);
+  data->options.compose.shares_root_stack = false;
+  data->clip_layers = std::make_unique<ClipLayers>(opener);
   data->cache = std::make_unique<compose::IndexCache>(
       std::move(root), std::move(session), std::move(opener), data->options.compose);
   populate(*data);
@@ -131,13 +133,28 @@ const layer::Layer* Stage::session_layer() const {
 
 const compose::LayerStack& Stage::layer_stack() const { return *data_->cache->layer_stack(); }
 
-std::vector<layer::LayerPtr> Stage::used_layers() const { return data_->cache->used_layers(); }
+std::vector<layer::LayerPtr> Stage::used_layers() const {
+  std::map<std::string, layer::LayerPtr> layers;
+  for (const auto& some : {data_->cache->used_layers(), data_->clip_layers->opened()}) {
+    for (const layer::LayerPtr& layer : some) {
+      layers.emplace(layer->identifier(), layer);
+    }
+  }
+  std::vector<layer::LayerPtr> result;
+  for (const auto& [identifier, layer] : layers) {
+    result.push_back(layer);
+  }
+  return result;
+}
 
 const std::vector<compose::MissingArc>& Stage::missing_arcs() const {
   return data_->cache->missing_arcs();
 }
 
-const Diagnostics& Stage::diagnostics() const { return data_->diagnostics; }
+const Diagnostics& Stage::diagnostics() const {
+  data_->diagnostics.append(data_->clip_layers->take_diagnostics());
+  return data_->diagnostics;
+}
 
 double Stage::start_time_code() const {
   return has_authored_metadata(fields::startTimeCode) ? number(metadata(fields::startTimeCode))

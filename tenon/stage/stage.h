@@ -13,6 +13,7 @@
 #include "tenon/base/result.h"
 #include "tenon/compose/index_cache.h"
 #include "tenon/layer/layer.h"
+#include "tenon/stage/interpolate.h"
 #include "tenon/stage/prim.h"
 #include "tenon/stage/time.h"
 
@@ -25,6 +26,7 @@ struct StageOptions {
   /// Asset path authored in a layer -> where it is, "" when nowhere; for resolved asset values.
   std::function<std::string(const std::string& asset_path, const layer::Layer& anchor)>
       resolve_asset;
+  Interpolation interpolation = Interpolation::Linear;  ///< of time samples
 };
 
 /// A composed scene. Move-only; prims, attributes and relationships are handles into it and must
@@ -49,7 +51,7 @@ class Stage {
   const layer::Layer& root_layer() const;
   const layer::Layer* session_layer() const;
   const compose::LayerStack& layer_stack() const;
-  /// All layers opened for composition, sorted by identifier.
+  /// All layers opened so far, those of value clips included, sorted by identifier.
   std::vector<layer::LayerPtr> used_layers() const;
   /// Layers that arcs name and that cannot be opened.
   const std::vector<compose::MissingArc>& missing_arcs() const;

@@ -12,6 +12,7 @@
 #include "tenon/compose/index_cache.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/schema/registry.h"
+#include "tenon/stage/clip_set.h"
 #include "tenon/stage/stage.h"
 
 /// What the handles point into. Internal to tenon/stage.
@@ -28,6 +29,7 @@ struct PrimData {
   PrimData* last_child = nullptr;
   PrimData* next_sibling = nullptr;
   const PrimData* prototype = nullptr;  ///< of instances
+  const ClipSets* clips = nullptr;      ///< own and ancestors'; nullptr where there are none
   Token type_name;
   layer::Specifier specifier = layer::Specifier::Over;
   bool active = true;
@@ -69,6 +71,8 @@ struct StageData {
   std::vector<PrimData*> prototypes;
   std::unordered_map<std::string, PrimData*> prototype_of_key;
   DefinitionCache definitions;
+  std::unique_ptr<ClipLayers> clip_layers;
+  std::deque<ClipSets> clip_sets;
   Diagnostics diagnostics;
 
   /// The handle at an absolute prim path, proxies included; invalid when there is none.

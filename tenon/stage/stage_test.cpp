@@ -260,8 +260,38 @@ def "B" { rel further = [</A.direct>, </D>, </C>] }
 )");
   const Relationship direct = at(stage, "/A").relationship("direct");
   EXPECT_EQ(direct.targets(), (std::vector{Path::from("/B.further"), Path::from("/C")}));
-  EXPECT_EQ(direct.forwarded_targets(), (std::vector{Path::from("/D"), Path::from("/C")}));
+  // The cycle leads back once.
+  EXPECT_EQ(direct.forwarded_targets(), (std::vector{Path::from("/C"), Path::from("/D")}));
   EXPECT_EQ(at(stage, "/A").attribute("x").connections(), std::vector{Path::from("/B.further")});
+}
+
+// As OpenUSD's stages, where composition alone rejects them.
+TEST(Relationship, AClassMayTargetOtherPrimsThatUseIt) {
+  const Stage stage = open_text(R"(
+class "C" { rel r = [</A>, </B>] }
+def "A" (inherits = </C>) {}
+def "B" (inherits = </C>) {}
+)");
+  EXPECT_EQ(at(stage, "/A").relationship("r").targets(), std::vector{Path::from("/B")});
+}
+
+TEST(Prim, LegacyListEditsDoNotCombineInMetadata) {
+  const Stage stage = open_text({
+      {"root", "( subLayers = [@a@, @b@, @c@] )"},
+      {"a", R"(def "A" (append apiSchemas = ["X"]) {})"},
+      {"b", R"(def "A" (add apiSchemas = ["Y"]) {})"},
+      {"c", R"(def "A" (apiSchemas = ["Z"]) {})"},
+  });
+  EXPECT_EQ(at(stage, "/A").metadata(Token("apiSchemas")),
+            layer::Value(layer::ListOp<Token>::make_explicit({"Z", "X"})));
+}
+
+TEST(Attribute, InterpolationMayBeHeld) {
+  StageOptions options;
+  options.interpolation = Interpolation::Held;
+  const Stage stage = open_text(
+      {{"root", R"(def "A" { double x.timeSamples = { 0: 1, 10: 2 } })"}}, std::move(options));
+  EXPECT_EQ(at(stage, "/A").attribute("x").get_as<double>(9.0), 1.0);
 }
 
 struct XformCase {
@@ -403,6 +433,21 @@ def "B" (references = </R>) {}
   EXPECT_TRUE(flat.has(Path::from("/Flattened_Prototype_1/C.up")));
   EXPECT_EQ(flat.find(Path::from("/B.z"))->get_or("default", 0.0), 1);
   EXPECT_TRUE(flat.find(Path::from("/A.z"))->has("timeSamples"));
+}
+
+TEST(Flatten, AssetPathsMeanTheSameAnywhere) {
+  const Stage stage = open_text({
+      {"root", R"(def "A" (references = @/in/ref@</R>) {})"},
+      {"/in/ref", R"(def "R" { asset a = @./x.png@
+ asset b = @y.png@ })"},
+  });
+  const layer::Layer flat = flatten(stage);
+  const auto authored = [&](const char* path) {
+    const layer::Spec* spec = flat.find(Path::from(path));
+    return spec->get_or(layer::fields::default_value, layer::AssetPath()).authored;
+  };
+  EXPECT_EQ(authored("/A.a"), "/in/x.png");
+  EXPECT_EQ(authored("/A.b"), "y.png");
 }
 
 TEST(Flatten, ALayerStackBecomesOneLayer) {
