@@ -126,6 +126,14 @@ Body read_body(const ReadState& state, const PhysicsPrim& found, Index scene) {
   body.kinematic = state.values.flag(found.prim, state.tokens.kinematic, false);
   body.starts_asleep = state.values.flag(found.prim, state.tokens.starts_asleep, false);
   body.pose = world_pose(found.world, state.units);
+  if (!is_finite(body.pose)) {
+    state.report(
+        found.prim, Severity::Error, "body.not-finite",
+        "the body's transform is not made of finite numbers; it stands still at the origin",
+        "author finite transforms");
+    body.pose = {};
+    body.kinematic = true;
+  }
   check_frame(state, found);
   check_instance(state, found);
   const OwnerScene owner = owner_scene(state, found.prim, scene);

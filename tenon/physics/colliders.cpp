@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include "tenon/physics/read_state.h"
@@ -97,6 +98,27 @@ Pose offset_of(const ReadState& state, const ShapeSource& source, const Collider
   return pose;
 }
 
+/// Sizes, points and pose are numbers that an engine can use; overflow leaves others behind.
+bool is_finite_shape(const ReadState& state, const Shape& shape) {
+  const auto finite = [](const Vec3d& v) { return is_finite(v); };
+  bool usable = is_finite(shape.half_extents) &&
+                is_finite(Vec3d{{shape.radius, shape.half_height, 0}}) &&
+                std::all_of(shape.sphere_centers.begin(), shape.sphere_centers.end(), finite) &&
+                std::all_of(shape.sphere_radii.begin(), shape.sphere_radii.end(),
+                            [](double r) { return std::isfinite(r); });
+  if (shape.kind == ShapeKind::ConvexHull || shape.kind == ShapeKind::Mesh) {
+    const std::vector<Vec3d>& points = state.scene.meshes[shape.mesh].points;
+    usable = usable && std::all_of(points.begin(), points.end(), finite);
+  }
+  return usable;
+}
+
+void report_not_finite(const ReadState& state, const PhysicsPrim& found) {
+  state.report(found.prim, Severity::Error, "collider.not-finite",
+               "the shape's sizes or its place are not finite numbers; it does not collide",
+               "author finite sizes, points and transforms");
+}
+
 /// The collider of one prim without its index in the scene; nullopt when it has no usable shape.
 std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found,
                                       std::optional<SolidIntegrals>& integrals) {
@@ -104,6 +126,10 @@ std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found
   ShapeSource source{found, factor(found.world), {}, false, false};
   source.frame = {source.parts.translation * state.units.length,
                   rotation_of(source.parts.rotation)};
+  if (!is_finite(source.frame)) {
+    report_not_finite(state, found);
+    return std::nullopt;
+  }
   if (has_zero_scale(state, found, source.parts)) {
     return std::nullopt;
   }
@@ -123,6 +149,10 @@ std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found
     return std::nullopt;
   }
   collider.pose = offset_of(state, source, collider) * reading->pose;
+  if (!is_finite(collider.pose) || !is_finite_shape(state, reading->shape)) {
+    report_not_finite(state, found);
+    return std::nullopt;
+  }
   collider.shape = std::move(reading->shape);
   collider.enabled = state.values.flag(found.prim, state.tokens.collision_enabled, true);
   collider.approximation = reading->approximation;

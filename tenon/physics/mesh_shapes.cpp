@@ -59,7 +59,11 @@ std::vector<Vec3d> placed_points(const ReadState& state, const ShapeSource& sour
 struct Faces {
   layer::Array<std::int32_t> counts;
   layer::Array<std::int32_t> indices;
-  layer::Array<std::int32_t> holes;
+  std::vector<std::int32_t> holes;  ///< ascending
+
+  bool is_hole(std::size_t face) const {
+    return std::binary_search(holes.begin(), holes.end(), static_cast<std::int32_t>(face));
+  }
 };
 
 /// Fan triangles; false when counts and indices contradict each other or the points.
@@ -70,8 +74,7 @@ bool triangulate(const Faces& faces, std::size_t point_count, bool turned, Trian
     if (count < 0 || faces.indices.size() - first < static_cast<std::size_t>(count)) {
       return false;
     }
-    const bool hole = std::find(faces.holes.begin(), faces.holes.end(),
-                                static_cast<std::int32_t>(face)) != faces.holes.end();
+    const bool hole = faces.is_hole(face);
     for (std::int32_t k = 0; k < count; ++k) {
       const std::int32_t index = faces.indices[first + static_cast<std::size_t>(k)];
       if (index < 0 || static_cast<std::size_t>(index) >= point_count) {
@@ -89,11 +92,15 @@ bool triangulate(const Faces& faces, std::size_t point_count, bool turned, Trian
 }
 
 Faces read_faces(const ReadState& state, const stage::Prim& prim) {
-  const layer::Array<std::int32_t> none;
-  return {
-      state.values.get<layer::Array<std::int32_t>>(prim, state.tokens.face_counts).value_or(none),
-      state.values.get<layer::Array<std::int32_t>>(prim, state.tokens.face_indices).value_or(none),
-      state.values.get<layer::Array<std::int32_t>>(prim, state.tokens.hole_indices).value_or(none)};
+  const auto integers = [&](Token name) {
+    return state.values.get<layer::Array<std::int32_t>>(prim, name)
+        .value_or(layer::Array<std::int32_t>());
+  };
+  const layer::Array<std::int32_t> holes = integers(state.tokens.hole_indices);
+  Faces faces{integers(state.tokens.face_counts), integers(state.tokens.face_indices),
+              std::vector<std::int32_t>(holes.begin(), holes.end())};
+  std::sort(faces.holes.begin(), faces.holes.end());
+  return faces;
 }
 
 /// S-59: a mesh without faces, or with broken ones, cannot collide.
@@ -256,9 +263,7 @@ namespace {
 std::vector<Index> first_triangles(const Faces& faces) {
   std::vector<Index> first{0};
   for (std::size_t face = 0; face < faces.counts.size(); ++face) {
-    const bool hole = std::find(faces.holes.begin(), faces.holes.end(),
-                                static_cast<std::int32_t>(face)) != faces.holes.end();
-    const std::int32_t count = hole ? 0 : std::max(0, faces.counts[face] - 2);
+    const std::int32_t count = faces.is_hole(face) ? 0 : std::max(0, faces.counts[face] - 2);
     first.push_back(first.back() + static_cast<Index>(count));
   }
   return first;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include "tenon/math/transform.h"
 #include "tenon/physics/units.h"
 
@@ -13,6 +15,14 @@ inline Pose world_pose(const Mat4d& world, const Units& units) {
   Pose pose = rigid_part(world);
   pose.position *= units.length;
   return pose;
+}
+
+inline bool is_finite(const Vec3d& v) {
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+inline bool is_finite(const Pose& pose) {
+  const Quatd& q = pose.orientation;
+  return is_finite(pose.position) && std::isfinite(q.w + q.x + q.y + q.z);
 }
 
 /// A point of the prim's space (stage units), exactly, in metres in the frame X_WF.
