@@ -6,6 +6,7 @@
 // weaker samples, as value resolution would.
 #include <algorithm>
 
+#include "tenon/layer/fold_list_ops.h"
 #include "tenon/stage/flatten.h"
 #include "tenon/stage/stage_data.h"
 
@@ -22,45 +23,11 @@ bool contains(const std::vector<T>& list, const T& item) {
   return std::find(list.begin(), list.end(), item) != list.end();
 }
 
-template <class T>
-ListOp<T> combined(const ListOp<T>& stronger, const ListOp<T>& weaker) {
-  if (stronger.is_explicit) {
-    return stronger;
-  }
-  if (weaker.is_explicit) {
-    std::vector<T> items = weaker.explicit_items;
-    stronger.apply_to(items);
-    return ListOp<T>::make_explicit(std::move(items));
-  }
-  const auto decided = [&](const T& item) {
-    return contains(stronger.prepended, item) || contains(stronger.appended, item) ||
-           contains(stronger.deleted, item);
-  };
-  ListOp<T> result = stronger;
-  for (const T& item : weaker.prepended) {
-    if (!decided(item)) {
-      result.prepended.push_back(item);
-    }
-  }
-  std::vector<T> appended;
-  for (const T& item : weaker.appended) {
-    if (!decided(item)) {
-      appended.push_back(item);
-    }
-  }
-  result.appended.insert(result.appended.begin(), appended.begin(), appended.end());
-  for (const T& item : weaker.deleted) {
-    if (!decided(item)) {
-      result.deleted.push_back(item);
-    }
-  }
-  for (const T& item : weaker.added) {
-    if (!decided(item) && !contains(result.added, item)) {
-      result.added.push_back(item);
-    }
-  }
-  return result;
-}
+/// Types of items that list edits may hold.
+template <class... T>
+struct Types {};
+using ListItems = Types<Token, std::string, Path, layer::Reference, layer::Payload, std::int32_t,
+                        std::int64_t, std::uint32_t, std::uint64_t>;
 
 template <class T>
 bool combine_lists(Value& stronger, const Value& weaker) {
@@ -69,19 +36,38 @@ bool combine_lists(Value& stronger, const Value& weaker) {
   if (a == nullptr || b == nullptr) {
     return false;
   }
-  stronger = combined(*a, *b);
+  if (auto folded = layer::fold(*a, *b)) {
+    stronger = std::move(*folded);
+  }
   return true;
 }
 
-bool combine_any_lists(Value& stronger, const Value& weaker) {
-  return combine_lists<Token>(stronger, weaker) || combine_lists<std::string>(stronger, weaker) ||
-         combine_lists<Path>(stronger, weaker) ||
-         combine_lists<layer::Reference>(stronger, weaker) ||
-         combine_lists<layer::Payload>(stronger, weaker) ||
-         combine_lists<std::int32_t>(stronger, weaker) ||
-         combine_lists<std::int64_t>(stronger, weaker) ||
-         combine_lists<std::uint32_t>(stronger, weaker) ||
-         combine_lists<std::uint64_t>(stronger, weaker);
+template <class... T>
+void combine_any_lists(Value& stronger, const Value& weaker, Types<T...>) {
+  (combine_lists<T>(stronger, weaker) || ...);
+}
+
+template <class T>
+bool drop_edits_of_what_is_below(Value& value) {
+  const auto* op = value.get<ListOp<T>>();
+  if (op == nullptr || (op->added.empty() && op->ordered.empty())) {
+    return op != nullptr;
+  }
+  ListOp<T> result = *op;
+  std::copy_if(op->added.begin(), op->added.end(), std::back_inserter(result.appended),
+               [&](const T& item) { return !contains(op->appended, item); });
+  result.added.clear();
+  result.ordered.clear();
+  value = std::move(result);
+  return true;
+}
+
+/// Edits that depend on the list below them cannot be combined: as OpenUSD does, added items are
+/// appended and orders dropped.
+template <class... T>
+Value combinable(Value value, Types<T...>) {
+  (drop_edits_of_what_is_below<T>(value) || ...);
+  return value;
 }
 
 bool is_children_field(Token field) {
@@ -121,7 +107,7 @@ Value composed(Token field, Value stronger, const Value& weaker) {
                         weaker.get<layer::VariantSelections>()->items.end());
     return merged;
   }
-  combine_any_lists(stronger, weaker);
+  combine_any_lists(stronger, weaker, ListItems());
   return stronger;
 }
 
@@ -181,8 +167,8 @@ class Mover {
 
   template <class T>
   ListOp<T> moved_arcs(ListOp<T> op) const {
-    for (auto* list : {&op.explicit_items, &op.prepended, &op.appended, &op.deleted, &op.added,
-                       &op.ordered}) {
+    for (auto* list :
+         {&op.explicit_items, &op.prepended, &op.appended, &op.deleted, &op.added, &op.ordered}) {
       for (T& arc : *list) {
         arc.offset = offset_ * arc.offset;
         arc.asset_path = arc.asset_path.empty() ? arc.asset_path : located(arc.asset_path);
@@ -209,7 +195,7 @@ void lay_over(layer::Layer& result, const layer::Layer::Entry& entry, const Move
       continue;
     }
     const Value* below = merged.find(field.name);
-    Value value = mover.moved(field.value);
+    Value value = combinable(mover.moved(field.value), ListItems());
     if (below != nullptr) {
       value = composed(field.name, std::move(value), *below);
     }

@@ -481,5 +481,29 @@ def "S" {})"}});
   EXPECT_EQ(layer::Layer::children(a, "properties"), (std::vector<Token>{"hidden", "x", "y"}));
 }
 
+TEST(Flatten, EditsOfALayerStackBecomeOneEdit) {
+  // As OpenUSD 26.11: added items are appended, orders dropped.
+  const Stage stage = open_text({{"root", R"((
+    subLayers = [@sub@]
+)
+over "A" (delete apiSchemas = ["d", "x"]; append apiSchemas = ["z"]; append inherits = </C>) {})"},
+                                 {"sub", R"(def "A" (
+    delete apiSchemas = ["e"]
+    prepend apiSchemas = ["p", "x"]
+    add inherits = [</D>, </E>]
+    reorder inherits = [</E>]
+) {})"}});
+  const layer::Layer flat = flatten_layer_stack(stage);
+  const layer::Spec& a = *flat.find(Path::from("/A"));
+  const auto& apis = *a.get<layer::ListOp<Token>>("apiSchemas");
+  EXPECT_EQ(apis.deleted, (std::vector<Token>{"e", "d", "x"}));
+  EXPECT_EQ(apis.prepended, std::vector<Token>{"p"});
+  EXPECT_EQ(apis.appended, std::vector<Token>{"z"});
+  const auto& inherits = *a.get<layer::ListOp<Path>>("inheritPaths");
+  EXPECT_EQ(inherits.appended,
+            (std::vector<Path>{Path::from("/D"), Path::from("/E"), Path::from("/C")}));
+  EXPECT_TRUE(inherits.added.empty() && inherits.ordered.empty());
+}
+
 }  // namespace
 }  // namespace tenon::stage
