@@ -39,12 +39,18 @@ std::string json(const Layer& layer) {
 }
 
 /// Without what text layers do not keep, as OpenUSD's do not: the order of properties and variants,
-/// old names of types.
+/// that a list of children is there but empty, old names of types, the name of no type.
 void forget_what_text_does_not_keep(nlohmann::json& spec) {
   for (const char* list : {"propertyChildren", "variantChildren"}) {
     if (spec.contains(list)) {
       std::sort(spec[list].begin(), spec[list].end());
     }
+  }
+  if (spec.contains("primChildren") && spec["primChildren"].empty()) {
+    spec.erase("primChildren");
+  }
+  if (spec.contains("typeName") && spec["typeName"] == "__AnyType__") {
+    spec.erase("typeName");
   }
   if (spec.contains("typeName") && spec["typeName"].is_string()) {
     const tenon::Token name(spec["typeName"].get<std::string>());
