@@ -18,10 +18,10 @@ import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-REPO = os.path.dirname(os.path.dirname(os.path.dirname(HERE)))
-SHARED = os.environ.get("TENON_SHARED_DIR", os.path.join(os.path.dirname(REPO), "shared"))
-ASSETS = os.path.join(SHARED, "conformance", "aousd", "value_resolution", "tests", "assets")
-SKIPPED = 77
+sys.path.insert(0, os.path.dirname(HERE))
+import suite  # noqa: E402  pylint: disable=wrong-import-position
+
+ASSETS = os.path.join(suite.CONFORMANCE, "aousd", "value_resolution", "tests", "assets")
 JUST_BEFORE_16 = "15.999999995559108"  # the suite's safe step below 16
 
 # (scene, attribute, options, {time: value}); a pair of numbers is an open interval.
@@ -80,15 +80,16 @@ def main():
     if len(sys.argv) != 2:
         print(__doc__)
         return 2
+    suite.forget("values")
     if not os.path.isdir(ASSETS):
-        print(f"skipped: no {ASSETS}")
-        return SKIPPED
+        suite.skip(f"no {ASSETS}")
     count, misses = judge(sys.argv[1])
     for miss in misses:
         print(f"MISS {miss}")
     asserted = sum(len(expected) for _, _, _, expected in EXPECTED)
     print(f"{asserted - count} of {asserted} asserted values are of scenes that are absent")
     print(f"value resolution: {count - len(misses)} of {count} values")
+    suite.record("values", [("AOUSD value resolution: asserted values", count - len(misses), count)])
     return 1 if misses else 0
 
 
