@@ -123,9 +123,11 @@ void add_sleep(Build& build) {
   }
   build.spec->option.enableflags |= mjENBL_SLEEP;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const bool is_root = build.plan.bodies[b].base == BodyBase::Free ||
-                         (build.plan.bodies[b].base == BodyBase::Jointed &&
-                          !build.plan.bodies[b].parent.has_value());
+    const BodyPlan& plan = build.plan.bodies[b];
+    // A body that a joint without freedom holds to the world does not move: no policy for it.
+    const bool is_root = plan.base == BodyBase::Free ||
+                         (plan.base == BodyBase::Jointed && !plan.parent.has_value() &&
+                          build.dofs[plan.joint].count() > 0);
     if (is_root) {
       build.bodies[b]->sleep = bodies[b].starts_asleep ? mjSLEEP_INIT : mjSLEEP_NEVER;
     } else if (bodies[b].starts_asleep) {

@@ -130,6 +130,18 @@ TEST(FreeBodies, SleepsUntilTouched) {
   EXPECT_LT(sim->body_state(asleep).pose.position[2], 4.9);
 }
 
+TEST(FreeBodies, SleepsBesideABodyThatIsFixedToTheWorld) {
+  TestScene scene;
+  const auto asleep = scene.add_body("Asleep", {{0, 0, 5}});
+  const auto held = scene.add_body("Held", {{3, 0, 5}});
+  scene.bodies[asleep].starts_asleep = true;
+  scene.add_joint("Weld", physics::JointKind::Fixed, {}, held).frame0.position = {{3, 0, 5}};
+  auto sim = simulation(scene);
+  run(*sim, 0.2);
+  EXPECT_EQ(sim->body_state(asleep).pose.position[2], 5);
+  EXPECT_NEAR(sim->body_state(held).pose.position[2], 5, 1e-9);
+}
+
 TEST(FreeBodies, TinyMassesAreReportedAndRaised) {
   TestScene scene;
   scene.add_body("Dust", {{0, 0, 0}}, 1e-12, {{1e-20, 1e-20, 1e-20}});
