@@ -6,6 +6,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "tenon/layer/type_names.h"
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/resolve_value.h"
 #include "tenon/stage/stage_data.h"
@@ -37,10 +38,9 @@ class Flattener {
     const StageData& data = stage_.data();
     for (const auto& [name, value] :
          compose_metadata(data, *data.root, root_opinions(data), AssetForm::Anchored)) {
-      layer_.root().set(Token(name), value);
+      copy_field(name, value, layer_.root());
     }
     layer_.root().erase(fields::subLayers);
-    layer_.root().erase("expressionVariables");
     copy_below(stage_.pseudo_root(), Path::absolute_root());
     for (const Prim& prototype : stage_.prototypes()) {
       copy_prototype(prototype);
@@ -54,6 +54,13 @@ class Flattener {
     Prim prim;
     Path path;
   };
+
+  // Fields that no schema knows are left out, as OpenUSD does.
+  static void copy_field(const std::string& name, const Value& value, Spec& spec) {
+    if (!value.holds<layer::UnregisteredValue>()) {
+      spec.set(Token(name), value);
+    }
+  }
 
   void copy_prototype(const Prim& prototype) {
     const Path path = prototype_paths_.at(prototype.path());
@@ -127,7 +134,7 @@ class Flattener {
     for (const auto& [name, value] :
          compose_metadata(stage_.data(), data, data.index->opinions, AssetForm::Anchored)) {
       if (name != "specifier" && name != "typeName") {
-        spec.set(Token(name), value);
+        copy_field(name, value, spec);
       }
     }
     if (prim.is_instance()) {
@@ -137,7 +144,12 @@ class Flattener {
       references.appended.push_back(std::move(reference));
       spec.set(fields::references, std::move(references));
     }
-    const std::vector<Token> names = property_names(prim, data);
+    std::vector<Token> names = property_names(prim, data);
+    // Attributes of types that nobody knows are left out, as OpenUSD does.
+    std::erase_if(names, [&](Token name) {
+      return !prim.is_relationship(name) &&
+             layer::find_type_name(prim.attribute(name).type_name()) == nullptr;
+    });
     if (!names.empty()) {
       spec.set(fields::properties, names);
     }
@@ -185,7 +197,7 @@ class Flattener {
     for (const auto& [field, value] : compose_metadata(
              stage_.data(), prim, property_opinions(prim, name), AssetForm::Anchored)) {
       if (field != "targetPaths" && field != "connectionPaths") {
-        spec.set(Token(field), value);
+        copy_field(field, value, spec);
       }
     }
   }

@@ -1,0 +1,152 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Compares `tenon cat --flatten` with UsdStage.Flatten, and `--flatten-layer-stack` with
+UsdUtils.FlattenLayerStack: the flattened layers are opened with OpenUSD and dumped by the script of
+the dump. Needs Python with OpenUSD's modules.
+
+usage: flatten.py TENON [--suite NAME]... [--layer-stack] [--keep FOLDER] [--show N]
+
+Suites are those of dump_stage.py. Known misses of whole stages are named in flatten_misses.txt: one
+more or one less fails. Exit 77: the material or OpenUSD is absent.
+"""
+
+import argparse
+import json
+import multiprocessing
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+import dump_stage
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SKIPPED = 77
+SUITES = ("openusd_usd", "mxpv_fixtures", "tinyusdz", "physics_parse", "openusd_other",
+          "aousd_composition", "aousd_value_resolution")
+PROTOTYPE = re.compile(r"/Flattened_Prototype_\d+")
+# What names the file or its place, or counts what was composed.
+OWN_KEYS = ("root", "layerStack", "usedLayers", "compositionErrors", "rootChildren", "stack")
+
+
+def flatten_with_openusd(source, target, layer_stack):
+    from pxr import Usd, UsdUtils  # pylint: disable=import-outside-toplevel
+
+    stage = Usd.Stage.Open(source)
+    if layer_stack:
+        flat = UsdUtils.FlattenLayerStack(stage)
+    else:
+        flat = stage.Flatten(addSourceFileComment=False)
+    flat.Export(target, args={"format": "usda"})
+
+
+def dump(module, path):
+    """The dump of a layer as an object; None when OpenUSD rejects it."""
+    out = path + ".json"
+    if module.main([path, "-o", out]) != 0:
+        return None
+    with open(out, encoding="utf-8", errors="surrogateescape") as file:
+        return json.load(file)
+
+
+def expected_and_actual(module, case, actual, folder, layer_stack):
+    """Run in a child: both flattened layers as dumps, written to a file."""
+    sys.stderr = open(os.devnull, "w", encoding="utf-8")
+    os.dup2(sys.stderr.fileno(), 2)
+    expected = os.path.join(folder, "expected.usda")
+    try:
+        flatten_with_openusd(case.path, expected, layer_stack)
+    except Exception:  # pylint: disable=broad-except
+        sys.exit(3)
+    pair = [dump(module, expected), dump(module, actual)]
+    with open(os.path.join(folder, "pair.json"), "w", encoding="utf-8",
+              errors="surrogateescape") as file:
+        json.dump(pair, file)
+    sys.exit(0)
+
+
+def plain(value):
+    """Without what differs by nature: names of files and numbers of prototypes."""
+    if isinstance(value, dict):
+        return {plain(k): plain(v) for k, v in value.items()
+                if k not in OWN_KEYS and not PROTOTYPE.match(k)}
+    if isinstance(value, list):
+        return [plain(item) for item in value]
+    return PROTOTYPE.sub("/Flattened_Prototype", value) if isinstance(value, str) else value
+
+
+def judge(module, arguments, case):
+    """What differs, as lines; None when OpenUSD cannot flatten the file."""
+    with tempfile.TemporaryDirectory() as folder:
+        actual = os.path.join(folder, "actual.usda")
+        option = "--flatten-layer-stack" if arguments.layer_stack else "--flatten"
+        with open(actual, "wb") as file:
+            command = [arguments.tenon, "cat", option, case.path]
+            run = subprocess.run(command, stdout=file, stderr=subprocess.DEVNULL, check=False,
+                                 timeout=dump_stage.SECONDS)
+        process = multiprocessing.get_context("fork").Process(
+            target=expected_and_actual,
+            args=(module, case, actual, folder, arguments.layer_stack))
+        process.start()
+        process.join(dump_stage.SECONDS)
+        if process.is_alive():
+            process.kill()
+        pair = os.path.join(folder, "pair.json")
+        if not os.path.exists(pair):
+            return None
+        with open(pair, encoding="utf-8", errors="surrogateescape") as file:
+            expected, found = json.load(file)
+        if arguments.keep:
+            keep(arguments.keep, case, folder)
+    if expected is None:
+        return None
+    if found is None or run.returncode != 0:
+        return ["OpenUSD does not read what tenon wrote"]
+    return sorted(dump_stage.differences(plain(expected), plain(found)))
+
+
+def keep(target, case, folder):
+    os.makedirs(target, exist_ok=True)
+    for name in ("expected", "actual"):
+        kept = case.name.replace("/", "_").replace(" ", "_") + f".{name}.usda"
+        with open(os.path.join(folder, name + ".usda"), "rb") as file:
+            content = file.read()
+        with open(os.path.join(target, kept), "wb") as file:
+            file.write(content)
+
+
+def known_misses(suites, layer_stack):
+    path = os.path.join(HERE, "flatten_misses.txt")
+    with open(path, encoding="utf-8") as file:
+        lines = {line.strip() for line in file if line.strip() and line[0] != "#"}
+    return {line for line in lines if line.split()[0] in suites and not layer_stack}
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("tenon")
+    parser.add_argument("--suite", action="append")
+    parser.add_argument("--layer-stack", action="store_true")
+    parser.add_argument("--keep")
+    parser.add_argument("--show", type=int, default=0)
+    arguments = parser.parse_args()
+    try:
+        import pxr  # noqa: F401  pylint: disable=unused-import,import-outside-toplevel
+    except ImportError:
+        print("skipped: no OpenUSD modules in this Python")
+        return SKIPPED
+    if not os.path.exists(dump_stage.ORACLE):
+        print(f"skipped: no {dump_stage.ORACLE}")
+        return SKIPPED
+    dump_stage.TOLERANT.add("timeSamples")  # those of clips may lie between authored ones
+    suites = arguments.suite or list(SUITES)
+    module = dump_stage.oracle_module()
+    cases = list(dump_stage.published_cases(suites))
+    results = {case.name: judge(module, arguments, case) for case in cases}
+    known = known_misses(suites, arguments.layer_stack)
+    return 0 if dump_stage.report(results, known, arguments.show, is_whole=False) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
