@@ -96,7 +96,7 @@ void add_part(LayerBuilder& builder, Path group, std::size_t number, Random& ran
   builder.attribute(part, "visibility", "token", Token("inherited"));
   builder.attribute(part, "bench:tag", "string", numbered("serial", number), Variability::Varying,
                     true);
-  Array<float> weights(8);
+  std::vector<float> weights(8);
   for (float& weight : weights) {
     weight = random.unit_float();
   }
@@ -313,9 +313,9 @@ layer::Layer make_mesh_scene(std::size_t side) {
   LayerBuilder builder("mesh");
   const Path world = add_world(builder);
   const Path mesh = builder.prim(world, "Terrain", "Mesh");
-  Array<Vec3f> points(side * side);
-  Array<Vec2f> coordinates(side * side);
-  Array<std::int32_t> corners;
+  std::vector<Vec3f> points(side * side);
+  std::vector<Vec2f> coordinates(side * side);
+  std::vector<std::int32_t> corners;
   const float step = 1.0f / static_cast<float>(side);
   for (std::size_t row = 0; row < side; ++row) {
     for (std::size_t column = 0; column < side; ++column) {

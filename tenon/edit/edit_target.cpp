@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/edit/edit_target.h"
 
+#include <vector>
+
 #include "tenon/layer/field_values.h"
 
 namespace tenon::edit {
@@ -44,7 +46,7 @@ Value moved(const Value& value, const LayerOffset& by) {
     return moved(*code, by);
   }
   if (const auto* codes = value.get<layer::Array<layer::TimeCode>>()) {
-    layer::Array<layer::TimeCode> result = *codes;
+    std::vector<layer::TimeCode> result(codes->begin(), codes->end());
     for (layer::TimeCode& code : result) {
       code = moved(code, by);
     }

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/layer/value.h"
 
-#include <cstring>
-
 #include "tenon/layer/field_values.h"
 
 namespace tenon::layer {
 
-struct Value::DeferredBody final : Value::Body {
+struct Value::DeferredBody final : SharedBody {
   explicit DeferredBody(std::unique_ptr<DeferredArray> s) : source(std::move(s)) {}
 
   const Value& decode_once() const {
@@ -21,7 +19,7 @@ struct Value::DeferredBody final : Value::Body {
     });
     return decoded;
   }
-  bool equals(const Body& other) const override { return this == &other; }
+  bool equals(const SharedBody& other) const override { return this == &other; }
   std::size_t size() const override { return source->size(); }
 
   std::unique_ptr<DeferredArray> source;
@@ -35,54 +33,14 @@ Value Value::deferred(ValueType element, std::unique_ptr<DeferredArray> source) 
   value.type_ = element;
   value.is_array_ = true;
   value.holding_ = Holding::Deferred;
-  new (&value.storage_) Body*(new DeferredBody(std::move(source)));
+  new (&value.storage_) SharedBody*(new DeferredBody(std::move(source)));
   return value;
 }
 
-Value& Value::operator=(const Value& other) {
-  if (this != &other) {
-    release();
-    copy_from(other);
-  }
-  return *this;
-}
-
-Value& Value::operator=(Value&& other) noexcept {
-  if (this != &other) {
-    release();
-    take_from(other);
-  }
-  return *this;
-}
-
-void Value::copy_from(const Value& other) {
-  std::memcpy(storage_, other.storage_, sizeof(storage_));
-  type_ = other.type_;
-  is_array_ = other.is_array_;
-  holding_ = other.holding_;
-  if (holding_ != Holding::Inline) {
-    body()->owners.fetch_add(1, std::memory_order_relaxed);
-  }
-}
-
-void Value::take_from(Value& other) noexcept {
-  std::memcpy(storage_, other.storage_, sizeof(storage_));
-  type_ = other.type_;
-  is_array_ = other.is_array_;
-  holding_ = other.holding_;
-  other.type_ = ValueType::None;
-  other.is_array_ = false;
-  other.holding_ = Holding::Inline;
-}
-
-void Value::release() {
-  if (holding_ != Holding::Inline &&
-      body()->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) {
+void Value::release_body() {
+  if (body()->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) {
     delete body();
   }
-  holding_ = Holding::Inline;
-  type_ = ValueType::None;
-  is_array_ = false;
 }
 
 const Value* Value::decoded_or_null() const {
@@ -107,7 +65,7 @@ Result<Value> Value::decoded() const {
 
 std::size_t Value::size() const {
   if (holding_ == Holding::Inline) {
-    return empty() ? 0 : 1;
+    return empty() || is_array_ ? 0 : 1;
   }
   return body()->size();
 }
@@ -125,6 +83,9 @@ bool Value::operator==(const Value& other) const {
   if (type_ != other.type_ || is_array_ != other.is_array_) {
     return false;
   }
+  if (is_array_) {
+    return equal_arrays(other);
+  }
   if (holding_ == Holding::Inline) {
     if (type_ == ValueType::None) {
       return true;
@@ -140,10 +101,18 @@ bool Value::operator==(const Value& other) const {
     }
     return true;
   }
+  return body() == other.body() || body()->equals(*other.body());
+}
+
+/// Arrays are deferred, shared, or nothing at all when they are empty.
+bool Value::equal_arrays(const Value& other) const {
   const Value* a = decoded_or_null();
   const Value* b = other.decoded_or_null();
   if (a == nullptr || b == nullptr) {
     return body() == other.body();
+  }
+  if (a->holding_ == Holding::Inline || b->holding_ == Holding::Inline) {
+    return a->size() == b->size();
   }
   return a->body() == b->body() || a->body()->equals(*b->body());
 }

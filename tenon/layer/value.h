@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -16,6 +17,7 @@
 
 #include "tenon/base/path.h"
 #include "tenon/base/token.h"
+#include "tenon/layer/array.h"
 #include "tenon/layer/scalar_types.h"
 #include "tenon/math/half.h"
 #include "tenon/math/matrix.h"
@@ -43,28 +45,24 @@ enum class ValueType : std::uint8_t {
 #include "tenon/layer/value_types.def"
 };
 
-/// Elements of an array; bools are stored one per byte.
-template <class T>
-using Array = std::vector<std::conditional_t<std::is_same_v<T, bool>, char, T>>;
-
 template <class T>
 struct ValueTraits;  // type, is_array
-#define TENON_SCALAR(enumerator, cpp_type, name, crate_id)            \
-  template <>                                                         \
-  struct ValueTraits<cpp_type> {                                      \
-    static constexpr ValueType type = ValueType::enumerator;          \
-    static constexpr bool is_array = false;                           \
-  };                                                                  \
-  template <>                                                         \
-  struct ValueTraits<Array<cpp_type>> {                               \
-    static constexpr ValueType type = ValueType::enumerator;          \
-    static constexpr bool is_array = true;                            \
+#define TENON_SCALAR(enumerator, cpp_type, name, crate_id)   \
+  template <>                                                \
+  struct ValueTraits<cpp_type> {                             \
+    static constexpr ValueType type = ValueType::enumerator; \
+    static constexpr bool is_array = false;                  \
+  };                                                         \
+  template <>                                                \
+  struct ValueTraits<Array<cpp_type>> {                      \
+    static constexpr ValueType type = ValueType::enumerator; \
+    static constexpr bool is_array = true;                   \
   };
-#define TENON_FIELD(enumerator, cpp_type, crate_id)                   \
-  template <>                                                         \
-  struct ValueTraits<cpp_type> {                                      \
-    static constexpr ValueType type = ValueType::enumerator;          \
-    static constexpr bool is_array = false;                           \
+#define TENON_FIELD(enumerator, cpp_type, crate_id)          \
+  template <>                                                \
+  struct ValueTraits<cpp_type> {                             \
+    static constexpr ValueType type = ValueType::enumerator; \
+    static constexpr bool is_array = false;                  \
   };
 #include "tenon/layer/value_types.def"
 
@@ -80,6 +78,10 @@ class DeferredArray {
   virtual Result<Value> decode() const = 0;
 };
 
+/// The array type that a std::vector<T> stands for.
+template <class T>
+concept ArrayElementType = requires { ValueTraits<NumberArray<T>>::type; };
+
 /// One value of any type that a layer can hold. Copies share large contents, which never change.
 /// 24 bytes; numbers up to four floats, tokens and paths are stored inline.
 class Value {
@@ -87,20 +89,32 @@ class Value {
   Value() = default;
   Value(const Value& other) { copy_from(other); }
   Value(Value&& other) noexcept { take_from(other); }
-  Value& operator=(const Value& other);
-  Value& operator=(Value&& other) noexcept;
+  Value& operator=(const Value& other) { return *this = Value(other); }
+  Value& operator=(Value&& other) noexcept {
+    if (this != &other) {
+      release();
+      take_from(other);
+    }
+    return *this;
+  }
   ~Value() { release(); }
 
   template <class T, class Traits = ValueTraits<std::decay_t<T>>, ValueType = Traits::type>
   Value(T&& value) : type_(Traits::type), is_array_(Traits::is_array) {
     using Stored = std::decay_t<T>;
-    if constexpr (kInline<Stored>) {
+    if constexpr (kIsArray<Stored>) {
+      const auto* array = new (&storage_) Stored(std::forward<T>(value));
+      holding_ = array->body() == nullptr ? Holding::Inline : Holding::Body;
+    } else if constexpr (kInline<Stored>) {
       new (&storage_) Stored(std::forward<T>(value));
     } else {
-      new (&storage_) Body*(new Held<Stored>(std::forward<T>(value)));
+      new (&storage_) SharedBody*(new Held<Stored>(std::forward<T>(value)));
       holding_ = Holding::Body;
     }
   }
+  /// An array of these elements.
+  template <ArrayElementType T>
+  Value(std::vector<T> elements) : Value(NumberArray<T>(std::move(elements))) {}
   /// A value of array type `element` that is decoded when asked for.
   static Value deferred(ValueType element, std::unique_ptr<DeferredArray> source);
 
@@ -118,7 +132,11 @@ class Value {
     if (type_ != Traits::type || is_array_ != Traits::is_array) {
       return nullptr;
     }
-    if constexpr (kInline<T>) {
+    if constexpr (kIsArray<T>) {
+      const Value* value = decoded_or_null();
+      return value == nullptr ? nullptr
+                              : std::launder(reinterpret_cast<const T*>(&value->storage_));
+    } else if constexpr (kInline<T>) {
       return std::launder(reinterpret_cast<const T*>(&storage_));
     } else {
       const Value* value = decoded_or_null();
@@ -144,20 +162,11 @@ class Value {
   bool operator==(const Value& other) const;
 
  private:
-  struct Body {
-    Body() = default;
-    Body(const Body&) = delete;
-    Body& operator=(const Body&) = delete;
-    virtual ~Body() = default;
-    virtual bool equals(const Body& other) const = 0;
-    virtual std::size_t size() const = 0;
-    std::atomic<std::uint32_t> owners{1};
-  };
   template <class T>
-  struct Held final : Body {
+  struct Held final : SharedBody {
     template <class U>
     explicit Held(U&& u) : value(std::forward<U>(u)) {}
-    bool equals(const Body& other) const override {
+    bool equals(const SharedBody& other) const override {
       return value == static_cast<const Held&>(other).value;
     }
     std::size_t size() const override {
@@ -176,11 +185,43 @@ class Value {
   static constexpr bool kInline =
       std::is_trivially_copyable_v<T> && sizeof(T) <= 16 && alignof(T) <= 8;
 
-  Body* body() const { return *std::launder(reinterpret_cast<Body* const*>(&storage_)); }
+  template <class T>
+  struct IsArray : std::false_type {};
+  template <class T>
+  struct IsArray<NumberArray<T>> : std::true_type {};
+  template <class T>
+  static constexpr bool kIsArray = IsArray<T>::value;
+
+  SharedBody* body() const {
+    return *std::launder(reinterpret_cast<SharedBody* const*>(&storage_));
+  }
   const Value* decoded_or_null() const;
-  void copy_from(const Value& other);
-  void take_from(Value& other) noexcept;
-  void release();
+  bool equal_arrays(const Value& other) const;
+  void copy_from(const Value& other) {
+    std::memcpy(storage_, other.storage_, sizeof(storage_));
+    type_ = other.type_;
+    is_array_ = other.is_array_;
+    holding_ = other.holding_;
+    if (holding_ != Holding::Inline) {
+      body()->owners.fetch_add(1, std::memory_order_relaxed);
+    }
+  }
+  void take_from(Value& other) noexcept {
+    std::memcpy(storage_, other.storage_, sizeof(storage_));
+    type_ = other.type_;
+    is_array_ = other.is_array_;
+    holding_ = other.holding_;
+    other.type_ = ValueType::None;
+    other.is_array_ = false;
+    other.holding_ = Holding::Inline;
+  }
+  /// Leaves the members as they are.
+  void release() {
+    if (holding_ != Holding::Inline) {
+      release_body();
+    }
+  }
+  void release_body();
 
   alignas(8) std::byte storage_[16] = {};
   ValueType type_ = ValueType::None;

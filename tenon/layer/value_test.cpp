@@ -36,7 +36,7 @@ TEST(Value, HoldsEveryTypeInlineOrShared) {
   check_holds(Mat4d{}, ValueType::Matrix4d, false);
   check_holds(std::string(100, 'x'), ValueType::String, false);
   check_holds(Token("t"), ValueType::Token, false);
-  check_holds(std::vector<double>{1, 2}, ValueType::Double, true);
+  check_holds(Array<double>{1, 2}, ValueType::Double, true);
   check_holds(std::vector<char>{1, 0}, ValueType::Bool, true);
   check_holds(std::vector<std::string>{"a"}, ValueType::String, true);
   check_holds(ListOp<Path>::make_explicit({Path::from("/A")}), ValueType::PathListOp, false);
@@ -89,7 +89,7 @@ TEST(Value, DeferredArraysAreDecodedOnceByAnyThread) {
   std::vector<std::thread> threads;
   for (int i = 0; i < 4; ++i) {
     threads.emplace_back([copy = value] {
-      const auto* numbers = copy.get<std::vector<float>>();
+      const auto* numbers = copy.get<Array<float>>();
       ASSERT_NE(numbers, nullptr);
       EXPECT_EQ((*numbers)[2], 3.0f);
     });
@@ -105,7 +105,7 @@ TEST(Value, CorruptDeferredArraysSayWhy) {
   std::atomic<int> calls = 0;
   const Value value =
       Value::deferred(ValueType::Float, std::make_unique<CountingArray>(true, calls));
-  EXPECT_EQ(value.get<std::vector<float>>(), nullptr);
+  EXPECT_EQ(value.get<Array<float>>(), nullptr);
   const auto decoded = value.decoded();
   ASSERT_FALSE(decoded);
   EXPECT_EQ(decoded.error().message(), "bad data");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -68,21 +69,22 @@ struct Faces {
 
 /// Fan triangles; false when counts and indices contradict each other or the points.
 bool triangulate(const Faces& faces, std::size_t point_count, bool turned, TriangleMesh& mesh) {
+  const std::span<const std::int32_t> indices = faces.indices.span();
   std::size_t first = 0;
   for (std::size_t face = 0; face < faces.counts.size(); ++face) {
     const std::int32_t count = faces.counts[face];
-    if (count < 0 || faces.indices.size() - first < static_cast<std::size_t>(count)) {
+    if (count < 0 || indices.size() - first < static_cast<std::size_t>(count)) {
       return false;
     }
     const bool hole = faces.is_hole(face);
     for (std::int32_t k = 0; k < count; ++k) {
-      const std::int32_t index = faces.indices[first + static_cast<std::size_t>(k)];
+      const std::int32_t index = indices[first + static_cast<std::size_t>(k)];
       if (index < 0 || static_cast<std::size_t>(index) >= point_count) {
         return false;
       }
       if (k >= 2 && !hole) {
-        const std::int32_t a = faces.indices[first];
-        const std::int32_t b = faces.indices[first + static_cast<std::size_t>(k) - 1];
+        const std::int32_t a = indices[first];
+        const std::int32_t b = indices[first + static_cast<std::size_t>(k) - 1];
         mesh.triangles.push_back(turned ? Vec3i{{a, index, b}} : Vec3i{{a, b, index}});
       }
     }

@@ -149,7 +149,8 @@ class MimicReader {
     }
     const layer::Value value = attribute.get();
     const auto* contents = value.get<layer::Array<double>>();
-    return contents == nullptr ? std::vector<double>() : *contents;
+    return contents == nullptr ? std::vector<double>()
+                               : std::vector<double>(contents->begin(), contents->end());
   }
 
   ReadState& state_;

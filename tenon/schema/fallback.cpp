@@ -71,7 +71,7 @@ Value numeric(const std::vector<double>& values, bool is_array) {
   if (!is_array) {
     return values.size() == kCount ? Value(Scalar<T>::make(values.data())) : Value();
   }
-  layer::Array<T> array;
+  layer::ArrayBuffer<T> array;
   for (std::size_t i = 0; i + kCount <= values.size(); i += kCount) {
     array.push_back(Scalar<T>::make(&values[i]));
   }
@@ -83,7 +83,7 @@ Value textual(std::string_view text, bool is_array) {
   if (!is_array) {
     return T(text);
   }
-  layer::Array<T> array;
+  layer::ArrayBuffer<T> array;
   for (const std::string_view part : split(text, '\n')) {
     array.push_back(T(part));
   }

@@ -164,10 +164,13 @@ ComposedSets compose_sites(const compose::PrimIndex& index, Diagnostics& diagnos
 }
 
 std::optional<std::vector<Vec2d>> anchor_times(const ComposedSet& set, std::string_view key) {
-  auto times = get_optional<std::vector<Vec2d>>(set.info, key);
-  const auto to_anchor = set.to_anchor.find(key);
-  if (times && to_anchor != set.to_anchor.end()) {
-    for (Vec2d& time : *times) {
+  const auto authored = get_optional<layer::Array<Vec2d>>(set.info, key);
+  if (!authored) {
+    return std::nullopt;
+  }
+  std::vector<Vec2d> times(authored->begin(), authored->end());
+  if (const auto to_anchor = set.to_anchor.find(key); to_anchor != set.to_anchor.end()) {
+    for (Vec2d& time : times) {
       time[0] = to_anchor->second.apply(time[0]);
     }
   }

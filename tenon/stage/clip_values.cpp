@@ -44,8 +44,8 @@ Value with_stage_codes(Value value, const ClipTimes& times, double stage) {
   if (const auto* code = value.get<layer::TimeCode>()) {
     return layer::TimeCode{times.code_to_stage(code->value, stage)};
   }
-  if (const auto* codes = value.get<std::vector<layer::TimeCode>>()) {
-    std::vector<layer::TimeCode> result = *codes;
+  if (const auto* codes = value.get<layer::Array<layer::TimeCode>>()) {
+    std::vector<layer::TimeCode> result(codes->begin(), codes->end());
     for (layer::TimeCode& code : result) {
       code.value = times.code_to_stage(code.value, stage);
     }

@@ -62,7 +62,7 @@ Value localize_array(const Place& place, const Value& value) {
     }
     return result;
   }
-  if (const auto* times = value.get<std::vector<layer::TimeCode>>()) {
+  if (const auto* times = value.get<layer::Array<layer::TimeCode>>()) {
     std::vector<layer::TimeCode> result;
     for (const layer::TimeCode time : *times) {
       result.push_back({place.opinion.offset.apply(time.value)});

@@ -52,7 +52,7 @@ Value mix_values(const Value& a, const Value& b, double t) {
   if (from == nullptr || to == nullptr || from->size() != to->size()) {
     return a;
   }
-  layer::Array<T> result;
+  layer::ArrayBuffer<T> result;
   result.reserve(from->size());
   for (std::size_t i = 0; i < from->size(); ++i) {
     result.push_back(mix((*from)[i], (*to)[i], t));

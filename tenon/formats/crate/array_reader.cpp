@@ -4,7 +4,8 @@
 // numbers as integers ('i') or as a table of the distinct ones with indices into it ('t').
 #include "tenon/formats/crate/array_reader.h"
 
-#include <cstring>
+#include <cstdint>
+#include <span>
 #include <type_traits>
 
 #include "tenon/base/limits.h"
@@ -80,12 +81,12 @@ Result<ArrayHeader> read_header(const CrateFile& file, ValueWord word) {
 }
 
 template <class T>
-Result<Array<T>> decode_packed(bytes::ByteReader& in, std::uint64_t count) {
+Result<std::vector<T>> decode_packed(bytes::ByteReader& in, std::uint64_t count) {
   if constexpr (kIsInteger<T>) {
     return read_packed<T>(in, count);
   } else {
     TENON_TRY(const char code, in.read<char>());
-    Array<T> array;
+    std::vector<T> array;
     if (code == 'i') {
       TENON_TRY(const std::vector<std::int32_t> integers, read_packed<std::int32_t>(in, count));
       array.reserve(integers.size());
@@ -109,10 +110,10 @@ Result<Array<T>> decode_packed(bytes::ByteReader& in, std::uint64_t count) {
 }
 
 template <class T>
-Result<Array<T>> decode_texts(const CrateFile& file, bytes::ByteReader& in, std::uint64_t count,
-                              WorkBudget& budget) {
+Result<std::vector<T>> decode_texts(const CrateFile& file, bytes::ByteReader& in,
+                                    std::uint64_t count, WorkBudget& budget) {
   TENON_TRY(const std::vector<std::uint32_t> indices, in.read_array<std::uint32_t>(count));
-  Array<T> array;
+  std::vector<T> array;
   array.reserve(indices.size());
   for (const std::uint32_t index : indices) {
     if constexpr (std::is_same_v<T, Token>) {
@@ -139,10 +140,10 @@ Result<Value> decode(const CrateFile& file, const ArrayHeader& header, WorkBudge
   bytes::ByteReader in = file.reader();
   TENON_CHECK(in.seek(header.offset));
   if constexpr (kIsText<T>) {
-    TENON_TRY(Array<T> array, decode_texts<T>(file, in, header.count, budget));
+    TENON_TRY(std::vector<T> array, decode_texts<T>(file, in, header.count, budget));
     return Value(std::move(array));
   } else if constexpr (std::is_same_v<T, bool>) {
-    TENON_TRY(Array<bool> array, in.read_array<char>(header.count));
+    TENON_TRY(std::vector<char> array, in.read_array<char>(header.count));
     for (char& element : array) {
       element = element != 0 ? 1 : 0;
     }
@@ -150,13 +151,21 @@ Result<Value> decode(const CrateFile& file, const ArrayHeader& header, WorkBudge
   } else {
     if constexpr (kIsInteger<T> || kIsReal<T>) {
       if (header.packed) {
-        TENON_TRY(Array<T> array, decode_packed<T>(in, header.count));
+        TENON_TRY(std::vector<T> array, decode_packed<T>(in, header.count));
         return Value(std::move(array));
       }
     }
-    TENON_TRY(Array<T> array, in.read_array<T>(header.count));
+    TENON_TRY(std::vector<T> array, in.read_array<T>(header.count));
     return Value(std::move(array));
   }
+}
+
+/// The elements as they lie in the file, where they are stored as in memory and aligned.
+template <class T>
+const T* in_place(const CrateFile& file, const ArrayHeader& header) {
+  const std::byte* at = file.bytes->span().data() + header.offset;
+  const bool aligned = reinterpret_cast<std::uintptr_t>(at) % alignof(T) == 0;
+  return header.packed || !aligned ? nullptr : reinterpret_cast<const T*>(at);
 }
 
 template <class T>
@@ -185,6 +194,12 @@ Result<Value> read_array_of(const std::shared_ptr<const CrateFile>& file, ValueW
   TENON_CHECK(budget.spend(1));
   if (!header.packed && header.count <= kSmallArray / sizeof(T)) {
     return decode<T>(*file, header, budget);
+  }
+  if constexpr (layer::kIsNumberArray<T>) {
+    if (const T* elements = in_place<T>(*file, header)) {
+      const std::span<const T> span(elements, static_cast<std::size_t>(header.count));
+      return Value(Array<T>::borrow(span, file->bytes));
+    }
   }
   return Value::deferred(layer::ValueTraits<T>::type,
                          std::make_unique<CrateArray<T>>(file, header));

@@ -24,7 +24,7 @@ struct EncodedArray {
 };
 
 template <class T>
-void append_packed_integers(bytes::ByteWriter& out, const std::vector<T>& integers) {
+void append_packed_integers(bytes::ByteWriter& out, std::span<const T> integers) {
   const std::string packed = bytes::encode_integers<T>(integers);
   out.write(std::uint64_t{packed.size()});
   out.write_text(packed);
@@ -32,7 +32,7 @@ void append_packed_integers(bytes::ByteWriter& out, const std::vector<T>& intege
 
 /// The numbers as integers of 32 bits; empty when one of them is none (or a negative zero).
 template <class T>
-std::vector<std::int32_t> as_integers(const std::vector<T>& array) {
+std::vector<std::int32_t> as_integers(std::span<const T> array) {
   std::vector<std::int32_t> integers;
   integers.reserve(array.size());
   for (const T element : array) {
@@ -54,7 +54,7 @@ struct Distinct {
   std::vector<T> table;
   std::vector<std::uint32_t> indices;  ///< empty when there are too many to gain anything
 
-  explicit Distinct(const std::vector<T>& array) {
+  explicit Distinct(std::span<const T> array) {
     const std::size_t most = std::min<std::size_t>(array.size() / 4, 1024);
     std::unordered_map<std::uint64_t, std::uint32_t> known;  // by bits: -0 is not 0
     indices.reserve(array.size());
@@ -76,10 +76,10 @@ struct Distinct {
 
 /// False, with nothing written, when packing gains nothing.
 template <class T>
-bool append_packed_reals(bytes::ByteWriter& out, const std::vector<T>& array) {
+bool append_packed_reals(bytes::ByteWriter& out, std::span<const T> array) {
   if (const std::vector<std::int32_t> integers = as_integers(array); !integers.empty()) {
     out.write('i');
-    append_packed_integers(out, integers);
+    append_packed_integers<std::int32_t>(out, integers);
     return true;
   }
   const Distinct<T> distinct(array);
@@ -89,7 +89,7 @@ bool append_packed_reals(bytes::ByteWriter& out, const std::vector<T>& array) {
   out.write('t');
   out.write(static_cast<std::uint32_t>(distinct.table.size()));
   out.write_array(std::span<const T>(distinct.table));
-  append_packed_integers(out, distinct.indices);
+  append_packed_integers<std::uint32_t>(out, distinct.indices);
   return true;
 }
 
@@ -101,10 +101,10 @@ EncodedArray encode_array(const layer::Array<T>& array, TableWriter& tables) {
   bool packed = false;
   if (array.size() >= kSmallestPacked) {
     if constexpr (kIsInteger<T>) {
-      append_packed_integers(out, array);
+      append_packed_integers<T>(out, array.span());
       packed = true;
     } else if constexpr (kIsReal<T>) {
-      packed = append_packed_reals(out, array);
+      packed = append_packed_reals<T>(out, array.span());
     }
   }
   if (packed) {
@@ -123,8 +123,7 @@ EncodedArray encode_array(const layer::Array<T>& array, TableWriter& tables) {
       }
     }
   } else {
-    using Stored = typename layer::Array<T>::value_type;
-    out.write_array(std::span<const Stored>(array));
+    out.write_array(std::span<const layer::ArrayElement<T>>(array.data(), array.size()));
   }
   return {out.take(), false};
 }

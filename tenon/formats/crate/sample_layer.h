@@ -53,7 +53,7 @@ T sample(int seed) {
 
 template <class T>
 layer::Array<T> sample_array(int count, bool whole) {
-  layer::Array<T> array;
+  layer::ArrayBuffer<T> array;
   for (int i = 0; i < count; ++i) {
     if constexpr (std::is_same_v<T, bool>) {
       array.push_back(static_cast<char>(i % 2));

@@ -223,8 +223,9 @@ Result<std::vector<double>> ValueReader::times(ValueWord word) {
     }
   }
   TENON_CHECK(budget_.spend(numbers->size()));
-  times_.emplace(word.bits, *numbers);
-  return *numbers;
+  const std::vector<double> times(numbers->begin(), numbers->end());
+  times_.emplace(word.bits, times);
+  return times;
 }
 
 Result<void> ValueReader::item(bytes::ByteReader& in, layer::TimeSamples& out) {

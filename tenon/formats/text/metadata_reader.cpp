@@ -318,7 +318,8 @@ class MetadataReader {
       if (!read_value(cursor_, element, true, value)) {
         return false;
       }
-      items = *value.get<std::vector<T>>();
+      const auto& listed = *value.get<layer::Array<T>>();
+      items.assign(listed.begin(), listed.end());
       if (items.empty() && edit != ListEdit::Explicit) {
         return cursor_.fail_at(start, ErrorCode::Parse, "text.list",
                                "an empty list can only be set, not added, prepended or deleted",
