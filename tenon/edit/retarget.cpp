@@ -102,8 +102,8 @@ void LayerEditor::retarget(Path from, Path to) {
     }
   }
   for (const Path path : paths) {
-    const std::vector<layer::Field> spec_fields = layer_->find(path)->fields();
-    for (const layer::Field& field : spec_fields) {
+    const layer::FieldList spec_fields = layer_->find(path)->field_list();
+    for (const layer::Field& field : spec_fields.items()) {
       Value value = field.value;
       if (follow_field(field.name, value, {from, to})) {
         set(path, field.name, std::move(value));

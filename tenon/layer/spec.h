@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <new>
+#include <span>
 #include <utility>
-#include <vector>
 
 #include "tenon/base/token.h"
 #include "tenon/layer/value.h"
@@ -31,19 +35,90 @@ struct Field {
   Value value;
 };
 
+/// Named values in authored order. Copies share them until one of them is changed. The size of one
+/// pointer; one allocation.
+class FieldList {
+ public:
+  FieldList() = default;
+  FieldList(const FieldList& other) : block_(other.block_) {
+    if (block_ != nullptr) {
+      block_->owners.fetch_add(1, std::memory_order_relaxed);
+    }
+  }
+  FieldList(FieldList&& other) noexcept : block_(std::exchange(other.block_, nullptr)) {}
+  FieldList& operator=(FieldList other) noexcept {
+    std::swap(block_, other.block_);
+    return *this;
+  }
+  ~FieldList() {
+    if (block_ != nullptr && block_->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) {
+      destroy(block_);
+    }
+  }
+
+  std::span<const Field> items() const {
+    return block_ == nullptr ? std::span<const Field>()
+                             : std::span<const Field>(block_->fields(), block_->count);
+  }
+  /// Fields that may be changed: this list's own from now on.
+  std::span<Field> own_items() {
+    if (block_ == nullptr) {
+      return {};
+    }
+    reserve(block_->count);
+    return {block_->fields(), block_->count};
+  }
+  void reserve(std::size_t count);
+  void append(Token name, Value value) {
+    const std::size_t count = items().size();
+    if (block_ == nullptr || count == block_->capacity || is_shared()) {
+      reserve(count < 4 ? 4 : 2 * count);
+    }
+    ::new (block_->fields() + count) Field{name, std::move(value)};
+    ++block_->count;
+  }
+  void erase(Token name);
+  /// True for lists that are one in memory.
+  bool is_same(const FieldList& other) const { return block_ == other.block_; }
+
+ private:
+  struct alignas(Field) Block {
+    std::atomic<std::uint32_t> owners{1};
+    std::uint32_t count = 0;
+    std::uint32_t capacity = 0;
+    Field* fields() { return std::launder(reinterpret_cast<Field*>(this + 1)); }
+  };
+
+  bool is_shared() const { return block_->owners.load(std::memory_order_acquire) != 1; }
+  static Block* make(std::size_t capacity);
+  static void destroy(Block* block);
+
+  Block* block_ = nullptr;
+};
+
 /// What one layer says about one path: named fields in authored order, and where in the source.
+/// Specs may share their fields; changing those of one does not change another.
 class Spec {
  public:
   SpecKind kind = SpecKind::None;
+  std::uint16_t column = 0;  ///< 1-based, in bytes; the largest number for all beyond
   std::uint32_t line = 0;    ///< 1-based source line; 0 when unknown (binary layers)
-  std::uint32_t column = 0;  ///< 1-based, in bytes
 
-  const std::vector<Field>& fields() const { return fields_; }
+  void set_place(std::uint32_t source_line, std::uint32_t source_column) {
+    constexpr std::uint32_t kLast = std::numeric_limits<std::uint16_t>::max();
+    line = source_line;
+    column = static_cast<std::uint16_t>(source_column < kLast ? source_column : kLast);
+  }
+
+  std::span<const Field> fields() const { return fields_.items(); }
   void reserve_fields(std::size_t count) { fields_.reserve(count); }
+  const FieldList& field_list() const { return fields_; }
+  /// Replaces all fields, which stay shared with the owner of `fields`.
+  void set_field_list(FieldList fields) { fields_ = std::move(fields); }
 
   /// The field's value, or nullptr.
   const Value* find(Token name) const {
-    for (const Field& field : fields_) {
+    for (const Field& field : fields()) {
       if (field.name == name) {
         return &field.value;
       }
@@ -64,22 +139,23 @@ class Spec {
   }
 
   void set(Token name, Value value) {
-    for (Field& field : fields_) {
+    if (!has(name)) {
+      fields_.append(name, std::move(value));
+      return;
+    }
+    for (Field& field : fields_.own_items()) {
       if (field.name == name) {
         field.value = std::move(value);
         return;
       }
     }
-    fields_.push_back({name, std::move(value)});
   }
   /// Appends without looking for an earlier field of that name; for readers of checked input.
-  void append(Token name, Value value) { fields_.push_back({name, std::move(value)}); }
-  void erase(Token name) {
-    std::erase_if(fields_, [&](const Field& field) { return field.name == name; });
-  }
+  void append(Token name, Value value) { fields_.append(name, std::move(value)); }
+  void erase(Token name) { fields_.erase(name); }
 
  private:
-  std::vector<Field> fields_;
+  FieldList fields_;
 };
 
 }  // namespace tenon::layer

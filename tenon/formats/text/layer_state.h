@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 
 #include "tenon/base/diagnostics.h"
@@ -26,6 +28,16 @@ struct LayerState {
   LayerState(const LayerState&) = delete;
   LayerState& operator=(const LayerState&) = delete;
 
+  /// Lets `spec` share its fields with the last spec of that `name` when they are the same ones.
+  void share_fields(Token name, layer::Spec& spec) {
+    Shared& last = shared_[std::hash<Token>{}(name) >> 16 & (shared_.size() - 1)];
+    if (last.name == name && are_equal(last.fields.items(), spec.fields())) {
+      spec.set_field_list(last.fields);
+      return;
+    }
+    last = {name, spec.field_list()};
+  }
+
   /// Adds a warning about the byte at `offset`.
   void warn(std::size_t offset, std::string_view rule, std::string message, std::string_view fix) {
     const SourcePlace place = cursor.place_of(offset);
@@ -45,11 +57,32 @@ struct LayerState {
     layer::Spec& spec = layer.create(path, kind);
     if (spec.line == 0) {
       const SourcePlace place = cursor.place_of(offset);
-      spec.line = place.line;
-      spec.column = place.column;
+      spec.set_place(place.line, place.column);
     }
     return spec;
   }
+
+ private:
+  struct Shared {
+    Token name;
+    layer::FieldList fields;
+  };
+
+  /// Equal and small enough that comparing them costs next to nothing.
+  static bool are_equal(std::span<const layer::Field> a, std::span<const layer::Field> b) {
+    constexpr std::size_t kSmall = 64;
+    if (a.size() != b.size()) {
+      return false;
+    }
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      if (a[i].name != b[i].name || b[i].value.size() > kSmall || !(a[i].value == b[i].value)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  std::array<Shared, 256> shared_{};
 };
 
 }  // namespace tenon::formats::text

@@ -143,7 +143,12 @@ class PropertyReader {
       return cursor_.fail_expected("`.connect` after a list edit",
                                    "remove the word in front of the attribute");
     }
-    return (!accept_equals() || read_default()) && read_optional_metadata(SpecKind::Attribute);
+    const bool ok =
+        (!accept_equals() || read_default()) && read_optional_metadata(SpecKind::Attribute);
+    if (ok) {
+      state_.share_fields(path_.name(), *spec_);
+    }
+    return ok;
   }
 
   bool make_attribute(Token type_name) {
@@ -163,8 +168,7 @@ class PropertyReader {
   void note_new_property() {
     properties_.push_back(path_.name());
     const SourcePlace place = cursor_.place_of(start_);
-    spec_->line = place.line;
-    spec_->column = place.column;
+    spec_->set_place(place.line, place.column);
   }
 
   /// A further statement about an attribute must agree with the first.

@@ -412,6 +412,9 @@ class LayerReader {
     if (!block.properties.empty()) {
       spec.set(fields::properties, Value(std::move(block.properties)));
     }
+    if (block.kind == Block::Kind::Prim) {
+      state_.share_fields(spec.get_or(fields::typeName, Token()), spec);
+    }
   }
 
   bool close_block() {
