@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <deque>
+#include <atomic>
+#include <limits>
+#include <memory>
 #include <mutex>
 
 #include "tenon/base/assert.h"
@@ -31,53 +33,71 @@ bool same(const PathNode& a, const PathNode& b) {
          a.target == b.target;
 }
 
-/// Open addressing over nodes in stable storage.
+/// Open addressing over nodes in stable storage. A slot is part of the hash and the number of a
+/// node, so that most others are told apart without a look at them.
 class NodeTable {
  public:
   const PathNode* intern(const PathNode& node, std::size_t hash) {
     const std::lock_guard lock(mutex_);
-    if (2 * nodes_.size() >= slots_.size()) {
+    if (4 * (count_ + 1) > 3 * slots_.size()) {
       grow();
     }
+    const std::uint32_t tag = tag_of(hash);
     std::size_t at = hash & (slots_.size() - 1);
-    while (slots_[at].node != nullptr) {
-      if (slots_[at].hash == hash && same(*slots_[at].node, node)) {
-        return slots_[at].node;
+    while (slots_[at].number != 0) {
+      if (slots_[at].tag == tag && same(node_at(slots_[at].number - 1), node)) {
+        return &node_at(slots_[at].number - 1);
       }
       at = (at + 1) & (slots_.size() - 1);
     }
-    nodes_.push_back(node);
-    slots_[at] = {hash, &nodes_.back()};
-    return &nodes_.back();
+    return add(node, at, tag);
   }
 
  private:
   struct Slot {
-    std::size_t hash = 0;
-    const PathNode* node = nullptr;
+    std::uint32_t tag = 0;
+    std::uint32_t number = 0;  // of the node, from 1 on; 0 in an empty slot
   };
+  static constexpr std::size_t kChunk = 128;
 
-  void grow() {
-    std::vector<Slot> bigger(std::max<std::size_t>(1024, 2 * slots_.size()));
-    for (const Slot& slot : slots_) {
-      if (slot.node == nullptr) {
-        continue;
-      }
-      std::size_t at = slot.hash & (bigger.size() - 1);
-      while (bigger[at].node != nullptr) {
-        at = (at + 1) & (bigger.size() - 1);
-      }
-      bigger[at] = slot;
+  static std::uint32_t tag_of(std::size_t hash) { return static_cast<std::uint32_t>(hash >> 32); }
+  PathNode& node_at(std::size_t number) const { return chunks_[number / kChunk][number % kChunk]; }
+
+  const PathNode* add(const PathNode& node, std::size_t at, std::uint32_t tag) {
+    TENON_ASSERT(count_ < std::numeric_limits<std::uint32_t>::max());
+    if (count_ % kChunk == 0) {
+      chunks_.push_back(std::make_unique<PathNode[]>(kChunk));
     }
-    slots_ = std::move(bigger);
+    PathNode& added = node_at(count_);
+    added = node;
+    added.number = ++made_;
+    ++count_;
+    slots_[at] = {tag, static_cast<std::uint32_t>(count_)};
+    return &added;
   }
 
+  void grow() {
+    slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), Slot());
+    for (std::size_t i = 0; i < count_; ++i) {
+      const std::size_t hash = hash_of(node_at(i));
+      std::size_t at = hash & (slots_.size() - 1);
+      while (slots_[at].number != 0) {
+        at = (at + 1) & (slots_.size() - 1);
+      }
+      slots_[at] = {tag_of(hash), static_cast<std::uint32_t>(i + 1)};
+    }
+  }
+
+  static inline std::atomic<std::uint32_t> made_ = 0;  // in all tables
+
   std::mutex mutex_;
-  std::deque<PathNode> nodes_;
+  std::vector<std::unique_ptr<PathNode[]>> chunks_;
   std::vector<Slot> slots_;
+  std::size_t count_ = 0;
 };
 
 constexpr std::size_t kShardCount = 16;
+constexpr std::uint32_t kDepthMask = (1u << 22u) - 1;
 
 const PathNode* intern(const PathNode& node) {
   static auto* tables = new std::array<NodeTable, kShardCount>();
@@ -114,7 +134,7 @@ Path Path::make(const PathNode* parent, PathKind kind, Token name, Token variant
   node.kind = kind;
   node.absolute = parent->absolute;
   node.has_variant = parent->has_variant || kind == PathKind::VariantSelection;
-  node.depth = parent->depth + 1;
+  node.depth = (parent->depth + 1) & kDepthMask;
   return Path(intern(node));
 }
 
@@ -307,7 +327,7 @@ std::strong_ordering compare_nodes(const PathNode* a, const PathNode* b) {
     y = y->parent;
   }
   if (x == y) {
-    return a->depth <=> b->depth;
+    return std::uint32_t{a->depth} <=> std::uint32_t{b->depth};
   }
   while (x->parent != y->parent) {
     x = x->parent;

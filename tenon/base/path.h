@@ -17,13 +17,13 @@ namespace tenon {
 
 /// What the last element of a path is.
 enum class PathKind : std::uint8_t {
-  Empty,             ///< no path
-  AbsoluteRoot,      ///< `/`, the pseudo-root
-  RelativeRoot,      ///< `.`, the prim that a relative path starts from; also `..` steps
-  Prim,              ///< `/A/B`; the name ".." for a step up in a relative path
-  VariantSelection,  ///< `/A{set=variant}`; an empty variant names the set itself
-  Property,          ///< `/A.b`
-  Target,            ///< `/A.rel[/B]`, also connections
+  Empty,                ///< no path
+  AbsoluteRoot,         ///< `/`, the pseudo-root
+  RelativeRoot,         ///< `.`, the prim that a relative path starts from; also `..` steps
+  Prim,                 ///< `/A/B`; the name ".." for a step up in a relative path
+  VariantSelection,     ///< `/A{set=variant}`; an empty variant names the set itself
+  Property,             ///< `/A.b`
+  Target,               ///< `/A.rel[/B]`, also connections
   RelationalAttribute,  ///< `/A.rel[/B].c`
   Mapper,               ///< `/A.b.mapper[/B.c]`
   MapperArg,            ///< `/A.b.mapper[/B.c].d`
@@ -38,11 +38,13 @@ struct PathNode {
   const PathNode* target = nullptr;  ///< of Target and Mapper elements
   Token name;                        ///< prim, property or variant set name
   Token variant;                     ///< of VariantSelection elements
-  PathKind kind = PathKind::Empty;
-  bool absolute = false;
-  bool has_variant = false;  ///< this or any element above is a variant selection
-  std::uint32_t depth = 0;   ///< elements below the root
+  std::uint32_t number = 0;          ///< counts up as nodes are made, from 1 on
+  PathKind kind : 8 = PathKind::Empty;
+  bool absolute : 1 = false;
+  bool has_variant : 1 = false;  ///< this or any element above is a variant selection
+  std::uint32_t depth : 22 = 0;  ///< elements below the root
 };
+static_assert(sizeof(PathNode) == 40);
 
 /// Where something is in a scene or a layer. Interned: copying, equality and hashing cost one
 /// pointer. Core Spec 1.0.1 section 6 gives the grammar.
@@ -86,10 +88,10 @@ class Path {
   /// The nearest prim (or root) at or above, variant selections skipped.
   Path prim() const;
 
-  Path child(Token name) const;                        ///< a child prim
-  Path property(Token name) const;                     ///< a property; relational after a target
+  Path child(Token name) const;     ///< a child prim
+  Path property(Token name) const;  ///< a property; relational after a target
   Path variant_selection(Token set, Token variant) const;
-  Path target_element(Path target) const;              ///< `this[target]`
+  Path target_element(Path target) const;  ///< `this[target]`
   Path mapper(Path target) const;
   Path mapper_arg(Token name) const;
   Path expression() const;
@@ -114,6 +116,9 @@ class Path {
 
   std::string str() const;
   const void* id() const { return node_; }
+  /// A hash: paths that were made one after another have neighbouring numbers, so that tables by
+  /// path are walked through in their order. 0 for the empty path.
+  std::uint32_t number() const { return node_ == nullptr ? 0 : node_->number; }
 
   bool operator==(const Path& other) const { return node_ == other.node_; }
   /// Total order, the same in every run: element by element, a path before what is below it.
@@ -137,8 +142,5 @@ bool is_variant_name(std::string_view text);
 
 template <>
 struct std::hash<tenon::Path> {
-  std::size_t operator()(const tenon::Path& path) const noexcept {
-    const auto bits = reinterpret_cast<std::size_t>(path.id());
-    return (bits >> 4) * 0x9E3779B97F4A7C15ull;
-  }
+  std::size_t operator()(const tenon::Path& path) const noexcept { return path.number(); }
 };

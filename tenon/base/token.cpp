@@ -2,41 +2,74 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/base/token.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
+#include <deque>
 #include <mutex>
-#include <unordered_set>
+#include <vector>
 
 namespace tenon {
 namespace {
 
-struct TextHash {
-  using is_transparent = void;
-  std::size_t operator()(std::string_view text) const {
-    return std::hash<std::string_view>{}(text);
+/// A part of the table of all names: open addressing over texts in stable storage.
+class TextTable {
+ public:
+  const std::string* intern(std::string_view text, std::size_t hash) {
+    const std::lock_guard lock(mutex_);
+    if (3 * (texts_.size() + 1) > 2 * slots_.size()) {
+      grow();
+    }
+    std::size_t at = hash & (slots_.size() - 1);
+    while (slots_[at].text != nullptr) {
+      if (slots_[at].hash == hash && *slots_[at].text == text) {
+        return slots_[at].text;
+      }
+      at = (at + 1) & (slots_.size() - 1);
+    }
+    slots_[at] = {hash, &texts_.emplace_back(text)};
+    return slots_[at].text;
   }
+
+ private:
+  struct Slot {
+    std::size_t hash = 0;
+    const std::string* text = nullptr;
+  };
+
+  void grow() {
+    std::vector<Slot> bigger(std::max<std::size_t>(64, 2 * slots_.size()));
+    for (const Slot& slot : slots_) {
+      if (slot.text == nullptr) {
+        continue;
+      }
+      std::size_t at = slot.hash & (bigger.size() - 1);
+      while (bigger[at].text != nullptr) {
+        at = (at + 1) & (bigger.size() - 1);
+      }
+      bigger[at] = slot;
+    }
+    slots_ = std::move(bigger);
+  }
+
+  std::mutex mutex_;
+  std::deque<std::string> texts_;
+  std::vector<Slot> slots_;
 };
 
-using TextSet = std::unordered_set<std::string, TextHash, std::equal_to<>>;
-
-/// The table of all names, in shards so that threads seldom wait for each other.
-struct Shard {
-  std::mutex mutex;
-  TextSet texts;
-};
-
-constexpr std::size_t kShardCount = 32;
+constexpr std::size_t kShardCount = 32;  // so that threads seldom wait for each other
+constexpr std::size_t kRecentCount = 512;
 
 const std::string* intern(std::string_view text) {
-  static auto* shards = new std::array<Shard, kShardCount>();
-  const std::size_t hash = TextHash{}(text);
-  Shard& shard = (*shards)[(hash >> 16) % kShardCount];
-  const std::lock_guard lock(shard.mutex);
-  auto found = shard.texts.find(text);
-  if (found == shard.texts.end()) {
-    found = shard.texts.emplace(text).first;
+  static auto* shards = new std::array<TextTable, kShardCount>();
+  // What this thread asked for lately is found without a lock.
+  thread_local std::array<const std::string*, kRecentCount> recent{};
+  const std::size_t hash = std::hash<std::string_view>{}(text);
+  const std::string*& last = recent[(hash >> 8) % kRecentCount];
+  if (last == nullptr || *last != text) {
+    last = (*shards)[(hash >> 40) % kShardCount].intern(text, hash);
   }
-  return &*found;
+  return last;
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }

@@ -3,26 +3,16 @@
 #include "tenon/layer/layer.h"
 
 #include <algorithm>
-#include <functional>
 
 namespace tenon::layer {
 namespace {
 
-constexpr std::uint64_t kIndexMask = 0xFFFFFFFFu;
-
-/// Where to look for a path first, and the upper half of its slot, which tells most others apart
-/// without a look at the entry.
-struct Place {
-  std::size_t at;
-  std::uint64_t tag;
-};
-
-Place place_of(Path path, std::size_t slot_count) {
-  const std::uint64_t hash = std::hash<Path>{}(path);
-  return {(hash >> 17) & (slot_count - 1), hash & ~kIndexMask};
+/// Where to look for a path first. Eight neighbouring numbers share a line of the cache; such
+/// eights are scattered, so that long runs of numbers do not pile up.
+std::size_t home_of(std::uint32_t number, std::size_t slot_count) {
+  const std::uint64_t scattered = (std::uint64_t{number >> 3u} * 0x9E3779B97F4A7C15ull) >> 32u;
+  return (scattered << 3u | (number & 7u)) & (slot_count - 1);
 }
-
-std::size_t entry_of(std::uint64_t slot) { return (slot & kIndexMask) - 1; }
 
 }  // namespace
 
@@ -30,69 +20,65 @@ Layer::Layer(std::string identifier) : identifier_(std::move(identifier)) {
   create(Path::absolute_root(), SpecKind::PseudoRoot);
 }
 
-const Spec* Layer::find(Path path) const {
-  const Place place = place_of(path, slots_.size());
-  for (std::size_t at = place.at; slots_[at] != 0; at = (at + 1) & (slots_.size() - 1)) {
-    if ((slots_[at] & ~kIndexMask) == place.tag) {
-      const Entry& entry = entries_[entry_of(slots_[at])];
-      if (entry.path == path) {
-        return &entry.spec;
-      }
+/// Where `path` is in the table, or the empty slot where it would be.
+std::size_t Layer::slot_of(Path path) const {
+  const std::uint32_t number = path.number();
+  std::size_t at = home_of(number, slots_.size());
+  while (slots_[at].entry != 0) {
+    if (slots_[at].path == number && entries_[slots_[at].entry - 1].path == path) {
+      return at;
     }
+    at = (at + 1) & (slots_.size() - 1);
   }
-  return nullptr;
+  return at;
+}
+
+const Spec* Layer::find(Path path) const {
+  const std::uint32_t entry = slots_[slot_of(path)].entry;
+  return entry == 0 ? nullptr : &entries_[entry - 1].spec;
 }
 
 Spec* Layer::find(Path path) { return const_cast<Spec*>(std::as_const(*this).find(path)); }
 
 Spec& Layer::create(Path path, SpecKind kind) {
-  if (!slots_.empty()) {
-    if (Spec* spec = find(path)) {
-      return *spec;
-    }
+  if (4 * (entries_.size() + 1) > 3 * slots_.size()) {
+    grow(std::max<std::size_t>(16, 2 * slots_.size()));
   }
-  if (2 * (entries_.size() + 1) > slots_.size()) {
-    grow();
+  Slot& slot = slots_[slot_of(path)];
+  if (slot.entry != 0) {
+    return entries_[slot.entry - 1].spec;
   }
-  entries_.push_back({path, {}});
-  entries_.back().spec.kind = kind;
-  index_entry(entries_.size() - 1);
-  return entries_.back().spec;
+  Entry& entry = entries_.emplace_back();
+  entry.path = path;
+  entry.spec.kind = kind;
+  slot = {path.number(), static_cast<std::uint32_t>(entries_.size())};
+  return entry.spec;
 }
 
 void Layer::erase(Path path) {
-  std::size_t at = place_of(path, slots_.size()).at;
-  while (slots_[at] != 0) {
-    Entry& entry = entries_[entry_of(slots_[at])];
-    if (entry.path == path) {
-      entry = {};
-      ++erased_;
-      return;
-    }
-    at = (at + 1) & (slots_.size() - 1);
+  const std::uint32_t entry = slots_[slot_of(path)].entry;
+  if (entry != 0) {
+    entries_[entry - 1] = {};
+    ++erased_;
   }
 }
 
 void Layer::reserve(std::size_t spec_count) {
-  while (2 * spec_count > slots_.size()) {
-    grow();
+  std::size_t slot_count = std::max<std::size_t>(16, slots_.size());
+  while (4 * (spec_count + 1) > 3 * slot_count) {
+    slot_count *= 2;
+  }
+  if (slot_count > slots_.size()) {
+    grow(slot_count);
   }
 }
 
-void Layer::index_entry(std::size_t entry) {
-  const Place place = place_of(entries_[entry].path, slots_.size());
-  std::size_t at = place.at;
-  while (slots_[at] != 0) {
-    at = (at + 1) & (slots_.size() - 1);
-  }
-  slots_[at] = place.tag | (entry + 1);
-}
-
-void Layer::grow() {
-  slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), 0);
+void Layer::grow(std::size_t slot_count) {
+  slots_.assign(slot_count, Slot());
   for (std::size_t i = 0; i < entries_.size(); ++i) {
-    if (!entries_[i].path.empty()) {
-      index_entry(i);
+    const Path path = entries_[i].path;
+    if (!path.empty()) {
+      slots_[slot_of(path)] = {path.number(), static_cast<std::uint32_t>(i + 1)};
     }
   }
 }

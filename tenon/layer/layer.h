@@ -66,12 +66,18 @@ class Layer {
   double time_codes_per_second() const;
 
  private:
-  void index_entry(std::size_t entry);
-  void grow();
+  /// The number of a path and, from 1 on, of its entry; paths of one number are told apart there.
+  struct Slot {
+    std::uint32_t path = 0;
+    std::uint32_t entry = 0;  // 0 in an empty slot
+  };
+
+  std::size_t slot_of(Path path) const;
+  void grow(std::size_t slot_count);
 
   std::string identifier_;
-  std::deque<Entry> entries_;           // erased entries keep an empty path
-  std::vector<std::uint64_t> slots_;    // open addressing: part of the hash, entry index + 1
+  std::deque<Entry> entries_;  // erased entries keep an empty path
+  std::vector<Slot> slots_;    // open addressing
   std::size_t erased_ = 0;
 };
 

@@ -84,5 +84,44 @@ TEST(Spec, FieldsAreSetReplacedAndErased) {
   EXPECT_FALSE(spec.has(fields::kind));
 }
 
+TEST(Spec, SharedFieldsChangeInOneSpecOnly) {
+  Spec first;
+  first.append(fields::kind, Value(Token("a")));
+  first.append(fields::active, Value(true));
+  Spec second;
+  second.set_field_list(first.field_list());
+  EXPECT_TRUE(second.field_list().is_same(first.field_list()));
+  Spec third = second;
+  second.set(fields::kind, Value(Token("b")));
+  third.erase(fields::kind);
+  third.append(fields::comment, Value(std::string("c")));
+  EXPECT_EQ(first.get_or(fields::kind, Token()), "a");
+  EXPECT_EQ(first.fields().size(), 2u);
+  EXPECT_EQ(second.get_or(fields::kind, Token()), "b");
+  EXPECT_TRUE(second.get_or(fields::active, false));
+  EXPECT_FALSE(third.has(fields::kind));
+  EXPECT_EQ(third.fields().size(), 2u);
+}
+
+TEST(Layer, FindsSpecsWhosePathsWereMadeInAnyOrder) {
+  std::vector<Path> paths;
+  for (int i = 0; i < 2000; ++i) {
+    paths.push_back(Path::from("/order/p" + std::to_string(i)));
+  }
+  Layer layer("a.usda");
+  layer.reserve(10);
+  for (std::size_t i = 0; i < paths.size(); i += 2) {
+    layer.create(paths[i], SpecKind::Prim).set_place(static_cast<std::uint32_t>(i), 1);
+  }
+  layer.erase(paths[10]);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const Spec* spec = layer.find(paths[i]);
+    ASSERT_EQ(spec != nullptr, i % 2 == 0 && i != 10) << i;
+    EXPECT_EQ(spec == nullptr ? i : spec->line, i);
+  }
+  layer.create(paths[10], SpecKind::Attribute);
+  EXPECT_EQ(layer.find(paths[10])->kind, SpecKind::Attribute);
+}
+
 }  // namespace
 }  // namespace tenon::layer
