@@ -29,17 +29,20 @@ class PathTree {
     return {};
   }
 
-  Result<std::vector<Path>> build() {
-    if (path_column_.empty()) {
-      return std::move(paths_);
+  Result<void> build(Tables& tables) {
+    std::vector<Pending> pending;
+    if (!path_column_.empty()) {
+      pending.push_back({0, Path()});
     }
-    std::vector<Pending> pending = {{0, Path()}};
+    order_.reserve(path_column_.size());
     while (!pending.empty()) {
       const Pending start = pending.back();
       pending.pop_back();
       TENON_CHECK(walk(start, pending));
     }
-    return std::move(paths_);
+    tables.paths = std::move(paths_);
+    tables.path_order = std::move(order_);
+    return {};
   }
 
  private:
@@ -78,9 +81,11 @@ class PathTree {
       return corrupt("the tree of paths names a path twice or one that is not there");
     }
     if (parent.empty()) {
+      order_.push_back(index);
       return paths_[index] = Path::absolute_root();
     }
     TENON_TRY(const Path path, append(parent, token_column_[node]));
+    order_.push_back(index);
     return paths_[index] = path;
   }
 
@@ -155,6 +160,7 @@ class PathTree {
   const std::vector<Token>& tokens_;
   std::vector<TokenUse> uses_;
   std::vector<Path> paths_;
+  std::vector<std::uint32_t> order_;  // indices of paths_
   std::vector<std::uint32_t> path_column_;
   std::vector<std::int32_t> token_column_;
   std::vector<std::int32_t> jump_column_;
@@ -163,14 +169,16 @@ class PathTree {
 
 }  // namespace
 
-Result<std::vector<Path>> read_paths(bytes::ByteReader& in, const CrateFile& file) {
+Result<void> read_paths(Tables& tables) {
+  bytes::ByteReader in = tables.path_section;
   if (in.size() == 0) {
-    return std::vector<Path>();
+    return {};
   }
+  const CrateFile& file = *tables.file;
   TENON_TRY(const std::uint64_t count, read_row_count(in, file));
   PathTree tree(file.tokens, static_cast<std::size_t>(count));
   TENON_CHECK(tree.read_columns(in, file));
-  return tree.build();
+  return tree.build(tables);
 }
 
 }  // namespace tenon::formats::crate

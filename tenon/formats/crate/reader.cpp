@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tenon/base/parallel.h"
 #include "tenon/formats/crate/tables.h"
 #include "tenon/formats/crate/value_reader.h"
 #include "tenon/layer/fields.h"
@@ -51,6 +52,8 @@ layer::Value as_payload_list(layer::Value value) {
       none ? std::vector<layer::Payload>() : std::vector<layer::Payload>{*payload}));
 }
 
+constexpr std::size_t kWorthAThread = 256u << 10;  // bytes; less is read before a thread starts
+
 class LayerBuilder {
  public:
   LayerBuilder(crate::Tables tables, std::string identifier, Diagnostics& diagnostics)
@@ -60,21 +63,64 @@ class LayerBuilder {
         layer_(std::move(identifier)) {}
 
   Result<layer::Layer> build() {
-    TENON_CHECK(read_values());
-    layer_.reserve(tables_.specs.size() + 1);
-    for (const crate::SpecRow& row : tables_.specs) {
-      TENON_CHECK(add_spec(row));
+    Result<void> plain;
+    Result<void> structure;
+    const auto values = [&] { plain = read_values(false); };
+    const auto specs = [&] { structure = make_specs(); };
+    if (tables_.file->bytes->size() >= kWorthAThread) {
+      run_both(values, specs);
+    } else {
+      values();
+      specs();
+    }
+    TENON_CHECK(structure);
+    TENON_CHECK(plain);
+    TENON_CHECK(read_values(true));
+    report_findings();
+    shared_fields_.resize(tables_.field_sets.size());
+    for (std::size_t i = 0; i < specs_.size(); ++i) {
+      TENON_CHECK(add_fields(tables_.specs[i].field_set, *specs_[i]));
     }
     return std::move(layer_);
   }
 
  private:
-  /// Each field is read once; specs share it.
-  Result<void> read_values() {
-    Diagnostics found;
-    crate::ValueReader reader(tables_, budget_, found);
-    values_.reserve(tables_.fields.size());
-    for (const crate::FieldRow& field : tables_.fields) {
+  /// Paths, and specs without their fields.
+  Result<void> make_specs() {
+    TENON_CHECK(read_paths(tables_));
+    TENON_CHECK(read_specs(tables_));
+    layer_.reserve(tables_.specs.size() + 1);
+    specs_.reserve(tables_.specs.size());
+    for (const crate::SpecRow& row : tables_.specs) {
+      TENON_CHECK(make_spec(row));
+    }
+    return {};
+  }
+
+  Result<void> make_spec(const crate::SpecRow& row) {
+    const Path path = tables_.paths[row.path];
+    if (!kind_fits(row.kind, path)) {
+      return crate::corrupt("the spec at " + path.str() + " is of a kind that cannot be there");
+    }
+    const std::size_t before = layer_.spec_count();
+    specs_.push_back(&layer_.create(path, row.kind));
+    const bool is_root = path.is_absolute_root();
+    if (is_root ? root_seen_ : layer_.spec_count() == before) {
+      return crate::corrupt("there are two specs at " + path.str());
+    }
+    root_seen_ = root_seen_ || is_root;
+    return {};
+  }
+
+  /// Each field is read once; specs share it. Those that may hold paths are read after the others.
+  Result<void> read_values(bool with_paths) {
+    crate::ValueReader reader(tables_, budget_, findings_);
+    values_.resize(tables_.fields.size());
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const crate::FieldRow& field = tables_.fields[i];
+      if (crate::may_hold_paths(field.value) != with_paths) {
+        continue;
+      }
       auto value = reader.read(field.value);
       if (!value) {
         Error error = std::move(value).error();
@@ -83,52 +129,55 @@ class LayerBuilder {
         return Error(error.code(), std::move(diagnostic));
       }
       const bool payload = field.name == layer::fields::payload;
-      values_.push_back(payload ? as_payload_list(*std::move(value)) : *std::move(value));
-    }
-    for (Diagnostic diagnostic : found) {
-      diagnostic.file = layer_.identifier();
-      diagnostics_.add(std::move(diagnostic));
+      values_[i] = payload ? as_payload_list(*std::move(value)) : *std::move(value);
     }
     return {};
   }
 
-  Result<void> add_spec(const crate::SpecRow& row) {
-    const Path path = tables_.paths[row.path];
-    if (!kind_fits(row.kind, path)) {
-      return crate::corrupt("the spec at " + path.str() + " is of a kind that cannot be there");
+  void report_findings() {
+    for (Diagnostic diagnostic : findings_) {
+      diagnostic.file = layer_.identifier();
+      diagnostics_.add(std::move(diagnostic));
     }
-    const std::size_t before = layer_.spec_count();
-    layer::Spec& spec = layer_.create(path, row.kind);
-    const bool is_root = path.is_absolute_root();
-    if (is_root ? root_seen_ : layer_.spec_count() == before) {
-      return crate::corrupt("there are two specs at " + path.str());
-    }
-    root_seen_ = root_seen_ || is_root;
-    return add_fields(row.field_set, spec);
   }
 
+  /// Specs of one set of fields share them.
   Result<void> add_fields(std::uint32_t set, layer::Spec& spec) {
+    TENON_CHECK(budget_.spend(1));
+    layer::FieldList& fields = shared_fields_[set];
+    if (fields.items().empty()) {
+      TENON_TRY(fields, read_fields(set));
+    }
+    spec.set_field_list(fields);
+    return {};
+  }
+
+  Result<layer::FieldList> read_fields(std::uint32_t set) {
     const std::vector<std::uint32_t>& sets = tables_.field_sets;
     std::size_t end = set;
     while (sets[end] != crate::kEndOfSet) {
       ++end;
     }
-    TENON_CHECK(budget_.spend(end - set + 1));
-    spec.reserve_fields(end - set);
+    TENON_CHECK(budget_.spend(end - set));
+    layer::FieldList fields;
+    fields.reserve(end - set);
     for (std::size_t i = set; i < end; ++i) {
       const layer::Value& value = values_[sets[i]];
       if (!value.empty()) {
-        spec.append(tables_.fields[sets[i]].name, value);
+        fields.append(tables_.fields[sets[i]].name, value);
       }
     }
-    return {};
+    return fields;
   }
 
   crate::Tables tables_;
   crate::WorkBudget budget_;
   Diagnostics& diagnostics_;
+  Diagnostics findings_;
   layer::Layer layer_;
-  std::vector<layer::Value> values_;  // by index of the field
+  std::vector<layer::Spec*> specs_;              // of tables_.specs
+  std::vector<layer::Value> values_;             // by index of the field
+  std::vector<layer::FieldList> shared_fields_;  // by where their set starts
   bool root_seen_ = false;
 };
 

@@ -158,27 +158,26 @@ Result<std::vector<std::uint32_t>> read_field_sets(bytes::ByteReader in, const C
   return sets;
 }
 
-Result<std::vector<SpecRow>> read_specs(bytes::ByteReader in, const CrateFile& file,
-                                        const Tables& tables) {
-  if (in.size() == 0) {
-    return std::vector<SpecRow>();
-  }
-  TENON_TRY(const std::uint64_t count, read_row_count(in, file));
-  TENON_TRY(const std::vector<std::uint32_t> paths, read_packed<std::uint32_t>(in, count));
-  TENON_TRY(const std::vector<std::uint32_t> sets, read_packed<std::uint32_t>(in, count));
-  TENON_TRY(const std::vector<std::uint32_t> kinds, read_packed<std::uint32_t>(in, count));
-  std::vector<SpecRow> specs(paths.size());
+/// The specs in the order of `path_order`: neighbours in the tree are neighbours in memory.
+/// ErrorCode::Corrupt when a path has two.
+Result<std::vector<SpecRow>> sorted_by_path(const std::vector<SpecRow>& specs,
+                                            const Tables& tables) {
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  std::vector<std::uint32_t> spec_of_path(tables.paths.size(), kNone);
   for (std::size_t i = 0; i < specs.size(); ++i) {
-    const bool starts_run = sets[i] < tables.field_sets.size() &&
-                            (sets[i] == 0 || tables.field_sets[sets[i] - 1] == kEndOfSet);
-    if (paths[i] >= tables.paths.size() || tables.paths[paths[i]].empty() || !starts_run ||
-        kinds[i] == 0 || kinds[i] >= std::size(kSpecKinds)) {
-      return corrupt("spec " + std::to_string(i) +
-                     " has an impossible path, kind or set of fields");
+    if (spec_of_path[specs[i].path] != kNone) {
+      return corrupt("there are two specs at " + tables.paths[specs[i].path].str());
     }
-    specs[i] = {paths[i], sets[i], kSpecKinds[kinds[i]]};
+    spec_of_path[specs[i].path] = static_cast<std::uint32_t>(i);
   }
-  return specs;
+  std::vector<SpecRow> sorted;
+  sorted.reserve(specs.size());
+  for (const std::uint32_t path : tables.path_order) {
+    if (spec_of_path[path] != kNone) {
+      sorted.push_back(specs[spec_of_path[path]]);
+    }
+  }
+  return sorted;
 }
 
 Result<Tables> read_sections(const Contents& contents, std::shared_ptr<CrateFile> file) {
@@ -189,9 +188,8 @@ Result<Tables> read_sections(const Contents& contents, std::shared_ptr<CrateFile
   TENON_TRY(tables.fields, read_fields(contents.section("FIELDS", bytes), *file));
   TENON_TRY(tables.field_sets,
             read_field_sets(contents.section("FIELDSETS", bytes), *file, tables.fields.size()));
-  bytes::ByteReader paths = contents.section("PATHS", bytes);
-  TENON_TRY(tables.paths, read_paths(paths, *file));
-  TENON_TRY(tables.specs, read_specs(contents.section("SPECS", bytes), *file, tables));
+  tables.path_section = contents.section("PATHS", bytes);
+  tables.spec_section = contents.section("SPECS", bytes);
   tables.file = std::move(file);
   return tables;
 }
@@ -218,6 +216,30 @@ template Result<std::vector<std::int32_t>> read_packed(bytes::ByteReader&, std::
 template Result<std::vector<std::uint32_t>> read_packed(bytes::ByteReader&, std::uint64_t);
 template Result<std::vector<std::int64_t>> read_packed(bytes::ByteReader&, std::uint64_t);
 template Result<std::vector<std::uint64_t>> read_packed(bytes::ByteReader&, std::uint64_t);
+
+Result<void> read_specs(Tables& tables) {
+  bytes::ByteReader in = tables.spec_section;
+  if (in.size() == 0) {
+    return {};
+  }
+  TENON_TRY(const std::uint64_t count, read_row_count(in, *tables.file));
+  TENON_TRY(const std::vector<std::uint32_t> paths, read_packed<std::uint32_t>(in, count));
+  TENON_TRY(const std::vector<std::uint32_t> sets, read_packed<std::uint32_t>(in, count));
+  TENON_TRY(const std::vector<std::uint32_t> kinds, read_packed<std::uint32_t>(in, count));
+  std::vector<SpecRow> specs(paths.size());
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    const bool starts_run = sets[i] < tables.field_sets.size() &&
+                            (sets[i] == 0 || tables.field_sets[sets[i] - 1] == kEndOfSet);
+    if (paths[i] >= tables.paths.size() || tables.paths[paths[i]].empty() || !starts_run ||
+        kinds[i] == 0 || kinds[i] >= std::size(kSpecKinds)) {
+      return corrupt("spec " + std::to_string(i) +
+                     " has an impossible path, kind or set of fields");
+    }
+    specs[i] = {paths[i], sets[i], kSpecKinds[kinds[i]]};
+  }
+  TENON_TRY(tables.specs, sorted_by_path(specs, tables));
+  return {};
+}
 
 Result<Tables> read_tables(std::shared_ptr<const bytes::FileBytes> bytes) {
   bytes::ByteReader in(bytes->span());

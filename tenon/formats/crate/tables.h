@@ -43,14 +43,19 @@ struct Tables {
   std::vector<FieldRow> fields;
   std::vector<std::uint32_t> field_sets;  ///< runs of field indices, each ended by kEndOfSet
   std::vector<Path> paths;                ///< the empty path where the file gives none
-  std::vector<SpecRow> specs;
+  std::vector<std::uint32_t> path_order;  ///< indices of `paths` as they were made, depth first
+  std::vector<SpecRow> specs;             ///< sorted by `path_order`
+  bytes::ByteReader path_section{{}};     ///< of the file; read by `read_paths`
+  bytes::ByteReader spec_section{{}};     ///< of the file; read by `read_specs`
 };
 
-/// Errors: ErrorCode::Unsupported for versions that cannot be read, Corrupt, Limit.
+/// All but paths and specs. Errors: ErrorCode::Unsupported for versions that cannot be read,
+/// Corrupt, Limit.
 Result<Tables> read_tables(std::shared_ptr<const bytes::FileBytes> bytes);
-
-/// The section PATHS: `in` stands at its start, `tokens` are read.
-Result<std::vector<Path>> read_paths(bytes::ByteReader& in, const CrateFile& file);
+/// Fills `paths` and `path_order`.
+Result<void> read_paths(Tables& tables);
+/// Fills `specs`, after the paths.
+Result<void> read_specs(Tables& tables);
 
 /// A count from the file, refused when no file of this size can have as many rows.
 Result<std::uint64_t> read_row_count(bytes::ByteReader& in, const CrateFile& file);

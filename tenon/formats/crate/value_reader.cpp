@@ -147,6 +147,27 @@ Result<Value> ValueReader::other(ValueWord word) {
   }
 }
 
+bool may_hold_paths(ValueWord word) {
+  using namespace layer;  // NOLINT(google-build-using-namespace): the table names its types
+  switch (word.type()) {
+#define TENON_SCALAR(enumerator, type, name, crate_id) \
+  case crate_id:                                       \
+    return false;
+#include "tenon/layer/value_types.def"
+    case kTokenVector:
+    case kDoubleVector:
+    case kStringVector:
+      return false;
+#define TENON_FIELD(enumerator, type, crate_id)                             \
+  case crate_id:                                                            \
+    return !(std::is_enum_v<type> || std::is_same_v<type, ListOp<Token>> || \
+             std::is_same_v<type, ListOp<std::string>>);
+#include "tenon/layer/value_types.def"
+    default:
+      return true;
+  }
+}
+
 Result<Value> ValueReader::read(ValueWord word) {
   if (word.is_array_edit()) {
     return unsupported(word, "edits of arrays");

@@ -14,6 +14,9 @@
 
 namespace tenon::formats::crate {
 
+/// False for values that are read without the table of paths.
+bool may_hold_paths(ValueWord word);
+
 /// Decodes the values of one file.
 class ValueReader {
  public:

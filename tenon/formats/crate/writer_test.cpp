@@ -69,7 +69,7 @@ TEST(CrateWriter, KeepsNegativeZeroInfinityAndNan) {
   std::vector<double> zeros(20, 0.0);
   zeros[3] = -0.0;
   const auto back = read_back(*write_crate(layer_with(zeros)));
-  EXPECT_TRUE(std::signbit((*back->find(Path::from("/A"))->get<std::vector<double>>("field"))[3]));
+  EXPECT_TRUE(std::signbit((*back->find(Path::from("/A"))->get<layer::Array<double>>("field"))[3]));
   const auto nan = read_back(*write_crate(layer_with(std::nan(""))));
   EXPECT_TRUE(std::isnan(*nan->find(Path::from("/A"))->get<double>("field")));
 }
@@ -167,13 +167,40 @@ TEST(CrateReader, RefusesOtherVersionsByName) {
   }
 }
 
-TEST(CrateReader, LeavesLongArraysInTheFile) {
+TEST(CrateReader, HandsOutLongArraysAsTheyLieInTheFile) {
   const Layer layer = layer_with(crate::sample_array<float>(1000, false));
+  const auto bytes = bytes::FileBytes::own(*write_crate(layer));
+  Diagnostics diagnostics;
+  const auto back = read_crate(bytes, "x.usdc", diagnostics);
+  const auto* array = back->find(Path::from("/A"))->get<layer::Array<float>>("field");
+  ASSERT_NE(array, nullptr);
+  const auto* first = reinterpret_cast<const std::byte*>(array->data());
+  EXPECT_GE(first, bytes->span().data());
+  EXPECT_LT(first, bytes->span().data() + bytes->size());
+  EXPECT_EQ(array->size(), 1000u);
+  expect_equal(layer, *back);
+}
+
+TEST(CrateReader, LeavesPackedArraysInTheFile) {
+  const Layer layer = layer_with(crate::sample_array<std::int32_t>(1000, true));
   const auto back = read_back(*write_crate(layer));
   const Value* value = back->find(Path::from("/A"))->find("field");
   EXPECT_TRUE(value->is_deferred());
   EXPECT_EQ(value->size(), 1000u);
   expect_equal(layer, *back);
+}
+
+TEST(CrateReader, SpecsOfOneSetOfFieldsShareThem) {
+  Layer layer("made");
+  for (const char* path : {"/A", "/B"}) {
+    layer.create(Path::from(path), SpecKind::Prim).set("field", Value(std::vector<float>{1, 2}));
+  }
+  auto back = read_back(*write_crate(layer));
+  layer::Spec& first = *back->find(Path::from("/A"));
+  layer::Spec& second = *back->find(Path::from("/B"));
+  EXPECT_TRUE(first.field_list().is_same(second.field_list()));
+  first.set("field", Value(1));
+  EXPECT_EQ(second.get<layer::Array<float>>("field")->size(), 2u);
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/base/parallel.h"
+
+#include <pthread.h>
+#include <sched.h>
+
+namespace tenon {
+namespace {
+
+void* run(void* call) {
+  (*static_cast<const std::function<void()>*>(call))();
+  return nullptr;
+}
+
+}  // namespace
+
+std::size_t usable_processors() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof(set), &set) != 0) {
+    return 1;
+  }
+  const int count = CPU_COUNT(&set);
+  return count < 1 ? 1 : static_cast<std::size_t>(count);
+}
+
+void run_both(const std::function<void()>& first, const std::function<void()>& second) {
+  // Not std::thread: where no thread can be had, that one throws.
+  pthread_t other{};
+  void* const call = const_cast<std::function<void()>*>(&first);
+  const bool started = usable_processors() > 1 && pthread_create(&other, nullptr, run, call) == 0;
+  second();
+  if (started) {
+    pthread_join(other, nullptr);
+  } else {
+    first();
+  }
+}
+
+}  // namespace tenon
