@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/text/cursor.h"
 
+#include <array>
 #include <cstring>
 
 #include "tenon/base/unicode.h"
@@ -12,11 +13,28 @@ namespace {
 constexpr bool is_ascii_name_start(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
-constexpr bool is_ascii_name(char c) { return is_ascii_name_start(c) || (c >= '0' && c <= '9'); }
+
+constexpr std::array<bool, 256> kAsciiName = [] {
+  std::array<bool, 256> table{};
+  for (std::size_t i = 0; i < 128; ++i) {
+    const auto c = static_cast<char>(i);
+    table[i] = is_ascii_name_start(c) || (c >= '0' && c <= '9');
+  }
+  return table;
+}();
+constexpr bool is_ascii_name(char c) { return kAsciiName[static_cast<unsigned char>(c)]; }
 
 /// Length of the identifier at the head of `text`.
 std::size_t identifier_length(std::string_view text) {
   std::size_t at = 0;
+  if (!text.empty() && is_ascii_name_start(text[0])) {
+    while (at < text.size() && is_ascii_name(text[at])) {
+      ++at;
+    }
+    if (at == text.size() || static_cast<unsigned char>(text[at]) < 0x80) {
+      return at;
+    }
+  }
   while (at < text.size()) {
     const char c = text[at];
     if (static_cast<unsigned char>(c) < 0x80) {

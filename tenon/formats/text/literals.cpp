@@ -27,19 +27,19 @@ struct Digits {
 };
 
 void take_digits(const char*& at, const char* end, Digits& digits, bool after_point) {
+  const char* const first = at;
   while (at != end && is_digit(*at)) {
     if (digits.count != 0 || *at != '0') {
       ++digits.count;
     }
     digits.mantissa = digits.mantissa * 10 + static_cast<std::uint64_t>(*at - '0');
-    digits.point_shift += after_point ? 1 : 0;
     ++at;
   }
+  digits.point_shift += after_point ? static_cast<int>(at - first) : 0;
 }
 
-bool take_exponent(Cursor& cursor, const char*& at, const char* end, Digits& digits) {
-  digits.whole = false;
-  const char* start = at;
+/// Takes what begins with 'e'; false, up to where digits are missing.
+bool take_plain_exponent(const char*& at, const char* end, int& exponent) {
   ++at;
   bool negative = false;
   if (at != end && (*at == '+' || *at == '-')) {
@@ -47,16 +47,25 @@ bool take_exponent(Cursor& cursor, const char*& at, const char* end, Digits& dig
     ++at;
   }
   if (at == end || !is_digit(*at)) {
-    cursor.advance(static_cast<std::size_t>(at - start));
-    return cursor.fail_expected("digits of the exponent");
+    return false;
   }
   int value = 0;
   while (at != end && is_digit(*at)) {
     value = value < 100000 ? value * 10 + (*at - '0') : value;
     ++at;
   }
-  digits.exponent = negative ? -value : value;
+  exponent = negative ? -value : value;
   return true;
+}
+
+bool take_exponent(Cursor& cursor, const char*& at, const char* end, Digits& digits) {
+  digits.whole = false;
+  const char* const start = at;
+  if (take_plain_exponent(at, end, digits.exponent)) {
+    return true;
+  }
+  cursor.advance(static_cast<std::size_t>(at - start));
+  return cursor.fail_expected("digits of the exponent");
 }
 
 /// The correctly rounded value of the text; short numbers need one exact operation.
@@ -256,6 +265,60 @@ bool read_double(Cursor& cursor, double& value) {
   }
   value = number.as_double();
   return true;
+}
+
+bool take_plain_integer(const char*& at, const char* end, std::int64_t& value) {
+  const char* next = at;
+  Digits digits;
+  if (next != end && *next == '-') {
+    digits.negative = true;
+    ++next;
+  }
+  const char* const first = next;
+  take_digits(next, end, digits, false);
+  const bool more = next != end && (*next == '.' || *next == 'e' || *next == 'E');
+  if (next == first || more || digits.count > 18) {
+    return false;
+  }
+  const auto size = static_cast<std::int64_t>(digits.mantissa);
+  value = digits.negative ? -size : size;
+  at = next;
+  return true;
+}
+
+bool take_plain_double(const char*& at, const char* end, double& value) {
+  const char* next = at;
+  Digits digits;
+  if (next != end && *next == '-') {
+    digits.negative = true;
+    ++next;
+  }
+  const char* const first = next;
+  take_digits(next, end, digits, false);
+  bool any = next != first;
+  if (next != end && *next == '.') {
+    ++next;
+    const char* const fraction = next;
+    take_digits(next, end, digits, true);
+    any = any || next != fraction;
+  }
+  if (!any || (next != end && (*next == 'e' || *next == 'E') &&
+               !take_plain_exponent(next, end, digits.exponent))) {
+    return false;
+  }
+  value = value_of(digits, at, next);
+  at = next;
+  return true;
+}
+
+bool fail_expected_close(Cursor& cursor, std::string_view separator, char close,
+                         std::string_view what) {
+  std::string expected(separator);
+  expected += " or '";
+  expected += close;
+  expected += "' ";
+  expected += what;
+  return cursor.fail_expected(expected);
 }
 
 bool at_string(const Cursor& cursor) { return cursor.peek() == '"' || cursor.peek() == '\''; }

@@ -30,6 +30,12 @@ bool read_number(Cursor& cursor, Number& number);
 /// The same for callers that need no whole numbers.
 bool read_double(Cursor& cursor, double& value);
 
+/// The number whose first character is `at`, up to which it moves on; false, and nothing taken, for
+/// inf, nan and what is no number. For loops over many numbers; read_double reads the same ones.
+bool take_plain_double(const char*& at, const char* end, double& value);
+/// The same for whole numbers of at most 18 digits without point and exponent.
+bool take_plain_integer(const char*& at, const char* end, std::int64_t& value);
+
 /// '..', "..", '''..''' or """..""" with its escapes resolved.
 bool at_string(const Cursor& cursor);
 bool read_string(Cursor& cursor, std::string& value);
@@ -39,6 +45,10 @@ bool read_asset_path(Cursor& cursor, std::string& value);
 
 /// <..>; the path is empty for <>.
 bool read_path(Cursor& cursor, Path& path);
+
+/// Keeps the error that neither `separator` nor `close` "`what`" stands at the cursor.
+bool fail_expected_close(Cursor& cursor, std::string_view separator, char close,
+                         std::string_view what);
 
 /// Reads the items of a list whose opening character was taken: at least one, separated by ',',
 /// a last ',' is allowed; takes `close`. `item()` reads one item.
@@ -52,8 +62,7 @@ bool read_items(Cursor& cursor, char close, std::string_view what, Item item) {
     cursor.skip_inline();
     if (!cursor.accept(',')) {
       cursor.skip_multi_line();
-      return cursor.accept(close) ||
-             cursor.fail_expected(std::string("',' or '") + close + "' " + std::string(what));
+      return cursor.accept(close) || fail_expected_close(cursor, "','", close, what);
     }
     cursor.skip_multi_line();
     if (cursor.accept(close)) {
@@ -80,8 +89,7 @@ bool read_statements(Cursor& cursor, char close, std::string_view what, Item ite
       return true;
     }
     if (!separated) {
-      return cursor.fail_expected(std::string("the end of the line, ';' or '") + close + "' " +
-                                  std::string(what));
+      return fail_expected_close(cursor, "the end of the line, ';'", close, what);
     }
   }
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/text/reader.h"
 
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -150,12 +151,88 @@ TEST(TextReader, ListEditsAreCollected) {
   EXPECT_EQ(inherits->explicit_items, std::vector<Path>{Path::from("/B")});
 }
 
+/// `count` points (i, 0.5, -i), with what `at(i)` gives in front of each.
+template <class Front>
+std::string point_list(int count, Front at) {
+  std::string text = "def \"A\" {\n float3[] p = [";
+  for (int i = 0; i < count; ++i) {
+    text += i == 0 ? "" : ", ";
+    text += at(i);
+    text += '(' + std::to_string(i) + ", 5e-1, -" + std::to_string(i) + ".0)";
+  }
+  return text + "]\n}\n";
+}
+
+void expect_points(const std::string& body, std::size_t count) {
+  const Spec spec = spec_of(body, "/A.p");
+  const auto* points = spec.get<layer::Array<Vec3f>>(fields::default_value);
+  ASSERT_NE(points, nullptr);
+  ASSERT_EQ(points->size(), count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto x = static_cast<float>(i);
+    ASSERT_EQ((*points)[i], (Vec3f{{x, 0.5f, -x}})) << i;
+  }
+}
+
+TEST(TextReader, LongListsAreReadHoweverTheyAreWritten) {
+  const auto plain = [](int) { return ""; };
+  expect_points(point_list(100, plain), 100);
+  expect_points(point_list(100000, plain), 100000);  // more than a megabyte: in two halves
+  const auto comment = [](int i) { return i % 7001 == 7000 ? "/* ), ( ] */ " : ""; };
+  expect_points(point_list(200, [](int i) { return i == 150 ? "# ]\n" : "\n\t"; }), 200);
+  expect_points(point_list(100000, comment), 100000);
+  std::string trailing = point_list(100, plain);
+  trailing.replace(trailing.find(']', 20), 1, ", ]");
+  expect_points(trailing, 100);
+}
+
+TEST(TextReader, LongListsKeepTheirFaultsAndTheirPlaces) {
+  std::string wrong = point_list(100000, [](int) { return "\n"; });
+  wrong.replace(wrong.find("(60000,"), 7, "(60000;");
+  const auto layer = read(wrong);
+  ASSERT_FALSE(layer);
+  EXPECT_EQ(layer.error().diagnostic().line, 60004u);
+  EXPECT_EQ(layer.error().diagnostic().column, 7u);
+  EXPECT_FALSE(read("def \"A\" {\n int[] a = [1, 2, 3 4]\n}\n"));
+  EXPECT_FALSE(read("def \"A\" {\n int[] a = [1, 2\n, 3]\n}\n"));
+  EXPECT_FALSE(read("def \"A\" {\n int[] a = [1, 2, 3000000000, 4]\n}\n"));
+  EXPECT_FALSE(read("def \"A\" {\n int[] a = [1, 2, [3], 4]\n}\n"));
+}
+
+TEST(TextReader, NumbersOfListsAreThoseOfSingleValues) {
+  for (const char* number : {"1", "-0", ".5", "-3.", "1e3", "1E-3", "0.1", "123456789012345678901",
+                             "1.7976931348623157e308", "1e999", "4.9e-324", "0.30000000000000004",
+                             "9007199254740993", "inf", "-inf"}) {
+    const std::string one = std::string("def \"A\" {\n double p = ") + number + "\n}\n";
+    const std::string list = std::string("def \"A\" {\n double[] p = [") + number + ", 1]\n}\n";
+    const double single = spec_of(one, "/A.p").get_or(fields::default_value, 0.25);
+    const Spec listed = spec_of(list, "/A.p");
+    const auto* numbers = listed.get<layer::Array<double>>(fields::default_value);
+    ASSERT_NE(numbers, nullptr);
+    EXPECT_EQ((*numbers)[0], single) << number;
+    EXPECT_EQ(std::signbit((*numbers)[0]), std::signbit(single)) << number;
+  }
+}
+
+TEST(TextReader, SpecsThatShareFieldsStaySeparate) {
+  const std::string body =
+      "def \"A\" {\n int p = 1\n}\ndef \"B\" {\n int p = 1\n int p.connect = </A.p>\n}\n"
+      "def \"C\" {\n int p = 1\n}\n";
+  EXPECT_FALSE(spec_of(body, "/A.p").has(fields::connectionPaths));
+  EXPECT_TRUE(spec_of(body, "/B.p").has(fields::connectionPaths));
+  EXPECT_FALSE(spec_of(body, "/C.p").has(fields::connectionPaths));
+  const auto layer = read(body);
+  const auto& first = layer->find(Path::from("/A.p"))->field_list();
+  EXPECT_TRUE(first.is_same(layer->find(Path::from("/C.p"))->field_list()));
+  EXPECT_EQ(layer->find(Path::from("/C.p"))->line, 10u);
+}
+
 TEST(TextReader, AttributesHaveValuesSamplesAndPlaces) {
   const std::string body =
       "def \"A\" {\n  float3[] p = [(1, 2, 3),\n (4, 5, 6)]\n"
       "  custom uniform bool b = no\n  double t.timeSamples = {2: 1, 1: None, 2: 3}\n}\n";
   const Spec points = spec_of(body, "/A.p");
-  const auto* values = points.get<std::vector<Vec3f>>(fields::default_value);
+  const auto* values = points.get<layer::Array<Vec3f>>(fields::default_value);
   ASSERT_NE(values, nullptr);
   EXPECT_EQ((*values)[1], (Vec3f{{4, 5, 6}}));
   EXPECT_EQ(points.line, 3u);

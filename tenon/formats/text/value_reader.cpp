@@ -8,12 +8,13 @@
 
 #include "tenon/base/limits.h"
 #include "tenon/formats/text/literals.h"
+#include "tenon/formats/text/plain_elements.h"
 #include "tenon/layer/field_values.h"
 
 namespace tenon::formats::text {
 namespace {
 
-using layer::Array;
+using layer::ArrayBuffer;
 using layer::AssetPath;
 using layer::PathExpression;
 using layer::TimeCode;
@@ -209,13 +210,31 @@ bool read_tuple(Cursor& cursor, std::size_t count, Item item) {
   return ok;
 }
 
+/// The same for tuples in the form in which programs write them, without a word about others.
+template <class T>
+bool accept_plain(Cursor& cursor, T& value) {
+  const std::string_view rest = cursor.rest();
+  const char* at = rest.data();
+  if (!take_plain(at, at + rest.size(), value)) {
+    return false;
+  }
+  cursor.advance(static_cast<std::size_t>(at - rest.data()));
+  return true;
+}
+
 template <class T, std::size_t N>
 bool read_scalar(Cursor& cursor, Vec<T, N>& value) {
+  if (accept_plain(cursor, value)) {
+    return true;
+  }
   return read_tuple(cursor, N, [&](std::size_t i) { return read_component(cursor, value[i]); });
 }
 
 template <class T>
 bool read_scalar(Cursor& cursor, Quat<T>& value) {
+  if (accept_plain(cursor, value)) {
+    return true;
+  }
   return read_tuple(cursor, 4, [&](std::size_t i) {
     T* const parts[] = {&value.w, &value.x, &value.y, &value.z};
     return read_component(cursor, *parts[i]);
@@ -224,6 +243,9 @@ bool read_scalar(Cursor& cursor, Quat<T>& value) {
 
 template <std::size_t N>
 bool read_scalar(Cursor& cursor, Matrix<N>& value) {
+  if (accept_plain(cursor, value)) {
+    return true;
+  }
   return read_tuple(cursor, N, [&](std::size_t row) {
     return read_tuple(
         cursor, N, [&](std::size_t column) { return read_component(cursor, value[row][column]); });
@@ -236,7 +258,7 @@ class ListReader {
   explicit ListReader(Cursor& cursor) : cursor_(cursor) {}
 
   template <class Element>
-  bool read(Array<Element>& elements, std::size_t depth = 0) {
+  bool read(ArrayBuffer<Element>& elements, std::size_t depth = 0) {
     if (depth >= limits::kTextNestingDepth) {
       return cursor_.fail_at(cursor_.offset(), ErrorCode::Limit, "text.depth",
                              "lists are nested too deep");
@@ -244,6 +266,13 @@ class ListReader {
     const std::size_t start = cursor_.offset();
     cursor_.advance();
     std::size_t count = 0;
+    if constexpr (PlainElement<Element>) {
+      if (depth == 0) {
+        cursor_.skip_multi_line();
+        count = take_plain_elements(cursor_, elements);
+        element_depth_ = count == 0 ? kNoDepth : 0;
+      }
+    }
     const bool ok = read_items(cursor_, ']', "of the list", [&] {
       ++count;
       if (cursor_.peek() == '[') {
@@ -304,7 +333,7 @@ bool read_typed(Cursor& cursor, bool is_array, Value& value) {
     value = Value(std::move(scalar));
     return true;
   }
-  Array<T> elements;
+  ArrayBuffer<T> elements;
   if (!accept_empty_list(cursor)) {
     if (cursor.peek() != '[') {
       return cursor.fail_expected("'[', as the type name ends with []");
