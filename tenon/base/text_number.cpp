@@ -23,65 +23,92 @@ std::string shortest_of(T value) {
   return {buffer.data(), end};
 }
 
-struct Digits {
+/// The shortest decimal form of a finite number: 0.DIGITS x 10^exponent.
+struct Decimal {
+  std::array<char, 32> digits;  // significant, without point
+  std::size_t count = 0;
+  int exponent = 0;
   bool negative = false;
-  std::string digits;  // significant, without point
-  int exponent = 0;    // value = 0.DIGITS x 10^exponent
 };
 
 template <class T>
-Digits decimal_digits(T value) {
+Decimal decimal_of(T value) {
   std::array<char, 64> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                 std::chars_format::scientific)
-                       .ptr;
-  std::string_view text(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
-  Digits result;
-  if (text.front() == '-') {
-    result.negative = true;
-    text.remove_prefix(1);
+  const char* const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                        std::chars_format::scientific)
+                              .ptr;
+  Decimal decimal;
+  const char* at = buffer.data();
+  if (*at == '-') {
+    decimal.negative = true;
+    ++at;
   }
-  const std::size_t e = text.find('e');
-  std::string_view exponent = text.substr(e + 1);
-  if (exponent.front() == '+') {
-    exponent.remove_prefix(1);
-  }
-  std::from_chars(exponent.data(), exponent.data() + exponent.size(), result.exponent);
-  ++result.exponent;
-  for (const char c : text.substr(0, e)) {
-    if (c != '.') {
-      result.digits += c;
+  for (; *at != 'e'; ++at) {
+    if (*at != '.') {
+      decimal.digits[decimal.count++] = *at;
     }
   }
-  return result;
+  ++at;
+  std::from_chars(*at == '+' ? at + 1 : at, end, decimal.exponent);
+  ++decimal.exponent;
+  return decimal;
+}
+
+void append_decimal(std::string& out, const Decimal& d) {
+  const char* const digits = d.digits.data();
+  if (d.negative) {
+    out += '-';
+  }
+  if (d.exponent > 15 || d.exponent < -5) {
+    out += digits[0];
+    if (d.count > 1) {
+      out += '.';
+      out.append(digits + 1, d.count - 1);
+    }
+    out += 'e';
+    out += std::to_string(d.exponent - 1);
+    return;
+  }
+  if (d.exponent <= 0) {
+    out += "0.";
+    out.append(static_cast<std::size_t>(-d.exponent), '0');
+    out.append(digits, d.count);
+    return;
+  }
+  const auto point = static_cast<std::size_t>(d.exponent);
+  if (d.count <= point) {
+    out.append(digits, d.count);
+    out.append(point - d.count, '0');
+    return;
+  }
+  out.append(digits, point);
+  out += '.';
+  out.append(digits + point, d.count - point);
+}
+
+template <class T>
+void append_layer_text_of(std::string& out, T value) {
+  // Whole numbers below this one are exact, and their digits are the shortest.
+  constexpr T kWhole = sizeof(T) == sizeof(float) ? T(1 << 24) : T(1e15);
+  if (!std::isfinite(value)) {
+    out += shortest_of(value);
+  } else if (value == T(0)) {
+    out += std::signbit(value) ? "-0" : "0";
+  } else if (std::fabs(value) < kWhole && std::trunc(value) == value) {
+    std::array<char, 24> buffer;
+    const auto whole = static_cast<std::int64_t>(value);
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), whole).ptr;
+    out.append(buffer.data(), end);
+  } else {
+    append_decimal(out, decimal_of(value));
+  }
 }
 
 template <class T>
 std::string layer_text_of(T value) {
-  if (!std::isfinite(value)) {
-    return shortest_of(value);
-  }
-  if (value == T(0)) {
-    return std::signbit(value) ? "-0" : "0";
-  }
-  const Digits d = decimal_digits(value);
-  const int count = static_cast<int>(d.digits.size());
-  std::string text = d.negative ? "-" : "";
-  if (d.exponent > 15 || d.exponent < -5) {
-    text += d.digits[0];
-    if (count > 1) {
-      text += '.' + d.digits.substr(1);
-    }
-    return text + 'e' + std::to_string(d.exponent - 1);
-  }
-  if (d.exponent <= 0) {
-    return text + "0." + std::string(static_cast<std::size_t>(-d.exponent), '0') + d.digits;
-  }
-  if (count <= d.exponent) {
-    return text + d.digits + std::string(static_cast<std::size_t>(d.exponent - count), '0');
-  }
-  const auto point = static_cast<std::size_t>(d.exponent);
-  return text + d.digits.substr(0, point) + '.' + d.digits.substr(point);
+  std::string text;
+  append_layer_text_of(text, value);
+  return text;
 }
 
 template <class T>
@@ -106,6 +133,8 @@ std::string shortest(double value) { return shortest_of(value); }
 std::string shortest(float value) { return shortest_of(value); }
 std::string layer_text(double value) { return layer_text_of(value); }
 std::string layer_text(float value) { return layer_text_of(value); }
+void append_layer_text(std::string& out, double value) { append_layer_text_of(out, value); }
+void append_layer_text(std::string& out, float value) { append_layer_text_of(out, value); }
 
 std::optional<double> parse_double(std::string_view text) { return parse_whole<double>(text); }
 std::optional<std::int64_t> parse_int64(std::string_view text) {

@@ -18,6 +18,8 @@ std::string shortest(float value);
 /// ("1e15") and below 1e-6, no trailing ".0".
 std::string layer_text(double value);
 std::string layer_text(float value);
+void append_layer_text(std::string& out, double value);
+void append_layer_text(std::string& out, float value);
 
 /// Whole-text number; accepts a leading '+', "inf", "-inf", "nan"; nullopt when anything is left.
 std::optional<double> parse_double(std::string_view text);

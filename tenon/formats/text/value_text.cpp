@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/text/value_text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -25,12 +26,14 @@ using layer::ValueType;
 
 void append(std::string& out, bool value) { out += value ? '1' : '0'; }
 void append(std::string& out, char value) { out += value != 0 ? '1' : '0'; }
-void append(std::string& out, float value) { out += layer_text(value); }
-void append(std::string& out, double value) { out += layer_text(value); }
-void append(std::string& out, layer::TimeCode value) { out += layer_text(value.value); }
-void append(std::string& out, const std::string& value) { out += quoted(value); }
-void append(std::string& out, const Token& value) { out += quoted(value.view()); }
-void append(std::string& out, const layer::PathExpression& value) { out += quoted(value.text); }
+void append(std::string& out, float value) { append_layer_text(out, value); }
+void append(std::string& out, double value) { append_layer_text(out, value); }
+void append(std::string& out, layer::TimeCode value) { append_layer_text(out, value.value); }
+void append(std::string& out, const std::string& value) { append_quoted(out, value); }
+void append(std::string& out, const Token& value) { append_quoted(out, value.view()); }
+void append(std::string& out, const layer::PathExpression& value) {
+  append_quoted(out, value.text);
+}
 void append(std::string& out, const layer::AssetPath& value) {
   out += asset_path_text(value.authored);
 }
@@ -127,6 +130,9 @@ void append_escaped(std::string& out, char c, char quote, bool triple) {
   }
 }
 
+/// True for characters that stand for themselves, whatever the quotes.
+bool is_plain(char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\'' && c != '\\'; }
+
 /// Length of the sequence at `at` when its form is that of a character of several bytes, else 0.
 std::size_t multi_byte_length(std::string_view text, std::size_t at) {
   const auto lead = static_cast<unsigned char>(text[at]);
@@ -146,6 +152,16 @@ std::size_t multi_byte_length(std::string_view text, std::size_t at) {
 }
 
 }  // namespace
+
+void append_quoted(std::string& out, std::string_view text) {
+  if (std::all_of(text.begin(), text.end(), is_plain)) {
+    out += '"';
+    out += text;
+    out += '"';
+  } else {
+    out += quoted(text);
+  }
+}
 
 std::string quoted(std::string_view text) {
   text = text.substr(0, text.find('\0'));

@@ -22,6 +22,7 @@ namespace text {
 
 /// `text` in quotes, with escapes; in three quotes when it has several lines.
 std::string quoted(std::string_view text);
+void append_quoted(std::string& out, std::string_view text);
 /// `@path@`, or `@@@path@@@` when the path holds an '@'.
 std::string asset_path_text(std::string_view path);
 /// Appends what `value_text` gives.

@@ -67,9 +67,10 @@ class LayerWriter {
     out_ += kWords[static_cast<std::size_t>(specifier)];
     const Token type = spec.get_or(fields::typeName, Token());
     if (!type.empty() && type != "__AnyType__") {
-      out_ += type.str() + ' ';
+      out_ += type.view();
+      out_ += ' ';
     }
-    out_ += quoted(path.name().view());
+    append_quoted(out_, path.name().view());
     append_metadata(out_, spec, indent);
     out_ += '\n';
     append_indent(out_, indent);
@@ -139,11 +140,9 @@ class LayerWriter {
   }
 
   bool append_properties(Path path, const Spec& spec, std::size_t indent) {
-    std::vector<Token> names = Layer::children(spec, fields::properties);
-    std::sort(names.begin(), names.end(),
-              [](Token a, Token b) { return dictionary_less(a.view(), b.view()); });
+    sort_properties(Layer::children(spec, fields::properties));
     bool any = false;
-    for (const Token& name : names) {
+    for (const Token& name : sorted_properties_) {
       const Spec* property = layer_.find(path.property(name));
       if (property == nullptr) {
         continue;
@@ -156,6 +155,17 @@ class LayerWriter {
       }
     }
     return any;
+  }
+
+  /// Puts `names` in the order of writing; most prims have those of the prim before.
+  void sort_properties(const std::vector<Token>& names) {
+    if (names == listed_properties_) {
+      return;
+    }
+    listed_properties_ = names;
+    sorted_properties_ = names;
+    std::sort(sorted_properties_.begin(), sorted_properties_.end(),
+              [](Token a, Token b) { return dictionary_less(a.view(), b.view()); });
   }
 
   void append_variant_sets(Path path, const Spec& spec, std::size_t indent) {
@@ -178,8 +188,11 @@ class LayerWriter {
     const bool uniform =
         spec.get_or(fields::variability, Variability::Varying) == Variability::Uniform;
     const Token type = layer::written_type_name(spec.get_or(fields::typeName, Token()));
-    const std::string declaration =
-        std::string(uniform ? "uniform " : "") + type.str() + ' ' + name.str();
+    std::string& declaration = declaration_;
+    declaration = uniform ? "uniform " : "";
+    declaration += type.view();
+    declaration += ' ';
+    declaration += name.view();
     const Value* value = spec.find(fields::default_value);
     const auto* samples = spec.get<layer::TimeSamples>(fields::timeSamples);
     const auto* spline = spec.get<layer::Spline>(fields::spline);
@@ -188,7 +201,8 @@ class LayerWriter {
     const bool nothing_else = samples == nullptr && spline == nullptr && connections == nullptr;
     if (has_metadata(spec) || value != nullptr || custom || nothing_else) {
       append_indent(out_, indent);
-      out_ += (custom ? "custom " : "") + declaration;
+      out_ += custom ? "custom " : "";
+      out_ += declaration;
       if (value != nullptr) {
         out_ += " = ";
         append_value_text(out_, *value);
@@ -223,7 +237,8 @@ class LayerWriter {
     out_ += declaration + ".timeSamples = {\n";
     for (std::size_t i = 0; i < samples.size(); ++i) {
       append_indent(out_, indent + 1);
-      out_ += layer_text(samples.times[i]) + ": ";
+      append_layer_text(out_, samples.times[i]);
+      out_ += ": ";
       append_value_text(out_, samples.values[i]);
       out_ += ",\n";
     }
@@ -285,6 +300,9 @@ class LayerWriter {
 
   const Layer& layer_;
   std::string out_;
+  std::string declaration_;               // kept to spare allocations
+  std::vector<Token> listed_properties_;  // of the last prim
+  std::vector<Token> sorted_properties_;
   int minor_version_ = 0;  // the lowest that has all that is written
 };
 
