@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "bench/layer_builder.h"
 #include "bench/measure.h"
 #include "bench/scenes.h"
 #include "tenon/formats/save_layer.h"
@@ -28,7 +29,10 @@ void make_scenes(const std::filesystem::path& folder, std::size_t divisor) {
   write(make_part_asset(), folder / "part.usda");
   write(make_fleet_scene(1000 / divisor, "./part.usda", false), folder / "fleet.usda");
   write(make_fleet_scene(1000 / divisor, "./part.usda", true), folder / "instances.usda");
-  write(make_mesh_scene(divisor == 1 ? 500 : 20), folder / "mesh.usda");
+  LayerBuilder one("one");
+  one.prim(Path::absolute_root(), "World", "Xform");
+  write(one.finish(), folder / "one_prim.usda");
+  write(make_mesh_scene(divisor == 1 ? 1000 : 20), folder / "mesh.usda");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ import os
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 
 import machine
@@ -55,17 +56,33 @@ class Workload:
         self.repeats = repeats
 
 
+class Run:
+    """A process that has ended: what it printed, seconds, peak memory [MB]."""
+
+    def __init__(self, command, cpu=None, threads=1):
+        environment = dict(os.environ)
+        if threads:
+            environment["PXR_WORK_THREAD_LIMIT"] = str(threads)
+        pin = functools.partial(os.sched_setaffinity, 0, {cpu}) if cpu is not None else None
+        with tempfile.TemporaryFile("w+") as printed:
+            start = time.perf_counter()
+            process = subprocess.Popen(command, env=environment, preexec_fn=pin,
+                                       stdout=printed, stderr=subprocess.STDOUT)
+            _, status, usage = os.wait4(process.pid, 0)
+            self.wall = time.perf_counter() - start
+            process.returncode = os.waitstatus_to_exitcode(status)
+            self.cpu = usage.ru_utime + usage.ru_stime
+            self.peak = usage.ru_maxrss / 1024
+            printed.seek(0)
+            self.output = printed.read()
+        if process.returncode != 0:
+            tail = "\n".join(self.output.strip().split("\n")[-12:])
+            raise Failure(f"{' '.join(command)}: exit {process.returncode}\n{tail}")
+
+
 def run_program(command, cpu=None, threads=1):
     """Runs a command; -> what it printed."""
-    environment = dict(os.environ)
-    if threads:
-        environment["PXR_WORK_THREAD_LIMIT"] = str(threads)
-    pin = functools.partial(os.sched_setaffinity, 0, {cpu}) if cpu is not None else None
-    done = subprocess.run(command, env=environment, preexec_fn=pin, capture_output=True, text=True)
-    if done.returncode != 0:
-        tail = "\n".join((done.stdout + done.stderr).strip().split("\n")[-12:])
-        raise Failure(f"{' '.join(command)}: exit {done.returncode}\n{tail}")
-    return done.stdout
+    return Run(command, cpu, threads).output
 
 
 def run_lines(command, cpu=None, threads=1):
@@ -120,22 +137,29 @@ class Bench:
                 files = [self.scene(name + suffix) for suffix in (".usda", ".usdc")]
                 run_lines([*PEER, "convert", *files])
 
-    def add_row(self, workload, label, ours, peer, peer_threads=None, note="", unit=1e3):
-        self.rows.append(
-            {"workload": workload, "phase": label, "tenon_ms": ours and ours * unit,
-             "peer_ms": peer and peer * unit, "peer_threads_ms": peer_threads and
-             peer_threads * unit, "ratio": ours / peer if ours and peer else None, "note": note})
+    def add_row(self, workload, label, ours, peer, threads=(None, None), note="", unit=1e3):
+        """Seconds on one thread, and in `threads` those of both sides with all of theirs."""
+        figures = [figure and figure * unit for figure in (ours, peer, *threads)]
+        keys = ("tenon_ms", "peer_ms", "tenon_threads_ms", "peer_threads_ms")
+        self.rows.append({"workload": workload, "phase": label, **dict(zip(keys, figures)),
+                          "ratio": ours / peer if ours and peer else None, "note": note})
+
+    def add_memory_row(self, workload, ours, peer):
+        self.rows.append({"workload": workload, "phase": "peak memory", "tenon_mb": ours,
+                          "peer_mb": peer or None, "ratio": ours / peer if peer else None})
 
     def measure(self, work):
-        """A B A B ... on one processor; in a last column the peer with all its threads."""
-        ours, peer, threaded = Figures(), Figures(), Figures()
+        """A B A B ... on one processor; in the last columns both with all their threads."""
+        ours, peer, threaded, peer_threaded = Figures(), Figures(), Figures(), Figures()
         repeats = ["--repeats", "1" if self.arguments.smoke else str(work.repeats)]
         for number in range(self.arguments.rounds):
             ours.add(run_lines([*work.ours, *repeats], self.cpu))
+            if self.arguments.threads and number < 3:
+                threaded.add(run_lines([*work.ours, *repeats], None, None))
             if self.peer and work.peer:
                 peer.add(run_lines([*PEER, *work.peer, *repeats], self.cpu))
-                if number == 0 and self.arguments.threads:
-                    threaded.add(run_lines([*PEER, *work.peer, *repeats], None, None))
+                if self.arguments.threads and number < 3:
+                    peer_threaded.add(run_lines([*PEER, *work.peer, *repeats], None, None))
         self.compare_counts(work.name, ours.counts, peer.counts)
         clock = self.arguments.clock
         for own, other, note in work.rows:
@@ -144,11 +168,10 @@ class Bench:
             label = own if own == other else f"{own} : {other}"
             if other not in peer.phases and own != other:
                 continue
+            threads = (threaded.median(own, "wall"), peer_threaded.median(other, "wall"))
             self.add_row(work.name, label, ours.median(own, clock), peer.median(other, clock),
-                         threaded.median(other, "wall"), note)
-        self.rows.append({"workload": work.name, "phase": "peak memory", "tenon_mb": ours.peak,
-                          "peer_mb": peer.peak or None,
-                          "ratio": ours.peak / peer.peak if peer.peak else None})
+                         threads, note)
+        self.add_memory_row(work.name, ours.peak, peer.peak)
 
     def compare_counts(self, name, ours, peer):
         for key in sorted(ours.keys() & peer.keys()):
@@ -174,15 +197,17 @@ class Bench:
 
     def measure_processes(self, name, ours, peer, note):
         """Whole processes, start and imports included."""
-        laps = {0: [], 1: []}
+        runs = {0: [], 1: []}
         for _ in range(self.arguments.rounds):
             for side, command in enumerate((ours, peer)):
                 if command and (side == 0 or self.peer):
-                    start = time.perf_counter()
-                    run_program(command, self.cpu)
-                    laps[side].append(time.perf_counter() - start)
-        medians = [statistics.median(laps[side]) if laps[side] else None for side in (0, 1)]
+                    runs[side].append(Run(command, self.cpu))
+        clock = self.arguments.clock
+        medians = [statistics.median(getattr(run, clock) for run in runs[side])
+                   if runs[side] else None for side in (0, 1)]
         self.add_row(name, "process", *medians, note=note)
+        peaks = [max((run.peak for run in runs[side]), default=0) for side in (0, 1)]
+        self.add_memory_row(name, *peaks)
 
 
 def layer_workloads(bench):
@@ -193,13 +218,25 @@ def layer_workloads(bench):
         for name, file in (("open_crate", "prims.usdc"), ("open_mesh_crate", "mesh.usdc")):
             yield Workload(name, [program("open_crate"), scene(file)],
                            ["one_layer", scene(file)], LAYER_ROWS)
+        yield Workload("first_value", [program("first_value"), scene("mesh.usdc")],
+                       ["first_value", scene("mesh.usdc")],
+                       [("open", "open", ""), ("value", "value", "")])
     yield Workload("open_mesh_text", [program("open_text"), scene("mesh.usda")],
                    ["one_layer", scene("mesh.usda")], LAYER_ROWS)
+
+
+def flatten_workloads(bench):
+    rows = [(phase, phase, "") for phase in ("open", "flatten", "export")]
+    for name, file in (("text", "prims.usda"), ("crate", "prims.usdc")):
+        if name == "text" or bench.peer:
+            yield Workload(f"flatten_{name}", [bench.program("flatten_stage"), bench.scene(file)],
+                           ["flatten", bench.scene(file)], rows)
 
 
 def workloads(bench):
     program, scene = bench.program, bench.scene
     yield from layer_workloads(bench)
+    yield from flatten_workloads(bench)
     for name in ("fleet", "instances"):
         yield Workload(f"compose_{name}", [program("compose_many"), scene(name + ".usda")],
                        ["compose", scene(name + ".usda")], LAYER_OPEN_ROWS)
@@ -220,11 +257,24 @@ def process_tasks(bench):
     tenon = os.path.join(bench.arguments.build, "bin/tenon")
     if not os.path.exists(tenon):
         return
+    imports = "Python's start included"
+    yield ("start", bench.measure_processes, [tenon, "tree", bench.scene("one_prim.usda")],
+           [*PEER, "tree", bench.scene("one_prim.usda")], imports)
+    for name, file in (("text", "prims.usda"), ("crate", "prims.usdc")):
+        if bench.peer or name == "text":
+            flat = bench.scene(f"flat_{name}.usda")
+            yield (f"export_{name}", bench.measure_processes,
+                   [tenon, "cat", "--flatten", bench.scene(file), "-o", flat],
+                   [*PEER, "export", bench.scene(file), flat], imports)
+    if bench.peer:
+        yield ("value_mesh_crate", bench.measure_processes,
+               [bench.program("first_value"), bench.scene("mesh.usdc")],
+               [*PEER, "first_value", bench.scene("mesh.usdc")], imports)
     for name, file in (("hand", HAND), ("isaac_hand", ISAAC_HAND)):
         if not os.path.exists(file):
             continue
         yield (f"info_{name}", bench.measure_processes, [tenon, "--json", "info", file],
-               [*PEER, "asset", file], "open only, Python's start included")
+               [*PEER, "asset", file], "open only, " + imports)
         if os.path.exists(DUMP_SCRIPT):
             yield (f"dump_{name}", bench.measure_processes, [tenon, "dump", file, "-o", os.devnull],
                    [sys.executable, "-B", DUMP_SCRIPT, file, "-o", os.devnull], "*")
@@ -247,7 +297,7 @@ def number(value, form="10.3f"):
 
 
 def print_table(bench):
-    titles = ("tenon", "usd-core", "ratio", "threads")
+    titles = ("tenon", "usd-core", "ratio", "tenon MT", "usd MT")
     print(f"\n{'workload':<18}{'phase':<22}" + "".join(f"{title:>10}" for title in titles))
     for row in bench.rows:
         if row["phase"] == "peak memory":
@@ -255,8 +305,9 @@ def print_table(bench):
         else:
             ours, peer, unit = row["tenon_ms"], row["peer_ms"], row.get("note", "")
         print(f"{row['workload']:<18}{row['phase']:<22}{number(ours)}{number(peer)}"
-              f"{number(row['ratio'])}{number(row.get('peer_threads_ms'))}  {unit}")
-    print("\nmilliseconds; ratio below 1: tenon is faster. threads: usd-core with all its threads."
+              f"{number(row['ratio'])}{number(row.get('tenon_threads_ms'))}"
+              f"{number(row.get('peer_threads_ms'))}  {unit}")
+    print("\nmilliseconds; ratio below 1: tenon is faster. MT: with all processors and threads."
           "\n*: usd-core's figure also measures Python. compose, parse, flatten, physics do not.")
 
 

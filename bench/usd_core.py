@@ -5,9 +5,12 @@
 
 Usage: usd_core.py WORK FILE [--repeats N] [--dump-script FILE]
        usd_core.py convert FROM TO
+       usd_core.py export FROM TO     opens FROM as a stage and writes it flattened
+       usd_core.py tree FILE          prints the names of all prims
 
-WORK: one_layer | compose | asset | physics. Imports are not timed. The phases parse, compose, open,
-flatten and physics run in OpenUSD's C++; traverse, read_attributes and dump also measure Python.
+WORK: one_layer | compose | asset | flatten | first_value | physics. Imports are not timed. The
+phases parse, compose, open, flatten, export and physics run in OpenUSD's C++; traverse,
+read_attributes and dump also measure Python.
 """
 
 import argparse
@@ -89,6 +92,19 @@ def asset(report, file, dumper):
         report.time("dump", lambda: dumper(stage))
 
 
+def flatten(report, file, _):
+    stage = report.time("open", lambda: Usd.Stage.Open(file))
+    layer = report.time("flatten", stage.Flatten)
+    text = report.time("export", layer.ExportToString)
+    report.counts["bytes"] = len(text.encode())
+
+
+def first_value(report, file, _):
+    stage = report.time("open", lambda: Usd.Stage.Open(file))
+    points = report.time("value", lambda: stage.GetAttributeAtPath("/World/Terrain.points").Get())
+    report.counts["points"], report.counts["first"] = len(points), float(points[0][2])
+
+
 def physics(report, file, _):
     stage = report.time("open", lambda: Usd.Stage.Open(file))
     with warnings.catch_warnings():
@@ -100,7 +116,7 @@ def physics(report, file, _):
     report.counts["joints"] = sum(n for kind, n in count.items() if kind.endswith("Joint"))
 
 
-WORKS = {work.__name__: work for work in (one_layer, compose, asset, physics)}
+WORKS = {work.__name__: work for work in (one_layer, compose, asset, flatten, first_value, physics)}
 
 
 def dumper_of(script):
@@ -119,9 +135,22 @@ def convert(source, target):
     return 0 if layer and layer.Export(target) else 1
 
 
+def export(source, target):
+    return 0 if Usd.Stage.Open(source).Export(target) else 1
+
+
+def tree(file):
+    for prim in Usd.Stage.Open(file).Traverse():
+        print(prim.GetName())
+    return 0
+
+
+PROCESSES = {process.__name__: process for process in (convert, export, tree)}
+
+
 def main():
-    if sys.argv[1:2] == ["convert"]:
-        return convert(*sys.argv[2:4])
+    if sys.argv[1:2] and sys.argv[1] in PROCESSES:
+        return PROCESSES[sys.argv[1]](*sys.argv[2:])
     parser = argparse.ArgumentParser()
     parser.add_argument("work", choices=WORKS)
     parser.add_argument("file")
