@@ -214,17 +214,7 @@ void add_node_tasks(Indexer& indexer, NodeId id, bool skip_expressed, bool ances
   push_if(node.arc == ArcKind::Relocate, TaskKind::ImpliedRelocates);
 }
 
-void add_implied_tasks(Indexer& indexer, NodeId id) {
-  const NodeGraph& graph = indexer.graph;
-  if (is_class_based(graph[id].arc)) {
-    indexer.tasks.push(TaskKind::ImpliedClasses, start_of_implied_classes(graph, id));
-  } else if (graph.has_class_based_child(id)) {
-    indexer.tasks.push(TaskKind::ImpliedClasses, id);
-  }
-  if (indexer.is_outermost() && graph.has_specialize_in_subtree(id)) {
-    indexer.tasks.push(TaskKind::ImpliedSpecializes, id);
-  }
-}
+}  // namespace
 
 void make_subtree_inert(NodeGraph& graph, NodeId node) {
   for (const NodeId id : graph.subtree(node)) {
@@ -232,7 +222,14 @@ void make_subtree_inert(NodeGraph& graph, NodeId node) {
   }
 }
 
-}  // namespace
+void add_implied_class_task(Indexer& indexer, NodeId id) {
+  const NodeGraph& graph = indexer.graph;
+  if (is_class_based(graph[id].arc)) {
+    indexer.tasks.push(TaskKind::ImpliedClasses, start_of_implied_classes(graph, id));
+  } else if (graph.has_class_based_child(id)) {
+    indexer.tasks.push(TaskKind::ImpliedClasses, id);
+  }
+}
 
 ArcKind FrameCursor::arc() const {
   const ArcKind kind = (*graph)[node].arc;
@@ -282,7 +279,10 @@ void add_root_tasks(Indexer& indexer) {
 }
 
 void add_tasks(Indexer& indexer, NodeId node, bool skip_expressed, bool ancestral_variants) {
-  add_implied_tasks(indexer, node);
+  add_implied_class_task(indexer, node);
+  if (skip_expressed && indexer.is_outermost() && indexer.graph.has_specialize_in_subtree(node)) {
+    indexer.tasks.push(TaskKind::ImpliedSpecializes, node);
+  }
   for (const NodeId id : indexer.graph.subtree(node)) {
     add_node_tasks(indexer, id, skip_expressed, ancestral_variants, indexer.is_outermost());
   }
@@ -302,8 +302,10 @@ NodeId add_arc(Indexer& indexer, const Arc& arc, const Site& site, const ArcOpti
   const NodeId id = options.include_ancestral
                         ? add_subgraph(indexer, arc, site, options)
                         : add_single_node(indexer, arc, site, options.contributes);
-  add_tasks(indexer, id, options.include_ancestral,
-            indexer.is_outermost() && options.include_ancestral);
+  if (options.expand) {
+    add_tasks(indexer, id, options.include_ancestral,
+              indexer.is_outermost() && options.include_ancestral);
+  }
   if (site.path.is_absolute_root()) {
     make_subtree_inert(indexer.graph, id);  // stands for a default prim that is not there
   }

@@ -72,13 +72,13 @@ class AssetArcAdder {
   /// In the stack's time. An internal arc stays within the stack, whose layers have their offsets
   /// already: as OpenUSD 26.11 has it, only what the arc itself says counts.
   layer::LayerOffset checked_offset(const AssetArc& item) {
-    if (is_usable(item.offset)) {
+    if (is_usable(item.offset) && item.offset.scale > 0) {
       return item.asset_path.empty() ? item.offset : item.layer_offset * item.offset;
     }
     report(error_class::kInvalidReferenceOffset, item,
            "the layer offset of the " + std::string(noun(kind_)) + " to @" + item.asset_path +
-               "@ has no inverse; none is used",
-           "author a finite offset and a scale other than zero");
+               "@ is not finite or its scale is not positive; none is used",
+           "author a finite offset and a positive scale");
     return {};
   }
 

@@ -4,43 +4,11 @@
 // says where the class is relative to what uses it, so that the same arc can be implied elsewhere.
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/indexer.h"
+#include "tenon/compose/strength_order.h"
 #include "tenon/layer/fields.h"
 
 namespace tenon::compose {
 namespace {
-
-Path containing_variant(Path path) {
-  while (!path.empty() && !path.is_variant_selection()) {
-    path = path.parent();
-  }
-  return path;
-}
-
-/// The path that `path` of a node stands for in the map of a class arc: below a relocate that map
-/// speaks of the prim at its target.
-Path class_of(const Node& parent, ArcKind parent_arc, Path path, const MapFunction& map) {
-  if (parent_arc == ArcKind::Relocate) {
-    const Path target =
-        relocates_map(*parent.layer_stack, Path::absolute_root()).map_source_to_target(path);
-    const Path found = target.empty() ? target : map.map_target_to_source(target);
-    if (!found.empty() && found != target) {
-      return found;
-    }
-  }
-  return map.map_target_to_source(path);
-}
-
-/// The class that a node uses under `map`; empty: there is none from here. Maps know nothing of
-/// variants. What is authored in a variant uses the class as a whole, and its variants with it; an
-/// arc implied into a variant stays within.
-Path class_path(const Node& parent, ArcKind parent_arc, const ClassArcRequest& request) {
-  const Path path = class_of(parent, parent_arc, parent.path.strip_variants(), request.map);
-  if (path.empty() || !request.implied || !parent.path.has_variants()) {
-    return path;
-  }
-  const Path variant = containing_variant(parent.path);
-  return path.replace_prefix(variant.strip_variants(), variant, false);
-}
 
 Arc arc_of(Indexer& indexer, const ClassArcRequest& request) {
   Arc arc;
@@ -58,6 +26,7 @@ Arc arc_of(Indexer& indexer, const ClassArcRequest& request) {
 NodeId add_specialize_stand_in(Indexer& indexer, const ClassArcRequest& request, const Site& site) {
   ArcOptions options;
   options.contributes = false;
+  options.expand = false;
   const NodeId stand_in = add_arc(indexer, arc_of(indexer, request), site, options);
   if (stand_in == kNoNode || !indexer.is_outermost() ||
       is_relocate_stand_in(indexer.graph, stand_in)) {
@@ -65,9 +34,18 @@ NodeId add_specialize_stand_in(Indexer& indexer, const ClassArcRequest& request,
   }
   const NodeId copy = propagate_to_root(indexer, stand_in);
   if (copy != kNoNode && indexer.graph[copy].origin != stand_in) {
-    indexer.tasks.push(TaskKind::ImpliedClasses, stand_in);
+    add_implied_class_task(indexer, stand_in);
   }
   return copy;
+}
+
+/// A second specialize implied to the same site below the root replaces the first one when its
+/// origin is stronger.
+bool replaces(const Indexer& indexer, const ClassArcRequest& request, NodeId known) {
+  const NodeGraph& graph = indexer.graph;
+  return request.kind == ArcKind::Specialize && request.parent == 0 &&
+         request.parent != request.origin &&
+         compare_nodes(graph, request.origin, graph[known].origin) < 0;
 }
 
 }  // namespace
@@ -95,7 +73,7 @@ NodeId add_class_arc(Indexer& indexer, const ClassArcRequest& request) {
   const Path parent_path = graph[request.parent].path;
   const ArcKind parent_arc = FrameCursor{&graph, request.parent, indexer.frame}.arc();
   const Site site{graph[request.parent].layer_stack,
-                  class_path(graph[request.parent], parent_arc, request)};
+                  request.class_path};
   if (site.path.empty()) {
     return kNoNode;
   }
@@ -103,7 +81,10 @@ NodeId add_class_arc(Indexer& indexer, const ClassArcRequest& request) {
       find_matching_child(indexer, request.parent, parent_arc, site, request.kind, request.map,
                           graph.depth_below_introduction(request.origin));
   if (known != kNoNode) {
-    return known;
+    if (!replaces(indexer, request, known)) {
+      return known;
+    }
+    make_subtree_inert(indexer.graph, known);
   }
   if (request.kind == ArcKind::Specialize && (request.parent != 0 || !indexer.is_outermost())) {
     return add_specialize_stand_in(indexer, request, site);
@@ -133,6 +114,7 @@ void add_class_arcs(Indexer& indexer, NodeId node, ArcKind kind, Token field) {
       ClassArcRequest request;
       request.kind = kind;
       request.parent = request.origin = node;
+      request.class_path = arc.path;
       request.map = arc_map(indexer, arc.path, node, {}).with_root_identity();
       request.number = number;
       add_class_arc(indexer, request);

@@ -94,6 +94,15 @@ void build_variant_site(Indexer& indexer, const Site& site, bool contributes) {
   run_tasks(indexer);
 }
 
+/// Whether the prim at `site`, whose graph is there, is an instance. The graph of an ancestor of the
+/// stage prim may lack what the outer graph has already; its finished index knows.
+bool is_instance(const Indexer& indexer, const Site& site) {
+  const bool is_above = site.path != indexer.root_prim && indexer.root_prim.has_prefix(site.path);
+  return is_above && site.layer_stack == indexer.services.root_stack
+             ? indexer.services.index(site.path).instanceable
+             : is_instanceable(indexer.graph);
+}
+
 void build_from_top(Indexer& indexer, const Site& site, bool root_contributes) {
   std::vector<Path> levels;
   Path top = site.path;
@@ -106,7 +115,7 @@ void build_from_top(Indexer& indexer, const Site& site, bool root_contributes) {
     start_from_site(indexer, {site.layer_stack, top});
   }
   for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
-    descend(indexer, *level, is_instanceable(indexer.graph));
+    descend(indexer, *level, is_instance(indexer, {site.layer_stack, level->parent()}));
     expand_level(indexer, *level == site.path ? root_contributes : true);
   }
 }

@@ -17,6 +17,24 @@ MapFunction implied_map(const MapFunction& transfer, const MapFunction& class_ma
   return transfer.compose(class_map.compose(transfer.inverse())).with_root_identity();
 }
 
+Path containing_variant(Path path) {
+  while (!path.empty() && !path.is_variant_selection()) {
+    path = path.parent();
+  }
+  return path;
+}
+
+/// Where the class at `class_path` of a node is for `dest`; empty: nowhere. Maps know nothing of
+/// variants: an arc implied into a variant stays within it.
+Path implied_path(const Node& dest, Path class_path, const MapFunction& transfer) {
+  const Path path = transfer.map_source_to_target(class_path.strip_variants());
+  if (path.empty() || !dest.path.has_variants()) {
+    return path;
+  }
+  const Path variant = containing_variant(dest.path);
+  return path.replace_prefix(variant.strip_variants(), variant, false);
+}
+
 /// One step: the classes below `source` are to be implied below `dest`.
 struct Step {
   NodeId dest;
@@ -29,16 +47,16 @@ class ClassTree {
  public:
   explicit ClassTree(Indexer& indexer) : indexer_(indexer), graph_(indexer.graph) {}
 
-  void imply(Step first) {
-    std::vector<Step> open;
-    open.push_back(std::move(first));
-    while (!open.empty()) {
-      const Step step = std::move(open.back());
-      open.pop_back();
-      std::vector<Step> deeper;
-      visit(past_relocates(step), deeper);
-      open.insert(open.end(), std::make_move_iterator(deeper.rbegin()),
-                  std::make_move_iterator(deeper.rend()));
+  /// Depth-first: what a class leads to is there before its next sibling.
+  void imply(const Step& first) {
+    open(first);
+    while (!open_.empty()) {
+      Open& at = open_.back();
+      if (at.next == at.children.size()) {
+        open_.pop_back();
+      } else {
+        visit(at.step, at.children[at.next++]);
+      }
     }
   }
 
@@ -54,23 +72,19 @@ class ClassTree {
     return step;
   }
 
-  void visit(const Step& step, std::vector<Step>& deeper) {
-    for (const NodeId child : graph_.children(graph_.owner_of_children(step.source))) {
-      if (!is_class_based(graph_[child].arc) || continues_chain(step, child)) {
-        continue;
-      }
-      const MapFunction map = implied_map(step.transfer, *graph_[child].map_to_parent);
-      const NodeId implied = find_or_add(step, child, map);
-      if (implied == kNoNode || !graph_.has_class_based_child(child)) {
-        continue;
-      }
-      // A specialize may be implied by what is its copy already.
-      const NodeId dest = graph_.owner_of_children(implied);
-      if (dest != graph_.owner_of_children(child)) {
-        deeper.push_back(
-            {dest, child,
-             map.inverse().compose(step.transfer.compose(*graph_[child].map_to_parent)), false});
-      }
+  void open(const Step& step) {
+    open_.push_back(
+        {past_relocates(step), graph_.children(graph_.owner_of_children(step.source)), 0});
+  }
+
+  void visit(const Step& at, NodeId child) {
+    const Step step = at;  // opening another moves it
+    if (!is_class_based(graph_[child].arc) || continues_chain(step, child)) {
+      return;
+    }
+    const NodeId implied = find_or_add(step, child);
+    if (implied != kNoNode && graph_.has_class_based_child(child)) {
+      open({graph_.owner_of_children(implied), child, step.transfer, false});
     }
   }
 
@@ -80,10 +94,9 @@ class ClassTree {
            graph_.depth_below_introduction(step.source) == graph_.depth_below_introduction(child);
   }
 
-  NodeId find_or_add(const Step& step, NodeId child, const MapFunction& map) {
+  NodeId find_or_add(const Step& step, NodeId child) {
     for (NodeId id = graph_[step.dest].first_child; id != kNoNode; id = graph_[id].next_sibling) {
-      if (graph_[id].origin == child && *graph_[id].map_to_parent == map &&
-          !graph_.is_propagated_specialize(id)) {
+      if (graph_[id].origin == child && !graph_.is_propagated_specialize(id)) {
         return id;
       }
     }
@@ -91,15 +104,23 @@ class ClassTree {
     request.kind = graph_[child].arc;
     request.parent = step.dest;
     request.origin = child;
-    request.map = map;
+    request.class_path = implied_path(graph_[step.dest], graph_[child].path, step.transfer);
+    request.map = implied_map(step.transfer, *graph_[child].map_to_parent);
     request.number = graph_[child].sibling_number;
     request.ignored = graph_.site(child);
-    request.implied = true;
     return add_class_arc(indexer_, request);
   }
 
+  /// A step under way.
+  struct Open {
+    Step step;
+    std::vector<NodeId> children;
+    std::size_t next;
+  };
+
   Indexer& indexer_;
   NodeGraph& graph_;
+  std::vector<Open> open_;
 };
 
 }  // namespace

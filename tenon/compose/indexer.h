@@ -83,6 +83,7 @@ struct ArcOptions {
   bool contributes = true;         ///< the new node itself may have opinions
   bool include_ancestral = false;  ///< also what applies to the site because of its ancestors
   bool skip_duplicates = false;    ///< no second node for a site
+  bool expand = true;              ///< what the new node can lead to is followed
 };
 
 /// Builds the graph of `site`: everything but culling. Tasks run level by level from the top of the
@@ -98,6 +99,10 @@ MapFunction arc_map(const Indexer& indexer, Path source, NodeId target, layer::L
 /// Marks everything that `node` and its subtree can lead to.
 void add_tasks(Indexer& indexer, NodeId node, bool skip_expressed, bool ancestral_variants);
 void add_root_tasks(Indexer& indexer);
+/// What is already there below `node` stays, but without opinions.
+void make_subtree_inert(NodeGraph& graph, NodeId node);
+/// Marks only that classes below `node` are to be implied further up.
+void add_implied_class_task(Indexer& indexer, NodeId node);
 /// Contributes to a site above its own: not restricted there.
 bool can_contribute_at(const Node& node, Path ancestral_path);
 
@@ -122,10 +127,10 @@ struct ClassArcRequest {
   ArcKind kind = ArcKind::Inherit;
   NodeId parent = kNoNode;
   NodeId origin = kNoNode;
+  Path class_path;  ///< in the layer stack of the parent; empty: there is no such class
   MapFunction map;
   std::uint16_t number = 0;
   Site ignored;  ///< a node at this site is added without opinions
-  bool implied = false;
 };
 void add_class_arcs(Indexer& indexer, NodeId node, ArcKind kind, Token field);
 NodeId add_class_arc(Indexer& indexer, const ClassArcRequest& request);

@@ -9,8 +9,8 @@
 namespace tenon::compose {
 namespace {
 
-/// Visits nodes strongest first, each with whether it can be shared: it has specs and was brought
-/// in by an arc of this prim. `visit` returns true to go on below the node. Culled subtrees are
+/// Visits nodes strongest first, each with whether it can be shared: it has specs that count and was
+/// brought in by an arc of this prim. `visit` returns true to go on below the node. Culled subtrees are
 /// left out.
 template <class Visit>
 void walk_shareable(const NodeGraph& graph, const Visit& visit) {
@@ -27,7 +27,7 @@ void walk_shareable(const NodeGraph& graph, const Visit& visit) {
       continue;
     }
     at.below_own_arc = at.node != 0 && (at.below_own_arc || !node.due_to_ancestor);
-    if (!visit(at.node, at.below_own_arc && node.has_specs)) {
+    if (!visit(at.node, at.below_own_arc && node.has_specs && !node.inert)) {
       continue;
     }
     for (NodeId child = node.last_child; child != kNoNode; child = graph[child].previous_sibling) {

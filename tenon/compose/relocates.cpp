@@ -80,7 +80,7 @@ NodeId find_prohibited(const NodeGraph& graph) {
 
 void eval_node_relocates(Indexer& indexer, NodeId node) {
   NodeGraph& graph = indexer.graph;
-  if (!graph[node].can_contribute() && graph.depth_below_introduction(node) == 0) {
+  if (!graph[node].can_contribute()) {
     return;
   }
   const Site site = graph.site(node);

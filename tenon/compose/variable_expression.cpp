@@ -1,398 +1,286 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// Expressions: `${VAR}`, text with `${VAR}` in it, numbers, True, False, None, lists and function
-// calls. Evaluated while parsed; after the first error the rest counts for nothing.
+// Expressions: `${VAR}`, text with `${VAR}` in it, integers, True, False, None, lists of these and
+// calls of functions. What is wrong in parts that do not count does no harm.
 #include "tenon/compose/variable_expression.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "tenon/base/limits.h"
-#include "tenon/base/text_number.h"
+#include "tenon/compose/variable_expression_tree.h"
 #include "tenon/layer/field_values.h"
 
 namespace tenon::compose {
 namespace {
 
-enum class Kind { None, Bool, Int, Text, List };
+using namespace expression;
 
-struct ExpressionValue {
-  Kind kind = Kind::None;
-  bool flag = false;
-  std::int64_t number = 0;
-  std::string text = {};
-  std::vector<ExpressionValue> items = {};  // none of them a list
+constexpr std::size_t kMostSteps = 100000;  // parts evaluated, those of variables included
 
-  bool operator==(const ExpressionValue&) const = default;
+/// A value, or what is wrong with it.
+struct Evaluated {
+  ExpressionValue value = {};
+  std::string error = {};
 };
 
-ExpressionValue none() { return {}; }
-ExpressionValue of_bool(bool flag) { return {Kind::Bool, flag}; }
-ExpressionValue of_int(std::int64_t number) { return {Kind::Int, false, number}; }
-ExpressionValue of_text(std::string text) { return {Kind::Text, false, 0, std::move(text)}; }
+Evaluated wrong(std::string error) { return {{}, std::move(error)}; }
 
-bool is_name_character(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+Evaluated list_of(std::vector<ExpressionValue> items) {
+  ExpressionValue list;
+  list.kind = Kind::List;
+  for (const ExpressionValue& item : items) {
+    if (item.kind == Kind::None || item.kind == Kind::List || item.kind != items.front().kind) {
+      return wrong("a list holds values of one type that are no lists");
+    }
+  }
+  list.item_kind = items.empty() ? Kind::None : items.front().kind;
+  list.items = std::move(items);
+  return {std::move(list), {}};
 }
 
-class Parser {
- public:
-  Parser(std::string_view text, const layer::Dictionary& variables, std::size_t variable_depth)
-      : text_(text), variables_(variables), variable_depth_(variable_depth) {}
-
-  ExpressionValue parse() {
-    ExpressionValue result = value(0);
-    skip_space();
-    if (at_ != text_.size()) {
-      fail("unexpected text at '" + std::string(text_.substr(at_)) + "'");
-    }
-    return result;
+/// Values that variables may have; nullopt for others.
+std::optional<ExpressionValue> converted(const layer::Value& value) {
+  if (const auto* text = value.get<std::string>()) {
+    return of_text(*text);
   }
-  const std::string& error() const { return error_; }
+  if (const auto* flag = value.get<bool>()) {
+    return of_bool(*flag);
+  }
+  if (const auto* small = value.get<std::int32_t>()) {
+    return of_int(*small);
+  }
+  if (const auto* big = value.get<std::int64_t>()) {
+    return of_int(*big);
+  }
+  std::vector<ExpressionValue> items;
+  const auto fill = [&](const auto* array, const auto& make) {
+    for (std::size_t i = 0; array != nullptr && i < array->size(); ++i) {
+      items.push_back(make((*array)[i]));
+    }
+    return array != nullptr;
+  };
+  if (fill(value.get<layer::Array<std::string>>(), of_text) ||
+      fill(value.get<layer::Array<bool>>(), of_bool) ||
+      fill(value.get<layer::Array<std::int32_t>>(), of_int) ||
+      fill(value.get<layer::Array<std::int64_t>>(), of_int)) {
+    return list_of(std::move(items)).value;
+  }
+  return std::nullopt;
+}
+
+class Evaluator {
+ public:
+  explicit Evaluator(const layer::Dictionary& variables) : variables_(variables) {}
+
+  Evaluated evaluate(std::string_view expression) {
+    std::string error;
+    const Tree tree = parse(expression.substr(1, expression.size() - 2), error);
+    return error.empty() ? evaluate(tree, tree.size() - 1) : wrong(std::move(error));
+  }
 
  private:
-  void fail(std::string message) {
-    if (error_.empty()) {
-      error_ = std::move(message);
+  Evaluated evaluate(const Tree& tree, std::size_t at) {
+    if (++steps_ > kMostSteps || depth_ >= limits::kExpressionDepth) {
+      return wrong("too much to evaluate");
     }
-    at_ = text_.size();
-  }
-  void skip_space() {
-    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) {
-      ++at_;
-    }
-  }
-  bool take(char c) {
-    skip_space();
-    if (at_ < text_.size() && text_[at_] == c) {
-      ++at_;
-      return true;
-    }
-    return false;
-  }
-  void expect(char c) {
-    if (!take(c)) {
-      fail(std::string("expected '") + c + "'");
-    }
-  }
-  std::string word() {
-    const std::size_t start = at_;
-    while (at_ < text_.size() && is_name_character(text_[at_])) {
-      ++at_;
-    }
-    return std::string(text_.substr(start, at_ - start));
-  }
-
-  ExpressionValue value(std::size_t depth) {
-    skip_space();
-    if (depth > limits::kExpressionDepth || at_ >= text_.size()) {
-      fail(at_ >= text_.size() ? "unexpected end" : "too deeply nested");
-      return none();
-    }
-    const char c = text_[at_];
-    if (c == '"' || c == '\'') {
-      return of_text(quoted_text());
-    }
-    if (c == '$') {
-      return variable(variable_name());
-    }
-    if (c == '[') {
-      return list(depth);
-    }
-    if (c == '-' || std::isdigit(static_cast<unsigned char>(c)) != 0) {
-      return number();
-    }
-    const std::string name = word();
-    if (name.empty()) {
-      fail(std::string("unexpected '") + c + "'");
-      return none();
-    }
-    return take('(') ? call(name, depth) : constant(name);
-  }
-
-  ExpressionValue constant(const std::string& name) {
-    if (name == "True" || name == "true") {
-      return of_bool(true);
-    }
-    if (name == "False" || name == "false") {
-      return of_bool(false);
-    }
-    if (name != "None" && name != "none") {
-      fail("unknown word '" + name + "'");
-    }
-    return none();
-  }
-
-  ExpressionValue number() {
-    const std::size_t start = at_;
-    ++at_;
-    word();
-    const auto parsed = parse_int64(text_.substr(start, at_ - start));
-    if (!parsed) {
-      fail("no integer: '" + std::string(text_.substr(start, at_ - start)) + "'");
-    }
-    return of_int(parsed.value_or(0));
-  }
-
-  std::string variable_name() {
-    ++at_;
-    if (at_ >= text_.size() || text_[at_] != '{') {
-      fail("expected '{' after '$'");
-      return {};
-    }
-    ++at_;
-    std::string name = word();
-    if (at_ >= text_.size() || text_[at_] != '}' || name.empty()) {
-      fail("expected a variable name and '}'");
-      return {};
-    }
-    ++at_;
-    return name;
-  }
-
-  std::string quoted_text() {
-    const char quote = text_[at_++];
-    std::string result;
-    while (at_ < text_.size() && text_[at_] != quote) {
-      const char c = text_[at_];
-      if (c == '\\' && at_ + 1 < text_.size()) {
-        result += text_[at_ + 1];
-        at_ += 2;
-      } else if (c == '$' && at_ + 1 < text_.size() && text_[at_ + 1] == '{') {
-        result += substituted(variable_name());
-      } else {
-        result += c;
-        ++at_;
-      }
-    }
-    if (at_ >= text_.size()) {
-      fail("missing closing quote");
-      return {};
-    }
-    ++at_;
+    ++depth_;
+    Evaluated result = evaluate_node(tree, tree[at]);
+    --depth_;
     return result;
   }
 
-  /// A variable within text must be text, or nothing; an unknown one stays as it is written.
-  std::string substituted(const std::string& name) {
-    if (error_.empty() && variables_.find(name) == nullptr) {
-      return "${" + name + "}";
+  Evaluated evaluate_node(const Tree& tree, const TreeNode& node) {
+    switch (node.type) {
+      case TreeNode::Type::Constant:
+        return {node.constant, {}};
+      case TreeNode::Type::Variable:
+        return variables_.find(node.name) == nullptr
+                   ? wrong("no value for variable '" + node.name + "'")
+                   : variable(node.name);
+      case TreeNode::Type::Text:
+        return text(tree, node);
+      case TreeNode::Type::List:
+      case TreeNode::Type::Call:
+        break;
     }
-    const ExpressionValue found = variable(name);
-    if (found.kind != Kind::Text && found.kind != Kind::None) {
-      fail("variable '" + name + "' is no string");
+    if (node.name == "if") {
+      return choice(tree, node);
     }
-    return found.text;
+    std::vector<ExpressionValue> operands;
+    for (const std::size_t operand : node.operands) {
+      Evaluated evaluated = evaluate(tree, operand);
+      if (!evaluated.error.empty()) {
+        return evaluated;
+      }
+      operands.push_back(std::move(evaluated.value));
+    }
+    return node.type == TreeNode::Type::List ? list_of(std::move(operands))
+                                             : apply(node.name, operands);
   }
 
   /// Text variables may be expressions themselves.
-  ExpressionValue variable(const std::string& name) {
-    const layer::Value* value = variables_.find(name);
-    if (value == nullptr || !error_.empty()) {
-      fail("no value for variable '" + name + "'");
-      return none();
-    }
-    const auto* text = value->get<std::string>();
-    if (text == nullptr || !is_variable_expression(*text)) {
-      return converted(*value, name);
-    }
-    if (variable_depth_ >= limits::kExpressionDepth) {
-      fail("variable '" + name + "' leads back to itself");
-      return none();
-    }
-    Parser inner(std::string_view(*text).substr(1, text->size() - 2), variables_,
-                 variable_depth_ + 1);
-    ExpressionValue result = inner.parse();
-    if (!inner.error().empty()) {
-      fail(inner.error() + " (in variable '" + name + "')");
-    }
-    return result;
-  }
-
-  ExpressionValue converted(const layer::Value& value, const std::string& name) {
-    if (const auto* text = value.get<std::string>()) {
-      return of_text(*text);
-    }
-    if (const auto* flag = value.get<bool>()) {
-      return of_bool(*flag);
-    }
-    if (const auto* small = value.get<std::int32_t>()) {
-      return of_int(*small);
-    }
-    if (const auto* big = value.get<std::int64_t>()) {
-      return of_int(*big);
-    }
-    ExpressionValue list;
-    list.kind = Kind::List;
-    if (const auto* texts = value.get<layer::Array<std::string>>()) {
-      for (const std::string& text : *texts) {
-        list.items.push_back(of_text(text));
+  Evaluated variable(const std::string& name) {
+    const layer::Value& value = *variables_.find(name);
+    const auto* text = value.get<std::string>();
+    if (text != nullptr && is_variable_expression(*text)) {
+      if (std::find(open_.begin(), open_.end(), name) != open_.end()) {
+        return wrong("variable '" + name + "' leads back to itself");
       }
-      return list;
-    }
-    if (const auto* numbers = value.get<layer::Array<std::int64_t>>()) {
-      for (const std::int64_t number : *numbers) {
-        list.items.push_back(of_int(number));
-      }
-      return list;
-    }
-    fail("variable '" + name + "' has a type that expressions do not know");
-    return none();
-  }
-
-  ExpressionValue list(std::size_t depth) {
-    ++at_;
-    ExpressionValue result;
-    result.kind = Kind::List;
-    if (take(']')) {
+      open_.push_back(name);
+      Evaluated result = evaluate(*text);
+      open_.pop_back();
       return result;
     }
-    do {
-      result.items.push_back(value(depth + 1));
-      if (result.items.back().kind == Kind::List) {
-        fail("lists cannot hold lists");
+    std::optional<ExpressionValue> found = converted(value);
+    return found ? Evaluated{*std::move(found), {}}
+                 : wrong("variable '" + name + "' has a type that expressions do not know");
+  }
+
+  /// Variables within text must be text, or nothing; those that are not there stay as they are.
+  Evaluated text(const Tree& tree, const TreeNode& node) {
+    std::string result;
+    for (const std::size_t operand : node.operands) {
+      const TreeNode& part = tree[operand];
+      if (part.type == TreeNode::Type::Variable && variables_.find(part.name) == nullptr) {
+        result += "${" + part.name + "}";
+        continue;
       }
-    } while (error_.empty() && take(','));
-    expect(']');
-    return result;
+      const Evaluated evaluated = evaluate(tree, operand);
+      if (!evaluated.error.empty()) {
+        return evaluated;
+      }
+      if (evaluated.value.kind != Kind::Text && evaluated.value.kind != Kind::None) {
+        return wrong("variable '" + part.name + "' is no string");
+      }
+      result += evaluated.value.text;
+      if (result.size() > limits::kPathTextLength) {
+        return wrong("the text is too long");
+      }
+    }
+    return {of_text(std::move(result)), {}};
   }
 
-  ExpressionValue call(const std::string& name, std::size_t depth) {
-    if (name == "defined") {
-      return defined();
+  /// Only what is chosen counts, though both values must be of one type.
+  Evaluated choice(const Tree& tree, const TreeNode& node) {
+    Evaluated condition = evaluate(tree, node.operands[0]);
+    if (!condition.error.empty()) {
+      return condition;
     }
-    std::vector<ExpressionValue> arguments;
-    if (!take(')')) {
-      do {
-        arguments.push_back(value(depth + 1));
-      } while (error_.empty() && take(','));
-      expect(')');
+    if (condition.value.kind != Kind::Bool) {
+      return wrong("the condition of 'if' must be a boolean");
     }
-    return error_.empty() ? apply(name, arguments) : none();
+    Evaluated first = evaluate(tree, node.operands[1]);
+    if (node.operands.size() == 2) {
+      return condition.value.flag ? std::move(first) : Evaluated{};
+    }
+    Evaluated second = evaluate(tree, node.operands[2]);
+    if (first.value.kind != Kind::None && second.value.kind != Kind::None &&
+        !first.value.same_type(second.value)) {
+      return wrong("the values of 'if' must have one type");
+    }
+    return condition.value.flag ? std::move(first) : std::move(second);
   }
 
-  ExpressionValue defined() {
+  using Operands = std::vector<ExpressionValue>;
+
+  Evaluated apply(const std::string& name, const Operands& operands) {
+    if (name == "and" || name == "or" || name == "not") {
+      return logic(name, operands);
+    }
+    if (name == "len") {
+      return length(operands[0]);
+    }
+    if (name == "contains") {
+      return contains(operands[0], operands[1]);
+    }
+    if (name == "at") {
+      return element(operands[0], operands[1]);
+    }
+    return name == "defined" ? defined(operands) : compare(name, operands[0], operands[1]);
+  }
+
+  static Evaluated logic(const std::string& name, const Operands& operands) {
     bool all = true;
-    do {
-      skip_space();
-      std::string name;
-      if (at_ < text_.size() && (text_[at_] == '"' || text_[at_] == '\'')) {
-        name = quoted_text();
-      } else {
-        name = word();
+    bool any = false;
+    for (const ExpressionValue& operand : operands) {
+      if (operand.kind != Kind::Bool) {
+        return wrong("'" + name + "' takes booleans");
       }
-      all = all && variables_.find(name) != nullptr;
-    } while (error_.empty() && take(','));
-    expect(')');
-    return of_bool(all);
+      all = all && operand.flag;
+      any = any || operand.flag;
+    }
+    return {of_bool(name == "and" ? all : name == "or" ? any : !any), {}};
   }
 
-  bool as_bool(const ExpressionValue& value) {
-    if (value.kind != Kind::Bool) {
-      fail("expected a boolean");
+  static Evaluated compare(const std::string& name, const ExpressionValue& a,
+                           const ExpressionValue& b) {
+    if (!a.same_type(b) || a.kind == Kind::List) {
+      return wrong("'" + name + "' takes two values of one type that are no lists");
     }
-    return value.flag;
-  }
-
-  ExpressionValue apply(const std::string& name, const std::vector<ExpressionValue>& arguments) {
-    if (name == "if" && (arguments.size() == 2 || arguments.size() == 3)) {
-      if (as_bool(arguments[0])) {
-        return arguments[1];
-      }
-      return arguments.size() == 3 ? arguments[2] : none();
+    if (name == "eq" || name == "neq") {
+      return {of_bool((a == b) == (name == "eq")), {}};
     }
-    if ((name == "and" || name == "or") && arguments.size() >= 2) {
-      return logic(name == "and", arguments);
+    if (a.kind == Kind::None) {
+      return wrong("None has no order");
     }
-    if (name == "not" && arguments.size() == 1) {
-      return of_bool(!as_bool(arguments[0]));
-    }
-    if (name == "len" && arguments.size() == 1) {
-      return length(arguments[0]);
-    }
-    if (arguments.size() == 2 && (name == "contains" || name == "at")) {
-      return name == "at" ? element(arguments[0], arguments[1])
-                          : contains(arguments[0], arguments[1]);
-    }
-    if (arguments.size() == 2) {
-      if (const std::optional<bool> result = compare(name, arguments[0], arguments[1])) {
-        return of_bool(*result);
-      }
-    }
-    fail("no function '" + name + "' with " + std::to_string(arguments.size()) + " arguments");
-    return none();
-  }
-
-  ExpressionValue logic(bool all, const std::vector<ExpressionValue>& arguments) {
-    bool result = all;
-    for (const ExpressionValue& argument : arguments) {
-      const bool flag = as_bool(argument);
-      result = all ? result && flag : result || flag;
-    }
-    return of_bool(result);
-  }
-
-  std::optional<bool> compare(const std::string& name, const ExpressionValue& a,
-                              const ExpressionValue& b) {
-    const bool ordered = name == "lt" || name == "leq" || name == "gt" || name == "geq";
-    if (!ordered && name != "eq" && name != "neq") {
-      return std::nullopt;
-    }
-    if (a.kind != b.kind && a.kind != Kind::List && b.kind != Kind::List) {
-      fail("cannot compare values of different types");
-    } else if (ordered && a.kind != Kind::Int && a.kind != Kind::Text) {
-      fail("only numbers and strings have an order");
-    }
-    if (!error_.empty() || !ordered) {
-      return (a == b) == (name == "eq");
-    }
-    const bool less = a.kind == Kind::Int ? a.number < b.number : a.text < b.text;
-    const bool equal = a == b;
+    const bool less = a.kind == Kind::Int    ? a.number < b.number
+                      : a.kind == Kind::Text ? a.text < b.text
+                                             : !a.flag && b.flag;
     if (name == "lt" || name == "geq") {
-      return less == (name == "lt");
+      return {of_bool(less == (name == "lt")), {}};
     }
-    return (less || equal) == (name == "leq");
+    return {of_bool((less || a == b) == (name == "leq")), {}};
   }
 
-  ExpressionValue length(const ExpressionValue& value) {
+  static Evaluated length(const ExpressionValue& value) {
     if (value.kind != Kind::List && value.kind != Kind::Text) {
-      fail("only lists and strings have a length");
+      return wrong("only lists and strings have a length");
     }
     const std::size_t size = value.kind == Kind::List ? value.items.size() : value.text.size();
-    return of_int(static_cast<std::int64_t>(size));
+    return {of_int(static_cast<std::int64_t>(size)), {}};
   }
 
-  ExpressionValue contains(const ExpressionValue& where, const ExpressionValue& what) {
-    if (where.kind == Kind::List) {
-      return of_bool(std::find(where.items.begin(), where.items.end(), what) !=
-                     where.items.end());
+  static Evaluated contains(const ExpressionValue& where, const ExpressionValue& what) {
+    if (where.kind == Kind::List && (where.items.empty() || where.item_kind == what.kind)) {
+      const auto found = std::find(where.items.begin(), where.items.end(), what);
+      return {of_bool(found != where.items.end()), {}};
     }
     if (where.kind != Kind::Text || what.kind != Kind::Text) {
-      fail("'contains' looks for an item in a list or for text in text");
+      return wrong("'contains' looks for an item in a list or for text in text");
     }
-    return of_bool(where.text.find(what.text) != std::string::npos);
+    return {of_bool(where.text.find(what.text) != std::string::npos), {}};
   }
 
-  ExpressionValue element(const ExpressionValue& where, const ExpressionValue& index) {
-    const std::int64_t size = length(where).number;
+  static Evaluated element(const ExpressionValue& where, const ExpressionValue& index) {
+    const std::int64_t size = length(where).value.number;
     const std::int64_t at = index.number < 0 ? index.number + size : index.number;
     if (index.kind != Kind::Int || at < 0 || at >= size) {
-      fail("'at' takes a list or text and an index within it");
-      return none();
+      return wrong("'at' takes a list or text and an index within it");
     }
     const auto position = static_cast<std::size_t>(at);
-    return where.kind == Kind::List ? where.items[position]
-                                    : of_text(std::string(1, where.text[position]));
+    return {where.kind == Kind::List ? where.items[position]
+                                     : of_text(std::string(1, where.text[position])),
+            {}};
   }
 
-  std::string_view text_;
+  Evaluated defined(const Operands& names) const {
+    bool all = true;
+    for (const ExpressionValue& name : names) {
+      if (name.kind != Kind::Text) {
+        return wrong("'defined' takes names of variables as strings");
+      }
+      all = all && variables_.find(name.text) != nullptr;
+    }
+    return {of_bool(all), {}};
+  }
+
   const layer::Dictionary& variables_;
-  std::size_t variable_depth_;
-  std::size_t at_ = 0;
-  std::string error_;
+  std::vector<std::string> open_;  // variables whose expressions are under way
+  std::size_t steps_ = 0;
+  std::size_t depth_ = 0;
 };
 
 }  // namespace
@@ -403,17 +291,16 @@ bool is_variable_expression(std::string_view text) {
 
 ExpressionResult evaluate_text(std::string_view expression, const layer::Dictionary& variables) {
   ExpressionResult result;
-  Parser parser(expression.substr(1, expression.size() - 2), variables, 0);
-  const ExpressionValue value = parser.parse();
-  result.errors = parser.error();
-  if (!result.errors.empty() || value.kind == Kind::None) {
+  Evaluated evaluated = Evaluator(variables).evaluate(expression);
+  result.errors = std::move(evaluated.error);
+  if (!result.errors.empty() || evaluated.value.kind == Kind::None) {
     return result;
   }
-  if (value.kind != Kind::Text) {
+  if (evaluated.value.kind != Kind::Text) {
     result.errors = "the expression does not give a string";
     return result;
   }
-  result.text = value.text;
+  result.text = std::move(evaluated.value.text);
   return result;
 }
 

@@ -41,6 +41,9 @@ TEST(VariableExpression, GivesText) {
       {"`if(defined(\"NAME\", \"NOT\"), \"all\", \"some\")`", "some"},
       {"`at([\"x\", \"y\"], -1)`", "y"},
       {"`if(not(geq(len(${NAME}), 6)), \"short\")`", "short"},
+      {"`'${NOT}_x'`", "${NOT}_x"},
+      {"`if( True , 'a', ${NOT} )`", "a"},
+      {"`'\\x41\\n\\'\\q'`", "A\n'q"},
   };
   for (const Row& row : rows) {
     const ExpressionResult result = evaluate_text(row.expression, variables());
@@ -51,7 +54,8 @@ TEST(VariableExpression, GivesText) {
 
 TEST(VariableExpression, SaysWhatIsWrong) {
   for (const char* expression :
-       {"`${NOT}`", "`\"${NAME\"`", "`\"open`", "`${LOOP}`", "`5`", "`if(\"a\", \"b\")`", "`f(1)`",
+       {"`${NOT}`", "`if(defined(NAME), \"a\", \"b\")`", "`[1, \"a\"]`", "` 'a'`", "`'a' `",
+        "`if(True, \"a\", 1)`", "`if(contains([1], \"a\"), \"a\")`", "`\"${NAME\"`", "`\"open`", "`${LOOP}`", "`5`", "`if(\"a\", \"b\")`", "`f(1)`",
         "`[[1]]`", "`\"a\" \"b\"`", "`at([1], 3)`", "`\"${LOD}\"`", "`lt(True, False)`"}) {
     const ExpressionResult result = evaluate_text(expression, variables());
     EXPECT_NE(result.errors, "") << expression;
@@ -62,6 +66,16 @@ TEST(VariableExpression, SaysWhatIsWrong) {
 TEST(VariableExpression, StopsAtDeepNesting) {
   const std::string deep = "`" + std::string(100000, '[') + "`";
   EXPECT_NE(evaluate_text(deep, {}).errors, "");
+}
+
+TEST(VariableExpression, StopsWhenVariablesMultiply) {
+  layer::Dictionary doubling;
+  for (int i = 0; i < 60; ++i) {
+    const std::string next = "${V" + std::to_string(i + 1) + "}";
+    doubling.items["V" + std::to_string(i)] = "`\"" + next + next + "\"`";
+  }
+  doubling.items["V60"] = std::string("x");
+  EXPECT_NE(evaluate_text("`${V0}`", doubling).errors, "");
 }
 
 TEST(VariableExpression, IsTextInBackquotes) {

@@ -4,10 +4,17 @@
 // tests/differential.
 //
 // usage: composition_dump LAYER [--session LAYER] [--no-payloads] [--loaded PRIM]...
-//                         [--unloaded PRIM]... [--nodes]
+//                         [--unloaded PRIM]... [--muted LAYER]... [--fallback SET VARIANT]...
+//                         [--nodes]
+//        composition_dump --batch
+// With --batch each line of standard input is a list of arguments separated by tabs; what they
+// print is followed by a line "@@@ EXIT".
 // Exit: 0 printed; 2 wrong usage; 3 a layer could not be opened.
 #include <cstdio>
 #include <cstring>
+#include <iostream>
+#include <map>
+#include <set>
 #include <string>
 
 #include "tenon/compose/dump_index.h"
@@ -25,21 +32,38 @@ struct Arguments {
   compose::ComposeOptions options;
 };
 
-bool read_arguments(int count, char** words, Arguments& arguments) {
+/// False when `words` from `i` on are no option of composition; else `i` is at its last word.
+bool read_compose_option(const std::vector<std::string>& words, std::size_t& i,
+                         compose::ComposeOptions& options) {
+  const std::string& word = words[i];
+  const std::size_t left = words.size() - i - 1;
+  if (word == "--no-payloads") {
+    options.load_payloads = false;
+  } else if (word == "--loaded" && left >= 1) {
+    options.loaded.insert(Path::from(words[++i]));
+  } else if (word == "--unloaded" && left >= 1) {
+    options.unloaded.insert(Path::from(words[++i]));
+  } else if (word == "--muted" && left >= 1) {
+    options.muted.insert(words[++i]);
+  } else if (word == "--fallback" && left >= 2) {
+    options.variant_fallbacks[words[i + 1]].push_back(words[i + 2]);
+    i += 2;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool read_arguments(const std::vector<std::string>& words, Arguments& arguments) {
   arguments.options.variant_fallbacks["standin"] = {"render"};
-  for (int i = 1; i < count; ++i) {
-    const std::string word = words[i];
-    const bool has_value = i + 1 < count;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
     if (word == "--nodes") {
       arguments.nodes = true;
-    } else if (word == "--no-payloads") {
-      arguments.options.load_payloads = false;
-    } else if (word == "--session" && has_value) {
+    } else if (word == "--session" && i + 1 < words.size()) {
       arguments.session = words[++i];
-    } else if (word == "--loaded" && has_value) {
-      arguments.options.loaded.insert(Path::from(words[++i]));
-    } else if (word == "--unloaded" && has_value) {
-      arguments.options.unloaded.insert(Path::from(words[++i]));
+    } else if (read_compose_option(words, i, arguments.options)) {
+      continue;
     } else if (arguments.root.empty() && word.rfind("--", 0) != 0) {
       arguments.root = word;
     } else {
@@ -65,8 +89,12 @@ std::string targets_of(compose::IndexCache& cache, const compose::PrimIndex& ind
     for (const Path path : targets.deleted) {
       line += " -" + path.str();
     }
+    std::multiset<std::string> rules;
     for (const Diagnostic& found : targets.errors) {
-      line += " " + found.rule;
+      rules.insert(found.rule);
+    }
+    for (const std::string& rule : rules) {
+      line += " " + rule;
     }
     text += line.empty() ? "" : "targets " + name.str() + line + "\n";
   }
@@ -81,22 +109,56 @@ std::string joined(const char* heading, const std::vector<Token>& names) {
   return text.empty() ? text : heading + text + "\n";
 }
 
-/// All prims depth-first, each with its nodes, findings, names and targets.
+std::string in_brackets(const layer::LayerOffset& offset) {
+  char text[100];
+  std::snprintf(text, sizeof text, " (offset=%.2f, scale=%.2f)", offset.offset, offset.scale);
+  return offset.is_identity() ? "" : text;
+}
+
+std::string layers_of(const compose::LayerStack& stack, const compose::LayerLabel& label) {
+  std::string text = "== layers\n";
+  for (const compose::StackedLayer& stacked : stack.layers) {
+    text += label(*stacked.layer) + in_brackets(stacked.offset) + "\n";
+  }
+  for (const Diagnostic& found : stack.errors) {
+    text += "!! " + found.rule + "\n";
+  }
+  return text;
+}
+
+/// Nodes, specs, findings, names and targets of one prim.
+std::string facts_of(compose::IndexCache& cache, const compose::PrimIndex& index,
+                     const compose::LayerLabel& label) {
+  std::string text = dump_nodes(index, label);
+  for (const compose::Opinion& opinion : index.opinions) {
+    text += "spec " + label(*opinion.layer) + " " + opinion.path.str() + "\n";
+  }
+  for (const Diagnostic& found : index.errors) {
+    text += "!! " + found.rule + "\n";
+  }
+  for (const auto& [set, variant] : index.variant_selections) {
+    text += "selected " + set + "=" + variant + "\n";
+  }
+  text += joined("children", index.child_names);
+  text += joined("prohibited", index.prohibited_child_names);
+  text += joined("properties", index.property_names);
+  return text + targets_of(cache, index);
+}
+
+/// The layer stack, then all prims depth-first.
 std::string nodes_of_all(compose::IndexCache& cache, const compose::LayerLabel& label) {
-  std::string text;
+  std::string text = layers_of(*cache.layer_stack(), label);
+  std::map<std::string, Path> first_of_key;
   std::vector<const compose::PrimIndex*> open{&cache.index(Path::absolute_root())};
   while (!open.empty()) {
     const compose::PrimIndex& index = *open.back();
     open.pop_back();
-    text += "== " + index.path.str() + (index.instanceable ? " instanceable" : "") + "\n";
-    text += dump_nodes(index, label);
-    for (const Diagnostic& found : index.errors) {
-      text += "!! " + found.rule + "\n";
+    text += "== " + index.path.str();
+    if (index.instanceable) {
+      const Path first = first_of_key.emplace(index.instance_key, index.path).first->second;
+      text += " instance like " + first.str();
     }
-    text += joined("children", index.child_names);
-    text += joined("prohibited", index.prohibited_child_names);
-    text += joined("properties", index.property_names);
-    text += targets_of(cache, index);
+    text += (std::getenv("TENON_KEYS") ? " KEY " + index.instance_key : "") + "\n" + facts_of(cache, index, label);
     for (auto name = index.child_names.rbegin(); name != index.child_names.rend(); ++name) {
       open.push_back(&cache.child_index(index, *name));
     }
@@ -140,14 +202,38 @@ int dump(const Arguments& arguments) {
   return 0;
 }
 
-}  // namespace
-
-int main(int count, char** words) {
+int run(const std::vector<std::string>& words) {
   Arguments arguments;
-  if (!read_arguments(count, words, arguments)) {
-    std::fprintf(stderr, "usage: composition_dump LAYER [--session LAYER] [--no-payloads] "
-                         "[--loaded PRIM]... [--unloaded PRIM]... [--nodes]\n");
+  if (!read_arguments(words, arguments)) {
+    std::fprintf(stderr, "usage: see the head of tests/tools/composition_dump.cpp\n");
     return 2;
   }
   return dump(arguments);
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> words;
+  std::size_t start = 0;
+  for (std::size_t end = 0; end != std::string::npos; start = end + 1) {
+    end = line.find('\t', start);
+    words.push_back(line.substr(start, end - start));
+  }
+  return words;
+}
+
+int run_batch() {
+  for (std::string line; std::getline(std::cin, line);) {
+    const int status = run(split(line));
+    std::printf("@@@ %d\n", status);
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  const std::vector<std::string> arguments(words + 1, words + count);
+  const bool batch = arguments.size() == 1 && arguments.front() == "--batch";
+  return batch ? run_batch() : run(arguments);
 }
