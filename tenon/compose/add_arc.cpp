@@ -214,6 +214,21 @@ void add_node_tasks(Indexer& indexer, NodeId id, bool skip_expressed, bool ances
   push_if(node.arc == ArcKind::Relocate, TaskKind::ImpliedRelocates);
 }
 
+/// Only the outermost graph passes on what its arcs bring in, so within an inner one an instance
+/// shares less.
+void set_ancestry(Indexer& indexer, NodeId id, const ArcOptions& options) {
+  NodeGraph& graph = indexer.graph;
+  Node& node = graph[id];
+  const Node& origin = graph[node.origin];
+  node.due_to_ancestor = options.ancestry_of_origin && origin.due_to_ancestor;
+  node.due_to_direct_arc = !options.ancestry_of_origin || origin.due_to_direct_arc;
+  if (options.include_ancestral && indexer.is_outermost() && node.due_to_direct_arc) {
+    for (const NodeId below : graph.subtree(id)) {
+      graph[below].due_to_direct_arc = true;
+    }
+  }
+}
+
 }  // namespace
 
 void make_subtree_inert(NodeGraph& graph, NodeId node) {
@@ -302,6 +317,7 @@ NodeId add_arc(Indexer& indexer, const Arc& arc, const Site& site, const ArcOpti
   const NodeId id = options.include_ancestral
                         ? add_subgraph(indexer, arc, site, options)
                         : add_single_node(indexer, arc, site, options.contributes);
+  set_ancestry(indexer, id, options);
   if (options.expand) {
     add_tasks(indexer, id, options.include_ancestral,
               indexer.is_outermost() && options.include_ancestral);

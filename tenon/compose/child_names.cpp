@@ -192,22 +192,6 @@ std::vector<std::uint32_t> weak_to_strong(const std::vector<Node>& nodes) {
   return order;
 }
 
-/// Children of an instance come from what it shares only.
-bool names_children(const PrimIndex& index, std::uint32_t id) {
-  if (!index.instanceable) {
-    return true;
-  }
-  if (id == 0 || !index.nodes[id].has_specs) {
-    return false;
-  }
-  for (; id != 0; id = index.nodes[id].parent) {
-    if (!index.nodes[id].due_to_ancestor) {
-      return true;
-    }
-  }
-  return false;
-}
-
 bool is_in_culled_subtree(const std::vector<Node>& nodes, std::uint32_t id) {
   for (; id != kNoNode; id = nodes[id].parent) {
     if (nodes[id].culled) {
@@ -225,7 +209,7 @@ void compose_child_names(PrimIndex& index) {
   std::set<Token> prohibited;
   for (const std::uint32_t id : weak_to_strong(index.nodes)) {
     const Node& node = index.nodes[id];
-    if (!node.can_contribute() || !names_children(index, id) ||
+    if (!node.can_contribute() || (index.instanceable && !is_shareable(node)) ||
         is_in_culled_subtree(index.nodes, id)) {
       continue;
     }

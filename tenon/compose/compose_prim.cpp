@@ -66,6 +66,7 @@ void descend(Indexer& indexer, Path child_path, bool parent_is_instance) {
     Node& node = graph[id];
     node.has_specs = node.has_specs && node.layer_stack->has_spec(node.path);
     node.due_to_ancestor = id != 0;
+    node.due_to_direct_arc = false;
   }
 }
 

@@ -84,6 +84,7 @@ struct ArcOptions {
   bool include_ancestral = false;  ///< also what applies to the site because of its ancestors
   bool skip_duplicates = false;    ///< no second node for a site
   bool expand = true;              ///< what the new node can lead to is followed
+  bool ancestry_of_origin = false;  ///< due to an ancestor or not as the arc's origin is
 };
 
 /// Builds the graph of `site`: everything but culling. Tasks run level by level from the top of the
@@ -150,6 +151,8 @@ void eval_implied_relocates(Indexer& indexer, NodeId node);
 bool elide_if_prohibited(Indexer& indexer);
 
 // Instancing, culling and names.
+/// Instances have the node in common.
+bool is_shareable(const Node& node);
 bool is_instanceable(const NodeGraph& graph);
 /// Below an instance only what the instance shares may contribute.
 void disable_unshared_nodes(NodeGraph& graph);

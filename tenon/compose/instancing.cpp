@@ -10,28 +10,20 @@ namespace tenon::compose {
 namespace {
 
 /// Visits nodes strongest first, each with whether it can be shared: it has specs that count and was
-/// brought in by an arc of this prim. `visit` returns true to go on below the node. Culled subtrees are
-/// left out.
+/// brought in by an arc of this prim. `visit` returns true to go on below the node. Culled subtrees
+/// are left out.
 template <class Visit>
 void walk_shareable(const NodeGraph& graph, const Visit& visit) {
-  struct Open {
-    NodeId node;
-    bool below_own_arc;
-  };
-  std::vector<Open> open{{0, false}};
+  std::vector<NodeId> open{0};
   while (!open.empty()) {
-    Open at = open.back();
+    const NodeId id = open.back();
     open.pop_back();
-    const Node& node = graph[at.node];
-    if (node.culled) {
-      continue;
-    }
-    at.below_own_arc = at.node != 0 && (at.below_own_arc || !node.due_to_ancestor);
-    if (!visit(at.node, at.below_own_arc && node.has_specs && !node.inert)) {
+    const Node& node = graph[id];
+    if (node.culled || !visit(id, is_shareable(node))) {
       continue;
     }
     for (NodeId child = node.last_child; child != kNoNode; child = graph[child].previous_sibling) {
-      open.push_back({child, at.below_own_arc});
+      open.push_back(child);
     }
   }
 }
@@ -53,6 +45,10 @@ bool composed_instanceable(const NodeGraph& graph) {
 }
 
 }  // namespace
+
+bool is_shareable(const Node& node) {
+  return node.arc != ArcKind::Root && node.due_to_direct_arc && node.has_specs && !node.inert;
+}
 
 bool is_instanceable(const NodeGraph& graph) {
   if (graph.size() < 2) {

@@ -103,14 +103,20 @@ NodeId NodeGraph::insert_subgraph(const NodeGraph& other, const Arc& arc) {
   return base;
 }
 
+/// Strengths of specializes do not always form an order: looking at the first sibling, then at the
+/// last and then at those between decides as OpenUSD does.
 void NodeGraph::link(NodeId parent, NodeId child) {
-  NodeId next = nodes_[parent].first_child;
+  const NodeId first = nodes_[parent].first_child;
   const NodeId last = nodes_[parent].last_child;
-  if (last != kNoNode && compare_siblings(*this, child, last) >= 0) {
-    next = kNoNode;
-  }
-  while (next != kNoNode && compare_siblings(*this, child, next) >= 0) {
-    next = nodes_[next].next_sibling;
+  NodeId next = first;
+  if (first != kNoNode && compare_siblings(*this, child, first) >= 0) {
+    if (compare_siblings(*this, child, last) >= 0) {
+      next = kNoNode;
+    } else {
+      while (next != kNoNode && compare_siblings(*this, child, next) >= 0) {
+        next = nodes_[next].next_sibling;
+      }
+    }
   }
   const NodeId previous = next == kNoNode ? last : nodes_[next].previous_sibling;
   nodes_[child].next_sibling = next;

@@ -38,11 +38,8 @@ NodeId propagate_to_root(Indexer& indexer, NodeId node) {
   ArcOptions options;
   options.skip_duplicates = true;
   options.include_ancestral = site.path.depth() != 1;
-  const NodeId copy = add_arc(indexer, arc, site, options);
-  if (copy != kNoNode) {
-    indexer.graph[copy].due_to_ancestor = graph[node].due_to_ancestor;
-  }
-  return copy;
+  options.ancestry_of_origin = true;
+  return add_arc(indexer, arc, site, options);
 }
 
 void eval_implied_specializes(Indexer& indexer, NodeId node) {

@@ -126,6 +126,13 @@ bool skips_duplicates(const NodeGraph& graph, NodeId node) {
   return false;
 }
 
+/// A variant that could bring in selections, itself or over arcs of its own.
+bool may_select_variants(const LayerStack& stack, Path variant) {
+  const AuthoredArcs arcs = authored_arcs(stack, variant);
+  return arcs.references || arcs.inherits || arcs.specializes || arcs.payloads ||
+         has_variant_selections(stack, variant);
+}
+
 void add_variant_arc(Indexer& indexer, const Task& task, const std::string& variant,
                      bool ancestral) {
   const Site site = indexer.graph.site(task.node);
@@ -140,7 +147,8 @@ void add_variant_arc(Indexer& indexer, const Task& task, const std::string& vari
   options.include_ancestral = ancestral;
   options.skip_duplicates = ancestral && skips_duplicates(indexer.graph, task.node);
   const Path path = site.path.replace_prefix(task.set_path, variant_path, false);
-  if (add_arc(indexer, arc, {site.layer_stack, path}, options) != kNoNode) {
+  if (add_arc(indexer, arc, {site.layer_stack, path}, options) != kNoNode &&
+      may_select_variants(*site.layer_stack, variant_path)) {
     indexer.tasks.retry_variants();
   }
 }
@@ -181,12 +189,7 @@ void eval_authored_variant(Indexer& indexer, const Task& task, bool ancestral) {
     return add_variant_arc(indexer, task, selection, ancestral);
   }
   Task later = task;
-  const bool has_fallback = !fallback_variant(indexer, task).empty();
-  if (ancestral) {
-    later.kind = has_fallback ? TaskKind::AncestralVariantFallback : TaskKind::AncestralVariantNone;
-  } else {
-    later.kind = has_fallback ? TaskKind::VariantFallback : TaskKind::VariantNone;
-  }
+  later.kind = ancestral ? TaskKind::AncestralVariantFallback : TaskKind::VariantFallback;
   indexer.tasks.push(std::move(later));
 }
 
@@ -196,8 +199,11 @@ void eval_fallback_variant(Indexer& indexer, const Task& task, bool ancestral) {
   }
   const std::string fallback = fallback_variant(indexer, task);
   if (!fallback.empty()) {
-    add_variant_arc(indexer, task, fallback, ancestral);
+    return add_variant_arc(indexer, task, fallback, ancestral);
   }
+  Task later = task;
+  later.kind = ancestral ? TaskKind::AncestralVariantNone : TaskKind::VariantNone;
+  indexer.tasks.push(std::move(later));
 }
 
 }  // namespace tenon::compose

@@ -20,6 +20,7 @@ import argparse
 import collections
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -36,7 +37,7 @@ except ImportError:
 import pcp_oracle
 import random_scenes
 
-SECONDS = 10
+SECONDS = 3
 Result = collections.namedtuple("Result", "kind text")  # kind: equal, differs, slow, died
 
 
@@ -85,7 +86,7 @@ def composed(dumper, folder, options):
     """{heading: lines} from DUMP."""
     status, printed = dumper.ask(words_of(folder, options))
     if status != 0:
-        return {"exit": [str(status)] + printed[-5:]}
+        return {"exit": ["rejected"] if status == 3 else [str(status)] + printed[-5:]}
     result, lines = {}, None
     for line in printed:
         if line.startswith("== "):
@@ -114,7 +115,7 @@ def in_child(work):
     child = os.fork()
     if child == 0:
         os.close(reader)
-        signal.alarm(SECONDS)
+        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS + 1))
         silent = os.open(os.devnull, os.O_WRONLY)
         os.dup2(silent, 1)
         os.dup2(silent if not os.environ.get("COMPOSE_RANDOM_LOUD") else 2, 2)
@@ -169,7 +170,7 @@ class Judge:
             return oracle.composed(), oracle.faults
         answer, status = in_child(work)
         if answer is None:
-            return Result("slow" if status == signal.SIGALRM else "died", f"status {status}")
+            return Result("slow" if status == signal.SIGXCPU else "died", f"status {status}")
         want, faults = answer
         self.prims += len(want)
         self.faults.update({fault.split(" : ")[-1] for fault in faults})
@@ -211,6 +212,8 @@ def main():
             scene = random_scenes.make_scene(seed)
             result = judge.judge(scene)
             counts[result.kind] += 1
+            if seed % 20 == 0:
+                print(f"seed {seed}: {dict(counts)}", flush=True)
             if result.kind != "differs":
                 continue
             different += 1

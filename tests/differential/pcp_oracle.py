@@ -33,6 +33,10 @@ class Oracle:
     def composed(self):
         """With payloads by the load rules. Which prims there are is known when all is composed, so
         this asks again until no more turn up."""
+        try:
+            Sdf.Layer.FindOrOpen(self.root_path)
+        except Tf.ErrorException:
+            return {"exit": ["rejected"]}
         wanted, before = set(), None
         while wanted != before:
             before = set(wanted)
@@ -53,7 +57,7 @@ class Oracle:
 
     def is_loaded(self, path):
         load = self.options.get("load")
-        if load is None:
+        if load is None or not path.IsPrimPath():
             return path.IsPrimPath()
         loaded = [Sdf.Path(p) for p in load.get("loaded", [])]
         return any(p.HasPrefix(path) or path.HasPrefix(p) for p in loaded)

@@ -8,8 +8,9 @@ A scene is lists and dicts, so that it can be cut down piece by piece:
     prim = {"head": text, "meta": [line...], "props": [line...], "kids": [prim...],
             "sets": [{"name": set, "variants": [prim...]}...]}
 
-Arcs lead to layers further down the list, or within a layer to roots further down the alphabet, so
-that few scenes have cycles; the family `cycles` is free of this rule.
+Arcs lead to layers further down the list, or within a layer to roots further down the alphabet;
+classes lead to classes further down only. So few scenes have cycles or grow without bound; the
+family `cycles` is free of this rule.
 """
 
 import copy
@@ -23,7 +24,7 @@ VARIANTS = ("a", "b", "c")
 
 # Chances of what a prim or layer has; a family changes some of them.
 BASE = {
-    "layers": (2, 5), "roots": (2, 4), "kids": 0.55, "depth": 2, "sublayers": 0.5, "offset": 0.25,
+    "layers": (2, 4), "roots": (1, 3), "kids": 0.5, "depth": 2, "sublayers": 0.5, "offset": 0.25,
     "rate": 0.2, "references": 0.22, "payload": 0.06, "inherits": 0.16, "specializes": 0.08,
     "sets": 0.12, "selection": 0.12, "instanceable": 0.08, "relocates": 0.12, "edits": 0.25,
     "props": 0.7, "samples": 0.25, "targets": 0.3, "meta": 0.2, "expressions": 0.06,
@@ -44,7 +45,7 @@ FAMILIES = {
     "values": {"samples": 0.7, "offset": 0.5, "rate": 0.4, "meta": 0.6, "sublayers": 0.8,
                "targets": 0.5},
     "expressions": {"expressions": 0.6, "sets": 0.2, "selection": 0.25, "references": 0.35},
-    "edits": {"edits": 0.8, "sublayers": 0.9, "layers": (3, 6), "opinions": 0.8},
+    "edits": {"edits": 0.8, "sublayers": 0.9, "layers": (3, 5), "opinions": 0.8},
     "session": {"session": 1.0, "muted": 0.4, "sets": 0.15},
     "cycles": {"any_order": 0.5, "wild": 0.3, "layers": (1, 3), "roots": (2, 3)},
 }
@@ -67,6 +68,7 @@ class Generator:
         self.known = [[] for _ in range(self.count + 1)]  # prim paths of each layer
         self.used = {}  # (path, field) -> items authored so far, for deletes
         self.at = 0  # the layer being made
+        self.variants = 0  # around the prim being made
 
     def has(self, what):
         return self.random.random() < self.chances[what]
@@ -217,6 +219,7 @@ class Generator:
 
     def add_set(self, prim, path, depth, name):
         variants = []
+        self.variants += 1
         for variant in self.random.sample(VARIANTS, self.random.randint(1, 2)):
             filled = self.filled({"head": f'"{variant}"'}, path, depth + 1, False, variant)
             others = [other for other in SETS if other != name]
@@ -224,6 +227,7 @@ class Generator:
                 self.add_set(filled, path, depth + 1, others[0])
                 filled["meta"].append(f'prepend variantSets = "{others[0]}"')
             variants.append(filled)
+        self.variants -= 1
         prim["sets"].append({"name": name, "variants": variants})
 
     # ----- arcs
@@ -262,8 +266,12 @@ class Generator:
             name = self.pick(('`"./${LAYER}.usda"`', '`if(defined("LAYER"), "l1.usda")`'))
         if self.has("wild") and self.chance(0.2):
             name = "./absent.usda"
-        prim = "" if self.chance(0.12) else f"<{self.path_in(layer, ROOTS + CLASSES)}>"
-        return f"@{name}@{prim}{self.offset()}"
+        # classes apply wherever they are implied: what they lead to must not lead back
+        roots = self.later(root) if root in CLASSES else ROOTS + CLASSES
+        if self.chance(0.12) and root not in CLASSES:
+            return f"@{name}@{self.offset()}"
+        target = self.path_in(layer, roots)
+        return target and f"@{name}@<{target}>{self.offset()}"
 
     def class_path(self, path):
         names = path.split("/")[1:]
@@ -375,7 +383,7 @@ class Generator:
             root + "/" + self.pick(KIDS)
         if self.chance(0.12):
             target = "/" + self.pick(ROOTS)
-        if self.chance(0.15):
+        if self.chance(0.1) and self.variants == 0:
             target = "../" + self.pick(KIDS)
         return target
 
@@ -451,6 +459,16 @@ def _lists(scene):
         yield layer["meta"]
 
 
+def _sets(scene):
+    open_prims = [prim for layer in scene["layers"] for prim in layer["prims"]]
+    while open_prims:
+        prim = open_prims.pop()
+        open_prims += prim["kids"]
+        for variant_set in prim["sets"]:
+            yield variant_set
+            open_prims += variant_set["variants"]
+
+
 def _cut(scene, k, first, last):
     """A copy without some items of its list number k."""
     cut = copy.deepcopy(scene)
@@ -466,8 +484,10 @@ def _pass(scene, still_differs):
     """Goes once over all lists, from their ends: whole lists, halves, then single items."""
     k = 0
     while k < sum(1 for _ in _lists(scene)):
-        size = len(next(items for j, items in enumerate(_lists(scene)) if j == k))
-        least = 1 if k == 0 else 0  # the root layer stays
+        items = next(items for j, items in enumerate(_lists(scene)) if j == k)
+        size = len(items)
+        # the root layer stays, and a set has some variant
+        least = 1 if k == 0 or any(items is s["variants"] for s in _sets(scene)) else 0
         step = size - least
         while step >= 1:
             last = len(next(items for j, items in enumerate(_lists(scene)) if j == k))
