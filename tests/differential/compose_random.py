@@ -134,6 +134,13 @@ def in_child(work):
     return (eval(text, {"__builtins__": {}}), 0) if status == 0 else (None, status)
 
 
+def without_unresolved(result):
+    """Where OpenUSD's check of its arc numbers fails, it may drop this finding."""
+    unresolved = "!! compose.unresolved-prim-path"
+    return {heading: [line for line in lines if line != unresolved]
+            for heading, lines in result.items()}
+
+
 def difference(want, have):
     for heading in list(want) + [heading for heading in have if heading not in want]:
         if want.get(heading) != have.get(heading):
@@ -174,7 +181,10 @@ class Judge:
         want, faults = answer
         self.prims += len(want)
         self.faults.update({fault.split(" : ")[-1] for fault in faults})
-        text = difference(want, composed(self.dumper, folder, options))
+        have = composed(self.dumper, folder, options)
+        if faults:
+            want, have = without_unresolved(want), without_unresolved(have)
+        text = difference(want, have)
         return Result("differs" if text else "equal", text)
 
 
@@ -212,7 +222,7 @@ def main():
             scene = random_scenes.make_scene(seed)
             result = judge.judge(scene)
             counts[result.kind] += 1
-            if seed % 20 == 0:
+            if seed % 500 == 0:
                 print(f"seed {seed}: {dict(counts)}", flush=True)
             if result.kind != "differs":
                 continue

@@ -158,7 +158,7 @@ std::string nodes_of_all(compose::IndexCache& cache, const compose::LayerLabel& 
       const Path first = first_of_key.emplace(index.instance_key, index.path).first->second;
       text += " instance like " + first.str();
     }
-    text += (std::getenv("TENON_KEYS") ? " KEY " + index.instance_key : "") + "\n" + facts_of(cache, index, label);
+    text += "\n" + facts_of(cache, index, label);
     for (auto name = index.child_names.rbegin(); name != index.child_names.rend(); ++name) {
       open.push_back(&cache.child_index(index, *name));
     }
