@@ -277,8 +277,7 @@ std::uint16_t introduction_depth(const Indexer& indexer, NodeId parent) {
   return namespace_depth_of(indexer.graph[parent].path);
 }
 
-MapFunction arc_map(const Indexer& indexer, Path source, NodeId target,
-                    layer::LayerOffset offset) {
+MapFunction arc_map(const Indexer& indexer, Path source, NodeId target, layer::LayerOffset offset) {
   const Node& node = indexer.graph[target];
   const Path target_path = node.path.strip_variants();
   const MapFunction map = MapFunction::make({{source, target_path}}, offset);

@@ -7,9 +7,7 @@
 namespace tenon::compose {
 namespace {
 
-std::string_view noun(ArcKind kind) {
-  return kind == ArcKind::Payload ? "payload" : "reference";
-}
+std::string_view noun(ArcKind kind) { return kind == ArcKind::Payload ? "payload" : "reference"; }
 
 /// Where an item leads: a stack, its root layer and the scale between time codes.
 struct Destination {
@@ -72,7 +70,7 @@ class AssetArcAdder {
   /// In the stack's time. An internal arc stays within the stack, whose layers have their offsets
   /// already: as OpenUSD 26.11 has it, only what the arc itself says counts.
   layer::LayerOffset checked_offset(const AssetArc& item) {
-    if (is_usable(item.offset) && item.offset.scale > 0) {
+    if (is_usable(item.offset)) {
       return item.asset_path.empty() ? item.offset : item.layer_offset * item.offset;
     }
     report(error_class::kInvalidReferenceOffset, item,
@@ -160,8 +158,7 @@ const layer::Layer* introducing_layer(const Indexer& indexer, NodeId node, Path 
   const Node& at = indexer.graph[node];
   const LayerStack& stack = *indexer.graph[at.parent].layer_stack;
   const auto identity = [](const std::string& path, const layer::Layer&) { return path; };
-  const auto composed =
-      at.arc == ArcKind::Payload ? composed_payloads : composed_references;
+  const auto composed = at.arc == ArcKind::Payload ? composed_payloads : composed_references;
   const std::vector<AssetArc> arcs = composed(stack, parent_path, identity, nullptr);
   return at.sibling_number < arcs.size() ? arcs[at.sibling_number].layer.get() : stack.root.get();
 }

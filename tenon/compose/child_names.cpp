@@ -60,9 +60,7 @@ class NameList {
   }
 
   /// The same names in another order.
-  void reorder(const std::vector<Token>& order) {
-    layer::ListOp<Token>::reorder(names_, order);
-  }
+  void reorder(const std::vector<Token>& order) { layer::ListOp<Token>::reorder(names_, order); }
 
   const std::vector<Token>& names() const { return names_; }
   std::vector<Token> take() { return std::move(names_); }

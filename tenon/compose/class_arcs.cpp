@@ -72,8 +72,7 @@ NodeId add_class_arc(Indexer& indexer, const ClassArcRequest& request) {
   const NodeGraph& graph = indexer.graph;
   const Path parent_path = graph[request.parent].path;
   const ArcKind parent_arc = FrameCursor{&graph, request.parent, indexer.frame}.arc();
-  const Site site{graph[request.parent].layer_stack,
-                  request.class_path};
+  const Site site{graph[request.parent].layer_stack, request.class_path};
   if (site.path.empty()) {
     return kNoNode;
   }
@@ -106,10 +105,10 @@ void add_class_arcs(Indexer& indexer, NodeId node, ArcKind kind, Token field) {
   std::uint16_t number = 0;
   for (const ClassArc& arc : composed_class_arcs(*site.layer_stack, site.path, field)) {
     if (!arc.path.is_prim() || arc.path.has_variants()) {
-      indexer.report(error_class::kInvalidPrimPath, arc.layer, site.path,
-                     "the class path " + quoted(arc.path) +
-                         " is no absolute prim path without variants",
-                     "name a prim by its absolute path");
+      indexer.report(
+          error_class::kInvalidPrimPath, arc.layer, site.path,
+          "the class path " + quoted(arc.path) + " is no absolute prim path without variants",
+          "name a prim by its absolute path");
     } else {
       ClassArcRequest request;
       request.kind = kind;

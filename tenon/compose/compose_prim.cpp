@@ -95,8 +95,8 @@ void build_variant_site(Indexer& indexer, const Site& site, bool contributes) {
   run_tasks(indexer);
 }
 
-/// Whether the prim at `site`, whose graph is there, is an instance. The graph of an ancestor of the
-/// stage prim may lack what the outer graph has already; its finished index knows.
+/// Whether the prim at `site`, whose graph is there, is an instance. The graph of an ancestor of
+/// the stage prim may lack what the outer graph has already; its finished index knows.
 bool is_instance(const Indexer& indexer, const Site& site) {
   const bool is_above = site.path != indexer.root_prim && indexer.root_prim.has_prefix(site.path);
   return is_above && site.layer_stack == indexer.services.root_stack

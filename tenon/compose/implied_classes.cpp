@@ -3,18 +3,40 @@
 // Classes are used by name. Where a reference brings a prim that inherits a class into another
 // namespace, overrides of the class there apply as well: the arc is implied from node to parent,
 // moved through the map between them, up to the root.
-#include "tenon/base/limits.h"
+#include <algorithm>
+#include <utility>
+
 #include "tenon/compose/indexer.h"
 
 namespace tenon::compose {
 namespace {
 
-/// `class_map` between the images of its ends under `transfer`.
+/// `class_map` between the images of its ends under `transfer`. What `transfer` relocates within
+/// the user of the class is relocated within the class as well; nothing else of it is carried over.
 MapFunction implied_map(const MapFunction& transfer, const MapFunction& class_map) {
   if (transfer.is_identity()) {
     return class_map;
   }
-  return transfer.compose(class_map.compose(transfer.inverse())).with_root_identity();
+  MapFunction::Pairs pairs;
+  const auto add = [&](Path source, Path target) {
+    const Path image = transfer.map_source_to_target(source);
+    const bool is_new = std::none_of(pairs.begin(), pairs.end(),
+                                     [&](const auto& pair) { return pair.first == image; });
+    if (!image.empty() && is_new) {
+      pairs.emplace_back(image, target);
+    }
+  };
+  for (const auto& [source, target] : class_map.pairs()) {
+    add(source, target.empty() ? target : transfer.map_source_to_target(target));
+  }
+  for (const auto& [source, target] : transfer.pairs()) {
+    const Path in_class = class_map.map_target_to_source(source);
+    if (!in_class.empty() && transfer.map_source_to_target(in_class) != target) {
+      add(in_class, target);
+    }
+  }
+  pairs.emplace_back(Path::absolute_root(), Path::absolute_root());
+  return MapFunction::make(std::move(pairs), class_map.offset());
 }
 
 Path containing_variant(Path path) {
@@ -145,8 +167,8 @@ void eval_implied_classes(Indexer& indexer, NodeId node) {
     return;
   }
   // The map of a reference ends at the referenced prim; classes outside count nonetheless.
-  ClassTree(indexer).imply({graph[node].parent, node,
-                            graph[node].map_to_parent->with_root_identity(), true});
+  ClassTree(indexer).imply(
+      {graph[node].parent, node, graph[node].map_to_parent->with_root_identity(), true});
 }
 
 }  // namespace tenon::compose

@@ -80,10 +80,10 @@ struct FrameCursor {
 };
 
 struct ArcOptions {
-  bool contributes = true;         ///< the new node itself may have opinions
-  bool include_ancestral = false;  ///< also what applies to the site because of its ancestors
-  bool skip_duplicates = false;    ///< no second node for a site
-  bool expand = true;              ///< what the new node can lead to is followed
+  bool contributes = true;          ///< the new node itself may have opinions
+  bool include_ancestral = false;   ///< also what applies to the site because of its ancestors
+  bool skip_duplicates = false;     ///< no second node for a site
+  bool expand = true;               ///< what the new node can lead to is followed
   bool ancestry_of_origin = false;  ///< due to an ancestor or not as the arc's origin is
 };
 

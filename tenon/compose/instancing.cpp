@@ -9,9 +9,9 @@
 namespace tenon::compose {
 namespace {
 
-/// Visits nodes strongest first, each with whether it can be shared: it has specs that count and was
-/// brought in by an arc of this prim. `visit` returns true to go on below the node. Culled subtrees
-/// are left out.
+/// Visits nodes strongest first, each with whether it can be shared: it has specs that count and
+/// was brought in by an arc of this prim. `visit` returns true to go on below the node. Culled
+/// subtrees are left out.
 template <class Visit>
 void walk_shareable(const NodeGraph& graph, const Visit& visit) {
   std::vector<NodeId> open{0};
@@ -83,8 +83,8 @@ std::string instance_key(const NodeGraph& graph, bool has_payloads) {
       const layer::LayerOffset& offset = node.map_to_root->offset();
       key += std::to_string(static_cast<int>(node.arc)) + " @" + node.layer_stack->identifier() +
              "@<" + node.path.str() + "> " + shortest(offset.offset) + " " +
-             shortest(offset.scale) + " @" +
-             node.layer_stack->expression_source->identifier() + "@\n";
+             shortest(offset.scale) + " @" + node.layer_stack->expression_source->identifier() +
+             "@\n";
     }
     // Payloads that are or are not included tell instances apart wherever they are.
     return !shareable || has_payloads;

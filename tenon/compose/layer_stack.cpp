@@ -145,8 +145,9 @@ class Builder {
       return offset;
     }
     report(error_class::kInvalidSublayerOffset, layer,
-           "the offset of sublayer @" + sublayer.identifier() + "@ has no inverse; none is used",
-           "author a finite offset and a scale other than zero");
+           "the offset of sublayer @" + sublayer.identifier() +
+               "@ is not finite or its scale is not positive; none is used",
+           "author a finite offset and a positive scale");
     return {};
   }
 
@@ -213,7 +214,7 @@ const Path* find_pair(const MapFunction::Pairs& pairs, Path path) {
 }  // namespace
 
 bool is_usable(const layer::LayerOffset& offset) {
-  return std::isfinite(offset.offset) && std::isfinite(offset.scale) && offset.scale != 0;
+  return std::isfinite(offset.offset) && std::isfinite(offset.scale) && offset.scale > 0;
 }
 
 double rate_ratio(double rate, double other) {
@@ -236,9 +237,8 @@ const Path* LayerStack::relocation_source(Path target) const {
 }
 
 bool LayerStack::has_spec(Path path) const {
-  return std::any_of(layers.begin(), layers.end(), [&](const StackedLayer& stacked) {
-    return stacked.layer->has(path);
-  });
+  return std::any_of(layers.begin(), layers.end(),
+                     [&](const StackedLayer& stacked) { return stacked.layer->has(path); });
 }
 
 std::shared_ptr<LayerStack> build_layer_stack(const LayerStackInputs& inputs) {

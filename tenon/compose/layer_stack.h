@@ -75,7 +75,7 @@ struct LayerStackInputs {
 /// cannot be opened or contradicts itself is in `errors` and left out.
 std::shared_ptr<LayerStack> build_layer_stack(const LayerStackInputs& inputs);
 
-/// Finite and invertible.
+/// Finite, and time goes forward.
 bool is_usable(const layer::LayerOffset& offset);
 
 /// The scale from times at `other` codes per second to times at `rate`; 1 for nonsense.

@@ -40,7 +40,8 @@ struct Node {
   bool culled = false;           ///< neither it nor anything below it contributes opinions
   bool has_specs = false;        ///< some layer of the stack has a prim spec at `path`
   bool due_to_ancestor = false;  ///< the arc was introduced by a namespace ancestor
-  /// Brought in by an arc of this prim: by its own arc or with the index that an arc above leads to.
+  /// Brought in by an arc of this prim: by its own arc or with the index that an arc above leads
+  /// to.
   bool due_to_direct_arc = false;
 
   bool can_contribute() const { return !inert && !culled; }

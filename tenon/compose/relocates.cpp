@@ -50,8 +50,8 @@ void report_prohibited(Indexer& indexer, const Node& prohibited) {
   const Frame& frame = *indexer.frame;
   const Node& parent = (*frame.graph)[frame.parent];
   indexer.report(error_class::kArcToProhibitedChild, parent.layer_stack->root.get(), parent.path,
-                 "the arc leads to " + quoted(*frame.requested.layer_stack->root,
-                                              frame.requested.path) +
+                 "the arc leads to " +
+                     quoted(*frame.requested.layer_stack->root, frame.requested.path) +
                      ", which needs opinions of the relocated " + quoted(prohibited.path),
                  "lead the arc to the target of the relocate");
 }

@@ -22,9 +22,8 @@ NodeId propagate_to_root(Indexer& indexer, NodeId node) {
   const NodeGraph& graph = indexer.graph;
   const Site site = graph.site(node);
   const MapFunction* map = graph[node].map_to_root;
-  const NodeId known =
-      find_matching_child(indexer, 0, graph[0].arc, site, ArcKind::Specialize, *map,
-                          graph.depth_below_introduction(node));
+  const NodeId known = find_matching_child(indexer, 0, graph[0].arc, site, ArcKind::Specialize,
+                                           *map, graph.depth_below_introduction(node));
   if (known != kNoNode) {
     return known;
   }

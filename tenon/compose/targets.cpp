@@ -80,8 +80,8 @@ class TargetCombiner {
   TargetList combine(const std::vector<PropertyOpinion>& opinions) {
     for (auto it = opinions.rbegin(); it != opinions.rend(); ++it) {
       const bool attribute = it->spec->kind == SpecKind::Attribute;
-      const auto* op = it->spec->get<ListOp<Path>>(attribute ? fields::connectionPaths
-                                                             : fields::targetPaths);
+      const auto* op =
+          it->spec->get<ListOp<Path>>(attribute ? fields::connectionPaths : fields::targetPaths);
       if (op == nullptr || op->empty()) {
         continue;
       }
@@ -129,8 +129,8 @@ class TargetCombiner {
   }
 
   Path deleted_target(Path path, const PropertyOpinion& opinion) {
-    const Path target = map_with_targets(*index_.nodes[opinion.node].map_to_root,
-                                         absolute(path, opinion));
+    const Path target =
+        map_with_targets(*index_.nodes[opinion.node].map_to_root, absolute(path, opinion));
     if (!target.empty()) {
       list_.deleted.push_back(target);
       std::erase_if(errors_, [&](const Found& found) { return found.target == target; });
@@ -197,10 +197,9 @@ class TargetCombiner {
   void report(std::string_view error_class, const PropertyOpinion& opinion, Path target,
               std::string message, std::string fix) {
     const char* what = opinion.spec->kind == SpecKind::Attribute ? "connection " : "target ";
-    errors_.push_back(
-        {target, composition_error(error_class, Severity::Error,
-                                   {opinion.layer, opinion.path, index_.path}, what + message,
-                                   std::move(fix))});
+    errors_.push_back({target, composition_error(error_class, Severity::Error,
+                                                 {opinion.layer, opinion.path, index_.path},
+                                                 what + message, std::move(fix))});
   }
 
   IndexCache* cache_;
@@ -227,8 +226,7 @@ std::vector<PropertyOpinion> property_opinions(const PrimIndex& index, Token nam
             error_class::kInconsistentPropertyType, Severity::Error,
             {opinion.layer, path, index.path},
             quoted(path) + " is an attribute here and a relationship in " +
-                quoted(*found.front().layer, found.front().path) +
-                " or the reverse; it is ignored",
+                quoted(*found.front().layer, found.front().path) + " or the reverse; it is ignored",
             "make both the same kind of property"));
       }
       continue;

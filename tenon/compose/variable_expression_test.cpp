@@ -55,8 +55,9 @@ TEST(VariableExpression, GivesText) {
 TEST(VariableExpression, SaysWhatIsWrong) {
   for (const char* expression :
        {"`${NOT}`", "`if(defined(NAME), \"a\", \"b\")`", "`[1, \"a\"]`", "` 'a'`", "`'a' `",
-        "`if(True, \"a\", 1)`", "`if(contains([1], \"a\"), \"a\")`", "`\"${NAME\"`", "`\"open`", "`${LOOP}`", "`5`", "`if(\"a\", \"b\")`", "`f(1)`",
-        "`[[1]]`", "`\"a\" \"b\"`", "`at([1], 3)`", "`\"${LOD}\"`", "`lt(True, False)`"}) {
+        "`if(True, \"a\", 1)`", "`if(contains([1], \"a\"), \"a\")`", "`\"${NAME\"`", "`\"open`",
+        "`${LOOP}`", "`5`", "`if(\"a\", \"b\")`", "`f(1)`", "`[[1]]`", "`\"a\" \"b\"`",
+        "`at([1], 3)`", "`\"${LOD}\"`", "`lt(True, False)`"}) {
     const ExpressionResult result = evaluate_text(expression, variables());
     EXPECT_NE(result.errors, "") << expression;
     EXPECT_EQ(result.text, "") << expression;

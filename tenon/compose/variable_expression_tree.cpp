@@ -20,9 +20,9 @@ struct Function {
 
 constexpr std::size_t kAny = 1u << 20;
 constexpr Function kFunctions[] = {
-    {"if", 2, 3},   {"eq", 2, 2},  {"neq", 2, 2},     {"lt", 2, 2},      {"leq", 2, 2},
-    {"gt", 2, 2},   {"geq", 2, 2}, {"and", 2, kAny},  {"or", 2, kAny},   {"not", 1, 1},
-    {"contains", 2, 2}, {"at", 2, 2},  {"len", 1, 1}, {"defined", 1, kAny},
+    {"if", 2, 3},       {"eq", 2, 2},  {"neq", 2, 2},    {"lt", 2, 2},         {"leq", 2, 2},
+    {"gt", 2, 2},       {"geq", 2, 2}, {"and", 2, kAny}, {"or", 2, kAny},      {"not", 1, 1},
+    {"contains", 2, 2}, {"at", 2, 2},  {"len", 1, 1},    {"defined", 1, kAny},
 };
 
 bool is_name_character(char c, bool first) {

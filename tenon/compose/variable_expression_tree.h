@@ -52,7 +52,7 @@ struct TreeNode {
   enum class Type { Constant, Variable, Text, List, Call };
   Type type = Type::Constant;
   ExpressionValue constant = {};
-  std::string name = {};                // of a variable or function
+  std::string name = {};                   // of a variable or function
   std::vector<std::size_t> operands = {};  // of Text: constants and variables
 };
 

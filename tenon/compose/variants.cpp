@@ -105,8 +105,8 @@ std::string fallback_variant(const Indexer& indexer, const Task& task) {
   if (found == fallbacks.end()) {
     return {};
   }
-  const std::vector<std::string> options = variant_options(
-      *indexer.graph[task.node].layer_stack, task.set_path, task.set_name);
+  const std::vector<std::string> options =
+      variant_options(*indexer.graph[task.node].layer_stack, task.set_path, task.set_name);
   for (const std::string& fallback : found->second) {
     if (std::find(options.begin(), options.end(), fallback) != options.end()) {
       return fallback;

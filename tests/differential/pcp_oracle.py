@@ -43,7 +43,7 @@ class Oracle:
             cache = self.new_cache(wanted)
             for path in self.walk(cache, lambda index: index.ComputePrimChildNames()[0]):
                 if self.is_loaded(path):
-                    wanted.add(path)
+                    wanted |= self.with_relocated(cache, path)
         return self.all_lines(cache)
 
     def walk(self, cache, names_of):
@@ -54,6 +54,15 @@ class Oracle:
             yield path
             index, _ = self.asked_twice(cache.ComputePrimIndex, path)
             open_paths += [path.AppendChild(name) for name in reversed(names_of(index))]
+
+    @staticmethod
+    def with_relocated(cache, path):
+        """A path as arcs see it: relocates may map it to where no prim is."""
+        paths = {path}
+        for source, target in cache.layerStack.relocatesSourceToTarget.items():
+            if not target.isEmpty:
+                paths |= {p.ReplacePrefix(source, target) for p in paths if p.HasPrefix(source)}
+        return paths
 
     def is_loaded(self, path):
         load = self.options.get("load")
@@ -86,7 +95,7 @@ class Oracle:
         return result
 
     def asked_twice(self, call, *arguments):
-        """OpenUSD's own checks raise after the work is done; the second answer is from its store."""
+        """OpenUSD's own checks raise when the work is done; the second answer is a stored one."""
         try:
             return call(*arguments)
         except Tf.ErrorException as error:
@@ -145,5 +154,5 @@ class Oracle:
             cache.ComputeAttributeConnectionPaths
         paths, deleted, errors = self.asked_twice(compute, path)
         words = [str(p) for p in paths] + [f"-{p}" for p in deleted]
-        words += [class_name(e) for e in sorted(errors, key=class_name) if "Target" in type(e).__name__]
+        words += sorted(class_name(e) for e in errors if "Target" in type(e).__name__)
         return f"targets {path.name} {' '.join(words)}" if words else ""
