@@ -15,11 +15,15 @@ inline constexpr std::size_t kPathTextLength = 1u << 20;   ///< bytes of one pat
 inline constexpr std::size_t kLayerStackLayers = 10000;    ///< sublayers of one stage, nested
 inline constexpr std::size_t kSublayerDepth = 500;         ///< sublayers of sublayers
 inline constexpr std::size_t kIndexNodes = 20000;          ///< nodes of one prim index
-inline constexpr std::size_t kCacheNodes = 50'000'000;     ///< nodes of all prim indices of a stage
+inline constexpr std::size_t kCacheNodes = 20'000'000;     ///< nodes of all prim indices of a stage
 inline constexpr std::size_t kArcChainDepth = 1000;        ///< arcs from the root to one node
 inline constexpr std::size_t kNestedIndices = 100;         ///< indices built within one another
 inline constexpr std::size_t kExpressionDepth = 100;       ///< calls and lists of an expression
-inline constexpr std::size_t kStagePrims = 50'000'000;     ///< composed prims
+inline constexpr std::size_t kExpressionWork = 1u << 16;   ///< characters and items by variables
+inline constexpr std::size_t kStagePrims = 10'000'000;     ///< composed prims
+inline constexpr std::size_t kSplineLoopKnots = 100'000;   ///< knots by an inner loop, each way
+inline constexpr std::size_t kSpecFields = 2000;           ///< fields of one spec in text
+inline constexpr std::size_t kLayerFindings = 10'000;      ///< warnings about one layer file
 inline constexpr std::size_t kTemplateClips = 100'000;     ///< clips of one template
 inline constexpr std::size_t kClipTimeSamples = 1'000'000;  ///< times of one attribute in clips
 inline constexpr std::size_t kPackageNesting = 8;          ///< packages within packages
@@ -29,9 +33,14 @@ inline constexpr std::size_t kTrianglePieces = 20000;  ///< triangles taken one 
 inline constexpr std::size_t kConvexityChecks = 100'000'000;  ///< point-plane tests of one mesh
 
 // Binary layers: what a file may ask for in proportion to its size.
-inline constexpr std::uint64_t kCrateRowsPerByte = 16;     ///< rows of a table per byte of the file
-inline constexpr std::uint64_t kCrateWorkPerByte = 64;     ///< decoded elements, characters, fields
-inline constexpr std::uint64_t kCrateWorkBase = 1u << 16;  ///< the same, for the smallest file
+// Compressed tables hold up to 0.2 rows for each byte of files of regular scenes.
+inline constexpr std::uint64_t kCrateRowsBase = 1u << 17;   ///< rows of a table of any file
+inline constexpr std::uint64_t kCrateBytesPerRow = 2;       ///< bytes of the file for each row more
+inline constexpr std::uint64_t kCrateTextBase = 8u << 20;   ///< bytes of the table of tokens
+inline constexpr std::uint64_t kCrateTextPerByte = 10;      ///< the same, more per byte of the file
+inline constexpr std::uint64_t kCrateWorkBase = 1u << 20;   ///< units of work on values of any file
+inline constexpr std::uint64_t kCrateWorkPerByte = 2;       ///< units more per byte of the file
+inline constexpr std::uint64_t kCrateBytesPerUnit = 32;     ///< bytes of a decoded array in a unit
 inline constexpr std::size_t kCrateValueDepth = 256;       ///< values within values
 inline constexpr std::size_t kTrackSamples = 1'000'000;    ///< poses between authored samples
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <set>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/base/limits.h"
 #include "tenon/compose/layer_opener.h"
 #include "tenon/compose/prim_index.h"
 
@@ -25,6 +27,8 @@ struct ComposeOptions {
   /// A reference to the root layer leads into the root layer stack itself. Not so where the stack
   /// has a session layer, and in a stage, which always has one, if only an empty one.
   bool shares_root_stack = true;
+  /// Nodes of all prim indices together; arcs beyond are left out with a diagnostic.
+  std::size_t most_nodes = limits::kCacheNodes;
 };
 
 /// Path -> PrimIndex, computed on demand and kept; the only state of composition.

@@ -9,7 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+
+#include "tenon/base/limits.h"
 
 namespace tenon::stage {
 namespace {
@@ -20,8 +23,6 @@ using layer::SplineExtrapolation;
 using layer::SplineInterpolation;
 using layer::SplineKnot;
 using Number = std::optional<double>;
-
-constexpr int kMaxLoopCopies = 10000;
 
 double pre_value(const SplineKnot& knot) { return knot.pre_value.value_or(knot.value); }
 
@@ -131,8 +132,6 @@ Number outside_value(const Spline& spline, const std::vector<SplineKnot>& knots,
 std::vector<SplineKnot> unrolled(const Spline& spline) {
   const layer::SplineLoop& loop = *spline.loop;
   const double span = loop.end - loop.start;
-  const int before = std::min(loop.pre_loops, kMaxLoopCopies);
-  const int after = std::min(loop.post_loops, kMaxLoopCopies);
   std::vector<SplineKnot> proto;
   for (const SplineKnot& knot : spline.knots) {
     if (knot.time >= loop.start && knot.time < loop.end) {
@@ -142,6 +141,9 @@ std::vector<SplineKnot> unrolled(const Spline& spline) {
   if (proto.empty() || proto.front().time != loop.start || !(span > 0)) {
     return spline.knots;
   }
+  const auto most = static_cast<std::int32_t>(limits::kSplineLoopKnots / proto.size());
+  const std::int32_t before = std::clamp(loop.pre_loops, 0, most);
+  const std::int32_t after = std::clamp(loop.post_loops, 0, most);
   const double first = loop.start - before * span;
   const double last = loop.end + after * span;
   std::vector<SplineKnot> result;

@@ -4,7 +4,6 @@
 // From prim indexes to the tree of prims. Instances keep their own opinions; what is below them is
 // populated once per instance key, under /__Prototype_N, from the index of the first instance found
 // (depth first). Inactive prims end the walk. An explicit stack keeps deep trees off ours.
-#include "tenon/base/limits.h"
 #include "tenon/schema/kinds.h"
 #include "tenon/stage/composed_type.h"
 #include "tenon/stage/stage_data.h"
@@ -61,8 +60,9 @@ class Populator {
       if (!parent.in_prototype && !included(path)) {
         continue;
       }
-      if (data_.prims.size() >= limits::kStagePrims) {
-        return;
+      if (data_.prims.size() >= data_.options.most_prims) {
+        report_too_many(path);
+        break;
       }
       add_prim(parent, index, path, parent.in_prototype ? parent.source_path.child(name) : path);
     }
@@ -78,6 +78,20 @@ class Populator {
     }
     // Last in, first out: the first child is walked first.
     pending_.insert(pending_.end(), next.rbegin(), next.rend());
+  }
+
+  void report_too_many(Path path) {
+    if (!too_many_reported_) {
+      too_many_reported_ = true;
+      Diagnostic diagnostic;
+      diagnostic.rule = "stage.too-many-prims";
+      diagnostic.message = "the stage has more than " + std::to_string(data_.options.most_prims) +
+                           " prims; those from <" + path.str() + "> on are left out";
+      diagnostic.file = data_.cache->layer_stack()->identifier();
+      diagnostic.prim = path.str();
+      diagnostic.fix = "reduce the references that multiply with each other, or make instances";
+      data_.diagnostics.add(std::move(diagnostic));
+    }
   }
 
   // The prototype when it is new and must be walked.
@@ -168,6 +182,7 @@ class Populator {
   }
 
   StageData& data_;
+  bool too_many_reported_ = false;
   std::vector<PrimData*> pending_;
 };
 

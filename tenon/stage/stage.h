@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/base/limits.h"
 #include "tenon/base/result.h"
 #include "tenon/compose/index_cache.h"
 #include "tenon/layer/layer.h"
@@ -23,6 +25,8 @@ struct StageOptions {
   compose::ComposeOptions compose;
   /// Only these prims, their ancestors and descendants are populated; empty = all.
   std::set<Path> mask;
+  /// Populated prims, prototypes counted once; those beyond are left out with a diagnostic.
+  std::size_t most_prims = limits::kStagePrims;
   /// Asset path authored in a layer -> where it is, "" when nowhere; for resolved asset values.
   std::function<std::string(const std::string& asset_path, const layer::Layer& anchor)>
       resolve_asset;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/base/limits.h"
 #include "tenon/formats/text/cursor.h"
 #include "tenon/formats/text/source_map.h"
 #include "tenon/layer/layer.h"
@@ -18,6 +19,7 @@ struct LayerState {
   Cursor cursor;
   layer::Layer layer;
   Diagnostics& diagnostics;
+  std::size_t warnings = 0;
   layer::TimeSamples samples_buffer{};  ///< kept between attributes to spare allocations
   SourceMap* sources = nullptr;         ///< filled where somebody wants to know
 
@@ -40,6 +42,12 @@ struct LayerState {
 
   /// Adds a warning about the byte at `offset`.
   void warn(std::size_t offset, std::string_view rule, std::string message, std::string_view fix) {
+    if (++warnings > limits::kLayerFindings) {
+      return;
+    }
+    if (warnings == limits::kLayerFindings) {
+      message += "; no more warnings about this file are given";
+    }
     const SourcePlace place = cursor.place_of(offset);
     Diagnostic diagnostic;
     diagnostic.severity = Severity::Warning;

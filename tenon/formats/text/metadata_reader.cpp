@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/text/metadata_reader.h"
 
+#include "tenon/base/limits.h"
 #include "tenon/formats/text/arc_reader.h"
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/value_reader.h"
@@ -25,6 +26,11 @@ class MetadataReader {
       : state_(state), cursor_(state.cursor), path_(path), kind_(kind) {}
 
   bool read_item() {
+    if (spec().fields().size() >= limits::kSpecFields) {
+      return cursor_.fail_at(cursor_.offset(), ErrorCode::Limit, "text.too-many-fields",
+                             "<" + path_.str() + "> has more than " +
+                                 std::to_string(limits::kSpecFields) + " metadata fields");
+    }
     if (at_string(cursor_)) {
       std::string comment;
       return read_string(cursor_, comment) && set(fields::comment, Value(std::move(comment)));

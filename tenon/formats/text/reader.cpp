@@ -31,6 +31,7 @@ struct Block {
   std::size_t start = 0;          // offset of its statement
   std::vector<Token> children{};  // prims; of a variant set its variants
   std::vector<Token> properties{};
+  std::vector<Token> variant_sets{};  // all of them, once one has been opened
 };
 
 std::string block_name(const Block& block) {
@@ -347,10 +348,11 @@ class LayerReader {
     const Path path = prim.variant_selection(Token(name), Token());
     if (!state_.layer.has(path)) {
       state_.make_spec(path, SpecKind::VariantSet, start);
-      layer::Spec& owner = *state_.layer.find(prim);
-      std::vector<Token> sets = layer::Layer::children(owner, fields::variantSetChildren);
+      std::vector<Token>& sets = top().variant_sets;
+      if (sets.empty()) {
+        sets = state_.layer.children(prim, fields::variantSetChildren);
+      }
       sets.emplace_back(name);
-      owner.set(fields::variantSetChildren, Value(std::move(sets)));
     }
     if (!open_brace(path, start)) {
       return false;
@@ -411,6 +413,9 @@ class LayerReader {
     }
     if (!block.properties.empty()) {
       spec.set(fields::properties, Value(std::move(block.properties)));
+    }
+    if (!block.variant_sets.empty()) {
+      spec.set(fields::variantSetChildren, Value(std::move(block.variant_sets)));
     }
     if (block.kind == Block::Kind::Prim) {
       state_.share_fields(spec.get_or(fields::typeName, Token()), spec);
