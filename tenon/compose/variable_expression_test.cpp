@@ -85,16 +85,5 @@ TEST(VariableExpression, IsTextInBackquotes) {
   EXPECT_FALSE(is_variable_expression("`"));
 }
 
-TEST(VariableExpression, StopsAtVariablesThatDouble) {
-  layer::Dictionary doubling;
-  doubling.items["V0"] = std::string("x");
-  for (int i = 1; i < 60; ++i) {
-    const std::string before = "${V" + std::to_string(i - 1) + "}";
-    doubling.items["V" + std::to_string(i)] = "`\"" + before + before + "\"`";
-  }
-  EXPECT_EQ(evaluate_text("`${V3}`", doubling).text, "xxxxxxxx");
-  EXPECT_NE(evaluate_text("`${V59}`", doubling).errors, "");
-}
-
 }  // namespace
 }  // namespace tenon::compose

@@ -121,7 +121,7 @@ Result<std::vector<T>> decode_texts(const CrateFile& file, bytes::ByteReader& in
       array.push_back(token);
     } else {
       TENON_TRY(const std::string_view text, string_at(file, index));
-      TENON_CHECK(budget.spend(text.size() + 1));
+      TENON_CHECK(budget.spend_bytes(text.size()));
       array.emplace_back();
       if constexpr (std::is_same_v<T, std::string>) {
         array.back() = text;
@@ -191,7 +191,8 @@ Result<Value> read_array_of(const std::shared_ptr<const CrateFile>& file, ValueW
     return Value(Array<T>());
   }
   TENON_TRY(const ArrayHeader header, read_header<T>(*file, word));
-  TENON_CHECK(budget.spend(1));
+  const std::uint64_t size = header.count * sizeof(std::conditional_t<kIsText<T>, void*, T>);
+  TENON_CHECK(budget.spend_bytes(size));
   if (!header.packed && header.count <= kSmallArray / sizeof(T)) {
     return decode<T>(*file, header, budget);
   }

@@ -62,6 +62,10 @@ std::uint32_t TableWriter::token(Token token) {
       token_index_.try_emplace(token, static_cast<std::uint32_t>(tokens_.size()));
   if (added) {
     tokens_.push_back(token);
+    if (!has_zero_byte_ && token.str().find('\0') != std::string::npos) {
+      has_zero_byte_ = true;
+      text_with_zero_byte_ = token;
+    }
   }
   return it->second;
 }

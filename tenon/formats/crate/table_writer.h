@@ -32,6 +32,10 @@ class TableWriter {
   std::size_t write(bytes::ByteWriter& out);
   /// False when there are more rows than the format can count.
   bool fits() const;
+  /// The first text that the format, which ends texts with a zero, cannot hold; nullptr for none.
+  const std::string* unfit_text() const {
+    return has_zero_byte_ ? &text_with_zero_byte_.str() : nullptr;
+  }
 
  private:
   struct PathTree;
@@ -42,6 +46,8 @@ class TableWriter {
 
   std::vector<Token> tokens_;
   std::unordered_map<Token, std::uint32_t> token_index_;
+  Token text_with_zero_byte_;
+  bool has_zero_byte_ = false;
   std::vector<std::uint32_t> strings_;
   std::unordered_map<std::uint32_t, std::uint32_t> string_index_;  // by token
   std::vector<Path> paths_;

@@ -72,7 +72,7 @@ class Contents {
   std::vector<Section> sections_;
 };
 
-Result<std::vector<Token>> read_tokens(bytes::ByteReader in) {
+Result<std::vector<Token>> read_tokens(bytes::ByteReader in, std::uint64_t file_size) {
   if (in.size() == 0) {
     return std::vector<Token>();
   }
@@ -80,7 +80,9 @@ Result<std::vector<Token>> read_tokens(bytes::ByteReader in) {
   TENON_TRY(const std::uint64_t plain_size, in.read<std::uint64_t>());
   TENON_TRY(const std::uint64_t packed_size, in.read<std::uint64_t>());
   TENON_TRY(const auto packed, in.take(packed_size));
-  if (plain_size > packed_size * limits::kDecompressionRatio || count > plain_size) {
+  if (plain_size > limits::kCrateTextBase + file_size * limits::kCrateTextPerByte ||
+      count > limits::kCrateRowsBase + file_size / limits::kCrateBytesPerRow ||
+      count > plain_size) {
     return corrupt("the table of tokens is larger than its data");
   }
   if (count == 0) {
@@ -183,7 +185,7 @@ Result<std::vector<SpecRow>> sorted_by_path(const std::vector<SpecRow>& specs,
 Result<Tables> read_sections(const Contents& contents, std::shared_ptr<CrateFile> file) {
   const bytes::FileBytes& bytes = *file->bytes;
   Tables tables;
-  TENON_TRY(file->tokens, read_tokens(contents.section("TOKENS", bytes)));
+  TENON_TRY(file->tokens, read_tokens(contents.section("TOKENS", bytes), bytes.size()));
   TENON_TRY(file->strings, read_strings(contents.section("STRINGS", bytes), file->tokens.size()));
   TENON_TRY(tables.fields, read_fields(contents.section("FIELDS", bytes), *file));
   TENON_TRY(tables.field_sets,
@@ -198,7 +200,7 @@ Result<Tables> read_sections(const Contents& contents, std::shared_ptr<CrateFile
 
 Result<std::uint64_t> read_row_count(bytes::ByteReader& in, const CrateFile& file) {
   TENON_TRY(const std::uint64_t count, in.read<std::uint64_t>());
-  if (count > file.bytes->size() * limits::kCrateRowsPerByte) {
+  if (count > limits::kCrateRowsBase + file.bytes->size() / limits::kCrateBytesPerRow) {
     return corrupt("a table claims " + std::to_string(count) + " rows in a file of " +
                    std::to_string(file.bytes->size()) + " bytes");
   }

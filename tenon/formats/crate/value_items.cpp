@@ -50,7 +50,7 @@ Result<void> ValueReader::item(bytes::ByteReader& in, layer::TimeCode& out) {
 Result<void> ValueReader::item(bytes::ByteReader& in, std::string& out) {
   TENON_TRY(const std::uint32_t index, in.read<std::uint32_t>());
   TENON_TRY(const std::string_view text, string_at(file_, index));
-  TENON_CHECK(budget_.spend(text.size()));
+  TENON_CHECK(budget_.spend_bytes(text.size()));
   out = text;
   return {};
 }
@@ -259,7 +259,7 @@ Result<void> ValueReader::item(bytes::ByteReader& in, layer::TimeSamples& out) {
 Result<void> ValueReader::item(bytes::ByteReader& in, layer::Spline& out) {
   TENON_TRY(const std::uint64_t size, in.read<std::uint64_t>());
   TENON_TRY(const auto data, in.take(size));
-  TENON_CHECK(budget_.spend(size));
+  TENON_CHECK(budget_.spend_bytes(size));
   TENON_TRY(out, decode_spline(data));
   TENON_TRY(const std::uint64_t count, in.read<std::uint64_t>());
   for (std::uint64_t i = 0; i < count; ++i) {

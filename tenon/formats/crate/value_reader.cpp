@@ -8,6 +8,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "tenon/base/limits.h"
 #include "tenon/formats/crate/storage_form.h"
 
 namespace tenon::formats::crate {
@@ -61,14 +62,14 @@ Result<Value> ValueReader::inlined(std::uint32_t bits) {
     return Value(value);
   } else if constexpr (std::is_same_v<T, std::string>) {
     TENON_TRY(const std::string_view text, string_at(file_, bits));
-    TENON_CHECK(budget_.spend(text.size()));
+    TENON_CHECK(budget_.spend_bytes(text.size()));
     return Value(std::string(text));
   } else if constexpr (std::is_same_v<T, Token>) {
     TENON_TRY(const Token token, token_at(file_, bits));
     return Value(token);
   } else if constexpr (std::is_same_v<T, layer::AssetPath>) {
     TENON_TRY(const Token token, token_at(file_, bits));
-    TENON_CHECK(budget_.spend(token.str().size()));
+    TENON_CHECK(budget_.spend_bytes(token.str().size()));
     return Value(layer::AssetPath{token.str(), "", ""});
   } else if constexpr (sizeof(T) <= 4) {
     T value;
@@ -117,6 +118,9 @@ Result<Value> ValueReader::single(ValueWord word) {
 }
 
 Result<Value> ValueReader::unsupported(ValueWord word, const char* what) {
+  if (diagnostics_.size() >= limits::kLayerFindings) {
+    return Value();
+  }
   Diagnostic diagnostic;
   diagnostic.severity = Severity::Error;
   diagnostic.rule = "crate.value-unsupported";
@@ -168,16 +172,28 @@ bool may_hold_paths(ValueWord word) {
   }
 }
 
+/// Attributes and samples share large arrays, which are decoded and paid for once.
+Result<Value> ValueReader::array(ValueType element, ValueWord word) {
+  if (const auto known = arrays_.find(word.bits); known != arrays_.end()) {
+    TENON_CHECK(budget_.spend(1));
+    return known->second;
+  }
+  TENON_TRY(Value value, read_array(tables_.file, element, word, budget_));
+  if (value.is_deferred()) {
+    arrays_.emplace(word.bits, value);
+  }
+  return value;
+}
+
 Result<Value> ValueReader::read(ValueWord word) {
   if (word.is_array_edit()) {
     return unsupported(word, "edits of arrays");
   }
   using namespace layer;  // NOLINT(google-build-using-namespace): the table names its types
   switch (word.type()) {
-#define TENON_SCALAR(enumerator, type, name, crate_id)                                      \
-  case crate_id:                                                                            \
-    return word.is_array() ? read_array(tables_.file, ValueType::enumerator, word, budget_) \
-                           : single<type>(word);
+#define TENON_SCALAR(enumerator, type, name, crate_id) \
+  case crate_id:                                       \
+    return word.is_array() ? array(ValueType::enumerator, word) : single<type>(word);
 #define TENON_FIELD(enumerator, type, crate_id) \
   case crate_id:                                \
     return single<type>(word);

@@ -4,6 +4,8 @@
 
 #include <map>
 #include <memory>
+#include <unordered_map>
+#include <vector>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/formats/crate/array_reader.h"
@@ -64,13 +66,15 @@ class ValueReader {
   Result<layer::Value> other(ValueWord word);
   Result<layer::Value> unsupported(ValueWord word, const char* what);
   Result<std::vector<double>> times(ValueWord word);
+  Result<layer::Value> array(layer::ValueType element, ValueWord word);
 
   const Tables& tables_;
   const CrateFile& file_;
   WorkBudget& budget_;
   Diagnostics& diagnostics_;
   std::size_t depth_ = 0;
-  std::map<std::uint64_t, std::vector<double>> times_;  // by the word that names them
+  std::map<std::uint64_t, std::vector<double>> times_;      // by the word that names them
+  std::unordered_map<std::uint64_t, layer::Value> arrays_;  // the same, deferred ones
 };
 
 }  // namespace tenon::formats::crate

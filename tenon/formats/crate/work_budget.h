@@ -17,7 +17,7 @@ class WorkBudget {
   explicit WorkBudget(std::uint64_t file_size)
       : left_(file_size * limits::kCrateWorkPerByte + limits::kCrateWorkBase) {}
 
-  /// Takes `amount` elements or bytes off; ErrorCode::Limit when none are left.
+  /// Takes `amount` units (elements, fields) off; ErrorCode::Limit when none are left.
   Result<void> spend(std::uint64_t amount) {
     if (amount > left_) {
       return Error(ErrorCode::Limit, "the file names more data than a file of its size may")
@@ -25,6 +25,10 @@ class WorkBudget {
     }
     left_ -= amount;
     return {};
+  }
+  /// The same for one thing of so many bytes in memory.
+  Result<void> spend_bytes(std::uint64_t size) {
+    return spend(1 + size / limits::kCrateBytesPerUnit);
   }
 
  private:

@@ -79,6 +79,12 @@ Result<std::string> write_crate(const layer::Layer& layer) {
     return Error(ErrorCode::Limit, "the layer is too large for a binary file")
         .with_rule("crate.too-much");
   }
+  if (const std::string* text = tables.unfit_text()) {
+    return Error(ErrorCode::Invalid, "the text \"" + text->substr(0, text->find('\0')) +
+                                         "...\" has a zero byte, which binary files cannot hold")
+        .with_rule("crate.zero-byte")
+        .with_fix("remove the zero byte or save the layer as text");
+  }
   std::memcpy(bootstrap.magic, crate::kMagic, crate::kMagicSize);
   const crate::Version version = values.needed();
   bootstrap.version[0] = version.major;

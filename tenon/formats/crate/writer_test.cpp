@@ -203,5 +203,13 @@ TEST(CrateReader, SpecsOfOneSetOfFieldsShareThem) {
   EXPECT_EQ(second.get<layer::Array<float>>("field")->size(), 2u);
 }
 
+TEST(CrateWriter, RefusesTextWithAZeroByte) {
+  layer::Layer layer("made");
+  layer.root().set("documentation", std::string("a\0b", 3));
+  const auto crate = write_crate(layer);
+  ASSERT_FALSE(crate);
+  EXPECT_EQ(crate.error().diagnostic().rule, "crate.zero-byte");
+}
+
 }  // namespace
 }  // namespace tenon::formats
