@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A layer read from text means the same after a way through a crate: its canonical text is equal.
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "tenon/formats/crate/reader.h"
+#include "tenon/formats/crate/writer.h"
+#include "tenon/formats/text/reader.h"
+#include "tenon/formats/text/writer.h"
+
+namespace {
+
+[[noreturn]] void fail(const std::string& expected, const std::string& found) {
+  std::fprintf(stderr, "--- expected\n%s\n--- found\n%s\n", expected.c_str(), found.c_str());
+  std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  tenon::Diagnostics diagnostics;
+  const auto layer = tenon::formats::read_text(text, "fuzz.usda", diagnostics);
+  if (!layer) {
+    return 0;
+  }
+  const std::string canonical = tenon::formats::write_text(*layer);
+  const auto crate = tenon::formats::write_crate(*layer);
+  const std::string rule = crate ? "" : crate.error().diagnostic().rule;
+  if (rule == "crate.relative-path" || rule == "crate.zero-byte") {
+    return 0;  // what only text can hold
+  }
+  if (!crate) {
+    fail(canonical, crate.error().to_string());
+  }
+  const auto back =
+      tenon::formats::read_crate(tenon::bytes::FileBytes::own(*crate), "fuzz.usdc", diagnostics);
+  if (!back) {
+    fail(canonical, back.error().to_string());
+  }
+  const std::string again = tenon::formats::write_text(*back);
+  if (again != canonical) {
+    fail(canonical, again);
+  }
+  return 0;
+}
