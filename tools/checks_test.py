@@ -9,6 +9,7 @@ import types
 import unittest
 
 import check_folders
+import check_limits
 import check_sizes
 import check_text
 
@@ -63,6 +64,25 @@ class Folders(unittest.TestCase):
     def test_cycle(self):
         with tree({"tenon/folders.txt": "a : b\nb : a\n"}) as root:
             self.assertEqual(len(check_folders.check(root)[1]), 1)
+
+
+class Limits(unittest.TestCase):
+    TABLE = "inline constexpr std::size_t kOne = 1'000;\ninline constexpr int kTwo = 1u << 20;\n"
+    PAGE = "| `kOne` | 1000 | a |\n| `kTwo` | 1 048 576 | b |\n"
+    USE = "int x = limits::kOne + limits::kTwo;\n"
+
+    def faults(self, page=PAGE, use=USE):
+        files = {check_limits.TABLE: self.TABLE, check_limits.PAGE: page, "tenon/a.cpp": use}
+        with tree(files) as root:
+            return check_limits.check(root, list(files))
+
+    def test_good(self):
+        self.assertEqual(self.faults(), [])
+
+    def test_bad(self):
+        self.assertEqual(len(self.faults(use="limits::kOne\n")), 1)
+        self.assertEqual(len(self.faults(page=self.PAGE.replace("1000", "1001"))), 1)
+        self.assertEqual(len(self.faults(page=self.PAGE.replace("kOne", "kThree"))), 2)
 
 
 class Sizes(unittest.TestCase):
