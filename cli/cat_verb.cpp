@@ -23,7 +23,8 @@ Result<layer::Layer> read_input(const Options& options, Diagnostics& diagnostics
   const bool compose = options.flatten || options.flatten_layer_stack ||
                        !options.asset.mask.empty() || !options.asset.physics.empty();
   if (!compose) {
-    TENON_TRY(const layer::LayerPtr layer, open_layer(options.asset.asset, diagnostics));
+    TENON_TRY(const layer::LayerPtr layer,
+              open_layer(options.asset.asset, options.asset.open_options(), diagnostics));
     return *layer;
   }
   TENON_TRY(const stage::Stage stage,
@@ -41,7 +42,12 @@ Result<formats::LayerFormat> output_format(const Options& options) {
 
 Result<void> write(const Options& options, Diagnostics& diagnostics) {
   TENON_TRY(const formats::LayerFormat format, output_format(options));
-  TENON_TRY(const layer::Layer layer, read_input(options, diagnostics));
+  TENON_TRY(layer::Layer layer, read_input(options, diagnostics));
+  if (format == formats::LayerFormat::Package) {
+    TENON_TRY(const std::string package, pack_layer(std::move(layer), options.asset.asset,
+                                                    options.asset.open_options(), diagnostics));
+    return write_output(options.output, package);
+  }
   TENON_TRY(const std::string bytes, formats::encode_layer(layer, format));
   return write_output(options.output, bytes);
 }
@@ -62,7 +68,7 @@ int run_cat(const Globals& globals, const Options& options) {
 }  // namespace
 
 void add_cat(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = app.add_subcommand("cat", "Read any layer, write it as text or binary");
+  CLI::App* verb = app.add_subcommand("cat", "Read any layer, write it as text, binary or package");
   auto options = std::make_shared<Options>();
   options->asset.add_to(*verb);
   verb->add_option("-o,--output", options->output, "Where to write; - is standard output");
@@ -72,6 +78,7 @@ void add_cat(CLI::App& app, const Globals& globals, Chosen& chosen) {
   verb->add_option("--format,--usdFormat", options->format, "usda, usdc or usdz");
   verb->footer(
       "Examples:\n  tenon cat geometry.usdc\n  tenon cat hand.usda --flatten -o flat.usdc\n"
+      "A package (-o hand.usdz) takes in all layers and textures that it needs.\n"
       "Selecting with --mask or --physics composes, too.");
   choose(*verb, chosen, [&globals, options] { return run_cat(globals, *options); });
 }

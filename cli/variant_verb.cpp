@@ -168,7 +168,7 @@ int run_variant(const Globals& globals, const Options& options) {
     return report.fail(selection.error());
   }
   Diagnostics known;  // the stage has reported them
-  auto layer = open_layer(options.asset.asset, known);
+  auto layer = open_layer(options.asset.asset, options.asset.open_options(), known);
   if (!layer) {
     return report.fail(layer.error());
   }

@@ -2,7 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/verb.h"
 
+#include <cstdlib>
+
 namespace tenon::cli {
+namespace {
+
+/// Folders of PXR_AR_DEFAULT_SEARCH_PATH, separated by ':', as OpenUSD reads it.
+std::vector<std::string> environment_search_paths() {
+  std::vector<std::string> folders;
+  const char* text = std::getenv("PXR_AR_DEFAULT_SEARCH_PATH");
+  std::string rest = text == nullptr ? "" : text;
+  while (!rest.empty()) {
+    const std::size_t colon = rest.find(':');
+    if (colon != 0) {
+      folders.push_back(rest.substr(0, colon));
+    }
+    rest = colon == std::string::npos ? std::string() : rest.substr(colon + 1);
+  }
+  return folders;
+}
+
+}  // namespace
 
 void AssetArguments::add_to(CLI::App& verb) {
   verb.add_option("asset", asset, "A .usd, .usda, .usdc or .usdz file")->required();
@@ -12,6 +32,13 @@ void AssetArguments::add_to(CLI::App& verb) {
   verb.add_option("--mask", mask, "Only these prims, with what is above and below them")
       ->delimiter(',');
   verb.add_flag("--unloaded", unloaded, "Leave payloads out");
+  verb.add_option("--search-path", search_paths,
+                  "Look up asset paths without ./ in these folders, too, before those of the "
+                  "environment variable PXR_AR_DEFAULT_SEARCH_PATH")
+      ->delimiter(',');
+  verb.add_option("--sandbox", sandbox,
+                  "Open no file outside of these folders, whatever layers, links and packages name")
+      ->delimiter(',');
 }
 
 OpenOptions AssetArguments::open_options() const {
@@ -20,6 +47,11 @@ OpenOptions AssetArguments::open_options() const {
   options.overrides = overrides;
   options.load_payloads = !unloaded;
   options.mask = mask;
+  options.search_paths = search_paths;
+  for (const std::string& folder : environment_search_paths()) {
+    options.search_paths.push_back(folder);
+  }
+  options.sandbox_roots = sandbox;
   return options;
 }
 

@@ -35,6 +35,8 @@ struct AssetArguments {
   std::vector<std::string> overrides;  ///< --set PATH.attr=value
   std::vector<std::string> mask;
   bool unloaded = false;
+  std::vector<std::string> search_paths;  ///< --search-path
+  std::vector<std::string> sandbox;       ///< --sandbox
 
   /// Adds the positional and the options to `verb`.
   void add_to(CLI::App& verb);

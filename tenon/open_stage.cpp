@@ -7,6 +7,8 @@
 #include <memory>
 
 #include "tenon/formats/open_layer.h"
+#include "tenon/formats/package/asset_paths.h"
+#include "tenon/formats/package/pack.h"
 #include "tenon/formats/text/reader.h"
 #include "tenon/session_opinions.h"
 #include "tenon/stage_sources.h"
@@ -68,11 +70,50 @@ Result<void> check_physics_variant(const stage::Stage& stage, const std::string&
       .with_rule("variant.unknown");
 }
 
+/// Says which files that asset values name may not be read. What arcs name composition reports.
+void check_assets(const stage::Stage& stage, const bytes::AssetResolver& resolver,
+                  Diagnostics& diagnostics) {
+  for (const layer::LayerPtr& layer : stage.used_layers()) {
+    layer::Layer copy = *layer;
+    formats::rename_assets(copy, [&](const std::string& path, formats::AssetUse use, Path spec) {
+      const auto found = use == formats::AssetUse::Value
+                             ? resolver.resolve(path, layer->identifier())
+                             : Result<std::string>(path);
+      if (!found && found.error().diagnostic().rule == "layer.outside") {
+        Diagnostic finding = found.error().diagnostic();
+        finding.file = layer->identifier();
+        finding.prim = spec.prim().str();
+        finding.property = spec.is_property() ? spec.name().str() : std::string();
+        diagnostics.add(std::move(finding));
+      }
+      return path;
+    });
+  }
+}
+
 }  // namespace
 
 Result<layer::LayerPtr> open_layer(const std::string& path, Diagnostics& diagnostics) {
-  TENON_TRY(auto layer, formats::open_layer_file(path, diagnostics));
+  return open_layer(path, {}, diagnostics);
+}
+
+Result<layer::LayerPtr> open_layer(const std::string& path, const OpenOptions& options,
+                                   Diagnostics& diagnostics) {
+  const bytes::AssetResolver resolver(resolver_options(options));
+  TENON_TRY(auto layer, formats::open_layer_file(resolver, path, diagnostics));
   return layer::LayerPtr(std::make_shared<const layer::Layer>(std::move(layer)));
+}
+
+Result<std::string> pack_layer(layer::Layer layer, const std::string& path,
+                               const OpenOptions& options, Diagnostics& diagnostics) {
+  const std::string file = bytes::absolute_file_path(bytes::split_package_path(path).package);
+  const std::string folder = file.substr(0, file.rfind('/') + 1);
+  if (!layer.identifier().starts_with('/')) {
+    layer.set_identifier(folder + "composed");  // no file: its paths are relative to the folder
+  }
+  bytes::ResolverOptions resolver = resolver_options(options);
+  resolver.search_paths.insert(resolver.search_paths.begin(), folder);
+  return formats::pack(bytes::AssetResolver(std::move(resolver)), layer, diagnostics);
 }
 
 Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& options,
@@ -87,6 +128,9 @@ Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& opti
   }
   diagnostics.append(sources.registry->diagnostics());
   diagnostics.append(stage.diagnostics());
+  if (!options.sandbox_roots.empty()) {
+    check_assets(stage, sources.registry->resolver(), diagnostics);
+  }
   if (!options.physics_variant.empty()) {
     TENON_CHECK(check_physics_variant(stage, options.physics_variant, diagnostics));
   }

@@ -12,12 +12,14 @@ compose::LayerOpener StageSources::opener() const {
   };
 }
 
+bytes::ResolverOptions resolver_options(const OpenOptions& options) {
+  return {options.search_paths, options.sandbox_roots};
+}
+
 Result<StageSources> open_sources(const std::string& path, const OpenOptions& options) {
   StageSources sources;
-  bytes::ResolverOptions resolver;
-  resolver.roots = options.sandbox_roots;
   sources.registry =
-      std::make_shared<formats::LayerRegistry>(bytes::AssetResolver(std::move(resolver)));
+      std::make_shared<formats::LayerRegistry>(bytes::AssetResolver(resolver_options(options)));
   TENON_TRY(sources.root, sources.registry->open_root(path));
   if (!options.session_path.empty()) {
     TENON_TRY(sources.session, sources.registry->open(options.session_path, nullptr));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tenon/base/result.h"
+#include "tenon/bytes/asset_resolver.h"
 #include "tenon/compose/layer_opener.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/layer/layer.h"
@@ -22,6 +23,9 @@ struct StageSources {
   /// Keeps the registry alive.
   compose::LayerOpener opener() const;
 };
+
+/// Search paths and sandbox of the options.
+bytes::ResolverOptions resolver_options(const OpenOptions& options);
 
 /// Opens the root layer of `path` and the session layer that the options ask for, with the variant
 /// of "Physics" selected in it.

@@ -31,10 +31,22 @@ struct OpenOptions {
   std::map<std::string, std::vector<std::string>> variant_fallbacks;
   /// When not empty, no file outside these folders is opened.
   std::vector<std::string> sandbox_roots;
+  /// Folders that asset paths without "./" are looked up in, after the layer's own folder, the
+  /// working directory and the folder of the asset.
+  std::vector<std::string> search_paths;
 };
 
 /// Opens one layer file of any kind, without composing it.
 Result<layer::LayerPtr> open_layer(const std::string& path, Diagnostics& diagnostics);
+
+/// The same under the options' sandbox and search paths.
+Result<layer::LayerPtr> open_layer(const std::string& path, const OpenOptions& options,
+                                   Diagnostics& diagnostics);
+
+/// A package (.usdz) of a layer with all files that it needs (formats/package/pack.h); `path` names
+/// the asset that it comes from and that its asset paths are relative to.
+Result<std::string> pack_layer(layer::Layer layer, const std::string& path,
+                               const OpenOptions& options, Diagnostics& diagnostics);
 
 /// Opens a file and composes it. Recoverable findings, composition errors included, go to
 /// `diagnostics`.

@@ -33,6 +33,29 @@ std::string normal(const std::string& path) {
   return std::filesystem::path(path).lexically_normal().string();
 }
 
+int hex_digit(char c) {
+  return c >= '0' && c <= '9'   ? c - '0'
+         : c >= 'a' && c <= 'f' ? c - 'a' + 10
+         : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                : -1;
+}
+
+/// "%20" becomes a blank, and so on.
+std::string percent_decoded(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool escape = text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 &&
+                        hex_digit(text[i + 2]) >= 0;
+    if (escape) {
+      result += static_cast<char>(16 * hex_digit(text[i + 1]) + hex_digit(text[i + 2]));
+      i += 2;
+    } else {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
 Error not_found(const std::string& asset_path, const std::string& anchor) {
   return Error(ErrorCode::NotFound,
                "cannot find @" + asset_path + "@" + (anchor.empty() ? "" : " named in " + anchor))
@@ -62,6 +85,25 @@ Result<ZipArchive> open_package(const AssetResolver& resolver, const std::string
 }
 
 }  // namespace
+
+std::string plain_asset_path(const std::string& path) {
+  constexpr std::string_view kArguments = ":SDF_FORMAT_ARGS:";
+  constexpr std::string_view kScheme = "file:";
+  std::string_view plain = path;
+  if (const std::size_t at = plain.find(kArguments); at != std::string_view::npos) {
+    plain = plain.substr(0, at);
+  }
+  if (!plain.starts_with(kScheme)) {
+    return std::string(plain);
+  }
+  plain.remove_prefix(kScheme.size());
+  for (const std::string_view host : {"//localhost/", "///"}) {
+    if (plain.starts_with(host)) {
+      plain.remove_prefix(host.size() - 1);
+    }
+  }
+  return percent_decoded(plain);
+}
 
 PackagePath split_package_path(std::string_view path) {
   const std::size_t open = path.find('[');
@@ -105,7 +147,7 @@ Result<std::string> AssetResolver::resolve(const std::string& asset_path,
     return Error(ErrorCode::Invalid, "an asset path that cannot be a file's")
         .with_rule("layer.not-found");
   }
-  const PackagePath wanted = split_package_path(asset_path);
+  const PackagePath wanted = split_package_path(plain_asset_path(asset_path));
   const bool in_package = !split_package_path(anchor).inner.empty() || is_package_name(anchor);
   TENON_TRY(std::string file, in_package && !is_absolute(wanted.package)
                                   ? resolve_in_package(wanted.package, anchor)
@@ -161,6 +203,11 @@ Result<std::string> AssetResolver::resolve_in_package(const std::string& asset_p
     return join_package_path(at.package, candidate);
   }
   if (!is_file_relative(asset_path)) {
+    const std::string root = archive.entries().empty() ? "" : archive.entries().front().name;
+    const std::string beside_root = normal(std::string(folder_of(root)) + asset_path);
+    if (archive.find(beside_root) != nullptr) {
+      return join_package_path(at.package, beside_root);
+    }
     if (Result<std::string> found = resolve_file(asset_path, "")) {
       return found;
     }
@@ -181,7 +228,8 @@ Result<void> AssetResolver::check_sandbox(const std::string& file) const {
     }
   }
   return Error(ErrorCode::NotFound, "@" + file + "@ lies outside of the folders that may be read")
-      .with_rule("layer.outside");
+      .with_rule("layer.outside")
+      .with_fix("add its folder to the roots of the sandbox, if it may be read");
 }
 
 Result<std::shared_ptr<const FileBytes>> AssetResolver::open(const std::string& identifier) const {

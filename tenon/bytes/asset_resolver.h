@@ -35,9 +35,13 @@ struct ResolverOptions {
   std::vector<std::string> roots;
 };
 
+/// `path` without what stands around a file's name: a `file:` URI becomes a path, arguments of the
+/// file format (":SDF_FORMAT_ARGS:...") are left out; they change nothing for layers of USD.
+std::string plain_asset_path(const std::string& path);
+
 /// "./x.usda" and "../x.usda" are taken from the anchor's folder; "x.usda" too, then from the
 /// working directory, then from the search paths. The anchor's folder may be one in a package,
-/// which relative paths cannot leave.
+/// which relative paths cannot leave; there the folder of the package's root layer comes second.
 class AssetResolver {
  public:
   AssetResolver() = default;

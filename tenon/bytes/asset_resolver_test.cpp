@@ -26,6 +26,7 @@ class AssetResolverTest : public testing::Test {
     const std::string inner = *write_zip({{"in.usda", "#usda 1.0\n"}});
     put("p.usdz", *write_zip({{"top/root.usda", "#usda 1.0\n"},
                               {"top/part.usda", "#usda 1.0\n"},
+                              {"top/deep/in.usda", "#usda 1.0\n"},
                               {"tex.png", "PNG"},
                               {"nest.usdz", inner}}));
   }
@@ -65,6 +66,8 @@ TEST_F(AssetResolverTest, FollowsTheRulesOfOpenUsd) {
       {"./part.usda", "p.usdz", "p.usdz[top/part.usda]"},
       {"part.usda", "p.usdz[top/root.usda]", "p.usdz[top/part.usda]"},
       {"../tex.png", "p.usdz[top/root.usda]", "p.usdz[tex.png]"},
+      {"part.usda", "p.usdz[top/deep/in.usda]", "p.usdz[top/part.usda]"},
+      {"./part.usda", "p.usdz[top/deep/in.usda]", ""},
       {"tex.png", "p.usdz[top/root.usda]", ""},
       {"z.usda", "p.usdz[top/root.usda]", "lib/z.usda"},
       {"./tex.png", "p.usdz[top/root.usda]", ""},
@@ -97,6 +100,36 @@ TEST_F(AssetResolverTest, StaysInsideTheAllowedFolders) {
   std::filesystem::create_symlink(in("x.usda"), in("sub/link.usda"));
   EXPECT_FALSE(resolver.resolve("./link.usda", in("sub/y.usda")));
   EXPECT_FALSE(resolver.open(in("x.usda")));
+}
+
+TEST_F(AssetResolverTest, TakesWhatStandsAroundNamesAway) {
+  EXPECT_EQ(plain_asset_path("a.usda:SDF_FORMAT_ARGS:target=x"), "a.usda");
+  EXPECT_EQ(plain_asset_path("file:///a/b%20c.usda"), "/a/b c.usda");
+  EXPECT_EQ(plain_asset_path("file:"
+                             "//localhost/a.usda"),
+            "/a.usda");
+  EXPECT_EQ(plain_asset_path("file:/a.usda"), "/a.usda");
+  EXPECT_EQ(plain_asset_path("100%.usda"), "100%.usda");
+  const AssetResolver resolver;
+  EXPECT_EQ(*resolver.resolve("file://" + in("x.usda"), ""), in("x.usda"));
+  EXPECT_EQ(*resolver.resolve("./x.usda:SDF_FORMAT_ARGS:a=b", in("root.usda")), in("x.usda"));
+}
+
+TEST_F(AssetResolverTest, SandboxHoldsForPackagesUrisAndSearchPaths) {
+  const AssetResolver resolver({{folder_ + "/lib"}, {folder_ + "/sub"}});
+  const std::string anchor = in("sub/y.usda");
+  const std::vector<std::string> outside = {
+      in("p.usdz"), in("p.usdz[tex.png]"), "../p.usdz[tex.png]", "file://" + in("x.usda"),
+      "z.usda",     "../sub/../x.usda"};
+  for (const std::string& path : outside) {
+    const auto found = resolver.resolve(path, anchor);
+    ASSERT_FALSE(found) << path;
+    EXPECT_EQ(found.error().diagnostic().rule, "layer.outside") << path;
+  }
+  EXPECT_FALSE(resolver.open(in("p.usdz[tex.png]")));
+  std::filesystem::create_directory_symlink(folder_ + "/lib", in("sub/lib"));
+  EXPECT_FALSE(resolver.resolve("./lib/z.usda", anchor));
+  EXPECT_TRUE(resolver.resolve("./x.usda", anchor));
 }
 
 TEST_F(AssetResolverTest, WritesInOneStepAndKeepsPermissions) {

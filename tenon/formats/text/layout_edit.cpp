@@ -6,6 +6,8 @@
 #include "tenon/formats/text/layout_edit.h"
 
 #include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/formats/text/layout_state.h"
@@ -30,20 +32,39 @@ bool has(const std::vector<Token>& names, Token name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The common names stand in the same order.
-bool same_order(std::vector<Token> a, std::vector<Token> b) {
-  std::vector<Token> only_a;
-  std::copy_if(a.begin(), a.end(), std::back_inserter(only_a),
-               [&](Token name) { return has(b, name); });
-  std::erase_if(b, [&](Token name) { return !has(a, name); });
-  return only_a == b;
-}
-
-/// New names come behind all that stay.
-bool appends_only(const std::vector<Token>& before, const std::vector<Token>& after) {
-  const auto is_new = [&](Token name) { return !has(before, name); };
-  const auto first = std::find_if(after.begin(), after.end(), is_new);
-  return std::all_of(first, after.end(), is_new);
+/// Names of both that may stay where they are: the most of them that stand in the same order.
+std::unordered_set<Token> names_in_order(const std::vector<Token>& before,
+                                         const std::vector<Token>& after) {
+  std::unordered_map<Token, std::size_t> place;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    place.emplace(before[i], i);
+  }
+  // The longest ascending chain of places: `ends` holds for each length the name that ends it.
+  std::vector<std::size_t> ends;
+  std::vector<std::size_t> previous(after.size(), after.size());
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const auto found = place.find(after[i]);
+    if (found == place.end()) {
+      continue;
+    }
+    const auto at = std::lower_bound(
+        ends.begin(), ends.end(), found->second,
+        [&](std::size_t end, std::size_t value) { return place[after[end]] < value; });
+    if (at != ends.begin()) {
+      previous[i] = *(at - 1);
+    }
+    if (at == ends.end()) {
+      ends.push_back(i);
+    } else {
+      *at = i;
+    }
+  }
+  std::unordered_set<Token> kept;
+  for (std::size_t i = ends.empty() ? after.size() : ends.back(); i < after.size();
+       i = previous[i]) {
+    kept.insert(after[i]);
+  }
+  return kept;
 }
 
 class BlockLayout {
@@ -73,9 +94,11 @@ class BlockLayout {
       state_.failed = true;
       return;
     }
-    last_ = {};
     if (at == nullptr) {
       edit_metadata(state_, path, {0, state_.sources.header_end});
+      const auto metadata = state_.sources.metadata.find(path);
+      last_ = metadata == state_.sources.metadata.end() ? SourceRange{0, state_.sources.header_end}
+                                                        : metadata->second.range;
     } else {
       edit_head(*at, before, after);
       edit_metadata(state_, path, {at->range.begin, at->name_end});
@@ -166,11 +189,6 @@ class BlockLayout {
   void insert(Path path, const std::string& canonical, bool blank_line) {
     const std::string lines = reindented(canonical, indent_of_new(path), state_.unit);
     const std::string text = (blank_line ? "\n" : "") + lines;
-    if (last_.end == 0) {  // an empty layer
-      const std::string_view all = patch_.text();
-      patch_.insert(all.size(), (all.ends_with('\n') ? "" : "\n") + text);
-      return;
-    }
     const SourceBlock* at = block(path);
     if (at != nullptr && last_.begin == at->body.begin) {
       patch_.insert_inside(last_.begin, text);
@@ -210,33 +228,29 @@ class BlockLayout {
   void edit_children(Path path, const Spec& before, const Spec& after) {
     const auto& old = Layer::children(before, fields::primChildren);
     const auto& now = Layer::children(after, fields::primChildren);
-    if (!same_order(old, now) || !appends_only(old, now)) {
-      state_.failed = true;
-      return;
-    }
-    const bool first =
-        last_.end == 0 || (block(path) != nullptr && last_.begin == block(path)->body.begin);
-    bool separated = !first;
+    const std::unordered_set<Token> kept = names_in_order(old, now);
     for (const Token name : old) {
       const SourceBlock* child = block(path.child(name));
       if (child == nullptr) {
         state_.failed = true;
         return;
       }
-      note_last(child->range);
-      separated = true;
-      if (has(now, name)) {
-        pending_.push_back(path.child(name));
-      } else {
+      if (!kept.contains(name)) {
         patch_.remove(child->range, '\0');
       }
     }
+    const SourceBlock* at = block(path);
     for (const Token name : now) {
-      if (!has(old, name)) {
-        insert(path, part_text(state_.after, path.child(name)),
-               separated || path.is_absolute_root());
-        separated = true;
+      const bool first = at != nullptr && last_.begin == at->body.begin;
+      if (kept.contains(name)) {
+        last_ = block(path.child(name))->range;
+        pending_.push_back(path.child(name));
+      } else {
+        insert(path, part_text(state_.after, path.child(name)), !first);
       }
+    }
+    for (const Token name : old) {
+      note_last(block(path.child(name))->range);
     }
   }
 

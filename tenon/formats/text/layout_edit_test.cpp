@@ -210,12 +210,22 @@ TEST(LayoutEdit, NoChangeKeepsEveryByte) {
 }
 
 TEST(LayoutEdit, WhatCannotBeDoneInPlaceIsToldAndWrittenAnew) {
-  Layer layer = read("#usda 1.0\n# a\ndef \"A\"\n{\n}\ndef \"B\"\n{\n}\n");
-  layer.root().set(fields::primChildren, std::vector<Token>{"B", "A"});
-  const EditedText edited = edit_text("#usda 1.0\n# a\ndef \"A\"\n{\n}\ndef \"B\"\n{\n}\n", layer);
+  Layer layer = read(kText);
+  spec(layer, "/A{look=red}").set("typeName", Token("Cube"));  // which no text can say
+  const EditedText edited = edit_text(kText, layer);
   EXPECT_FALSE(edited.kept_layout);
   EXPECT_EQ(edited.text, write_text(layer));
   EXPECT_FALSE(edit_text("no layer", layer).kept_layout);
+}
+
+TEST(LayoutEdit, PrimsChangePlaces) {
+  const char text[] =
+      "#usda 1.0\n# a\ndef \"A\"\n{\n}\n# b\ndef \"B\"\n{\n}\n# c\ndef \"C\" # C\n{\n}\n";
+  Layer layer = read(text);
+  layer.root().set(fields::primChildren, std::vector<Token>{"B", "A", "C"});
+  const EditedText edited = edit_text(text, layer);
+  EXPECT_TRUE(edited.kept_layout);
+  EXPECT_NE(edited.text.find("# c\ndef \"C\" # C\n"), std::string::npos) << edited.text;
 }
 
 TEST(LayoutEdit, OneLineTextsAndEmptyOnes) {

@@ -70,7 +70,11 @@ class LayerReader {
 
   bool note_header() {
     if (state_.sources != nullptr) {
-      state_.sources->header_end = cursor_.offset();
+      std::size_t end = cursor_.offset();
+      while (end > 0 && (cursor_.text()[end - 1] == '\n' || cursor_.text()[end - 1] == '\r')) {
+        --end;
+      }
+      state_.sources->header_end = end;
     }
     return true;
   }

@@ -57,8 +57,8 @@ struct SourceMap {
   std::unordered_map<Path, MetadataBlock> metadata;
   std::unordered_map<Path, std::vector<PropertyStatement>> properties;
   std::unordered_map<Path, std::vector<SampleEntry>> samples;
-  std::unordered_map<Path, std::vector<SourceRange>> orders;  ///< reorder statements of a prim
-  std::size_t header_end = 0;                                 ///< after the first line
+  std::unordered_map<Path, std::vector<SourceRange>> orders;  ///< `reorder` statements
+  std::size_t header_end = 0;  ///< of the first line, without its line feed
 };
 
 }  // namespace tenon::formats::text

@@ -3,6 +3,7 @@
 #include "tenon/formats/text/text_patch.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tenon::formats::text {
 namespace {
@@ -82,8 +83,9 @@ void TextPatch::insert_inside(std::size_t bracket, const std::string& lines) {
 
 std::optional<std::string> TextPatch::result() {
   std::stable_sort(
-      replacements_.begin(), replacements_.end(),
-      [](const Replacement& a, const Replacement& b) { return a.range.begin < b.range.begin; });
+      replacements_.begin(), replacements_.end(), [](const Replacement& a, const Replacement& b) {
+        return std::pair(a.range.begin, a.range.end) < std::pair(b.range.begin, b.range.end);
+      });
   std::string out;
   std::size_t at = 0;
   for (const Replacement& replacement : replacements_) {

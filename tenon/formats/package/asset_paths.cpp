@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/formats/package/asset_paths.h"
+
+#include <vector>
+
+#include "tenon/layer/field_values.h"
+#include "tenon/layer/fields.h"
+
+namespace tenon::formats {
+namespace {
+
+using layer::Value;
+namespace fields = layer::fields;
+
+class Renamer {
+ public:
+  Renamer(const RenameAsset& rename, Path spec) : rename_(rename), spec_(spec) {}
+
+  bool changed() const { return changed_; }
+
+  Value renamed(Token field, const Value& value) {
+    if (field == fields::subLayers) {
+      return renamed_layers(value);
+    }
+    if (field == fields::clips) {
+      return renamed_clips(value);
+    }
+    return renamed(value, AssetUse::Value);
+  }
+
+ private:
+  std::string name(const std::string& asset_path, AssetUse use) {
+    if (asset_path.empty()) {
+      return asset_path;
+    }
+    std::string result = rename_(asset_path, use, spec_);
+    changed_ = changed_ || result != asset_path;
+    return result;
+  }
+
+  Value renamed_layers(const Value& value) {
+    const auto* paths = value.get<std::vector<std::string>>();
+    if (paths == nullptr) {
+      return value;
+    }
+    std::vector<std::string> result;
+    for (const std::string& path : *paths) {
+      result.push_back(name(path, AssetUse::Layer));
+    }
+    return result;
+  }
+
+  template <class Arc>
+  Value renamed_arcs(const layer::ListOp<Arc>& op) {
+    layer::ListOp<Arc> result = op;
+    for (std::vector<Arc>* list : {&result.explicit_items, &result.prepended, &result.appended,
+                                   &result.deleted, &result.added, &result.ordered}) {
+      for (Arc& arc : *list) {
+        arc.asset_path = name(arc.asset_path, AssetUse::Layer);
+      }
+    }
+    return result;
+  }
+
+  Value renamed(const Value& value, AssetUse use) {
+    if (const auto* asset = value.get<layer::AssetPath>()) {
+      return layer::AssetPath{name(asset->authored, use), {}, {}};
+    }
+    if (const auto* assets = value.get<layer::Array<layer::AssetPath>>()) {
+      layer::Array<layer::AssetPath> result;
+      for (const layer::AssetPath& asset : *assets) {
+        result.push_back({name(asset.authored, use), {}, {}});
+      }
+      return result;
+    }
+    if (const auto* references = value.get<layer::ListOp<layer::Reference>>()) {
+      return renamed_arcs(*references);
+    }
+    if (const auto* payloads = value.get<layer::ListOp<layer::Payload>>()) {
+      return renamed_arcs(*payloads);
+    }
+    if (const auto* dictionary = value.get<layer::Dictionary>()) {
+      layer::Dictionary result = *dictionary;
+      for (auto& [key, item] : result.items) {
+        item = renamed(item, use);
+      }
+      return result;
+    }
+    return renamed_samples(value);
+  }
+
+  Value renamed_samples(const Value& value) {
+    const auto* samples = value.get<layer::TimeSamples>();
+    const bool assets = samples != nullptr && !samples->empty() &&
+                        samples->values.front().type() == layer::ValueType::Asset;
+    if (!assets) {
+      return value;
+    }
+    layer::TimeSamples result = *samples;
+    for (Value& sample : result.values) {
+      sample = renamed(sample, AssetUse::Value);
+    }
+    return result;
+  }
+
+  /// Sets by name, each with asset paths and perhaps a template in a string.
+  Value renamed_clips(const Value& value) {
+    const auto* sets = value.get<layer::Dictionary>();
+    if (sets == nullptr) {
+      return value;
+    }
+    layer::Dictionary result = *sets;
+    for (auto& [set, item] : result.items) {
+      const auto* set_fields = item.get<layer::Dictionary>();
+      if (set_fields == nullptr) {
+        continue;
+      }
+      layer::Dictionary changed = *set_fields;
+      for (auto& [key, entry] : changed.items) {
+        const auto* pattern = entry.get<std::string>();
+        if (key == "templateAssetPath" && pattern != nullptr) {
+          entry = Value(name(*pattern, AssetUse::ClipTemplate));
+        } else {
+          entry = renamed(entry, AssetUse::Layer);
+        }
+      }
+      item = Value(std::move(changed));
+    }
+    return result;
+  }
+
+  const RenameAsset& rename_;
+  Path spec_;
+  bool changed_ = false;
+};
+
+/// Only these can hold asset paths; all else, large arrays above all, is left alone.
+bool may_hold_assets(Token field, const Value& value) {
+  switch (value.type()) {
+    case layer::ValueType::Asset:
+    case layer::ValueType::ReferenceListOp:
+    case layer::ValueType::PayloadListOp:
+    case layer::ValueType::Dictionary:
+    case layer::ValueType::TimeSamples:
+      return true;
+    default:
+      return field == fields::subLayers;
+  }
+}
+
+}  // namespace
+
+bool rename_assets(layer::Layer& layer, const RenameAsset& rename) {
+  std::vector<Path> paths;
+  for (const layer::Layer::Entry& entry : layer.entries()) {
+    if (!entry.path.empty()) {
+      paths.push_back(entry.path);
+    }
+  }
+  bool any = false;
+  for (const Path path : paths) {
+    const std::vector<layer::Field> all = layer.find(path)->fields();
+    for (const layer::Field& field : all) {
+      if (!may_hold_assets(field.name, field.value)) {
+        continue;
+      }
+      Renamer renamer(rename, path);
+      Value value = renamer.renamed(field.name, field.value);
+      if (renamer.changed()) {
+        layer.find(path)->set(field.name, std::move(value));
+        any = true;
+      }
+    }
+  }
+  return any;
+}
+
+}  // namespace tenon::formats

@@ -1,0 +1,301 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/formats/package/pack.h"
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/zip_archive.h"
+#include "tenon/formats/crate/writer.h"
+#include "tenon/formats/open_layer.h"
+#include "tenon/formats/package/asset_paths.h"
+#include "tenon/formats/text/layout_edit.h"
+
+namespace tenon::formats {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFirstTile = 1001;  // of <UDIM>: ten by ten tiles
+constexpr int kLastTile = 1100;
+constexpr std::string_view kUdim = "<UDIM>";
+
+std::string normal(const std::string& path) { return fs::path(path).lexically_normal().string(); }
+
+std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
+
+bool is_layer_name(const std::string& name) {
+  for (const char* ending : {".usd", ".usda", ".usdc"}) {
+    if (name.ends_with(ending)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// `pattern` with `from` replaced by `to`, once.
+std::string replaced(std::string pattern, std::string_view from, const std::string& to) {
+  const std::size_t at = pattern.find(from);
+  return at == std::string::npos ? pattern : pattern.replace(at, from.size(), to);
+}
+
+/// The name fits a template with '#' for each digit of a number (more digits fit, too).
+bool fits_template(std::string_view name, std::string_view pattern) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  while (!pattern.empty()) {
+    if (pattern.front() != '#') {
+      if (name.empty() || name.front() != pattern.front()) {
+        return false;
+      }
+      name.remove_prefix(1);
+      pattern.remove_prefix(1);
+      continue;
+    }
+    const std::size_t wanted = std::min(pattern.find_first_not_of('#'), pattern.size());
+    pattern.remove_prefix(wanted);
+    std::size_t digits = 0;
+    while (digits < name.size() && is_digit(name[digits])) {
+      ++digits;
+    }
+    if (digits < wanted) {
+      return false;
+    }
+    name.remove_prefix(digits);
+  }
+  return name.empty();
+}
+
+class Packer {
+ public:
+  Packer(const bytes::AssetResolver& resolver, Diagnostics& diagnostics)
+      : resolver_(resolver), diagnostics_(diagnostics) {}
+
+  Result<std::string> run(const layer::Layer& root) {
+    base_ = folder_of(root.identifier());
+    const bytes::PackagePath inside = bytes::split_package_path(root.identifier());
+    if (!inside.inner.empty() || bytes::is_package_name(root.identifier())) {
+      base_package_ = inside.package;
+      base_ = inside.package + "[";
+    }
+    std::string name = root.identifier() == base_package_ ? "" : name_below_base(root.identifier());
+    const bool is_file = is_layer_name(name) && resolver_.open(root.identifier());
+    name = is_file ? name : "root.usdc";
+    names_.emplace(root.identifier(), name);
+    taken_.insert(name);
+    if (is_file) {
+      pending_.push_back({root.identifier(), name});
+    } else {
+      layer::Layer copy = root;
+      rename_all(copy, name);
+      TENON_TRY(std::string crate, write_crate(copy));
+      add(name, bytes::FileBytes::own(std::move(crate)));
+    }
+    while (!pending_.empty()) {
+      const Pending next = pending_.front();
+      pending_.pop_front();
+      TENON_CHECK(add_file(next));
+    }
+    return write();
+  }
+
+ private:
+  struct Pending {
+    std::string identifier;
+    std::string name;  // in the package
+  };
+
+  void add(std::string name, std::shared_ptr<const bytes::FileBytes> contents) {
+    files_.emplace_back(std::move(name), std::move(contents));
+  }
+
+  Result<std::string> write() const {
+    std::vector<bytes::ZipFile> files;
+    for (const auto& [name, contents] : files_) {
+      files.push_back({name, contents->text()});
+    }
+    return bytes::write_zip(files);
+  }
+
+  /// The identifier's path below the root layer's folder; its last part for files elsewhere.
+  std::string name_below_base(const std::string& identifier) const {
+    if (identifier.starts_with(base_)) {
+      const std::size_t bracket = base_package_.empty() ? 0 : 1;
+      return identifier.substr(base_.size(), identifier.size() - base_.size() - bracket);
+    }
+    const std::string outer = bytes::split_package_path(identifier).package;
+    return identifier.substr(outer.rfind('/') + 1);
+  }
+
+  Result<void> add_file(const Pending& file) {
+    TENON_TRY(const auto contents, resolver_.open(file.identifier));
+    if (!is_layer_name(file.name)) {
+      add(file.name, contents);
+      return {};
+    }
+    TENON_TRY(layer::Layer layer, read_layer(contents, file.identifier, diagnostics_));
+    if (!rename_all(layer, file.name)) {
+      add(file.name, contents);
+      return {};
+    }
+    if (format_of(*contents) == LayerFormat::Text) {
+      add(file.name, bytes::FileBytes::own(edit_text(contents->text(), layer).text));
+      return {};
+    }
+    TENON_TRY(std::string crate, write_crate(layer));
+    add(file.name, bytes::FileBytes::own(std::move(crate)));
+    return {};
+  }
+
+  bool rename_all(layer::Layer& layer, const std::string& own_name) {
+    const std::string anchor = layer.identifier();
+    return rename_assets(layer, [&](const std::string& path, AssetUse use, Path spec) {
+      std::string target = use == AssetUse::ClipTemplate   ? template_target(path, anchor)
+                           : path.find(kUdim) != path.npos ? udim_target(path, anchor)
+                                                           : target_of(path, anchor);
+      if (target.empty()) {
+        report_missing(path, anchor, spec);
+        return path;
+      }
+      return path_to(target, own_name, path);
+    });
+  }
+
+  void report_missing(const std::string& path, const std::string& anchor, Path spec) {
+    Diagnostic missing;
+    missing.severity = Severity::Warning;
+    missing.rule = "package.missing";
+    missing.message = "@" + path + "@ is not in the package: it cannot be found";
+    missing.file = anchor;
+    missing.prim = spec.prim().str();
+    missing.fix = "put the file there, or correct the path";
+    diagnostics_.add(std::move(missing));
+  }
+
+  /// The name in the package of what an asset path means; empty for nothing.
+  std::string target_of(const std::string& path, const std::string& anchor) {
+    if (path.starts_with('`')) {
+      return {};  // an expression has no file of its own
+    }
+    const Result<std::string> found = resolver_.resolve(path, anchor);
+    return found ? name_of(*found) : std::string();
+  }
+
+  /// The name for a file, which is queued when new. Files of other packages are named through them.
+  std::string name_of(const std::string& identifier) {
+    if (const auto known = names_.find(identifier); known != names_.end()) {
+      return known->second;
+    }
+    const bool in_base = !base_package_.empty() && identifier.starts_with(base_);
+    std::string name = name_below_base(identifier);
+    const bytes::PackagePath parts = bytes::split_package_path(in_base ? name : identifier);
+    if (!parts.inner.empty()) {  // of a package that goes in whole
+      const std::string outer =
+          in_base ? bytes::join_package_path(base_package_, parts.package) : parts.package;
+      return bytes::join_package_path(name_of(outer), parts.inner);
+    }
+    if (!identifier.starts_with(base_) || !taken_.insert(name).second) {
+      name = numbered(name);
+    }
+    names_.emplace(identifier, name);
+    pending_.push_back({identifier, name});
+    return name;
+  }
+
+  std::string numbered(const std::string& name) {
+    for (std::size_t number = 0;; ++number) {
+      std::string candidate = std::to_string(number) + "/" + name;
+      if (taken_.insert(candidate).second) {
+        return candidate;
+      }
+    }
+  }
+
+  std::string udim_target(const std::string& path, const std::string& anchor) {
+    std::string pattern;
+    for (int tile = kFirstTile; tile <= kLastTile; ++tile) {
+      const std::string number = std::to_string(tile);
+      const auto found = resolver_.resolve(replaced(path, kUdim, number), anchor);
+      if (found) {
+        const std::string name = place_beside(*found, pattern);
+        pattern = folder_of(name) + path.substr(path.rfind('/') + 1);
+      }
+    }
+    return pattern;
+  }
+
+  /// Files of one pattern stay in one folder.
+  std::string place_beside(const std::string& identifier, const std::string& pattern) {
+    const bool known = names_.contains(identifier);
+    if (known || pattern.empty() || identifier.starts_with(base_)) {
+      return name_of(identifier);
+    }
+    std::string name = folder_of(pattern) + identifier.substr(identifier.rfind('/') + 1);
+    taken_.insert(name);
+    names_.emplace(identifier, name);
+    pending_.push_back({identifier, name});
+    return name;
+  }
+
+  std::string template_target(const std::string& path, const std::string& anchor) {
+    const std::string file_pattern = path.substr(path.rfind('/') + 1);
+    const std::string folder =
+        path.starts_with('/') ? folder_of(path) : normal(folder_of(anchor) + folder_of(path));
+    std::set<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+      const std::string name = at->path().filename().string();
+      if (fits_template(name, file_pattern)) {
+        names.insert(name);
+      }
+    }
+    std::string pattern;
+    for (const std::string& name : names) {
+      const auto found = resolver_.resolve(folder_of(path) + name, anchor);
+      if (found) {
+        pattern = folder_of(place_beside(*found, pattern)) + file_pattern;
+      }
+    }
+    return pattern;
+  }
+
+  /// How the layer `own_name` names `target`: as it did where that leads there.
+  static std::string path_to(const std::string& target, const std::string& own_name,
+                             const std::string& authored) {
+    const std::string folder = folder_of(own_name);
+    if (!authored.starts_with('/') && normal(folder + authored) == target) {
+      return authored;
+    }
+    const std::string outer = bytes::split_package_path(target).package;
+    const std::string inner = target.substr(outer.size());
+    std::string path =
+        fs::path(outer).lexically_relative(folder.empty() ? "." : folder).generic_string();
+    if (!path.starts_with("../")) {
+      path = "./" + path;
+    }
+    return path + inner;
+  }
+
+  const bytes::AssetResolver& resolver_;
+  Diagnostics& diagnostics_;
+  std::string base_;          // what identifiers of files that keep their place begin with
+  std::string base_package_;  // the package that the root layer is in
+  std::map<std::string, std::string> names_;  // identifier -> name in the package
+  std::set<std::string> taken_;
+  std::deque<Pending> pending_;
+  std::vector<std::pair<std::string, std::shared_ptr<const bytes::FileBytes>>> files_;
+};
+
+}  // namespace
+
+Result<std::string> pack(const bytes::AssetResolver& resolver, const layer::Layer& root,
+                         Diagnostics& diagnostics) {
+  return Packer(resolver, diagnostics).run(root);
+}
+
+}  // namespace tenon::formats
