@@ -3,137 +3,314 @@
 #include "tenon/stage/collection.h"
 
 #include <algorithm>
-#include <set>
+#include <optional>
+#include <utility>
+
+#include "tenon/base/limits.h"
 
 namespace tenon::stage {
 namespace {
 
+using layer::ExpressionReference;
+using layer::PathExpressionTree;
+using Rule = Collection::Rule;
+using Rules = Collection::Rules;
+
 constexpr std::string_view kPrefix = "collection:";
 
-std::string property(Token collection, std::string_view part) {
-  return std::string(kPrefix) + collection.str() + ":" + std::string(part);
+Token property(Token collection, std::string_view part) {
+  return Token(std::string(kPrefix) + collection.str() + ":" + std::string(part));
 }
 
-bool is_collection(Path path) {
-  return path.is_property() && path.name().view().starts_with(kPrefix);
+Path collection_path(const Prim& prim, Token name) {
+  return prim.path().property(Token(std::string(kPrefix) + name.str()));
 }
 
-}  // namespace
+/// "lights" of "collection:lights"; nullopt for other properties, those of a collection included.
+std::optional<Token> collection_name(Path path) {
+  const std::string_view name = path.name().view();
+  if (!path.is_property() || !name.starts_with(kPrefix)) {
+    return std::nullopt;
+  }
+  const std::string_view last = name.substr(name.rfind(':') + 1);
+  for (const std::string_view part :
+       {"includes", "excludes", "expansionRule", "includeRoot", "membershipExpression"}) {
+    if (last == part) {
+      return std::nullopt;
+    }
+  }
+  return Token(name.substr(kPrefix.size()));
+}
 
-// Includes and excludes of a collection and of those that it includes; each is read once.
-class CollectionReader {
+Rule expansion_rule(const Prim& prim, Token name) {
+  const Token rule =
+      prim.attribute(property(name, "expansionRule")).get().get_or<Token>("expandPrims");
+  if (rule == "explicitOnly") {
+    return Rule::ExplicitOnly;
+  }
+  return rule == "expandPrimsAndProperties" ? Rule::ExpandPrimsAndProperties : Rule::ExpandPrims;
+}
+
+/// Reads a collection and those that it includes, depth first: a collection's own excludes come
+/// after all that it includes, and what comes later counts.
+class RuleReader {
  public:
-  explicit CollectionReader(Collection& result) : result_(result) {}
-
-  void read(const Prim& prim, Token name) {
-    pending_.push_back({prim, name});
-    while (!pending_.empty()) {
-      const Source source = pending_.back();
-      pending_.pop_back();
-      const Path path =
-          source.prim.path().property(Token(std::string(kPrefix) + source.name.str()));
-      if (source.prim && seen_.insert(path).second) {
-        read_one(source.prim, source.name);
+  Rules read(const Prim& prim, Token name) {
+    open(prim, name);
+    while (true) {
+      Frame& frame = frames_.back();
+      if (frame.next < frame.includes.size()) {
+        include(frame.includes[frame.next++]);
+        continue;
       }
+      finish(frame);
+      Rules rules = std::move(frame.rules);
+      frames_.pop_back();
+      if (frames_.empty()) {
+        return rules;
+      }
+      merge(frames_.back().rules, std::move(rules));
     }
   }
 
  private:
-  using Rule = Collection::Rule;
-  struct Source {
+  struct Frame {
     Prim prim;
     Token name;
+    Path path;
+    Rule rule = Rule::ExpandPrims;
+    std::vector<Path> includes;
+    std::size_t next = 0;
+    Rules rules;
   };
 
-  Rule expansion(const Prim& prim, Token name) {
-    const Token rule =
-        prim.attribute(Token(property(name, "expansionRule"))).get().get_or<Token>("expandPrims");
-    if (rule == "explicitOnly") {
-      return Rule::ExplicitOnly;
-    }
-    return rule == "expandPrimsAndProperties" ? Rule::ExpandPrimsAndProperties : Rule::ExpandPrims;
+  void open(const Prim& prim, Token name) {
+    frames_.push_back({prim,
+                       name,
+                       collection_path(prim, name),
+                       expansion_rule(prim, name),
+                       prim.relationship(property(name, "includes")).targets(),
+                       0,
+                       {}});
+    ++visits_;
   }
 
-  void read_one(const Prim& prim, Token name) {
-    const Rule rule = expansion(prim, name);
-    const auto includes = prim.relationship(Token(property(name, "includes"))).targets();
-    for (const Path path : includes) {
-      if (is_collection(path)) {
-        const std::string_view full = path.name().view();
-        pending_.push_back({prim.prim_at(path.parent()), Token(full.substr(kPrefix.size()))});
-      } else {
-        result_.rules_.try_emplace(path, rule);
+  void include(Path path) {
+    const std::optional<Token> name = collection_name(path);
+    if (!name) {
+      frames_.back().rules[path] = frames_.back().rule;
+      return;
+    }
+    const Prim prim = frames_.back().prim.prim_at(path.parent());
+    const bool leads_back = std::any_of(frames_.begin(), frames_.end(),
+                                        [&](const Frame& frame) { return frame.path == path; });
+    if (prim && !leads_back && visits_ < limits::kCollectionVisits) {
+      open(prim, *name);
+    }
+  }
+
+  static void finish(Frame& frame) {
+    if (frame.rule != Rule::ExplicitOnly &&
+        frame.prim.attribute(property(frame.name, "includeRoot")).get().get_or(false)) {
+      frame.rules[Path::absolute_root()] = frame.rule;
+    }
+    for (const Path path : frame.prim.relationship(property(frame.name, "excludes")).targets()) {
+      frame.rules[path] = Rule::Exclude;
+    }
+  }
+
+  /// The later ones win; the smaller map is moved into the larger one.
+  static void merge(Rules& rules, Rules later) {
+    if (rules.size() < later.size()) {
+      rules.swap(later);
+      for (const auto& [path, rule] : later) {
+        rules.try_emplace(path, rule);
       }
+      return;
     }
-    if (prim.attribute(Token(property(name, "includeRoot"))).get().get_or(false)) {
-      result_.rules_.try_emplace(Path::absolute_root(), rule);
-    }
-    for (const Path path : prim.relationship(Token(property(name, "excludes"))).targets()) {
-      result_.rules_.insert_or_assign(path, Rule::Exclude);
+    for (const auto& [path, rule] : later) {
+      rules[path] = rule;
     }
   }
 
-  Collection& result_;
-  std::vector<Source> pending_;
-  std::set<Path> seen_;
+  std::vector<Frame> frames_;
+  std::size_t visits_ = 0;
 };
+
+class ExpressionResolver {
+ public:
+  PathExpressionTree resolve(const Prim& prim, Token name) {
+    if (!prim) {
+      return {};
+    }
+    const Path path = collection_path(prim, name);
+    if (const auto it = known_.find(path); it != known_.end()) {
+      return it->second;
+    }
+    const bool leads_back = std::find(open_.begin(), open_.end(), path) != open_.end();
+    if (leads_back || open_.size() >= limits::kCollectionDepth ||
+        visits_ >= limits::kCollectionVisits) {
+      return {};
+    }
+    ++visits_;
+    open_.push_back(path);
+    PathExpressionTree result = read(prim, name);
+    open_.pop_back();
+    known_.emplace(path, result);
+    return result;
+  }
+
+ private:
+  PathExpressionTree read(const Prim& prim, Token name) {
+    const layer::Value value = prim.attribute(property(name, "membershipExpression")).get();
+    const auto* text = value.get<layer::PathExpression>();
+    auto tree = PathExpressionTree::parse(text == nullptr ? std::string_view() : text->text);
+    if (!tree) {
+      return {};
+    }
+    return tree
+        ->resolved([&](const ExpressionReference& found) {
+          if (found.is_weaker()) {
+            return PathExpressionTree();
+          }
+          const Prim owner = found.path.empty() ? prim : prim.prim_at(found.path);
+          return resolve(owner, Token(found.name));
+        })
+        .value_or(PathExpressionTree());
+  }
+
+  std::vector<Path> open_;
+  std::unordered_map<Path, PathExpressionTree> known_;
+  std::size_t visits_ = 0;
+};
+
+/// Met by a traversal that asks for nothing special.
+bool is_traversed(const Prim& prim) {
+  return prim.is_active() && prim.is_loaded() && prim.is_defined() && !prim.is_abstract();
+}
+
+/// Calls `visit` for the prim and those below it that are traversed, parents first; what is below
+/// a prim is left out where `visit` returns false.
+template <class Visit>
+void traverse(const Prim& start, Visit visit) {
+  std::vector<Prim> pending{start};
+  while (!pending.empty()) {
+    const Prim prim = pending.back();
+    pending.pop_back();
+    const bool is_root = prim.is_pseudo_root();
+    if ((!is_root && (!is_traversed(prim) || !visit(prim))) || prim.is_instance()) {
+      continue;
+    }
+    const std::vector<Prim> children = prim.children();
+    pending.insert(pending.end(), children.rbegin(), children.rend());
+  }
+}
+
+}  // namespace
+
+layer::PathExpressionTree complete_membership_expression(const Prim& prim, Token name) {
+  return ExpressionResolver().resolve(prim, name);
+}
 
 Collection Collection::read(const Prim& prim, Token name) {
   Collection result;
   if (!prim) {
     return result;
   }
-  CollectionReader(result).read(prim, name);
-  const layer::Value expression =
-      prim.attribute(Token(property(name, "membershipExpression"))).get();
-  if (const auto* text = expression.get<layer::PathExpression>(); text && result.rules_.empty()) {
-    result.expression_ = text->text;
-    result.anchor_ = prim.path();
+  result.rules_ = RuleReader().read(prim, name);
+  result.top_rule_ = expansion_rule(prim, name);
+  // An expression that cannot be evaluated matches nothing.
+  if (auto matcher = PathMatcher::make(complete_membership_expression(prim, name), prim)) {
+    result.matcher_ = std::move(*matcher);
   }
   return result;
 }
 
 bool Collection::contains(Path path) const {
-  if (rules_.empty()) {
-    return !expression_.empty() && expression_matches(expression_, anchor_, path);
+  return rules_.empty() ? matcher_.matches(path) : included_by_rules(path);
+}
+
+bool Collection::included_by_rules(Path path) const {
+  if (!path.is_prim() && !path.is_property()) {
+    return false;
   }
   for (Path at = path; !at.empty(); at = at.parent()) {
     const auto it = rules_.find(at);
-    if (it == rules_.end() || (it->second == Rule::ExplicitOnly && at != path)) {
+    if (it == rules_.end()) {
       continue;
     }
-    if (it->second == Rule::ExpandPrims && at != path && !path.is_prim()) {
+    if (it->second == Rule::Exclude) {
       return false;
     }
-    return it->second != Rule::Exclude;
+    // What has a rule of its own is included; else the rule has to reach down to it.
+    const bool reaches = path.is_prim() ? it->second != Rule::ExplicitOnly
+                                        : it->second == Rule::ExpandPrimsAndProperties;
+    if (at == path || reaches) {
+      return true;
+    }
   }
   return false;
 }
 
-std::vector<Path> Collection::members(const Stage& stage) const {
-  const bool properties =
-      std::any_of(rules_.begin(), rules_.end(), [](const auto& rule) {
-        return rule.second == Rule::ExpandPrimsAndProperties || rule.first.is_property();
-      });
-  std::vector<Path> result;
-  std::vector<Prim> pending = stage.pseudo_root().children();
-  while (!pending.empty()) {
-    const Prim prim = pending.back();
-    pending.pop_back();
-    if (contains(prim.path())) {
-      result.push_back(prim.path());
+void Collection::add_by_rule(const Stage& stage, Path path, Rule rule,
+                             std::vector<Path>& members) const {
+  const Prim prim = stage.prim(path.is_property() ? path.parent() : path);
+  if (!prim || rule == Rule::Exclude) {
+    return;
+  }
+  if (path.is_property()) {
+    if (prim.has_property(path.name())) {
+      members.push_back(path);
     }
-    if (properties) {
-      for (const Token name : prim.property_names()) {
-        if (contains(prim.path().property(name))) {
-          result.push_back(prim.path().property(name));
+    return;
+  }
+  traverse(prim, [&](const Prim& at) {
+    if (rule == Rule::ExplicitOnly) {
+      members.push_back(at.path());
+      return false;
+    }
+    if (!included_by_rules(at.path())) {
+      return false;
+    }
+    members.push_back(at.path());
+    if (rule == Rule::ExpandPrimsAndProperties) {
+      for (const Token name : at.property_names()) {
+        const auto own = rules_.find(at.path().property(name));
+        if (own == rules_.end() || own->second != Rule::Exclude) {
+          members.push_back(at.path().property(name));
         }
       }
     }
-    const std::vector<Prim> children = prim.children();
-    pending.insert(pending.end(), children.begin(), children.end());
+    return true;
+  });
+}
+
+void Collection::add_by_expression(const Stage& stage, std::vector<Path>& members) const {
+  traverse(stage.pseudo_root(), [&](const Prim& at) {
+    if (matcher_.matches(at.path())) {
+      members.push_back(at.path());
+    }
+    if (top_rule_ == Rule::ExpandPrimsAndProperties) {
+      for (const Token name : at.property_names()) {
+        if (matcher_.matches(at.path().property(name))) {
+          members.push_back(at.path().property(name));
+        }
+      }
+    }
+    return true;
+  });
+}
+
+std::vector<Path> Collection::members(const Stage& stage) const {
+  std::vector<Path> result;
+  for (const auto& [path, rule] : rules_) {
+    add_by_rule(stage, path, rule, result);
+  }
+  if (rules_.empty() && !matcher_.is_empty() && top_rule_ != Rule::ExplicitOnly) {
+    add_by_expression(stage, result);
   }
   std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 

@@ -8,33 +8,44 @@
 
 #include "tenon/base/path.h"
 #include "tenon/base/token.h"
+#include "tenon/layer/path_expression.h"
+#include "tenon/stage/path_matcher.h"
 #include "tenon/stage/prim.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::stage {
 
-/// Membership of one CollectionAPI instance, as rules: the rule of the nearest path at or above a
-/// prim decides. Nested collections are followed.
+/// Membership of one CollectionAPI instance, as OpenUSD's UsdCollectionMembershipQuery decides it:
+/// by rules when the collection includes or excludes anything, else by its membership expression.
 class Collection {
  public:
-  /// The collection `prim`.collection:`name`; an empty one when the API is not applied there.
+  /// What an included path brings with it; "expandPrims" is the fallback.
+  enum class Rule : unsigned char { Exclude, ExplicitOnly, ExpandPrims, ExpandPrimsAndProperties };
+  using Rules = std::unordered_map<Path, Rule>;
+
+  /// The collection `prim`.collection:`name`; an empty one when there is none.
   static Collection read(const Prim& prim, Token name);
 
   bool contains(Path path) const;
-  /// All prims (and properties, under expandPrimsAndProperties) that belong, sorted.
+  /// All that belongs, sorted: prims that a stage traversal meets by default (active, loaded,
+  /// defined, not abstract, not inside of instances) and their properties.
   std::vector<Path> members(const Stage& stage) const;
 
- private:
-  friend class CollectionReader;
-  enum class Rule : unsigned char { Exclude, ExplicitOnly, ExpandPrims, ExpandPrimsAndProperties };
+  /// Rules of this and of included collections; the one of the nearest path at or above counts.
+  const Rules& rules() const { return rules_; }
 
-  std::unordered_map<Path, Rule> rules_;
-  std::string expression_;  // used when there are no rules
-  Path anchor_;             // of relative patterns in the expression
+ private:
+  bool included_by_rules(Path path) const;
+  void add_by_rule(const Stage& stage, Path path, Rule rule, std::vector<Path>& members) const;
+  void add_by_expression(const Stage& stage, std::vector<Path>& members) const;
+
+  Rules rules_;
+  Rule top_rule_ = Rule::ExpandPrims;
+  PathMatcher matcher_;
 };
 
-/// The path expression matches `path`: patterns such as `/World/a*`, `//Name`, `/A//`, joined by
-/// '+', '|', '&', '-', ' ' and '~'. Predicates and references to collections match nothing.
-bool expression_matches(const std::string& expression, Path anchor, Path path);
+/// What the membership expression of `prim`.collection:`name` says with the references to other
+/// collections replaced; a reference that leads nowhere or back matches nothing.
+layer::PathExpressionTree complete_membership_expression(const Prim& prim, Token name);
 
 }  // namespace tenon::stage

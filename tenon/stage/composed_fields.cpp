@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tenon/compose/variable_expression.h"
+#include "tenon/layer/path_expression.h"
 
 namespace tenon::stage {
 namespace {
@@ -54,11 +55,30 @@ layer::AssetPath resolved(const Place& place, const layer::AssetPath& asset) {
   return result;
 }
 
+layer::PathExpression mapped(const Place& place, const layer::PathExpression& expression) {
+  const auto tree = layer::PathExpressionTree::parse(expression.text);
+  if (!tree || place.opinion.node >= place.prim.index->nodes.size()) {
+    return {};
+  }
+  const compose::MapFunction& map = *place.prim.index->nodes[place.opinion.node].map_to_root;
+  if (map.is_identity_of_paths()) {
+    return expression;
+  }
+  return {tree->mapped([&](Path path) { return map.map_source_to_target(path); }).text()};
+}
+
 Value localize_array(const Place& place, const Value& value) {
   if (const auto* assets = value.get<std::vector<layer::AssetPath>>()) {
     std::vector<layer::AssetPath> result;
     for (const layer::AssetPath& asset : *assets) {
       result.push_back(resolved(place, asset));
+    }
+    return result;
+  }
+  if (const auto* expressions = value.get<layer::Array<layer::PathExpression>>()) {
+    std::vector<layer::PathExpression> result;
+    for (const layer::PathExpression& expression : *expressions) {
+      result.push_back(mapped(place, expression));
     }
     return result;
   }
@@ -176,6 +196,9 @@ Value localize(const StageData& stage, const PrimData& prim, const compose::Opin
       return value.is_array() ? localize_array(place, value)
                               : Value(layer::TimeCode{
                                     opinion.offset.apply(value.get<layer::TimeCode>()->value)});
+    case ValueType::PathExpression:
+      return value.is_array() ? localize_array(place, value)
+                              : Value(mapped(place, *value.get<layer::PathExpression>()));
     case ValueType::Dictionary:
       return localize_dictionary(place, *value.get<layer::Dictionary>());
     default:

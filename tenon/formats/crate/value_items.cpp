@@ -7,6 +7,7 @@
 #include "tenon/base/limits.h"
 #include "tenon/formats/crate/spline_codec.h"
 #include "tenon/formats/crate/value_reader.h"
+#include "tenon/layer/path_expression.h"
 
 namespace tenon::formats::crate {
 namespace {
@@ -71,7 +72,11 @@ Result<void> ValueReader::item(bytes::ByteReader& in, Path& out) {
 }
 
 Result<void> ValueReader::item(bytes::ByteReader& in, layer::PathExpression& out) {
-  return item(in, out.text);
+  TENON_CHECK(item(in, out.text));
+  layer::Value value(std::move(out));
+  layer::make_canonical(value);
+  out = *value.get<layer::PathExpression>();
+  return {};
 }
 
 Result<void> ValueReader::item(bytes::ByteReader& in, layer::LayerOffset& out) {

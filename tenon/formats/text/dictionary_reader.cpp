@@ -10,6 +10,7 @@
 #include "tenon/formats/text/value_text.h"
 #include "tenon/formats/text/words.h"
 #include "tenon/layer/field_values.h"
+#include "tenon/layer/path_expression.h"
 
 namespace tenon::formats::text {
 namespace {
@@ -168,6 +169,7 @@ bool read_entry(Cursor& cursor, Dictionary& dictionary, std::size_t depth) {
       !read_value(cursor, type.type->type, type.is_array, value)) {
     return false;
   }
+  layer::make_canonical(value);
   dictionary.items.insert_or_assign(std::move(key), std::move(value));
   return true;
 }

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <limits>
 
+#include "tenon/base/quoted_text.h"
+
 namespace tenon::formats::text {
 namespace {
 
@@ -129,64 +131,6 @@ bool read_word_number(Cursor& cursor, Number& number) {
     return true;
   }
   return cursor.fail_expected("a number");
-}
-
-int hex_digit(char c) {
-  if (is_digit(c)) {
-    return c - '0';
-  }
-  if (c >= 'a' && c <= 'f') {
-    return c - 'a' + 10;
-  }
-  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-}
-
-/// Appends what the escape at `raw[at]` (after the backslash) stands for; returns its length.
-std::size_t append_escape(std::string_view raw, std::size_t at, std::string& value) {
-  const char c = raw[at];
-  constexpr std::string_view kNames = "nrtabfv";
-  constexpr std::string_view kMeanings = "\n\r\t\a\b\f\v";
-  if (const std::size_t i = kNames.find(c); i != std::string_view::npos) {
-    value += kMeanings[i];
-    return 1;
-  }
-  if (c == 'x') {
-    int code = 0;
-    std::size_t count = 0;
-    while (count < 2 && at + 1 + count < raw.size() && hex_digit(raw[at + 1 + count]) >= 0) {
-      code = code * 16 + hex_digit(raw[at + 1 + count]);
-      ++count;
-    }
-    value += static_cast<char>(code);
-    return 1 + count;
-  }
-  if (c >= '0' && c <= '7') {
-    int code = 0;
-    std::size_t count = 0;
-    while (count < 3 && at + count < raw.size() && raw[at + count] >= '0' &&
-           raw[at + count] <= '7') {
-      code = code * 8 + (raw[at + count] - '0');
-      ++count;
-    }
-    value += static_cast<char>(code);
-    return count;
-  }
-  value += c;
-  return 1;
-}
-
-void unescape(std::string_view raw, std::string& value) {
-  value.clear();
-  std::size_t at = 0;
-  while (true) {
-    const std::size_t escape = raw.find('\\', at);
-    value += raw.substr(at, escape - at);
-    if (escape == std::string_view::npos || escape + 1 >= raw.size()) {
-      return;
-    }
-    at = escape + 1;
-    at += append_escape(raw, at, value);
-  }
 }
 
 }  // namespace
@@ -340,7 +284,7 @@ bool read_string(Cursor& cursor, std::string& value) {
       const std::string_view raw = text.substr(start + width, at - start - width);
       cursor.seek(at + width);
       if (escaped) {
-        unescape(raw, value);
+        value = unescaped(raw);
       } else {
         value.assign(raw);
       }

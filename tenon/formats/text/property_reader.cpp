@@ -9,6 +9,7 @@
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/metadata_reader.h"
 #include "tenon/formats/text/value_reader.h"
+#include "tenon/layer/path_expression.h"
 #include "tenon/layer/written_type_name.h"
 
 namespace tenon::formats::text {
@@ -264,6 +265,14 @@ class PropertyReader {
     return true;
   }
 
+  /// Path expressions are kept in canonical form; those of defaults with absolute paths.
+  void settle_expressions(Value& value, std::size_t start, Path anchor) {
+    if (value.type() == ValueType::PathExpression && !layer::make_canonical(value, anchor)) {
+      state_.warn(start, "value.path-expression",
+                  "this is no path expression; it is read as an empty one", "");
+    }
+  }
+
   bool read_default() {
     Value value;
     statement_.value.begin = cursor_.offset();
@@ -275,6 +284,7 @@ class PropertyReader {
       return false;
     }
     statement_.value.end = cursor_.offset();
+    settle_expressions(value, statement_.value.begin, owner_.strip_variants().prim());
     return set(fields::default_value, std::move(value));
   }
 
@@ -327,6 +337,7 @@ class PropertyReader {
       const std::size_t end = cursor_.offset();
       state_.sources->samples[path_].push_back({time, {start, end}, {value_start, end}});
     }
+    settle_expressions(value, value_start, {});
     ascending = ascending && (samples.empty() || samples.times.back() < time);
     samples.times.push_back(time);
     samples.values.push_back(std::move(value));

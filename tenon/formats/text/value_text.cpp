@@ -105,51 +105,8 @@ void append_typed(std::string& out, const Value& value) {
   out += ']';
 }
 
-char hex(unsigned digit) { return "0123456789abcdef"[digit & 15u]; }
-
-/// One byte that is no part of a longer character.
-void append_escaped(std::string& out, char c, char quote, bool triple) {
-  if (c == '\n') {
-    out += triple ? "\n" : "\\n";
-  } else if (c == '\r') {
-    out += "\\r";
-  } else if (c == '\t') {
-    out += "\\t";
-  } else if (c == '\\') {
-    out += "\\\\";
-  } else if (c == quote) {
-    out += '\\';
-    out += quote;
-  } else if (c < 0x20 || c > 0x7E) {
-    const auto byte = static_cast<unsigned char>(c);
-    out += "\\x";
-    out += hex(byte >> 4u);
-    out += hex(byte);
-  } else {
-    out += c;
-  }
-}
-
 /// True for characters that stand for themselves, whatever the quotes.
 bool is_plain(char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\'' && c != '\\'; }
-
-/// Length of the sequence at `at` when its form is that of a character of several bytes, else 0.
-std::size_t multi_byte_length(std::string_view text, std::size_t at) {
-  const auto lead = static_cast<unsigned char>(text[at]);
-  const std::size_t length = (lead & 0xE0u) == 0xC0u   ? 2
-                             : (lead & 0xF0u) == 0xE0u ? 3
-                             : (lead & 0xF8u) == 0xF0u ? 4
-                                                       : 0;
-  if (length == 0 || at + length > text.size()) {
-    return 0;
-  }
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((static_cast<unsigned char>(text[at + i]) & 0xC0u) != 0x80u) {
-      return 0;
-    }
-  }
-  return length;
-}
 
 }  // namespace
 
@@ -161,26 +118,6 @@ void append_quoted(std::string& out, std::string_view text) {
   } else {
     out += quoted(text);
   }
-}
-
-std::string quoted(std::string_view text) {
-  text = text.substr(0, text.find('\0'));
-  const bool has_double = text.find('"') != std::string_view::npos;
-  const char quote = has_double && text.find('\'') == std::string_view::npos ? '\'' : '"';
-  const bool triple = text.find('\n') != std::string_view::npos;
-  std::string out(triple ? 3 : 1, quote);
-  out.reserve(text.size() + 6);
-  for (std::size_t at = 0; at < text.size();) {
-    if (const std::size_t length = multi_byte_length(text, at)) {
-      out += text.substr(at, length);
-      at += length;
-      continue;
-    }
-    append_escaped(out, text[at], quote, triple);
-    ++at;
-  }
-  out.append(triple ? 3 : 1, quote);
-  return out;
 }
 
 std::string asset_path_text(std::string_view path) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "tenon/base/quoted_text.h"
 #include "tenon/base/result.h"
 #include "tenon/layer/type_names.h"
 #include "tenon/layer/value.h"
@@ -20,8 +21,7 @@ Result<layer::Value> parse_value(std::string_view text, const layer::TypeName& t
 
 namespace text {
 
-/// `text` in quotes, with escapes; in three quotes when it has several lines.
-std::string quoted(std::string_view text);
+/// `quoted(text)` at the end of `out`.
 void append_quoted(std::string& out, std::string_view text);
 /// `@path@`, or `@@@path@@@` when the path holds an '@'.
 std::string asset_path_text(std::string_view path);
