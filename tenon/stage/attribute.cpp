@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/stage/attribute.h"
 
+#include "tenon/stage/compose_expression.h"
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/evaluate_spline.h"
 #include "tenon/stage/property_facts.h"
@@ -84,7 +85,8 @@ Value Attribute::get(Time time) const {
     return {};
   }
   const Asked asked = time.is_default() ? Asked::DefaultTime : Asked::AnyTime;
-  return read_value(*stage_, *prim_, name_, resolve_value(*prim_, name_, asked), time);
+  Value value = read_value(*stage_, *prim_, name_, resolve_value(*prim_, name_, asked), time);
+  return compose_expression(*stage_, *prim_, proxy_path_, name_, std::move(value), time);
 }
 
 Value Attribute::fallback() const {

@@ -88,6 +88,42 @@ TEST(Collection, ExpressionsReferToCollections) {
   EXPECT_EQ(members(c + "'%:c %_ %/None:x'"), "");
 }
 
+TEST(PathExpressionValue, IsMappedAndComposedOverWeakerOnes) {
+  const Stage stage = open_text(R"(
+def "Source" {
+    pathExpression e = "a %/Source:b /Other //c"
+    def "in" {
+        pathExpression e = "x ../y"
+    }
+}
+def "R" (
+    references = </Source>
+) {
+    pathExpression e = "d - %_"
+    over "in" {
+        pathExpression e.timeSamples = { 0: "%_ + /R/s", 5: "/R/t" }
+    }
+}
+def "I" (
+    instanceable = true
+    references = </Source>
+) {
+    pathExpression alone = "%_ + a"
+}
+)");
+  const auto text = [&](const char* path, Time time = {}) {
+    const Path property = Path::from(path);
+    const layer::Value value = stage.prim(property.parent()).attribute(property.name()).get(time);
+    return value.get_or(layer::PathExpression{"none"}).text;
+  };
+  EXPECT_EQ(text("/R.e"), "/R/d - /R/a %/R:b /Other //c");
+  EXPECT_EQ(text("/R/in.e"), "/R/in/x /R/y");
+  EXPECT_EQ(text("/R/in.e", Time(1)), "/R/in/x /R/y + /R/s");
+  EXPECT_EQ(text("/R/in.e", Time(6)), "/R/t");
+  EXPECT_EQ(text("/I/in.e"), "/I/in/x /I/y");
+  EXPECT_EQ(text("/I.alone"), "/I/a");
+}
+
 TEST(Collection, RulesFollowIncludedCollections) {
   const std::string rule = "uniform token collection:c:expansionRule = ";
   EXPECT_EQ(members("rel collection:c:includes = </W>\nrel collection:c:excludes = </W/b>"),

@@ -8,12 +8,8 @@
 #include "tenon/stage/composed_fields.h"
 
 namespace tenon::stage {
-namespace {
 
 namespace fields = layer::fields;
-
-// Where the source of a prototype is seen from a prim: longest source first.
-using SourceMap = std::vector<std::pair<Path, Path>>;
 
 SourceMap source_map(const StageData& stage, const PrimData& prim, Path proxy_path) {
   SourceMap map;
@@ -41,8 +37,6 @@ Path translated(const SourceMap& map, Path target) {
   }
   return best == nullptr ? target : target.replace_prefix(best->first, best->second);
 }
-
-}  // namespace
 
 bool is_authored_as(const PrimData& prim, Token name, layer::SpecKind kind) {
   const std::vector<Token>& names = prim.index->property_names;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
@@ -16,6 +17,12 @@ bool any_opinion_is_custom(const PrimData& prim, Token name);
 bool has_field(const PrimData& prim, Token name, Token field);
 Path property_path(const PrimData& prim, Path proxy_path, Token name);
 std::vector<SpecSite> property_sites(const PrimData& prim, Token name);
+
+/// Where the sources of prototypes are seen from a prim inside of one: source -> path.
+using SourceMap = std::vector<std::pair<Path, Path>>;
+SourceMap source_map(const StageData& stage, const PrimData& prim, Path proxy_path);
+/// `target` under the deepest source that holds it; unchanged when none does.
+Path translated(const SourceMap& map, Path target);
 
 /// Targets or connections in the stage's namespace; those inside instances as the prim, prototype
 /// or proxy sees them.

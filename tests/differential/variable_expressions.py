@@ -43,7 +43,8 @@ VARIABLES = """
 NAMES = ["S", "E", "I", "L", "B", "LI", "SI", "LS", "LB", "LE", "F", "X", "Y", "Z", "C1", "N",
          "BAD", "NOPE"]  # fmt: skip
 FIXED = ["``", "`", "` 5`", "`5 `", "abc", "`[1,]`", "`[[1]]`", "`f(1)`", "`TRUE`", "`${S `",
-         "`'a`b'`", "`'\\`'`", "`if (True, 1)`", "`99999999999999999999`", "`'${S'`", "`'\\n\\x41'`",
+         "`'a`b'`", "`'\\`'`", "`if (True, 1)`", "`99999999999999999999`",
+         "`'${S'`", "`'\\n\\x41'`",
          "`\"a\\\"b'\"`", "`-`", "`--5`", "`True1`", "`if(1)`", "`[ ]`", "`len( )`"]  # fmt: skip
 FUNCTIONS = {"if": (2, 3), "and": (2, 4), "or": (2, 4), "not": (1, 1), "eq": (2, 2), "neq": (2, 2),
              "lt": (2, 2), "leq": (2, 2), "gt": (2, 2), "geq": (2, 2), "contains": (2, 2),
@@ -52,7 +53,8 @@ FUNCTIONS = {"if": (2, 3), "and": (2, 4), "or": (2, 4), "not": (1, 1), "eq": (2,
 
 def text(rng):
     quote = rng.choice("'\"")
-    parts = [rng.choice(["a", "abc", "${S}", "${%s}" % rng.choice(NAMES), "\\${S}", " ", "$", "\\\\"])
+    variable = "${%s}" % rng.choice(NAMES)
+    parts = [rng.choice(["a", "abc", "${S}", variable, "\\${S}", " ", "$", "\\\\"])
              for _ in range(rng.randint(0, 3))]  # fmt: skip
     return quote + "".join(parts) + quote
 
