@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A spline is a row of segments between knots. A Bezier segment is a curve in time and value: its
-// inner control points lie one tangent away from the knots; the parameter of a time is found by
-// bisection, which the monotonic time coordinate allows. A Hermite segment takes the slopes over
+// inner control points lie one tangent away from the knots. A Hermite segment takes the slopes over
 // equal thirds. Before and after the knots the ends say what happens (Core Spec 1.0.1 on splines).
 #include "tenon/stage/evaluate_spline.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 
 #include "tenon/base/limits.h"
@@ -31,18 +31,97 @@ double cubic(double p0, double p1, double p2, double p3, double u) {
   return w * w * w * p0 + 3 * w * w * u * p1 + 3 * w * u * u * p2 + u * u * u * p3;
 }
 
+// The parameter in [0, 1] where a quadratic or a cubic (in power form) is zero: closed forms, as
+// OpenUSD has them, so that where they lose digits (near a vertical tangent) the values still
+// agree.
+double quadratic_zero(double a, double b, double c) {
+  const double root = std::sqrt(b * b - 4 * a * c);
+  const double low = (-b - root) / (2 * a);
+  return low >= 0 && low <= 1 ? low : (-b + root) / (2 * a);
+}
+
+double cubic_zero(double b, double c, double d) {
+  const double p = (3 * c - b * b) / 9;
+  const double q = (2 * b * b * b - 9 * b * c + 27 * d) / 54;
+  const double discriminant = q * q + p * p * p;
+  if (discriminant > 0) {
+    const double root = std::sqrt(discriminant);
+    return std::cbrt(root - q) - std::cbrt(root + q) - b / 3;
+  }
+  if (discriminant == 0) {
+    const double first = -2 * std::cbrt(q) - b / 3;
+    return first >= 0 && first <= 1 ? first : std::cbrt(q) - b / 3;
+  }
+  const double radius = std::sqrt(-p * p * p);
+  const double angle = std::acos(std::clamp(-q / radius, -1.0, 1.0));
+  double zero = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double turned = (angle + 2 * i * std::numbers::pi) / 3;
+    const double candidate = 2 * std::cbrt(radius) * std::cos(turned) - b / 3;
+    zero = candidate >= 0 && candidate <= 1 ? candidate : zero;
+  }
+  return zero;
+}
+
+/// Where a Bezier coordinate with these control points, which only grows, is zero.
+double cubic_parameter(double p0, double p1, double p2, double p3) {
+  constexpr double kTiny = 1e-10;
+  const double a = -p0 + 3 * p1 - 3 * p2 + p3;
+  const double b = 3 * p0 - 6 * p1 + 3 * p2;
+  const double c = -3 * p0 + 3 * p1;
+  double zero = 0;
+  if (std::fabs(a) >= kTiny) {
+    zero = cubic_zero(b / a, c / a, p0 / a);
+  } else if (std::fabs(b) >= kTiny) {
+    zero = quadratic_zero(b, c, p0);
+  } else if (c != 0) {
+    zero = -p0 / c;
+  }
+  return std::clamp(std::isfinite(zero) ? zero : 0.0, 0.0, 1.0);
+}
+
+/// Widths of the two tangents of a segment, in parts of its length.
+struct Widths {
+  double first = 0;
+  double last = 0;
+};
+
+// Tangents so long that the curve would run back in time are shortened, their ratio kept, until it
+// just stands still: there (first, last) lies on the ellipse where the derivative of time has one
+// zero. The paddings are OpenUSD's (Ts regression prevention, "keep ratio").
+Widths without_regression(Widths widths) {
+  constexpr double kReadPadding = 1e-6;
+  constexpr double kWritePadding = 1e-5;
+  if (widths.first <= 1 && widths.last <= 1) {
+    return widths;
+  }
+  const double a = widths.first + kReadPadding;
+  const double b = widths.last + kReadPadding;
+  if (!(a * a + b * b - 2 * (a + b) + a * b + 1 > 0)) {
+    return widths;
+  }
+  if (widths.first < kReadPadding) {
+    return {widths.first, 1 - kWritePadding};
+  }
+  if (widths.last < kReadPadding) {
+    return {1 - kWritePadding, widths.last};
+  }
+  const double ratio = widths.first / widths.last;
+  const double last = (std::sqrt(ratio) + ratio + 1) / (ratio * ratio + ratio + 1);
+  return {ratio * last - kWritePadding, last - kWritePadding};
+}
+
 double curve_value(const Spline& spline, const SplineKnot& a, const SplineKnot& b, double time) {
   const double span = b.time - a.time;
   const bool hermite = spline.curve == layer::SplineCurve::Hermite;
-  const double first = hermite ? span / 3 : std::clamp(a.post_tangent.width, 0.0, span);
-  const double last = hermite ? span / 3 : std::clamp(b.pre_tangent.width, 0.0, span);
-  double low = 0;
-  double high = 1;
-  for (int i = 0; i < 64 && !hermite; ++i) {
-    const double middle = (low + high) / 2;
-    (cubic(a.time, a.time + first, b.time - last, b.time, middle) < time ? low : high) = middle;
-  }
-  const double u = hermite ? (time - a.time) / span : (low + high) / 2;
+  const Widths widths =
+      hermite ? Widths{1.0 / 3, 1.0 / 3}
+              : without_regression({a.post_tangent.width / span, b.pre_tangent.width / span});
+  const double first = widths.first * span;
+  const double last = widths.last * span;
+  const double u = hermite ? (time - a.time) / span
+                           : cubic_parameter(a.time - time, a.time + first - time,
+                                             b.time - last - time, b.time - time);
   return cubic(a.value, a.value + first * a.post_tangent.slope,
                pre_value(b) - last * b.pre_tangent.slope, pre_value(b), u);
 }
@@ -82,12 +161,27 @@ double end_slope(const std::vector<SplineKnot>& knots, bool before) {
 }
 
 Number inside_value(const Spline& spline, const std::vector<SplineKnot>& knots, double time) {
-  const auto after = std::upper_bound(
-      knots.begin(), knots.end(), time,
-      [](double t, const SplineKnot& knot) { return t < knot.time; });
+  const auto after =
+      std::upper_bound(knots.begin(), knots.end(), time,
+                       [](double t, const SplineKnot& knot) { return t < knot.time; });
   const SplineKnot& a = *std::prev(after);
-  return a.time == time || after == knots.end() ? Number(a.value)
-                                                : segment_value(spline, a, *after, time);
+  // At a knot the side after it counts: of the last one that is the extrapolation.
+  const SplineKnot& last = spline.knots.back();
+  const bool is_last = a.time == last.time && a.value == last.value;
+  if (after == knots.end() || (is_last && a.time == time)) {
+    return is_last && spline.post.mode == SplineExtrapolation::None ? Number() : Number(a.value);
+  }
+  return a.time == time && a.next != SplineInterpolation::None
+             ? Number(a.value)
+             : segment_value(spline, a, *after, time);
+}
+
+/// What the segment that ends at `b` comes to there.
+Number value_before(const SplineKnot& a, const SplineKnot& b) {
+  if (a.next == SplineInterpolation::None) {
+    return std::nullopt;
+  }
+  return a.next == SplineInterpolation::Held ? a.value : pre_value(b);
 }
 
 Number looped_value(const Spline& spline, const std::vector<SplineKnot>& knots, double time,
@@ -95,16 +189,27 @@ Number looped_value(const Spline& spline, const std::vector<SplineKnot>& knots, 
   const double start = knots.front().time;
   const double span = knots.back().time - start;
   if (!(span > 0)) {
-    return knots.front().value;
+    return time < start ? pre_value(knots.front()) : knots.front().value;
   }
   const double turns = std::floor((time - start) / span);
   double inner = time - turns * span;
-  if (mode == SplineExtrapolation::LoopOscillate && std::fmod(std::fabs(turns), 2.0) == 1.0) {
+  const bool backwards =
+      mode == SplineExtrapolation::LoopOscillate && std::fmod(std::fabs(turns), 2.0) == 1.0;
+  if (backwards) {
     inner = start + (start + span - inner);
+    if (inner >= start + span) {
+      return value_before(knots[knots.size() - 2], knots.back());
+    }
   }
   Number value = inside_value(spline, knots, std::clamp(inner, start, start + span));
   if (value && mode == SplineExtrapolation::LoopRepeat) {
-    *value += turns * (pre_value(knots.back()) - knots.front().value);
+    // What comes before goes on from the inward sides of the ends.
+    const bool ends_as_written = spline.loop && spline.loop->post_loops == 0 &&
+                                 spline.knots.back().time == knots.back().time;
+    const SplineKnot& last = ends_as_written ? spline.knots.back() : knots.back();
+    const double rise =
+        turns < 0 ? pre_value(last) - pre_value(knots.front()) : last.value - knots.front().value;
+    *value += turns * rise;
   }
   return value;
 }
@@ -138,7 +243,8 @@ std::vector<SplineKnot> unrolled(const Spline& spline) {
       proto.push_back(knot);
     }
   }
-  if (proto.empty() || proto.front().time != loop.start || !(span > 0)) {
+  const bool repeats = loop.pre_loops > 0 || loop.post_loops > 0;
+  if (!repeats || proto.empty() || proto.front().time != loop.start || !(span > 0)) {
     return spline.knots;
   }
   const auto most = static_cast<std::int32_t>(limits::kSplineLoopKnots / proto.size());
@@ -159,8 +265,10 @@ std::vector<SplineKnot> unrolled(const Spline& spline) {
       if (knot.pre_value) {
         *knot.pre_value += turn * loop.value_offset;
       }
-      if (turn <= after || knot.time == last) {
-        result.push_back(knot);
+      result.push_back(knot);
+      if (turn > after) {
+        result.back().time = last;  // the first knot once more ends the loop
+        break;
       }
     }
   }
@@ -201,12 +309,21 @@ layer::Value evaluate_spline(const Spline& spline, double time) {
   if (spline.knots.empty()) {
     return {};
   }
-  const std::vector<SplineKnot> knots = spline.loop ? unrolled(spline) : spline.knots;
+  std::vector<SplineKnot> knots = spline.loop ? unrolled(spline) : spline.knots;
   Number value;
   if (time < knots.front().time) {
-    value = outside_value(spline, knots, time, true);
-  } else if (time > knots.back().time) {
-    value = outside_value(spline, knots, time, false);
+    const SplineKnot& first = spline.knots.front();
+    const bool as_written = spline.pre.mode <= SplineExtrapolation::Sloped && spline.loop &&
+                            first.time == knots.front().time &&
+                            (spline.loop->pre_loops == 0 || first.time < spline.loop->start);
+    value = outside_value(spline, as_written ? spline.knots : knots, time, true);
+  } else if (time > knots.back().time ||
+             (time == knots.back().time && spline.post.mode > SplineExtrapolation::Sloped)) {
+    const SplineKnot& last = spline.knots.back();
+    const bool as_written = spline.post.mode <= SplineExtrapolation::Sloped && spline.loop &&
+                            last.time == knots.back().time &&
+                            (spline.loop->post_loops == 0 || last.time > spline.loop->end);
+    value = outside_value(spline, as_written ? spline.knots : knots, time, false);
   } else {
     value = inside_value(spline, knots, time);
   }

@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Compares the values of random splines with OpenUSD's, at knots, between and outside of them.
+Needs OpenUSD's Python modules.
+
+usage: splines.py SAMPLE_SPLINES [SEED COUNT]
+
+SAMPLE_SPLINES is built from tests/tools. Values agree within 1e-6 of the spline's largest value
+(float and half: within their own precision).
+"""
+
+import os
+import random
+import subprocess
+import sys
+import tempfile
+
+try:
+    from pxr import Sdf, Tf
+except ImportError:
+    print("skipped: no OpenUSD modules in this Python")
+    sys.exit(77)
+
+TOLERANCE = {"double": 1e-6, "timecode": 1e-6, "float": 2e-6, "half": 2e-3}
+
+
+def number(rng, low, high):
+    return round(rng.uniform(low, high), rng.choice([0, 1, 3]))
+
+
+def extrapolation(rng):
+    mode = rng.choice(["held", "linear", "sloped", "loop repeat", "loop reset", "loop oscillate",
+                       "none"])  # fmt: skip
+    return f"sloped({number(rng, -3, 3)})" if mode == "sloped" else mode
+
+
+def tangent(rng, is_bezier, longest):
+    slope = number(rng, -4, 4)
+    return f"({number(rng, 0, longest)}, {slope})" if is_bezier else f"({slope})"
+
+
+def spline(rng):
+    is_bezier = rng.random() < 0.7
+    lines = ["bezier," if is_bezier else "hermite,"]
+    ends = [extrapolation(rng) for _ in range(2)]
+    if any("loop" in end for end in ends):
+        # OpenUSD rounds the time of a loop's end to one outside of the other end.
+        ends = ["held" if end == "none" else end for end in ends]
+    lines += [f"{side}: {end}," for side, end in zip(("pre", "post"), ends) if rng.random() < 0.7]
+    times = sorted({number(rng, -10, 30) for _ in range(rng.randint(1, 6))})
+    if len(times) > 2 and rng.random() < 0.25:
+        start = rng.randrange(len(times) - 1)
+        end = rng.choice(times[start + 1 :]) + rng.choice([0, 0.5])
+        counts = f"{rng.randint(0, 2)}, {rng.randint(0, 2)}"
+        lines.append(f"loop: ({times[start]}, {end}, {counts}, {number(rng, -2, 2)}),")
+    longest = rng.choice([2, 6, 25])
+    before = "curve"
+    for time in times:
+        pre = f"{number(rng, -9, 9)} & " if rng.random() < 0.2 else ""
+        after = rng.choice(["curve"] * 5 + ["linear", "held", "none"])
+        line = f"{time}: {pre}{number(rng, -9, 9)}"
+        if before == "curve":
+            line += f"; pre {tangent(rng, is_bezier, longest)}"
+        line += f"; post {after}"
+        line += f" {tangent(rng, is_bezier, longest)}" if after == "curve" else ""
+        lines.append(line + ",")
+        before = after
+    return "\n".join(lines), times
+
+
+def sample_times(rng, all_times):
+    knots = rng.sample(sorted(all_times), min(40, len(all_times)))
+    return sorted(set(knots + [round(rng.uniform(-80, 110), 4) for _ in range(150)]))
+
+
+def expected_values(curve, times):
+    """None where OpenUSD fails."""
+    try:
+        return [curve.Eval(t) for t in times]
+    except Tf.ErrorException:
+        return None
+
+
+def agrees(curve, time, theirs, ours, tolerance):
+    """Where the curve is so steep that rounding the time shows, that much more is allowed."""
+    if theirs is None or ours == "none":
+        return theirs is None and ours == "none"
+    difference = abs(float(ours) - theirs)
+    if difference <= tolerance:
+        return True
+    beside = [curve.Eval(time + i * 1e-9) for i in range(-8, 9)]
+    return difference <= tolerance + max([abs(v - theirs) for v in beside if v is not None] + [0])
+
+
+def main():
+    program = sys.argv[1]
+    seed, count = (int(a) for a in sys.argv[2:4]) if len(sys.argv) > 3 else (1, 600)
+    rng = random.Random(seed)
+    text, all_times, kinds = ["#usda 1.0", 'def "A" {'], set(), {}
+    for i in range(count):
+        body, times = spline(rng)
+        kinds[f"/A.s{i}"] = kind = rng.choice(["double", "double", "float", "half", "timecode"])
+        text += [f"{kind} s{i}.spline = {{", body, "}"]
+        all_times.update(times)
+    times = sample_times(rng, all_times)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "splines.usda")
+        with open(path, "w", encoding="utf-8") as out:
+            out.write("\n".join(text) + "\n}\n")
+        command = [program, path] + [repr(t) for t in times]
+        run = subprocess.run(command, capture_output=True, text=True, check=True)
+        layer = Sdf.Layer.FindOrOpen(path)
+    differences, compared, failures = {}, 0, 0
+    for line in run.stdout.splitlines():
+        attribute, *values = line.split(" ")
+        curve = layer.GetAttributeAtPath(attribute).GetSpline()
+        expected = expected_values(curve, times)
+        if expected is None:
+            failures += 1
+            continue
+        size = max([1.0] + [abs(v) for v in expected if v is not None])
+        for time, ours, theirs in zip(times, values, expected, strict=True):
+            compared += 1
+            if not agrees(curve, time, theirs, ours, TOLERANCE[kinds[attribute]] * size):
+                differences.setdefault(attribute, []).append((time, theirs, ours))
+    for attribute, found in list(differences.items())[:4]:
+        at = text.index(f"{kinds[attribute]} {attribute[3:]}.spline = {{")
+        print("\n".join(text[at : at + 3]))
+        print("time, OpenUSD, tenon:", found[:6])
+    print(
+        f"{len(kinds)} splines, {compared} values compared, {len(differences)} splines differ, "
+        f"OpenUSD fails on {failures}"
+    )
+    return 1 if differences or compared < count else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
