@@ -305,28 +305,43 @@ layer::Spline moved_spline(Spline spline, const layer::LayerOffset& offset) {
   return spline;
 }
 
+namespace {
+
+// Extrapolation goes on from the knots as they are written, where no copies of a loop stand beyond
+// them; repetition goes on from the copies.
+Number value_beyond(const Spline& spline, const std::vector<SplineKnot>& knots, double time,
+                    bool before) {
+  const SplineEnd& end = before ? spline.pre : spline.post;
+  if (!spline.loop || end.mode > SplineExtrapolation::Sloped) {
+    return outside_value(spline, knots, time, before);
+  }
+  const layer::SplineLoop& loop = *spline.loop;
+  const SplineKnot& knot = before ? spline.knots.front() : spline.knots.back();
+  const bool is_outermost = knot.time == (before ? knots.front() : knots.back()).time;
+  const bool is_alone = before ? loop.pre_loops == 0 || knot.time < loop.start
+                               : loop.post_loops == 0 || knot.time > loop.end;
+  return outside_value(spline, is_outermost && is_alone ? spline.knots : knots, time, before);
+}
+
+Number value_at_time(const Spline& spline, double time) {
+  const std::vector<SplineKnot> knots = spline.loop ? unrolled(spline) : spline.knots;
+  const bool repeats_after = spline.post.mode > SplineExtrapolation::Sloped;
+  if (time < knots.front().time) {
+    return value_beyond(spline, knots, time, true);
+  }
+  if (time > knots.back().time || (time == knots.back().time && repeats_after)) {
+    return value_beyond(spline, knots, time, false);
+  }
+  return inside_value(spline, knots, time);
+}
+
+}  // namespace
+
 layer::Value evaluate_spline(const Spline& spline, double time) {
   if (spline.knots.empty()) {
     return {};
   }
-  std::vector<SplineKnot> knots = spline.loop ? unrolled(spline) : spline.knots;
-  Number value;
-  if (time < knots.front().time) {
-    const SplineKnot& first = spline.knots.front();
-    const bool as_written = spline.pre.mode <= SplineExtrapolation::Sloped && spline.loop &&
-                            first.time == knots.front().time &&
-                            (spline.loop->pre_loops == 0 || first.time < spline.loop->start);
-    value = outside_value(spline, as_written ? spline.knots : knots, time, true);
-  } else if (time > knots.back().time ||
-             (time == knots.back().time && spline.post.mode > SplineExtrapolation::Sloped)) {
-    const SplineKnot& last = spline.knots.back();
-    const bool as_written = spline.post.mode <= SplineExtrapolation::Sloped && spline.loop &&
-                            last.time == knots.back().time &&
-                            (spline.loop->post_loops == 0 || last.time > spline.loop->end);
-    value = outside_value(spline, as_written ? spline.knots : knots, time, false);
-  } else {
-    value = inside_value(spline, knots, time);
-  }
+  const Number value = value_at_time(spline, time);
   if (!value) {
     return {};
   }
