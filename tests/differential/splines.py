@@ -36,7 +36,8 @@ def extrapolation(rng):
 
 def tangent(rng, is_bezier, longest):
     slope = number(rng, -4, 4)
-    return f"({number(rng, 0, longest)}, {slope})" if is_bezier else f"({slope})"
+    algorithm = rng.choice([""] * 8 + [", autoEase", ", custom"])
+    return f"({number(rng, 0, longest)}, {slope}{algorithm})" if is_bezier else f"({slope})"
 
 
 def spline(rng):

@@ -6,6 +6,7 @@
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/property_reader.h"
 #include "tenon/formats/text/value_reader.h"
+#include "tenon/layer/ease_tangents.h"
 #include "tenon/layer/spline.h"
 
 namespace tenon::formats::text {
@@ -32,6 +33,7 @@ class SplineReader {
                     read_items(cursor_, '}', "of the spline", [&] { return read_item(spline); });
     if (ok) {
       sort_knots(spline.knots);
+      layer::ease_tangents(spline);
     }
     return ok;
   }
