@@ -1,46 +1,50 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Input: lines with a path, an anchor and a path expression (the rest). What an expression matches,
-// it matches each time and in parentheses.
+// Input: lines with a prefix, an anchor and a path expression (the rest). The text that a tree gives
+// is read as the same text; taken from the anchor and with paths mapped it can be read as well.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 
 #include "fuzz/taken_bytes.h"
-#include "tenon/stage/collection.h"
+#include "tenon/layer/path_expression.h"
 
 namespace {
 
-// Text that means the same alone and within other text.
-bool is_whole(const std::string& text) {
-  int depth = 0;
-  for (const char c : text) {
-    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-    if (depth < 0) {
-      return false;
-    }
+using tenon::Path;
+using tenon::layer::PathExpressionTree;
+
+/// The tree that the text of `tree` gives; its text must be the same.
+PathExpressionTree read_again(const PathExpressionTree& tree) {
+  const std::string text = tree.text();
+  auto again = PathExpressionTree::parse(text);
+  if (!again || again->text() != text) {
+    std::abort();
   }
-  return depth == 0 && text.find_first_of("{}[]%\"'") == std::string::npos;
+  return *std::move(again);
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   tenon::fuzz::TakenBytes input(data, size);
-  const tenon::Path path = tenon::Path::from(input.until('\n'));
-  const tenon::Path anchor = tenon::Path::from(input.until('\n'));
-  const std::string expression(input.rest());
-  if (!path.is_absolute() || !anchor.is_absolute() || !(path.is_prim() || path.is_property())) {
+  const Path prefix = Path::from(input.until('\n'));
+  const Path anchor = Path::from(input.until('\n'));
+  const auto parsed = PathExpressionTree::parse(input.rest());
+  if (!parsed) {
     return 0;
   }
-  const bool matches = tenon::stage::expression_matches(expression, anchor, path);
-  if (matches != tenon::stage::expression_matches(expression, anchor, path)) {
-    std::abort();
+  PathExpressionTree tree = read_again(*parsed);
+  if (anchor.is_absolute() && anchor.is_prim()) {
+    tree.make_absolute(anchor);
+    tree = read_again(tree);
   }
-  if (matches && is_whole(expression) &&
-      !tenon::stage::expression_matches("(" + expression + ")", anchor, path)) {
-    std::abort();
+  if (prefix.is_absolute() && prefix.is_prim()) {
+    read_again(tree.mapped([&](Path path) { return path.has_prefix(prefix) ? prefix : Path(); }));
+  }
+  if (const auto composed = tree.composed_over(*parsed)) {
+    read_again(*composed);
   }
   return 0;
 }

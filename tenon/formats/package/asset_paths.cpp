@@ -160,7 +160,8 @@ bool rename_assets(layer::Layer& layer, const RenameAsset& rename) {
   }
   bool any = false;
   for (const Path path : paths) {
-    const std::vector<layer::Field> all = layer.find(path)->fields();
+    const auto fields = layer.find(path)->fields();
+    const std::vector<layer::Field> all(fields.begin(), fields.end());  // `set` moves them
     for (const layer::Field& field : all) {
       if (!may_hold_assets(field.name, field.value)) {
         continue;
