@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Input: lines with a prefix, an anchor and a path expression (the rest). The text that a tree gives
-// is read as the same text; taken from the anchor and with paths mapped it can be read as well.
+// Input: lines with a prefix, an anchor and a path expression (the rest). The text that a tree
+// gives is read as the same text; taken from the anchor and with paths mapped it can be read too.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
