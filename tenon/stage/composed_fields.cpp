@@ -26,7 +26,7 @@ struct Place {
 std::string anchored_path(const layer::Layer& layer, const std::string& path,
                           const std::string& resolved) {
   const std::string& identifier = layer.identifier();
-  if (identifier.find('[') != std::string::npos) {
+  if (identifier.find('[') != std::string::npos || identifier.ends_with(".usdz")) {
     return resolved.empty() ? path : resolved;
   }
   if (identifier.empty() || identifier.front() != '/' || path.empty() || path.front() == '/') {
