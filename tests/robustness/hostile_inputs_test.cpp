@@ -14,6 +14,7 @@
 #include "tenon/bytes/integer_coding.h"
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/open_layer.h"
+#include "tenon/layer/field_values.h"
 #include "tests/robustness/measured_child.h"
 #include "tests/robustness/open_input.h"
 
@@ -300,6 +301,28 @@ TEST(HostileCrate, OneArrayThatManySamplesShareIsDecodedOnce) {
   ASSERT_TRUE(layer);
   const auto crate = formats::write_crate(*layer);
   ASSERT_TRUE(crate);
+  expect_bounded(*crate, Expected::Accepted);
+}
+
+/// Samples of a mesh that does not move name one array of the file, which costs no memory.
+TEST(HostileCrate, OneArrayOfPointsThatManySamplesShareIsRead) {
+  const layer::Value points(std::vector<Vec3f>(100'000, Vec3f{1, 2, 3}));
+  layer::TimeSamples samples;
+  for (int i = 0; i < 1000; ++i) {
+    samples.set(i, points);
+  }
+  layer::Layer layer("points");
+  const Path prim = Path::absolute_root().child(Token("A"));
+  layer.root().set("primChildren", std::vector<Token>{Token("A")});
+  layer::Spec& spec = layer.create(prim, layer::SpecKind::Prim);
+  spec.set("specifier", layer::Specifier::Def);
+  spec.set("properties", std::vector<Token>{Token("p")});
+  layer::Spec& attribute = layer.create(prim.property(Token("p")), layer::SpecKind::Attribute);
+  attribute.set("typeName", Token("point3f[]"));
+  attribute.set("timeSamples", samples);
+  const auto crate = formats::write_crate(layer);
+  ASSERT_TRUE(crate);
+  ASSERT_LT(crate->size(), 2'000'000u);
   expect_bounded(*crate, Expected::Accepted);
 }
 

@@ -191,8 +191,7 @@ Result<Value> read_array_of(const std::shared_ptr<const CrateFile>& file, ValueW
     return Value(Array<T>());
   }
   TENON_TRY(const ArrayHeader header, read_header<T>(*file, word));
-  const std::uint64_t size = header.count * sizeof(std::conditional_t<kIsText<T>, void*, T>);
-  TENON_CHECK(budget.spend_bytes(size));
+  TENON_CHECK(budget.spend(1));
   if (!header.packed && header.count <= kSmallArray / sizeof(T)) {
     return decode<T>(*file, header, budget);
   }
@@ -202,6 +201,8 @@ Result<Value> read_array_of(const std::shared_ptr<const CrateFile>& file, ValueW
       return Value(Array<T>::borrow(span, file->bytes));
     }
   }
+  const std::uint64_t size = header.count * sizeof(std::conditional_t<kIsText<T>, void*, T>);
+  TENON_CHECK(budget.spend_bytes(size));
   return Value::deferred(layer::ValueTraits<T>::type,
                          std::make_unique<CrateArray<T>>(file, header));
 }
