@@ -140,7 +140,8 @@ def export(source, target):
 
 
 def tree(file):
-    for prim in Usd.Stage.Open(file).Traverse():
+    stage = Usd.Stage.Open(file)  # kept: a range does not keep its stage
+    for prim in stage.Traverse():
         print(prim.GetName())
     return 0
 
