@@ -87,14 +87,14 @@ def compose(report, file, _):
 def asset(report, file, dumper):
     stage = report.time("open", lambda: Usd.Stage.Open(file))
     time_attributes(report, time_traverse(report, stage, WITH_PROXIES))
-    report.time("flatten", lambda: stage.Flatten().ExportToString())
+    report.time("flatten", lambda: stage.Flatten(addSourceFileComment=False).ExportToString())
     if dumper:
         report.time("dump", lambda: dumper(stage))
 
 
 def flatten(report, file, _):
     stage = report.time("open", lambda: Usd.Stage.Open(file))
-    layer = report.time("flatten", stage.Flatten)
+    layer = report.time("flatten", lambda: stage.Flatten(addSourceFileComment=False))
     text = report.time("export", layer.ExportToString)
     report.counts["bytes"] = len(text.encode())
 
