@@ -19,6 +19,7 @@ inline constexpr std::size_t kCacheNodes = 20'000'000;     ///< nodes of all pri
 inline constexpr std::size_t kArcChainDepth = 1000;        ///< arcs from the root to one node
 inline constexpr std::size_t kNestedIndices = 100;         ///< indices built within one another
 inline constexpr std::size_t kExpressionDepth = 100;       ///< calls and lists of an expression
+inline constexpr std::size_t kExpressionWork = 1u << 16;   ///< characters and items by variables
 inline constexpr std::size_t kExpressionVariables = 10'000;  ///< variables that are expressions
 inline constexpr std::size_t kExpressionNodes = 100'000;   ///< parts of a composed path expression
 inline constexpr std::size_t kCollectionVisits = 10'000;   ///< collections read for one

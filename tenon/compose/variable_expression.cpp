@@ -126,10 +126,22 @@ class Evaluator {
       return {};
     }
     Evaluated result;
+    if (work_ > limits::kExpressionWork) {
+      return too_much();
+    }
     if (!convert(*value, result.value)) {
       return failed("variable '" + name + "' has a type that expressions do not know");
     }
-    return is_expression(result.value) ? nested(name, result.value.text) : result;
+    if (is_expression(result.value)) {
+      result = nested(name, result.value.text);
+    }
+    work_ += result.value.text.size() + result.value.items.size();
+    return work_ > limits::kExpressionWork ? too_much() : result;
+  }
+
+  static Evaluated too_much() {
+    return failed("the variables make more than " + std::to_string(limits::kExpressionWork) +
+                  " characters and items");
   }
 
   static bool is_expression(const ExpressionValue& value) {
@@ -351,6 +363,7 @@ class Evaluator {
   std::set<std::string>& used_;
   std::vector<std::string> open_;
   std::size_t evaluations_ = 0;
+  std::size_t work_ = 0;  ///< characters and items that variables gave
 };
 
 template <class T, class Get>

@@ -71,6 +71,17 @@ TEST(VariableExpression, StopsWhereVariablesMultiply) {
   EXPECT_NE(evaluate_text("`${V0}`", doubling).errors, "");
 }
 
+TEST(VariableExpression, StopsWhereVariablesAreLong) {
+  layer::Dictionary long_text;
+  long_text.items["V"] = std::string(1000, 'x');
+  std::string many = "`'";
+  for (int i = 0; i < 60; ++i) {
+    many += "${V}";
+  }
+  EXPECT_EQ(evaluate_text(many + "'`", long_text).text.size(), 60000u);
+  EXPECT_NE(evaluate_text(many + "${V}${V}${V}${V}${V}${V}'`", long_text).errors, "");
+}
+
 TEST(VariableExpression, ValuesHaveTypes) {
   const auto value = [](const char* text) { return evaluate_expression(text, variables()).value; };
   EXPECT_EQ(value("`len(${LIST})`"), layer::Value(std::int64_t{2}));
