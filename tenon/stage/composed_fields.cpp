@@ -38,6 +38,17 @@ std::string anchored_path(const layer::Layer& layer, const std::string& path,
   return relative || joined == resolved ? joined : path;
 }
 
+}  // namespace
+
+std::string anchored_asset(const StageData& stage, const layer::Layer& layer,
+                           const std::string& path) {
+  const std::string resolved =
+      stage.options.resolve_asset ? stage.options.resolve_asset(path, layer) : std::string();
+  return anchored_path(layer, path, resolved);
+}
+
+namespace {
+
 layer::AssetPath resolved(const Place& place, const layer::AssetPath& asset) {
   const compose::PrimIndex& index = *place.prim.index;
   layer::AssetPath result = asset;

@@ -44,6 +44,10 @@ enum class AssetForm : unsigned char { Resolved, Anchored };
 layer::Value localize(const StageData& stage, const PrimData& prim, const compose::Opinion& opinion,
                       const layer::Value& value, AssetForm form = AssetForm::Resolved);
 
+/// A path authored in `layer`, not empty, so that it means the same wherever it is written.
+std::string anchored_asset(const StageData& stage, const layer::Layer& layer,
+                           const std::string& path);
+
 /// Opinions on the stage itself: of the session layer and the root layer.
 std::vector<compose::Opinion> root_opinions(const StageData& stage);
 

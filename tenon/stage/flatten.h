@@ -12,7 +12,8 @@ namespace tenon::stage {
 /// prims `/Flattened_Prototype_N` that their instances reference.
 layer::Layer flatten(const Stage& stage);
 
-/// The root layer and its sublayers as one layer; references and other arcs stay.
+/// The session layer, the root layer and their sublayers as one layer; references and other arcs
+/// stay. Fields that no schema knows are left out.
 layer::Layer flatten_layer_stack(const Stage& stage);
 
 }  // namespace tenon::stage

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Layers are laid over each other from the weakest to the strongest, field by field. Times move
-// by the offset of their layer, asset paths become what they resolve to. A stronger default hides
-// weaker samples, as value resolution would.
+// Layers are laid over each other from the weakest to the strongest, field by field. A stronger
+// default hides weaker samples, as value resolution would.
 #include <algorithm>
 
 #include "tenon/layer/fold_list_ops.h"
 #include "tenon/stage/flatten.h"
+#include "tenon/stage/moved_to_stack.h"
 #include "tenon/stage/stage_data.h"
 
 namespace tenon::stage {
@@ -107,82 +107,37 @@ Value composed(Token field, Value stronger, const Value& weaker) {
                         weaker.get<layer::VariantSelections>()->items.end());
     return merged;
   }
+  const auto* relocates = stronger.get<layer::Relocates>();
+  if (relocates != nullptr && weaker.holds<layer::Relocates>()) {
+    layer::Relocates both = *relocates;
+    const auto& below = weaker.get<layer::Relocates>()->pairs;
+    both.pairs.insert(both.pairs.end(), below.begin(), below.end());
+    return both;
+  }
   combine_any_lists(stronger, weaker, ListItems());
   return stronger;
 }
 
-// Values of one layer in the time and from the place of the flattened one.
-class Mover {
- public:
-  Mover(const StageData& stage, const compose::StackedLayer& layer)
-      : stage_(stage), layer_(*layer.layer), offset_(layer.offset) {}
-
-  Value moved(const Value& value) const {
-    if (const auto* asset = value.get<layer::AssetPath>()) {
-      return layer::AssetPath{located(asset->authored), {}, {}};
-    }
-    if (const auto* assets = value.get<std::vector<layer::AssetPath>>()) {
-      std::vector<layer::AssetPath> result;
-      for (const layer::AssetPath& asset : *assets) {
-        result.push_back({located(asset.authored), {}, {}});
-      }
-      return result;
-    }
-    if (const auto* dictionary = value.get<layer::Dictionary>()) {
-      layer::Dictionary result;
-      for (const auto& [key, item] : dictionary->items) {
-        result.items.emplace(key, moved(item));
-      }
-      return result;
-    }
-    if (const auto* time = value.get<layer::TimeCode>()) {
-      return layer::TimeCode{offset_.apply(time->value)};
-    }
-    if (const auto* samples = value.get<layer::TimeSamples>()) {
-      return moved_samples(*samples);
-    }
-    if (const auto* references = value.get<ListOp<layer::Reference>>()) {
-      return moved_arcs(*references);
-    }
-    const auto* payloads = value.get<ListOp<layer::Payload>>();
-    return payloads == nullptr ? value : Value(moved_arcs(*payloads));
+// Each layer orders the children that it and weaker ones name.
+void order_children(const Spec& layer_spec, Spec& merged) {
+  const std::vector<Token>& order = layer::Layer::children(layer_spec, fields::primOrder);
+  if (order.empty()) {
+    return;
   }
+  std::vector<Token> names = layer::Layer::children(merged, fields::primChildren);
+  ListOp<Token> edit;
+  edit.ordered = order;
+  edit.apply_to(names);
+  merged.set(fields::primChildren, std::move(names));
+}
 
- private:
-  std::string located(const std::string& asset) const {
-    std::string found;
-    if (!asset.empty() && stage_.options.resolve_asset) {
-      found = stage_.options.resolve_asset(asset, layer_);
-    }
-    return found.empty() ? asset : found;
-  }
+// Values of attributes stay even where nobody knows their type.
+bool is_dropped(const layer::Field& field) {
+  return field.name == fields::subLayers || field.name == fields::subLayerOffsets ||
+         (field.value.holds<layer::UnregisteredValue>() && field.name != fields::default_value);
+}
 
-  layer::TimeSamples moved_samples(const layer::TimeSamples& samples) const {
-    layer::TimeSamples result;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      result.set(offset_.apply(samples.times[i]), moved(samples.values[i]));
-    }
-    return result;
-  }
-
-  template <class T>
-  ListOp<T> moved_arcs(ListOp<T> op) const {
-    for (auto* list :
-         {&op.explicit_items, &op.prepended, &op.appended, &op.deleted, &op.added, &op.ordered}) {
-      for (T& arc : *list) {
-        arc.offset = offset_ * arc.offset;
-        arc.asset_path = arc.asset_path.empty() ? arc.asset_path : located(arc.asset_path);
-      }
-    }
-    return op;
-  }
-
-  const StageData& stage_;
-  const layer::Layer& layer_;
-  layer::LayerOffset offset_;
-};
-
-void lay_over(layer::Layer& result, const layer::Layer::Entry& entry, const Mover& mover) {
+void lay_over(layer::Layer& result, const layer::Layer::Entry& entry, const StackMover& mover) {
   const Spec* weaker = result.find(entry.path);
   Spec merged = weaker == nullptr ? Spec() : *weaker;
   merged.kind = entry.spec.kind;
@@ -190,17 +145,20 @@ void lay_over(layer::Layer& result, const layer::Layer::Entry& entry, const Move
     merged.erase(fields::timeSamples);
     merged.erase(fields::spline);
   }
+  // Every property says whether it is custom, if only by silence.
+  merged.erase(fields::custom);
   for (const layer::Field& field : entry.spec.fields()) {
-    if (field.name == fields::subLayers || field.name == fields::subLayerOffsets) {
+    if (is_dropped(field)) {
       continue;
     }
     const Value* below = merged.find(field.name);
-    Value value = combinable(mover.moved(field.value), ListItems());
+    Value value = combinable(mover.moved(field.name, field.value), ListItems());
     if (below != nullptr) {
       value = composed(field.name, std::move(value), *below);
     }
     merged.set(field.name, std::move(value));
   }
+  order_children(entry.spec, merged);
   result.create(entry.path, entry.spec.kind) = std::move(merged);
 }
 
@@ -209,23 +167,11 @@ void lay_over(layer::Layer& result, const layer::Layer::Entry& entry, const Move
 layer::Layer flatten_layer_stack(const Stage& stage) {
   layer::Layer result("anon:flattened.usda");
   const compose::LayerStack& stack = stage.layer_stack();
-  const auto root = std::find_if(stack.layers.begin(), stack.layers.end(), [&](const auto& item) {
-    return item.layer.get() == &stage.root_layer();
-  });
-  for (auto item = stack.layers.end(); item != root;) {
-    --item;
-    const Mover mover(stage.data(), *item);
-    // Metadata of the stage is the root layer's alone.
+  for (auto item = stack.layers.rbegin(); item != stack.layers.rend(); ++item) {
+    const StackMover mover(stage.data(), *item);
     for (const layer::Layer::Entry& entry : item->layer->entries()) {
-      if (entry.path.empty()) {
-        continue;
-      }
-      if (!entry.path.is_absolute_root() || item == root) {
+      if (!entry.path.empty()) {
         lay_over(result, entry, mover);
-      } else {
-        const std::vector<Token>& names = layer::Layer::children(entry.spec, fields::primChildren);
-        const Value below = layer::Layer::children(result.root(), fields::primChildren);
-        result.root().set(fields::primChildren, composed(fields::primChildren, names, below));
       }
     }
   }

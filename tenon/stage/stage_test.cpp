@@ -291,8 +291,8 @@ TEST(Prim, LegacyListEditsDoNotCombineInMetadata) {
 TEST(Attribute, InterpolationMayBeHeld) {
   StageOptions options;
   options.interpolation = Interpolation::Held;
-  const Stage stage = open_text(
-      {{"root", R"(def "A" { double x.timeSamples = { 0: 1, 10: 2 } })"}}, std::move(options));
+  const Stage stage = open_text({{"root", R"(def "A" { double x.timeSamples = { 0: 1, 10: 2 } })"}},
+                                std::move(options));
   EXPECT_EQ(at(stage, "/A").attribute("x").get_as<double>(9.0), 1.0);
 }
 
@@ -485,6 +485,49 @@ over "A" (delete apiSchemas = ["d", "x"]; append apiSchemas = ["z"]; append inhe
   EXPECT_EQ(inherits.appended,
             (std::vector<Path>{Path::from("/D"), Path::from("/E"), Path::from("/C")}));
   EXPECT_TRUE(inherits.added.empty() && inherits.ordered.empty());
+}
+
+TEST(Flatten, LayersOfAStackKeepTheirTimesOrdersAndPlaces) {
+  const Stage stage = open_text({{"root", R"((
+    subLayers = [@sub@ (offset = 10; scale = 2)]
+)
+over "A" {
+    reorder nameChildren = ["y", "x"]
+    double p
+}
+)"},
+                                 {"sub", R"((
+    customLayerData = { int weak = 1 }
+    unknownField = 3
+)
+def "A" (
+    references = @`"a.usda"`@</R>
+    customData = { timecode t = 5 }
+    clips = { dictionary default = { double2[] times = [(0, 0), (5, 1)] } }
+) {
+    timecode[] times = [1, 2]
+    asset broken = @`"bad`@
+    custom double p
+    def "x" {}
+    def "y" {}
+})"}});
+  const layer::Layer flat = flatten_layer_stack(stage);
+  EXPECT_FALSE(flat.root().has("unknownField"));
+  EXPECT_TRUE(flat.root().has("customLayerData"));
+  const layer::Spec& a = *flat.find(Path::from("/A"));
+  EXPECT_EQ(a.get<layer::ListOp<layer::Reference>>("references")->explicit_items.at(0).asset_path,
+            "a.usda");
+  EXPECT_EQ(a.get<layer::Dictionary>("customData")->find("t")->get<layer::TimeCode>()->value, 20);
+  const auto& clips = *a.get<layer::Dictionary>("clips")->find("default")->get<layer::Dictionary>();
+  const auto& times = *clips.find("times")->get<layer::Array<Vec2d>>();
+  EXPECT_EQ(times[1][0], 20);
+  EXPECT_EQ(times[1][1], 1);
+  EXPECT_EQ(layer::Layer::children(a, "primChildren"), (std::vector<Token>{"y", "x"}));
+  const auto* codes =
+      flat.find(Path::from("/A.times"))->get<layer::Array<layer::TimeCode>>("default");
+  EXPECT_EQ((*codes)[1].value, 14);
+  EXPECT_EQ(*flat.find(Path::from("/A.broken"))->find("default"), layer::Value(layer::AssetPath()));
+  EXPECT_FALSE(flat.find(Path::from("/A.p"))->get_or("custom", false));
 }
 
 }  // namespace

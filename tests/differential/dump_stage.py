@@ -207,9 +207,10 @@ def known_misses(suites):
     return {name for name in measured.read_misses(MISSES) if name.split()[0] in suites}
 
 
-def report(results, known, show, is_whole):
-    """Prints misses and counts; true when they are the known ones. Those of all suites are noted
-    for CONFORMANCE.md."""
+def report(results, known, show, record_as=None, reasons=None):
+    """Prints misses and counts; true when they are the known ones. `record_as`: the name of the
+    record and what its rows count, when they are to be noted for CONFORMANCE.md; `reasons`: of the
+    known misses."""
     missed = {name for name, lines in results.items() if lines}
     for name in sorted(missed - known if not show else missed):
         print(f"MISS {name}")
@@ -221,11 +222,12 @@ def report(results, known, show, is_whole):
     for suite in sorted({name.split()[0] for name in results}):
         ran = [n for n, lines in results.items() if n.split()[0] == suite and lines is not None]
         equal = len([name for name in ran if name not in missed])
-        figures.append((f"stage dumps: {suite}", equal, len(ran)))
+        figures.append((suite, equal, len(ran)))
         print(f"{suite}: {equal} of {len(ran)} equal")
-    if is_whole:
-        reasons = measured.read_misses(MISSES)
-        measured.record("dump", figures, {name: reasons[name] for name in missed & known})
+    if record_as:
+        record, label = record_as
+        rows = [(f"{label}: {suite}", equal, total) for suite, equal, total in figures]
+        measured.record(record, rows, {name: reasons[name] for name in missed & known})
     return not (missed - known) and not (known & set(results) - missed)
 
 
@@ -252,7 +254,9 @@ def main():
         os.makedirs(folder, exist_ok=True)
         cases = collect(suites, folder)
         results = {c.name: judge(module, arguments.tenon, c, folder) for c in cases}
-    return 0 if report(results, known_misses(suites), arguments.show, not arguments.suite) else 1
+    record_as = None if arguments.suite else ("dump", "stage dumps")
+    known, reasons = known_misses(suites), measured.read_misses(MISSES)
+    return 0 if report(results, known, arguments.show, record_as, reasons) else 1
 
 
 if __name__ == "__main__":
