@@ -65,6 +65,7 @@ class StageDump {
     folder_ = std::filesystem::path(file_of(stage.root_layer().identifier())).parent_path();
     style_.full_arrays = options.full_arrays;
     style_.path_text = [this](Path path) { return path_text(path); };
+    style_.expression_text = [this](const std::string& text) { return expression_text(text); };
     style_.file_text = [this](const std::string& file) { return relative(file); };
     prims_ = traverse(stage.pseudo_root(), true);
     name_prototypes();
@@ -117,6 +118,20 @@ class StageDump {
       }
     }
     return text;
+  }
+
+  std::string expression_text(std::string_view text) const {
+    constexpr std::string_view kPrototype = "/__Prototype_";
+    std::string result;
+    for (std::size_t at = text.find(kPrototype); at != text.npos; at = text.find(kPrototype)) {
+      const std::size_t end = text.find_first_not_of("0123456789", at + kPrototype.size());
+      const auto it = prototype_names_.find(std::string(text.substr(at, end - at)));
+      const std::size_t length = std::min(end, text.size());
+      result += text.substr(0, at);
+      result += it == prototype_names_.end() ? text.substr(at, length - at) : it->second;
+      text.remove_prefix(length);
+    }
+    return result += text;
   }
 
   void name_prototypes() {

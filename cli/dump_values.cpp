@@ -68,7 +68,7 @@ struct ValueWriter {
   void write(const layer::PathExpression& x) {
     json.begin_object();
     json.key("$pathExpression");
-    json.string(x.text);
+    json.string(style.expression_text(x.text));
     json.end_object();
   }
   template <class T, std::size_t N>

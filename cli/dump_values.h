@@ -16,6 +16,8 @@ struct ValueStyle {
   std::size_t full_arrays = 256;
   /// A path in the stage as text; prototypes by the name of their first user.
   std::function<std::string(Path)> path_text;
+  /// A path expression likewise.
+  std::function<std::string(const std::string&)> expression_text;
   /// A resolved file relative to the root layer's folder.
   std::function<std::string(const std::string&)> file_text;
 };

@@ -192,10 +192,14 @@ Result<std::string> AssetResolver::resolve_file(const std::string& asset_path,
 Result<std::string> AssetResolver::resolve_in_package(const std::string& asset_path,
                                                       const std::string& anchor) const {
   PackagePath at = split_innermost(anchor);
-  if (at.inner.empty() || is_package_name(at.inner)) {  // the package itself: its root layer
-    at.package = anchor;
-    TENON_TRY(const ZipArchive archive, open_package(*this, anchor));
-    at.inner = archive.entries().empty() ? "" : archive.entries().front().name;
+  // A package itself: its root layer, which is its first file or that file's root layer.
+  for (std::size_t depth = 0; at.inner.empty() || is_package_name(at.inner); ++depth) {
+    at.package = at.inner.empty() ? at.package : join_package_path(at.package, at.inner);
+    TENON_TRY(const ZipArchive archive, open_package(*this, at.package));
+    if (archive.entries().empty() || depth == limits::kPackageNesting) {
+      return not_found(asset_path, anchor);
+    }
+    at.inner = archive.entries().front().name;
   }
   TENON_TRY(const ZipArchive archive, open_package(*this, at.package));
   const std::string candidate = normal(std::string(folder_of(at.inner)) + asset_path);

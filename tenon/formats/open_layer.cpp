@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/open_layer.h"
 
+#include "tenon/base/limits.h"
 #include "tenon/bytes/zip_archive.h"
 #include "tenon/formats/crate/reader.h"
 #include "tenon/formats/text/reader.h"
@@ -17,16 +18,6 @@ std::string absolute_identifier(const std::string& identifier) {
   return path.inner.empty() ? file : bytes::join_package_path(file, path.inner);
 }
 
-/// The root layer of a package, itself perhaps a package.
-Result<std::shared_ptr<const bytes::FileBytes>> root_of_package(
-    std::shared_ptr<const bytes::FileBytes> bytes) {
-  TENON_TRY(const bytes::ZipArchive archive, bytes::ZipArchive::open(std::move(bytes)));
-  if (archive.entries().empty()) {
-    return Error(ErrorCode::Corrupt, "the package is empty").with_rule("package.empty");
-  }
-  return archive.read(archive.entries().front());
-}
-
 }  // namespace
 
 LayerFormat format_of(const bytes::FileBytes& bytes) {
@@ -35,6 +26,26 @@ LayerFormat format_of(const bytes::FileBytes& bytes) {
   }
   return bytes::ZipArchive::is_zip(bytes.text()) ? LayerFormat::Package : LayerFormat::Text;
 }
+
+namespace {
+
+/// The root layer of a package: its first file, or that file's root layer where it is a package.
+Result<std::shared_ptr<const bytes::FileBytes>> root_of_package(
+    std::shared_ptr<const bytes::FileBytes> bytes) {
+  for (std::size_t depth = 0; format_of(*bytes) == LayerFormat::Package; ++depth) {
+    if (depth == limits::kPackageNesting) {
+      return Error(ErrorCode::Limit, "packages stand in packages too deeply");
+    }
+    TENON_TRY(const bytes::ZipArchive archive, bytes::ZipArchive::open(std::move(bytes)));
+    if (archive.entries().empty()) {
+      return Error(ErrorCode::Corrupt, "the package is empty").with_rule("package.empty");
+    }
+    TENON_TRY(bytes, archive.read(archive.entries().front()));
+  }
+  return bytes;
+}
+
+}  // namespace
 
 Result<layer::Layer> read_layer(std::shared_ptr<const bytes::FileBytes> bytes,
                                 std::string identifier, Diagnostics& diagnostics) {
@@ -45,15 +56,8 @@ Result<layer::Layer> read_layer(std::shared_ptr<const bytes::FileBytes> bytes,
     }
     bytes = *std::move(root);
   }
-  switch (format_of(*bytes)) {
-    case LayerFormat::Crate:
-      return read_crate(std::move(bytes), std::move(identifier), diagnostics);
-    case LayerFormat::Package:
-      return Error(ErrorCode::Unsupported, "the first file of the package is not a layer")
-          .in_file(identifier)
-          .with_rule("package.no-root-layer");
-    case LayerFormat::Text:
-      break;
+  if (format_of(*bytes) == LayerFormat::Crate) {
+    return read_crate(std::move(bytes), std::move(identifier), diagnostics);
   }
   return read_text(bytes->text(), std::move(identifier), diagnostics);
 }

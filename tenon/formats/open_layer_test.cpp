@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include "tenon/base/limits.h"
 #include "tenon/bytes/atomic_write.h"
 #include "tenon/bytes/zip_archive.h"
 #include "tenon/formats/package/writer.h"
@@ -51,6 +52,23 @@ TEST_F(OpenLayer, TellsFormatsByContent) {
   EXPECT_EQ(format_of(**bytes::FileBytes::open(in("as_crate.usd"))), LayerFormat::Crate);
   EXPECT_EQ(format_of(**bytes::FileBytes::open(in("as_text.usd"))), LayerFormat::Text);
   EXPECT_EQ(format_of(**bytes::FileBytes::open(in("a.usdz"))), LayerFormat::Package);
+}
+
+TEST_F(OpenLayer, APackageMayBeTheFirstFileOfAPackage) {
+  std::string inner = *bytes::write_zip({{"a.usda", kText}});
+  for (std::size_t depth = 1; depth <= limits::kPackageNesting; ++depth) {
+    EXPECT_TRUE(bytes::write_file(in("outer.usdz"), inner));
+    Diagnostics diagnostics;
+    const auto layer = open_layer_file(in("outer.usdz"), diagnostics);
+    ASSERT_TRUE(layer) << layer.error().to_string();
+    EXPECT_EQ(layer->default_prim(), "A");
+    inner = *bytes::write_zip({{"inner.usdz", inner}});
+  }
+  EXPECT_TRUE(bytes::write_file(in("outer.usdz"), inner));
+  Diagnostics diagnostics;
+  const auto layer = open_layer_file(in("outer.usdz"), diagnostics);
+  ASSERT_FALSE(layer);
+  EXPECT_EQ(layer.error().code(), ErrorCode::Limit);
 }
 
 TEST_F(OpenLayer, SaysWhyAFileCannotBeOpened) {

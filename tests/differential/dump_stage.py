@@ -71,9 +71,9 @@ def own_cases(suite, folder):
         cases = list(variant_cases(suite, path, "inspire_hand", variants, folder))
         grasp = os.path.join(root, "grasp.usda")
         return cases + [Case("examples grasp.usda", grasp, OWN_OPTIONS)]
-    scenes = os.path.join(SHARED, "scenes")
+    scenes = (os.path.join(HERE, "scenes") if suite == "own" else os.path.join(SHARED, "scenes"))
     names = sorted(name for name in os.listdir(scenes) if name.endswith(".usda"))
-    return [Case(f"scenes {name}", os.path.join(scenes, name), OWN_OPTIONS) for name in names]
+    return [Case(f"{suite} {name}", os.path.join(scenes, name), OWN_OPTIONS) for name in names]
 
 
 def published_cases(suites):
@@ -197,7 +197,7 @@ def judge(module, tenon, case, folder):
 
 def collect(suites, folder):
     cases = []
-    for suite in ("hand", "scenes", "examples"):
+    for suite in ("own", "hand", "scenes", "examples"):
         if suite in suites:
             cases += own_cases(suite, folder)
     return cases + list(published_cases(suites))
@@ -247,7 +247,7 @@ def main():
         print(f"skipped: no {ORACLE}")
         return 77
     measured.forget("dump")
-    suites = arguments.suite or ["hand", "scenes", "examples", *STAGE_SUITES]
+    suites = arguments.suite or ["own", "hand", "scenes", "examples", *STAGE_SUITES]
     module = oracle_module()
     with tempfile.TemporaryDirectory() as temporary:
         folder = arguments.keep or temporary

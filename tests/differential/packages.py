@@ -220,19 +220,24 @@ def check_ours(tenon, folder):
 
 
 def check_theirs(tenon, folder):
-    """What OpenUSD packs, read by tenon: the same flattened stage."""
-    package = os.path.join(folder, "theirs.usdz")
+    """What OpenUSD packs, read by tenon: the same flattened stage. Also as the first and only file
+    of a package, which is then what that opens."""
+    package, outer = (os.path.join(folder, name) for name in ("theirs.usdz", "outer.usdz"))
     UsdUtils.CreateNewUsdzPackage(os.path.join(folder, "asset/root.usda"), package)
-    run = subprocess.run([tenon, "cat", package, "--flatten"], capture_output=True, text=True,
-                         check=False)
-    want = Usd.Stage.Open(package).Flatten(addSourceFileComment=False).ExportToString()
-    # Clips are a matter of their own; the prim with them comes last.
-    want, have = (text.partition('def "Clipped"')[0] for text in (want, run.stdout))
-    # OpenUSD anchors relative paths that lead to no file, such as those of tiles, when it flattens.
-    want, have = ([line for line in text.strip().split("\n") if "<UDIM>" not in line]
-                  for text in (want, have))
-    if run.returncode or want != have:
-        yield f"flattened: {next(((a, b) for a, b in zip(want, have) if a != b), run.stderr)}"
+    with Sdf.ZipFileWriter.CreateNew(outer) as writer:
+        writer.AddFile(package, "deep/theirs.usdz")
+    for path in (package, outer):
+        run = subprocess.run([tenon, "cat", path, "--flatten"], capture_output=True, text=True,
+                             check=False)
+        want = Usd.Stage.Open(path).Flatten(addSourceFileComment=False).ExportToString()
+        # Clips are a matter of their own; the prim with them comes last.
+        want, have = (text.partition('def "Clipped"')[0] for text in (want, run.stdout))
+        # OpenUSD anchors relative paths that lead to no file, such as those of tiles, when it
+        # flattens.
+        want, have = ([line for line in text.strip().split("\n") if "<UDIM>" not in line]
+                      for text in (want, have))
+        if run.returncode or want != have:
+            yield f"{path}: {next(((a, b) for a, b in zip(want, have) if a != b), run.stderr)}"
 
 
 def broken_packages(folder):
