@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <new>
 
 #include "tenon/base/assert.h"
 
@@ -32,6 +34,38 @@ bool same(const PathNode& a, const PathNode& b) {
   return a.parent == b.parent && a.kind == b.kind && a.name == b.name && a.variant == b.variant &&
          a.target == b.target;
 }
+
+/// Nodes in the order in which they were made, where their address tells which chunk they are in.
+/// Others may read those that are counted while one more is added.
+class NodeChunk {
+ public:
+  static constexpr std::size_t kSize = std::size_t{1} << 14;
+  static constexpr std::size_t kNodes = (kSize - 64) / sizeof(PathNode);
+
+  const PathNode* add(const PathNode& node) {
+    const std::uint32_t index = count_.load(std::memory_order_relaxed);
+    const PathNode* added = ::new (nodes() + index) PathNode(node);
+    count_.store(index + 1, std::memory_order_release);
+    return added;
+  }
+  const PathNode& operator[](std::size_t index) { return *std::launder(nodes() + index); }
+
+  /// The node made after `node`; nullptr when it is in another chunk or not there.
+  static const PathNode* next_of(const PathNode* node) {
+    const auto address = reinterpret_cast<std::uintptr_t>(node);
+    auto* chunk = reinterpret_cast<NodeChunk*>(address & ~(kSize - 1));
+    const PathNode* next = node + 1;
+    const PathNode* end = chunk->nodes() + chunk->count_.load(std::memory_order_acquire);
+    return next < end ? next : nullptr;
+  }
+
+ private:
+  PathNode* nodes() { return reinterpret_cast<PathNode*>(storage_); }
+
+  alignas(kSize) std::atomic<std::uint32_t> count_ = 0;
+  alignas(PathNode) std::byte storage_[kNodes * sizeof(PathNode)];
+};
+static_assert(sizeof(NodeChunk) == NodeChunk::kSize);
 
 /// Open addressing over nodes in stable storage. A slot is part of the hash and the number of a
 /// node, so that most others are told apart without a look at them.
@@ -58,22 +92,22 @@ class NodeTable {
     std::uint32_t tag = 0;
     std::uint32_t number = 0;  // of the node, from 1 on; 0 in an empty slot
   };
-  static constexpr std::size_t kChunk = 128;
 
   static std::uint32_t tag_of(std::size_t hash) { return static_cast<std::uint32_t>(hash >> 32); }
-  PathNode& node_at(std::size_t number) const { return chunks_[number / kChunk][number % kChunk]; }
+  const PathNode& node_at(std::size_t number) const {
+    return (*chunks_[number / NodeChunk::kNodes])[number % NodeChunk::kNodes];
+  }
 
   const PathNode* add(const PathNode& node, std::size_t at, std::uint32_t tag) {
     TENON_ASSERT(count_ < std::numeric_limits<std::uint32_t>::max());
-    if (count_ % kChunk == 0) {
-      chunks_.push_back(std::make_unique<PathNode[]>(kChunk));
+    if (count_ % NodeChunk::kNodes == 0) {
+      chunks_.emplace_back(new NodeChunk);
     }
-    PathNode& added = node_at(count_);
-    added = node;
+    PathNode added = node;
     added.number = ++made_;
     ++count_;
     slots_[at] = {tag, static_cast<std::uint32_t>(count_)};
-    return &added;
+    return chunks_.back()->add(added);
   }
 
   void grow() {
@@ -91,18 +125,37 @@ class NodeTable {
   static inline std::atomic<std::uint32_t> made_ = 0;  // in all tables
 
   std::mutex mutex_;
-  std::vector<std::unique_ptr<PathNode[]>> chunks_;
+  std::vector<std::unique_ptr<NodeChunk>> chunks_;
   std::vector<Slot> slots_;
   std::size_t count_ = 0;
 };
 
 constexpr std::size_t kShardCount = 16;
+constexpr std::size_t kRecentCount = 64;
 constexpr std::uint32_t kDepthMask = (1u << 22u) - 1;
 
+/// Nodes below one parent are kept together.
 const PathNode* intern(const PathNode& node) {
   static auto* tables = new std::array<NodeTable, kShardCount>();
-  const std::size_t hash = hash_of(node);
-  return (*tables)[(hash >> 40) % kShardCount].intern(node, hash);
+  const std::size_t shard = (mix(1, node.parent) >> 40) % kShardCount;
+  return (*tables)[shard].intern(node, hash_of(node));
+}
+
+/// The same for one who walks through what is below a parent: what this thread asked for last there
+/// and what was made after it are found without a look into the table.
+const PathNode* intern_below(const PathNode& node) {
+  thread_local std::array<const PathNode*, kRecentCount> recent{};
+  const PathNode*& last = recent[node.parent->number % kRecentCount];
+  if (last != nullptr) {
+    if (same(*last, node)) {
+      return last;
+    }
+    const PathNode* next = NodeChunk::next_of(last);
+    if (next != nullptr && same(*next, node)) {
+      return last = next;
+    }
+  }
+  return last = intern(node);
 }
 
 const PathNode* root_node(PathKind kind) {
@@ -135,7 +188,7 @@ Path Path::make(const PathNode* parent, PathKind kind, Token name, Token variant
   node.absolute = parent->absolute;
   node.has_variant = parent->has_variant || kind == PathKind::VariantSelection;
   node.depth = (parent->depth + 1) & kDepthMask;
-  return Path(intern(node));
+  return Path(intern_below(node));
 }
 
 Path Path::child(Token name) const {

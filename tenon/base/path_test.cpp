@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tenon/base/limits.h"
+#include "tenon/base/parallel.h"
 
 namespace tenon {
 namespace {
@@ -129,6 +133,42 @@ TEST(Path, OrderPutsAPathBeforeWhatIsBelowIt) {
     std::sort(shuffled.begin(), shuffled.end());
     EXPECT_EQ(shuffled, sorted);
   }
+}
+
+// The order in which paths are asked for is what their table goes by.
+TEST(Path, IsTheSameInWhateverOrderItIsAskedFor) {
+  constexpr int kNames = 2000;  // more than a chunk of the table holds
+  const Path parents[] = {Path::from("/Order/A"), Path::from("/Order/B")};
+  std::vector<Path> made;
+  for (int i = 0; i < kNames; ++i) {
+    const Token name("name_" + std::to_string(i));
+    made.push_back(parents[i % 2].property(name));
+    made.push_back(parents[i % 2].child(name));
+  }
+  EXPECT_EQ(std::set<std::string>({made[0].str(), made[1].str(), made[2].str()}),
+            std::set<std::string>({"/Order/A.name_0", "/Order/A/name_0", "/Order/B.name_1"}));
+  std::vector<Path> shuffled = made;
+  std::mt19937 random(11);
+  std::shuffle(shuffled.begin(), shuffled.end(), random);
+  for (const auto& order : {made, shuffled}) {
+    for (const Path path : order) {
+      const Path parent = path.parent();
+      EXPECT_EQ(path.is_prim() ? parent.child(path.name()) : parent.property(path.name()), path);
+      EXPECT_EQ(Path::from(path.str()), path);
+    }
+  }
+}
+
+TEST(Path, ThreadsThatMakeTheSamePathsGetTheSame) {
+  constexpr int kNames = 3000;
+  std::vector<Path> found[2];
+  const auto make = [](std::vector<Path>& paths) {
+    for (int i = 0; i < kNames; ++i) {
+      paths.push_back(Path::from("/Threads").property(Token("n" + std::to_string(i))));
+    }
+  };
+  run_both([&] { make(found[0]); }, [&] { make(found[1]); });
+  EXPECT_EQ(found[0], found[1]);
 }
 
 TEST(Path, NamesAreChecked) {
