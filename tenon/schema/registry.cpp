@@ -39,6 +39,22 @@ PropertyDefinition make_property(const PropertyRow& row, bool vendor) {
   return property;
 }
 
+// All but the chain.
+void fill(Schema& schema, const SchemaRow& row, bool vendor) {
+  schema.name = Token(row.name);
+  schema.kind = row.kind;
+  schema.base = Token(row.base);
+  schema.built_in_apis = words(row.built_in_apis);
+  schema.can_only_apply_to = words(row.applies_to);
+  schema.vendor = vendor;
+  schema.properties.reserve(row.count);
+  const std::uint16_t* const indices = vendor ? kVendorPropertyIndices : kCorePropertyIndices;
+  const PropertyRow* const properties = vendor ? kVendorProperties : kCoreProperties;
+  for (std::size_t i = row.first; i < row.first + std::size_t{row.count}; ++i) {
+    schema.properties.push_back(make_property(properties[indices[i]], vendor));
+  }
+}
+
 }  // namespace
 
 std::pair<Token, Token> split_api_name(Token applied) {
@@ -56,45 +72,51 @@ const Registry& Registry::instance() {
 }
 
 Registry::Registry() {
+  slots_.reserve(kCoreSchemaCount + kVendorSchemaCount);
   for (std::size_t i = 0; i < kCoreSchemaCount; ++i) {
-    add(kCoreSchemas[i], kCoreProperties, kCorePropertyIndices, false);
+    add(kCoreSchemas[i], false);
   }
   for (std::size_t i = 0; i < kVendorSchemaCount; ++i) {
-    add(kVendorSchemas[i], kVendorProperties, kVendorPropertyIndices, true);
+    add(kVendorSchemas[i], true);
   }
-  for (auto& [name, schema] : by_name_) {
-    complete(*schema);
-    sorted_.push_back(schema.get());
-  }
-  std::sort(sorted_.begin(), sorted_.end(),
-            [](const Schema* a, const Schema* b) { return a->name < b->name; });
 }
 
-void Registry::add(const SchemaRow& row, const PropertyRow* properties,
-                   const std::uint16_t* indices, bool vendor) {
-  auto schema = std::make_unique<Schema>();
-  schema->name = Token(row.name);
-  schema->kind = row.kind;
-  schema->base = Token(row.base);
-  schema->built_in_apis = words(row.built_in_apis);
-  schema->can_only_apply_to = words(row.applies_to);
-  schema->vendor = vendor;
-  schema->properties.reserve(row.count);
-  for (std::size_t i = 0; i < row.count; ++i) {
-    schema->properties.push_back(make_property(properties[indices[row.first + i]], vendor));
+void Registry::add(const SchemaRow& row, bool vendor) {
+  const auto [it, inserted] = slots_.try_emplace(row.name);
+  if (inserted) {
+    it->second.row = &row;
+    it->second.vendor = vendor;
   }
-  by_name_.try_emplace(schema->name, std::move(schema));
 }
 
-void Registry::complete(Schema& schema) {
-  for (const Schema* at = &schema; at != nullptr; at = find(at->base)) {
-    schema.chain.push_back(at->name);
-  }
+const Registry::Slot* Registry::slot(std::string_view name) const {
+  const auto it = slots_.find(name);
+  return it == slots_.end() ? nullptr : &it->second;
+}
+
+const Schema& Registry::schema_of(const Slot& slot) {
+  std::call_once(slot.made, [&] {
+    fill(slot.schema, *slot.row, slot.vendor);
+    for (const Slot* at = &slot; at != nullptr; at = instance().slot(at->row->base)) {
+      slot.schema.chain.emplace_back(at->row->name);
+    }
+  });
+  return slot.schema;
 }
 
 const Schema* Registry::find(Token name) const {
-  const auto it = by_name_.find(name);
-  return it == by_name_.end() ? nullptr : it->second.get();
+  const Slot* found = slot(name.view());
+  return found == nullptr ? nullptr : &schema_of(*found);
+}
+
+std::vector<const Schema*> Registry::schemas() const {
+  std::vector<const Schema*> result;
+  for (const auto& [name, slot] : slots_) {
+    result.push_back(&schema_of(slot));
+  }
+  std::sort(result.begin(), result.end(),
+            [](const Schema* a, const Schema* b) { return a->name < b->name; });
+  return result;
 }
 
 bool Registry::is_a(Token type, Token base) const {

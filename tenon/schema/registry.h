@@ -3,7 +3,9 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -45,7 +47,8 @@ struct Schema {
 /// "PhysicsDriveAPI:angular" -> {"PhysicsDriveAPI", "angular"}; the instance is empty without ':'.
 std::pair<Token, Token> split_api_name(Token applied);
 
-/// All schemas known to tenon; one immutable instance.
+/// All schemas known to tenon; one immutable instance. Each is made from its row when it is first
+/// asked for, so that a program pays for those that its scenes use. From any thread.
 class Registry {
  public:
   static const Registry& instance();
@@ -55,16 +58,22 @@ class Registry {
   /// `type` is `base` or derives from it.
   bool is_a(Token type, Token base) const;
   /// Sorted by name.
-  const std::vector<const Schema*>& schemas() const { return sorted_; }
+  std::vector<const Schema*> schemas() const;
 
  private:
-  Registry();
-  void add(const SchemaRow& row, const PropertyRow* properties, const std::uint16_t* indices,
-           bool vendor);
-  void complete(Schema& schema);
+  struct Slot {
+    const SchemaRow* row = nullptr;
+    bool vendor = false;
+    mutable std::once_flag made;
+    mutable Schema schema;
+  };
 
-  std::unordered_map<Token, std::unique_ptr<Schema>> by_name_;
-  std::vector<const Schema*> sorted_;
+  Registry();
+  void add(const SchemaRow& row, bool vendor);
+  const Slot* slot(std::string_view name) const;
+  static const Schema& schema_of(const Slot& slot);
+
+  std::unordered_map<std::string_view, Slot> slots_;
 };
 
 /// What the type of a prim and its API schemas say together.
