@@ -35,6 +35,11 @@ class LayerWriter {
   }
 
   std::string write() {
+    constexpr std::string_view kHeader = "#usda 1.";
+    constexpr std::size_t kUsualBytes = 128;  // of a spec, at most
+    out_.reserve(kUsualBytes * layer_.spec_count());
+    out_ += kHeader;
+    out_ += "0\n";
     const Spec& root = layer_.root();
     append_layer_metadata(out_, root);
     append_order(root, fields::primOrder, "\nreorder rootPrims = ");
@@ -45,7 +50,9 @@ class LayerWriter {
         append_prim(path, *prim, 0);
       }
     }
-    return "#usda 1." + std::to_string(minor_version_) + '\n' + out_ + '\n';
+    out_ += '\n';
+    out_.replace(kHeader.size(), 1, std::to_string(minor_version_));
+    return std::move(out_);
   }
 
  private:
@@ -199,7 +206,7 @@ class LayerWriter {
     const auto* connections = spec.get<layer::ListOp<Path>>(fields::connectionPaths);
     const bool custom = spec.get_or(fields::custom, false);
     const bool nothing_else = samples == nullptr && spline == nullptr && connections == nullptr;
-    if (has_metadata(spec) || value != nullptr || custom || nothing_else) {
+    if (value != nullptr || custom || nothing_else || has_metadata(spec)) {
       append_indent(out_, indent);
       out_ += custom ? "custom " : "";
       out_ += declaration;
