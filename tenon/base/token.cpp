@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <deque>
 #include <mutex>
 #include <vector>
@@ -72,6 +71,11 @@ const std::string* intern(std::string_view text) {
   return last;
 }
 
+unsigned char lower(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte >= 'A' && byte <= 'Z' ? static_cast<unsigned char>(byte + ('a' - 'A')) : byte;
+}
+
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 struct NumberRun {
@@ -118,8 +122,8 @@ bool dictionary_less(std::string_view a, std::string_view b) {
       j += y.length;
       continue;
     }
-    const int x = std::tolower(static_cast<unsigned char>(a[i]));
-    const int y = std::tolower(static_cast<unsigned char>(b[j]));
+    const unsigned char x = lower(a[i]);
+    const unsigned char y = lower(b[j]);
     if (x != y) {
       return x < y;
     }

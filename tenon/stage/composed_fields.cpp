@@ -3,10 +3,11 @@
 #include "tenon/stage/composed_fields.h"
 
 #include <filesystem>
-#include <set>
+#include <unordered_set>
 
 #include "tenon/compose/variable_expression.h"
 #include "tenon/layer/path_expression.h"
+#include "tenon/layer/type_names.h"
 
 namespace tenon::stage {
 namespace {
@@ -158,34 +159,50 @@ bool fold_any_list(const std::vector<compose::Opinion>& opinions, Token field,
          fold_list<std::uint64_t>(opinions, field, strongest, result);
 }
 
-const std::set<Token>& fields_that_are_no_metadata() {
+}  // namespace
+
+bool is_structure(Token field) {
   using namespace layer::fields;
-  static const std::set<Token> fields{inheritPaths,
-                                      payload,
-                                      references,
-                                      specializes,
-                                      subLayers,
-                                      subLayerOffsets,
-                                      variantSelection,
-                                      variantSetNames,
-                                      clips,
-                                      clipSets,
-                                      default_value,
-                                      timeSamples,
-                                      spline,
-                                      primChildren,
-                                      properties,
-                                      variantSetChildren,
-                                      variantChildren,
-                                      connectionChildren,
-                                      targetChildren,
-                                      "mapperChildren",
-                                      "expressionChildren",
-                                      "mapperArgChildren"};
-  return fields;
+  static const std::unordered_set<Token> structure{inheritPaths,
+                                                   payload,
+                                                   references,
+                                                   specializes,
+                                                   subLayers,
+                                                   subLayerOffsets,
+                                                   variantSelection,
+                                                   variantSetNames,
+                                                   clips,
+                                                   clipSets,
+                                                   default_value,
+                                                   timeSamples,
+                                                   spline,
+                                                   primChildren,
+                                                   properties,
+                                                   variantSetChildren,
+                                                   variantChildren,
+                                                   connectionChildren,
+                                                   targetChildren,
+                                                   "mapperChildren",
+                                                   "expressionChildren",
+                                                   "mapperArgChildren"};
+  return structure.contains(field);
 }
 
-}  // namespace
+bool means_same_anywhere(const Value& value) {
+  switch (value.type()) {
+    case ValueType::Asset:
+    case ValueType::TimeCode:
+    case ValueType::PathExpression:
+      return false;
+    case ValueType::Permission:
+    case ValueType::Specifier:
+    case ValueType::Variability:
+      return true;
+    default:
+      return layer::type_name_of(value.type(), false) != nullptr &&
+             value.type() != ValueType::Opaque;
+  }
+}
 
 std::vector<compose::Opinion> property_opinions(const PrimData& prim, Token name) {
   std::vector<compose::Opinion> result;
@@ -245,14 +262,8 @@ std::map<std::string, Value> compose_metadata(const StageData& stage, const Prim
                                               const std::vector<compose::Opinion>& opinions,
                                               AssetForm form) {
   std::map<std::string, Value> result;
-  for (const compose::Opinion& opinion : opinions) {
-    for (const layer::Field& field : opinion.spec->fields()) {
-      if (fields_that_are_no_metadata().contains(field.name) || result.contains(field.name.str())) {
-        continue;
-      }
-      result.emplace(field.name.str(), compose_field(stage, prim, opinions, field.name, form));
-    }
-  }
+  visit_metadata(stage, prim, opinions, form,
+                 [&](Token name, Value value) { result.emplace(name.str(), std::move(value)); });
   return result;
 }
 

@@ -57,7 +57,30 @@ layer::Value compose_field(const StageData& stage, const PrimData& prim,
                            const std::vector<compose::Opinion>& opinions, Token field,
                            AssetForm form = AssetForm::Resolved);
 
-/// All fields that count as metadata (no values, arcs or lists of children), composed.
+/// True for fields that say what is there (values, arcs, lists of children), not how it is meant.
+bool is_structure(Token field);
+
+/// True for plain values that mean the same in any layer: no asset paths, time codes, path
+/// expressions, nothing that combines with other opinions.
+bool means_same_anywhere(const layer::Value& value);
+
+/// Calls `visit(name, value)` for all fields that are no structure, composed.
+template <class Visit>
+void visit_metadata(const StageData& stage, const PrimData& prim,
+                    const std::vector<compose::Opinion>& opinions, AssetForm form, Visit visit) {
+  std::vector<Token> visited;
+  for (const compose::Opinion& opinion : opinions) {
+    for (const layer::Field& field : opinion.spec->fields()) {
+      if (!is_structure(field.name) &&
+          std::find(visited.begin(), visited.end(), field.name) == visited.end()) {
+        visited.push_back(field.name);
+        visit(field.name, compose_field(stage, prim, opinions, field.name, form));
+      }
+    }
+  }
+}
+
+/// The same by name.
 std::map<std::string, layer::Value> compose_metadata(const StageData& stage, const PrimData& prim,
                                                      const std::vector<compose::Opinion>& opinions,
                                                      AssetForm form = AssetForm::Resolved);

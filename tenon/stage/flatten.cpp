@@ -36,10 +36,8 @@ class Flattener {
 
   Layer run() {
     const StageData& data = stage_.data();
-    for (const auto& [name, value] :
-         compose_metadata(data, *data.root, root_opinions(data), AssetForm::Anchored)) {
-      copy_field(name, value, layer_.root());
-    }
+    visit_metadata(data, *data.root, root_opinions(data), AssetForm::Anchored,
+                   [&](Token name, Value value) { copy_field(name, value, layer_.root()); });
     layer_.root().erase(fields::subLayers);
     copy_below(stage_.pseudo_root(), Path::absolute_root());
     for (const Prim& prototype : stage_.prototypes()) {
@@ -56,9 +54,9 @@ class Flattener {
   };
 
   // Fields that no schema knows are left out, as OpenUSD does.
-  static void copy_field(const std::string& name, const Value& value, Spec& spec) {
+  static void copy_field(Token name, const Value& value, Spec& spec) {
     if (!value.holds<layer::UnregisteredValue>()) {
-      spec.set(Token(name), value);
+      spec.set(name, value);
     }
   }
 
@@ -131,12 +129,7 @@ class Flattener {
       spec.set(fields::typeName, prim.type_name());
     }
     const PrimData& data = *stage_.data().by_path.at(prim.path());
-    for (const auto& [name, value] :
-         compose_metadata(stage_.data(), data, data.index->opinions, AssetForm::Anchored)) {
-      if (name != "specifier" && name != "typeName") {
-        copy_field(name, value, spec);
-      }
-    }
+    copy_prim_metadata(data, spec);
     if (prim.is_instance()) {
       layer::Reference reference;
       reference.prim_path = prototype_paths_.at(prim.prototype().path());
@@ -144,22 +137,85 @@ class Flattener {
       references.appended.push_back(std::move(reference));
       spec.set(fields::references, std::move(references));
     }
-    std::vector<Token> names = property_names(prim, data);
-    // Attributes of types that nobody knows are left out, as OpenUSD does.
-    std::erase_if(names, [&](Token name) {
-      return !prim.is_relationship(name) &&
-             layer::find_type_name(prim.attribute(name).type_name()) == nullptr;
-    });
-    if (!names.empty()) {
-      spec.set(fields::properties, names);
-    }
-    for (const Token name : names) {
-      if (prim.is_relationship(name)) {
-        copy_relationship(data, prim.relationship(name), path.property(name));
-      } else {
-        copy_attribute(data, prim.attribute(name), path.property(name));
+    std::vector<Token> names;
+    for (const Token name : property_names(prim, data)) {
+      if (copy_property(prim, data, path, name)) {
+        names.push_back(name);
       }
     }
+    if (!names.empty()) {
+      spec.set(fields::properties, std::move(names));
+    }
+  }
+
+  void copy_prim_metadata(const PrimData& data, Spec& spec) const {
+    visit_metadata(stage_.data(), data, data.index->opinions, AssetForm::Anchored,
+                   [&](Token name, const Value& value) {
+                     if (name != fields::specifier && name != fields::typeName) {
+                       copy_field(name, value, spec);
+                     }
+                   });
+  }
+
+  // False for attributes of types that nobody knows: they are left out, as OpenUSD does.
+  bool copy_property(const Prim& prim, const PrimData& data, Path owner, Token name) {
+    if (const Spec* same = spec_to_share(data, name)) {
+      layer_.create(owner.property(name), SpecKind::Attribute).set_field_list(same->field_list());
+    } else if (prim.is_relationship(name)) {
+      copy_relationship(data, prim.relationship(name), owner.property(name));
+    } else if (const Attribute attribute = prim.attribute(name);
+               layer::find_type_name(attribute.type_name()) != nullptr) {
+      copy_attribute(data, attribute, owner.property(name));
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  // The spec of an attribute's only opinion when flattening would repeat it field by field.
+  static const Spec* spec_to_share(const PrimData& prim, Token name) {
+    const Spec* found = nullptr;
+    bool is_only = prim.clips == nullptr;
+    visit_property_opinions(prim, name, [&](const compose::Opinion& opinion) {
+      is_only = is_only && found == nullptr && opinion.offset.is_identity();
+      found = opinion.spec;
+      return !is_only;
+    });
+    return is_only && found != nullptr && found->kind == SpecKind::Attribute &&
+                   agrees_with_schema(*found, prim.definition->find_stock(name)) &&
+                   stays_the_same(*found)
+               ? found
+               : nullptr;
+  }
+
+  static bool agrees_with_schema(const Spec& spec, const schema::PropertyDefinition* declared) {
+    const auto* type_name = spec.get<Token>(fields::typeName);
+    const auto* custom = spec.get<bool>(fields::custom);
+    const auto* variability = spec.get<layer::Variability>(fields::variability);
+    if (type_name == nullptr || custom == nullptr || variability == nullptr) {
+      return false;
+    }
+    return declared == nullptr
+               ? layer::find_type_name(*type_name) != nullptr
+               : declared->type_name == *type_name && !*custom &&
+                     declared->variability == *variability && !declared->is_relationship;
+  }
+
+  static bool stays_the_same(const Spec& spec) {
+    for (const layer::Field& field : spec.fields()) {
+      const auto* samples = field.value.get<layer::TimeSamples>();
+      if (samples != nullptr && field.name == fields::timeSamples && !samples->empty()) {
+        for (const Value& value : samples->values) {
+          if (!value.is_block() && !means_same_anywhere(value)) {
+            return false;
+          }
+        }
+      } else if (!means_same_anywhere(field.value) ||
+                 (field.name != fields::default_value && is_structure(field.name))) {
+        return false;
+      }
+    }
+    return true;
   }
 
   // Clips may give values to attributes that no layer of the stage names.
@@ -194,12 +250,12 @@ class Flattener {
   }
 
   void copy_metadata(const PrimData& prim, Token name, Spec& spec) {
-    for (const auto& [field, value] : compose_metadata(
-             stage_.data(), prim, property_opinions(prim, name), AssetForm::Anchored)) {
-      if (field != "targetPaths" && field != "connectionPaths") {
-        copy_field(field, value, spec);
-      }
-    }
+    visit_metadata(stage_.data(), prim, property_opinions(prim, name), AssetForm::Anchored,
+                   [&](Token field, const Value& value) {
+                     if (field != fields::targetPaths && field != fields::connectionPaths) {
+                       copy_field(field, value, spec);
+                     }
+                   });
   }
 
   void copy_relationship(const PrimData& prim, const Relationship& relationship, Path path) {

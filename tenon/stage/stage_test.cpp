@@ -432,6 +432,36 @@ TEST(Flatten, AssetPathsMeanTheSameAnywhere) {
   EXPECT_EQ(authored("/A.b"), "y.png");
 }
 
+// Most attributes are taken as they stand; these are not.
+TEST(Flatten, AttributesThatOneOpinionDoesNotTellAreComposed) {
+  const Stage stage = open_text({
+      {"root", R"((subLayers = [@weak@])
+        def Sphere "A" { custom uniform double radius = 2
+          double plain = 1 (doc = "d")
+          double b = None
+          nonsense unknown = 3
+          timecode when = 4
+          double both = 5 } def "R" (references = @late@</L> (offset = 10)) {})"},
+      {"weak", R"(over "A" { double both (hidden = true) })"},
+      {"late", R"(def "L" { double x.timeSamples = { 1: 2 }
+          timecode t = 1 })"},
+  });
+  const layer::Layer flat = flatten(stage);
+  const auto spec = [&](const char* path) { return flat.find(Path::from(path)); };
+  EXPECT_FALSE(spec("/A.radius")->get_or("custom", true));
+  EXPECT_EQ(spec("/A.radius")->get_or("variability", layer::Variability::Uniform),
+            layer::Variability::Varying);
+  EXPECT_EQ(spec("/A.radius")->get_or("default", 0.0), 2);
+  EXPECT_EQ(spec("/A.plain")->get_or("documentation", std::string()), "d");
+  EXPECT_TRUE(spec("/A.b")->find("default")->is_block());
+  EXPECT_EQ(spec("/A.unknown"), nullptr);
+  EXPECT_EQ(spec("/A.when")->get_or("default", layer::TimeCode{}).value, 4);
+  EXPECT_TRUE(spec("/A.both")->get_or("hidden", false));
+  EXPECT_EQ(spec("/A.both")->get_or("default", 0.0), 5);
+  EXPECT_EQ(spec("/R.x")->get<layer::TimeSamples>("timeSamples")->times, std::vector<double>{11});
+  EXPECT_EQ(spec("/R.t")->get_or("default", layer::TimeCode{}).value, 11);
+}
+
 TEST(Flatten, ALayerStackBecomesOneLayer) {
   const Stage stage = open_text({{"root", R"((
     subLayers = [@sub@ (offset = 10)]
