@@ -6,7 +6,8 @@
 //
 //   prims       COUNT prims with two attributes each, in groups of 1,000
 //   sublayers   COUNT layers with an opinion each about the same ten prims
-//   references  a chain of COUNT layers, each with a prim that references the next
+//   references  a chain of COUNT layers, each with a prim that references the next and an opinion
+//               about one attribute
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -91,9 +92,9 @@ void measure_sublayers(Report& report, std::size_t count, const std::string& fol
 void measure_references(Report& report, std::size_t count, const std::string& folder) {
   for (std::size_t i = 0; i < count; ++i) {
     LayerBuilder layer("layer");
-    const Path prim = layer.prim(Path::absolute_root(), "World", "Xform");
+    const Path prim = layer.prim(Path::absolute_root(), "World", "Sphere");
     layer.spec(Path::absolute_root()).set(fields::defaultPrim, Token("World"));
-    layer.attribute(layer.prim(prim, numbered("prim_", i), "Sphere"), "radius", "double", 1.0);
+    layer.attribute(prim, "radius", "double", static_cast<double>(i + 1));
     if (i + 1 < count) {
       layer::Reference next;
       next.asset_path = numbered("./link_", i + 1) + ".usda";

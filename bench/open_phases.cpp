@@ -11,27 +11,6 @@ bool is_visited(const stage::Prim& prim) {
   return prim.is_active() && prim.is_loaded() && prim.is_defined() && !prim.is_abstract();
 }
 
-std::vector<stage::Prim> traverse(const stage::Stage& stage, bool instance_proxies) {
-  std::vector<stage::Prim> found;
-  std::vector<stage::Prim> waiting{stage.pseudo_root()};
-  while (!waiting.empty()) {
-    const stage::Prim prim = waiting.back();
-    waiting.pop_back();
-    if (!prim.is_pseudo_root()) {
-      if (!is_visited(prim)) {
-        continue;
-      }
-      found.push_back(prim);
-      if (prim.is_instance() && !instance_proxies) {
-        continue;
-      }
-    }
-    const std::vector<stage::Prim> children = prim.children();
-    waiting.insert(waiting.end(), children.rbegin(), children.rend());
-  }
-  return found;
-}
-
 struct AttributeCounts {
   std::size_t attributes = 0;
   std::size_t values = 0;
@@ -56,6 +35,27 @@ AttributeCounts read_attributes(const std::vector<stage::Prim>& prims) {
 
 }  // namespace
 
+std::vector<stage::Prim> visited_prims(const stage::Stage& stage, bool instance_proxies) {
+  std::vector<stage::Prim> found;
+  std::vector<stage::Prim> waiting{stage.pseudo_root()};
+  while (!waiting.empty()) {
+    const stage::Prim prim = waiting.back();
+    waiting.pop_back();
+    if (!prim.is_pseudo_root()) {
+      if (!is_visited(prim)) {
+        continue;
+      }
+      found.push_back(prim);
+      if (prim.is_instance() && !instance_proxies) {
+        continue;
+      }
+    }
+    const std::vector<stage::Prim> children = prim.children();
+    waiting.insert(waiting.end(), children.rbegin(), children.rend());
+  }
+  return found;
+}
+
 stage::Stage time_open(Report& report, const std::string& file) {
   Diagnostics diagnostics;
   return value_or_fail(report.time("open", [&] { return open_stage(file, {}, diagnostics); }));
@@ -63,7 +63,7 @@ stage::Stage time_open(Report& report, const std::string& file) {
 
 std::vector<stage::Prim> time_traverse(Report& report, const stage::Stage& stage,
                                        bool instance_proxies) {
-  auto prims = report.time("traverse", [&] { return traverse(stage, instance_proxies); });
+  auto prims = report.time("traverse", [&] { return visited_prims(stage, instance_proxies); });
   report.count("prims", static_cast<double>(prims.size()));
   return prims;
 }

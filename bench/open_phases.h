@@ -14,8 +14,11 @@ namespace tenon::bench {
 /// Phase `open`: file to populated stage.
 stage::Stage time_open(Report& report, const std::string& file);
 
-/// Phase `traverse`: handles of all prims that are active, loaded, defined and not abstract,
-/// instance proxies included when asked for; count `prims`.
+/// Handles of all prims that are active, loaded, defined and not abstract, instance proxies
+/// included when asked for.
+std::vector<stage::Prim> visited_prims(const stage::Stage& stage, bool instance_proxies);
+
+/// Phase `traverse`: those prims; count `prims`.
 std::vector<stage::Prim> time_traverse(Report& report, const stage::Stage& stage,
                                        bool instance_proxies = false);
 

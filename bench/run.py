@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the benchmarks beside usd-core and prints a table; see bench/README.md.
 
-Usage: run.py [NAME...] [--build DIR] [--rounds N] [--record] [--smoke]
+Usage: run.py [NAME...] [--build DIR] [--rounds N] [--repeats N] [--record] [--smoke]
 Exit 0: all ran, whatever the times; 1: a program failed or the two sides counted differently.
 """
 
@@ -18,6 +18,7 @@ import sys
 import tempfile
 import time
 
+import inputs
 import machine
 
 BENCH = os.path.dirname(os.path.abspath(__file__))
@@ -26,6 +27,8 @@ HAND = os.path.join(ROOT, "examples/inspire_hand/inspire_hand.usda")
 GRASP = os.path.join(ROOT, "examples/inspire_hand/grasp.usda")
 SHARED = os.environ.get("TENON_SHARED_DIR", os.path.join(os.path.dirname(ROOT), "shared"))
 ISAAC_HAND = os.path.join(SHARED, "assets/inspire_hand_isaac/inspire_hand.usda")
+CONFORMANCE = os.path.join(SHARED, "conformance")
+SCENE_SCRIPT = os.path.join(SHARED, "bench/gen_scenes.py")
 DUMP_SCRIPT = os.path.join(SHARED, "tools/dump_stage.py")
 PEER = [sys.executable, "-B", os.path.join(BENCH, "usd_core.py")]
 
@@ -41,6 +44,14 @@ ASSET_ROWS = [
     ("read_attributes", "read_attributes", "*"),
     ("dump", "flatten", ""),
     ("dump", "dump", "*"),
+]
+
+
+ROBOT_ROWS = [
+    ("open", "open", ""),
+    ("traverse", "traverse", "*"),
+    ("transforms", "transforms", "*"),
+    ("read_attributes", "read_attributes", "*"),
 ]
 
 
@@ -136,6 +147,18 @@ class Bench:
             for name in ("prims", "physics", "mesh"):
                 files = [self.scene(name + suffix) for suffix in (".usda", ".usdc")]
                 run_lines([*PEER, "convert", *files])
+        self.robots = {}
+        for name, file in (("hand", HAND), ("isaac_hand", ISAAC_HAND)):
+            if os.path.exists(file):
+                self.robots[name] = self.scene(f"robots_{name}.usda")
+                inputs.write_robots(self.robots[name], file, 2 if size else 64)
+        suite = self.scene("composition_suite.txt")
+        found = os.path.exists(CONFORMANCE) and inputs.write_suite_list(
+            suite, CONFORMANCE, 6 if size else None)
+        self.suite = suite if found else None
+        published = self.peer and not size and os.path.exists(SCENE_SCRIPT) and \
+            inputs.make_published_scenes(SCENE_SCRIPT, self.scene("published"))
+        self.published = self.scene("published") if published else None
 
     def add_row(self, workload, label, ours, peer, threads=(None, None), note="", unit=1e3):
         """Seconds on one thread, and in `threads` those of both sides with all of theirs."""
@@ -151,7 +174,7 @@ class Bench:
     def measure(self, work):
         """A B A B ... on one processor; in the last columns both with all their threads."""
         ours, peer, threaded, peer_threaded = Figures(), Figures(), Figures(), Figures()
-        repeats = ["--repeats", "1" if self.arguments.smoke else str(work.repeats)]
+        repeats = ["--repeats", str(self.arguments.repeats or work.repeats)]
         for number in range(self.arguments.rounds):
             ours.add(run_lines([*work.ours, *repeats], self.cpu))
             if self.arguments.threads and number < 3:
@@ -210,27 +233,35 @@ class Bench:
         self.add_memory_row(name, *peaks)
 
 
+def layer_files(bench):
+    """-> (what it is called, file) of the scenes of many prims."""
+    yield "text", bench.scene("prims.usda")
+    if bench.peer:  # which also made the binary layers
+        yield "crate", bench.scene("prims.usdc")
+    if bench.published:
+        yield "big20k_text", os.path.join(bench.published, "big20k.usda")
+        yield "big20k_crate", os.path.join(bench.published, "big20k.usdc")
+
+
 def layer_workloads(bench):
     program, scene = bench.program, bench.scene
-    yield Workload("open_text", [program("open_text"), scene("prims.usda")],
-                   ["one_layer", scene("prims.usda")], LAYER_ROWS)
-    if bench.peer:  # which also made the binary layers
-        for name, file in (("open_crate", "prims.usdc"), ("open_mesh_crate", "mesh.usdc")):
-            yield Workload(name, [program("open_crate"), scene(file)],
-                           ["one_layer", scene(file)], LAYER_ROWS)
+    files = list(layer_files(bench)) + [("mesh_text", scene("mesh.usda"))]
+    if bench.peer:
+        files.append(("mesh_crate", scene("mesh.usdc")))
+    for name, file in files:
+        ours = "open_crate" if file.endswith(".usdc") else "open_text"
+        yield Workload(f"open_{name}", [program(ours), file], ["one_layer", file], LAYER_ROWS)
+    if bench.peer:
         yield Workload("first_value", [program("first_value"), scene("mesh.usdc")],
                        ["first_value", scene("mesh.usdc")],
                        [("open", "open", ""), ("value", "value", "")])
-    yield Workload("open_mesh_text", [program("open_text"), scene("mesh.usda")],
-                   ["one_layer", scene("mesh.usda")], LAYER_ROWS)
 
 
 def flatten_workloads(bench):
     rows = [(phase, phase, "") for phase in ("open", "flatten", "export")]
-    for name, file in (("text", "prims.usda"), ("crate", "prims.usdc")):
-        if name == "text" or bench.peer:
-            yield Workload(f"flatten_{name}", [bench.program("flatten_stage"), bench.scene(file)],
-                           ["flatten", bench.scene(file)], rows)
+    for name, file in layer_files(bench):
+        yield Workload(f"flatten_{name}", [bench.program("flatten_stage"), file],
+                       ["flatten", file], rows)
 
 
 def workloads(bench):
@@ -240,6 +271,12 @@ def workloads(bench):
     for name in ("fleet", "instances"):
         yield Workload(f"compose_{name}", [program("compose_many"), scene(name + ".usda")],
                        ["compose", scene(name + ".usda")], LAYER_OPEN_ROWS)
+    if bench.suite:
+        yield Workload("compose_suite", [program("compose_suite"), bench.suite],
+                       ["suite", bench.suite], [("open", "open", "")])
+    for name, file in bench.robots.items():
+        yield Workload(f"robots_{name}", [program("read_robots"), file], ["robots", file],
+                       ROBOT_ROWS)
     yield Workload("read_physics", [program("read_physics"), scene("physics.usda")],
                    ["physics", scene("physics.usda")],
                    [("open", "open", ""), ("physics", "physics", "")])
@@ -260,12 +297,17 @@ def process_tasks(bench):
     imports = "Python's start included"
     yield ("start", bench.measure_processes, [tenon, "tree", bench.scene("one_prim.usda")],
            [*PEER, "tree", bench.scene("one_prim.usda")], imports)
-    for name, file in (("text", "prims.usda"), ("crate", "prims.usdc")):
-        if bench.peer or name == "text":
-            flat = bench.scene(f"flat_{name}.usda")
-            yield (f"export_{name}", bench.measure_processes,
-                   [tenon, "cat", "--flatten", bench.scene(file), "-o", flat],
-                   [*PEER, "export", bench.scene(file), flat], imports)
+    for name, file in layer_files(bench):
+        flat = bench.scene(f"flat_{name}.usda")
+        yield (f"export_{name}", bench.measure_processes,
+               [tenon, "cat", "--flatten", file, "-o", flat],
+               [*PEER, "export", file, flat], imports)
+    for name, work, ours, file in (
+            [(f"process_robots_{name}", "robots", "read_robots", file)
+             for name, file in bench.robots.items()] +
+            [("process_suite", "suite", "compose_suite", bench.suite)] * bool(bench.suite)):
+        yield (name, bench.measure_processes, [bench.program(ours), file], [*PEER, work, file],
+               imports)
     if bench.peer:
         yield ("value_mesh_crate", bench.measure_processes,
                [bench.program("first_value"), bench.scene("mesh.usdc")],
@@ -316,13 +358,14 @@ def read_command_line():
     parser.add_argument("names", nargs="*", help="only workloads whose name begins so")
     parser.add_argument("--build", default=os.path.join(ROOT, "build/bench"))
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--repeats", type=int, help="of the work within a process")
     parser.add_argument("--clock", choices=("wall", "cpu"), default="wall",
                         help="cpu: steadier on a busy machine")
     parser.add_argument("--record", action="store_true", help="write bench/results/<machine>.json")
     parser.add_argument("--smoke", action="store_true", help="tiny inputs, once; for ctest")
     arguments = parser.parse_args()
     if arguments.smoke:
-        arguments.rounds = 1
+        arguments.rounds = arguments.repeats = 1
     # All threads together take more processor time, not less: only the wall clock tells.
     arguments.threads = arguments.clock == "wall" and not arguments.smoke
     return arguments

@@ -8,9 +8,9 @@ Usage: usd_core.py WORK FILE [--repeats N] [--dump-script FILE]
        usd_core.py export FROM TO     opens FROM as a stage and writes it flattened
        usd_core.py tree FILE          prints the names of all prims
 
-WORK: one_layer | compose | asset | flatten | first_value | physics. Imports are not timed. The
-phases parse, compose, open, flatten, export and physics run in OpenUSD's C++; traverse,
-read_attributes and dump also measure Python.
+WORK: one_layer | compose | suite | robots | asset | flatten | first_value | physics. Imports are
+not timed. The phases parse, compose, open, flatten, export and physics run in OpenUSD's C++; traverse,
+transforms, read_attributes and dump also measure Python.
 """
 
 import argparse
@@ -23,7 +23,8 @@ import sys
 import time
 import warnings
 
-from pxr import Sdf, Usd, UsdGeom, UsdPhysics  # UsdGeom: its schemas count as loaded for tenon, too
+from pxr import Gf, Sdf, Tf, Usd, UsdPhysics
+from pxr import UsdGeom  # also where it is not used: its schemas count as loaded for tenon, too
 
 VISITED = Usd.PrimDefaultPredicate
 WITH_PROXIES = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
@@ -84,6 +85,36 @@ def compose(report, file, _):
     time_traverse(report, stage, WITH_PROXIES)
 
 
+def open_all(files):
+    stages = []
+    for file in files:
+        try:
+            stages.append(Usd.Stage.Open(file))
+        except Tf.ErrorException:
+            pass
+    return stages
+
+
+def suite(report, file, _):
+    with open(file, encoding="utf-8") as lines:
+        files = lines.read().splitlines()
+    stages = report.time("open", lambda: open_all(files))
+    report.counts["stages"] = len(stages)
+    report.counts["prims"] = sum(len(list(stage.Traverse(WITH_PROXIES))) for stage in stages)
+
+
+def place_all(prims):
+    cache, identity = UsdGeom.XformCache(), Gf.Matrix4d(1)
+    return sum(cache.GetLocalToWorldTransform(prim) != identity for prim in prims)
+
+
+def robots(report, file, _):
+    stage = report.time("open", lambda: Usd.Stage.Open(file))
+    prims = time_traverse(report, stage, WITH_PROXIES)
+    report.counts["moved"] = report.time("transforms", lambda: place_all(prims))
+    time_attributes(report, prims)
+
+
 def asset(report, file, dumper):
     stage = report.time("open", lambda: Usd.Stage.Open(file))
     time_attributes(report, time_traverse(report, stage, WITH_PROXIES))
@@ -116,7 +147,8 @@ def physics(report, file, _):
     report.counts["joints"] = sum(n for kind, n in count.items() if kind.endswith("Joint"))
 
 
-WORKS = {work.__name__: work for work in (one_layer, compose, asset, flatten, first_value, physics)}
+WORKS = {work.__name__: work for work in (one_layer, compose, suite, robots, asset, flatten,
+                                          first_value, physics)}
 
 
 def dumper_of(script):

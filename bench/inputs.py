@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Inputs of the benchmarks that are no scenes of make_scenes: what ../shared has, put to use."""
+
+import os
+import subprocess
+import sys
+
+ROBOTS = """#usda 1.0
+(
+    defaultPrim = "World"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+
+def Xform "World"
+{
+"""
+ROBOT = """    def Xform "Robot_{number}" (
+        instanceable = true
+        prepend references = @{asset}@
+    )
+    {{
+        double3 xformOp:translate = ({x}, {y}, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }}
+"""
+
+
+def write_robots(path, asset, count):
+    """`count` instances of the asset's default prim, in rows of 8."""
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(ROBOTS)
+        for number in range(count):
+            file.write(ROBOT.format(number=number, asset=asset, x=number % 8, y=number // 8))
+        file.write("}\n")
+
+
+def write_suite_list(path, conformance, most):
+    """Root layers, text and binary, of the cases of the published composition suite that are there;
+    -> how many are listed."""
+    roots = []
+    with open(os.path.join(conformance, "cases.txt"), encoding="utf-8") as cases:
+        for line in cases:
+            fields = line.rstrip("\n").split("\t")
+            if fields[0] == "aousd_composition":
+                layer = "session.usd" if fields[1].endswith("_session") else "root.usd"
+                folder = os.path.join(conformance, fields[2])
+                roots += [os.path.join(folder, layer), os.path.join(folder, "usda", layer)]
+    roots = [root for root in roots if os.path.exists(root)][:most]
+    with open(path, "w", encoding="utf-8") as file:
+        file.writelines(root + "\n" for root in roots)
+    return len(roots)
+
+
+def make_published_scenes(script, folder):
+    """Runs ../shared/bench/gen_scenes.py once; -> True when its scenes are there."""
+    last = os.path.join(folder, "mesh1m.usda")
+    if not os.path.exists(last):
+        subprocess.run([sys.executable, "-B", script, folder], stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL, check=False)
+    return os.path.exists(last)
