@@ -9,8 +9,8 @@ Usage: usd_core.py WORK FILE [--repeats N] [--dump-script FILE]
        usd_core.py tree FILE          prints the names of all prims
 
 WORK: one_layer | compose | suite | robots | asset | flatten | first_value | physics. Imports are
-not timed. The phases parse, compose, open, flatten, export and physics run in OpenUSD's C++; traverse,
-transforms, read_attributes and dump also measure Python.
+not timed. The phases parse, compose, open, flatten, export and physics run in OpenUSD's C++;
+traverse, transforms, read_attributes and dump also measure Python.
 """
 
 import argparse
