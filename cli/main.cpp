@@ -17,6 +17,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  tenon info hand.usda                              what the asset is, what is missing\n"
     "  tenon tree hand.usda --physics physics            its prims, with physics switched on\n"
+    "  tenon check hand.usda                             what is wrong with it, and --fix\n"
     "  tenon physics hand.usda --json                    what an engine receives, SI and radians\n"
     "  tenon sim hand.usda --duration 5 -o run.csv       simulate it on MuJoCo\n"
     "  tenon bake hand.usda -o motion.usda               a layer that any USD viewer plays\n"
@@ -41,10 +42,10 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   add_global_options(app, globals);
-  for (auto* add : {tenon::cli::add_bake, tenon::cli::add_cat, tenon::cli::add_doctor,
-                    tenon::cli::add_dump, tenon::cli::add_dump_index, tenon::cli::add_info,
-                    tenon::cli::add_physics, tenon::cli::add_sim, tenon::cli::add_test_runner,
-                    tenon::cli::add_tree, tenon::cli::add_variant}) {
+  for (auto* add : {tenon::cli::add_bake, tenon::cli::add_cat, tenon::cli::add_check,
+                    tenon::cli::add_doctor, tenon::cli::add_dump, tenon::cli::add_dump_index,
+                    tenon::cli::add_info, tenon::cli::add_physics, tenon::cli::add_sim,
+                    tenon::cli::add_test_runner, tenon::cli::add_tree, tenon::cli::add_variant}) {
     add(app, globals, chosen);
   }
   for (CLI::App* verb : app.get_subcommands({})) {

@@ -16,20 +16,6 @@ namespace {
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 Json number_or_null(std::uint32_t number) { return number == 0 ? Json(nullptr) : Json(number); }
 
-Json diagnostic_json(const Diagnostic& d) {
-  Json item = Json::object();
-  item["severity"] = severity_name(d.severity);
-  item["rule"] = text_or_null(d.rule);
-  item["message"] = d.message;
-  item["file"] = d.file.empty() ? Json(nullptr) : Json(shown_path(d.file));
-  item["line"] = number_or_null(d.line);
-  item["column"] = number_or_null(d.column);
-  item["prim"] = text_or_null(d.prim);
-  item["property"] = text_or_null(d.property);
-  item["fix"] = text_or_null(d.fix);
-  return item;
-}
-
 const char* color_of(Severity severity) {
   switch (severity) {
     case Severity::Error:
@@ -53,6 +39,26 @@ std::string colored(std::string line, Severity severity) {
 
 }  // namespace
 
+Json diagnostic_json(const Diagnostic& d) {
+  Json item = Json::object();
+  item["severity"] = severity_name(d.severity);
+  item["rule"] = text_or_null(d.rule);
+  item["message"] = d.message;
+  item["file"] = d.file.empty() ? Json(nullptr) : Json(shown_path(d.file));
+  item["line"] = number_or_null(d.line);
+  item["column"] = number_or_null(d.column);
+  item["prim"] = text_or_null(d.prim);
+  item["property"] = text_or_null(d.property);
+  item["fix"] = text_or_null(d.fix);
+  return item;
+}
+
+std::string diagnostic_line(Diagnostic diagnostic, bool color) {
+  diagnostic.file = shown_path(diagnostic.file);
+  const std::string line = diagnostic.to_string();
+  return color ? colored(line, diagnostic.severity) : line;
+}
+
 std::string shown_path(const std::string& path) {
   const std::size_t bracket = path.find('[');
   const std::filesystem::path file = path.substr(0, bracket);
@@ -67,13 +73,15 @@ std::string shown_path(const std::string& path) {
 
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) != 0; }
 
-bool use_color(const Globals& globals) {
+bool use_color(const Globals& globals, bool is_terminal) {
   if (globals.color != "auto") {
     return globals.color == "always";
   }
   const char* no_color = std::getenv("NO_COLOR");
-  return stderr_is_terminal() && (no_color == nullptr || *no_color == '\0');
+  return is_terminal && (no_color == nullptr || *no_color == '\0');
 }
+
+bool use_color(const Globals& globals) { return use_color(globals, stderr_is_terminal()); }
 
 void Report::note(const std::string& text) const {
   if (!globals_.quiet && !json()) {
@@ -83,16 +91,14 @@ void Report::note(const std::string& text) const {
 
 void Report::print_diagnostics() const {
   const bool color = use_color(globals_);
-  for (Diagnostic d : diagnostics) {
+  for (const Diagnostic& d : diagnostics) {
     if (globals_.quiet && d.severity != Severity::Error) {
       continue;
     }
     if (d.severity == Severity::Info && !globals_.verbose) {
       continue;
     }
-    d.file = shown_path(d.file);
-    const std::string line = d.to_string();
-    std::fprintf(stderr, "%s\n", (color ? colored(line, d.severity) : line).c_str());
+    std::fprintf(stderr, "%s\n", diagnostic_line(d, color).c_str());
   }
 }
 

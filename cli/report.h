@@ -46,11 +46,17 @@ class Report {
   bool text_only_ = false;
 };
 
+/// The JSON form of a diagnostic: null for what is unknown.
+Json diagnostic_json(const Diagnostic& diagnostic);
+/// The line that people read, with the file as shown_path has it.
+std::string diagnostic_line(Diagnostic diagnostic, bool color);
+
 /// A file name as people read it: relative to the working folder.
 std::string shown_path(const std::string& path);
 
-/// Standard error is a terminal and colour is wanted (--color, NO_COLOR).
-bool use_color(const Globals& globals);
+/// The stream is a terminal and colour is wanted (--color, NO_COLOR).
+bool use_color(const Globals& globals, bool is_terminal);
+bool use_color(const Globals& globals);  ///< of standard error
 bool stderr_is_terminal();
 
 /// Standard output for "-", else a file written atomically.

@@ -26,6 +26,10 @@ std::vector<std::string> environment_search_paths() {
 
 void AssetArguments::add_to(CLI::App& verb) {
   verb.add_option("asset", asset, "A .usd, .usda, .usdc or .usdz file")->required();
+  add_options_to(verb);
+}
+
+void AssetArguments::add_options_to(CLI::App& verb) {
   verb.add_option("--physics", physics,
                   "Select this variant of the default prim's variant set \"Physics\"; no file is "
                   "touched");

@@ -40,6 +40,8 @@ struct AssetArguments {
 
   /// Adds the positional and the options to `verb`.
   void add_to(CLI::App& verb);
+  /// The options alone.
+  void add_options_to(CLI::App& verb);
   OpenOptions open_options() const;
 };
 
@@ -51,6 +53,7 @@ inline void choose(CLI::App& verb, Chosen& chosen, std::function<int()> run) {
 using AddVerb = void(CLI::App& app, const Globals& globals, Chosen& chosen);
 AddVerb add_bake;
 AddVerb add_cat;
+AddVerb add_check;
 AddVerb add_doctor;
 AddVerb add_dump;
 AddVerb add_dump_index;

@@ -23,7 +23,8 @@ VAGUE = re.compile(r"(^|[/_])(utils?|helpers?|common|managers?|misc)([_./]|$)")
 ADDRESS = re.compile(r"\b[a-z]+://([A-Za-z0-9.-]+)")
 # Hosts that a file may name. Where packages come from is the user's own configuration.
 HOSTS = {"www.apache.org", "spdx.org", "openusd.org", "aousd.org", "mujoco.org",
-         "mujoco.readthedocs.io", "docs.isaacsim.omniverse.nvidia.com", "github.com"}
+         "mujoco.readthedocs.io", "docs.isaacsim.omniverse.nvidia.com", "github.com",
+         "json.schemastore.org"}
 
 
 def check_lines(path, text):

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/baseline.h"
+
+#include <filesystem>
+
+#include "tenon/bytes/file_bytes.h"
+
+namespace tenon::cli {
+namespace {
+
+constexpr const char* kSchema = "tenon.baseline/1";
+
+std::string folder_of(const std::string& path) {
+  return std::filesystem::path(path).parent_path().string();
+}
+
+std::string text_at(const Json& item, const char* key) {
+  return item.is_object() && item.contains(key) && item[key].is_string()
+             ? item[key].get<std::string>()
+             : std::string();
+}
+
+}  // namespace
+
+Result<Baseline> Baseline::read(const std::string& path) {
+  TENON_TRY(const auto bytes, bytes::FileBytes::open(path));
+  const Json json = Json::parse(bytes->text(), nullptr, false);
+  const bool usable = json.is_object() && text_at(json, "schema") == kSchema &&
+                      json.contains("findings") && json["findings"].is_array();
+  if (!usable) {
+    return Error(ErrorCode::Parse, "the file is no baseline of tenon check")
+        .in_file(path)
+        .with_fix("write one with --write-baseline");
+  }
+  Baseline baseline;
+  baseline.folder_ = folder_of(path);
+  for (const Json& item : json["findings"]) {
+    const std::string key = text_at(item, "rule") + "\n" + text_at(item, "file") + "\n" +
+                            text_at(item, "prim") + "\n" + text_at(item, "property");
+    const bool counted =
+        item.is_object() && item.contains("count") && item["count"].is_number_unsigned();
+    baseline.count_[key] += counted ? item["count"].get<std::size_t>() : 1;
+  }
+  return baseline;
+}
+
+std::string Baseline::text_of(const std::vector<ReportedFinding>& findings,
+                              const std::string& path) {
+  struct Known {
+    const check::Finding* finding = nullptr;
+    std::size_t count = 0;
+  };
+  const std::string folder = folder_of(path);
+  std::map<std::string, Known> known;
+  for (const ReportedFinding& reported : findings) {
+    Known& entry = known[fingerprint_of(reported.finding, folder)];
+    entry.finding = &reported.finding;
+    ++entry.count;
+  }
+  Json items = Json::array();
+  for (const auto& [key, entry] : known) {
+    const Diagnostic& d = entry.finding->diagnostic;
+    const std::size_t first = key.find('\n') + 1;
+    Json item = {{"rule", d.rule},
+                 {"file", key.substr(first, key.find('\n', first) - first)},
+                 {"prim", d.prim},
+                 {"property", d.property}};
+    if (entry.count > 1) {
+      item["count"] = entry.count;
+    }
+    items.push_back(std::move(item));
+  }
+  Json json = {{"tool", "tenon"}, {"schema", kSchema}, {"findings", std::move(items)}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void Baseline::suppress(std::vector<ReportedFinding>& findings) const {
+  std::map<std::string, std::size_t> left = count_;
+  for (ReportedFinding& reported : findings) {
+    const auto found = left.find(fingerprint_of(reported.finding, folder_));
+    if (found != left.end() && found->second > 0) {
+      --found->second;
+      reported.suppressed = true;
+    }
+  }
+}
+
+}  // namespace tenon::cli

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "tenon/check/subject.h"
+
+namespace tenon::check {
+namespace {
+
+/// The reader has said already why the root is none.
+bool is_judged(const Subject& subject, const stage::Prim& prim) {
+  const std::string path = prim.path().str();
+  return subject.has_finding("articulation.single-body", path) ||
+         subject.has_finding("articulation.root-disabled", path) ||
+         subject.has_finding("articulation.root-joint-unusable", path) ||
+         subject.has_finding("articulation.nested", path);
+}
+
+}  // namespace
+
+// The root has a rule of the reader (S-113).
+void check_kinematic_link(const Subject& subject, Reporter& report) {
+  for (const physics::Articulation& articulation : subject.scene.articulations) {
+    for (const physics::Index link : articulation.links) {
+      const physics::Body& body = subject.scene.bodies[link];
+      if (body.kinematic) {
+        report.at(
+            subject.stage.prim(body.path), "physics:kinematicEnabled",
+            "the link of <" + articulation.path.str() +
+                "> is kinematic: articulations move all their links",
+            "make the body dynamic and fix it by a joint, or take it out of the articulation");
+      }
+    }
+  }
+}
+
+void check_articulation_empty(const Subject& subject, Reporter& report) {
+  for (const stage::Prim& prim : subject.prims) {
+    if (!prim.has_api("PhysicsArticulationRootAPI") || is_judged(subject, prim)) {
+      continue;
+    }
+    const bool known =
+        std::any_of(subject.scene.articulations.begin(), subject.scene.articulations.end(),
+                    [&](const physics::Articulation& a) { return a.path == prim.path(); });
+    const bool below =
+        std::any_of(subject.scene.bodies.begin(), subject.scene.bodies.end(),
+                    [&](const physics::Body& body) { return body.path.has_prefix(prim.path()); });
+    const bool joint = subject.joint_at(prim.path()).has_value();
+    if (!known && !below && !joint) {
+      report.at(prim, "the articulation root has no rigid bodies at or below it",
+                "apply PhysicsArticulationRootAPI above the robot's bodies");
+    }
+  }
+}
+
+// A mechanism without any drive moves by gravity alone.
+void check_articulation_passive(const Subject& subject, Reporter& report) {
+  for (const physics::Articulation& articulation : subject.scene.articulations) {
+    std::size_t moving = 0;
+    bool driven = false;
+    for (const physics::Index i : articulation.joints) {
+      const physics::Joint& joint = subject.scene.joints[i];
+      moving += joint.kind == physics::JointKind::Fixed ? 0 : 1;
+      driven = driven || std::any_of(joint.drives.begin(), joint.drives.end(), [](const auto& d) {
+                 return d.stiffness != 0 || d.damping != 0;
+               });
+    }
+    if (moving > 0 && !driven) {
+      report.at(subject.stage.prim(articulation.path),
+                "no joint of the articulation is driven: it hangs as gravity lets it",
+                "apply PhysicsDriveAPI with gains to the joints that have motors");
+    }
+  }
+}
+
+// Isaac: materials do not lie in materials.
+void check_material_nested(const Subject& subject, Reporter& report) {
+  for (const stage::Prim& prim : subject.prims) {
+    if (!prim.is_a("Material")) {
+      continue;
+    }
+    for (stage::Prim above = prim.parent(); above; above = above.parent()) {
+      if (above.is_a("Material")) {
+        report.at(prim, "the material lies inside of the material <" + above.path().str() + ">",
+                  "move it beside that one");
+        break;
+      }
+    }
+  }
+}
+
+void check_material_target(const Subject& subject, Reporter& report) {
+  for (const stage::Prim& prim : subject.prims) {
+    for (const char* name : {"material:binding", "material:binding:physics"}) {
+      for (const Path& target : prim.relationship(name).targets()) {
+        const stage::Prim material = subject.stage.prim(target);
+        if (material && !material.is_a("Material")) {
+          report.at(prim, name,
+                    std::string(name) + " names <" + target.str() + "> of type \"" +
+                        material.type_name().str() + "\", which is no Material",
+                    "name a Material prim");
+        }
+      }
+    }
+  }
+}
+
+// S-77
+void check_group_several(const Subject& subject, Reporter& report) {
+  const auto& groups = subject.scene.filter.groups_of_collider;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (groups[i].size() > 1) {
+      report.at(subject.stage.prim(subject.scene.colliders[i].path),
+                "the collider is in " + std::to_string(groups[i].size()) +
+                    " collision groups; PhysX takes one of them",
+                "leave it in one group");
+    }
+  }
+}
+
+void check_group_members(const Subject& subject, Reporter& report) {
+  const auto& filter = subject.scene.filter;
+  std::vector<bool> used(filter.group_paths.size(), false);
+  for (const std::vector<physics::Index>& groups : filter.groups_of_collider) {
+    for (const physics::Index group : groups) {
+      used[group] = true;
+    }
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) {
+      report.at(subject.stage.prim(filter.group_paths[i]),
+                "no collider belongs to the collision group: it filters nothing",
+                "name colliders, or prims above them, in collection:colliders:includes");
+    }
+  }
+}
+
+// S-80
+void check_group_empty_merge(const Subject& subject, Reporter& report) {
+  for (const stage::Prim& prim : subject.prims) {
+    const Token name("physics:mergeGroup");
+    if (prim.type_name() == "PhysicsCollisionGroup" &&
+        prim.attribute(name).get_as<std::string>() == std::string() &&
+        prim.attribute(name).has_authored_value()) {
+      report.at(prim, name,
+                "physics:mergeGroup is empty: no merging here, OpenUSD merges all groups that "
+                "author it empty",
+                "remove the attribute, or give a name");
+    }
+  }
+}
+
+}  // namespace tenon::check

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/check/check_stage.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "tenon/check/rule.h"
+#include "tenon/check/subject.h"
+#include "tenon/physics/read_physics.h"
+
+namespace tenon::check {
+namespace {
+
+bool names(const std::vector<std::string>& list, std::string_view rule) {
+  return std::any_of(list.begin(), list.end(), [&](const std::string& name) {
+    return rule == name || rule.substr(0, rule.find('.')) == name;
+  });
+}
+
+/// What makes two findings of one stage one: the same opinion breaks the same rule in the same way,
+/// whichever instance shows it. Without a line the prim tells places apart.
+auto place_key(const Diagnostic& d) {
+  return std::tuple(d.file, d.line, d.column, d.line == 0 ? d.prim : std::string(), d.rule,
+                    d.property, d.message);
+}
+
+/// What makes findings of two variants one: the same is wrong with the same prim. Its strongest
+/// opinion may stand in another layer in each.
+auto prim_key(const Diagnostic& d) {
+  return std::tuple(d.rule, d.prim, d.property, d.message, d.prim.empty() ? d.file : std::string(),
+                    d.prim.empty() ? d.line : 0);
+}
+
+/// Findings at the session layer, which is no file, are placed at the strongest opinion of a file;
+/// those about a text layer as a whole at its first line.
+void place_in_file(const stage::Stage& stage, Diagnostic& d) {
+  const layer::Layer* session = stage.session_layer();
+  if (session != nullptr && d.file == session->identifier() && !d.prim.empty()) {
+    for (const stage::SpecSite& site : stage.prim(Path::from(d.prim)).spec_stack()) {
+      if (site.layer != session) {
+        d.file = site.layer->identifier();
+        d.line = site.spec->line;
+        d.column = site.spec->column;
+        break;
+      }
+    }
+  }
+  if (d.line != 0 || d.file.empty() || !d.prim.empty()) {
+    return;
+  }
+  for (const layer::LayerPtr& layer : stage.used_layers()) {
+    const bool text = layer->identifier() == d.file && !layer->entries().empty() &&
+                      layer->entries().back().spec.line != 0;
+    const bool bare = layer->identifier() == d.file && layer->spec_count() == 1;
+    d.line = text || (bare && d.file.ends_with(".usda")) ? 1 : d.line;
+  }
+}
+
+/// An asset that is made to be referenced leaves the PhysicsScene to the scene that uses it.
+bool is_part(const stage::Stage& stage) {
+  const stage::Prim prim = stage.default_prim();
+  const std::vector<std::string> sets = prim.variant_set_names();
+  return prim.has_authored_metadata("kind") ||
+         std::find(sets.begin(), sets.end(), "Physics") != sets.end();
+}
+
+auto order_of(const Finding& finding) {
+  const Diagnostic& d = finding.diagnostic;
+  return std::tie(d.file, d.line, d.column, d.prim, d.property, d.rule, d.message);
+}
+
+}  // namespace
+
+bool Selection::takes(std::string_view rule) const {
+  return (only.empty() || names(only, rule)) && !names(skip, rule);
+}
+
+std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Diagnostic>& opening,
+                                 const Selection& selection) {
+  Diagnostics read;
+  const physics::PhysicsScene scene = physics::read_physics(stage, {}, read);
+  std::vector<Diagnostic> found = opening;
+  found.insert(found.end(), read.begin(), read.end());
+  const Subject subject = make_subject(stage, scene, found);
+  for (const Rule& rule : rules()) {
+    if (rule.check != nullptr && selection.takes(rule.id)) {
+      Reporter report(rule, found);
+      rule.check(subject, report);
+    }
+  }
+  const bool part = is_part(stage);
+  std::set<decltype(place_key(found.front()))> seen;
+  std::vector<Finding> findings;
+  for (Diagnostic& diagnostic : found) {
+    place_in_file(stage, diagnostic);
+    if (!selection.takes(diagnostic.rule) || !seen.insert(place_key(diagnostic)).second) {
+      continue;
+    }
+    if (part && diagnostic.rule == "scene.missing") {
+      diagnostic.severity = Severity::Info;
+    }
+    Finding finding;
+    finding.rule = find_rule(diagnostic.rule);
+    if (finding.rule != nullptr && finding.rule->fix != nullptr) {
+      finding.fix = finding.rule->fix(subject, diagnostic);
+    }
+    finding.diagnostic = std::move(diagnostic);
+    findings.push_back(std::move(finding));
+  }
+  return findings;
+}
+
+std::vector<Finding> merge_variants(std::vector<VariantFindings> runs) {
+  using Key = decltype(prim_key(std::declval<Diagnostic>()));
+  std::map<Key, std::size_t> place;
+  std::vector<Finding> merged;
+  for (VariantFindings& run : runs) {
+    for (Finding& finding : run.findings) {
+      const auto added = place.emplace(prim_key(finding.diagnostic), merged.size());
+      if (added.second) {
+        finding.variants.clear();
+        merged.push_back(std::move(finding));
+      }
+      std::vector<std::string>& variants = merged[added.first->second].variants;
+      if (variants.empty() || variants.back() != run.variant) {
+        variants.push_back(run.variant);
+      }
+    }
+  }
+  std::erase_if(merged, [&](const Finding& finding) {
+    return finding.rule != nullptr && finding.rule->holds == Holds::InAllVariants &&
+           finding.variants.size() < runs.size();
+  });
+  for (Finding& finding : merged) {
+    if (finding.variants.size() == runs.size()) {
+      finding.variants.clear();
+    }
+  }
+  std::stable_sort(merged.begin(), merged.end(),
+                   [](const Finding& a, const Finding& b) { return order_of(a) < order_of(b); });
+  return merged;
+}
+
+}  // namespace tenon::check

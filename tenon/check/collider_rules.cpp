@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "tenon/check/convex_overlap.h"
+#include "tenon/check/subject.h"
+#include "tenon/layer/field_values.h"
+
+namespace tenon::check {
+namespace {
+
+using physics::Collider;
+using physics::Index;
+using physics::ShapeKind;
+
+/// The smaller of two solids may reach this part of its size into the other.
+constexpr double kDepth = 0.1;
+
+Pose world_pose(const physics::PhysicsScene& scene, const Collider& collider) {
+  return collider.body ? scene.bodies[*collider.body].pose * collider.pose : collider.pose;
+}
+
+Vec3d middle_of(const std::vector<Vec3d>& points) {
+  Vec3d low = points.front();
+  Vec3d high = low;
+  for (const Vec3d& p : points) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::fmin(low[i], p[i]);
+      high[i] = std::fmax(high[i], p[i]);
+    }
+  }
+  return (low + high) * 0.5;
+}
+
+struct Placed {
+  Index collider = 0;
+  ConvexSolid solid;
+  Vec3d low;
+  Vec3d high;
+};
+
+std::vector<Placed> placed_solids(const physics::PhysicsScene& scene) {
+  std::vector<Placed> placed;
+  for (Index i = 0; i < scene.colliders.size(); ++i) {
+    const Collider& collider = scene.colliders[i];
+    if (!collider.enabled || !is_convex(collider.shape)) {
+      continue;
+    }
+    Placed item;
+    item.collider = i;
+    item.solid = {&collider.shape, nullptr, world_pose(scene, collider), {}, 1};
+    if (collider.shape.kind == ShapeKind::ConvexHull) {
+      item.solid.points = &scene.meshes[collider.shape.mesh].points;
+      item.solid.middle = middle_of(*item.solid.points);
+    }
+    std::tie(item.low, item.high) = bounds_of(item.solid);
+    placed.push_back(item);
+  }
+  std::sort(placed.begin(), placed.end(),
+            [](const Placed& a, const Placed& b) { return a.low[0] < b.low[0]; });
+  return placed;
+}
+
+bool is_dynamic(const physics::PhysicsScene& scene, const Collider& collider) {
+  return collider.body && !scene.bodies[*collider.body].kinematic;
+}
+
+bool boxes_meet(const Placed& a, const Placed& b) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (a.high[i] < b.low[i] || b.high[i] < a.low[i]) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The first triangle's normal, by the orientation of the mesh, looks away from the first authored
+/// one.
+bool first_face_is_turned(const stage::Prim& prim, const layer::Array<Vec3f>& points,
+                          const layer::Array<Vec3f>& normals,
+                          const layer::Array<std::int32_t>& indices) {
+  if (indices.size() < 3 || normals.empty()) {
+    return false;
+  }
+  std::array<Vec3d, 3> corner;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int32_t index = indices[i];
+    if (index < 0 || static_cast<std::size_t>(index) >= points.size()) {
+      return false;
+    }
+    corner[i] = to_double(points[static_cast<std::size_t>(index)]);
+  }
+  Vec3d normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  if (prim.attribute("orientation").get_as<Token>() == Token("leftHanded")) {
+    normal = -normal;
+  }
+  const bool per_point = normals.size() == points.size();
+  const auto place = per_point ? static_cast<std::size_t>(indices[0]) : 0;
+  const Vec3d authored = to_double(normals[place]);
+  return dot(normal, authored) < -0.5 * length(normal) * length(authored);
+}
+
+/// Reaching into each other by more than what rounding and resting contacts explain.
+bool reach_into(Placed a, Placed b) {
+  const bool a_smaller = length(a.high - a.low) <= length(b.high - b.low);
+  (a_smaller ? a : b).solid.keep = 1 - kDepth;
+  return overlap(a.solid, b.solid);
+}
+
+}  // namespace
+
+void check_overlap_at_start(const Subject& subject, Reporter& report) {
+  const physics::PhysicsScene& scene = subject.scene;
+  const std::vector<Placed> placed = placed_solids(scene);
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const Collider& a = scene.colliders[placed[i].collider];
+    for (std::size_t j = i + 1; j < placed.size() && placed[j].low[0] <= placed[i].high[0]; ++j) {
+      const Collider& b = scene.colliders[placed[j].collider];
+      if ((!is_dynamic(scene, a) && !is_dynamic(scene, b)) || !boxes_meet(placed[i], placed[j]) ||
+          !scene.may_collide(placed[i].collider, placed[j].collider) ||
+          !reach_into(placed[i], placed[j])) {
+        continue;
+      }
+      const Collider& first = a.path < b.path ? a : b;
+      const Collider& second = a.path < b.path ? b : a;
+      report.at(subject.stage.prim(first.path),
+                "at the start the collider reaches into <" + second.path.str() +
+                    ">: both are thrown apart",
+                "move them apart, or filter the pair with PhysicsFilteredPairsAPI");
+    }
+  }
+}
+
+// Isaac: what is not to be seen but collides is a guide.
+void check_invisible_collider(const Subject& subject, Reporter& report) {
+  for (const Collider& collider : subject.scene.colliders) {
+    const stage::Prim prim = subject.stage.prim(collider.path);
+    bool invisible = false;
+    for (stage::Prim at = prim; at && !at.is_pseudo_root(); at = at.parent()) {
+      invisible = invisible || at.attribute("visibility").get_as<Token>() == Token("invisible");
+    }
+    if (invisible &&
+        prim.attribute("purpose").get_as<Token>().value_or("default") != Token("guide")) {
+      report.at(prim, "the collider is invisible; what collides and is not to be seen is a guide",
+                "author purpose = \"guide\" instead");
+    }
+  }
+}
+
+void check_degenerate_mesh(const Subject& subject, Reporter& report) {
+  for (const Collider& collider : subject.scene.colliders) {
+    const bool hull = collider.shape.kind == ShapeKind::ConvexHull;
+    if (!hull && collider.shape.kind != ShapeKind::Mesh) {
+      continue;
+    }
+    const physics::TriangleMesh& mesh = subject.scene.meshes[collider.shape.mesh];
+    const auto is_empty = [&](const Vec3i& t) {
+      const Vec3d& a = mesh.points[static_cast<std::size_t>(t[0])];
+      const Vec3d b = mesh.points[static_cast<std::size_t>(t[1])] - a;
+      const Vec3d c = mesh.points[static_cast<std::size_t>(t[2])] - a;
+      return length(cross(b, c)) <= 1e-12 * (dot(b, b) + dot(c, c));
+    };
+    const auto count = static_cast<std::size_t>(
+        std::count_if(mesh.triangles.begin(), mesh.triangles.end(), is_empty));
+    if (count > 0 && (!hull || count == mesh.triangles.size())) {
+      report.at(subject.stage.prim(collider.path),
+                std::to_string(count) + " of " + std::to_string(mesh.triangles.size()) +
+                    " triangles of the collider have no area",
+                "remove faces whose points lie in one line");
+    }
+  }
+}
+
+// S-57: the schema's sizes are in the stage's units, whatever those are.
+void check_default_size(const Subject& subject, Reporter& report) {
+  constexpr std::pair<const char*, const char*> kSizes[] = {{"Cube", "size"},
+                                                            {"Sphere", "radius"},
+                                                            {"Capsule", "radius"},
+                                                            {"Cylinder", "radius"},
+                                                            {"Cone", "radius"}};
+  for (const Collider& collider : subject.scene.colliders) {
+    const stage::Prim prim = subject.stage.prim(collider.path);
+    for (const auto& [type, size] : kSizes) {
+      if (prim.type_name() == type && !prim.attribute(size).has_authored_value()) {
+        report.at(prim,
+                  std::string("no ") + size + " is authored; the schema's counts: " +
+                      digits(prim.attribute(size).get_as<double>().value_or(0)) + " units",
+                  std::string("author ") + size);
+      }
+    }
+  }
+}
+
+// which side of a mesh is outside follows from the winding alone.
+void check_normals(const Subject& subject, Reporter& report) {
+  for (const Collider& collider : subject.scene.colliders) {
+    const stage::Prim prim = subject.stage.prim(collider.path);
+    if (!prim.is_a("Mesh")) {
+      continue;
+    }
+    const auto points = prim.attribute("points").get_as<layer::Array<Vec3f>>();
+    const auto normals = prim.attribute("normals").get_as<layer::Array<Vec3f>>();
+    const auto indices = prim.attribute("faceVertexIndices").get_as<layer::Array<std::int32_t>>();
+    if (points && normals && indices && first_face_is_turned(prim, *points, *normals, *indices)) {
+      report.at(prim, "normals",
+                "the normals point against the winding of the faces, which alone says where "
+                "outside is",
+                "turn the faces, or author orientation = \"leftHanded\"");
+    }
+  }
+}
+
+}  // namespace tenon::check

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "tenon/check/joint_state.h"
+#include "tenon/check/subject.h"
+
+namespace tenon::check {
+namespace {
+
+using physics::Drive;
+using physics::Joint;
+using physics::JointKind;
+
+constexpr double kAbsurdGain = 1e9;  ///< in the file's own unit
+constexpr double kSlack = 1e-3;      ///< [rad or m] beyond a limit
+
+const Token kDriveApi("PhysicsDriveAPI");
+
+std::string attribute_name(Token instance, const char* what) {
+  return "drive:" + instance.str() + ":physics:" + what;
+}
+
+bool has_one_axis(const Joint& joint) {
+  return joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic;
+}
+
+double unit_of(const Subject& subject, const Joint& joint) {
+  return joint.kind == JointKind::Revolute ? 180 / 3.14159265358979323846
+                                           : 1 / subject.scene.meters_per_unit;
+}
+
+/// Calls visit(prim, name, value) for each authored number of each drive.
+template <class Visit>
+void each_gain(const Subject& subject, Visit visit) {
+  for (const stage::Prim& prim : subject.prims) {
+    for (const Token instance : prim.api_instances(kDriveApi)) {
+      for (const char* what : {"stiffness", "damping"}) {
+        const std::string name = attribute_name(instance, what);
+        if (const std::optional<double> value = authored_number(prim, name)) {
+          visit(prim, name, *value);
+        }
+      }
+    }
+  }
+}
+
+template <class Visit>
+void each_drive(const Subject& subject, Visit visit) {
+  for (const Joint& joint : subject.scene.joints) {
+    for (const Drive& drive : joint.drives) {
+      visit(joint, drive, subject.stage.prim(drive.source));
+    }
+  }
+}
+
+bool acts(const Drive& drive) { return drive.stiffness != 0 || drive.damping != 0; }
+
+}  // namespace
+
+void check_negative_gain(const Subject& subject, Reporter& report) {
+  each_gain(subject, [&](const stage::Prim& prim, const std::string& name, double value) {
+    if (value < 0) {
+      report.at(prim, name, name + " is " + digits(value) + ": the drive feeds energy in",
+                "author a gain that is not negative");
+    }
+  });
+}
+
+void check_absurd_gain(const Subject& subject, Reporter& report) {
+  each_gain(subject, [&](const stage::Prim& prim, const std::string& name, double value) {
+    if (value > kAbsurdGain && std::isfinite(value)) {
+      report.at(prim, name, name + " is " + digits(value) + ", more than solvers can follow",
+                "author a gain that fits the masses and the time step, or lock the axis");
+    }
+  });
+}
+
+void check_max_force_zero(const Subject& subject, Reporter& report) {
+  each_drive(subject, [&](const Joint&, const Drive& drive, const stage::Prim& prim) {
+    if (drive.max_force == 0 && acts(drive)) {
+      report.at(prim, "the drive has gains but a maxForce of 0: no force",
+                "author a positive maxForce, or leave it out");
+    }
+  });
+}
+
+void check_max_force_unlimited(const Subject& subject, Reporter& report) {
+  each_drive(subject, [&](const Joint& joint, const Drive& drive, const stage::Prim& prim) {
+    if (joint.articulation && std::isinf(drive.max_force) && acts(drive)) {
+      report.at(prim, "the drive has no force limit: it is stronger than any real actuator",
+                "author maxForce as the actuator's limit");
+    }
+  });
+}
+
+// S-101
+void check_target_limits(const Subject& subject, Reporter& report) {
+  each_drive(subject, [&](const Joint& joint, const Drive& drive, const stage::Prim& prim) {
+    if (!has_one_axis(joint) || drive.stiffness == 0 || joint.lower > joint.upper) {
+      return;
+    }
+    const double target = drive.target_position;
+    if (target < joint.lower - kSlack || target > joint.upper + kSlack) {
+      const double unit = unit_of(subject, joint);
+      report.at(prim,
+                "the drive's target " + digits(target * unit) + " lies outside of the limits " +
+                    digits(joint.lower * unit) + " and " + digits(joint.upper * unit),
+                "author a target within the limits");
+    }
+  });
+}
+
+void check_target_state(const Subject& subject, Reporter& report) {
+  each_drive(subject, [&](const Joint& joint, const Drive& drive, const stage::Prim& prim) {
+    if (!has_one_axis(joint) || drive.stiffness == 0 || !joint.initial_position) {
+      return;
+    }
+    if (std::fabs(drive.target_position - *joint.initial_position) > 1e-2) {
+      const double unit = unit_of(subject, joint);
+      report.at(prim,
+                "the drive's target " + digits(drive.target_position * unit) +
+                    " differs from the joint state " + digits(*joint.initial_position * unit) +
+                    ": the joint jerks at the start",
+                "author the state as the target, or accept the motion");
+    }
+  });
+}
+
+// A robot of which some joints are driven and others hang loose.
+void check_drive_missing(const Subject& subject, Reporter& report) {
+  for (const physics::Articulation& articulation : subject.scene.articulations) {
+    const auto is_driven = [&](physics::Index i) {
+      const Joint& joint = subject.scene.joints[i];
+      return std::any_of(joint.drives.begin(), joint.drives.end(), acts);
+    };
+    const bool some =
+        std::any_of(articulation.joints.begin(), articulation.joints.end(), is_driven);
+    for (const physics::Index i : articulation.joints) {
+      const Joint& joint = subject.scene.joints[i];
+      const bool loose = has_one_axis(joint) && joint.drives.empty() && !joint.mimic &&
+                         joint.stiffness == 0 && joint.lower < joint.upper;
+      const std::string path = joint.path.str();
+      const bool judged = subject.has_finding("mimic.leader-missing", path) ||
+                          subject.has_finding("mimic.circle", path);
+      if (some && loose && !judged) {
+        report.at(subject.stage.prim(joint.path),
+                  "the joint has neither drive nor mimic, other joints of the robot have",
+                  "apply PhysicsDriveAPI, or a fixed joint if it is not to move");
+      }
+    }
+  }
+}
+
+// Isaac: a follower is driven by its leader alone.
+void check_drive_on_mimic(const Subject& subject, Reporter& report) {
+  each_drive(subject, [&](const Joint& joint, const Drive& drive, const stage::Prim& prim) {
+    if (joint.mimic && acts(drive)) {
+      report.at(prim, "the joint follows another one and has a drive of its own: they fight",
+                "set the drive's stiffness and damping to 0");
+    }
+  });
+}
+
+}  // namespace tenon::check

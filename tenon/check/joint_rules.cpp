@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "tenon/check/joint_state.h"
+#include "tenon/check/subject.h"
+
+namespace tenon::check {
+namespace {
+
+using physics::Index;
+using physics::Joint;
+using physics::JointKind;
+
+constexpr double kPi2 = 6.2831853071795865;
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+const Token kLower("physics:lowerLimit");
+
+bool has_one_axis(const Joint& joint) {
+  return joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic;
+}
+
+stage::Prim prim_of(const Subject& subject, const Joint& joint) {
+  return subject.stage.prim(joint.path);
+}
+
+/// Authored limits in the file's own numbers.
+struct AuthoredLimits {
+  double lower = -INFINITY;
+  double upper = INFINITY;
+  bool closed() const { return std::isfinite(lower) && std::isfinite(upper); }
+};
+
+AuthoredLimits limits_of(const stage::Prim& prim) {
+  return {authored_number(prim, kLower).value_or(-INFINITY),
+          authored_number(prim, "physics:upperLimit").value_or(INFINITY)};
+}
+
+/// A multiple of 30 or 45 degrees in radians, to half a percent.
+bool is_round_in_radians(double value) {
+  for (const double step : {kPi2 / 12, kPi2 / 8}) {
+    const double count = std::fabs(value) / step;
+    const double nearest = std::round(count);
+    if (nearest >= 1 && nearest <= 12 && std::fabs(count - nearest) < 0.005 * nearest) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Revolute joints whose closed limits span no more than a turn in radians.
+struct NarrowJoints {
+  std::size_t narrow = 0;
+  std::size_t closed = 0;
+};
+
+NarrowJoints count_narrow(const Subject& subject) {
+  NarrowJoints count;
+  for (const Joint& joint : subject.scene.joints) {
+    const AuthoredLimits limits = limits_of(prim_of(subject, joint));
+    if (joint.kind == JointKind::Revolute && limits.closed() && limits.upper > limits.lower) {
+      ++count.closed;
+      count.narrow += limits.upper - limits.lower <= kPi2 + 0.01 ? 1u : 0u;
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+// S-98: legal, and means locked; nobody locks an axis by 30 and -30.
+void check_crossed_limits(const Subject& subject, Reporter& report) {
+  for (const Joint& joint : subject.scene.joints) {
+    if (!has_one_axis(joint) || !joint.enabled) {
+      continue;
+    }
+    const stage::Prim prim = prim_of(subject, joint);
+    const AuthoredLimits limits = limits_of(prim);
+    if (limits.closed() && limits.lower > limits.upper) {
+      report.at(prim, kLower,
+                "the lower limit " + digits(limits.lower) + " exceeds the upper limit " +
+                    digits(limits.upper) + ": the joint is locked",
+                "swap the limits, or use a PhysicsFixedJoint if the joint is to be locked");
+    }
+  }
+}
+
+void check_radian_limits(const Subject& subject, Reporter& report) {
+  const NarrowJoints count = count_narrow(subject);
+  const bool all_narrow = count.closed >= 3 && count.narrow == count.closed;
+  for (const Joint& joint : subject.scene.joints) {
+    if (joint.kind != JointKind::Revolute) {
+      continue;
+    }
+    const stage::Prim prim = prim_of(subject, joint);
+    const AuthoredLimits limits = limits_of(prim);
+    if (!limits.closed() || limits.upper <= limits.lower ||
+        limits.upper - limits.lower > kPi2 + 0.01) {
+      continue;
+    }
+    const bool round = is_round_in_radians(limits.lower) || is_round_in_radians(limits.upper);
+    if (all_narrow || round) {
+      report.at(prim, kLower,
+                "the limits " + digits(limits.lower) + " and " + digits(limits.upper) +
+                    " degrees look like radians",
+                "author " + digits(limits.lower * kDegrees) + " and " +
+                    digits(limits.upper * kDegrees) + " if radians were meant");
+    }
+  }
+}
+
+// S-99
+void check_multi_turn(const Subject& subject, Reporter& report) {
+  for (const Joint& joint : subject.scene.joints) {
+    const AuthoredLimits limits = limits_of(prim_of(subject, joint));
+    const bool beyond = (std::isfinite(limits.lower) && limits.lower < -360) ||
+                        (std::isfinite(limits.upper) && limits.upper > 360);
+    if (joint.kind == JointKind::Revolute && beyond) {
+      report.at(prim_of(subject, joint), kLower,
+                "the limits reach beyond a turn; PhysX clamps them to 360 degrees",
+                "leave the limits open if the joint turns freely");
+    }
+  }
+}
+
+// S-89
+void check_rotation_zero(const Subject& subject, Reporter& report) {
+  for (const stage::Prim& prim : subject.prims) {
+    for (const char* name : {"physics:localRot0", "physics:localRot1"}) {
+      const stage::Attribute rotation = prim.attribute(name);
+      const auto value = rotation.has_authored_value() ? rotation.get_as<Quatf>() : std::nullopt;
+      if (value && dot(to_double(*value), to_double(*value)) == 0) {
+        report.at(prim, name, std::string(name) + " is zero, no rotation; the identity is taken",
+                  "author (1, 0, 0, 0) or the rotation that is meant");
+      }
+    }
+  }
+}
+
+// S-89
+void check_rotation_length(const Subject& subject, Reporter& report) {
+  for (const stage::Prim& prim : subject.prims) {
+    for (const char* name : {"physics:localRot0", "physics:localRot1"}) {
+      const stage::Attribute rotation = prim.attribute(name);
+      const auto value = rotation.has_authored_value() ? rotation.get_as<Quatf>() : std::nullopt;
+      const double norm = value ? std::sqrt(dot(to_double(*value), to_double(*value))) : 1;
+      if (norm > 0 && std::fabs(norm - 1) > 1e-3) {
+        report.at(prim, name,
+                  std::string(name) + " has length " + digits(norm) + "; it is normalised",
+                  "author a unit quaternion");
+      }
+    }
+  }
+}
+
+void check_parallel_joints(const Subject& subject, Reporter& report) {
+  std::map<std::pair<Index, Index>, const Joint*> first;
+  for (const Joint& joint : subject.scene.joints) {
+    if (!joint.enabled || joint.exclude_from_articulation || !joint.body0 || !joint.body1) {
+      continue;
+    }
+    const auto pair = std::minmax(*joint.body0, *joint.body1);
+    const auto added = first.emplace(std::pair(pair.first, pair.second), &joint);
+    if (!added.second) {
+      report.at(prim_of(subject, joint),
+                "<" + added.first->second->path.str() +
+                    "> joins the same two bodies: both hold at once, and reduced solvers skip one",
+                "make one PhysicsJoint with a limit per axis, or exclude one from articulations");
+    }
+  }
+}
+
+void check_joint_moves_something(const Subject& subject, Reporter& report) {
+  const auto is_dynamic = [&](const std::optional<Index>& body) {
+    return body && !subject.scene.bodies[*body].kinematic;
+  };
+  for (const Joint& joint : subject.scene.joints) {
+    if (joint.enabled && !is_dynamic(joint.body0) && !is_dynamic(joint.body1)) {
+      report.at(prim_of(subject, joint), "neither side of the joint moves freely: it has no effect",
+                "make one of its bodies dynamic, or remove the joint");
+    }
+  }
+}
+
+// S-93
+void check_break_in_articulation(const Subject& subject, Reporter& report) {
+  for (const Joint& joint : subject.scene.joints) {
+    if (joint.articulation &&
+        (std::isfinite(joint.break_force) || std::isfinite(joint.break_torque))) {
+      report.at(prim_of(subject, joint),
+                "the joint can break and is part of an articulation, where PhysX ignores that",
+                "author excludeFromArticulation if it is to break in every engine");
+    }
+  }
+}
+
+void check_velocity_limit(const Subject& subject, Reporter& report) {
+  for (const Joint& joint : subject.scene.joints) {
+    if (joint.velocity_limit == 0) {
+      report.at(prim_of(subject, joint), "the velocity limit of the joint is 0: it cannot move",
+                "author a positive limit, or remove it");
+    }
+  }
+}
+
+void check_joint_state(const Subject& subject, Reporter& report) {
+  for (const Joint& joint : subject.scene.joints) {
+    if (!joint.enabled || !joint.initial_position || !has_one_axis(joint)) {
+      continue;
+    }
+    const double posed = coordinate_from_poses(subject.scene, joint);
+    const bool angular = joint.kind == JointKind::Revolute;
+    double gap = std::fabs(*joint.initial_position - posed);
+    gap = angular ? std::fabs(std::remainder(gap, kPi2)) : gap;
+    if (gap > (angular ? 1e-2 : 1e-3)) {
+      const double unit = angular ? kDegrees : 1 / subject.scene.meters_per_unit;
+      report.at(prim_of(subject, joint),
+                "the joint state says " + digits(*joint.initial_position * unit) +
+                    ", the poses of the bodies say " + digits(posed * unit),
+                "author the state that the poses have, or move the bodies");
+    }
+  }
+}
+
+void check_physx_joint_api(const Subject& subject, Reporter& report) {
+  for (const stage::Prim& prim : subject.prims) {
+    if (prim.has_api("PhysxJointAPI")) {
+      report.at(prim,
+                "PhysxJointAPI is applied; newer PhysX releases ignore its attributes in silence",
+                "apply PhysxJointAxisAPI or NewtonJointAPI beside it");
+    }
+  }
+}
+
+// Isaac: robots have an articulation root.
+void check_articulation_missing(const Subject& subject, Reporter& report) {
+  const physics::PhysicsScene& scene = subject.scene;
+  std::vector<Index> parent(scene.bodies.size());
+  std::iota(parent.begin(), parent.end(), Index{0});
+  const auto find = [&](Index i) {
+    while (parent[i] != i) {
+      i = parent[i] = parent[parent[i]];
+    }
+    return i;
+  };
+  std::set<Index> taken;
+  for (const physics::Articulation& articulation : scene.articulations) {
+    taken.insert(articulation.links.begin(), articulation.links.end());
+  }
+  for (const Joint& joint : scene.joints) {
+    if (joint.enabled && joint.body0 && joint.body1) {
+      parent[find(*joint.body0)] = find(*joint.body1);
+    }
+  }
+  std::map<Index, std::vector<Index>> driven;  // set of bodies -> its driven joints
+  for (Index i = 0; i < scene.joints.size(); ++i) {
+    const Joint& joint = scene.joints[i];
+    const std::optional<Index> body = joint.body1 ? joint.body1 : joint.body0;
+    if (joint.enabled && !joint.drives.empty() && body && !taken.contains(*body)) {
+      driven[find(*body)].push_back(i);
+    }
+  }
+  for (const auto& [set, joints] : driven) {
+    if (joints.size() >= 3) {
+      report.at(prim_of(subject, scene.joints[joints.front()]),
+                std::to_string(joints.size()) +
+                    " driven joints hang together without an articulation root: engines simulate "
+                    "them less precisely, and robot tools do not find them",
+                "apply PhysicsArticulationRootAPI to the prim above the robot's bodies");
+    }
+  }
+}
+
+}  // namespace tenon::check

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/check/nearest_name.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace tenon::check {
+namespace {
+
+/// Insertions, deletions, replacements and swaps of neighbours; more than `most` counts as many.
+std::size_t distance(std::string_view a, std::string_view b, std::size_t most) {
+  if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) > most) {
+    return most + 1;
+  }
+  std::vector<std::size_t> older(b.size() + 1);
+  std::vector<std::size_t> old(b.size() + 1);
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) {
+    old[j] = j;
+  }
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = old[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({old[j] + 1, row[j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        row[j] = std::min(row[j], older[j - 2] + 1);
+      }
+    }
+    std::swap(older, old);
+    std::swap(old, row);
+  }
+  return old[b.size()];
+}
+
+bool same_but_capitals(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) ==
+           std::tolower(static_cast<unsigned char>(y));
+  });
+}
+
+}  // namespace
+
+std::string_view nearest_name(std::string_view name, const std::vector<std::string_view>& names) {
+  constexpr std::size_t kLongest = 200;
+  std::string_view best;
+  if (name.size() > kLongest) {
+    return best;
+  }
+  std::size_t best_distance = name.size() < 6 ? 2 : 3;  // one more than may be
+  for (const std::string_view candidate : names) {
+    if (candidate == name) {
+      return {};
+    }
+    const std::size_t d =
+        same_but_capitals(name, candidate) ? 0 : distance(name, candidate, best_distance);
+    if (d < best_distance || (d == best_distance && !best.empty() && candidate < best)) {
+      best = candidate;
+      best_distance = d;
+    }
+  }
+  return best;
+}
+
+}  // namespace tenon::check

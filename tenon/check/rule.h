@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/check/finding.h"
+
+namespace tenon::check {
+
+struct Subject;
+class Reporter;
+
+using CheckFunction = void(const Subject& subject, Reporter& report);
+using FixFunction = std::optional<Fix>(const Subject& subject, const Diagnostic& diagnostic);
+
+/// Whether a finding counts where only some Physics variants give it.
+enum class Holds : unsigned char { InAnyVariant, InAllVariants };
+
+/// One rule of the table (rules.def). Its page is docs/rules/<id>.md.
+struct Rule {
+  std::string_view id;  ///< stable: "mass.inertia-triangle"
+  Severity severity = Severity::Error;
+  std::string_view numbers;        ///< "S-45, M-19"; may be empty
+  CheckFunction* check = nullptr;  ///< null: found while the asset is opened or its physics read
+  FixFunction* fix = nullptr;      ///< null: no safe fix is known
+  Holds holds = Holds::InAnyVariant;
+};
+
+/// All rules, sorted by id.
+const std::vector<Rule>& rules();
+/// Null when there is no such rule.
+const Rule* find_rule(std::string_view id);
+
+/// The Markdown page of a rule, or of its family ("text" for "text.syntax"); empty when there is
+/// none.
+std::string_view page_of(std::string_view id);
+/// The first sentence of a page, in one line.
+std::string title_of(std::string_view page);
+/// The line below the heading that a page must have: severity, numbers, fix.
+std::string facts_of(const Rule& rule);
+
+/// A page that the build embeds.
+struct Page {
+  std::string_view id;
+  std::string_view text;
+};
+/// Sorted by id. Made by the build from docs/rules.
+const std::vector<Page>& pages();
+
+}  // namespace tenon::check

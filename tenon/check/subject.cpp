@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/check/subject.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "tenon/physics/attribute_values.h"
+
+namespace tenon::check {
+namespace {
+
+bool counts(const stage::Prim& prim) {
+  return prim.is_active() && prim.is_loaded() && prim.is_defined() && !prim.is_abstract();
+}
+
+/// Instances of one prototype are walked into once: their number may be large.
+std::vector<stage::Prim> walk(const stage::Stage& stage) {
+  std::vector<stage::Prim> found;
+  std::vector<stage::Prim> pending{stage.pseudo_root()};
+  std::set<Path> prototypes;
+  while (!pending.empty()) {
+    const stage::Prim prim = pending.back();
+    pending.pop_back();
+    if (!prim.is_pseudo_root()) {
+      if (!counts(prim)) {
+        continue;
+      }
+      found.push_back(prim);
+    }
+    if (prim.is_instance() && !prototypes.insert(prim.prototype().path()).second) {
+      continue;
+    }
+    const std::vector<stage::Prim> children = prim.children();
+    pending.insert(pending.end(), children.rbegin(), children.rend());
+  }
+  return found;
+}
+
+}  // namespace
+
+Subject make_subject(const stage::Stage& stage, const physics::PhysicsScene& scene,
+                     const std::vector<Diagnostic>& earlier) {
+  Subject subject{stage, scene, walk(stage), {}, {}};
+  for (const Diagnostic& diagnostic : earlier) {
+    subject.earlier.insert(diagnostic.prim + ' ' + diagnostic.property);
+    subject.earlier.insert(diagnostic.prim + ' ' + diagnostic.rule);
+  }
+  subject.colliders_of_body.resize(scene.bodies.size());
+  for (physics::Index i = 0; i < scene.colliders.size(); ++i) {
+    const physics::Collider& collider = scene.colliders[i];
+    if (collider.body && collider.enabled) {
+      subject.colliders_of_body[*collider.body].push_back(i);
+    }
+  }
+  return subject;
+}
+
+bool Subject::is_reported(const std::string& prim, const std::string& property) const {
+  return earlier.contains(prim + ' ' + property);
+}
+
+bool Subject::has_finding(std::string_view rule, const std::string& prim) const {
+  return earlier.contains(prim + ' ' + std::string(rule));
+}
+
+std::optional<physics::Index> Subject::joint_at(Path path) const {
+  const auto found =
+      std::lower_bound(scene.joints.begin(), scene.joints.end(), path,
+                       [](const physics::Joint& j, const Path& p) { return j.path < p; });
+  if (found == scene.joints.end() || !(found->path == path)) {
+    return std::nullopt;
+  }
+  return static_cast<physics::Index>(found - scene.joints.begin());
+}
+
+void Reporter::add(Diagnostic diagnostic, const stage::Prim& prim, std::string fix) {
+  if (diagnostic.prim.empty()) {
+    diagnostic.prim = prim.path().str();
+  }
+  diagnostic.fix = std::move(fix);
+  out_->push_back(std::move(diagnostic));
+}
+
+void Reporter::at(const stage::Prim& prim, std::string message, std::string fix) {
+  add(prim.located(rule_->severity, std::string(rule_->id), std::move(message)), prim,
+      std::move(fix));
+}
+
+void Reporter::at(const stage::Prim& prim, Token property, std::string message, std::string fix) {
+  Diagnostic found = prim.is_relationship(property)
+                         ? prim.relationship(property).located(
+                               rule_->severity, std::string(rule_->id), std::move(message))
+                         : prim.attribute(property).located(rule_->severity, std::string(rule_->id),
+                                                            std::move(message));
+  if (found.property.empty()) {
+    found.property = property.str();
+  }
+  add(std::move(found), prim, std::move(fix));
+}
+
+void Reporter::at_root(const stage::Stage& stage, std::string message, std::string fix) {
+  Diagnostic found;
+  found.severity = rule_->severity;
+  found.rule = rule_->id;
+  found.message = std::move(message);
+  found.file = stage.root_layer().identifier();
+  found.line = 1;
+  found.fix = std::move(fix);
+  out_->push_back(std::move(found));
+}
+
+std::string digits(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.3g", value);
+  return buffer;
+}
+
+std::optional<double> authored_number(const stage::Prim& prim, Token name) {
+  const stage::Attribute attribute = prim.attribute(name);
+  return attribute.has_authored_value() ? physics::number_of(attribute.get()) : std::nullopt;
+}
+
+std::optional<bool> authored_flag(const stage::Prim& prim, Token name) {
+  const stage::Attribute attribute = prim.attribute(name);
+  if (!attribute.has_authored_value()) {
+    return std::nullopt;
+  }
+  const layer::Value value = attribute.get();
+  if (const bool* flag = value.get<bool>()) {
+    return *flag;
+  }
+  const std::optional<double> number = physics::number_of(value);
+  return number ? std::optional<bool>(*number != 0) : std::nullopt;
+}
+
+}  // namespace tenon::check

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/check/rule.h"
+#include "tenon/physics/physics_scene.h"
+#include "tenon/stage/stage.h"
+
+namespace tenon::check {
+
+/// What the rules look at: a composed stage and the physics that was read from it.
+struct Subject {
+  const stage::Stage& stage;
+  const physics::PhysicsScene& scene;
+  /// Active, loaded, defined, non-abstract prims in traversal order; what instances share stands
+  /// here once, as seen from the first of them.
+  std::vector<stage::Prim> prims;
+  std::vector<std::vector<physics::Index>> colliders_of_body;  ///< enabled ones; (body_count)
+  /// "prim property" and "prim rule" of what was found before the rules run: while opening,
+  /// composing and reading the physics.
+  std::unordered_set<std::string> earlier;
+
+  /// Some finding on this property of this prim is known already.
+  bool is_reported(const std::string& prim, const std::string& property) const;
+  /// Some finding of this rule on this prim is known already.
+  bool has_finding(std::string_view rule, const std::string& prim) const;
+  std::optional<physics::Index> joint_at(Path path) const;
+};
+
+Subject make_subject(const stage::Stage& stage, const physics::PhysicsScene& scene,
+                     const std::vector<Diagnostic>& earlier);
+
+/// Takes what one rule finds and gives it the rule's id and severity.
+class Reporter {
+ public:
+  Reporter(const Rule& rule, std::vector<Diagnostic>& out) : rule_(&rule), out_(&out) {}
+
+  /// At the strongest opinion on the prim.
+  void at(const stage::Prim& prim, std::string message, std::string fix);
+  /// At the strongest opinion on a property, or on the prim where there is none.
+  void at(const stage::Prim& prim, Token property, std::string message, std::string fix);
+  /// At the top of the root layer.
+  void at_root(const stage::Stage& stage, std::string message, std::string fix);
+
+ private:
+  void add(Diagnostic diagnostic, const stage::Prim& prim, std::string fix);
+
+  const Rule* rule_;
+  std::vector<Diagnostic>* out_;
+};
+
+/// Three digits, enough for a message.
+std::string digits(double value);
+
+/// A number of any numeric type that the asset authors, at the default time or the start.
+std::optional<double> authored_number(const stage::Prim& prim, Token name);
+std::optional<bool> authored_flag(const stage::Prim& prim, Token name);
+
+}  // namespace tenon::check

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/check_asset.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "tenon/bytes/file_bytes.h"
+#include "tenon/check/apply_edits.h"
+#include "tenon/formats/open_layer.h"
+#include "tenon/formats/package/asset_paths.h"
+#include "tenon/formats/save_layer.h"
+#include "tenon/formats/text/layout_edit.h"
+
+namespace tenon {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPhysics = "Physics";
+
+struct Run {
+  check::VariantFindings found;
+  std::vector<std::string> variants;
+  std::string selection;
+};
+
+Result<Run> run_once(const std::string& path, const CheckOptions& options,
+                     const std::string& variant) {
+  OpenOptions open = options.open;
+  open.physics_variant = variant;
+  Diagnostics opening;
+  TENON_TRY(const stage::Stage stage, open_stage(path, open, opening));
+  Run run;
+  const stage::Prim prim = stage.default_prim();
+  const auto sets = prim.variant_set_names();
+  if (std::find(sets.begin(), sets.end(), kPhysics) != sets.end()) {
+    run.variants = prim.variant_names(kPhysics);
+    run.selection = prim.variant_selection(kPhysics);
+  }
+  run.found.variant = variant.empty() ? run.selection : variant;
+  run.found.findings = check::check_stage(stage, opening.items(), options.rules);
+  return run;
+}
+
+bool is_usd_file(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  return ending == ".usd" || ending == ".usda" || ending == ".usdc" || ending == ".usdz";
+}
+
+/// Files that a layer names as layers, as absolute paths.
+std::set<std::string> used_files(const std::string& path) {
+  std::set<std::string> used;
+  Diagnostics ignored;
+  auto layer = formats::open_layer_file(path, ignored);
+  if (!layer) {
+    return used;
+  }
+  const fs::path folder = fs::path(path).parent_path();
+  formats::rename_assets(*layer, [&](const std::string& asset, formats::AssetUse use, Path) {
+    if (use == formats::AssetUse::Layer) {
+      used.insert((folder / asset.substr(0, asset.find('['))).lexically_normal().string());
+    }
+    return asset;
+  });
+  return used;
+}
+
+/// Files that nothing else names; of a circle that nothing leads to, the first.
+std::vector<std::string> roots_of(const std::vector<std::string>& files) {
+  std::map<std::string, std::set<std::string>> uses;
+  std::set<std::string> used;
+  for (const std::string& file : files) {
+    uses[file] = used_files(file);
+    uses[file].erase(file);
+    used.insert(uses[file].begin(), uses[file].end());
+  }
+  std::set<std::string> reached;
+  const auto reach = [&](const std::string& from) {
+    std::vector<std::string> pending{from};
+    while (!pending.empty()) {
+      const std::string file = pending.back();
+      pending.pop_back();
+      if (reached.insert(file).second) {
+        pending.insert(pending.end(), uses[file].begin(), uses[file].end());
+      }
+    }
+  };
+  std::vector<std::string> roots;
+  for (const bool circles : {false, true}) {
+    for (const std::string& file : files) {
+      if (!reached.contains(file) && (circles || !used.contains(file))) {
+        roots.push_back(file);
+        reach(file);
+      }
+    }
+  }
+  std::sort(roots.begin(), roots.end());
+  return roots;
+}
+
+Result<CorrectedFile> corrected_file(const std::string& path,
+                                     const std::vector<check::SpecEdit>& edits) {
+  Diagnostics ignored;
+  TENON_TRY(const auto bytes, bytes::FileBytes::open(path));
+  if (formats::format_of(*bytes) == formats::LayerFormat::Package) {
+    // Writing the layer would lose the other files of the package.
+    return Error(ErrorCode::Unsupported, "a package cannot be corrected in place").in_file(path);
+  }
+  TENON_TRY(layer::Layer layer, formats::read_layer(bytes, path, ignored));
+  TENON_CHECK(check::apply_edits(edits, layer));
+  CorrectedFile file;
+  file.path = path;
+  const formats::LayerFormat format = formats::format_of(*bytes);
+  file.text = format == formats::LayerFormat::Text;
+  if (file.text) {
+    file.before = bytes->text();
+    file.after = formats::edit_text(bytes->text(), layer).text;
+  } else {
+    TENON_TRY(file.after, formats::encode_layer(layer, format));
+  }
+  return file;
+}
+
+}  // namespace
+
+Result<CheckedAsset> check_asset(const std::string& path, const CheckOptions& options) {
+  TENON_TRY(Run first, run_once(path, options, options.open.physics_variant));
+  CheckedAsset checked;
+  std::vector<check::VariantFindings> runs;
+  const bool all = options.open.physics_variant.empty();
+  if (all && !first.variants.empty()) {
+    const bool selects_one = std::find(first.variants.begin(), first.variants.end(),
+                                       first.selection) != first.variants.end();
+    for (const std::string& variant : first.variants) {
+      if (selects_one && variant == first.selection) {
+        runs.push_back(std::move(first.found));
+        continue;
+      }
+      TENON_TRY(Run run, run_once(path, options, variant));
+      runs.push_back(std::move(run.found));
+    }
+    checked.variants = first.variants;
+    if (!selects_one) {
+      first.found.variant = "(as it opens)";
+      runs.push_back(std::move(first.found));
+    }
+  } else {
+    checked.variants = first.found.variant.empty() ? std::vector<std::string>()
+                                                   : std::vector<std::string>{first.found.variant};
+    runs.push_back(std::move(first.found));
+  }
+  checked.findings = check::merge_variants(std::move(runs));
+  return checked;
+}
+
+Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Finding>& findings) {
+  std::vector<CorrectedFile> files;
+  for (const auto& [path, edits] : check::edits_by_layer(findings)) {
+    TENON_TRY(CorrectedFile file, corrected_file(path, edits));
+    if (!file.text || file.before != file.after) {
+      files.push_back(std::move(file));
+    }
+  }
+  return files;
+}
+
+Result<std::vector<std::string>> root_assets(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    return std::vector<std::string>{path};
+  }
+  std::vector<std::string> files;
+  fs::recursive_directory_iterator at(path, fs::directory_options::skip_permission_denied, error);
+  for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+    std::error_code ignored;
+    if (at->is_regular_file(ignored) && is_usd_file(at->path())) {
+      files.push_back(fs::absolute(at->path(), ignored).lexically_normal().string());
+    }
+  }
+  if (error) {
+    return Error(ErrorCode::Io, "the folder cannot be read: " + error.message()).in_file(path);
+  }
+  std::sort(files.begin(), files.end());
+  return roots_of(files);
+}
+
+}  // namespace tenon

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tenon/base/result.h"
+#include "tenon/check/check_stage.h"
+#include "tenon/check/finding.h"
+#include "tenon/tenon.h"
+
+/// Files checked and corrected: the rules of tenon/check over all Physics variants of an asset.
+namespace tenon {
+
+struct CheckOptions {
+  OpenOptions open;  ///< with a physics_variant only that one is looked at
+  check::Selection rules;
+};
+
+struct CheckedAsset {
+  std::vector<std::string> variants;  ///< of "Physics" that were looked at; empty: no such set
+  std::vector<check::Finding> findings;
+};
+
+/// Opens the asset under each variant of its default prim's set "Physics", and as it opens by
+/// itself where its selection names none of them. Fails as open_stage does.
+Result<CheckedAsset> check_asset(const std::string& path, const CheckOptions& options);
+
+/// A file before and after the fixes.
+struct CorrectedFile {
+  std::string path;
+  std::string before;  ///< empty for what is no text
+  std::string after;   ///< text, or the bytes of a binary layer
+  bool text = false;
+};
+
+/// What the fixes of the findings make of the files that own the opinions; comments and layout of
+/// text stay. No file is touched: write_file (bytes/atomic_write.h) does that.
+Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Finding>& findings);
+
+/// Files below a folder that no other of them uses as a layer, sorted; a file alone is one.
+/// What cannot be opened counts as used by nobody. Errors: ErrorCode::NotFound, Io.
+Result<std::vector<std::string>> root_assets(const std::string& path);
+
+}  // namespace tenon
