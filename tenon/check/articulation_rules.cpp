@@ -34,6 +34,22 @@ void check_kinematic_link(const Subject& subject, Reporter& report) {
   }
 }
 
+// S-32: a link moves as the joints above it let it.
+void check_link_velocity(const Subject& subject, Reporter& report) {
+  for (const physics::Articulation& articulation : subject.scene.articulations) {
+    for (std::size_t i = articulation.fixed_base ? 0 : 1; i < articulation.links.size(); ++i) {
+      const physics::Body& body = subject.scene.bodies[articulation.links[i]];
+      if (!body.kinematic &&
+          !(body.linear_velocity == Vec3d{} && body.angular_velocity == Vec3d{})) {
+        report.at(subject.stage.prim(body.path), "physics:velocity",
+                  "the link of <" + articulation.path.str() +
+                      "> has a velocity of its own, which PhysX ignores",
+                  "author the velocities of the joints with PhysicsJointStateAPI");
+      }
+    }
+  }
+}
+
 void check_articulation_empty(const Subject& subject, Reporter& report) {
   for (const stage::Prim& prim : subject.prims) {
     if (!prim.has_api("PhysicsArticulationRootAPI") || is_judged(subject, prim)) {

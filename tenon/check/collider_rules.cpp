@@ -18,6 +18,10 @@ using physics::ShapeKind;
 
 /// The smaller of two solids may reach this part of its size into the other.
 constexpr double kDepth = 0.1;
+/// Pairs that are told apart shape by shape, and those that are reported; a heap of bodies in one
+/// place has millions.
+constexpr std::size_t kMostPairs = 200000;
+constexpr std::size_t kMostReports = 100;
 
 Pose world_pose(const physics::PhysicsScene& scene, const Collider& collider) {
   return collider.body ? scene.bodies[*collider.body].pose * collider.pose : collider.pose;
@@ -115,15 +119,24 @@ bool reach_into(Placed a, Placed b) {
 void check_overlap_at_start(const Subject& subject, Reporter& report) {
   const physics::PhysicsScene& scene = subject.scene;
   const std::vector<Placed> placed = placed_solids(scene);
-  for (std::size_t i = 0; i < placed.size(); ++i) {
+  std::size_t pairs = 0;
+  std::size_t reports = 0;
+  for (std::size_t i = 0; i < placed.size() && reports < kMostReports; ++i) {
     const Collider& a = scene.colliders[placed[i].collider];
     for (std::size_t j = i + 1; j < placed.size() && placed[j].low[0] <= placed[i].high[0]; ++j) {
+      if (pairs >= kMostPairs || reports >= kMostReports) {
+        return;
+      }
       const Collider& b = scene.colliders[placed[j].collider];
       if ((!is_dynamic(scene, a) && !is_dynamic(scene, b)) || !boxes_meet(placed[i], placed[j]) ||
-          !scene.may_collide(placed[i].collider, placed[j].collider) ||
-          !reach_into(placed[i], placed[j])) {
+          !scene.may_collide(placed[i].collider, placed[j].collider)) {
         continue;
       }
+      ++pairs;
+      if (!reach_into(placed[i], placed[j])) {
+        continue;
+      }
+      ++reports;
       const Collider& first = a.path < b.path ? a : b;
       const Collider& second = a.path < b.path ? b : a;
       report.at(subject.stage.prim(first.path),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <unordered_set>
 
 #include "tenon/check/nearest_name.h"
 #include "tenon/check/subject.h"
@@ -21,6 +22,13 @@ constexpr std::pair<std::string_view, std::string_view> kOldApis[] = {
     {"PhysicsCollisionMeshAPI", "PhysicsMeshCollisionAPI"},
     {"PhysicsAPI", "PhysicsRigidBodyAPI"}};
 
+/// Names that others have for properties of the schema.
+constexpr std::pair<std::string_view, std::string_view> kOtherNames[] = {
+    {"physics:linearVelocity", "physics:velocity"},
+    {"physics:gravity", "physics:gravityMagnitude"},
+    {"physics:friction", "physics:dynamicFriction"},
+    {"physics:inertia", "physics:diagonalInertia"}};
+
 constexpr std::array<std::string_view, 6> kPhysicsSpaces{
     "physics:", "drive:", "limit:", "physx", "newton:", "mjc:"};
 
@@ -29,15 +37,12 @@ bool is_physics_name(std::string_view name) {
                      [&](std::string_view space) { return name.starts_with(space); });
 }
 
-/// Declared names of the prim, and of the physics APIs that could be applied.
-std::vector<std::string_view> candidates(const stage::Prim& prim) {
+/// Names that typed and applied schemas of physics declare, with those of shapes and transforms.
+std::vector<std::string_view> property_names() {
   std::vector<std::string_view> names;
-  for (const Token name : prim.definition()->property_names(true)) {
-    names.push_back(name.view());
-  }
   for (const schema::Schema* schema : schema::Registry::instance().schemas()) {
-    if (schema->name.view().starts_with("Physics")) {
-      for (const schema::PropertyDefinition& property : schema->properties) {
+    for (const schema::PropertyDefinition& property : schema->properties) {
+      if (is_physics_name(property.name.view())) {
         names.push_back(property.name.view());
       }
     }
@@ -55,33 +60,53 @@ bool is_custom(const stage::Prim& prim, Token name) {
 }
 
 /// A property of another API of physics: attribute.api-missing is about those.
-bool is_known_elsewhere(std::string_view name) {
-  for (const schema::Schema* schema : schema::Registry::instance().schemas()) {
-    for (const schema::PropertyDefinition& property : schema->properties) {
-      if (property.name == name) {
-        return true;
+bool is_known_elsewhere(Token name) {
+  static const std::unordered_set<Token> names = [] {
+    std::unordered_set<Token> all;
+    for (const schema::Schema* schema : schema::Registry::instance().schemas()) {
+      for (const schema::PropertyDefinition& property : schema->properties) {
+        all.insert(property.name);
       }
     }
+    return all;
+  }();
+  return names.contains(name);
+}
+
+/// Among the names that the prim's applied instances declare: those of "drive:angular".
+std::string_view nearest_of_instances(const stage::Prim& prim, Token name) {
+  const std::string_view space = name.view().substr(0, name.view().find(':') + 1);
+  std::vector<std::string_view> names;
+  for (const Token declared : prim.definition()->property_names(true)) {
+    if (declared.view().starts_with(space)) {
+      names.push_back(declared.view());
+    }
   }
-  return false;
+  return nearest_name(name.view(), names);
+}
+
+/// Names of all API schemas, or of all others.
+std::vector<std::string_view> schema_names(bool apis) {
+  std::vector<std::string_view> names;
+  for (const schema::Schema* schema : schema::Registry::instance().schemas()) {
+    if (schema->is_applied_api() == apis) {
+      names.push_back(schema->name.view());
+    }
+  }
+  return names;
 }
 
 }  // namespace
 
 void check_unknown_type(const Subject& subject, Reporter& report) {
-  std::vector<std::string_view> names;
-  for (const schema::Schema* schema : schema::Registry::instance().schemas()) {
-    if (!schema->is_applied_api()) {
-      names.push_back(schema->name.view());
-    }
-  }
+  NearestNames nearest_names(schema_names(false));
   for (const stage::Prim& prim : subject.prims) {
     const Token type = prim.type_name();
     if (type.empty() || schema::Registry::instance().find(type) != nullptr ||
         subject.has_finding("joint.unknown-type", prim.path().str())) {
       continue;
     }
-    const std::string_view nearest = nearest_name(type.view(), names);
+    const std::string_view nearest = nearest_names.find(type);
     if (!nearest.empty()) {
       report.at(prim, "there is no type \"" + type.str() + "\"; the prim counts as untyped",
                 advice(nearest, ""));
@@ -90,19 +115,14 @@ void check_unknown_type(const Subject& subject, Reporter& report) {
 }
 
 void check_unknown_api(const Subject& subject, Reporter& report) {
-  std::vector<std::string_view> names;
-  for (const schema::Schema* schema : schema::Registry::instance().schemas()) {
-    if (schema->is_applied_api()) {
-      names.push_back(schema->name.view());
-    }
-  }
+  NearestNames nearest_names(schema_names(true));
   for (const stage::Prim& prim : subject.prims) {
     for (const Token applied : prim.authored_api_schemas()) {
       const Token name = schema::split_api_name(applied).first;
       if (schema::Registry::instance().find(name) != nullptr) {
         continue;
       }
-      std::string_view nearest = nearest_name(name.view(), names);
+      std::string_view nearest = nearest_names.find(name);
       for (const auto& [old_name, new_name] : kOldApis) {
         nearest = name == old_name ? new_name : nearest;
       }
@@ -115,14 +135,24 @@ void check_unknown_api(const Subject& subject, Reporter& report) {
 }
 
 void check_unknown_attribute(const Subject& subject, Reporter& report) {
+  constexpr std::size_t kMostSearches = 10000;
+  std::size_t instance_searches = 0;
+  NearestNames nearest_names(property_names());
   for (const stage::Prim& prim : subject.prims) {
     for (const Token name : prim.authored_property_names()) {
       if (!is_physics_name(name.view()) || prim.definition()->find(name) != nullptr ||
-          is_custom(prim, name) || is_known_elsewhere(name.view()) ||
+          is_custom(prim, name) || is_known_elsewhere(name) ||
           subject.is_reported(prim.path().str(), name.str())) {
         continue;
       }
-      const std::string_view nearest = nearest_name(name.view(), candidates(prim));
+      std::string_view nearest = nearest_names.find(name);
+      if (nearest.empty() && instance_searches < kMostSearches) {
+        ++instance_searches;
+        nearest = nearest_of_instances(prim, name);
+      }
+      for (const auto& [other, meant] : kOtherNames) {
+        nearest = name == other ? meant : nearest;
+      }
       const std::string_view space = name.view().substr(0, name.view().find(':'));
       if (!nearest.empty() || space == "physics") {
         report.at(prim, name, "no schema of the prim declares " + name.str() + "; it is ignored",

@@ -90,8 +90,8 @@ class Rules(unittest.TestCase):
         for rule in PLANTED:
             severity = RULES[rule]["severity"]
             self.assertEqual(checked_scene(rule)[0], int(severity == "error"), rule)
-            self.assertEqual(run("check", SCENES / f"{rule}.usda", "--strict").returncode, int(severity != "info"),
-                             rule)
+            strict = run("check", SCENES / f"{rule}.usda", "--strict").returncode
+            self.assertEqual(strict, int(severity != "info"), rule)
 
 
 class Fixes(unittest.TestCase):
