@@ -11,6 +11,7 @@
 #include "tenon/check/rule.h"
 #include "tenon/check/subject.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/stage/property_errors.h"
 
 namespace tenon::check {
 namespace {
@@ -84,6 +85,8 @@ std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Di
   Diagnostics read;
   const physics::PhysicsScene scene = physics::read_physics(stage, {}, read);
   std::vector<Diagnostic> found = opening;
+  const Diagnostics properties = stage::property_errors(stage);
+  found.insert(found.end(), properties.begin(), properties.end());
   found.insert(found.end(), read.begin(), read.end());
   const Subject subject = make_subject(stage, scene, found);
   for (const Rule& rule : rules()) {
