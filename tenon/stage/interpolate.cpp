@@ -4,6 +4,8 @@
 
 #include <type_traits>
 
+#include "tenon/stage/clip_times.h"
+
 namespace tenon::stage {
 namespace {
 
@@ -97,15 +99,28 @@ Value interpolate(const Value& a, const Value& b, double fraction) {
 }
 
 Value value_at(const layer::TimeSamples& samples, double time, Interpolation interpolation) {
-  const layer::TimeSamples::Bracket bracket = samples.bracket(time);
+  return value_at(samples, layer::LayerOffset(), time, interpolation);
+}
+
+Value value_at(const layer::TimeSamples& samples, const layer::LayerOffset& offset,
+               double stage_time, Interpolation interpolation) {
+  const auto stage_time_of = [&](std::size_t i) { return offset.apply(samples.times[i]); };
+  layer::TimeSamples::Bracket bracket = samples.bracket(layer_time(offset, stage_time));
+  // The way into the layer may round past a sample.
+  if (bracket.upper + 1 < samples.size() && stage_time_of(bracket.upper + 1) <= stage_time) {
+    ++bracket.upper;
+  }
+  if (stage_time_of(bracket.upper) <= stage_time) {
+    bracket.lower = bracket.upper;
+  }
   const Value& lower = samples.values[bracket.lower];
-  const double from = samples.times[bracket.lower];
-  const double to = samples.times[bracket.upper];
+  const double from = stage_time_of(bracket.lower);
+  const double to = stage_time_of(bracket.upper);
   if (interpolation == Interpolation::Held || to - from < kSameTime) {
     return lower;
   }
   const Value& upper = samples.values[bracket.upper];
-  return upper.is_block() ? lower : interpolate(lower, upper, (time - from) / (to - from));
+  return upper.is_block() ? lower : interpolate(lower, upper, (stage_time - from) / (to - from));
 }
 
 }  // namespace tenon::stage

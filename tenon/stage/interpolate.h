@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tenon/layer/arcs.h"
 #include "tenon/layer/field_values.h"
 
 namespace tenon::stage {
@@ -24,5 +25,10 @@ layer::Value interpolate(const layer::Value& a, const layer::Value& b, double fr
 /// where the sample in force is one.
 layer::Value value_at(const layer::TimeSamples& samples, double time,
                       Interpolation interpolation = Interpolation::Linear);
+
+/// The same at a stage time, stage time = offset(time of the samples). Fractions are of stage time,
+/// as in OpenUSD, so that a sample's own stage time gives the sample to the last bit.
+layer::Value value_at(const layer::TimeSamples& samples, const layer::LayerOffset& offset,
+                      double stage_time, Interpolation interpolation = Interpolation::Linear);
 
 }  // namespace tenon::stage

@@ -136,8 +136,8 @@ Value read_value(const StageData& stage, const PrimData& prim, Token name,
     case ValueSource::Default:
       return localize(stage, prim, resolved.opinion, *resolved.value, form);
     case ValueSource::TimeSamples: {
-      const double at = layer_time(resolved.opinion.offset, time.code());
-      const Value value = value_at(*resolved.samples, at, stage.options.interpolation);
+      const Value value = value_at(*resolved.samples, resolved.opinion.offset, time.code(),
+                                   stage.options.interpolation);
       return value.is_block() ? Value() : localize(stage, prim, resolved.opinion, value, form);
     }
     case ValueSource::Spline: {
