@@ -256,6 +256,7 @@ void write_field(ValueWriter& writer, const Value& value) {
       TENON_DUMP(UIntListOp, layer::ListOp<std::uint32_t>)
       TENON_DUMP(UInt64ListOp, layer::ListOp<std::uint64_t>)
       TENON_DUMP(UnregisteredValue, layer::UnregisteredValue)
+      TENON_DUMP(UnregisteredValueListOp, layer::ListOp<layer::UnregisteredValue>)
       TENON_DUMP(Specifier, layer::Specifier)
       TENON_DUMP(Permission, layer::Permission)
       TENON_DUMP(Variability, layer::Variability)
