@@ -340,13 +340,13 @@ def number(value, form="10.3f"):
 
 def print_table(bench):
     titles = ("tenon", "usd-core", "ratio", "tenon MT", "usd MT")
-    print(f"\n{'workload':<18}{'phase':<22}" + "".join(f"{title:>10}" for title in titles))
+    print(f"\n{'workload':<26}{'phase':<22}" + "".join(f"{title:>10}" for title in titles))
     for row in bench.rows:
         if row["phase"] == "peak memory":
             ours, peer, unit = row["tenon_mb"], row["peer_mb"], "MB"
         else:
             ours, peer, unit = row["tenon_ms"], row["peer_ms"], row.get("note", "")
-        print(f"{row['workload']:<18}{row['phase']:<22}{number(ours)}{number(peer)}"
+        print(f"{row['workload']:<26}{row['phase']:<22}{number(ours)}{number(peer)}"
               f"{number(row['ratio'])}{number(row.get('tenon_threads_ms'))}"
               f"{number(row.get('peer_threads_ms'))}  {unit}")
     print("\nmilliseconds; ratio below 1: tenon is faster. MT: with all processors and threads."
