@@ -42,10 +42,11 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   add_global_options(app, globals);
-  for (auto* add : {tenon::cli::add_bake, tenon::cli::add_cat, tenon::cli::add_check,
-                    tenon::cli::add_doctor, tenon::cli::add_dump, tenon::cli::add_dump_index,
-                    tenon::cli::add_info, tenon::cli::add_physics, tenon::cli::add_sim,
-                    tenon::cli::add_test_runner, tenon::cli::add_tree, tenon::cli::add_variant}) {
+  for (auto* add :
+       {tenon::cli::add_bake, tenon::cli::add_cat, tenon::cli::add_check, tenon::cli::add_doctor,
+        tenon::cli::add_dump, tenon::cli::add_dump_index, tenon::cli::add_explain,
+        tenon::cli::add_info, tenon::cli::add_physics, tenon::cli::add_sim, tenon::cli::add_strip,
+        tenon::cli::add_test_runner, tenon::cli::add_tree, tenon::cli::add_variant}) {
     add(app, globals, chosen);
   }
   for (CLI::App* verb : app.get_subcommands({})) {

@@ -64,6 +64,7 @@ Json bodies_json(const PhysicsScene& scene) {
   for (const physics::Body& body : scene.bodies) {
     list.push_back({{"path", body.path.str()},
                     {"kinematic", body.kinematic},
+                    {"enabled", body.enabled},
                     {"startsAsleep", body.starts_asleep},
                     {"scene", path_or_null(scene.scenes[body.scene].path)},
                     {"position", vector(body.pose.position)},
@@ -296,6 +297,45 @@ Json pairs_json(const PhysicsScene& scene) {
   return list;
 }
 
+Json switch_json(const PhysicsScene& scene, const physics::SwitchTrack& track) {
+  switch (track.what) {
+    case physics::Switch::BodyEnabled:
+      return {{"body", scene.bodies[track.object].path.str()}, {"value", "enabled"}};
+    case physics::Switch::BodyKinematic:
+      return {{"body", scene.bodies[track.object].path.str()}, {"value", "kinematic"}};
+    case physics::Switch::ColliderEnabled:
+      return {{"collider", scene.colliders[track.object].path.str()}, {"value", "enabled"}};
+    case physics::Switch::JointEnabled:
+      return {{"joint", scene.joints[track.object].path.str()}, {"value", "enabled"}};
+    case physics::Switch::JointCollision:
+      break;
+  }
+  return {{"joint", scene.joints[track.object].path.str()}, {"value", "collisionEnabled"}};
+}
+
+/// Switches, bounds, gravity and groups that follow samples.
+void add_changes(const PhysicsScene& scene, Json& list) {
+  const auto add = [&](Json row, std::size_t samples, bool held) {
+    row["samples"] = samples;
+    row["held"] = held;
+    list.push_back(std::move(row));
+  };
+  for (const physics::SwitchTrack& track : scene.switch_tracks) {
+    add(switch_json(scene, track), track.times.size(), true);
+  }
+  for (const physics::BoundsTrack& track : scene.bounds_tracks) {
+    add({{"joint", scene.joints[track.joint].path.str()}, {"value", "limits"}}, track.times.size(),
+        track.held);
+  }
+  for (const physics::GravityTrack& track : scene.gravity_tracks) {
+    add({{"scene", scene.scenes[track.scene].path.str()}, {"value", "gravity"}}, track.times.size(),
+        track.held);
+  }
+  if (!scene.group_states.empty()) {
+    add({{"value", "collisionGroups"}}, scene.group_states.size(), true);
+  }
+}
+
 Json tracks_json(const PhysicsScene& scene) {
   Json list = Json::array();
   for (const physics::ScalarTrack& track : scene.scalar_tracks) {
@@ -309,12 +349,15 @@ Json tracks_json(const PhysicsScene& scene) {
   }
   for (const physics::PoseTrack& track : scene.pose_tracks) {
     Json row = track.body ? Json{{"body", scene.bodies[*track.body].path.str()}}
-                          : Json{{"collider", scene.colliders[*track.collider].path.str()}};
+               : track.joint
+                   ? Json{{"joint", scene.joints[*track.joint].path.str()}, {"side", track.side}}
+                   : Json{{"collider", scene.colliders[*track.collider].path.str()}};
     row["value"] = "pose";
     row["samples"] = track.times.size();
     row["held"] = track.held;
     list.push_back(std::move(row));
   }
+  add_changes(scene, list);
   return list;
 }
 

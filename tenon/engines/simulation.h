@@ -37,6 +37,13 @@ struct NotMapped {
   std::string why;
 };
 
+/// Something that changed for good while the simulation ran.
+struct Event {
+  double time = 0;  ///< [s]
+  Path prim;
+  std::string what;  ///< "broke under 120 N and 3 N m"
+};
+
 struct Energy {
   double kinetic = 0;    ///< [J]
   double potential = 0;  ///< gravity and springs [J]
@@ -60,6 +67,8 @@ class Simulation {
   /// Degrees of freedom that the engine simulates.
   virtual std::size_t dof_count() const = 0;
   virtual const std::vector<NotMapped>& not_mapped() const = 0;
+  /// Joints that broke so far, in time order (S-93).
+  virtual const std::vector<Event>& events() const = 0;
 };
 
 }  // namespace tenon::engines

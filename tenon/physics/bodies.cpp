@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <string>
 
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/scenes.h"
@@ -10,8 +11,9 @@
 namespace tenon::physics {
 namespace {
 
+/// By more than what single precision leaves of a rotation.
 bool differs(const Vec3d& a, const Vec3d& b) {
-  return length(a - b) > 1e-9 * (length(a) + length(b));
+  return length(a - b) > 1e-5 * (length(a) + length(b));
 }
 
 /// The space that velocities are given in: that of the prim's transform (S-30), or by option the
@@ -68,15 +70,16 @@ void read_velocities(const ReadState& state, const PhysicsPrim& found, Body& bod
   body.linear_velocity = transform_direction(linear, space) * speed;
   body.angular_velocity = rotate(turn, spin);
   const Vec3d as_world = linear * speed;
-  const bool ambiguous = differs(body.linear_velocity, as_world) ||
-                         differs(as_world, rotate(body.pose.orientation, as_world)) ||
-                         differs(body.angular_velocity, spin) ||
+  const bool from_world =
+      differs(body.linear_velocity, as_world) || differs(body.angular_velocity, spin);
+  const bool from_body = differs(as_world, rotate(body.pose.orientation, as_world)) ||
                          differs(spin, rotate(body.pose.orientation, spin));
-  if (ambiguous) {
+  if (from_world || from_body) {
+    // A body that is turned at the start is common, and few readers take its own axes.
     state.report(found.prim, linear == zero ? state.tokens.angular_velocity : state.tokens.velocity,
-                 Severity::Warning, "body.velocity-space",
-                 "velocities are read in the space of the parent; engines that take world or body "
-                 "axes start this body differently",
+                 from_world ? Severity::Warning : Severity::Info, "body.velocity-space",
+                 std::string("velocities are read in the space of the parent; engines that take ") +
+                     (from_world ? "world or body" : "body") + " axes start this body differently",
                  "leave the prim and its ancestors unrotated and unscaled, or check the result");
   }
 }
@@ -124,6 +127,8 @@ Body read_body(const ReadState& state, const PhysicsPrim& found, Index scene) {
   Body body;
   body.path = found.path;
   body.kinematic = state.values.flag(found.prim, state.tokens.kinematic, false);
+  body.enabled = state.values.flag(found.prim, state.tokens.body_enabled, true);
+  body.kinematic = body.kinematic || !body.enabled;
   body.starts_asleep = state.values.flag(found.prim, state.tokens.starts_asleep, false);
   body.pose = world_pose(found.world, state.units);
   if (!is_finite(body.pose)) {

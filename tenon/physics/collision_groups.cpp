@@ -32,6 +32,30 @@ AuthoredGroup read_group(const ReadState& state, const PhysicsPrim& found,
   return group;
 }
 
+/// S-116: tables of later times where what groups say is animated; relationships cannot be.
+void read_group_states(ReadState& state, const std::vector<std::uint32_t>& prims) {
+  std::vector<double> codes;
+  for (const std::uint32_t i : prims) {
+    for (const Token name : {state.tokens.invert_groups, state.tokens.merge_group}) {
+      const std::vector<double> samples = state.walk.prims[i].prim.attribute(name).time_samples();
+      codes.insert(codes.end(), samples.begin(), samples.end());
+    }
+  }
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  for (const double code : codes.size() > 1 ? codes : std::vector<double>()) {
+    Diagnostics silent;  // what there is to say was said at the start
+    const ReadState later = state.at(code, silent);
+    std::vector<AuthoredGroup> groups;
+    for (const std::uint32_t i : prims) {
+      groups.push_back(read_group(later, state.walk.prims[i], state.scene.filter.group_paths));
+    }
+    GroupTable table = group_table(groups, state.readings.ungrouped);
+    state.scene.group_states.push_back(
+        {state.seconds(code), std::move(table.pair_off), std::move(table.ungrouped_off)});
+  }
+}
+
 /// Membership is asked of the colliders' own paths (S-76).
 void find_members(ReadState& state, const PhysicsPrim& found, Index group) {
   const stage::Collection members = stage::Collection::read(found.prim, Token("colliders"));
@@ -81,6 +105,9 @@ void read_collision_groups(ReadState& state) {
   filter.group_pair_off = std::move(table.pair_off);
   filter.ungrouped_off = std::move(table.ungrouped_off);
   report_ungrouped(state, prims, groups);
+  if (state.values.stage_is_animated()) {
+    read_group_states(state, prims);
+  }
 }
 
 }  // namespace tenon::physics

@@ -4,6 +4,8 @@
 // Pairs of colliders that never touch: named by the filtered pairs API, joined by a joint, or links
 // of an articulation without self collision (S-81, S-82, S-92, S-115).
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "tenon/physics/joint_frames.h"
 #include "tenon/physics/read_state.h"
@@ -23,8 +25,11 @@ class PairFilter {
         add_filtered_pairs(i);
       }
     }
-    for (const Joint& joint : state_.scene.joints) {
-      if (joint.enabled && !joint.collision_enabled) {
+    for (Index i = 0; i < state_.scene.joints.size(); ++i) {
+      const Joint& joint = state_.scene.joints[i];
+      if (may_change(i)) {
+        keep_apart(i);
+      } else if (joint.enabled && !joint.collision_enabled) {
         add_joint(joint);
       }
     }
@@ -35,14 +40,51 @@ class PairFilter {
     }
     std::sort(pairs_.begin(), pairs_.end());
     pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+    state_.scene.filter.permanent_pairs = pairs_;
+    state_.scene.update_joint_pairs();
   }
 
  private:
+  /// The joint may break or be switched while the simulation runs.
+  bool may_change(Index i) const {
+    const Joint& joint = state_.scene.joints[i];
+    const stage::Prim& prim = state_.prim_of_joint(i).prim;
+    const bool breaks = std::isfinite(joint.break_force) || std::isfinite(joint.break_torque);
+    return breaks || (state_.values.stage_is_animated() &&
+                      (prim.attribute(state_.tokens.joint_enabled).is_animated() ||
+                       prim.attribute(state_.tokens.collision_enabled).is_animated()));
+  }
+
+  /// Remembers the pairs of a joint apart from the others.
+  void keep_apart(Index i) {
+    const Joint& joint = state_.scene.joints[i];
+    const std::size_t before = pairs_.size();
+    const bool silent = !joint.enabled || joint.collision_enabled;
+    Accounts* const accounts = std::exchange(state_.accounts, silent ? nullptr : state_.accounts);
+    add_joint(joint);
+    state_.accounts = accounts;
+    JointPairs own{i, {pairs_.begin() + static_cast<std::ptrdiff_t>(before), pairs_.end()}};
+    pairs_.resize(before);
+    std::sort(own.pairs.begin(), own.pairs.end());
+    if (!own.pairs.empty()) {
+      state_.scene.filter.joint_pairs.push_back(std::move(own));
+    }
+  }
+
+  /// Who says what is added next, for the accounts.
+  void speaks(PairRule rule, Path prim) {
+    rule_ = rule;
+    prim_ = prim;
+  }
+
   /// Pairs of different bodies; two static colliders never touch anyway.
   void add(Index a, Index b) {
     const std::vector<Collider>& colliders = state_.scene.colliders;
     if (a != b && colliders[a].body != colliders[b].body) {
       pairs_.emplace_back(std::min(a, b), std::max(a, b));
+      if (state_.accounts != nullptr) {
+        state_.accounts->pairs.push_back({std::min(a, b), std::max(a, b), rule_, prim_});
+      }
     }
   }
   void add_all(const Colliders& a, const Colliders& b) {
@@ -113,6 +155,7 @@ class PairFilter {
     const PhysicsPrim& found = state_.walk.prims[prim_index];
     const Token name = state_.tokens.filtered_pairs;
     const Colliders own = meant_by(found.path);
+    speaks(PairRule::FilteredPair, found.path);
     for (const Path& target : found.prim.relationship(name).targets()) {
       if (!state_.stage.prim(target)) {
         state_.report(found.prim, name, Severity::Warning, "filter.target-missing",
@@ -150,6 +193,7 @@ class PairFilter {
     if (joint.target0.empty() || joint.target1.empty()) {
       return;
     }
+    speaks(PairRule::Joint, joint.path);
     add_all(side(joint.body0, joint.target0, joint.target1),
             side(joint.body1, joint.target1, joint.target0));
   }
@@ -159,11 +203,14 @@ class PairFilter {
     for (const Index link : articulation.links) {
       append(link, all);
     }
+    speaks(PairRule::Articulation, articulation.path);
     add_all(all, all);
   }
 
   ReadState& state_;
   std::vector<std::pair<Index, Index>>& pairs_;
+  PairRule rule_ = PairRule::FilteredPair;
+  Path prim_;
 };
 
 }  // namespace

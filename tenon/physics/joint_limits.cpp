@@ -13,6 +13,13 @@ namespace {
 /// From the stage's units to SI for one degree of freedom.
 double unit_of(const Units& units, Dof dof) { return is_angular(dof) ? kRadians : units.length; }
 
+/// S-98: either infinity means that the side is open.
+double bound(const ReadState& state, const stage::Prim& prim, Token name, double open,
+             double unit) {
+  const double value = state.values.number(prim, name).value_or(open);
+  return std::isinf(value) ? open : value * unit;
+}
+
 /// S-96: negative means unlimited, each angle by itself.
 double cone_angle(const ReadState& state, const stage::Prim& prim, Token name) {
   const double degrees = state.values.number(prim, name).value_or(-1);
@@ -58,8 +65,8 @@ void read_distances(const ReadState& state, const stage::Prim& prim, Joint& join
 /// S-98: lower > upper locks; open sides stay open.
 void read_own_limits(const ReadState& state, const stage::Prim& prim, Joint& joint) {
   const double unit = unit_of(state.units, joint.dof());
-  joint.lower = state.values.number(prim, state.tokens.lower_limit).value_or(-kUnlimited) * unit;
-  joint.upper = state.values.number(prim, state.tokens.upper_limit).value_or(kUnlimited) * unit;
+  joint.lower = bound(state, prim, state.tokens.lower_limit, -kUnlimited, unit);
+  joint.upper = bound(state, prim, state.tokens.upper_limit, kUnlimited, unit);
   if (joint.kind == JointKind::Revolute && std::isinf(joint.lower) != std::isinf(joint.upper)) {
     report_one_sided(state, prim, "the limit is");
     if (state.readings.one_sided_limits == OneSidedLimits::Drop) {
@@ -83,8 +90,8 @@ NamedLimit read_limit(const ReadState& state, const stage::Prim& prim, Token ins
   const std::string prefix = "limit:" + instance.str() + ":physics:";
   const double unit = unit_of(state.units, *named.dof);
   named.limit.dof = *named.dof;
-  named.limit.lower = state.values.number(prim, prefix + "low").value_or(-kUnlimited) * unit;
-  named.limit.upper = state.values.number(prim, prefix + "high").value_or(kUnlimited) * unit;
+  named.limit.lower = bound(state, prim, Token(prefix + "low"), -kUnlimited, unit);
+  named.limit.upper = bound(state, prim, Token(prefix + "high"), kUnlimited, unit);
   return named;
 }
 

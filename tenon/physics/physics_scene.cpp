@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace tenon::physics {
 namespace {
@@ -119,6 +120,65 @@ Pose PoseTrack::at(double seconds) const {
   const Pose& b = poses[place.after];
   return {a.position + (b.position - a.position) * place.fraction,
           normalized(slerp(a.orientation, b.orientation, place.fraction))};
+}
+
+bool SwitchTrack::at(double seconds) const {
+  return !times.empty() && values[place_of(times, seconds).before] != 0;
+}
+
+namespace {
+
+/// Between two bounds of which either may be open.
+double between(double a, double b, double fraction) {
+  return std::isfinite(a) && std::isfinite(b) ? a + (b - a) * fraction : a;
+}
+
+}  // namespace
+
+JointBounds BoundsTrack::at(double seconds) const {
+  if (times.empty()) {
+    return {};
+  }
+  const Place place = place_of(times, seconds);
+  JointBounds now = bounds[place.before];
+  const JointBounds& next = bounds[place.after];
+  if (held || place.before == place.after) {
+    return now;
+  }
+  now.lower = between(now.lower, next.lower, place.fraction);
+  now.upper = between(now.upper, next.upper, place.fraction);
+  now.cone_angle0 = between(now.cone_angle0, next.cone_angle0, place.fraction);
+  now.cone_angle1 = between(now.cone_angle1, next.cone_angle1, place.fraction);
+  for (std::size_t i = 0; i < now.limits.size() && i < next.limits.size(); ++i) {
+    now.limits[i].lower = between(now.limits[i].lower, next.limits[i].lower, place.fraction);
+    now.limits[i].upper = between(now.limits[i].upper, next.limits[i].upper, place.fraction);
+  }
+  return now;
+}
+
+Vec3d GravityTrack::at(double seconds) const {
+  if (times.empty()) {
+    return {};
+  }
+  const Place place = place_of(times, seconds);
+  const Vec3d& a = gravity[place.before];
+  return held || place.before == place.after ? a : a + (gravity[place.after] - a) * place.fraction;
+}
+
+void PhysicsScene::update_joint_pairs() {
+  if (filter.joint_pairs.empty()) {
+    return;
+  }
+  filter.pairs_off = filter.permanent_pairs;
+  for (const JointPairs& own : filter.joint_pairs) {
+    const Joint& joint = joints[own.joint];
+    if (joint.enabled && !joint.collision_enabled) {
+      filter.pairs_off.insert(filter.pairs_off.end(), own.pairs.begin(), own.pairs.end());
+    }
+  }
+  std::sort(filter.pairs_off.begin(), filter.pairs_off.end());
+  filter.pairs_off.erase(std::unique(filter.pairs_off.begin(), filter.pairs_off.end()),
+                         filter.pairs_off.end());
 }
 
 bool PhysicsScene::may_collide(Index collider_a, Index collider_b) const {

@@ -37,7 +37,8 @@ std::string_view mass_source_name(MassSource source);
 
 struct Body {
   Path path;
-  bool kinematic = false;  ///< pose is given, never computed (S-27)
+  bool kinematic = false;  ///< pose is given, never computed (S-27); so while not `enabled`
+  bool enabled = true;     ///< false: stands still, until a SwitchTrack says otherwise (S-28)
   bool starts_asleep = false;
   Index scene = 0;                    ///< into PhysicsScene::scenes
   Pose pose;                          ///< X_WB at the start: world <- body, unscaled
@@ -228,6 +229,12 @@ struct Articulation {
   bool self_collision = true;
 };
 
+/// Pairs of colliders that one joint keeps apart while it is enabled (S-91, S-92).
+struct JointPairs {
+  Index joint = 0;
+  std::vector<std::pair<Index, Index>> pairs;
+};
+
 /// Which colliders may touch. Only ever removes pairs.
 struct CollisionFilter {
   /// Groups of each collider (indices into `group_paths`); empty for ungrouped ones.
@@ -240,6 +247,10 @@ struct CollisionFilter {
   std::vector<char> ungrouped_off;
   /// Explicit collider pairs, first < second, sorted, unique: filtered pairs, joints (S-81, S-92).
   std::vector<std::pair<Index, Index>> pairs_off;
+  /// Those of them that hold whatever becomes of the joints below.
+  std::vector<std::pair<Index, Index>> permanent_pairs;
+  /// What single joints keep apart: of those that may break or be switched.
+  std::vector<JointPairs> joint_pairs;
 };
 
 /// A scalar that follows authored time samples during the simulation.
@@ -261,13 +272,68 @@ struct ScalarTrack {
   double at(double seconds) const;
 };
 
-/// World pose of a kinematic body, or of a static collider that is animated, over time.
+/// What can be switched on and off while a simulation runs.
+enum class Switch : std::uint8_t {
+  BodyEnabled,
+  BodyKinematic,
+  ColliderEnabled,
+  JointEnabled,
+  JointCollision,  ///< `collision_enabled` of a joint
+};
+
+/// A switch that follows authored samples; each holds until the next (S-28, S-91).
+struct SwitchTrack {
+  Switch what = Switch::BodyKinematic;
+  Index object = 0;           ///< into bodies, colliders or joints
+  std::vector<double> times;  ///< [s] from the start, ascending (sample_count)
+  std::vector<char> values;   ///< 1: on (sample_count)
+  bool at(double seconds) const;
+};
+
+/// The bounds of one joint, as in Joint.
+struct JointBounds {
+  double lower = -kUnlimited;
+  double upper = kUnlimited;
+  double cone_angle0 = kUnlimited;
+  double cone_angle1 = kUnlimited;
+  std::vector<Limit> limits;
+};
+
+/// Bounds that follow authored samples; open ends are not interpolated.
+struct BoundsTrack {
+  Index joint = 0;
+  std::vector<double> times;        ///< [s], ascending (sample_count)
+  std::vector<JointBounds> bounds;  ///< (sample_count)
+  bool held = false;
+  JointBounds at(double seconds) const;
+};
+
+/// Gravity of one scene over time.
+struct GravityTrack {
+  Index scene = 0;
+  std::vector<double> times;   ///< [s], ascending (sample_count)
+  std::vector<Vec3d> gravity;  ///< [m/s^2] (sample_count)
+  bool held = false;
+  Vec3d at(double seconds) const;
+};
+
+/// The tables of CollisionFilter from a time on, where collision groups are animated.
+struct GroupState {
+  double time = 0;  ///< [s] from the start
+  std::vector<char> group_pair_off;
+  std::vector<char> ungrouped_off;
+};
+
+/// World pose of a kinematic body, or of a static collider that is animated, over time. With
+/// `joint`: the world frame of that side of a joint, whose target is animated and no body (S-86).
 struct PoseTrack {
   std::optional<Index> body;      ///< a kinematic body
   std::optional<Index> collider;  ///< else a static collider
   std::vector<double> times;      ///< [s], ascending (sample_count)
   std::vector<Pose> poses;        ///< (sample_count)
   bool held = false;
+  std::optional<Index> joint{};  ///< else a side of a joint
+  int side = 0;                  ///< of `joint`: 0 or 1
   /// Linear in position, slerp in orientation; the first and last pose outside.
   Pose at(double seconds) const;
 };
@@ -291,6 +357,10 @@ struct PhysicsScene {
   CollisionFilter filter;
   std::vector<ScalarTrack> scalar_tracks;
   std::vector<PoseTrack> pose_tracks;
+  std::vector<SwitchTrack> switch_tracks;
+  std::vector<BoundsTrack> bounds_tracks;
+  std::vector<GravityTrack> gravity_tracks;
+  std::vector<GroupState> group_states;  ///< ascending in time; empty: `filter` holds throughout
   std::vector<NotRead> not_read;
 
   double meters_per_unit = 0.01;  ///< of the stage, to go back to its units
@@ -300,6 +370,8 @@ struct PhysicsScene {
   double time_codes_per_second = 24;
   double end_time_code = 0;  ///< authored end, or the start when none is authored
 
+  /// Brings filter.pairs_off up to date with what the joints are now (enabled, collision_enabled).
+  void update_joint_pairs();
   /// Contacts between two colliders are possible: different bodies, enabled, same scene, not
   /// filtered.
   bool may_collide(Index collider_a, Index collider_b) const;

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "tenon/base/text_number.h"
+#include "tenon/physics/mass_account.h"
 #include "tenon/physics/mass_properties.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/shape_mass.h"
@@ -147,6 +148,9 @@ class BodyWeigher {
     }
     report_shift(sum);
     store(body_mass(sum, own_, state_.readings.center_shift), sum);
+    if (state_.accounts != nullptr) {
+      give_account(colliders, sum);
+    }
   }
 
  private:
@@ -163,6 +167,13 @@ class BodyWeigher {
       }
     }
     apply_group_masses(parts);
+    if (state_.accounts != nullptr) {
+      for (std::size_t i = 0, part = 0; i < colliders.size(); ++i) {
+        if (state_.scene.colliders[colliders[i]].enabled) {
+          parts_.emplace(colliders[i], parts[part++].properties);
+        }
+      }
+    }
     std::vector<MassProperties> all;
     all.reserve(parts.size());
     for (const Weighed& part : parts) {
@@ -201,6 +212,9 @@ class BodyWeigher {
       authored = read_authored(state_, found, body_.pose);
       has_mass_ = has_mass_ || authored.mass.has_value();
     }
+    if (state_.accounts != nullptr) {
+      authored_.emplace(i, authored);
+    }
     const auto rounder = state_.integrals_of_collider.find(i);
     bool used_hull = false;
     const SolidIntegrals solid =
@@ -217,24 +231,41 @@ class BodyWeigher {
                          density_of(collider, found, authored));
   }
 
-  /// Nearest density at or above within the body, then the material's (S-39, S-40).
+  /// Calls `take(density or nothing, prim, rule)` for every place that may give a density, nearest
+  /// first, the material after all prims, until it answers true (S-39, S-40).
+  template <class Take>
+  void each_density(const Collider& collider, const PhysicsPrim& found,
+                    const AuthoredMass& authored, Take take) {
+    if (take(authored.density, found.path, "S-39")) {
+      return;
+    }
+    bool asked_body = false;
+    std::uint32_t at = found.roles.has(Api::Mass) ? found.mass_above : found.mass;
+    for (; at != kNone; at = state_.walk.prims[at].mass_above) {
+      const bool of_body = &state_.walk.prims[at] == &found_;
+      asked_body = asked_body || of_body;
+      if ((inherits() || of_body) &&
+          take(group(at).density, state_.walk.prims[at].path, of_body ? "S-39" : "S-40")) {
+        return;
+      }
+    }
+    if (!asked_body && found.is_body && take(own_.density, found.path, "S-39")) {
+      return;
+    }
+    if (collider.material && state_.scene.materials[*collider.material].density > 0) {
+      const Material& material = state_.scene.materials[*collider.material];
+      take(std::optional(material.density), material.path, "S-39");
+    }
+  }
+
   double density_of(const Collider& collider, const PhysicsPrim& found,
                     const AuthoredMass& authored) {
-    std::optional<double> density = authored.density;
-    std::uint32_t at = found.roles.has(Api::Mass) ? found.mass_above : found.mass;
-    while (!density && at != kNone) {
-      const bool of_body = &state_.walk.prims[at] == &found_;
-      if (inherits() || of_body) {
-        density = group(at).density;
-      }
-      at = state_.walk.prims[at].mass_above;
-    }
-    if (!density && found.is_body) {
-      density = own_.density;
-    }
-    if (!density && collider.material && state_.scene.materials[*collider.material].density > 0) {
-      density = state_.scene.materials[*collider.material].density;
-    }
+    std::optional<double> density;
+    each_density(collider, found, authored,
+                 [&](const std::optional<double>& given, Path, const char*) {
+                   density = given;
+                   return given.has_value();
+                 });
     has_density_ = has_density_ || density.has_value();
     return density.value_or(kDefaultDensity);
   }
@@ -286,6 +317,62 @@ class BodyWeigher {
     }
   }
 
+  /// What one collider gives, and what else could have given its mass.
+  ColliderMass account_of(Index i) {
+    const Collider& collider = state_.scene.colliders[i];
+    const PhysicsPrim& found = state_.prim_of_collider(i);
+    ColliderMass account;
+    account.collider = i;
+    account.counted = collider.enabled;
+    const auto rounder = state_.integrals_of_collider.find(i);
+    account.volume = rounder != state_.integrals_of_collider.end()
+                         ? rounder->second.volume
+                         : shape_integrals(collider.shape, state_.scene.meshes, nullptr).volume;
+    if (!collider.enabled) {
+      return account;
+    }
+    const AuthoredMass& authored = authored_[i];
+    bool used = false;
+    const auto add = [&](MassQuantity quantity, Path prim, Token property, std::string value,
+                         const char* rule, const char* why) {
+      account.candidates.push_back({quantity, prim, property, std::move(value), rule, !used,
+                                    used ? "beaten by what stands above" : why});
+      used = true;
+    };
+    if (authored.mass) {
+      add(MassQuantity::Mass, found.path, state_.tokens.mass, mass_text(*authored.mass), "S-39",
+          "a mass of its own beats every density");
+    }
+    const auto list = [&](const std::optional<double>& given, Path prim, const char* rule) {
+      if (given) {
+        add(MassQuantity::Density, prim, state_.tokens.density, density_text(*given), rule,
+            "the nearest density");
+      }
+      return false;
+    };
+    each_density(collider, found, authored, list);
+    add(MassQuantity::Density, {}, {}, density_text(kDefaultDensity), "S-39",
+        "nothing else gives a density");
+    return account;
+  }
+
+  void give_account(const std::vector<Index>& colliders, const MassProperties& sum) {
+    MassAccount account;
+    account.body = static_cast<Index>(&body_ - state_.scene.bodies.data());
+    account.authored = own_;
+    account.computed = sum;
+    account.result = {body_.mass, body_.center_of_mass, body_.inertia};
+    for (const Index i : colliders) {
+      account.colliders.push_back(account_of(i));
+      const auto part = parts_.find(i);
+      if (part != parts_.end()) {
+        account.colliders.back().properties = part->second;
+      }
+    }
+    account_for_body(state_, found_, state_.readings.center_shift, account);
+    state_.accounts->masses.push_back(std::move(account));
+  }
+
   void store(const MassProperties& result, const MassProperties& sum) {
     body_.mass = result.mass;
     body_.center_of_mass = result.center;
@@ -311,6 +398,8 @@ class BodyWeigher {
   const PhysicsPrim& found_;
   AuthoredMass own_;
   std::map<std::uint32_t, AuthoredMass> groups_;
+  std::map<Index, MassProperties> parts_;  ///< by collider, for accounts, as the next
+  std::map<Index, AuthoredMass> authored_;
   bool has_mass_ = false;
   bool has_density_ = false;
 };

@@ -46,8 +46,9 @@ ReadState begin(const stage::Stage& stage, const ReadOptions& options, Diagnosti
 }  // namespace
 
 PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
-                          Diagnostics& diagnostics) {
+                          Diagnostics& diagnostics, Accounts* accounts) {
   ReadState state = begin(stage, options, diagnostics);
+  state.accounts = accounts;
   state.walk = walk_stage(stage, state.values, options.readings);
   read_scenes(state);
   read_bodies(state);

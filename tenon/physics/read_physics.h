@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/physics/accounts.h"
 #include "tenon/physics/physics_scene.h"
 #include "tenon/physics/readings.h"
 #include "tenon/stage/stage.h"
@@ -20,8 +21,9 @@ struct ReadOptions {
 };
 
 /// Reads every physics prim of the stage. Findings about the asset go to `diagnostics` with stable
-/// rule ids; what is wrong is left out, never guessed silently.
+/// rule ids; what is wrong is left out, never guessed silently. `accounts`, where not null, gets
+/// what was decided on the way.
 PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
-                          Diagnostics& diagnostics);
+                          Diagnostics& diagnostics, Accounts* accounts = nullptr);
 
 }  // namespace tenon::physics

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "tenon/physics/accounts.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/mesh_inertia.h"
 #include "tenon/physics/physics_scene.h"
@@ -35,6 +36,7 @@ struct ReadState {
   const Readings& readings;
   Units units;
   AttributeValues values;
+  Accounts* accounts = nullptr;  ///< filled where not null
   Walk walk{};
   PhysicsScene scene{};
 
@@ -54,6 +56,17 @@ struct ReadState {
   std::vector<DriveInstance> drive_instances{};
   /// Materials of the scene by prim path.
   std::unordered_map<Path, Index> material_of_path{};
+
+  /// The same stage, units and readings at another stage time, with nothing read yet.
+  ReadState at(double code, Diagnostics& findings) const {
+    const AttributeValues later(stage::Time(code), values.stage_is_animated(), readings.value_types,
+                                findings);
+    return ReadState{stage, findings, tokens, readings, units, later};
+  }
+  /// [s] from the start of the simulation to a stage time.
+  double seconds(double code) const {
+    return (code - scene.start_time_code) / scene.time_codes_per_second;
+  }
 
   const PhysicsPrim& prim_of_body(Index body) const { return walk.prims[body_prims[body]]; }
   const PhysicsPrim& prim_of_collider(Index i) const { return walk.prims[collider_prims[i]]; }

@@ -53,6 +53,14 @@ Vec3d read_gravity(const ReadState& state, const stage::Prim& prim, const Roles&
   return direction * magnitude;
 }
 
+}  // namespace
+
+Vec3d scene_gravity(const ReadState& state, const PhysicsPrim& found) {
+  return read_gravity(state, found.prim, found.roles);
+}
+
+namespace {
+
 /// The step that the strongest of the vendors' APIs asks for: Newton, PhysX, MuJoCo.
 std::optional<double> read_time_step(const ReadState& state, const stage::Prim& prim,
                                      const Roles& roles) {

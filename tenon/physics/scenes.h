@@ -8,6 +8,8 @@
 
 namespace tenon::physics {
 
+/// Gravity of a PhysicsScene prim at the time of `state` [m/s^2], world axes (S-14..S-17).
+Vec3d scene_gravity(const ReadState& state, const PhysicsPrim& found);
 std::optional<Index> scene_at(const ReadState& state, Path path);
 /// The first scene in traversal order (S-18).
 Index default_scene(const ReadState& state);

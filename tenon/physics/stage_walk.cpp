@@ -127,7 +127,10 @@ class Walker {
              "apply it to an Xform or a shape");
       return false;
     }
-    return values_.flag(prim, physics_tokens().body_enabled, true);
+    // S-28: a body that is enabled at some time is one throughout.
+    const stage::Attribute enabled = prim.attribute(physics_tokens().body_enabled);
+    const bool later = values_.stage_is_animated() && enabled.is_animated();
+    return values_.flag(prim, physics_tokens().body_enabled, true) || later;
   }
 
   /// S-24: whether a body below another is one of its own.

@@ -9,6 +9,7 @@
 #include "tenon/base/limits.h"
 #include "tenon/physics/drives.h"
 #include "tenon/physics/read_state.h"
+#include "tenon/physics/switches.h"
 #include "tenon/physics/world_pose.h"
 #include "tenon/stage/transform_at.h"
 
@@ -34,17 +35,14 @@ class TrackReader {
       }
     }
     for (Index i = 0; i < state_.scene.joints.size(); ++i) {
-      const Joint& joint = state_.scene.joints[i];
-      note_moving_anchor(i, joint.body0, joint.target0, "physics:body0");
-      note_moving_anchor(i, joint.body1, joint.target1, "physics:body1");
+      add_anchor(i, 0);
+      add_anchor(i, 1);
     }
     report_dynamic();
   }
 
  private:
-  double seconds(double code) const {
-    return (code - state_.scene.start_time_code) / state_.scene.time_codes_per_second;
-  }
+  double seconds(double code) const { return state_.seconds(code); }
 
   /// Codes from the first to the last of `authored`, these included, at least four per frame.
   std::vector<double> dense(std::vector<double> authored) const {
@@ -131,7 +129,12 @@ class TrackReader {
     if (codes.size() < 2) {
       return;
     }
-    if (!state_.scene.bodies[i].kinematic) {
+    const Body& body = state_.scene.bodies[i];
+    const bool at_times = found.prim.attribute(state_.tokens.kinematic).is_animated();
+    const bool kinematic =
+        at_times || (body.enabled ? body.kinematic
+                                  : state_.values.flag(found.prim, state_.tokens.kinematic, false));
+    if (!kinematic) {
       ++dynamic_count_;
       first_dynamic_ = std::min(first_dynamic_, i);
       return;
@@ -153,14 +156,24 @@ class TrackReader {
     state_.scene.pose_tracks.push_back(std::move(track));
   }
 
-  // S-86
-  void note_moving_anchor(Index joint, const std::optional<Index>& body, Path target,
-                          const char* name) {
-    if (!body && !target.empty() &&
-        stage::transform_samples(state_.stage.prim(target)).size() > 1) {
-      state_.not_read(state_.prim_of_joint(joint).prim, name,
-                      "the anchor on an animated prim stays where it is at the start");
+  // S-86: the frame in the world moves as the prim does.
+  void add_anchor(Index i, int side) {
+    const Joint& joint = state_.scene.joints[i];
+    const Path target = side == 0 ? joint.target0 : joint.target1;
+    if ((side == 0 ? joint.body0 : joint.body1) || target.empty()) {
+      return;
     }
+    const stage::Prim prim = state_.stage.prim(target);
+    const std::vector<double> codes = stage::transform_samples(prim);
+    if (codes.size() < 2) {
+      return;
+    }
+    const Pose start = world_pose(stage::local_to_world(prim, state_.values.start()), state_.units);
+    PoseTrack track =
+        poses(prim, codes, inverse(start) * (side == 0 ? joint.frame0 : joint.frame1));
+    track.joint = i;
+    track.side = side;
+    state_.scene.pose_tracks.push_back(std::move(track));
   }
 
   // S-117
@@ -184,6 +197,7 @@ class TrackReader {
 void read_tracks(ReadState& state) {
   if (state.values.stage_is_animated()) {
     TrackReader(state).run();
+    read_switches(state);
   }
 }
 

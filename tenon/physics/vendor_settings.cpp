@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the asset says and the description does not hold: vendors' settings, per-face materials,
-// point instancers, switches that change during the simulation. Listed, so that nothing is lost in
-// silence.
+// point instancers. Listed, so that nothing is lost in silence.
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -141,24 +140,11 @@ void note_instancer(ReadState& state, const PhysicsPrim& found) {
   }
 }
 
-/// S-28
-void note_switches(ReadState& state, const PhysicsPrim& found) {
-  if (!found.roles.has(Api::RigidBody) || !state.values.stage_is_animated()) {
-    return;
-  }
-  for (const Token name : {state.tokens.kinematic, state.tokens.body_enabled}) {
-    if (found.prim.attribute(name).is_animated()) {
-      state.not_read(found.prim, name.str(), "only its value at the start counts");
-    }
-  }
-}
-
 }  // namespace
 
 void note_what_is_not_read(ReadState& state) {
   for (const PhysicsPrim& found : state.walk.prims) {
     note_vendor_settings(state, found);
-    note_switches(state, found);
     if (found.roles.kind == PrimKind::PointInstancer) {
       note_instancer(state, found);
     }

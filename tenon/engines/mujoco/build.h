@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct Build {
   std::vector<std::vector<mjsActuator*>> actuators;  ///< (joint_count), one per drive or nullptr
   std::vector<Ghost> ghosts;
   std::vector<NotMapped> not_mapped;
+  std::set<Path> refused;  ///< colliders that are left out, joints that get no limits
   double driven_mass = 0;  ///< of bodies that follow a pose track [kg]
 
   void report(const Path& prim, std::string property, std::string why) {
@@ -70,21 +72,29 @@ void report_unmapped(Build& build);
 Result<Model> compile(Build& build);
 /// Turns what the passes noted per collider into tables per geom.
 void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces);
+/// Where a model begins: at the start of a scene, whose links of articulations have no velocities
+/// of their own (S-32), or in the middle of a run.
+enum class Begin : std::uint8_t { Start, Middle };
+
 /// qpos, qvel, controls and constant forces at time 0.
-Result<void> set_initial_state(const physics::PhysicsScene& scene, Model& model,
+Result<void> set_initial_state(const physics::PhysicsScene& scene, Begin begin, Model& model,
                                Diagnostics& diagnostics);
+/// Forces that bring the gravity of the first scene to that of others.
+void set_other_gravities(const physics::PhysicsScene& scene, Model& model);
 /// Colliders that overlap at the start and may touch: MuJoCo pushes them apart.
 void report_overlaps(const physics::PhysicsScene& scene, const Model& model,
                      Diagnostics& diagnostics);
 
 /// All passes.
 Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOptions& options,
-                          Diagnostics& diagnostics);
+                          Diagnostics& diagnostics, Begin begin = Begin::Start);
 
 // ---- shared by the passes
 
 /// Makes a limit or an equality as hard as the time step allows.
 void make_hard(double time_step, mjtNum* solref, mjtNum* solimp);
+/// How far from the anchor the two points of a loop hinge stand: the size of what hangs on it [m].
+double hinge_arm(const physics::PhysicsScene& scene, const physics::Joint& joint);
 /// Joints that carry `dofs` between MuJoCo body `child` and its parent; see joints.cpp.
 void add_chain(Build& build, physics::Index joint, mjsBody* child, const Pose& joint_in_child,
                bool reversed);

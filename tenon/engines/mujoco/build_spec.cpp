@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include "tenon/base/limits.h"
 #include "tenon/engines/mujoco/build.h"
@@ -13,6 +15,7 @@ namespace tenon::engines::mujoco {
 namespace {
 
 constexpr double kDefaultTimeStep = 0.002;  // [s]
+constexpr std::size_t kMostRefused = 100;   // parts that are left out before the model is given up
 constexpr double kLargestTimeStep = 0.004;  // [s] an asset's own step is divided until it is below
 
 double choose_time_step(const physics::PhysicsScene& scene, const SimulationOptions& options,
@@ -48,12 +51,33 @@ Result<void> check_sizes(const Build& build) {
   return {};
 }
 
-}  // namespace
+/// The collider or joint that MuJoCo's words name as an element, or an empty path.
+Path refused_part(const physics::PhysicsScene& scene, const std::string& words) {
+  constexpr std::string_view kBefore = "Element name '";
+  const std::size_t at = words.find(kBefore);
+  const std::size_t end = at == std::string::npos ? at : words.find('\'', at + kBefore.size());
+  if (end == std::string::npos) {
+    return {};
+  }
+  const std::string name = words.substr(at + kBefore.size(), end - at - kBefore.size());
+  const auto names = [&](const Path& path) {
+    return name == path.str() || name.starts_with(path.str() + ".");
+  };
+  for (const physics::Collider& collider : scene.colliders) {
+    if (names(collider.path)) {
+      return collider.path;
+    }
+  }
+  for (const physics::Joint& joint : scene.joints) {
+    if (names(joint.path)) {
+      return joint.path;
+    }
+  }
+  return {};
+}
 
-Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOptions& options,
-                          Diagnostics& diagnostics) {
-  Build build(scene, diagnostics);
-  build.time_step = choose_time_step(scene, options, diagnostics);
+Result<Model> build_once(Build& build, Begin begin) {
+  const physics::PhysicsScene& scene = build.scene;
   build.plan = plan_tree(scene);
   TENON_CHECK(check_sizes(build));
   for (const physics::Joint& joint : scene.joints) {
@@ -72,9 +96,38 @@ Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOp
   report_unmapped(build);
   TENON_TRY(Model model, compile(build));
   connect_geoms(model, std::move(filter), std::move(surfaces));
-  TENON_CHECK(set_initial_state(scene, model, diagnostics));
-  report_overlaps(scene, model, diagnostics);
+  TENON_CHECK(set_initial_state(scene, begin, model, build.diagnostics));
+  report_overlaps(scene, model, build.diagnostics);
   return model;
+}
+
+}  // namespace
+
+Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOptions& options,
+                          Diagnostics& diagnostics, Begin begin) {
+  const double time_step = choose_time_step(scene, options, diagnostics);
+  std::set<Path> refused;
+  while (true) {
+    Diagnostics findings;
+    Build build(scene, findings);
+    build.time_step = time_step;
+    build.refused = refused;
+    Result<Model> model = build_once(build, begin);
+    if (model.has_value()) {
+      diagnostics.append(findings);
+      return model;
+    }
+    // MuJoCo refuses whole models: what it names is left out, and said.
+    const Path part = refused_part(scene, model.error().message());
+    if (part.empty() || refused.size() >= kMostRefused || !refused.insert(part).second) {
+      diagnostics.append(findings);
+      return model;
+    }
+    diagnostics.add(
+        {Severity::Warning, "mujoco.part-left-out",
+         "MuJoCo refuses a part of the model, which goes on without it: " + model.error().message(),
+         "", 0, 0, part.str(), "", "give the shape a size, the joint sound limits"});
+  }
 }
 
 }  // namespace tenon::engines::mujoco

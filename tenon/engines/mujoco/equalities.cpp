@@ -70,14 +70,6 @@ void hold_frames(Build& build, const std::string& name, mjsBody* body0, const Po
   weld->data[10] = 1;  // torque scale
 }
 
-// How far apart the two points of a hinge stand: the size of what hangs on it.
-double hinge_arm(const Build& build, const Joint& joint) {
-  const physics::Index body = joint.body1.has_value() ? *joint.body1 : *joint.body0;
-  const Pose& frame = joint.body1.has_value() ? joint.frame1 : joint.frame0;
-  const double reach = length(build.scene.bodies[body].center_of_mass - frame.position);
-  return std::clamp(reach, 0.01, 1.0);
-}
-
 // A light body carries the joint's degrees of freedom from body0 and is welded to body1, so that
 // limits, drives and mimics have a coordinate.
 void add_ghost(Build& build, physics::Index index) {
@@ -116,7 +108,7 @@ void add_loop(Build& build, physics::Index index) {
       hold_points(build, joint, sides_of(build, joint), "", {});
       break;
     case JointRole::Hinge: {
-      const Vec3d arm = unit_axis(joint.axis) * hinge_arm(build, joint);
+      const Vec3d arm = unit_axis(joint.axis) * hinge_arm(build.scene, joint);
       hold_points(build, joint, sides_of(build, joint), ".a", arm);
       hold_points(build, joint, sides_of(build, joint), ".b", -arm);
       break;
@@ -179,7 +171,7 @@ void add_cone(Build& build, const Joint& joint) {
     return;
   }
   const Sides sides = sides_of(build, joint);
-  const double arm = hinge_arm(build, joint);
+  const double arm = hinge_arm(build.scene, joint);
   const Pose tip{unit_axis(joint.axis) * arm};
   const std::string name = joint.path.str() + ".cone";
   add_tendon(build, name, add_site(sides.body0, name + ".0", sides.frame0 * tip),
@@ -223,6 +215,13 @@ void add_mimic(Build& build, physics::Index index) {
 }
 
 }  // namespace
+
+double hinge_arm(const physics::PhysicsScene& scene, const Joint& joint) {
+  const physics::Index body = joint.body1.has_value() ? *joint.body1 : *joint.body0;
+  const Pose& frame = joint.body1.has_value() ? joint.frame1 : joint.frame0;
+  const double reach = length(scene.bodies[body].center_of_mass - frame.position);
+  return std::clamp(reach, 0.01, 1.0);
+}
 
 void make_hard(double time_step, mjtNum* solref, mjtNum* solimp) {
   // Critically damped, as fast as MuJoCo's own guard (two steps) allows; nearly no give.

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/mujoco_engine.h"
 #include "tenon/engines/mujoco/test_scene.h"
@@ -35,21 +37,51 @@ TEST(Errors, GuardsNest) {
   EXPECT_NE(outer.error().message().find("outer"), std::string::npos);
 }
 
-TEST(Errors, RejectedModelSaysWhy) {
+TEST(Errors, PartThatMuJoCoRefusesIsLeftOutAndSaid) {
   TestScene scene;
-  const auto body = scene.add_body("Body", {});
+  const auto body = scene.add_body("Body", {{0, 0, 2}});
   physics::TriangleMesh speck;  // a hull of 1e-6 m: MuJoCo finds no volume in it
   speck.points = {{{0, 0, 0}}, {{1e-6, 0, 0}}, {{0, 1e-6, 0}}, {{0, 0, 1e-6}}};
   scene.meshes.push_back(speck);
   physics::Shape shape;
   shape.kind = physics::ShapeKind::ConvexHull;
   scene.add_collider("Speck", body, shape);
+  physics::Shape cone;
+  cone.kind = physics::ShapeKind::Cone;
+  cone.radius = 1e-7;
+  cone.half_height = 1e-7;
+  scene.add_collider("Cone", body, cone);
+  scene.add_collider("Ball", body, sphere(0.5));
+  scene.add_collider("Ground", {}, ground());
   Diagnostics findings;
-  const auto made = make_simulation(scene, {}, findings);
-  ASSERT_FALSE(made.has_value());
-  EXPECT_EQ(made.error().code(), ErrorCode::Invalid);
-  EXPECT_EQ(made.error().diagnostic().rule, "mujoco.model-rejected");
-  EXPECT_NE(made.error().message().find("/Speck"), std::string::npos) << made.error().message();
+  auto sim = simulation(scene, 0.002, &findings);
+  run(*sim, 3);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], 0.5, 1e-2);  // on the ball that is left
+  std::vector<std::string> left_out;
+  for (const Diagnostic& finding : findings) {
+    if (finding.rule == "mujoco.part-left-out") {
+      left_out.push_back(finding.prim);
+    }
+  }
+  std::sort(left_out.begin(), left_out.end());
+  EXPECT_EQ(left_out, (std::vector<std::string>{"/Cone", "/Speck"}));
+  EXPECT_TRUE(mentions(sim->not_mapped(), "/Speck", "extent"));
+}
+
+TEST(Errors, DegenerateLimitsDoNotSpoilTheModel) {
+  constexpr double kInf = physics::kUnlimited;
+  for (const auto& [lower, upper] :
+       {std::pair(kInf, kInf), std::pair(-kInf, -kInf), std::pair(kInf, -kInf),
+        std::pair(0.0, 1e-8), std::pair(1e12, 2e12), std::pair(0.0, 0.0)}) {
+    TestScene scene;
+    const auto body = scene.add_body("Body", {});
+    physics::Joint& joint = scene.add_joint("Joint", physics::JointKind::D6, {}, body);
+    joint.limits.push_back({physics::Dof::RotX, lower, upper});
+    joint.limits.push_back({physics::Dof::TransX, lower, upper});
+    auto sim = simulation(scene);
+    ASSERT_NE(sim, nullptr) << lower << " " << upper;
+    run(*sim, 0.01);
+  }
 }
 
 TEST(Errors, UnstableSimulationNamesTimeAndBody) {

@@ -38,6 +38,10 @@ class ColliderPass {
 
   void add() {
     find_place();
+    if (build_.refused.contains(collider_.path)) {
+      build_.report(collider_.path, "extent", "MuJoCo refuses the shape; left out");
+      return;
+    }
     if (!has_size()) {
       build_.report(collider_.path, "extent", "MuJoCo has no shape of size zero; left out");
       return;

@@ -144,7 +144,7 @@ bool moves_at_start(const physics::Body& body) {
   return body.linear_velocity != Vec3d{} || body.angular_velocity != Vec3d{};
 }
 
-Result<void> set_velocities(const PhysicsScene& scene, Model& model) {
+Result<void> set_velocities(const PhysicsScene& scene, Begin begin, Model& model) {
   for (const Index b : model.plan.order) {
     const physics::Body& body = scene.bodies[b];
     const BodyPlan& plan = model.plan.bodies[b];
@@ -156,7 +156,8 @@ Result<void> set_velocities(const PhysicsScene& scene, Model& model) {
     }
     const physics::Joint& joint = scene.joints[plan.joint];
     const JointMap& map = model.joints[plan.joint];
-    const bool is_link = joint.articulation.has_value() && plan.parent.has_value();  // S-32
+    const bool is_link =
+        begin == Begin::Start && joint.articulation.has_value() && plan.parent.has_value();  // S-32
     const bool moving = moves_at_start(body) ||
                         (plan.parent.has_value() && moves_at_start(scene.bodies[*plan.parent]));
     if (joint.initial_velocity.has_value() && map.dof.size() == 1) {
@@ -178,6 +179,8 @@ void set_controls(const PhysicsScene& scene, Model& model) {
   }
 }
 
+}  // namespace
+
 // The model has the gravity of the first scene; bodies of others carry the difference as a constant
 // force at their centre of mass.
 void set_other_gravities(const PhysicsScene& scene, Model& model) {
@@ -192,11 +195,10 @@ void set_other_gravities(const PhysicsScene& scene, Model& model) {
   }
 }
 
-}  // namespace
-
-Result<void> set_initial_state(const PhysicsScene& scene, Model& model, Diagnostics& diagnostics) {
+Result<void> set_initial_state(const PhysicsScene& scene, Begin begin, Model& model,
+                               Diagnostics& diagnostics) {
   set_positions(scene, model, diagnostics);
-  TENON_CHECK(set_velocities(scene, model));
+  TENON_CHECK(set_velocities(scene, begin, model));
   set_controls(scene, model);
   set_other_gravities(scene, model);
   mjModel* m = model.model.get();

@@ -31,6 +31,9 @@ Vec3d unit(std::size_t axis) {
 }
 
 Link make_link(Dof dof, double lower, double upper) {
+  // An infinite bound on the wrong side is none (S-98).
+  lower = lower == kUnlimited ? -kUnlimited : lower;
+  upper = upper == -kUnlimited ? kUnlimited : upper;
   Link link{dof, lower, upper, false, 0};
   if (lower > upper) {
     link.locked = true;

@@ -66,7 +66,10 @@ void add_chain(Build& build, physics::Index index, mjsBody* child, const Pose& j
     write_vector(target->pos, anchor);
     const Vec3d axis = rotate(joint_in_child.orientation, reversed ? -dof.axis0 : dof.axis1);
     write_vector(target->axis, axis);
-    set_limit(target, dof, build.time_step);
+    const bool refused = build.refused.contains(joint.path);
+    refused ? build.report(joint.path, "limit:" + std::string(dof_name(dof.dof)),
+                           "MuJoCo refuses the limits; left out")
+            : set_limit(target, dof, build.time_step);
     set_passive(target, joint);
     made[i] = target;
   }

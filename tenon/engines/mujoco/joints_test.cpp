@@ -257,11 +257,9 @@ TEST(Joints, D6WithoutLimitsHoldsNothing) {
 
 TEST(Joints, WhatMuJoCoCannotExpressIsReported) {
   TestScene scene = pendulum(0);
-  scene.joints[0].break_force = 10;
   scene.joints[0].velocity_limit = 1;
   scene.joints[0].limits.push_back({Dof::TransX, -1, 1});
   auto sim = simulation(scene);
-  EXPECT_TRUE(mentions(sim->not_mapped(), "/Pivot", "physics:breakForce"));
   EXPECT_TRUE(mentions(sim->not_mapped(), "/Pivot", "velocityLimit"));
   EXPECT_TRUE(mentions(sim->not_mapped(), "/Pivot", "limit:transX"));
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/engines/mujoco/mujoco_engine.h"
 
-#include "tenon/engines/mujoco/build.h"
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 
 namespace tenon::engines::mujoco {
@@ -12,8 +11,8 @@ EngineInfo info() { return {"mujoco", mj_versionString(), true, ""}; }
 Result<std::unique_ptr<Simulation>> make_simulation(const physics::PhysicsScene& scene,
                                                     const SimulationOptions& options,
                                                     Diagnostics& diagnostics) {
-  TENON_TRY(Model model, build_model(scene, options, diagnostics));
-  return std::unique_ptr<Simulation>(std::make_unique<MujocoSimulation>(scene, std::move(model)));
+  TENON_TRY(auto simulation, MujocoSimulation::make(scene, options, diagnostics));
+  return std::unique_ptr<Simulation>(std::move(simulation));
 }
 
 }  // namespace tenon::engines::mujoco

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "tenon/base/diagnostics.h"
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/simulation.h"
 
@@ -14,7 +16,10 @@ namespace tenon::engines::mujoco {
 /// step, so one object belongs to one thread at a time.
 class MujocoSimulation final : public Simulation {
  public:
-  MujocoSimulation(const physics::PhysicsScene& scene, Model model);
+  /// `scene` must outlive the simulation. Errors are those of build_model.
+  static Result<std::unique_ptr<MujocoSimulation>> make(const physics::PhysicsScene& scene,
+                                                        const SimulationOptions& options,
+                                                        Diagnostics& diagnostics);
 
   Result<void> step() override;
   double time() const override;
@@ -24,7 +29,8 @@ class MujocoSimulation final : public Simulation {
   Energy energy() const override;
   std::size_t contact_count() const override;
   std::size_t dof_count() const override;
-  const std::vector<NotMapped>& not_mapped() const override { return model_.not_mapped; }
+  const std::vector<NotMapped>& not_mapped() const override { return not_mapped_; }
+  const std::vector<Event>& events() const override { return events_; }
 
   /// The engine's own objects, for tests and benchmarks.
   const mjModel& engine_model() const { return *model_.model; }
@@ -53,6 +59,30 @@ class MujocoSimulation final : public Simulation {
     Vec3d constant_force;
   };
 
+  struct SwitchState {
+    const physics::SwitchTrack* track = nullptr;
+    bool on = false;
+  };
+  /// Joint limits and tendons that a bounds track moves.
+  struct TrackedBounds {
+    const physics::BoundsTrack* track = nullptr;
+    int tendon_max = -1;
+    int tendon_min = -1;
+    int tendon_cone = -1;
+    double cone_reach = 0;  ///< tendon length of a cone = reach sin(angle / 2)
+  };
+  /// Something holds or carries a force that may break it.
+  struct Breakable {
+    physics::Index joint = 0;
+    int child = -1;  ///< MuJoCo body that hangs on it in the tree, else -1
+    std::vector<int> equalities;
+    std::vector<int> tendons;
+    double arm = 0;  ///< [m] of the two points of a loop hinge
+  };
+
+  MujocoSimulation(const physics::PhysicsScene& scene, std::unique_ptr<physics::PhysicsScene> own,
+                   Model model);
+  void connect();
   void collect_tracks();
   void collect_damped_bodies();
   void start_driven_bodies();
@@ -64,6 +94,21 @@ class MujocoSimulation final : public Simulation {
   void move_colliders();
   void damp_bodies();
   void advance();
+  // Changes of the scene itself; nothing in most scenes.
+  void collect_changes();
+  Result<void> follow_changes();
+  bool follow_switches();
+  bool follow_groups();
+  bool follow_bounds();
+  void follow_gravity();
+  bool set_bounds(const TrackedBounds& tracked);
+  void set_switch(const physics::SwitchTrack& track, bool on);
+  Result<void> rebuild();
+  void keep_state();
+  void restore_joints(Model& next) const;
+  void collect_breakable();
+  Result<void> break_joints();
+  void load_on(const Breakable& breakable, Vec3d& force, Vec3d& torque) const;
   Result<void> check() const;
   Error unstable(int warning) const;
 
@@ -74,8 +119,16 @@ class MujocoSimulation final : public Simulation {
   void velocity_of(const std::optional<physics::Index>& body, const Vec3d& point, Vec3d& linear,
                    Vec3d& angular) const;
 
-  const physics::PhysicsScene& scene_;
+  const physics::PhysicsScene* scene_;          ///< as it is now: `own_`, or what was given
+  std::unique_ptr<physics::PhysicsScene> own_;  ///< where something may change, else null
   Model model_;
+  std::vector<NotMapped> not_mapped_;  ///< of the first model
+  std::vector<Event> events_;
+  std::vector<SwitchState> switches_;
+  std::vector<TrackedBounds> tracked_bounds_;
+  std::vector<Breakable> breakable_;
+  std::vector<char> broken_;     ///< (joint_count)
+  std::size_t group_state_ = 0;  ///< into scene_->group_states, plus one; 0: as at the start
   std::vector<TrackedDrive> tracked_drives_;
   std::vector<DrivenBody> driven_bodies_;
   std::vector<MovedCollider> moved_colliders_;

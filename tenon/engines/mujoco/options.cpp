@@ -16,12 +16,6 @@ constexpr double kFrictionToNormal =
     10;  // impratio: friction this much harder than normal, less creep
 
 void report_joint(Build& build, const physics::Joint& joint) {
-  if (joint.break_force < physics::kUnlimited) {
-    build.report(joint.path, "physics:breakForce", "joints do not break on MuJoCo here");
-  }
-  if (joint.break_torque < physics::kUnlimited) {
-    build.report(joint.path, "physics:breakTorque", "joints do not break on MuJoCo here");
-  }
   if (joint.velocity_limit < physics::kUnlimited) {
     build.report(joint.path, "velocityLimit", "MuJoCo has no bound on joint velocities");
   }

@@ -34,7 +34,7 @@ BodyState MujocoSimulation::body_state(physics::Index body) const {
   BodyState state;
   state.pose = engine * inverse(map.engine_frame);
   state.pose.orientation = normalized(state.pose.orientation);
-  velocity_of(body, transform_point(state.pose, scene_.bodies[body].center_of_mass),
+  velocity_of(body, transform_point(state.pose, scene_->bodies[body].center_of_mass),
               state.linear_velocity, state.angular_velocity);
   return state;
 }
@@ -98,7 +98,7 @@ JointState MujocoSimulation::tree_joint_state(physics::Index joint) const {
 // Joints outside the tree have their coordinates in the relative pose: angles within one turn.
 JointState MujocoSimulation::loop_joint_state(physics::Index joint) const {
   bring_up_to_date();
-  const physics::Joint& source = scene_.joints[joint];
+  const physics::Joint& source = scene_->joints[joint];
   const Pose frame0 = frame_in_world(source.body0, source.frame0);
   const Pose frame1 = frame_in_world(source.body1, source.frame1);
   JointState state;
@@ -135,7 +135,7 @@ Energy MujocoSimulation::energy() const {
   const mjData* d = model_.data.get();
   Energy energy;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const physics::Body& body = scene_.bodies[b];
+    const physics::Body& body = scene_->bodies[b];
     if (body.kinematic) {
       continue;
     }
@@ -146,7 +146,7 @@ Energy MujocoSimulation::energy() const {
     for (int i = 0; i < 3; ++i) {
       energy.kinetic += m->body_inertia[3 * map.id + i] * v[i] * v[i] / 2;
     }
-    const Vec3d gravity = scene_.scenes[body.scene].gravity * body.gravity_scale;
+    const Vec3d gravity = scene_->scenes[body.scene].gravity * body.gravity_scale;
     energy.potential -= map.mass * dot(gravity, read_vector(d->xipos + 3 * map.id));
   }
   for (int i = 0; i < m->nv; ++i) {

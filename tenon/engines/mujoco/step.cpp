@@ -10,11 +10,27 @@
 
 namespace tenon::engines::mujoco {
 
-MujocoSimulation::MujocoSimulation(const physics::PhysicsScene& scene, Model model)
-    : scene_(scene), model_(std::move(model)) {
+MujocoSimulation::MujocoSimulation(const physics::PhysicsScene& scene,
+                                   std::unique_ptr<physics::PhysicsScene> own, Model model)
+    : scene_(own == nullptr ? &scene : own.get()),
+      own_(std::move(own)),
+      model_(std::move(model)),
+      not_mapped_(model_.not_mapped),
+      broken_(scene.joints.size(), 0) {
+  connect();
+}
+
+// What the simulation remembers about the model that it steps.
+void MujocoSimulation::connect() {
+  drives_.clear();
+  acceleration_drives_.clear();
+  tracked_drives_.clear();
+  driven_bodies_.clear();
+  moved_colliders_.clear();
+  damped_bodies_.clear();
   for (std::size_t i = 0; i < model_.drives.size(); ++i) {
     const DriveMap& map = model_.drives[i];
-    drives_.push_back(scene.joints[map.joint].drives[map.drive]);
+    drives_.push_back(scene_->joints[map.joint].drives[map.drive]);
     if (map.actuator >= 0 && drives_.back().acceleration) {
       acceleration_drives_.push_back(i);
     }
@@ -24,12 +40,18 @@ MujocoSimulation::MujocoSimulation(const physics::PhysicsScene& scene, Model mod
   collect_tracks();
   collect_damped_bodies();
   start_driven_bodies();
+  collect_changes();
+  collect_breakable();
   writes_before_step_ = !tracked_drives_.empty() || !driven_bodies_.empty() ||
                         !moved_colliders_.empty() || !damped_bodies_.empty() ||
                         !acceleration_drives_.empty();
+  stale_ = true;
 }
 
 Result<void> MujocoSimulation::step() {
+  if (own_ != nullptr) {
+    TENON_CHECK(follow_changes());
+  }
   if (writes_before_step_) {
     follow_drive_tracks();
     scale_acceleration_drives();
@@ -42,10 +64,11 @@ Result<void> MujocoSimulation::step() {
     const FilterScope filter(model_.filter);
     TENON_CHECK(guarded([this] { advance(); }));
   }
+  TENON_CHECK(check());
   if (!driven_bodies_.empty()) {
     place_driven_bodies();
   }
-  return check();
+  return breakable_.empty() ? Result<void>() : break_joints();
 }
 
 // Pair averages of friction and restitution are written between the making of contacts and that of

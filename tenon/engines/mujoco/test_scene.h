@@ -102,10 +102,10 @@ inline std::unique_ptr<MujocoSimulation> simulation(const physics::PhysicsScene&
                                                     double time_step = 0.002,
                                                     Diagnostics* findings = nullptr) {
   Diagnostics own;
-  Result<Model> model =
-      build_model(scene, {.time_step = time_step}, findings == nullptr ? own : *findings);
-  EXPECT_TRUE(model.has_value()) << (model.has_value() ? "" : model.error().to_string());
-  return model.has_value() ? std::make_unique<MujocoSimulation>(scene, *std::move(model)) : nullptr;
+  auto made = MujocoSimulation::make(scene, {.time_step = time_step},
+                                     findings == nullptr ? own : *findings);
+  EXPECT_TRUE(made.has_value()) << (made.has_value() ? "" : made.error().to_string());
+  return made.has_value() ? *std::move(made) : nullptr;
 }
 
 inline void run(MujocoSimulation& simulation, double seconds) {

@@ -10,7 +10,7 @@
 namespace tenon::engines::mujoco {
 
 void MujocoSimulation::collect_tracks() {
-  for (const physics::ScalarTrack& track : scene_.scalar_tracks) {
+  for (const physics::ScalarTrack& track : scene_->scalar_tracks) {
     for (const DriveMap& map : model_.drives) {
       if (map.joint == track.joint && map.drive == track.drive && map.actuator >= 0 &&
           !track.times.empty()) {
@@ -18,7 +18,7 @@ void MujocoSimulation::collect_tracks() {
       }
     }
   }
-  for (const physics::PoseTrack& track : scene_.pose_tracks) {
+  for (const physics::PoseTrack& track : scene_->pose_tracks) {
     if (track.times.empty()) {
       continue;
     }
@@ -34,8 +34,8 @@ void MujocoSimulation::collect_tracks() {
 }
 
 void MujocoSimulation::collect_damped_bodies() {
-  for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
-    const physics::Body& body = scene_.bodies[b];
+  for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
+    const physics::Body& body = scene_->bodies[b];
     const bool damped = body.linear_damping > 0 || body.angular_damping > 0;
     if (damped && !body.kinematic && model_.plan.bodies[b].base == BodyBase::Jointed) {
       const BodyMap& map = model_.bodies[b];
@@ -170,7 +170,7 @@ void MujocoSimulation::start_driven_bodies() {
   }
   mjData* d = model_.data.get();
   for (DrivenBody& driven : driven_bodies_) {
-    const Pose start = driven.track->at(0);
+    const Pose start = driven.track->at(d->time);
     write_vector(d->qpos + driven.body->free_qpos, start.position);
     write_quaternion(d->qpos + driven.body->free_qpos + 3, normalized(start.orientation));
   }

@@ -201,7 +201,9 @@ TreePlan plan_tree(const PhysicsScene& scene) {
     plan.bodies[b].base = scene.bodies[b].kinematic ? BodyBase::Fixed : BodyBase::Free;
   }
   for (const physics::PoseTrack& track : scene.pose_tracks) {
-    if (track.body.has_value() && scene.bodies[*track.body].kinematic && !track.times.empty()) {
+    const bool drives = track.body.has_value() && scene.bodies[*track.body].kinematic &&
+                        scene.bodies[*track.body].enabled;
+    if (drives && !track.times.empty()) {
       plan.bodies[*track.body].base = BodyBase::Driven;
     }
   }

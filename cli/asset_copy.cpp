@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/asset_copy.h"
+
+#include <filesystem>
+#include <set>
+
+#include "cli/report.h"
+#include "tenon/bytes/file_bytes.h"
+#include "tenon/formats/open_layer.h"
+#include "tenon/formats/package/asset_paths.h"
+#include "tenon/formats/save_layer.h"
+#include "tenon/formats/text/layout_edit.h"
+
+namespace tenon::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The layers that a layer names, as it names them.
+std::set<std::string> named_layers(layer::Layer layer) {
+  std::set<std::string> names;
+  formats::rename_assets(layer, [&](const std::string& name, formats::AssetUse use, Path) {
+    if (use == formats::AssetUse::Layer && !name.empty()) {
+      names.insert(name);
+    }
+    return name;
+  });
+  return names;
+}
+
+std::string relative_to(const std::string& file, const std::string& folder) {
+  const std::string name = fs::path(file).lexically_relative(folder).generic_string();
+  return name.starts_with("../") ? name : "./" + name;
+}
+
+bool in_package(const std::string& identifier) {
+  return !bytes::split_package_path(identifier).inner.empty() || bytes::is_package_name(identifier);
+}
+
+}  // namespace
+
+Result<AssetLayers> AssetLayers::open(const std::string& path, const OpenOptions& options) {
+  AssetLayers asset;
+  asset.resolver_ = bytes::AssetResolver({options.search_paths, options.sandbox_roots});
+  Diagnostics ignored;  // whoever opens the stage reports them
+  TENON_TRY(layer::LayerPtr root, open_layer(path, options, ignored));
+  asset.layers_.push_back({std::move(root), nullptr});
+  std::map<std::string, std::size_t> known{{asset.layers_.front().layer->identifier(), 0}};
+  for (std::size_t i = 0; i < asset.layers_.size(); ++i) {
+    asset.leads_to_.emplace_back();
+    const layer::LayerPtr from = asset.layers_[i].layer;
+    for (const std::string& name : named_layers(*from)) {
+      const auto identifier = asset.resolver_.resolve(name, from->identifier());
+      if (!identifier) {
+        continue;  // a missing layer holds no physics
+      }
+      const auto [entry, is_new] = known.try_emplace(*identifier, asset.layers_.size());
+      if (is_new) {
+        auto opened = open_layer(*identifier, options, ignored);
+        if (!opened) {
+          known.erase(entry);
+          continue;
+        }
+        asset.layers_.push_back({*std::move(opened), nullptr});
+      }
+      asset.leads_to_[i].push_back(known[*identifier]);
+    }
+  }
+  return asset;
+}
+
+Result<std::vector<std::string>> AssetLayers::write_in_place() {
+  std::vector<std::string> written;
+  for (const AssetLayer& part : layers_) {
+    if (part.edited != nullptr && in_package(part.layer->identifier())) {
+      return Error(ErrorCode::Unsupported,
+                   "files in a package are not changed in place: " + part.layer->identifier())
+          .with_fix("give -o FILE");
+    }
+  }
+  for (const AssetLayer& part : layers_) {
+    if (part.edited != nullptr) {
+      TENON_TRY(const bool kept, save_edited(*part.edited, part.layer->identifier()));
+      if (!kept) {
+        without_layout_.push_back(part.layer->identifier());
+      }
+      written.push_back(part.layer->identifier());
+    }
+  }
+  return written;
+}
+
+/// Where copies go, by identifier of the original: the root layer and all that lead to an edit.
+std::map<std::string, std::string> AssetLayers::new_places(const std::string& output) const {
+  std::vector<char> moves(layers_.size(), 0);
+  moves[0] = 1;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+      bool needed = moves[i] != 0 || layers_[i].edited != nullptr;
+      for (const std::size_t other : leads_to_[i]) {
+        needed = needed || (other != 0 && moves[other] != 0);
+      }
+      changed = changed || (needed && moves[i] == 0);
+      moves[i] = needed ? 1 : 0;
+    }
+  }
+  const fs::path target = fs::absolute(output).lexically_normal();
+  const fs::path folder = target.parent_path() / (target.stem().string() + "_layers");
+  const fs::path home = fs::path(layers_[0].layer->identifier()).parent_path();
+  std::map<std::string, std::string> places;
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    const std::string& identifier = layers_[i].layer->identifier();
+    if (moves[i] == 0) {
+      continue;
+    }
+    fs::path name = fs::path(identifier).lexically_relative(home);
+    if (in_package(identifier) || name.empty() || *name.begin() == "..") {
+      name = fs::path(std::to_string(i)) / (fs::path(identifier).stem().string() + ".usda");
+    }
+    places[identifier] = i == 0 ? target.string() : (folder / name).lexically_normal().string();
+  }
+  return places;
+}
+
+/// Asset paths of a layer that moves: to copies where there are some, else to the old files.
+void AssetLayers::rename(layer::Layer& layer, const std::string& from, const std::string& to,
+                         const std::map<std::string, std::string>& places) const {
+  const std::string folder = fs::path(to).parent_path().string();
+  const bool same_folder = fs::path(from).parent_path() == fs::path(to).parent_path();
+  formats::rename_assets(layer, [&](const std::string& name, formats::AssetUse use, Path) {
+    if (name.empty()) {
+      return name;
+    }
+    const auto identifier = resolver_.resolve(name, from);
+    const auto place = identifier ? places.find(*identifier) : places.end();
+    if (use == formats::AssetUse::Layer && place != places.end()) {
+      return relative_to(place->second, folder);
+    }
+    if (same_folder || fs::path(name).is_absolute()) {
+      return name;
+    }
+    // Also patterns such as <UDIM>, which name no file: from the old folder.
+    const bool found_beside = identifier.has_value() || name.starts_with(".");
+    return found_beside && !in_package(from)
+               ? relative_to((fs::path(from).parent_path() / name).lexically_normal().string(),
+                             folder)
+               : name;
+  });
+}
+
+Result<std::vector<std::string>> AssetLayers::write_to(const std::string& output) {
+  if (output == "-") {
+    const layer::Layer& root = layers_[0].edited ? *layers_[0].edited : *layers_[0].layer;
+    TENON_TRY(const std::string text, formats::encode_layer(root, formats::LayerFormat::Text));
+    TENON_CHECK(write_output("-", text));
+    return std::vector<std::string>{"-"};
+  }
+  const std::map<std::string, std::string> places = new_places(output);
+  std::vector<std::string> written;
+  for (const AssetLayer& part : layers_) {
+    const auto place = places.find(part.layer->identifier());
+    if (place == places.end()) {
+      continue;
+    }
+    layer::Layer copy = part.edited ? *part.edited : *part.layer;
+    rename(copy, part.layer->identifier(), place->second, places);
+    std::error_code ignored;
+    fs::create_directories(fs::path(place->second).parent_path(), ignored);
+    TENON_TRY(const bool kept, save_edited(copy, place->second));
+    if (!kept) {
+      without_layout_.push_back(part.layer->identifier());
+    }
+    written.push_back(place->second);
+  }
+  return written;
+}
+
+Result<bool> save_edited(const layer::Layer& layer, const std::string& file) {
+  const auto wanted = formats::layer_format_for(file);
+  const auto bytes = bytes::FileBytes::open(layer.identifier());
+  const bool in_place = file == layer.identifier();
+  const bool text = bytes && formats::format_of(**bytes) == formats::LayerFormat::Text &&
+                    (in_place || (wanted && *wanted == formats::LayerFormat::Text));
+  if (text) {
+    const formats::EditedText edited = formats::edit_text((*bytes)->text(), layer);
+    TENON_CHECK(write_output(file, edited.text));
+    return edited.kept_layout;
+  }
+  TENON_CHECK(formats::save_layer(layer, file));
+  return true;  // nothing but a binary layer, or another format: no layout to keep
+}
+
+}  // namespace tenon::cli

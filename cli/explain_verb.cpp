@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+
+#include "cli/explain.h"
+#include "cli/reading_options.h"
+#include "cli/report.h"
+#include "cli/verb.h"
+#include "tenon/physics/read_physics.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+namespace {
+
+struct Options {
+  AssetArguments asset;
+  std::string object;
+  std::string other;
+  std::vector<std::string> readings;
+};
+
+struct Object {
+  stage::Prim prim;
+  Token property;  ///< empty: the prim itself
+};
+
+Result<Object> find_object(const stage::Stage& stage, const std::string& text) {
+  const Path path = Path::from(text);
+  const Path prim_path = path.is_property() ? path.parent() : path;
+  const stage::Prim prim =
+      path.is_prim() || path.is_property() ? stage.prim(prim_path) : stage::Prim();
+  if (!prim) {
+    return Error(ErrorCode::NotFound, "there is no prim <" + text + ">")
+        .with_fix("tenon tree lists all prims");
+  }
+  Object object{prim, path.is_property() ? path.name() : Token()};
+  const bool unknown = path.is_property() && !prim.has_property(object.property) &&
+                       !prim.is_relationship(object.property) &&
+                       prim.attribute(object.property).definition() == nullptr;
+  if (unknown) {
+    return Error(ErrorCode::NotFound,
+                 "<" + prim_path.str() + "> has no property " + object.property.str())
+        .with_fix("tenon tree --attributes lists all properties");
+  }
+  return object;
+}
+
+int explain_two(Report& report, const Explained& explained, const Object& a,
+                const Options& options) {
+  auto other = find_object(explained.stage, options.other);
+  if (!other) {
+    return report.fail(other.error());
+  }
+  const Json answer = explain_pair(explained, a.prim, other->prim);
+  if (!report.json()) {
+    std::fputs(explain_pair_text(answer).c_str(), stdout);
+  }
+  return report.finish(kOk, answer);
+}
+
+int run_explain(const Globals& globals, const Options& options) {
+  Report report(globals, "explain", options.asset.asset);
+  auto readings = chosen_readings(options.readings);
+  if (!readings) {
+    return report.fail(readings.error());
+  }
+  auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
+  if (!stage) {
+    return report.fail(stage.error());
+  }
+  auto object = find_object(*stage, options.object);
+  if (!object) {
+    return report.fail(object.error());
+  }
+  physics::ReadOptions read;
+  read.readings = *readings;
+  Explained explained{*stage, {}, {}};
+  explained.scene = physics::read_physics(*stage, read, report.diagnostics, &explained.accounts);
+  if (!options.other.empty()) {
+    return explain_two(report, explained, *object, options);
+  }
+  const bool property = !object->property.empty();
+  const Json answer = property ? explain_property(explained, object->prim, object->property)
+                               : explain_prim(explained, object->prim);
+  if (!report.json()) {
+    std::fputs((property ? explain_property_text(answer) : explain_prim_text(answer)).c_str(),
+               stdout);
+  }
+  return report.finish(kOk, answer);
+}
+
+}  // namespace
+
+void add_explain(CLI::App& app, const Globals& globals, Chosen& chosen) {
+  CLI::App* verb = app.add_subcommand(
+      "explain", "Where a number comes from: layer and line, rule, and what lost to it");
+  auto options = std::make_shared<Options>();
+  options->asset.add_to(*verb);
+  verb->add_option("object", options->object, "PRIM or PRIM.property")->required();
+  verb->add_option("other", options->other, "A second prim: do the two collide, and why not");
+  add_readings(*verb, options->readings);
+  verb->footer(
+      readings_help() +
+      "\n\nExamples:\n  tenon explain hand.usda /hand/palm                    its mass, its "
+      "joints\n"
+      "  tenon explain hand.usda /hand/palm.physics:mass       every opinion, strongest first\n"
+      "  tenon explain hand.usda /hand/palm /hand/thumb        whether they collide, and why not");
+  choose(*verb, chosen, [&globals, options] { return run_explain(globals, *options); });
+}
+
+}  // namespace tenon::cli

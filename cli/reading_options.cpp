@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/reading_options.h"
+
+#include "cli/verb.h"
+
+namespace tenon::cli {
+
+void add_readings(CLI::App& verb, std::vector<std::string>& assignments) {
+  verb.add_option("--reading", assignments, "NAME=VALUE of those below; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+Result<physics::Readings> chosen_readings(const std::vector<std::string>& assignments) {
+  physics::Readings readings;
+  for (const std::string& text : assignments) {
+    TENON_TRY(const auto pair, split_assignment(text));
+    TENON_CHECK(physics::set_reading(readings, pair.first, pair.second));
+  }
+  return readings;
+}
+
+std::string readings_help() {
+  std::string text = "Where readers of UsdPhysics disagree (--reading NAME=VALUE, default first):";
+  for (const physics::ReadingChoice& choice : physics::reading_choices()) {
+    text += "\n  " + choice.name + " = ";
+    for (const std::string& value : choice.values) {
+      text += (&value == &choice.values.front() ? "" : " | ") + value;
+    }
+    text += "\n      " + choice.about;
+  }
+  return text;
+}
+
+}  // namespace tenon::cli

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <filesystem>
+
+#include "cli/asset_copy.h"
+#include "cli/report.h"
+#include "cli/verb.h"
+#include "tenon/bake/mute_layer.h"
+#include "tenon/formats/save_layer.h"
+#include "tenon/physics/strip.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+namespace {
+
+struct Options {
+  AssetArguments asset;
+  std::string output;
+  bool in_place = false;
+  bool mute = false;
+};
+
+struct Stripped {
+  physics::StripCounts counts;
+  Json layers = Json::array();
+};
+
+Result<Stripped> strip(const Options& options, Report& report) {
+  TENON_TRY(AssetLayers asset,
+            AssetLayers::open(options.asset.asset, options.asset.open_options()));
+  Stripped result;
+  for (AssetLayer& part : asset.layers()) {
+    layer::Layer edited = *part.layer;
+    const physics::StripCounts counts = physics::strip_physics(edited);
+    if (counts.total() == 0) {
+      continue;
+    }
+    result.counts.prims += counts.prims;
+    result.counts.api_schemas += counts.api_schemas;
+    result.counts.properties += counts.properties;
+    result.layers.push_back({{"file", shown_path(part.layer->identifier())},
+                             {"prims", counts.prims},
+                             {"apiSchemas", counts.api_schemas},
+                             {"properties", counts.properties}});
+    part.edited = std::make_shared<layer::Layer>(std::move(edited));
+  }
+  TENON_TRY(const std::vector<std::string> written,
+            options.in_place ? asset.write_in_place() : asset.write_to(options.output));
+  for (const std::string& file : asset.without_layout()) {
+    report.note("comments and layout of " + shown_path(file) + " are not kept");
+  }
+  report.note("took out " + std::to_string(result.counts.prims) + " prims, " +
+              std::to_string(result.counts.api_schemas) + " API schemas, " +
+              std::to_string(result.counts.properties) + " properties; wrote " +
+              std::to_string(written.size()) + (written.size() == 1 ? " layer" : " layers"));
+  return result;
+}
+
+int run_strip(Report& report, const Options& options) {
+  auto stripped = strip(options, report);
+  if (!stripped) {
+    return report.fail(stripped.error());
+  }
+  return report.finish(kOk, {{"prims", stripped->counts.prims},
+                             {"apiSchemas", stripped->counts.api_schemas},
+                             {"properties", stripped->counts.properties},
+                             {"layers", stripped->layers}});
+}
+
+/// A layer over the asset, with its units and times.
+layer::Layer overlay(const layer::Layer& asset, const std::string& output) {
+  namespace fs = std::filesystem;
+  layer::Layer over(output == "-" ? "muted.usda" : output);
+  const fs::path folder =
+      output == "-" ? fs::current_path() : fs::absolute(output).lexically_normal().parent_path();
+  const std::string name = fs::path(asset.identifier()).lexically_relative(folder).generic_string();
+  over.root().set(
+      "subLayers",
+      layer::Value(std::vector<std::string>{name.starts_with("../") ? name : "./" + name}));
+  for (const char* field : {"defaultPrim", "kilogramsPerUnit", "metersPerUnit", "upAxis",
+                            "startTimeCode", "endTimeCode", "timeCodesPerSecond"}) {
+    if (const layer::Value* value = asset.root().find(field)) {
+      over.root().set(field, *value);
+    }
+  }
+  return over;
+}
+
+Result<void> write_muted(layer::LayerPtr layer, const Options& options) {
+  if (options.in_place) {
+    TENON_CHECK(save_edited(*layer, layer->identifier()));
+    return {};
+  }
+  if (options.output == "-") {
+    TENON_TRY(const std::string text, formats::encode_layer(*layer, formats::LayerFormat::Text));
+    return write_output("-", text);
+  }
+  return formats::save_layer(*layer, options.output);
+}
+
+int run_mute(Report& report, const Options& options) {
+  auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
+  if (!stage) {
+    return report.fail(stage.error());
+  }
+  layer::Layer layer =
+      options.in_place ? stage->root_layer() : overlay(stage->root_layer(), options.output);
+  const bake::MuteCounts counts = bake::mute_physics(*stage, layer, report.diagnostics);
+  const auto written = write_muted(std::make_shared<layer::Layer>(std::move(layer)), options);
+  if (!written) {
+    return report.fail(written.error());
+  }
+  report.note("switched off " + std::to_string(counts.bodies) + " bodies, " +
+              std::to_string(counts.colliders) + " colliders, " + std::to_string(counts.joints) +
+              " joints");
+  return report.finish(counts.out_of_reach == 0 ? kOk : kNo, {{"bodies", counts.bodies},
+                                                              {"colliders", counts.colliders},
+                                                              {"joints", counts.joints},
+                                                              {"outOfReach", counts.out_of_reach}});
+}
+
+}  // namespace
+
+void add_strip(CLI::App& app, const Globals& globals, Chosen& chosen) {
+  CLI::App* verb = app.add_subcommand(
+      "strip", "Take all physics out of an asset, or mute it, and leave the rest as it is");
+  auto options = std::make_shared<Options>();
+  options->asset.add_to(*verb);
+  verb->add_option("-o,--output", options->output,
+                   "Write the asset without physics here; layers below it that hold physics come "
+                   "into a folder beside it");
+  verb->add_flag("--in-place", options->in_place,
+                 "Change the asset's own layers; comments and layout of text stay");
+  verb->add_flag("--mute", options->mute,
+                 "Delete nothing: switch bodies, colliders and joints off by their enable flags, "
+                 "in a layer over the asset (-o) or in its root layer (--in-place)");
+  verb->footer(
+      "Examples:\n  tenon strip hand.usda -o visual.usda\n"
+      "  tenon strip hand.usda --in-place\n"
+      "  tenon strip hand.usda --mute -o muted.usda");
+  choose(*verb, chosen, [&globals, options] {
+    Report report(globals, "strip", options->asset.asset);
+    if (options->output.empty() != options->in_place) {
+      return report.fail(Error(ErrorCode::Invalid, "the result needs a place to be written to")
+                             .with_fix("give either -o FILE or --in-place"));
+    }
+    return options->mute ? run_mute(report, *options) : run_strip(report, *options);
+  });
+}
+
+}  // namespace tenon::cli

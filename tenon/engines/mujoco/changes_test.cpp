@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/mujoco/test_scene.h"
+
+namespace tenon::engines::mujoco {
+namespace {
+
+using physics::JointKind;
+using physics::Switch;
+
+constexpr double kDt = 0.001;
+
+physics::SwitchTrack at_one_second(Switch what, physics::Index object, bool before) {
+  const char first = before ? 1 : 0;
+  return {what, object, {0, 1}, {first, static_cast<char>(1 - first)}};
+}
+
+TEST(Changes, KinematicBodySetFreeKeepsItsSpeed) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {});
+  scene.bodies[body].kinematic = true;
+  scene.pose_tracks.push_back({body, {}, {0, 2}, {Pose{}, Pose{{{4, 0, 0}}}}, false});
+  scene.switch_tracks.push_back(at_one_second(Switch::BodyKinematic, body, true));
+  auto sim = simulation(scene, kDt);
+  run(*sim, 1);
+  EXPECT_NEAR(sim->body_state(body).pose.position[0], 2, 1e-6);
+  run(*sim, 0.5);
+  // E-33: from 1 s on free flight at 2 m/s; z = -g t^2 / 2, semi-implicit: g t dt / 2 more.
+  const BodyState state = sim->body_state(body);
+  EXPECT_NEAR(state.pose.position[0], 3, 1e-6);
+  EXPECT_NEAR(state.linear_velocity[0], 2, 1e-9);
+  EXPECT_NEAR(state.pose.position[2], -kG * 0.125, kG * 0.5 * kDt);
+}
+
+TEST(Changes, FallingBodyMadeKinematicFollowsItsTrack) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {{0, 0, 5}});
+  scene.pose_tracks.push_back({body, {}, {0, 2}, {Pose{{{0, 0, 8}}}, Pose{{{0, 0, 6}}}}, false});
+  scene.switch_tracks.push_back(at_one_second(Switch::BodyKinematic, body, false));
+  auto sim = simulation(scene, kDt);
+  run(*sim, 0.9);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], 5 - kG * 0.405, 0.01);
+  run(*sim, 0.6);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], 6.5, 1e-9);  // 8 - 1 m/s 1.5 s
+  EXPECT_NEAR(sim->body_state(body).linear_velocity[2], -1, 1e-9);
+}
+
+TEST(Changes, DisabledBodyStandsUntilItIsEnabled) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {{0, 0, 5}});
+  scene.bodies[body].enabled = false;
+  scene.bodies[body].kinematic = true;
+  scene.switch_tracks.push_back(at_one_second(Switch::BodyEnabled, body, false));
+  scene.switch_tracks.push_back({Switch::BodyKinematic, body, {0}, {0}});
+  auto sim = simulation(scene, kDt);
+  run(*sim, 1);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], 5, 1e-12);
+  run(*sim, 1);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], 5 - kG / 2, kG * kDt);
+}
+
+TEST(Changes, SwitchedOffColliderLetsTheBodyThrough) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {{0, 0, 0.5}}, 1, {{1.0 / 6, 1.0 / 6, 1.0 / 6}});
+  const auto shape = scene.add_collider("Shape", body, box({{0.5, 0.5, 0.5}}));
+  scene.add_collider("Ground", {}, ground());
+  scene.switch_tracks.push_back(at_one_second(Switch::ColliderEnabled, shape, true));
+  auto sim = simulation(scene, kDt);
+  run(*sim, 1);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], 0.5, 1e-3);
+  run(*sim, 0.5);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], 0.5 - kG * 0.125, 0.01);
+}
+
+TEST(Changes, JointSwitchedOffLetsGoAlongTheTangent) {
+  TestScene scene(0);
+  const auto body = scene.add_body("Body", {{1, 0, 0}});
+  physics::Joint& joint = scene.add_joint("Pivot", JointKind::Revolute, {}, body);
+  joint.frame1.position = {{-1, 0, 0}};
+  scene.bodies[body].linear_velocity = {{0, M_PI / 2, 0}};
+  scene.bodies[body].angular_velocity = {{0, 0, M_PI / 2}};
+  scene.switch_tracks.push_back(at_one_second(Switch::JointEnabled, 0, true));
+  auto sim = simulation(scene, kDt);
+  run(*sim, 2);
+  // A quarter turn at pi/2 per second to (0, 1); then for a second straight on along -x, turning on
+  // as before: momentum and angular momentum stay.
+  const BodyState state = sim->body_state(body);
+  EXPECT_NEAR(state.pose.position[0], -M_PI / 2, 5e-3);
+  EXPECT_NEAR(state.pose.position[1], 1, 5e-3);
+  EXPECT_NEAR(state.linear_velocity[0], -M_PI / 2, 1e-3);
+  EXPECT_NEAR(state.angular_velocity[2], M_PI / 2, 1e-3);
+}
+
+TEST(Changes, OtherJointsKeepTheirTurnsThroughAChange) {
+  TestScene scene(0);
+  const auto wheel = scene.add_body("Wheel", {});
+  const auto other = scene.add_body("Other", {{3, 0, 0}});
+  scene.add_joint("Axle", JointKind::Revolute, {}, wheel);
+  scene.add_joint("Held", JointKind::Fixed, {}, other).frame0.position = {{3, 0, 0}};
+  scene.bodies[wheel].angular_velocity = {{0, 0, 10}};
+  scene.switch_tracks.push_back(at_one_second(Switch::JointEnabled, 1, true));
+  auto sim = simulation(scene, kDt);
+  run(*sim, 2);
+  EXPECT_NEAR(sim->joint_state(0).position[0], 20, 1e-6);  // three turns and more
+}
+
+TEST(Changes, LimitsMoveWhatRestsOnThem) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {});
+  physics::Joint& joint =
+      scene.add_joint("Slide", JointKind::Prismatic, {}, body, physics::Axis::Z);
+  joint.lower = -0.3;
+  physics::JointBounds low;
+  low.lower = -0.3;
+  physics::JointBounds high;
+  high.lower = -0.1;
+  scene.bounds_tracks.push_back({0, {0, 1, 2}, {low, low, high}, false});
+  auto sim = simulation(scene, kDt);
+  run(*sim, 1);
+  EXPECT_NEAR(sim->joint_state(0).position[0], -0.3, 2e-3);
+  run(*sim, 2);
+  EXPECT_NEAR(sim->joint_state(0).position[0], -0.1, 2e-3);
+}
+
+TEST(Changes, LockedJointIsSetFreeByItsLimits) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {});
+  physics::Joint& joint =
+      scene.add_joint("Slide", JointKind::Prismatic, {}, body, physics::Axis::Z);
+  joint.lower = 0;
+  joint.upper = 0;
+  physics::JointBounds locked;
+  locked.lower = 0;
+  locked.upper = 0;
+  scene.bounds_tracks.push_back({0, {0, 1}, {locked, physics::JointBounds{}}, true});
+  auto sim = simulation(scene, kDt);
+  run(*sim, 1);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], 0, 1e-9);
+  run(*sim, 0.5);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], -kG * 0.125, 0.01);
+}
+
+TEST(Changes, GravityFollowsItsSamples) {
+  TestScene scene(0);
+  const auto body = scene.add_body("Body", {});
+  scene.gravity_tracks.push_back({0, {0, 2}, {Vec3d{{0, 0, 0}}, Vec3d{{0, 0, -6}}}, false});
+  auto sim = simulation(scene, kDt);
+  run(*sim, 2);
+  // v = -int_0^2 3 t dt = -6, z = -t^3 / 2 = -4.
+  EXPECT_NEAR(sim->body_state(body).linear_velocity[2], -6, 0.01);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], -4, 0.01);
+}
+
+TEST(Changes, GravityOfASecondSceneFollowsToo) {
+  TestScene scene;
+  scene.scenes.push_back({named("Other"), {}, {}});
+  const auto body = scene.add_body("Body", {});
+  scene.bodies[body].scene = 1;
+  scene.gravity_tracks.push_back({1, {0, 1}, {Vec3d{}, Vec3d{{2, 0, 0}}}, true});
+  auto sim = simulation(scene, kDt);
+  run(*sim, 2);
+  EXPECT_NEAR(sim->body_state(body).linear_velocity[0], 2, 0.01);
+  EXPECT_NEAR(sim->body_state(body).linear_velocity[2], 0, 1e-9);
+}
+
+TEST(Changes, GroupsThatStopTouchingLetTheBodyThrough) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {{0, 0, 0.1}}, 1, {{0.01, 0.01, 0.01}});
+  scene.add_collider("Ball", body, sphere(0.1));
+  scene.add_collider("Ground", {}, ground());
+  scene.filter.group_paths = {named("A"), named("B")};
+  scene.filter.groups_of_collider = {{0}, {1}};
+  scene.filter.group_pair_off.assign(4, 0);
+  scene.filter.ungrouped_off.assign(2, 0);
+  scene.group_states.push_back({1, {0, 1, 1, 0}, {0, 0}});
+  auto sim = simulation(scene, kDt);
+  run(*sim, 1);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], 0.1, 2e-3);
+  run(*sim, 1);
+  EXPECT_LT(sim->body_state(body).pose.position[2], -4);
+}
+
+TEST(Changes, AnchorOnAMovingPrimCarriesTheBody) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {{0, 0, -1}});
+  physics::Joint& joint = scene.add_joint("Held", JointKind::Fixed, {}, body);
+  joint.frame1.position = {{0, 0, 1}};
+  physics::PoseTrack track{{}, {}, {0, 2}, {Pose{}, Pose{{{4, 0, 0}}}}, false};
+  track.joint = 0;
+  scene.pose_tracks.push_back(track);
+  auto sim = simulation(scene, kDt);
+  run(*sim, 1);
+  EXPECT_NEAR(sim->body_state(body).pose.position[0], 2, 1e-3);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], -1, 1e-3);
+  EXPECT_NEAR(sim->body_state(body).linear_velocity[0], 2, 1e-3);
+}
+
+/// 10 kg on a joint to the world, as E-104.
+TestScene hanging(JointKind kind, double break_force) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {{0, 0, -1}}, 10);
+  physics::Joint& joint = scene.add_joint("Hook", kind, {}, body);
+  joint.frame1.position = {{0, 0, 1}};
+  joint.break_force = break_force;
+  return scene;
+}
+
+TEST(Breaking, JointsGiveWayAboveTheirForceOnly) {
+  for (const JointKind kind : {JointKind::Fixed, JointKind::Revolute, JointKind::Spherical}) {
+    // 10 kg weigh 98.1 N: 50 N breaks at once, 150 N holds.
+    const TestScene weak = hanging(kind, 50);
+    auto falls = simulation(weak, kDt);
+    run(*falls, 1);
+    EXPECT_NEAR(falls->body_state(0).pose.position[2], -1 - kG / 2, 0.02);
+    ASSERT_EQ(falls->events().size(), 1u);
+    EXPECT_NEAR(falls->events()[0].time, kDt, 1e-9);
+    EXPECT_EQ(falls->events()[0].prim.str(), "/Hook");
+    const TestScene strong = hanging(kind, 150);
+    auto holds = simulation(strong, kDt);
+    run(*holds, 1);
+    EXPECT_NEAR(holds->body_state(0).pose.position[2], -1, 1e-6);
+    EXPECT_TRUE(holds->events().empty());
+  }
+}
+
+TEST(Breaking, TorqueIsThatAboutTheAnchor) {
+  // A bar of 2 kg held at one end, its centre 0.5 m away: 2 g 0.5 = 9.81 N m.
+  for (const double limit : {9.0, 10.0}) {
+    TestScene scene;
+    const auto bar = scene.add_body("Bar", {{0.5, 0, 0}}, 2);
+    physics::Joint& joint = scene.add_joint("Clamp", JointKind::Fixed, {}, bar);
+    joint.frame1.position = {{-0.5, 0, 0}};
+    joint.break_torque = limit;
+    auto sim = simulation(scene, kDt);
+    run(*sim, 0.5);
+    EXPECT_EQ(sim->events().size(), limit < 9.81 ? 1u : 0u) << limit;
+  }
+}
+
+TEST(Breaking, RopeTearsInTheFall) {
+  // A ball falls 0.5 m into a rope: far more than its weight of 9.81 N.
+  for (const double limit : {20.0, 1e6}) {
+    TestScene scene;
+    const auto ball = scene.add_body("Ball", {{0, 0, -0.5}}, 1, {{0.01, 0.01, 0.01}});
+    physics::Joint& joint = scene.add_joint("Rope", JointKind::Distance, {}, ball);
+    joint.upper = 1;
+    joint.break_force = limit;
+    auto sim = simulation(scene, kDt);
+    run(*sim, 2);
+    EXPECT_EQ(sim->events().size(), limit < 100 ? 1u : 0u) << limit;
+    EXPECT_EQ(sim->body_state(ball).pose.position[2] < -5, limit < 100) << limit;
+  }
+}
+
+TEST(Breaking, LoopsBreakToo) {
+  // A bar held at both ends by two joints, 4 kg: each carries about half of 39.24 N.
+  for (const double limit : {15.0, 35.0}) {
+    TestScene scene;
+    const auto bar = scene.add_body("Bar", {}, 4);
+    scene.add_joint("Left", JointKind::Revolute, {}, bar, physics::Axis::Y);
+    scene.joints[0].frame0.position = {{-1, 0, 0}};
+    scene.joints[0].frame1.position = {{-1, 0, 0}};
+    scene.add_joint("Right", JointKind::Spherical, {}, bar, physics::Axis::Y);
+    scene.joints[1].frame0.position = {{1, 0, 0}};
+    scene.joints[1].frame1.position = {{1, 0, 0}};
+    scene.joints[1].break_force = limit;
+    auto sim = simulation(scene, kDt);
+    run(*sim, 0.2);
+    EXPECT_EQ(sim->events().size(), limit < 19.6 ? 1u : 0u) << limit;
+  }
+}
+
+TEST(Breaking, WhatAJointKeptApartMayTouchWhenItIsBroken) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {{0, 0, 0.05}}, 10, {{0.1, 0.1, 0.1}});
+  const auto shape = scene.add_collider("Shape", body, sphere(0.1));
+  const auto floor = scene.add_collider("Floor", {}, ground());
+  physics::Joint& joint = scene.add_joint("Hook", JointKind::Fixed, {}, body);
+  joint.frame0.position = {{0, 0, 0.05}};
+  joint.break_force = 50;
+  scene.filter.joint_pairs.push_back({0, {{shape, floor}}});
+  scene.update_joint_pairs();
+  auto sim = simulation(scene, kDt);
+  run(*sim, 1);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], 0.1, 2e-3);  // pushed out of the floor
+}
+
+}  // namespace
+}  // namespace tenon::engines::mujoco

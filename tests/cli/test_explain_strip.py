@@ -1,0 +1,302 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""The verbs that explain physics, take it out and mute it: what they say, and that nothing else of
+an asset changes.
+
+    test_explain_strip.py ROOT TENON
+"""
+
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT, TENON = pathlib.Path(sys.argv[1]), sys.argv[2]
+HAND = ROOT / "examples/inspire_hand/inspire_hand.usda"
+SCENES = ROOT / "tests/physics/scenes"
+GOLDEN = ROOT / "tests/golden/physics"
+PHYSICS = ("physics:", "physx", "newton:", "mjc:", "drive:", "limit:", "state:",
+           "material:binding:physics")
+
+try:
+    from pxr import Usd, UsdPhysics
+except ImportError:
+    Usd = None
+
+STRONG = """#usda 1.0
+(
+    defaultPrim = "World"
+    subLayers = [@./weak.usda@]
+    upAxis = "Z"
+    metersPerUnit = 1
+)
+over "World"
+{
+    over "Box"
+    {
+        float physics:mass = 2  # the box's own
+    }
+}
+"""
+WEAK = """#usda 1.0
+(
+    defaultPrim = "World"
+    upAxis = "Z"
+    metersPerUnit = 1
+)
+def Xform "World"
+{
+    # what falls
+    def Cube "Box" (
+        prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI", "PhysicsMassAPI"]
+        customData = { string note = "keep" }
+    )
+    {
+        double size = 1
+        float physics:mass = 5
+        color3f[] primvars:displayColor = [(1, 0, 0)]  # red
+        rel material:binding:physics = </World/Ice>
+    }
+    def Cube "Floor" (
+        prepend apiSchemas = ["PhysicsCollisionAPI"]
+    )
+    {
+        double3 xformOp:translate = (0, 0, -9)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+    def Material "Ice" (
+        prepend apiSchemas = ["PhysicsMaterialAPI"]
+    )
+    {
+        float physics:staticFriction = 0.1
+    }
+    def PhysicsScene "Scene"
+    {
+    }
+    def PhysicsFixedJoint "Hold"
+    {
+        rel physics:body1 = </World/Box>
+        def Sphere "Mark"
+        {
+        }
+    }
+    def Xform "Asset" (
+        variants = { string Look = "plain" }
+        prepend variantSets = "Look"
+    )
+    {
+        variantSet "Look" = {
+            "plain" {
+                def PhysicsRevoluteJoint "J"
+                {
+                    rel physics:body0 = </World/Box>
+                }
+            }
+            "fancy" {
+                over "J"
+                {
+                    float physics:lowerLimit = 3
+                }
+            }
+        }
+    }
+}
+"""
+
+
+def tenon(*arguments):
+    return subprocess.run([TENON, *map(str, arguments)], capture_output=True, text=True,
+                          check=False)
+
+
+class Base(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def layered(self):
+        (self.folder / "strong.usda").write_text(STRONG)
+        (self.folder / "weak.usda").write_text(WEAK)
+        return self.folder / "strong.usda"
+
+    def json(self, *arguments, code=0):
+        process = tenon(*arguments, "--json")
+        self.assertEqual(process.returncode, code, process.stderr + process.stdout)
+        answer = json.loads(process.stdout)
+        self.assertEqual(answer["schema"], f"tenon.{arguments[0]}/1")
+        return answer
+
+
+class Explain(Base):
+    def test_opinions_stand_strongest_first_with_their_lines(self):
+        answer = self.json("explain", self.layered(), "/World/Box.physics:mass")
+        self.assertEqual(answer["value"], "2")
+        found = [(pathlib.Path(o["file"]).name, o["line"], o["value"], o["used"])
+                 for o in answer["opinions"]]
+        self.assertEqual(found, [("strong.usda", 12, "2", True), ("weak.usda", 16, "5", False)])
+        text = tenon("explain", self.layered(), "/World/Box.physics:mass").stdout
+        self.assertIn("strong.usda:12:9  default 2", text)
+        self.assertIn("(weaker)", text)
+
+    def test_mass_names_what_it_beat(self):
+        answer = self.json("explain", self.layered(), "/World/Box")
+        account = answer["body"]["massAccount"]
+        masses = [(c["value"], c["used"], c["rule"]) for c in account["candidates"]
+                  if c["quantity"] == "mass"]
+        self.assertEqual(masses, [("2 kg", True, "S-39"), ("1000 kg", False, "S-39")])
+        self.assertEqual(account["colliders"][0]["candidates"][0]["value"], "1000 kg/m^3")
+
+    def test_density_chain_is_listed_whole(self):
+        scene = GOLDEN / "density_chain/input.usda"
+        account = self.json("explain", scene, "/W/B")["body"]["massAccount"]
+        densities = [(c["value"], c["used"]) for c in account["colliders"][0]["candidates"]]
+        self.assertEqual(densities, [("500 kg/m^3", True), ("5000 kg/m^3", False),
+                                     ("2000 kg/m^3", False), ("1000 kg/m^3", False)])
+
+    def test_pair_names_group_pair_joint_and_switch(self):
+        def reasons(scene, a, b):
+            answer = self.json("explain", scene, a, b)
+            self.assertFalse(answer["collide"])
+            return {(r["rule"], r["prim"]) for row in answer["pairs"] for r in row["reasons"]}
+        self.assertEqual(reasons(SCENES / "groups.usda", "/World/Low", "/World/High"),
+                         {("S-77", "/World/Ghosts")})
+        self.assertEqual(reasons(SCENES / "pairs.usda", "/World/Low", "/World/High"),
+                         {("S-81", "/World/Low")})
+        self.assertEqual(reasons(SCENES / "driven_turn.usda", "/World/Bar", "/World/Post"),
+                         {("S-92", "/World/Turn")})
+        free = self.json("explain", SCENES / "pairs.usda", "/World/Low", "/World/Slab")
+        self.assertTrue(free["collide"])
+
+    def test_joint_lists_frames_and_degrees_of_freedom(self):
+        joint = self.json("explain", SCENES / "driven_turn.usda", "/World/Turn")["joint"]
+        free = [row["dof"] for row in joint["dofs"] if not row["locked"]]
+        self.assertEqual(free, ["rotZ"])
+        self.assertIsNone(joint["side0"]["body"])
+        self.assertEqual(joint["side1"]["body"], "/World/Bar")
+
+    def test_binding_says_where_it_comes_from(self):
+        collider = self.json("explain", self.layered(), "/World/Box")["collider"]
+        self.assertEqual(collider["binding"]["material"], "/World/Ice")
+        self.assertEqual(collider["binding"]["opinions"][0]["line"], 18)
+
+    def test_unknown_objects_are_2(self):
+        for name in ("/Nowhere", "/World/Box.nothing"):
+            self.assertEqual(tenon("explain", self.layered(), name).returncode, 2, name)
+
+    def test_mass_table_has_a_reason_for_every_body(self):
+        masses = self.json("physics", HAND, "--physics", "physx", "--mass")["masses"]
+        self.assertEqual(len(masses), 13)
+        for row in masses:
+            self.assertTrue(all(row["reason"].values()), row)
+
+
+def without_physics(dump):
+    """A stage's dump less everything that is physics."""
+    prims = []
+    for prim in dump["prims"]:
+        if prim["type"].startswith("Physics") and not prim["path"].endswith("Hold"):
+            continue
+        prims.append((prim["path"], "" if prim["type"].startswith("Physics") else prim["type"],
+                      [p for p in prim.get("properties", {}) if not p.startswith(PHYSICS)]))
+    return prims
+
+
+class Strip(Base):
+    def test_in_place_keeps_every_other_line(self):
+        asset = self.layered()
+        answer = self.json("strip", asset, "--in-place")
+        self.assertEqual(len(answer["layers"]), 2)
+        kept = (self.folder / "weak.usda").read_text()
+        for line in ('    # what falls', '        customData = { string note = "keep" }',
+                     '        color3f[] primvars:displayColor = [(1, 0, 0)]  # red'):
+            self.assertIn(line + "\n", kept)
+        for word in ("physics:", "Physics", "lowerLimit"):
+            self.assertNotIn(word, kept)
+            self.assertNotIn(word, asset.read_text())
+        self.assertIn('def Sphere "Mark"', kept)
+        again = self.json("strip", asset, "--in-place")
+        self.assertEqual((again["prims"], again["apiSchemas"], again["properties"]), (0, 0, 0))
+
+    def test_output_leaves_the_asset_alone_and_composes_alike(self):
+        asset = self.layered()
+        before = {p: p.read_bytes() for p in self.folder.iterdir()}
+        other = self.folder / "out"
+        other.mkdir()
+        self.json("strip", asset, "-o", other / "visual.usda")
+        self.assertEqual(before, {p: p.read_bytes() for p in before})
+        counts = self.json("info", other / "visual.usda")["physics"]
+        self.assertEqual((counts["bodies"], counts["colliders"], counts["scenes"]), (0, 0, 0))
+        flat = tenon("cat", "--flatten", other / "visual.usda").stdout
+        self.assertIn('"keep"', flat)
+        self.assertIn("displayColor", flat)
+
+    def test_hand_loses_physics_under_every_variant_and_keeps_its_looks(self):
+        out = self.folder / "visual.usda"
+        self.json("strip", HAND, "-o", out)
+        for variant in ("physics", "physx", "mujoco", "none"):
+            counts = self.json("info", out, "--physics", variant)["physics"]
+            self.assertEqual((counts["bodies"], counts["colliders"]), (0, 0), variant)
+            after = self.shapes(out, variant)
+            self.assertEqual(after, self.shapes(HAND, variant), variant)
+
+    @staticmethod
+    def shapes(asset, variant):
+        """Meshes and their points of the flattened stage."""
+        text = tenon("cat", "--flatten", asset, "--physics", variant).stdout
+        return sorted(line.strip() for line in text.splitlines()
+                      if "point3f[] points" in line or "matrix4d xformOp" in line)
+
+    @unittest.skipIf(Usd is None, "no OpenUSD modules in this Python")
+    def test_openusd_finds_nothing_and_all_else(self):
+        asset = self.layered()
+        out = self.folder / "visual.usda"
+        self.json("strip", asset, "-o", out)
+        stage, old = Usd.Stage.Open(str(out)), Usd.Stage.Open(str(asset))
+        found = UsdPhysics.LoadUsdPhysicsFromRange(stage, ["/"])
+        self.assertEqual(sum(len(rows[0]) for rows in found.values()), 0)
+        for prim in old.TraverseAll():
+            if prim.GetTypeName().startswith("Physics") and prim.GetName() != "Hold":
+                continue
+            left = stage.GetPrimAtPath(prim.GetPath())
+            self.assertTrue(left, prim.GetPath())
+            wanted = {p.GetName(): str(p.Get() if hasattr(p, "Get") else p.GetTargets())
+                      for p in prim.GetAuthoredProperties()
+                      if not p.GetName().startswith(PHYSICS)}
+            self.assertEqual(wanted, {p.GetName(): str(p.Get() if hasattr(p, "Get")
+                                                       else p.GetTargets())
+                                      for p in left.GetAuthoredProperties()})
+
+
+class Mute(Base):
+    def test_overlay_switches_off_and_the_asset_stays(self):
+        asset = self.layered()
+        before = {p: p.read_bytes() for p in self.folder.iterdir()}
+        out = self.folder / "muted.usda"
+        answer = self.json("strip", asset, "--mute", "-o", out)
+        self.assertEqual((answer["bodies"], answer["colliders"], answer["joints"]), (1, 2, 2))
+        self.assertEqual(before, {p: p.read_bytes() for p in before})
+        muted = self.json("physics", out)
+        self.assertEqual(muted["bodies"], [])
+        self.assertFalse(any(c["enabled"] for c in muted["colliders"]))
+        # Back: without the overlay the asset says what it said.
+        self.assertEqual(len(self.json("physics", asset)["bodies"]), 1)
+
+    def test_in_place_adds_flags_only(self):
+        asset = self.layered()
+        self.json("strip", asset, "--mute", "--in-place")
+        text = asset.read_text()
+        self.assertIn("float physics:mass = 2  # the box's own\n", text)
+        self.assertIn("bool physics:rigidBodyEnabled = 0", text)
+        again = self.json("strip", asset, "--mute", "--in-place")
+        self.assertEqual((again["bodies"], again["colliders"], again["joints"]), (0, 0, 0))
+
+    def test_a_place_is_needed(self):
+        self.assertEqual(tenon("strip", self.layered()).returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
