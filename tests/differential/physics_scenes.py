@@ -9,6 +9,9 @@ import random
 
 BODY, COLLISION, MASS = "PhysicsRigidBodyAPI", "PhysicsCollisionAPI", "PhysicsMassAPI"
 SHAPES = ("Cube", "Sphere", "Capsule", "Cylinder", "Cone")
+APPROXIMATIONS = ("none", "convexHull", "boundingCube", "boundingSphere", "convexDecomposition",
+                  "meshSimplification")
+MISSING = "/W/Missing"  # named here and there, never defined
 DOFS = ("transX", "transY", "transZ", "rotX", "rotY", "rotZ")
 
 
@@ -198,6 +201,8 @@ class Maker:
         if self.chance(0.5):
             factor = self.span(0.3, 3)
             values = [factor] * 3 if uniform else [self.span(0.3, 3) for _ in range(3)]
+            if self.chance(0.05):
+                values[self.random.randrange(3)] *= -1  # a mirror
             op("float3", "scale", vector(values))
         prim.set("uniform token[]", "xformOpOrder", "[" + ", ".join(names) + "]")
 
@@ -243,7 +248,9 @@ class Maker:
 
     def shape(self, prim):
         prim.apis.append(COLLISION)
-        if prim.kind == "Cube":
+        if prim.kind == "Mesh":
+            self.mesh(prim)
+        elif prim.kind == "Cube":
             prim.set("double", "size", number(self.span(0.2, 3)))
         else:
             prim.set("double", "radius", number(self.span(0.1, 2)))
@@ -256,6 +263,26 @@ class Maker:
             prim.apis.append("MaterialBindingAPI")
             name = "material:binding:physics" if self.chance(0.6) else "material:binding"
             prim.targets[name] = [self.random.choice(self.materials)]
+
+    def mesh(self, prim):
+        """A tetrahedron, or a box whose quads are fans of triangles for nobody."""
+        size = self.span(0.2, 2)
+        if self.chance(0.5):
+            points = [(0, 0, 0), (size, 0, 0), (0, size, 0), (0, 0, size)]
+            faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        else:
+            points = [(x, y, z) for x in (-size, size) for y in (-size, size)
+                      for z in (-size, size)]
+            faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4),
+                     (1, 5, 7, 3)]
+        prim.set("point3f[]", "points", "[" + ", ".join(map(vector, points)) + "]")
+        prim.set("int[]", "faceVertexCounts", str([len(face) for face in faces]))
+        prim.set("int[]", "faceVertexIndices", str([i for face in faces for i in face]))
+        prim.set("uniform token", "subdivisionScheme", token("none"))
+        if self.chance(0.7):
+            prim.apis.append("PhysicsMeshCollisionAPI")
+            prim.set("uniform token", "physics:approximation",
+                     token(self.random.choice(APPROXIMATIONS)))
 
     def body(self, parent):
         kind = self.random.choice(("Xform",) + SHAPES)
@@ -282,7 +309,7 @@ class Maker:
 
     def collider(self, parent):
         path = self.name(parent, "C")
-        prim = self.scene.add(path, self.random.choice(SHAPES))
+        prim = self.scene.add(path, self.random.choice(SHAPES + ("Mesh",)))
         self.place(prim, uniform=self.chance(0.5))
         self.shape(prim)
         self.weigh(prim, 0.4)
@@ -312,6 +339,8 @@ class Maker:
             prim.apis.append("PhysicsFilteredPairsAPI")
             prim.targets["physics:filteredPairs"] = [
                 self.random.choice([p for p in named if p != path] or [path])]
+            if self.chance(0.2):
+                prim.targets["physics:filteredPairs"].append(MISSING)
 
     def joint(self):
         kinds = ("Revolute", "Prismatic", "Spherical", "Fixed", "Distance", "")
@@ -321,6 +350,8 @@ class Maker:
         prim = self.scene.add(path, f"Physics{kind}Joint")
         if self.chance(0.3):
             sides = sides[:1]
+        elif len(sides) == 2 and self.chance(0.1):
+            sides[self.random.randrange(2)] = MISSING
         for side, body in zip(self.random.sample((0, 1), k=len(sides)), sides):
             prim.targets[f"physics:body{side}"] = [body]
         for side in (0, 1):
