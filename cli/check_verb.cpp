@@ -259,6 +259,9 @@ void print_text(const Outcome& outcome, const Counts& counts, const Options& opt
     } else {
       report.note((diff ? "would correct " : "corrected ") + shown_path(file.path));
     }
+    if (!file.kept_layout) {
+      report.note("comments and layout of " + shown_path(file.path) + " are not kept");
+    }
   }
   if (options.sarif != "-") {
     print_findings(outcome, globals, diff ? stderr : stdout);
@@ -317,7 +320,11 @@ int explain_rule(const Globals& globals, const std::string& id) {
   return report.finish(kOk, globals.json ? Json{{"rule", id}, {"page", page}} : Json::object());
 }
 
-Result<void> check_arguments(const Options& options) {
+Result<void> check_arguments(const Options& options, bool json) {
+  if (json && options.sarif == "-") {
+    return Error(ErrorCode::Invalid, "--json and --sarif - both want standard output")
+        .with_fix("write the SARIF log to a file");
+  }
   if (options.paths.empty()) {
     return Error(ErrorCode::Invalid, "nothing to check")
         .with_fix("name files or folders, or give --list-rules or --explain RULE");
@@ -347,7 +354,7 @@ int run_check(const Globals& globals, const Options& options) {
   if (!options.explain.empty()) {
     return explain_rule(globals, options.explain);
   }
-  if (auto usable = check_arguments(options); !usable) {
+  if (auto usable = check_arguments(options, globals.json); !usable) {
     return Report(globals, "check", "").fail(usable.error());
   }
   return check_assets(globals, options);

@@ -117,7 +117,9 @@ Result<CorrectedFile> corrected_file(const std::string& path,
   file.text = format == formats::LayerFormat::Text;
   if (file.text) {
     file.before = bytes->text();
-    file.after = formats::edit_text(bytes->text(), layer).text;
+    formats::EditedText edited = formats::edit_text(bytes->text(), layer);
+    file.after = std::move(edited.text);
+    file.kept_layout = edited.kept_layout;
   } else {
     TENON_TRY(file.after, formats::encode_layer(layer, format));
   }

@@ -33,10 +33,11 @@ struct CorrectedFile {
   std::string before;  ///< empty for what is no text
   std::string after;   ///< text, or the bytes of a binary layer
   bool text = false;
+  bool kept_layout = true;  ///< comments and layout of text stay
 };
 
-/// What the fixes of the findings make of the files that own the opinions; comments and layout of
-/// text stay. No file is touched: write_file (bytes/atomic_write.h) does that.
+/// What the fixes of the findings make of the files that own the opinions. No file is touched:
+/// write_file (bytes/atomic_write.h) does that.
 Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Finding>& findings);
 
 /// Files below a folder that no other of them uses as a layer, sorted; a file alone is one.

@@ -75,6 +75,16 @@ bool has_box(const layer::Array<Vec3f>& corners) {
   return corners.empty();
 }
 
+/// Below an inactive prim or an unloaded payload: it would be there if that were switched on.
+bool lies_below_what_is_off(const stage::Stage& stage, Path path) {
+  for (; !path.empty() && !path.is_absolute_root(); path = path.parent()) {
+    if (const stage::Prim above = stage.prim(path)) {
+      return !above.is_active() || !above.is_loaded();
+    }
+  }
+  return false;
+}
+
 template <class Q>
 double length_of(const layer::Value& value) {
   const Q* q = value.get<Q>();
@@ -125,7 +135,8 @@ void check_target_missing(const Subject& subject, Reporter& report) {
       for (const Path& target : targets) {
         const stage::Prim there =
             target.prim().is_absolute_root() ? prim : subject.stage.prim(target.prim());
-        const bool exists = there && (!target.is_property() || there.has_property(target.name()));
+        const bool exists = there ? !target.is_property() || there.has_property(target.name())
+                                  : lies_below_what_is_off(subject.stage, target.prim());
         const bool owner = name == "physics:simulationOwner" &&
                            subject.has_finding("scene.owner-missing", prim.path().str());
         if (!exists && !owner && !subject.is_reported(prim.path().str(), name.str())) {

@@ -184,8 +184,9 @@ class Outputs(unittest.TestCase):
         self.assertEqual(run(scene, "--only", "no.such-rule").returncode, 2)
 
     def test_usage_errors_are_2(self):
-        for arguments in [(), ("--dry-run", HAND), (self.folder / "gone.usda",),
-                          ("--explain", "no.such-rule"), (HAND, "--baseline", self.folder / "no")]:
+        for arguments in [(), ("--dry-run", HAND), (HAND, "--json", "--sarif", "-"),
+                          (self.folder / "gone.usda",), ("--explain", "no.such-rule"),
+                          (HAND, "--baseline", self.folder / "no")]:
             self.assertEqual(run(*arguments).returncode, 2, arguments)
 
     def test_a_file_that_cannot_be_read_is_a_finding_and_2(self):
@@ -257,6 +258,24 @@ class Outputs(unittest.TestCase):
         self.assertEqual([pathlib.Path(f["file"]).name for f in answer["corrected"]], ["weak.usda"])
         self.assertEqual(over.read_text(), before)
         self.assertIn("physics:restitution = 1\n", weak.read_text())
+
+    def test_targets_below_what_is_switched_off_are_not_missing(self):
+        scene = (SCENES / "stage.target-missing.clean.usda").read_text()
+        scene = scene.replace("custom rel likes = </World>", "custom rel likes = </World/Off/Part>")
+        scene = scene.rstrip().removesuffix("}") + """
+    def Xform "Off" (
+        active = false
+    )
+    {
+        def Xform "Part"
+        {
+        }
+    }
+}
+"""
+        self.assertEqual(self.rules(self.write("off.usda", scene)), set())
+        scene = scene.replace("active = false", "active = true").replace("Part>", "Other>")
+        self.assertEqual(self.rules(self.write("on.usda", scene)), {"stage.target-missing"})
 
     def test_binary_layers_are_corrected_and_packages_are_not(self):
         scene = self.copy("material.restitution")
