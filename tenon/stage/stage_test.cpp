@@ -560,5 +560,24 @@ def "A" (
   EXPECT_FALSE(flat.find(Path::from("/A.p"))->get_or("custom", false));
 }
 
+TEST(Values, ASampleIsExactAtItsOwnStageTime) {
+  // 100 codes of 1/24 s end at 4.1666666666666661 s, which is 99.999999999999986 codes.
+  const Stage stage = open_text({{"root", R"((
+    timeCodesPerSecond = 1
+    subLayers = [@sub@]
+)
+)"},
+                                 {"sub", R"(def "A" {
+    double x.timeSamples = { 0: 0, 100: 100, 200: 0 }
+})"}});
+  const Attribute x = stage.prim(Path::from("/A")).attribute("x");
+  for (const double time : x.time_samples()) {
+    EXPECT_EQ(x.get_as<double>(time), time > 4 && time < 5 ? 100.0 : 0.0) << time;
+  }
+  EXPECT_EQ(x.get_as<double>(-1.0), 0.0);
+  EXPECT_EQ(x.get_as<double>(9.0), 0.0);
+  EXPECT_NEAR(*x.get_as<double>(6.25), 50, 1e-9);
+}
+
 }  // namespace
 }  // namespace tenon::stage
