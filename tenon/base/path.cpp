@@ -320,7 +320,7 @@ Path Path::absolute(Path anchor) const {
   for (auto it = elements.rbegin(); it != elements.rend(); ++it) {
     const PathNode* element = *it;
     if (element->kind == PathKind::Prim && element->name == "..") {
-      result = result.is_variant_selection() ? result.prim().parent() : result.parent();
+      result = result.parent();
       if (result.empty()) {
         return result;
       }

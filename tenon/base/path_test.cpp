@@ -119,6 +119,9 @@ TEST(Path, RelativePathsAreResolvedAndMade) {
         << row.absolute << " from " << row.anchor;
   }
   EXPECT_TRUE(Path::from("../../..").absolute(Path::from("/A")).empty());
+  const Path in_variant = Path::from("/A{v=x}C");
+  EXPECT_EQ(Path::from("../B").absolute(in_variant), Path::from("/A{v=x}B"));
+  EXPECT_EQ(Path::from("../../B").absolute(in_variant), Path::from("/A/B"));
 }
 
 TEST(Path, OrderPutsAPathBeforeWhatIsBelowIt) {

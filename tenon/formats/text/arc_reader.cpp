@@ -180,10 +180,9 @@ bool read_prim_paths(LayerState& state, Path prim, Token field, ListEdit edit) {
   if (!read_path_list(cursor, items)) {
     return false;
   }
-  const Path anchor = prim.strip_variants();
   for (Path& item : items) {
-    const Path path = item.absolute(anchor);
-    if (path.empty() || !path.is_prim() || item.has_variants()) {
+    const Path path = item.absolute(prim.prim());
+    if (path.empty() || !path.is_prim() || path.has_variants()) {
       return cursor.fail_at(start, ErrorCode::Parse, "text.arc",
                             "<" + item.str() + "> is no prim path without variant selections");
     }

@@ -372,7 +372,8 @@ class PropertyReader {
       return false;
     }
     for (Path& path : paths) {
-      const Path absolute = path.absolute(owner_.strip_variants().prim());
+      // Unlike with relationships a variant that only the prim around names is left out.
+      const Path absolute = path.absolute(owner_.prim()).strip_variants();
       if (path.has_variants() || !is_target(absolute)) {
         return fail_target(start, path, "connections lead to prims or properties");
       }
@@ -443,9 +444,9 @@ class PropertyReader {
       return false;
     }
     for (Path& path : paths) {
-      const Path absolute = path.absolute(owner_.strip_variants().prim());
+      const Path absolute = path.absolute(owner_.prim());
       const bool fits = is_target(absolute) || absolute.kind() == PathKind::Mapper;
-      if (path.has_variants() || !fits) {
+      if (absolute.has_variants() || !fits) {
         return fail_target(start, path, "relationships lead to prims or properties");
       }
       path = absolute;

@@ -63,6 +63,8 @@ TEST(TextReader, ErrorsSayWhereAndWhatWasExpected) {
       {"def \"A\" {\n asset a = @x\n}\n", 3, 12, "this asset path is not closed on its line"},
       {"def \"A\" {\n rel a = </A\n}\n", 3, 10, "this path is not closed on its line"},
       {"def \"A\" {\n rel a = </A{v=x}B>\n}\n", 3, 10, "have no variant selections"},
+      {"def \"A\" {\nvariantSet \"v\" = {\n\"x\" {\ndef \"B\" {\n rel a = <../C>\n}\n}\n}\n}\n", 6, 10,
+       "have no variant selections"},
       {"def \"A\" {\n rel a = [</A>, </A>]\n}\n", 3, 10, "this list names one item twice"},
       {"def \"A\" {\n int a\n float a\n}\n", 4, 2, "already has type int, not float"},
       {"def \"A\" {\n}\ndef \"A\" {\n}\n", 4, 5, "was already given at line 2"},
@@ -149,6 +151,21 @@ TEST(TextReader, ListEditsAreCollected) {
   const auto* inherits = prim.get<ListOp<Path>>(fields::inheritPaths);
   ASSERT_NE(inherits, nullptr);
   EXPECT_EQ(inherits->explicit_items, std::vector<Path>{Path::from("/B")});
+}
+
+TEST(TextReader, RelativePathsInVariantsLeadOutOfThem) {
+  const std::string body =
+      "def \"A\" {\nvariantSet \"v\" = {\n\"x\" {\n rel own = <C>\ndef \"B\" (inherits = <../../K>) "
+      "{\n rel to = <../../C>\n double a.connect = [<../C.a>, <../../../C.a>]\n}\n}\n}\n}\n";
+  const auto items = [&](const char* path, Token field) {
+    return spec_of(body, path).get<ListOp<Path>>(field)->explicit_items;
+  };
+  using Paths = std::vector<Path>;
+  EXPECT_EQ(items("/A{v=x}.own", fields::targetPaths), Paths{Path::from("/A/C")});
+  EXPECT_EQ(items("/A{v=x}B.to", fields::targetPaths), Paths{Path::from("/A/C")});
+  EXPECT_EQ(items("/A{v=x}B", fields::inheritPaths), Paths{Path::from("/A/K")});
+  EXPECT_EQ(items("/A{v=x}B.a", fields::connectionPaths),
+            (Paths{Path::from("/A/C.a"), Path::from("/C.a")}));
 }
 
 /// `count` points (i, 0.5, -i), with what `at(i)` gives in front of each.
