@@ -18,9 +18,13 @@ namespace tenon::compose {
 
 /// Which payloads are included and which variants are taken when none is selected.
 struct ComposeOptions {
+  /// Where no rule names the prim or one above it.
   bool load_payloads = true;
-  std::set<Path> loaded;    ///< payloads of these prims and below, whatever load_payloads says
-  std::set<Path> unloaded;  ///< not these and below; the nearer of the two sets wins
+  /// Rules, the nearest counts; UsdStageLoadRules calls them AllRule, OnlyRule and NoneRule. What
+  /// is above a loaded prim is loaded as well, unless AllRule decides already.
+  std::set<Path> loaded;        ///< these prims and below
+  std::set<Path> loaded_alone;  ///< these prims, nothing below
+  std::set<Path> unloaded;      ///< not these and below
   /// Variant set -> variants to fall back to, best first.
   std::map<std::string, std::vector<std::string>> variant_fallbacks;
   std::set<std::string> muted;  ///< identifiers of layers that count as absent

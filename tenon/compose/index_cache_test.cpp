@@ -142,6 +142,13 @@ class "P" { def "x" {} })"}};
   Scene below(texts, options);
   EXPECT_EQ(below.children("/A"), "x B");  // what is above a loaded prim is loaded as well
   EXPECT_EQ(below.specs("/C"), "root/C");
+  options = {};
+  options.loaded_alone = {Path::from("/A")};
+  options.unloaded = {Path::absolute_root()};
+  Scene alone(texts, options);
+  EXPECT_EQ(alone.children("/A"), "x B");
+  EXPECT_EQ(alone.specs("/A/B"), "root/A/B");
+  EXPECT_EQ(alone.specs("/C"), "root/C");
 }
 
 TEST(IndexCache, ImpliesClassesAcrossReferences) {

@@ -10,6 +10,21 @@ namespace tenon::stage {
 using layer::Specifier;
 namespace fields = layer::fields;
 
+namespace {
+
+/// The node, or one above it, is there because the prim itself inherits a class.
+bool is_inherited(const compose::PrimIndex& index, std::uint32_t node) {
+  for (; node != compose::kNoNode; node = index.nodes[node].parent) {
+    if (index.nodes[node].arc == compose::ArcKind::Inherit && !index.nodes[node].due_to_ancestor) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+/// What inherits a class is no class: `class` of an inherited one is weaker than any `def`.
 Specifier composed_specifier(const compose::PrimIndex& index) {
   Specifier result = Specifier::Over;
   for (const compose::Opinion& opinion : index.opinions) {
@@ -17,15 +32,10 @@ Specifier composed_specifier(const compose::PrimIndex& index) {
     if (specifier == nullptr || *specifier == Specifier::Over) {
       continue;
     }
-    const compose::Node& node = index.nodes[opinion.node];
-    const bool from_class_arc =
-        (node.arc == compose::ArcKind::Inherit || node.arc == compose::ArcKind::Specialize) &&
-        !node.due_to_ancestor;
-    if (*specifier == Specifier::Class && from_class_arc) {
-      result = Specifier::Class;
-      continue;
+    result = *specifier;
+    if (result == Specifier::Def || !is_inherited(index, opinion.node)) {
+      return result;
     }
-    return *specifier;
   }
   return result;
 }

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // From prim indexes to the tree of prims. Instances keep their own opinions; what is below them is
-// populated once per instance key, under /__Prototype_N, from the index of the first instance found
-// (depth first). Inactive prims end the walk. An explicit stack keeps deep trees off ours.
+// populated once per instance key, under /__Prototype_N, from the index of one of the instances.
+// Inactive prims end the walk. An explicit stack keeps deep trees off ours.
 #include "tenon/schema/kinds.h"
 #include "tenon/stage/composed_type.h"
+#include "tenon/stage/prototype_sources.h"
 #include "tenon/stage/stage_data.h"
 
 namespace tenon::stage {
@@ -41,30 +42,19 @@ class Populator {
   }
 
  private:
-  bool included(Path path) const {
-    if (data_.options.mask.empty()) {
-      return true;
-    }
-    for (const Path mask : data_.options.mask) {
-      if (path.has_prefix(mask) || mask.has_prefix(path)) {
-        return true;
-      }
-    }
-    return false;
-  }
-
   void add_children(PrimData& parent) {
     const compose::PrimIndex& index = data_.cache->index(parent.source_path);
     for (const Token name : index.child_names) {
       const Path path = parent.path.child(name);
-      if (!parent.in_prototype && !included(path)) {
+      const Path source_path = parent.source_path.child(name);
+      if (!is_in_mask(data_.options.mask, source_path)) {
         continue;
       }
       if (data_.prims.size() >= data_.options.most_prims) {
         report_too_many(path);
         break;
       }
-      add_prim(parent, index, path, parent.in_prototype ? parent.source_path.child(name) : path);
+      add_prim(parent, index, path, source_path);
     }
     std::vector<PrimData*> next;
     for (PrimData* child = parent.first_child; child != nullptr; child = child->next_sibling) {
@@ -97,17 +87,14 @@ class Populator {
   // The prototype when it is new and must be walked.
   PrimData* use_prototype(PrimData& instance) {
     Diagnostics known;  // from when the instance was added
-    const std::vector<ClipDefinition> clips = own_clips(*instance.index, known);
-    std::string key = instance.index->instance_key;
-    for (const ClipDefinition& definition : clips) {
-      key += definition.key();
-    }
+    const std::vector<ClipDefinition> clips = own_clip_definitions(data_, *instance.index, known);
+    const std::string key = prototype_key(data_, *instance.index, clips);
     const auto [it, inserted] = data_.prototype_of_key.try_emplace(key, nullptr);
     if (inserted) {
       PrimData& root = data_.prims.emplace_back();
       const std::string name = "__Prototype_" + std::to_string(data_.prototypes.size() + 1);
       root.path = Path::absolute_root().child(Token(name));
-      root.source_path = instance.source_path;
+      root.source_path = source_of(key, instance);
       root.index = &empty_index();
       root.definition = data_.definitions.get(Token(), {});
       root.parent = data_.root;
@@ -123,8 +110,15 @@ class Populator {
     return inserted ? it->second : nullptr;
   }
 
-  void add_prim(PrimData& parent, const compose::PrimIndex& source, Path path,
-                Path source_path) {
+  Path source_of(const std::string& key, const PrimData& instance) {
+    if (sources_.empty()) {
+      sources_ = prototype_sources(data_);
+    }
+    const auto found = sources_.find(key);
+    return found == sources_.end() ? instance.source_path : found->second;
+  }
+
+  void add_prim(PrimData& parent, const compose::PrimIndex& source, Path path, Path source_path) {
     PrimData& prim = data_.prims.emplace_back();
     prim.path = path;
     prim.source_path = source_path;
@@ -136,22 +130,10 @@ class Populator {
     data_.by_path.emplace(path, &prim);
     data_.diagnostics.append(prim.index->errors);
     set_flags(prim, parent);
-    prim.clips = add_clips(own_clips(*prim.index, data_.diagnostics), parent.clips, path,
-                           data_.diagnostics);
+    prim.clips = add_clips(own_clip_definitions(data_, *prim.index, data_.diagnostics),
+                           parent.clips, path, data_.diagnostics);
     prim.type_name = composed_type_name(*prim.index);
     prim.definition = data_.definitions.get(prim.type_name, composed_api_schemas(*prim.index));
-  }
-
-  // Without the ancestors'.
-  std::vector<ClipDefinition> own_clips(const compose::PrimIndex& index,
-                                        Diagnostics& diagnostics) {
-    if (!has_clips(index)) {
-      return {};
-    }
-    const auto exists = [&](const std::string& asset, const layer::Layer& anchor) {
-      return !data_.options.resolve_asset || !data_.options.resolve_asset(asset, anchor).empty();
-    };
-    return clip_definitions(index, exists, diagnostics);
   }
 
   const ClipSets* add_clips(const std::vector<ClipDefinition>& definitions,
@@ -159,8 +141,7 @@ class Populator {
     if (definitions.empty()) {
       return inherited;
     }
-    ClipSets sets =
-        clip_sets(definitions, inherited, *data_.clip_layers, path.str(), diagnostics);
+    ClipSets sets = clip_sets(definitions, inherited, *data_.clip_layers, path.str(), diagnostics);
     return sets.empty() ? nullptr : &data_.clip_sets.emplace_back(std::move(sets));
   }
 
@@ -182,6 +163,7 @@ class Populator {
   }
 
   StageData& data_;
+  std::unordered_map<std::string, Path> sources_;  // of prototypes; filled for the first instance
   bool too_many_reported_ = false;
   std::vector<PrimData*> pending_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "tenon/compose/site.h"
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/prim.h"
 #include "tenon/stage/stage_data.h"
@@ -70,8 +71,7 @@ std::vector<Token> Prim::property_names() const {
 }
 
 bool Prim::has_property(Token name) const {
-  return data_ != nullptr &&
-         (authored(*data_, name) || data_->definition->find(name) != nullptr);
+  return data_ != nullptr && (authored(*data_, name) || data_->definition->find(name) != nullptr);
 }
 
 bool Prim::is_relationship(Token name) const {
@@ -138,18 +138,17 @@ std::vector<std::string> Prim::variant_set_names() const {
   if (data_ == nullptr) {
     return names;
   }
-  // List edits combine within a site; sites add to each other, strongest first.
-  const std::vector<compose::Opinion>& opinions = data_->index->opinions;
-  for (auto first = opinions.begin(); first != opinions.end();) {
-    const auto last = std::find_if(
-        first, opinions.end(), [&](const auto& opinion) { return opinion.node != first->node; });
-    const std::vector<compose::Opinion> site(first, last);
-    for (const std::string& name : compose_list<std::string>(site, fields::variantSetNames)) {
+  // List edits combine within a site; sites add to each other, strongest first, those without
+  // opinions on the prim included.
+  for (const compose::Node& node : data_->index->nodes) {
+    if (!node.has_specs) {
+      continue;
+    }
+    for (const std::string& name : compose::composed_variant_sets(*node.layer_stack, node.path)) {
       if (std::find(names.begin(), names.end(), name) == names.end()) {
         names.push_back(name);
       }
     }
-    first = last;
   }
   return names;
 }
@@ -157,10 +156,9 @@ std::vector<std::string> Prim::variant_set_names() const {
 std::vector<std::string> Prim::variant_names(const std::string& set) const {
   std::set<std::string> names;
   if (data_ != nullptr) {
-    for (const compose::Opinion& opinion : data_->index->opinions) {
-      const Path path = opinion.path.variant_selection(Token(set), Token());
-      for (const Token name : opinion.layer->children(path, fields::variantChildren)) {
-        names.insert(name.str());
+    for (const compose::Node& node : data_->index->nodes) {
+      for (const std::string& name : compose::variant_options(*node.layer_stack, node.path, set)) {
+        names.insert(name);
       }
     }
   }

@@ -63,8 +63,8 @@ TEST(TextReader, ErrorsSayWhereAndWhatWasExpected) {
       {"def \"A\" {\n asset a = @x\n}\n", 3, 12, "this asset path is not closed on its line"},
       {"def \"A\" {\n rel a = </A\n}\n", 3, 10, "this path is not closed on its line"},
       {"def \"A\" {\n rel a = </A{v=x}B>\n}\n", 3, 10, "have no variant selections"},
-      {"def \"A\" {\nvariantSet \"v\" = {\n\"x\" {\ndef \"B\" {\n rel a = <../C>\n}\n}\n}\n}\n", 6, 10,
-       "have no variant selections"},
+      {"def \"A\" {\nvariantSet \"v\" = {\n\"x\" {\ndef \"B\" {\n rel a = <../C>\n}\n}\n}\n}\n", 6,
+       10, "have no variant selections"},
       {"def \"A\" {\n rel a = [</A>, </A>]\n}\n", 3, 10, "this list names one item twice"},
       {"def \"A\" {\n int a\n float a\n}\n", 4, 2, "already has type int, not float"},
       {"def \"A\" {\n}\ndef \"A\" {\n}\n", 4, 5, "was already given at line 2"},
@@ -155,7 +155,8 @@ TEST(TextReader, ListEditsAreCollected) {
 
 TEST(TextReader, RelativePathsInVariantsLeadOutOfThem) {
   const std::string body =
-      "def \"A\" {\nvariantSet \"v\" = {\n\"x\" {\n rel own = <C>\ndef \"B\" (inherits = <../../K>) "
+      "def \"A\" {\nvariantSet \"v\" = {\n\"x\" {\n rel own = <C>\ndef \"B\" (inherits = "
+      "<../../K>) "
       "{\n rel to = <../../C>\n double a.connect = [<../C.a>, <../../../C.a>]\n}\n}\n}\n}\n";
   const auto items = [&](const char* path, Token field) {
     return spec_of(body, path).get<ListOp<Path>>(field)->explicit_items;
