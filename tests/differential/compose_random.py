@@ -5,14 +5,15 @@
 edits, time offsets, variants, relocates, instances, load rules, muting, sessions, variable
 expressions. Needs Python with OpenUSD's modules.
 
-usage: compose_random.py DUMP [--scenes N] [--seed S] [--keep FOLDER] [--show N]
+usage: compose_random.py DUMP [--scenes N] [--seed S] [--keep FOLDER] [--show N] [--measured]
 
 DUMP is the program tests/tools/composition_dump.cpp. Per prim these must agree: contributing nodes
 in order of strength with arc, site and time offset; specs of all layers; selected variants; names
 of children and properties; prohibited names; what it is an instance like; targets; classes of
 findings. A scene that differs is cut down while it still does and printed. Scenes
 that OpenUSD does not finish in time, or dies of, are counted and left out. --keep writes scenes
-that differ there; of more than --show (3) only the number is printed. Exit 77: no OpenUSD.
+that differ there; of more than --show (3) only the number is printed. --measured notes the figure
+for CONFORMANCE.md. Exit 77: no OpenUSD.
 """
 
 import argparse
@@ -35,6 +36,10 @@ except ImportError:
 
 import pcp_oracle
 import random_scenes
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(os.path.dirname(HERE), "conformance"))
+import suite  # noqa: E402  pylint: disable=wrong-import-position
 
 SECONDS = 3
 Result = collections.namedtuple("Result", "kind text")  # kind: equal, differs, slow, died
@@ -81,9 +86,10 @@ def words_of(folder, options):
     return words
 
 
-def composed(dumper, folder, options):
-    """{heading: lines} from DUMP."""
-    status, printed = dumper.ask(words_of(folder, options))
+def composed(dumper, folder, options, only=None):
+    """{heading: lines} from DUMP; of one prim when `only` names it."""
+    words = words_of(folder, options) + (["--prim", only] if only else [])
+    status, printed = dumper.ask(words)
     if status != 0:
         return {"exit": ["rejected"] if status == 3 else [str(status)] + printed[-5:]}
     result, lines = {}, None
@@ -133,6 +139,10 @@ def in_child(work):
     return (eval(text, {"__builtins__": {}}), 0) if status == 0 else (None, status)
 
 
+def failed(status):
+    return Result("slow" if status == signal.SIGXCPU else "died", f"status {status}")
+
+
 def without_unresolved(result):
     """Where OpenUSD's check of its arc numbers fails, it may drop this finding."""
     unresolved = "!! compose.unresolved-prim-path"
@@ -162,6 +172,7 @@ class Judge:
         self.count = 0
         self.prims = 0
         self.faults = collections.Counter()
+        self.only = None  # the path of the only prim to compare
 
     def judge(self, scene):
         """Each time in a fresh folder: OpenUSD's process is forked, but its caches of paths are not
@@ -188,14 +199,15 @@ class Judge:
     def compare(self, folder, options):
         def work():
             oracle = pcp_oracle.Oracle(os.path.join(folder, "l0.usda"), options)
-            return oracle.composed(), oracle.faults
+            one = self.only and oracle.composed_one(self.only)
+            return one or oracle.composed(), oracle.faults
         answer, status = in_child(work)
         if answer is None:
-            return Result("slow" if status == signal.SIGXCPU else "died", f"status {status}")
+            return failed(status)
         want, faults = answer
         self.prims += len(want)
         self.faults.update({fault.split(" : ")[-1] for fault in faults})
-        have = composed(self.dumper, folder, options)
+        have = composed(self.dumper, folder, options, self.only)
         if faults:
             want, have = without_unresolved(want), without_unresolved(have)
         text = difference(want, have)
@@ -213,46 +225,67 @@ def keep(scene, folder):
 
 
 def show(judge, scene, seed, arguments):
-    """Cuts a scene that differs down, prints and keeps it."""
-    small = random_scenes.shrink(scene, lambda cut: judge.judge(cut).kind == "differs")
+    """Cuts a scene that differs down, prints and keeps it. Looking at one prim is faster."""
+    def differs(cut):
+        return judge.judge(cut).kind == "differs"
+    judge.only = judge.judge(scene).text.split(" ")[0].split("\n")[0]
+    if not judge.only.startswith("/") or not differs(scene):
+        judge.only = None
+    small = random_scenes.shrink(scene, differs)
     print(f"scene {seed} ({random_scenes.family_of(seed)}) differs, cut down to:")
     for name, text in random_scenes.texts(small).items():
         print(f"--- {name}\n{text}", end="")
     print(f"options: {small['options']}\n{judge.judge(small).text}\n", flush=True)
+    judge.only = None
     if arguments.keep:
         keep(small, os.path.join(arguments.keep, f"scene{seed}"))
 
 
-def main():
-    parser = argparse.ArgumentParser()
+def arguments_of(parser):
     parser.add_argument("dump")
     parser.add_argument("--scenes", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep")
     parser.add_argument("--show", type=int, default=3)
-    arguments = parser.parse_args()
+    parser.add_argument("--measured", action="store_true")
+    return parser.parse_args()
+
+
+def judge_all(judge, arguments, make_scene, name):
+    """Judges scenes from arguments.seed on; the exit status."""
+    if arguments.measured:
+        suite.forget(f"{name}_scenes")
     counts, different = collections.Counter(), 0
-    with tempfile.TemporaryDirectory() as folder:
-        judge = Judge(arguments, folder)
-        for seed in range(arguments.seed, arguments.seed + arguments.scenes):
-            scene = random_scenes.make_scene(seed)
-            result = judge.judge(scene)
-            counts[result.kind] += 1
-            if seed % 500 == 0:
-                print(f"seed {seed}: {dict(counts)}", flush=True)
-            if result.kind != "differs":
-                continue
-            different += 1
-            if different <= arguments.show:
-                show(judge, scene, seed, arguments)
-            else:
-                print(f"scene {seed} ({random_scenes.family_of(seed)}) differs at "
-                      f"{result.text.splitlines()[0]}", flush=True)
+    for seed in range(arguments.seed, arguments.seed + arguments.scenes):
+        scene = make_scene(seed)
+        result = judge.judge(scene)
+        counts[result.kind] += 1
+        if seed % 500 == 0:
+            print(f"seed {seed}: {dict(counts)}", flush=True)
+        if result.kind != "differs":
+            continue
+        different += 1
+        if different <= arguments.show:
+            show(judge, scene, seed, arguments)
+        else:
+            print(f"scene {seed} ({random_scenes.family_of(seed)}) differs at "
+                  f"{result.text.splitlines()[0]}", flush=True)
     print(f"{judge.count} scenes judged, prims per scene: {judge.prims / judge.count:.0f}")
     print(", ".join(f"{count} {kind}" for kind, count in sorted(counts.items())))
     for fault, count in judge.faults.most_common():
         print(f"OpenUSD's own check failed in {count} scenes: {fault}")
+    if arguments.measured:
+        label = f"random scenes: {name}, against OpenUSD"
+        row = (label, arguments.scenes - different, arguments.scenes)
+        suite.record(f"{name}_scenes", [row])
     return 1 if different else 0
+
+
+def main():
+    arguments = arguments_of(argparse.ArgumentParser())
+    with tempfile.TemporaryDirectory() as folder:
+        judge = Judge(arguments, folder)
+        return judge_all(judge, arguments, random_scenes.make_scene, "composition")
 
 
 if __name__ == "__main__":

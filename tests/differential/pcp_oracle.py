@@ -8,6 +8,8 @@ import re
 
 from pxr import Pcp, Sdf, Tf
 
+import random_scenes
+
 
 def class_name(error):
     name = type(error).__name__.replace("Error", "", 1)
@@ -18,6 +20,20 @@ def shown(offset):
     if offset.IsIdentity():
         return ""
     return f" (offset={offset.offset:.2f}, scale={offset.scale:.2f})"
+
+
+def possible_paths():
+    """Implied classes ask for payloads by paths that may be no prim's: all there are, up to a
+    depth."""
+    below = random_scenes.KIDS + ("_k", "q", "r")
+    paths = level = [Sdf.Path("/" + name) for name in random_scenes.ROOTS + random_scenes.CLASSES]
+    for _ in range(3):
+        level = [path.AppendChild(name) for path in level for name in below]
+        paths = paths + level
+    return paths
+
+
+POSSIBLE = possible_paths()
 
 
 class Oracle:
@@ -37,7 +53,7 @@ class Oracle:
             Sdf.Layer.FindOrOpen(self.root_path)
         except Tf.ErrorException:
             return {"exit": ["rejected"]}
-        wanted, before = set(), None
+        wanted, before = {path for path in POSSIBLE if self.is_loaded(path)}, None
         while wanted != before:
             before = set(wanted)
             cache = self.new_cache(wanted)
@@ -45,6 +61,19 @@ class Oracle:
                 if self.is_loaded(path):
                     wanted |= self.with_relocated(cache, path)
         return self.all_lines(cache)
+
+    def composed_one(self, path):
+        """The same of one prim, but for what it is an instance like."""
+        try:
+            Sdf.Layer.FindOrOpen(self.root_path)
+        except Tf.ErrorException:
+            return {"exit": ["rejected"]}
+        wanted = {path for path in POSSIBLE if self.is_loaded(path)}
+        wanted |= {p for p in Sdf.Path(path).GetPrefixes() if self.is_loaded(p)}
+        cache = self.new_cache(wanted)
+        errors = sorted({"!! " + class_name(error) for error in cache.layerStack.localErrors})
+        lines = self.prim_lines(cache, Sdf.Path(path), {})[1]
+        return {"layers": self.layer_lines(cache) + errors, path: lines}
 
     def walk(self, cache, names_of):
         """Paths of all prims depth-first."""

@@ -3,16 +3,12 @@
 // Prints what composition makes of a root layer, for tests/conformance/composition and
 // tests/differential.
 //
-// usage: composition_dump LAYER [--session LAYER] [--no-payloads] [--loaded PRIM]...
-//                         [--unloaded PRIM]... [--muted LAYER]... [--fallback SET VARIANT]...
-//                         [--nodes]
+// usage: composition_dump LAYER [--session LAYER] [OPTION OF COMPOSITION]... [--nodes
+//                         [--prim PRIM]]
 //        composition_dump --batch
-// With --batch each line of standard input is a list of arguments separated by tabs; what they
-// print is followed by a line "@@@ EXIT".
+// Options of composition and --batch: see tests/tools/compose_options.h.
 // Exit: 0 printed; 2 wrong usage; 3 a layer could not be opened.
 #include <cstdio>
-#include <cstring>
-#include <iostream>
 #include <map>
 #include <set>
 #include <string>
@@ -20,6 +16,7 @@
 #include "tenon/compose/dump_index.h"
 #include "tenon/compose/targets.h"
 #include "tenon/formats/open_layer.h"
+#include "tests/tools/compose_options.h"
 
 namespace {
 
@@ -29,30 +26,9 @@ struct Arguments {
   std::string root;
   std::string session;
   bool nodes = false;
+  Path prim;  // of --nodes; empty: all
   compose::ComposeOptions options;
 };
-
-/// False when `words` from `i` on are no option of composition; else `i` is at its last word.
-bool read_compose_option(const std::vector<std::string>& words, std::size_t& i,
-                         compose::ComposeOptions& options) {
-  const std::string& word = words[i];
-  const std::size_t left = words.size() - i - 1;
-  if (word == "--no-payloads") {
-    options.load_payloads = false;
-  } else if (word == "--loaded" && left >= 1) {
-    options.loaded.insert(Path::from(words[++i]));
-  } else if (word == "--unloaded" && left >= 1) {
-    options.unloaded.insert(Path::from(words[++i]));
-  } else if (word == "--muted" && left >= 1) {
-    options.muted.insert(words[++i]);
-  } else if (word == "--fallback" && left >= 2) {
-    options.variant_fallbacks[words[i + 1]].push_back(words[i + 2]);
-    i += 2;
-  } else {
-    return false;
-  }
-  return true;
-}
 
 bool read_arguments(const std::vector<std::string>& words, Arguments& arguments) {
   arguments.options.variant_fallbacks["standin"] = {"render"};
@@ -60,9 +36,11 @@ bool read_arguments(const std::vector<std::string>& words, Arguments& arguments)
     const std::string& word = words[i];
     if (word == "--nodes") {
       arguments.nodes = true;
+    } else if (word == "--prim" && i + 1 < words.size()) {
+      arguments.prim = Path::from(words[++i]);
     } else if (word == "--session" && i + 1 < words.size()) {
       arguments.session = words[++i];
-    } else if (read_compose_option(words, i, arguments.options)) {
+    } else if (tests::read_compose_option(words, i, arguments.options)) {
       continue;
     } else if (arguments.root.empty() && word.rfind("--", 0) != 0) {
       arguments.root = word;
@@ -166,6 +144,12 @@ std::string nodes_of_all(compose::IndexCache& cache, const compose::LayerLabel& 
   return text;
 }
 
+std::string nodes_of_one(compose::IndexCache& cache, Path prim,
+                         const compose::LayerLabel& label) {
+  return layers_of(*cache.layer_stack(), label) + "== " + prim.str() + "\n" +
+         facts_of(cache, cache.index(prim), label);
+}
+
 int fail(const Error& error) {
   std::fprintf(stderr, "%s\n", error.to_string().c_str());
   return 3;
@@ -196,8 +180,9 @@ int dump(const Arguments& arguments) {
     const std::string& name = layer.identifier();
     return name.rfind(folder, 0) == 0 ? name.substr(folder.size()) : name;
   };
-  const std::string text =
-      arguments.nodes ? nodes_of_all(cache, label) : compose::dump_indices(cache, label);
+  const std::string text = !arguments.nodes          ? compose::dump_indices(cache, label)
+                           : arguments.prim.empty() ? nodes_of_all(cache, label)
+                                                    : nodes_of_one(cache, arguments.prim, label);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return 0;
 }
@@ -211,29 +196,6 @@ int run(const std::vector<std::string>& words) {
   return dump(arguments);
 }
 
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> words;
-  std::size_t start = 0;
-  for (std::size_t end = 0; end != std::string::npos; start = end + 1) {
-    end = line.find('\t', start);
-    words.push_back(line.substr(start, end - start));
-  }
-  return words;
-}
-
-int run_batch() {
-  for (std::string line; std::getline(std::cin, line);) {
-    const int status = run(split(line));
-    std::printf("@@@ %d\n", status);
-    std::fflush(stdout);
-  }
-  return 0;
-}
-
 }  // namespace
 
-int main(int count, char** words) {
-  const std::vector<std::string> arguments(words + 1, words + count);
-  const bool batch = arguments.size() == 1 && arguments.front() == "--batch";
-  return batch ? run_batch() : run(arguments);
-}
+int main(int count, char** words) { return tests::run_or_batch({words + 1, words + count}, run); }
