@@ -220,18 +220,20 @@ Result<std::string> AssetResolver::resolve_in_package(const std::string& asset_p
 }
 
 Result<void> AssetResolver::check_sandbox(const std::string& file) const {
-  if (options_.roots.empty()) {
-    return {};
-  }
   std::error_code error;
-  const std::string real = std::filesystem::canonical(file, error).string();
+  return options_.roots.empty() ? Result<void>()
+                                : check_real_path(std::filesystem::canonical(file, error).string());
+}
+
+Result<void> AssetResolver::check_real_path(const std::string& real) const {
+  std::error_code error;
   for (const std::string& root : options_.roots) {
     const std::string folder = std::filesystem::canonical(root, error).string();
     if (!error && (real == folder || real.starts_with(folder == "/" ? folder : folder + "/"))) {
       return {};
     }
   }
-  return Error(ErrorCode::NotFound, "@" + file + "@ lies outside of the folders that may be read")
+  return Error(ErrorCode::NotFound, "@" + real + "@ lies outside of the folders that may be read")
       .with_rule("layer.outside")
       .with_fix("add its folder to the roots of the sandbox, if it may be read");
 }
@@ -239,7 +241,14 @@ Result<void> AssetResolver::check_sandbox(const std::string& file) const {
 Result<std::shared_ptr<const FileBytes>> AssetResolver::open(const std::string& identifier) const {
   PackagePath path = split_package_path(identifier);
   TENON_CHECK(check_sandbox(path.package));
-  TENON_TRY(std::shared_ptr<const FileBytes> bytes, FileBytes::open(path.package));
+  FileRules rules;
+  if (!options_.roots.empty()) {
+    // Once more when it is open: the path may name another file by then. Files of strangers, who
+    // may shorten them, are not mapped.
+    rules.check = [this](const std::string& real) { return check_real_path(real); };
+    rules.may_map = false;
+  }
+  TENON_TRY(std::shared_ptr<const FileBytes> bytes, FileBytes::open(path.package, rules));
   for (std::size_t depth = 0; !path.inner.empty(); ++depth) {
     if (depth == limits::kPackageNesting) {
       return Error(ErrorCode::Limit, "packages are nested too deeply").in_file(identifier);

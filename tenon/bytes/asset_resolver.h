@@ -31,7 +31,8 @@ struct ResolverOptions {
   /// Folders that `x.usda` (without "./") is looked up in, after the anchor's folder and the
   /// working directory.
   std::vector<std::string> search_paths;
-  /// When not empty: no file outside of these folders, symbolic links followed.
+  /// When not empty: no file outside of these folders, symbolic links followed; files are copied
+  /// rather than mapped.
   std::vector<std::string> roots;
 };
 
@@ -61,6 +62,7 @@ class AssetResolver {
   Result<std::string> resolve_in_package(const std::string& asset_path,
                                          const std::string& anchor) const;
   Result<void> check_sandbox(const std::string& file) const;
+  Result<void> check_real_path(const std::string& real) const;
 
   ResolverOptions options_;
 };

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include "tenon/bytes/atomic_write.h"
 #include "tenon/bytes/zip_archive.h"
@@ -100,6 +101,35 @@ TEST_F(AssetResolverTest, StaysInsideTheAllowedFolders) {
   std::filesystem::create_symlink(in("x.usda"), in("sub/link.usda"));
   EXPECT_FALSE(resolver.resolve("./link.usda", in("sub/y.usda")));
   EXPECT_FALSE(resolver.open(in("x.usda")));
+}
+
+TEST_F(AssetResolverTest, RulesAreAskedAboutTheFileThatIsOpen) {
+  std::filesystem::create_symlink(in("x.usda"), in("sub/other.usda"));
+  std::string asked;
+  FileRules rules;
+  rules.check = [&](const std::string& real) {
+    asked = real;
+    return real.find("/sub/") == std::string::npos ? Result<void>(Error(ErrorCode::NotFound, "no"))
+                                                   : Result<void>();
+  };
+  EXPECT_FALSE(FileBytes::open(in("sub/other.usda"), rules));
+  EXPECT_EQ(asked, std::filesystem::canonical(in("x.usda")).string());
+  EXPECT_TRUE(FileBytes::open(in("sub/x.usda"), rules));
+}
+
+TEST_F(AssetResolverTest, PipesAreNoFilesAndHoldNobodyUp) {
+  ASSERT_EQ(::mkfifo(in("pipe.usda").c_str(), 0600), 0);
+  EXPECT_EQ(FileBytes::open(in("pipe.usda")).error().code(), ErrorCode::Io);
+}
+
+TEST_F(AssetResolverTest, FilesThatMayNotBeMappedAreCopies) {
+  put("large.usda", std::string(200'000, 'a'));
+  FileRules rules;
+  rules.may_map = false;
+  const auto bytes = FileBytes::open(in("large.usda"), rules);
+  ASSERT_TRUE(bytes);
+  std::filesystem::resize_file(in("large.usda"), 10);
+  EXPECT_EQ((*bytes)->text(), std::string(200'000, 'a'));
 }
 
 TEST_F(AssetResolverTest, TakesWhatStandsAroundNamesAway) {

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -20,7 +21,8 @@ constexpr std::size_t kMapFrom = 64u << 10;  // below this size reading is cheap
 /// Closes its file descriptor.
 struct OpenFile {
   explicit OpenFile(const std::string& path)
-      : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+      : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+  }  // pipes do not hold us
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
   ~OpenFile() {
@@ -37,6 +39,15 @@ Error file_error(const std::string& path, const char* what, int number) {
   return Error(code, std::string(what) + ": " + std::strerror(number))
       .in_file(path)
       .with_rule(code == ErrorCode::NotFound ? "file.not-found" : "file.unreadable");
+}
+
+/// The path of an open file as the system knows it, whatever `path` names by now; that of `path`
+/// where the system does not say.
+std::string real_path_of(int descriptor, const std::string& path) {
+  std::error_code error;
+  const std::string link = "/proc/self/fd/" + std::to_string(descriptor);
+  const std::string real = std::filesystem::read_symlink(link, error).string();
+  return error ? std::filesystem::canonical(path, error).string() : real;
 }
 
 Result<std::string> read_all(int descriptor, std::size_t size, const std::string& path) {
@@ -67,10 +78,14 @@ FileBytes::~FileBytes() {
   }
 }
 
-Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path) {
+Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path,
+                                                         const FileRules& rules) {
   const OpenFile file(path);
   if (file.descriptor < 0) {
     return file_error(path, "cannot open the file", errno);
+  }
+  if (rules.check) {
+    TENON_CHECK(rules.check(real_path_of(file.descriptor, path)));
   }
   struct stat info = {};
   if (::fstat(file.descriptor, &info) != 0) {
@@ -80,7 +95,7 @@ Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path
     return Error(ErrorCode::Io, "not a regular file").in_file(path).with_rule("file.unreadable");
   }
   const auto size = static_cast<std::size_t>(info.st_size);
-  if (size < kMapFrom) {
+  if (size < kMapFrom || !rules.may_map) {
     TENON_TRY(std::string contents, read_all(file.descriptor, size, path));
     return own(std::move(contents));
   }

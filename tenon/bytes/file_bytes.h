@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,6 +13,13 @@
 
 namespace tenon::bytes {
 
+/// What files may be opened and how.
+struct FileRules {
+  /// Asked about the file that is open, by its path without symbolic links, before it is read.
+  std::function<Result<void>(const std::string& real_path)> check;
+  bool may_map = true;  ///< false: large files are read, too
+};
+
 /// The bytes of a file or a part of one, read-only and shared by all who read from them.
 class FileBytes {
  public:
@@ -20,9 +28,10 @@ class FileBytes {
   ~FileBytes();
 
   /// All of the file at `path`: mapped when large, read when small. ErrorCode::NotFound when there
-  /// is none, Io when it cannot be read. A mapped file must not be shortened while it is in use;
-  /// replacing it (atomic_write.h) is fine.
-  static Result<std::shared_ptr<const FileBytes>> open(const std::string& path);
+  /// is none, Io when it cannot be read. A mapped file must not be shortened while it is in use,
+  /// which ends the program (SIGBUS); replacing it (atomic_write.h) is fine.
+  static Result<std::shared_ptr<const FileBytes>> open(const std::string& path,
+                                                       const FileRules& rules = {});
   /// Bytes made in memory.
   static std::shared_ptr<const FileBytes> own(std::string contents);
   /// `size` bytes of `whole` from `offset`, which keep it alive. The range must lie inside.
