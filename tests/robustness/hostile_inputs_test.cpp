@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// Small files that ask for much: each is read within its allowance of time and memory, or refused
-// with an error that names file and place.
+// Small files that ask for much: each is read within its allowance of memory and without having to
+// be ended, or refused with an error that names file and place. Files of regular growth are read
+// with work that grows as they do.
 #include <functional>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/crate_parts.h"
+#include "tenon/base/limits.h"
 #include "tenon/bytes/byte_writer.h"
 #include "tenon/bytes/integer_coding.h"
 #include "tenon/formats/crate/writer.h"
@@ -47,7 +49,7 @@ enum class Expected { Refused, Accepted, Either };
 void expect_bounded(const std::string& bytes, Expected expected) {
   const Allowance allowance = allowance_of(bytes.size());
   const Cost cost = measure([&] { return read_input(bytes); }, allowance);
-  EXPECT_EQ(cost.excess(allowance), "");
+  EXPECT_EQ(cost.excess(allowance, Cost::Judge::Hang), "");
   if (expected != Expected::Either) {
     EXPECT_EQ(cost.outcome == kRefused, expected == Expected::Refused);
   }
@@ -58,7 +60,7 @@ void expect_composes(const std::string& bytes) {
   allowance.seconds *= 10;
   allowance.bytes *= 8;
   const Cost cost = measure([&] { return compose_input(bytes); }, allowance);
-  EXPECT_EQ(cost.excess(allowance), "");
+  EXPECT_EQ(cost.excess(allowance, Cost::Judge::Hang), "");
   EXPECT_EQ(cost.outcome, kComposed);
 }
 
@@ -83,6 +85,21 @@ TEST(HostileText, DictionariesAHundredThousandLevelsDeep) {
       kHeader + "(\n    customLayerData = {\n" + repeated("dictionary d = {\n", 100'000);
   expect_bounded(text, Expected::Refused);
   expect_error_at(text, ErrorCode::Limit, 1003);
+}
+
+TEST(HostileText, LimitsNameTheirPlace) {
+  const auto numbers = [](std::size_t count, const char* start, const char* end) {
+    return numbered(count, [&](const std::string& n) { return start + n + end; });
+  };
+  expect_error_at(kHeader + "(\n" + numbers(limits::kSpecFields + 9, "m", " = 1\n") + ")\n",
+                  ErrorCode::Limit, 3 + limits::kSpecFields);
+  expect_error_at(kHeader + "def \"A\"\n{\n    rel r = <" + repeated("/A", 2001) + ">\n}\n",
+                  ErrorCode::Limit, 4);
+  expect_error_at(kHeader + "def \"A\"\n{\n    rel r = </" +
+                      std::string(limits::kPathTextLength + 1, 'a') + ">\n}\n",
+                  ErrorCode::Limit, 4);
+  expect_error_at(kHeader + "def \"A\"\n{\n    double a = " + repeated("(", 2000) + "\n}\n",
+                  ErrorCode::Parse, 4);
 }
 
 TEST(HostileText, BracketsAHundredThousandLevelsDeep) {
@@ -146,6 +163,21 @@ struct Case {
   Expected expected = Expected::Accepted;
 };
 
+/// What a text of `count` pieces takes from the heap grows with the count.
+void expect_linear(const char* name, const std::function<std::string(std::size_t)>& text) {
+  SCOPED_TRACE(name);
+  constexpr std::size_t kCount = 4000;
+  std::uint64_t taken[2] = {0, 0};
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    const std::string bytes = text(kCount << (2 * i));
+    const Cost cost = measure([&] { return read_input(bytes); }, allowance_of(bytes.size()));
+    EXPECT_EQ(cost.failure, "");
+    EXPECT_EQ(cost.outcome, kRead);
+    taken[i] = cost.taken;
+  }
+  EXPECT_LE(taken[1], 6 * taken[0]);  // 4, and some for lists that double; 16 were it quadratic
+}
+
 constexpr std::size_t kMany = 60'000;
 
 std::string in_layer(const std::string& text) { return kHeader + "(\n" + text + ")\n"; }
@@ -179,6 +211,30 @@ TEST(HostileText, ManyStatements) {
        in_prim("prepend rel r = [" +
                numbered(kMany / 8, [](Number n) { return "</A/p" + n + ">, "; }) + "]\n" +
                numbered(kMany / 16, [](Number n) { return "add rel r = </A/p" + n + ">\n"; }))},
+  });
+}
+
+TEST(HostileText, WorkGrowsAsTheTextDoes) {
+  using Number = const std::string&;
+  const auto items = [](std::size_t count, const char* start, const char* end) {
+    return numbered(count, [&](Number n) { return start + n + end; });
+  };
+  expect_linear("targets added one by one", [&](std::size_t count) {
+    return in_prim("prepend rel r = [" + items(count, "</A/p", ">, ") + "]\n" +
+                   items(count, "add rel r = </A/p", ">\n"));
+  });
+  expect_linear("references appended one by one", [&](std::size_t count) {
+    return kHeader + "def \"A\" (\nprepend references = [" + items(count, "@r", "@, ") + "]\n" +
+           items(count, "append references = @r", "@\n") + ") {\n}\n";
+  });
+  expect_linear("connections", [&](std::size_t count) {
+    return in_prim("append int a.connect = [" + items(count, "</A.p", ">, ") + "]\n" +
+                   items(count, "delete int a.connect = </A.p", ">\n"));
+  });
+  expect_linear("attributes",
+                [&](std::size_t count) { return in_prim(items(count, "int a", " = 1\n")); });
+  expect_linear("edits of an array", [&](std::size_t count) {
+    return in_prim("int[] a = edit [" + items(count, "insert ", " at [0]; ") + "]\n");
   });
 }
 

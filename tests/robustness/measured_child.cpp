@@ -3,9 +3,12 @@
 #include "tests/robustness/measured_child.h"
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <new>
 
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -31,10 +34,13 @@ constexpr double kSlowness = 1;
 
 constexpr std::size_t kMegabyte = 1u << 20;
 
+std::atomic<std::uint64_t> bytes_taken = 0;
+
 /// What the child leaves in memory that it shares with the parent.
 struct Report {
   double seconds;
   std::size_t bytes;
+  std::uint64_t taken;
   int outcome;
   bool done;
 };
@@ -82,7 +88,9 @@ void limit_child(const Allowance& allowance) {
   limit_child(allowance);
   const std::size_t before = status_line("VmRSS:");
   const double start = processor_seconds();
+  const std::uint64_t taken_before = bytes_taken;
   report.outcome = work();
+  report.taken = bytes_taken - taken_before;
   report.seconds = processor_seconds() - start;
   const std::size_t most = status_line("VmHWM:");
   report.bytes = most > before ? most - before : 0;
@@ -92,16 +100,28 @@ void limit_child(const Allowance& allowance) {
 
 }  // namespace
 
+#if !defined(__SANITIZE_ADDRESS__)
+/// Counts, then takes memory as always.
+void* counted_new(std::size_t size) {
+  bytes_taken.fetch_add(size, std::memory_order_relaxed);
+  void* const memory = std::malloc(size == 0 ? 1 : size);
+  if (memory == nullptr) {
+    std::abort();
+  }
+  return memory;
+}
+#endif
+
 Allowance allowance_of(std::size_t input_size) {
   const auto megabytes = static_cast<double>(input_size / kMegabyte + 1);
   return {kSlowness * megabytes, 64 * kMegabyte + 40 * input_size};
 }
 
-std::string Cost::excess(const Allowance& allowance) const {
+std::string Cost::excess(const Allowance& allowance, Judge judge) const {
   if (!failure.empty()) {
     return failure;
   }
-  if (seconds > allowance.seconds) {
+  if (judge == Judge::Time && seconds > allowance.seconds) {
     return "time: " + std::to_string(seconds) + " s";
   }
   if (!kSanitized && bytes > allowance.bytes) {
@@ -121,7 +141,7 @@ Cost measure(const std::function<int()>& work, const Allowance& allowance) {
   }
   int status = 0;
   waitpid(child, &status, 0);
-  Cost cost{report.seconds, report.bytes, "", report.outcome};
+  Cost cost{report.seconds, report.bytes, report.taken, "", report.outcome};
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) {
     cost.failure = "time: ended";
   } else if (WIFSIGNALED(status)) {
@@ -134,3 +154,12 @@ Cost measure(const std::function<int()>& work, const Allowance& allowance) {
 }
 
 }  // namespace tenon::robustness
+
+#if !defined(__SANITIZE_ADDRESS__)
+void* operator new(std::size_t size) { return tenon::robustness::counted_new(size); }
+void* operator new[](std::size_t size) { return tenon::robustness::counted_new(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+#endif

@@ -100,7 +100,8 @@ std::string judge(const std::string& mutant, Totals& totals) {
   totals.most_seconds = std::max(totals.most_seconds, read.seconds);
   totals.most_memory = std::max(
       totals.most_memory, static_cast<double>(read.bytes) / static_cast<double>(allowance.bytes));
-  if (const std::string excess = read.excess(allowance); !excess.empty()) {
+  if (const std::string excess = read.excess(allowance, robustness::Cost::Judge::Time);
+      !excess.empty()) {
     return "read: " + excess;
   }
   if (read.outcome == robustness::kRefused) {
@@ -112,7 +113,7 @@ std::string judge(const std::string& mutant, Totals& totals) {
   const auto composed =
       robustness::measure([&] { return robustness::compose_input(mutant); }, allowance);
   ++totals.outcomes[composed.outcome];
-  const std::string excess = composed.excess(allowance);
+  const std::string excess = composed.excess(allowance, robustness::Cost::Judge::Time);
   return excess.empty() ? "" : "compose: " + excess;
 }
 
