@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/text/dictionary_writer.h"
 
+#include <algorithm>
+
 #include "tenon/base/path.h"
 #include "tenon/formats/text/list_writer.h"
 #include "tenon/formats/text/value_text.h"
@@ -15,9 +17,15 @@ using layer::Dictionary;
 using layer::Value;
 using layer::ValueType;
 
+/// OpenUSD quotes keys with letters beyond ASCII.
+bool is_plain_key(std::string_view key) {
+  return is_identifier(key) &&
+         std::all_of(key.begin(), key.end(), [](char c) { return (c & '\x80') == 0; });
+}
+
 void append_entry(std::string& out, const std::string& key, const Value& value, std::size_t indent,
                   Lines lines) {
-  const std::string name = is_identifier(key) ? key : quoted(key);
+  const std::string name = is_plain_key(key) ? key : quoted(key);
   if (const auto* inner = value.get<Dictionary>()) {
     out += "dictionary " + name + " = ";
     append_dictionary(out, *inner, indent, lines);

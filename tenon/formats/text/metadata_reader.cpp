@@ -312,6 +312,10 @@ class MetadataReader {
     } else if (!read_value(cursor_, field.type, field.is_array, value)) {
       return false;
     }
+    if (field.name == fields::framesPerSecond && !(value.get_or(1.0) > 0)) {
+      return cursor_.fail_at(start, ErrorCode::Parse, "text.value",
+                             "`framesPerSecond` must be above zero");
+    }
     return set(field.name, std::move(value));
   }
 

@@ -358,11 +358,22 @@ class LayerReader {
       }
       sets.emplace_back(name);
     }
-    if (!open_brace(path, start)) {
+    if (!open_brace(path, start) || !check_first_variant()) {
       return false;
     }
     note_open(path, {{start, 0}, start, start, {}});
     return push({Block::Kind::VariantSet, path, start});
+  }
+
+  /// A set without variants is written `{}`; OpenUSD takes no blanks inside.
+  bool check_first_variant() {
+    const std::size_t inside = cursor_.offset();
+    cursor_.skip_multi_line();
+    if (cursor_.peek() == '}' && cursor_.offset() != inside) {
+      return cursor_.fail_expected("a variant such as \"name\" { }");
+    }
+    cursor_.seek(inside);
+    return true;
   }
 
   bool check_variant_name(std::string_view name, std::size_t offset) {
