@@ -57,6 +57,7 @@ struct ValueWriter {
   void write(Token x) { json.string(x.view()); }
   void write(Path x) { json.string(style.path_text(x)); }
   void write(layer::TimeCode x) { json.number(x.value); }
+  void write(layer::Duration x) { json.number(x.value); }
   void write(const layer::AssetPath& x) {
     json.begin_object();
     json.key("$asset");
@@ -178,7 +179,7 @@ struct ValueWriter {
         sha.update(ascii_quoted(std::string_view(Token(item).view())));
         sha.update(std::string_view("\0", 1));
       }
-    } else if constexpr (std::is_same_v<T, layer::TimeCode>) {
+    } else if constexpr (std::is_same_v<T, layer::TimeCode> || std::is_same_v<T, layer::Duration>) {
       for (const T& item : array) {
         sha.update(json_number(item.value));
         sha.update(std::string_view("\0", 1));
@@ -280,6 +281,7 @@ void write_scalar_or_array(ValueWriter& writer, const Value& value) {
 
 void write_value(JsonWriter& json, const Value& value, const ValueStyle& style) {
   using layer::AssetPath;
+  using layer::Duration;
   using layer::PathExpression;
   using layer::TimeCode;
   ValueWriter writer{json, style};

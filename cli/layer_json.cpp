@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tenon/base/text_number.h"
+#include "tenon/formats/text/value_text.h"
 #include "tenon/layer/field_values.h"
 
 namespace tenon::cli {
@@ -58,8 +59,10 @@ struct PlainWriter {
   void write(Token x) { json.string(x.view()); }
   void write(Path x) { json.string(x.str()); }
   void write(layer::TimeCode x) { json.number(x.value); }
+  void write(layer::Duration x) { json.number(x.value); }
   void write(const layer::AssetPath& x) { json.string(x.authored); }
   void write(const layer::PathExpression& x) { json.string(x.text); }
+  void write(const layer::ArrayEdit& x) { json.string(formats::value_text(x)); }
   void write(layer::ValueBlock) { json.null(); }
   void write(layer::AnimationBlock) { json.null(); }
   void write(layer::Opaque) { json.null(); }

@@ -46,6 +46,7 @@ inline constexpr std::uint64_t kCrateWorkBase = 1u << 20;   ///< units of work o
 inline constexpr std::uint64_t kCrateWorkPerByte = 2;       ///< units more per byte of the file
 inline constexpr std::uint64_t kCrateBytesPerUnit = 32;     ///< bytes of a decoded array in a unit
 inline constexpr std::size_t kCrateValueDepth = 256;       ///< values within values
+inline constexpr std::size_t kArrayEditGrowth = 10'000'000;  ///< elements added by an array edit
 inline constexpr std::size_t kTrackSamples = 1'000'000;    ///< poses between authored samples
 
 }  // namespace tenon::limits

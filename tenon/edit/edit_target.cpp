@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tenon/layer/field_values.h"
+#include "tenon/layer/moved_in_time.h"
 
 namespace tenon::edit {
 namespace {
@@ -28,10 +29,6 @@ LayerOffset offset_in(const compose::LayerStack& stack, const std::string& layer
   return {};
 }
 
-layer::TimeCode moved(layer::TimeCode code, const LayerOffset& by) {
-  return {by.apply(code.value)};
-}
-
 Value moved(const Value& value, const LayerOffset& by);
 
 layer::Dictionary moved(layer::Dictionary dictionary, const LayerOffset& by) {
@@ -42,20 +39,10 @@ layer::Dictionary moved(layer::Dictionary dictionary, const LayerOffset& by) {
 }
 
 Value moved(const Value& value, const LayerOffset& by) {
-  if (const auto* code = value.get<layer::TimeCode>()) {
-    return moved(*code, by);
-  }
-  if (const auto* codes = value.get<layer::Array<layer::TimeCode>>()) {
-    std::vector<layer::TimeCode> result(codes->begin(), codes->end());
-    for (layer::TimeCode& code : result) {
-      code = moved(code, by);
-    }
-    return result;
-  }
   if (const auto* dictionary = value.get<layer::Dictionary>()) {
     return moved(*dictionary, by);
   }
-  return value;
+  return layer::moved_in_time(value, by);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 /// All types that a Value can hold, complete.
 #include "tenon/layer/arcs.h"
+#include "tenon/layer/array_edit.h"
 #include "tenon/layer/dictionary.h"
 #include "tenon/layer/list_op.h"
 #include "tenon/layer/scalar_types.h"

@@ -24,6 +24,12 @@ struct TimeCode {
   auto operator<=>(const TimeCode&) const = default;
 };
 
+/// A span of time, scaled but not moved by layer offsets, in the layer's time codes.
+struct Duration {
+  double value = 0;
+  auto operator<=>(const Duration&) const = default;
+};
+
 /// Text of a path expression such as `/World//a*`.
 struct PathExpression {
   std::string text;

@@ -28,6 +28,7 @@ namespace tenon::layer {
 
 template <class T>
 struct ListOp;
+struct ArrayEdit;
 struct Dictionary;
 struct LayerOffset;
 struct Payload;
@@ -147,6 +148,17 @@ class Value {
   T get_or(T fallback) const {
     const T* value = get<T>();
     return value == nullptr ? fallback : *value;
+  }
+  /// The contents, moved out where nobody shares them; the value is empty afterwards. It must hold
+  /// a T, which is no array and too large to be kept inline.
+  template <class T>
+  T take() {
+    static_assert(!kInline<T> && !kIsArray<T>);
+    auto& held = *static_cast<Held<T>*>(body());
+    const bool shared = held.owners.load(std::memory_order_acquire) != 1;
+    T contents = shared ? T(held.value) : std::move(held.value);
+    *this = Value();
+    return contents;
   }
   template <class T>
   bool holds() const {

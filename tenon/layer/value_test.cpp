@@ -101,6 +101,18 @@ TEST(Value, DeferredArraysAreDecodedOnceByAnyThread) {
   EXPECT_EQ(value, Value(std::vector<float>{1, 2, 3}));
 }
 
+TEST(Value, ContentsAreTakenOutUnlessTheyAreShared) {
+  const std::string text(100, 'x');
+  Value value(text);
+  const Value copy = value;
+  EXPECT_EQ(value.take<std::string>(), text);
+  EXPECT_TRUE(value.empty());
+  EXPECT_EQ(copy.get_or<std::string>(""), text);
+  Value only{std::vector<Path>(100)};
+  const Path* const place = only.get<std::vector<Path>>()->data();
+  EXPECT_EQ(only.take<std::vector<Path>>().data(), place);
+}
+
 TEST(Value, CorruptDeferredArraysSayWhy) {
   std::atomic<int> calls = 0;
   const Value value =

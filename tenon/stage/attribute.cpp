@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/stage/attribute.h"
 
+#include <algorithm>
+
+#include "tenon/stage/compose_array_edits.h"
 #include "tenon/stage/compose_expression.h"
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/evaluate_spline.h"
@@ -119,6 +122,9 @@ std::vector<double> Attribute::time_samples() const {
     if (resolved.clips != nullptr) {
       return resolved.clips->time_samples(resolved.opinion.path);
     }
+    if (may_edit(resolved)) {
+      return edited_times(*stage_, *prim_, value_sources(*prim_, name_, Asked::AnyTime));
+    }
     if (resolved.samples != nullptr) {
       for (const double time : resolved.samples->times) {
         result.push_back(resolved.opinion.offset.apply(time));
@@ -135,6 +141,12 @@ bool Attribute::is_animated() const {
   const ResolvedValue resolved = resolve_value(*prim_, name_, Asked::AnyTime);
   if (resolved.clips != nullptr) {
     return resolved.clips->may_vary(resolved.opinion.path);
+  }
+  if (may_edit(resolved)) {
+    const ValueSources sources = value_sources(*prim_, name_, Asked::AnyTime);
+    return std::any_of(sources.begin(), sources.end(), [](const ResolvedValue& source) {
+      return source.samples != nullptr || source.clips != nullptr;
+    });
   }
   return resolved.spline != nullptr ||
          (resolved.samples != nullptr && resolved.samples->size() > 1);

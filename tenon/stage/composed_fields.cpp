@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "tenon/compose/variable_expression.h"
+#include "tenon/layer/moved_in_time.h"
 #include "tenon/layer/path_expression.h"
 #include "tenon/layer/type_names.h"
 
@@ -91,13 +92,6 @@ Value localize_array(const Place& place, const Value& value) {
     std::vector<layer::PathExpression> result;
     for (const layer::PathExpression& expression : *expressions) {
       result.push_back(mapped(place, expression));
-    }
-    return result;
-  }
-  if (const auto* times = value.get<layer::Array<layer::TimeCode>>()) {
-    std::vector<layer::TimeCode> result;
-    for (const layer::TimeCode time : *times) {
-      result.push_back({place.opinion.offset.apply(time.value)});
     }
     return result;
   }
@@ -221,9 +215,13 @@ Value localize(const StageData& stage, const PrimData& prim, const compose::Opin
       return value.is_array() ? localize_array(place, value)
                               : Value(resolved(place, *value.get<layer::AssetPath>()));
     case ValueType::TimeCode:
-      return value.is_array() ? localize_array(place, value)
-                              : Value(layer::TimeCode{
-                                    opinion.offset.apply(value.get<layer::TimeCode>()->value)});
+    case ValueType::Duration:
+      return layer::moved_in_time(value, opinion.offset);
+    case ValueType::ArrayEdit: {
+      const auto& edit = *value.get<layer::ArrayEdit>();
+      return layer::ArrayEdit{localize(stage, prim, opinion, edit.literals, form),
+                              edit.instructions};
+    }
     case ValueType::PathExpression:
       return value.is_array() ? localize_array(place, value)
                               : Value(mapped(place, *value.get<layer::PathExpression>()));

@@ -285,7 +285,9 @@ class Flattener {
     if (unanimated.blocked) {
       spec.set(fields::default_value, layer::ValueBlock{});
     } else if (unanimated.source == ValueSource::Default) {
-      spec.set(fields::default_value, read(prim, name, unanimated, Time()));
+      Value value = read(prim, name, unanimated, Time());
+      spec.set(fields::default_value,
+               value.empty() ? Value(layer::ValueBlock{}) : std::move(value));
     }
     const ResolvedValue animated = resolve_value(prim, name, Asked::AnyTime);
     layer::TimeSamples samples;

@@ -43,6 +43,9 @@ Quat<T> mix(const Quat<T>& a, const Quat<T>& b, double t) {
 layer::TimeCode mix(layer::TimeCode a, layer::TimeCode b, double t) {
   return {mix(a.value, b.value, t)};
 }
+layer::Duration mix(layer::Duration a, layer::Duration b, double t) {
+  return {mix(a.value, b.value, t)};
+}
 
 template <class T>
 Value mix_values(const Value& a, const Value& b, double t) {
@@ -65,12 +68,13 @@ Value mix_values(const Value& a, const Value& b, double t) {
 }  // namespace
 
 // Types that blend, as a table for what is done with each.
-#define TENON_INTERPOLATED(apply)                                                                \
-  apply(Half, Half) apply(Float, float) apply(Double, double) apply(TimeCode, layer::TimeCode)   \
-      apply(Matrix2d, Mat2d) apply(Matrix3d, Mat3d) apply(Matrix4d, Mat4d) apply(Quatd, Quatd)   \
-          apply(Quatf, Quatf) apply(Quath, Quath) apply(Double2, Vec2d) apply(Float2, Vec2f)     \
-              apply(Half2, Vec2h) apply(Double3, Vec3d) apply(Float3, Vec3f) apply(Half3, Vec3h) \
-                  apply(Double4, Vec4d) apply(Float4, Vec4f) apply(Half4, Vec4h)
+#define TENON_INTERPOLATED(apply)                                                                  \
+  apply(Half, Half) apply(Float, float) apply(Double, double) apply(TimeCode, layer::TimeCode)     \
+      apply(Duration, layer::Duration) apply(Matrix2d, Mat2d) apply(Matrix3d, Mat3d)               \
+          apply(Matrix4d, Mat4d) apply(Quatd, Quatd) apply(Quatf, Quatf) apply(Quath, Quath)       \
+              apply(Double2, Vec2d) apply(Float2, Vec2f) apply(Half2, Vec2h) apply(Double3, Vec3d) \
+                  apply(Float3, Vec3f) apply(Half3, Vec3h) apply(Double4, Vec4d)                   \
+                      apply(Float4, Vec4f) apply(Half4, Vec4h)
 
 bool is_interpolated(const Value& value) {
   switch (value.type()) {
@@ -120,6 +124,9 @@ Value value_at(const layer::TimeSamples& samples, const layer::LayerOffset& offs
     return lower;
   }
   const Value& upper = samples.values[bracket.upper];
+  if (upper.holds<layer::ArrayEdit>()) {
+    return upper;
+  }
   return upper.is_block() ? lower : interpolate(lower, upper, (stage_time - from) / (to - from));
 }
 

@@ -22,7 +22,7 @@ bool is_interpolated(const layer::Value& value);
 layer::Value interpolate(const layer::Value& a, const layer::Value& b, double fraction);
 
 /// The value of samples at a time in the samples' own time, which must not be empty; a ValueBlock
-/// where the sample in force is one.
+/// where the sample in force is one; an edit of an array where it or the next one is one.
 layer::Value value_at(const layer::TimeSamples& samples, double time,
                       Interpolation interpolation = Interpolation::Linear);
 

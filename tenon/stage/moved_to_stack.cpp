@@ -3,6 +3,7 @@
 #include "tenon/stage/moved_to_stack.h"
 
 #include "tenon/compose/variable_expression.h"
+#include "tenon/layer/moved_in_time.h"
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/evaluate_spline.h"
 
@@ -31,20 +32,13 @@ Value StackMover::moved_assets(const Value& value) const {
     }
     return result;
   }
+  if (const auto* edit = value.get<layer::ArrayEdit>()) {
+    return layer::ArrayEdit{moved_assets(edit->literals), edit->instructions};
+  }
   return value;
 }
 
 Value StackMover::moved_times(const Value& value) const {
-  if (const auto* time = value.get<layer::TimeCode>()) {
-    return layer::TimeCode{offset_.apply(time->value)};
-  }
-  if (const auto* times = value.get<layer::Array<layer::TimeCode>>()) {
-    std::vector<layer::TimeCode> result;
-    for (const layer::TimeCode time : *times) {
-      result.push_back({offset_.apply(time.value)});
-    }
-    return result;
-  }
   // Nested dictionaries are as deep as the reader allows (limits::kTextNestingDepth).
   if (const auto* dictionary = value.get<layer::Dictionary>()) {
     layer::Dictionary result;
@@ -53,7 +47,7 @@ Value StackMover::moved_times(const Value& value) const {
     }
     return result;
   }
-  return value;
+  return layer::moved_in_time(value, offset_);
 }
 
 layer::Dictionary StackMover::moved_clips(const layer::Dictionary& clips) const {

@@ -5,6 +5,7 @@
 // weaker samples and splines and lets weaker defaults through.
 #include "tenon/stage/resolve_value.h"
 
+#include "tenon/stage/compose_array_edits.h"
 #include "tenon/stage/evaluate_spline.h"
 #include "tenon/stage/interpolate.h"
 
@@ -40,9 +41,22 @@ bool take_animation(const compose::Opinion& opinion, ResolvedValue& result) {
 struct Search {
   ResolvedValue result;
   bool animation_blocked = false;
+  ValueSources* passed = nullptr;  // where sources go that may edit weaker ones, if they are asked
 
   // True when this opinion decides.
-  bool take(const compose::Opinion& opinion) {
+  bool take(const compose::Opinion& opinion) { return take_opinion(opinion) && !pass(); }
+
+  // True when the search goes on below what was found.
+  bool pass() {
+    if (passed == nullptr || !may_edit(result)) {
+      return false;
+    }
+    passed->push_back(result);
+    result = ResolvedValue();
+    return true;
+  }
+
+  bool take_opinion(const compose::Opinion& opinion) {
     if (!animation_blocked && take_animation(opinion, result)) {
       result.opinion = opinion;
       return true;
@@ -82,7 +96,9 @@ struct Search {
           result.source = ValueSource::ValueClips;
           result.clips = set;
           result.opinion = opinion;
-          return true;
+          if (!pass()) {
+            return true;
+          }
         }
       }
     }
@@ -109,18 +125,30 @@ struct Search {
   }
 };
 
-}  // namespace
-
-ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
+ResolvedValue searched(const PrimData& prim, Token name, Asked asked, ValueSources* passed) {
   Search search;
   search.animation_blocked = asked == Asked::DefaultTime;
+  search.passed = passed;
   if (prim.clips != nullptr && asked == Asked::AnyTime) {
     search.take_nodes(prim, name);
   } else {
     visit_property_opinions(prim, name,
                             [&](const compose::Opinion& opinion) { return search.take(opinion); });
   }
-  ResolvedValue result = search.result;
+  return search.result;
+}
+
+}  // namespace
+
+ValueSources value_sources(const PrimData& prim, Token name, Asked asked) {
+  ValueSources sources;
+  ResolvedValue last = searched(prim, name, asked, &sources);
+  sources.push_back(last);
+  return sources;
+}
+
+ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
+  ResolvedValue result = searched(prim, name, asked, nullptr);
   if (result.source == ValueSource::None) {
     const schema::PropertyDefinition* definition = prim.definition->find(name);
     if (definition != nullptr && !definition->fallback.empty()) {
@@ -132,6 +160,13 @@ ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
 
 Value read_value(const StageData& stage, const PrimData& prim, Token name,
                  const ResolvedValue& resolved, Time time, AssetForm form) {
+  Value value = read_one_value(stage, prim, name, resolved, time, form);
+  return value.holds<layer::ArrayEdit>() ? compose_array_edits(stage, prim, name, time, form)
+                                         : value;
+}
+
+Value read_one_value(const StageData& stage, const PrimData& prim, Token name,
+                     const ResolvedValue& resolved, Time time, AssetForm form) {
   switch (resolved.source) {
     case ValueSource::Default:
       return localize(stage, prim, resolved.opinion, *resolved.value, form);

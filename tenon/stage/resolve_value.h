@@ -32,4 +32,8 @@ layer::Value read_value(const StageData& stage, const PrimData& prim, Token name
                         const ResolvedValue& resolved, Time time,
                         AssetForm form = AssetForm::Resolved);
 
+/// The same without weaker opinions: an edit of an array comes back as it is.
+layer::Value read_one_value(const StageData& stage, const PrimData& prim, Token name,
+                            const ResolvedValue& resolved, Time time, AssetForm form);
+
 }  // namespace tenon::stage

@@ -110,12 +110,21 @@ def value_json(value):
     return object_json(value)
 
 
+def edit_text(value):
+    """An edit of an array as text layers print it."""
+    layer = Sdf.Layer.CreateAnonymous(".usda")
+    layer.customLayerData = {"x": value}
+    return layer.ExportToString().split(" x = ", 1)[1].rsplit("    }\n)", 1)[0].strip()
+
+
 def object_json(value):
     name = type(value).__name__
+    if name.endswith("ArrayEdit"):
+        return edit_text(value)
     if isinstance(value, Sdf.AssetPath):
         return value.path
-    if isinstance(value, Sdf.TimeCode):
-        return number_json(value.GetValue())
+    if isinstance(value, Sdf.TimeCode) or name == "Duration":
+        return number_json(float(value))
     if isinstance(value, (Sdf.Reference, Sdf.Payload)):
         return arc_json(value)
     if isinstance(value, Sdf.LayerOffset):

@@ -35,7 +35,9 @@ inline constexpr Version kPathExpressions{0, 10, 0};
 inline constexpr Version kRelocates{0, 11, 0};
 inline constexpr Version kSplines{0, 12, 0};
 inline constexpr Version kTangentAlgorithms{0, 13, 0};
+inline constexpr Version kArrayEdits{0, 14, 0};
 inline constexpr Version kLoopBoundaries{0, 15, 0};
+inline constexpr Version kDurations{0, 16, 0};
 
 /// The first bytes of the file.
 struct Bootstrap {

@@ -39,7 +39,7 @@ T sample(int seed) {
     return quaternion;
   } else if constexpr (std::is_same_v<T, Token> || std::is_same_v<T, std::string>) {
     return T("text" + std::to_string(seed));
-  } else if constexpr (std::is_same_v<T, layer::TimeCode>) {
+  } else if constexpr (std::is_same_v<T, layer::TimeCode> || std::is_same_v<T, layer::Duration>) {
     return T{seed + 0.25};
   } else if constexpr (std::is_same_v<T, layer::AssetPath>) {
     return T{"./file" + std::to_string(seed) + ".usda", "", ""};

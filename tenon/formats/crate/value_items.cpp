@@ -47,6 +47,9 @@ Result<void> ValueReader::item(bytes::ByteReader& in, double& out) { return read
 Result<void> ValueReader::item(bytes::ByteReader& in, layer::TimeCode& out) {
   return read_plain(in, out.value);
 }
+Result<void> ValueReader::item(bytes::ByteReader& in, layer::Duration& out) {
+  return read_plain(in, out.value);
+}
 
 Result<void> ValueReader::item(bytes::ByteReader& in, std::string& out) {
   TENON_TRY(const std::uint32_t index, in.read<std::uint32_t>());

@@ -110,8 +110,8 @@ template <class T>
 Result<Value> ValueReader::single(ValueWord word) {
   if constexpr (kAlwaysInlined<T>) {
     return inlined<T>(word.inlined());
-  } else if constexpr (std::is_same_v<T, layer::Opaque>) {
-    return unsupported(word, "opaque values");
+  } else if constexpr (std::is_same_v<T, layer::Opaque> || std::is_same_v<T, layer::ArrayEdit>) {
+    return unsupported(word, "values of this type");
   } else {
     return word.is_inlined() ? inlined<T>(word.inlined()) : stored<T>(word);
   }
@@ -185,15 +185,40 @@ Result<Value> ValueReader::array(ValueType element, ValueWord word) {
   return value;
 }
 
-Result<Value> ValueReader::read(ValueWord word) {
-  if (word.is_array_edit()) {
-    return unsupported(word, "edits of arrays");
+/// At the offset: the word of the literals, the word of the instructions, and a byte of old that
+/// means nothing. Without an offset the edit changes nothing.
+Result<Value> ValueReader::array_edit(ValueType element, ValueWord word) {
+  layer::ArrayEdit edit{layer::make_array(element, {}), {}};
+  if (word.payload() == 0) {
+    return Value(std::move(edit));
   }
+  bytes::ByteReader in = file_.reader();
+  TENON_CHECK(in.seek(word.payload()));
+  TENON_TRY(const ValueWord literals, in.read<ValueWord>());
+  TENON_TRY(const ValueWord instructions, in.read<ValueWord>());
+  constexpr unsigned kInt64 = 5;
+  if (literals.type() != word.type() || !literals.is_array() || instructions.type() != kInt64 ||
+      !instructions.is_array()) {
+    return corrupt("an edit of an array is not made of two arrays");
+  }
+  TENON_TRY(const Value elements, array(element, literals));
+  TENON_TRY(edit.literals, elements.decoded());
+  TENON_TRY(const Value words, array(ValueType::Int64, instructions));
+  TENON_TRY(const Value decoded, words.decoded());
+  edit.instructions = *decoded.get<layer::Array<std::int64_t>>();
+  TENON_CHECK(budget_.spend(edit.instructions.size()));
+  return edit.is_well_formed() ? Result<Value>(Value(std::move(edit)))
+                               : corrupt("an edit of an array has an unknown instruction");
+}
+
+Result<Value> ValueReader::read(ValueWord word) {
   using namespace layer;  // NOLINT(google-build-using-namespace): the table names its types
   switch (word.type()) {
-#define TENON_SCALAR(enumerator, type, name, crate_id) \
-  case crate_id:                                       \
-    return word.is_array() ? array(ValueType::enumerator, word) : single<type>(word);
+#define TENON_SCALAR(enumerator, type, name, crate_id)                    \
+  case crate_id:                                                          \
+    return word.is_array_edit() ? array_edit(ValueType::enumerator, word) \
+           : word.is_array()    ? array(ValueType::enumerator, word)      \
+                                : single<type>(word);
 #define TENON_FIELD(enumerator, type, crate_id) \
   case crate_id:                                \
     return single<type>(word);

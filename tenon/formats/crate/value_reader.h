@@ -55,6 +55,7 @@ class ValueReader {
   Result<void> item(bytes::ByteReader& in, layer::TimeSamples& out);
   Result<void> item(bytes::ByteReader& in, layer::Spline& out);
   Result<void> item(bytes::ByteReader& in, layer::TimeCode& out);
+  Result<void> item(bytes::ByteReader& in, layer::Duration& out);
   Result<void> item(bytes::ByteReader& in, layer::PathExpression& out);
 
   template <class T>
@@ -67,6 +68,7 @@ class ValueReader {
   Result<layer::Value> unsupported(ValueWord word, const char* what);
   Result<std::vector<double>> times(ValueWord word);
   Result<layer::Value> array(layer::ValueType element, ValueWord word);
+  Result<layer::Value> array_edit(layer::ValueType element, ValueWord word);
 
   const Tables& tables_;
   const CrateFile& file_;

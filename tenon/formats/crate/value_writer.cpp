@@ -133,6 +133,9 @@ Result<void> ValueWriter::item(bytes::ByteWriter& to, const T& value) {
   } else if constexpr (std::is_same_v<T, layer::TimeCode>) {
     need(kTimeCodes);
     to.write(value.value);
+  } else if constexpr (std::is_same_v<T, layer::Duration>) {
+    need(kDurations);
+    to.write(value.value);
   } else if constexpr (std::is_same_v<T, layer::PathExpression>) {
     need(kPathExpressions);
     to.write(tables_.string(value.text));
@@ -268,6 +271,8 @@ template <class T>
 Result<ValueWord> ValueWriter::single(unsigned type, const T& value) {
   if constexpr (std::is_same_v<T, layer::Opaque>) {
     return Error(ErrorCode::Invalid, "an opaque attribute cannot have a value");
+  } else if constexpr (std::is_same_v<T, layer::ArrayEdit>) {
+    return array_edit(value);
   } else if constexpr (kIsEmpty<T>) {
     return ValueWord::make(type, ValueWord::kInlined, 0);
   } else if constexpr (std::is_same_v<T, std::string>) {
@@ -290,6 +295,9 @@ Result<ValueWord> ValueWriter::single(unsigned type, const T& value) {
 
 template <class T>
 ValueWord ValueWriter::array(unsigned type, const layer::Array<T>& array) {
+  if constexpr (std::is_same_v<T, layer::Duration>) {
+    need(kDurations);
+  }
   if (array.empty()) {
     return ValueWord::make(type, ValueWord::kArray, 0);
   }
@@ -303,6 +311,31 @@ ValueWord ValueWriter::array(unsigned type, const layer::Array<T>& array) {
   constexpr std::size_t kAlignment = 8;  // so that readers can use the mapped bytes
   const std::uint64_t flags = ValueWord::kArray | (encoded.packed ? ValueWord::kPacked : 0);
   return ValueWord::make(type, flags, place(encoded.bytes, kAlignment));
+}
+
+/// As array_edit of value_reader.cpp reads it.
+ValueWord ValueWriter::array_edit(const layer::ArrayEdit& edit) {
+  using namespace layer;  // NOLINT(google-build-using-namespace): the table names its types
+  need(kArrayEdits);
+  ValueWord literals;
+  switch (edit.literals.type()) {
+#define TENON_SCALAR(enumerator, type, name, crate_id)                   \
+  case ValueType::enumerator:                                            \
+    literals = array<type>(crate_id, *edit.literals.get<Array<type>>()); \
+    break;
+#include "tenon/layer/value_types.def"
+    default:
+      break;
+  }
+  if (edit.instructions.empty()) {
+    return ValueWord::make(literals.type(), ValueWord::kArrayEdit, 0);
+  }
+  constexpr unsigned kInt64 = 5;
+  bytes::ByteWriter data;
+  data.write(literals);
+  data.write(array<std::int64_t>(kInt64, edit.instructions));
+  data.write(std::uint8_t{0});
+  return ValueWord::make(literals.type(), ValueWord::kArrayEdit, place(data.bytes(), 1));
 }
 
 Result<ValueWord> ValueWriter::write(const Value& given) {

@@ -47,6 +47,7 @@ class ValueWriter {
   Result<ValueWord> single(unsigned type, const T& value);
   template <class T>
   ValueWord array(unsigned type, const layer::Array<T>& array);
+  ValueWord array_edit(const layer::ArrayEdit& edit);
   template <class T>
   Result<ValueWord> stored(unsigned type, const T& value);
   /// Writes `data` unless equal data of the type stand somewhere already; where they stand.

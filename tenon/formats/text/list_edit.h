@@ -66,8 +66,12 @@ void set_items(layer::ListOp<T>& op, ListEdit edit, std::vector<T> items) {
 /// The same for the list op in field `name` of `spec`.
 template <class T>
 void set_items(layer::Spec& spec, Token name, ListEdit edit, std::vector<T> items) {
-  const auto* old = spec.get<layer::ListOp<T>>(name);
-  layer::ListOp<T> op = old == nullptr ? layer::ListOp<T>{} : *old;
+  layer::ListOp<T> op;
+  if (spec.get<layer::ListOp<T>>(name) != nullptr) {
+    layer::Value old = *spec.find(name);
+    spec.set(name, layer::Value());  // so that nobody shares it: many statements may edit one list
+    op = old.take<layer::ListOp<T>>();
+  }
   set_items(op, edit, std::move(items));
   spec.set(name, layer::Value(std::move(op)));
 }

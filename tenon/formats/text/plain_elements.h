@@ -62,6 +62,9 @@ inline bool take_plain(const char*& at, const char* end, Half& value) {
 inline bool take_plain(const char*& at, const char* end, layer::TimeCode& value) {
   return take_plain_double(at, end, value.value);
 }
+inline bool take_plain(const char*& at, const char* end, layer::Duration& value) {
+  return take_plain_double(at, end, value.value);
+}
 template <class Int>
   requires(std::is_integral_v<Int> && sizeof(Int) <= 4 && !std::is_same_v<Int, bool> &&
            !std::is_same_v<Int, char>)

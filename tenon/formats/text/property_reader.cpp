@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tenon/formats/text/arc_reader.h"
+#include "tenon/formats/text/array_edit_reader.h"
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/metadata_reader.h"
 #include "tenon/formats/text/value_reader.h"
@@ -228,8 +229,10 @@ class PropertyReader {
       value = Value(std::vector<Path>{path});
       return ok;
     }
-    if (is_array_ && cursor_.peek() == 'e' && cursor_.peek_identifier() == "edit") {
-      return read_array_edit(value);
+    if (at_array_edit(cursor_)) {
+      return type_ == nullptr || !is_array_
+                 ? cursor_.fail_expected("a value of the attribute's type, which is no known array")
+                 : read_array_edit(cursor_, type_->type, value);
     }
     if (type_ != nullptr) {
       return read_value(cursor_, type_->type, is_array_, value);
@@ -242,31 +245,14 @@ class PropertyReader {
     return true;
   }
 
-  /// `edit [append 1; write 2 to 0]` changes the array of a weaker layer. It is kept as its source
-  /// text but never applied.
-  bool read_array_edit(Value& value) {
-    const std::size_t start = cursor_.offset();
-    cursor_.accept_word("edit");
-    cursor_.skip_inline();
-    if (cursor_.peek() != '[') {
-      return cursor_.fail_expected("'[' after `edit`");
-    }
-    const std::size_t open = cursor_.offset();
-    const std::size_t close = cursor_.text().find(']', open);
-    if (close == std::string_view::npos) {
-      return cursor_.fail_at(open, ErrorCode::Parse, "text.syntax", "this edit is never closed",
-                             "add the closing ']'");
-    }
-    state_.warn(start, "text.array-edit", "edits of arrays are kept but not applied",
-                "give the whole array");
-    cursor_.seek(close + 1);
-    value = Value(layer::UnregisteredValue{
-        Value("edit " + std::string(cursor_.text().substr(open, close + 1 - open)))});
-    return true;
-  }
-
-  /// Path expressions are kept in canonical form; those of defaults with absolute paths.
+  /// Path expressions are kept in canonical form; those of defaults with absolute paths, but for
+  /// elements that an edit gives.
   void settle_expressions(Value& value, std::size_t start, Path anchor) {
+    if (const auto* edit = value.get<layer::ArrayEdit>()) {
+      layer::ArrayEdit settled = *edit;
+      settle_expressions(settled.literals, start, {});
+      value = Value(std::move(settled));
+    }
     if (value.type() == ValueType::PathExpression && !layer::make_canonical(value, anchor)) {
       state_.warn(start, "value.path-expression",
                   "this is no path expression; it is read as an empty one", "");
@@ -373,7 +359,7 @@ class PropertyReader {
     }
     for (Path& path : paths) {
       // Unlike with relationships a variant that only the prim around names is left out.
-      const Path absolute = path.absolute(owner_.prim()).strip_variants();
+      const Path absolute = target_of(path).strip_variants();
       if (path.has_variants() || !is_target(absolute)) {
         return fail_target(start, path, "connections lead to prims or properties");
       }
@@ -384,6 +370,24 @@ class PropertyReader {
     }
     set_items(*spec_, fields::connectionPaths, edit_, std::move(paths));
     return true;
+  }
+
+  /// A relative target counts from the prim, in which variants count as levels; the variant that
+  /// the property stands in itself does not. OpenUSD 26.11.
+  Path target_of(Path path) const {
+    if (path.empty() || path.is_absolute()) {
+      return path;
+    }
+    Path from = owner_.is_variant_selection() ? owner_.strip_variants() : owner_;
+    std::string rest = path.str();
+    if (rest == ".") {
+      return {};
+    }
+    while (!from.empty() && rest.starts_with("..")) {
+      from = from.parent();
+      rest.erase(0, rest.starts_with("../") ? 3 : 2);
+    }
+    return rest.empty() || from.empty() ? from : Path::from(rest).absolute(from);
   }
 
   bool fail_target(std::size_t start, Path path, std::string_view what) {
@@ -444,7 +448,7 @@ class PropertyReader {
       return false;
     }
     for (Path& path : paths) {
-      const Path absolute = path.absolute(owner_.prim());
+      const Path absolute = target_of(path);
       const bool fits = is_target(absolute) || absolute.kind() == PathKind::Mapper;
       if (absolute.has_variants() || !fits) {
         return fail_target(start, path, "relationships lead to prims or properties");

@@ -16,6 +16,7 @@ namespace {
 
 using layer::ArrayBuffer;
 using layer::AssetPath;
+using layer::Duration;
 using layer::PathExpression;
 using layer::TimeCode;
 using layer::Value;
@@ -152,6 +153,9 @@ bool read_scalar(Cursor& cursor, Half& value) { return read_component(cursor, va
 bool read_scalar(Cursor& cursor, float& value) { return read_component(cursor, value); }
 bool read_scalar(Cursor& cursor, double& value) { return read_component(cursor, value); }
 bool read_scalar(Cursor& cursor, layer::TimeCode& value) {
+  return read_component(cursor, value.value);
+}
+bool read_scalar(Cursor& cursor, layer::Duration& value) {
   return read_component(cursor, value.value);
 }
 bool read_scalar(Cursor& cursor, std::string& value) { return read_string(cursor, value); }

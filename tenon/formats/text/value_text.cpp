@@ -9,6 +9,7 @@
 
 #include "tenon/base/text_number.h"
 #include "tenon/base/unicode.h"
+#include "tenon/formats/text/array_edit_reader.h"
 #include "tenon/formats/text/cursor.h"
 #include "tenon/formats/text/dictionary_writer.h"
 #include "tenon/formats/text/value_reader.h"
@@ -18,7 +19,9 @@ namespace tenon::formats {
 namespace text {
 namespace {
 
+using layer::ArrayEditOp;
 using layer::AssetPath;
+using layer::Duration;
 using layer::PathExpression;
 using layer::TimeCode;
 using layer::Value;
@@ -29,6 +32,7 @@ void append(std::string& out, char value) { out += value != 0 ? '1' : '0'; }
 void append(std::string& out, float value) { append_layer_text(out, value); }
 void append(std::string& out, double value) { append_layer_text(out, value); }
 void append(std::string& out, layer::TimeCode value) { append_layer_text(out, value.value); }
+void append(std::string& out, layer::Duration value) { append_layer_text(out, value.value); }
 void append(std::string& out, const std::string& value) { append_quoted(out, value); }
 void append(std::string& out, const Token& value) { append_quoted(out, value.view()); }
 void append(std::string& out, const layer::PathExpression& value) {
@@ -105,6 +109,97 @@ void append_typed(std::string& out, const Value& value) {
   out += ']';
 }
 
+template <class T>
+void append_element(std::string& out, const Value& array, std::int64_t index) {
+  const auto* elements = array.get<layer::Array<T>>();
+  if (elements != nullptr) {
+    append(out, (*elements)[static_cast<std::size_t>(index)]);
+  }
+}
+
+void append_literal(std::string& out, const layer::ArrayEdit& edit, std::int64_t index) {
+  switch (edit.literals.type()) {
+#define TENON_SCALAR(enumerator, cpp_type, name, crate_id) \
+  case ValueType::enumerator:                              \
+    return append_element<cpp_type>(out, edit.literals, index);
+#include "tenon/layer/value_types.def"
+    default:
+      return;
+  }
+}
+
+void append_index(std::string& out, std::int64_t index) {
+  out += '[';
+  append(out, index);
+  out += ']';
+}
+
+/// The element that a step writes or inserts: a literal, or what stands at an index.
+void append_given(std::string& out, const layer::ArrayEdit& edit,
+                  const layer::ArrayEditStep& step) {
+  if (layer::literal_argument(step.op) == 0) {
+    append_literal(out, edit, step.first);
+  } else {
+    append_index(out, step.first);
+  }
+}
+
+void append_insertion(std::string& out, const layer::ArrayEdit& edit,
+                      const layer::ArrayEditStep& step) {
+  const bool at_end = step.second == layer::kArrayEnd;
+  out += at_end ? "append " : step.second == 0 ? "prepend " : "insert ";
+  append_given(out, edit, step);
+  if (!at_end && step.second != 0) {
+    out += " at ";
+    append_index(out, step.second);
+  }
+}
+
+void append_step(std::string& out, const layer::ArrayEdit& edit, const layer::ArrayEditStep& step) {
+  switch (step.op) {
+    case ArrayEditOp::Write:
+    case ArrayEditOp::WriteCopy:
+      out += "write ";
+      append_given(out, edit, step);
+      out += " to ";
+      append_index(out, step.second);
+      return;
+    case ArrayEditOp::Insert:
+    case ArrayEditOp::InsertCopy:
+      return append_insertion(out, edit, step);
+    case ArrayEditOp::Erase:
+      out += "erase ";
+      return append_index(out, step.first);
+    case ArrayEditOp::MinSize:
+    case ArrayEditOp::MinSizeFill:
+      out += "minsize ";
+      break;
+    case ArrayEditOp::Resize:
+    case ArrayEditOp::ResizeFill:
+      out += "resize ";
+      break;
+    case ArrayEditOp::MaxSize:
+      out += "maxsize ";
+      break;
+  }
+  append(out, step.first);
+  if (has_second_argument(step.op)) {
+    out += " fill ";
+    append_literal(out, edit, step.second);
+  }
+}
+
+void append_array_edit(std::string& out, const layer::ArrayEdit& edit) {
+  out += "edit [";
+  bool first = true;
+  for_each_step(edit, [&](const layer::ArrayEditStep& step) {
+    out += first ? "" : "; ";
+    first = false;
+    append_step(out, edit, step);
+  });
+  out += ']';
+}
+
 /// True for characters that stand for themselves, whatever the quotes.
 bool is_plain(char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\'' && c != '\\'; }
 
@@ -140,6 +235,8 @@ void append_value_text(std::string& out, const Value& value) {
     append_typed<cpp_type>(out, value);                    \
     return;
 #include "tenon/layer/value_types.def"
+    case ValueType::ArrayEdit:
+      return append_array_edit(out, *value.get<layer::ArrayEdit>());
     case ValueType::ValueBlock:
       out += "None";
       return;
@@ -148,6 +245,29 @@ void append_value_text(std::string& out, const Value& value) {
       return;
     default:
       append_field_text(out, value);
+  }
+}
+
+int minor_version_of(const Value& value) {
+  switch (value.type()) {
+    case ValueType::Duration:
+      return 4;
+    case ValueType::ArrayEdit: {
+      const Value& literals = value.get<layer::ArrayEdit>()->literals;
+      const bool texts =
+          literals.type() == ValueType::String || literals.type() == ValueType::Token ||
+          literals.type() == ValueType::Asset || literals.type() == ValueType::PathExpression;
+      return texts ? 2 : minor_version_of(literals);
+    }
+    case ValueType::Dictionary: {
+      int version = 0;
+      for (const auto& [name, item] : value.get<layer::Dictionary>()->items) {
+        version = std::max(version, minor_version_of(item));
+      }
+      return version;
+    }
+    default:
+      return 0;
   }
 }
 
@@ -167,7 +287,9 @@ Result<layer::Value> parse_value(std::string_view source, const layer::TypeName&
     value = layer::ValueBlock{};
   } else if (cursor.accept_word("AnimationBlock")) {
     value = layer::AnimationBlock{};
-  } else if (!text::read_value(cursor, type.type, type.is_array, value)) {
+  } else if (!(type.is_array && text::at_array_edit(cursor)
+                   ? text::read_array_edit(cursor, type.type, value)
+                   : text::read_value(cursor, type.type, type.is_array, value))) {
     return cursor.take_error();
   }
   cursor.skip_multi_line();

@@ -27,6 +27,9 @@ void append_quoted(std::string& out, std::string_view text);
 std::string asset_path_text(std::string_view path);
 /// Appends what `value_text` gives.
 void append_value_text(std::string& out, const layer::Value& value);
+/// The minor version that a text layer with the value has. For edits of arrays OpenUSD 26.11 raises
+/// it only where the elements are texts.
+int minor_version_of(const layer::Value& value);
 
 }  // namespace text
 }  // namespace tenon::formats

@@ -78,7 +78,7 @@ class LayerWriter {
       out_ += ' ';
     }
     append_quoted(out_, path.name().view());
-    append_metadata(out_, spec, indent);
+    add_metadata(spec, indent);
     out_ += '\n';
     append_indent(out_, indent);
     out_ += "{\n";
@@ -115,7 +115,7 @@ class LayerWriter {
     }
     append_indent(out_, indent);
     out_ += quoted(path.variant().view());
-    append_metadata(out_, *spec, indent);
+    add_metadata(*spec, indent);
     out_ += " {\n";
     append_body(path, *spec, indent);
     out_ += '\n';
@@ -213,15 +213,16 @@ class LayerWriter {
       if (value != nullptr) {
         out_ += " = ";
         append_value_text(out_, *value);
+        need(minor_version_of(*value));
       }
-      append_metadata(out_, spec, indent);
+      add_metadata(spec, indent);
       out_ += '\n';
     }
     if (samples != nullptr) {
       append_time_samples(declaration, *samples, indent);
     }
     if (spline != nullptr) {
-      minor_version_ = std::max(minor_version_, minor_version_of(*spline));
+      need(minor_version_of(*spline));
       append_indent(out_, indent);
       out_ += declaration + ".spline = {\n";
       append_spline(out_, *spline, indent);
@@ -247,6 +248,7 @@ class LayerWriter {
       append_layer_text(out_, samples.times[i]);
       out_ += ": ";
       append_value_text(out_, samples.values[i]);
+      need(minor_version_of(samples.values[i]));
       out_ += ",\n";
     }
     append_indent(out_, indent);
@@ -285,7 +287,7 @@ class LayerWriter {
         out_ += " = ";
         append_targets(targets->explicit_items, indent);
       }
-      append_metadata(out_, spec, indent);
+      add_metadata(spec, indent);
       out_ += '\n';
     }
     if (has_edits) {
@@ -304,6 +306,17 @@ class LayerWriter {
       out_ += '\n';
     }
   }
+
+  void add_metadata(const Spec& spec, std::size_t indent) {
+    append_metadata(out_, spec, indent);
+    for (const layer::Field& field : spec.fields()) {
+      if (field.value.holds<layer::Dictionary>()) {
+        need(minor_version_of(field.value));
+      }
+    }
+  }
+
+  void need(int minor_version) { minor_version_ = std::max(minor_version_, minor_version); }
 
   const Layer& layer_;
   std::string out_;

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/stage/compose_array_edits.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "tenon/stage/interpolate.h"
+
+namespace tenon::stage {
+namespace {
+
+using layer::ArrayEdit;
+using layer::Value;
+
+struct Question {
+  const StageData& stage;
+  const PrimData& prim;
+  Token name;
+  AssetForm form;
+};
+
+/// What one source says at a time: an array, an edit, a block, or nothing.
+Value said_at(const Question& question, const ResolvedValue& source, Time time) {
+  const auto localized = [&](const Value& value) {
+    return localize(question.stage, question.prim, source.opinion, value, question.form);
+  };
+  switch (source.source) {
+    case ValueSource::Default:
+      return localized(*source.value);
+    case ValueSource::TimeSamples:
+      return localized(
+          value_at(*source.samples, source.opinion.offset, time.code(), Interpolation::Held));
+    default:
+      return read_one_value(question.stage, question.prim, question.name, source, time,
+                            question.form);
+  }
+}
+
+/// The elements under the edits: what the weakest source gives, or the fallback.
+Value fallback_of(const Question& question) {
+  const schema::PropertyDefinition* definition = question.prim.definition->find(question.name);
+  return definition == nullptr ? Value() : definition->fallback;
+}
+
+Value applied(const std::vector<Value>& edits, const Value& weaker) {
+  std::vector<const ArrayEdit*> strongest_first;
+  for (const Value& edit : edits) {
+    strongest_first.push_back(edit.get<ArrayEdit>());
+  }
+  const layer::ValueType type = strongest_first.front()->literals.type();
+  const bool fits = weaker.is_array() && weaker.type() == type;
+  return layer::apply_array_edits(strongest_first, fits ? weaker : Value()).value_or(Value());
+}
+
+/// The value at a time without interpolation.
+Value composed_at(const Question& question, const ValueSources& sources, Time time) {
+  std::vector<Value> edits;
+  for (const ResolvedValue& source : sources) {
+    if (source.source == ValueSource::None || source.source == ValueSource::Fallback) {
+      if (source.blocked && time.is_default()) {
+        return {};
+      }
+      break;  // a block of the default lets the fallback through at other times
+    }
+    Value value = said_at(question, source, time);
+    const auto* edit = value.get<ArrayEdit>();
+    if (edit == nullptr) {
+      const bool none = value.empty() || value.is_block();
+      return edits.empty() ? (none ? Value() : value) : applied(edits, none ? Value() : value);
+    }
+    if (!edits.empty() &&
+        edit->literals.type() != edits.front().get<ArrayEdit>()->literals.type()) {
+      break;
+    }
+    edits.push_back(std::move(value));
+  }
+  const Value fallback = fallback_of(question);
+  return edits.empty() ? fallback : applied(edits, fallback);
+}
+
+/// The samples of a source in stage time.
+std::vector<double> times_of(const ResolvedValue& source) {
+  std::vector<double> times;
+  if (source.clips != nullptr) {
+    return source.clips->time_samples(source.opinion.path);
+  }
+  if (source.samples != nullptr) {
+    for (const double time : source.samples->times) {
+      times.push_back(source.opinion.offset.apply(time));
+    }
+    std::sort(times.begin(), times.end());
+  }
+  return times;
+}
+
+bool edits_at(const Question& question, const ResolvedValue& source, double time) {
+  return said_at(question, source, Time(time)).holds<ArrayEdit>();
+}
+
+/// The samples around a time of all sources down to the one that decides there.
+struct Around {
+  std::optional<double> before;  ///< or at it
+  std::optional<double> after;
+};
+
+Around samples_around(const Question& question, const ValueSources& sources, double time) {
+  Around around;
+  for (const ResolvedValue& source : sources) {
+    const std::vector<double> times = times_of(source);
+    const auto next = std::upper_bound(times.begin(), times.end(), time);
+    if (next != times.begin() && (!around.before || *around.before < *std::prev(next))) {
+      around.before = *std::prev(next);
+    }
+    if (next != times.end() && (!around.after || *next < *around.after)) {
+      around.after = *next;
+    }
+    if (!edits_at(question, source, time)) {
+      break;
+    }
+  }
+  return around;
+}
+
+}  // namespace
+
+bool may_edit(const ResolvedValue& source) {
+  switch (source.source) {
+    case ValueSource::Default:
+      return source.value->holds<ArrayEdit>();
+    case ValueSource::TimeSamples:
+      return std::any_of(source.samples->values.begin(), source.samples->values.end(),
+                         [](const Value& value) { return value.holds<ArrayEdit>(); });
+    case ValueSource::ValueClips:
+      return true;
+    default:
+      return false;
+  }
+}
+
+Value compose_array_edits(const StageData& stage, const PrimData& prim, Token name, Time time,
+                          AssetForm form) {
+  const Question question{stage, prim, name, form};
+  const Asked asked = time.is_default() ? Asked::DefaultTime : Asked::AnyTime;
+  const ValueSources sources = value_sources(prim, name, asked);
+  if (time.is_default()) {
+    return composed_at(question, sources, time);
+  }
+  const Around around = samples_around(question, sources, time.code());
+  if (!around.before) {
+    return composed_at(question, sources, time);
+  }
+  Value before = composed_at(question, sources, Time(*around.before));
+  if (!around.after || before.empty() || stage.options.interpolation == Interpolation::Held ||
+      *around.after - *around.before < kSameTime) {
+    return before;
+  }
+  const Value after = composed_at(question, sources, Time(*around.after));
+  const double span = *around.after - *around.before;
+  return interpolate(before, after, (time.code() - *around.before) / span);
+}
+
+std::vector<double> edited_times(const StageData& stage, const PrimData& prim,
+                                 const ValueSources& sources) {
+  const Question question{stage, prim, Token(), AssetForm::Resolved};
+  std::vector<double> result;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    for (const double time : times_of(sources[i])) {
+      const bool counts = std::all_of(
+          sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(i),
+          [&](const ResolvedValue& stronger) { return edits_at(question, stronger, time); });
+      if (counts) {
+        result.push_back(time);
+      }
+    }
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+}  // namespace tenon::stage
