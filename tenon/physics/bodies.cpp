@@ -75,9 +75,8 @@ void read_velocities(const ReadState& state, const PhysicsPrim& found, Body& bod
   const bool from_body = differs(as_world, rotate(body.pose.orientation, as_world)) ||
                          differs(spin, rotate(body.pose.orientation, spin));
   if (from_world || from_body) {
-    // A body that is turned at the start is common, and few readers take its own axes.
     state.report(found.prim, linear == zero ? state.tokens.angular_velocity : state.tokens.velocity,
-                 from_world ? Severity::Warning : Severity::Info, "body.velocity-space",
+                 Severity::Warning, "body.velocity-space",
                  std::string("velocities are read in the space of the parent; engines that take ") +
                      (from_world ? "world or body" : "body") + " axes start this body differently",
                  "leave the prim and its ancestors unrotated and unscaled, or check the result");
