@@ -109,14 +109,7 @@ Value value_at(const layer::TimeSamples& samples, double time, Interpolation int
 Value value_at(const layer::TimeSamples& samples, const layer::LayerOffset& offset,
                double stage_time, Interpolation interpolation) {
   const auto stage_time_of = [&](std::size_t i) { return offset.apply(samples.times[i]); };
-  layer::TimeSamples::Bracket bracket = samples.bracket(layer_time(offset, stage_time));
-  // The way into the layer may round past a sample.
-  if (bracket.upper + 1 < samples.size() && stage_time_of(bracket.upper + 1) <= stage_time) {
-    ++bracket.upper;
-  }
-  if (stage_time_of(bracket.upper) <= stage_time) {
-    bracket.lower = bracket.upper;
-  }
+  const layer::TimeSamples::Bracket bracket = samples.bracket(layer_time(offset, stage_time));
   const Value& lower = samples.values[bracket.lower];
   const double from = stage_time_of(bracket.lower);
   const double to = stage_time_of(bracket.upper);

@@ -26,8 +26,9 @@ layer::Value interpolate(const layer::Value& a, const layer::Value& b, double fr
 layer::Value value_at(const layer::TimeSamples& samples, double time,
                       Interpolation interpolation = Interpolation::Linear);
 
-/// The same at a stage time, stage time = offset(time of the samples). Fractions are of stage time,
-/// as in OpenUSD, so that a sample's own stage time gives the sample to the last bit.
+/// The same at a stage time, stage time = offset(time of the samples). As in OpenUSD the samples
+/// around it are found in their own time and the fraction between them in stage time, so that a
+/// sample's own stage time gives the sample to the last bit where values blend.
 layer::Value value_at(const layer::TimeSamples& samples, const layer::LayerOffset& offset,
                       double stage_time, Interpolation interpolation = Interpolation::Linear);
 
