@@ -33,12 +33,14 @@ class MadeUpMotion : public engines::Simulation {
   std::size_t contact_count() const override { return 0; }
   std::size_t dof_count() const override { return 1; }
   const std::vector<engines::NotMapped>& not_mapped() const override { return none_; }
+  const std::vector<engines::Event>& events() const override { return no_events_; }
 
  private:
   double step_;
   std::size_t fails_at_;
   std::size_t count_ = 0;
   std::vector<engines::NotMapped> none_;
+  std::vector<engines::Event> no_events_;
 };
 
 RunOptions options_of(double duration, double frames_per_second) {
