@@ -42,8 +42,8 @@ std::size_t variant_name_length(std::string_view text) {
   std::size_t at = !text.empty() && text.front() == '.' ? 1 : 0;
   while (at < text.size()) {
     const unicode::Decoded c = unicode::decode(text.substr(at));
-    const bool fits = unicode::continues_identifier(c.code_point) || c.code_point == U'|' ||
-                      c.code_point == U'-';
+    const bool fits =
+        unicode::continues_identifier(c.code_point) || c.code_point == U'|' || c.code_point == U'-';
     if (c.length == 0 || !fits) {
       break;
     }
@@ -81,9 +81,9 @@ class PathReader {
       ++at_;
     }
   }
-  Error fail(const std::string& why) const {
-    return Error(ErrorCode::Parse, "ill-formed path <" + std::string(text_.substr(0, 200)) +
-                                       ">: " + why + " at character " + std::to_string(at_ + 1));
+  Error fail(const std::string& why, ErrorCode code = ErrorCode::Parse) const {
+    return Error(code, "ill-formed path <" + std::string(text_.substr(0, 200)) + ">: " + why +
+                           " at character " + std::to_string(at_ + 1));
   }
 
   Result<Path> read_prims() {
@@ -130,7 +130,7 @@ class PathReader {
         after_variant = true;
       }
       if (path.depth() > limits::kPathElements) {
-        return fail("too many elements");
+        return fail("too many elements", ErrorCode::Limit);
       }
       if (accept("/")) {
         if (after_variant && at_end()) {
@@ -196,8 +196,7 @@ class PathReader {
         at_ = text_.size();
         return path.expression();
       }
-      if (peek() != '.' ||
-          (path.kind() != PathKind::Target && path.kind() != PathKind::Mapper)) {
+      if (peek() != '.' || (path.kind() != PathKind::Target && path.kind() != PathKind::Mapper)) {
         return path;
       }
       ++at_;
@@ -282,8 +281,8 @@ Result<Path> Path::parse(std::string_view text) {
     return Error(ErrorCode::Parse, "the empty text is no path");
   }
   if (text.size() > limits::kPathTextLength) {
-    return Error(ErrorCode::Limit, "a path is longer than " +
-                                       std::to_string(limits::kPathTextLength) + " bytes");
+    return Error(ErrorCode::Limit,
+                 "a path is longer than " + std::to_string(limits::kPathTextLength) + " bytes");
   }
   return PathReader(text, 0).read();
 }
