@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <cstdio>
 
 #include "cli/explain.h"
+#include "tenon/base/rounded_text.h"
 #include "tenon/physics/joint_limits.h"
 
 namespace tenon::cli {
@@ -20,9 +20,7 @@ std::string text(const Json& value) {
   if (value.is_null()) {
     return "unlimited";
   }
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.6g", value.get<double>());
-  return buffer;
+  return rounded_text(value.get<double>());
 }
 
 Json pose_json(const Pose& pose) {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/kinematic_tree.h"
 
-#include <cstdio>
 #include <deque>
 
+#include "tenon/base/rounded_text.h"
 #include "tenon/physics/physics_counts.h"
 
 namespace tenon::cli {
@@ -95,12 +95,6 @@ class Spanning {
   KinematicTree tree_;
 };
 
-std::string number(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof(buffer), "%.6g", value);
-  return buffer;
-}
-
 std::string joint_words(const Joint& joint) {
   const std::size_t dofs = physics::free_dofs(joint);
   return joint.path.name().str() + ": " + std::string(physics::joint_kind_name(joint.kind)) + ", " +
@@ -112,7 +106,7 @@ std::string link_words(const PhysicsScene& scene, const KinematicLink& link) {
   const physics::Body& body = scene.bodies[link.body];
   const std::string hung = link.joint ? joint_words(scene.joints[*link.joint])
                                       : (body.kinematic ? "kinematic" : "free, 6 dof");
-  return body.path.name().str() + "  " + number(body.mass) + " kg  (" + hung + ")";
+  return body.path.name().str() + "  " + rounded_text(body.mass) + " kg  (" + hung + ")";
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include "cli/mass_report.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "cli/opinions.h"
+#include "tenon/base/rounded_text.h"
 
 namespace tenon::cli {
 namespace {
@@ -69,12 +69,6 @@ std::string candidate_text(const Json& row, const std::string& indent) {
   return text + opinions_text(row["opinions"], indent + "    ");
 }
 
-std::string number(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.6g", value + 0.0);
-  return buffer;
-}
-
 /// One used candidate in a few words: "authored, scene.usda:4:5" or the rule's own.
 std::string reason_of(const Json& mass, const char* quantity) {
   for (const Json& row : mass["candidates"]) {
@@ -90,17 +84,17 @@ std::string reason_of(const Json& mass, const char* quantity) {
 }
 
 std::string vector_text(const Json& v) {
-  return "(" + number(v[0].get<double>()) + ", " + number(v[1].get<double>()) + ", " +
-         number(v[2].get<double>()) + ")";
+  return "(" + rounded_text(v[0].get<double>()) + ", " + rounded_text(v[1].get<double>()) + ", " +
+         rounded_text(v[2].get<double>()) + ")";
 }
 
 std::string shown(const Json& value) {
   return value.is_null()     ? std::string("-")
-         : value.is_number() ? number(value.get<double>())
-         : value.size() == 3
-             ? vector_text(value)
-             : "(" + number(value[0].get<double>()) + ", " + number(value[4].get<double>()) + ", " +
-                   number(value[8].get<double>()) + ")";
+         : value.is_number() ? rounded_text(value.get<double>())
+         : value.size() == 3 ? vector_text(value)
+                             : "(" + rounded_text(value[0].get<double>()) + ", " +
+                                   rounded_text(value[4].get<double>()) + ", " +
+                                   rounded_text(value[8].get<double>()) + ")";
 }
 
 /// Columns as wide as their widest cell.

@@ -1,21 +1,16 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <cstdio>
 
 #include "cli/physics_json.h"
+#include "tenon/base/rounded_text.h"
 
 namespace tenon::cli {
 namespace {
 
 using physics::PhysicsScene;
 
-/// Six digits, as people read numbers.
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.6g", value + 0.0);
-  return buffer;
-}
+std::string text(double value) { return rounded_text(value); }
 
 std::string text(const Vec3d& v) {
   return "(" + text(v[0]) + ", " + text(v[1]) + ", " + text(v[2]) + ")";

@@ -3,9 +3,9 @@
 #include "tenon/check/subject.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 
+#include "tenon/base/rounded_text.h"
 #include "tenon/physics/attribute_values.h"
 
 namespace tenon::check {
@@ -111,11 +111,7 @@ void Reporter::at_root(const stage::Stage& stage, std::string message, std::stri
   out_->push_back(std::move(found));
 }
 
-std::string digits(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.3g", value);
-  return buffer;
-}
+std::string digits(double value) { return rounded_text(value, 3); }
 
 std::optional<double> authored_number(const stage::Prim& prim, Token name) {
   const stage::Attribute attribute = prim.attribute(name);

@@ -3,8 +3,9 @@
 #include "tenon/physics/joint_checks.h"
 
 #include <cmath>
-#include <cstdio>
 #include <string>
+
+#include "tenon/base/rounded_text.h"
 
 namespace tenon::physics {
 namespace {
@@ -13,11 +14,7 @@ constexpr double kGap = 1e-4;    ///< [m] that frames may be apart
 constexpr double kAngle = 1e-2;  ///< [rad] that frames may be turned
 
 /// Three digits are enough for a message.
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.3g", value);
-  return buffer;
-}
+std::string text(double value) { return rounded_text(value, 3); }
 
 Pose in_world(const ReadState& state, const std::optional<Index>& body, const Pose& frame) {
   return body ? state.scene.bodies[*body].pose * frame : frame;

@@ -2,19 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/physics/mass_account.h"
 
-#include <cstdio>
+#include "tenon/base/rounded_text.h"
 
 namespace tenon::physics {
 namespace {
 
-std::string number(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.6g", value + 0.0);
-  return buffer;
-}
-
 std::string text(const Vec3d& v) {
-  return "(" + number(v[0]) + ", " + number(v[1]) + ", " + number(v[2]) + ")";
+  return "(" + rounded_text(v[0]) + ", " + rounded_text(v[1]) + ", " + rounded_text(v[2]) + ")";
 }
 
 std::string inertia_text(const Mat3d& inertia) {
@@ -133,8 +127,8 @@ void account_inertia(const ReadState& state, const PhysicsPrim& found, CenterShi
 
 }  // namespace
 
-std::string mass_text(double kilograms) { return number(kilograms) + " kg"; }
-std::string density_text(double density) { return number(density) + " kg/m^3"; }
+std::string mass_text(double kilograms) { return rounded_text(kilograms) + " kg"; }
+std::string density_text(double density) { return rounded_text(density) + " kg/m^3"; }
 
 std::string_view mass_quantity_name(MassQuantity quantity) {
   switch (quantity) {
