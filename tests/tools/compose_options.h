@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "tenon/base/result.h"
 #include "tenon/compose/index_cache.h"
+#include "tenon/formats/open_layer.h"
 
 /// What the programs that dump composed scenes have in common. Options of composition:
 /// [--no-payloads] [--loaded PRIM]... [--unloaded PRIM]... [--rule PRIM
@@ -52,6 +54,28 @@ inline std::vector<std::string> split(const std::string& line) {
     words.push_back(line.substr(start, end - start));
   }
   return words;
+}
+
+/// Says what went wrong; the exit code of a program that cannot go on.
+inline int fail(const Error& error) {
+  std::fprintf(stderr, "%s\n", error.to_string().c_str());
+  return 3;
+}
+
+/// What a stage is composed from; no session layer where none is named.
+struct RootLayers {
+  layer::LayerPtr root;
+  layer::LayerPtr session;
+};
+
+inline Result<RootLayers> open_roots(formats::LayerRegistry& registry, const std::string& root,
+                                     const std::string& session) {
+  RootLayers layers;
+  TENON_TRY(layers.root, registry.open_root(root));
+  if (!session.empty()) {
+    TENON_TRY(layers.session, registry.open(session, nullptr));
+  }
+  return layers;
 }
 
 /// Runs `words`, or with the one word --batch each line of standard input, a list of words

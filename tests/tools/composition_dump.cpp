@@ -21,6 +21,9 @@
 namespace {
 
 using namespace tenon;
+using tests::fail;
+using tests::open_roots;
+using tests::RootLayers;
 
 struct Arguments {
   std::string root;
@@ -144,43 +147,29 @@ std::string nodes_of_all(compose::IndexCache& cache, const compose::LayerLabel& 
   return text;
 }
 
-std::string nodes_of_one(compose::IndexCache& cache, Path prim,
-                         const compose::LayerLabel& label) {
+std::string nodes_of_one(compose::IndexCache& cache, Path prim, const compose::LayerLabel& label) {
   return layers_of(*cache.layer_stack(), label) + "== " + prim.str() + "\n" +
          facts_of(cache, cache.index(prim), label);
 }
 
-int fail(const Error& error) {
-  std::fprintf(stderr, "%s\n", error.to_string().c_str());
-  return 3;
-}
-
 int dump(const Arguments& arguments) {
   formats::LayerRegistry registry;
-  const Result<layer::LayerPtr> root = registry.open_root(arguments.root);
-  if (!root) {
-    return fail(root.error());
-  }
-  layer::LayerPtr session;
-  if (!arguments.session.empty()) {
-    const Result<layer::LayerPtr> opened = registry.open(arguments.session, nullptr);
-    if (!opened) {
-      return fail(opened.error());
-    }
-    session = *opened;
+  const Result<RootLayers> roots = open_roots(registry, arguments.root, arguments.session);
+  if (!roots) {
+    return fail(roots.error());
   }
   compose::IndexCache cache(
-      *root, session,
+      roots->root, roots->session,
       [&](const std::string& path, const layer::Layer& anchor) {
         return registry.open(path, &anchor);
       },
       arguments.options);
-  const std::string folder = folder_of((*root)->identifier());
+  const std::string folder = folder_of(roots->root->identifier());
   const compose::LayerLabel label = [&](const layer::Layer& layer) {
     const std::string& name = layer.identifier();
     return name.rfind(folder, 0) == 0 ? name.substr(folder.size()) : name;
   };
-  const std::string text = !arguments.nodes          ? compose::dump_indices(cache, label)
+  const std::string text = !arguments.nodes         ? compose::dump_indices(cache, label)
                            : arguments.prim.empty() ? nodes_of_all(cache, label)
                                                     : nodes_of_one(cache, arguments.prim, label);
   std::fwrite(text.data(), 1, text.size(), stdout);

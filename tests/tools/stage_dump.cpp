@@ -19,6 +19,9 @@
 namespace {
 
 using namespace tenon;
+using tests::fail;
+using tests::open_roots;
+using tests::RootLayers;
 
 struct Arguments {
   std::string root;
@@ -44,24 +47,11 @@ bool read_arguments(const std::vector<std::string>& words, Arguments& arguments)
   return !arguments.root.empty();
 }
 
-int fail(const Error& error) {
-  std::fprintf(stderr, "%s\n", error.to_string().c_str());
-  return 3;
-}
-
 int dump(Arguments arguments) {
   formats::LayerRegistry registry;
-  const Result<layer::LayerPtr> root = registry.open_root(arguments.root);
-  if (!root) {
-    return fail(root.error());
-  }
-  layer::LayerPtr session;
-  if (!arguments.session.empty()) {
-    const Result<layer::LayerPtr> opened = registry.open(arguments.session, nullptr);
-    if (!opened) {
-      return fail(opened.error());
-    }
-    session = *opened;
+  const Result<RootLayers> roots = open_roots(registry, arguments.root, arguments.session);
+  if (!roots) {
+    return fail(roots.error());
   }
   arguments.options.resolve_asset = [&](const std::string& asset, const layer::Layer& anchor) {
     return registry.resolver().resolve(asset, anchor.identifier()).value_or(std::string());
@@ -69,7 +59,8 @@ int dump(Arguments arguments) {
   const auto opener = [&](const std::string& path, const layer::Layer& anchor) {
     return registry.open(path, &anchor);
   };
-  const auto stage = stage::Stage::open(*root, session, opener, std::move(arguments.options));
+  const auto stage =
+      stage::Stage::open(roots->root, roots->session, opener, std::move(arguments.options));
   if (!stage) {
     return fail(stage.error());
   }
