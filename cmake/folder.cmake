@@ -8,7 +8,7 @@
 # folders of their own). Its dependencies are read from tenon/folders.txt. With TENON_DEVELOPER it
 # also makes
 #   tenon_<folder>_test      all *_test.cpp, each TEST registered with ctest under the label `unit`
-#   tenon_<folder>_headers   compiles every header alone
+#   tenon_<folder>_headers   compiles every header without a source file alone
 # A folder without any .cpp becomes an interface library.
 function(tenon_folder folder)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;WITHOUT")
@@ -71,10 +71,15 @@ function(tenon_folder_libraries folders out)
   set(${out} ${folders} PARENT_SCOPE)
 endfunction()
 
-# One generated .cpp per header that includes only this header, compiled into an object library.
+# One generated .cpp per header that includes only this header, compiled into an object library. A
+# header with a source file beside it needs none: the source includes it first, a test holds that.
 function(tenon_header_check library headers)
   set(units)
   foreach(header IN LISTS headers)
+    string(REGEX REPLACE "\\.h$" ".cpp" source ${header})
+    if(EXISTS ${source})
+      continue()
+    endif()
     file(RELATIVE_PATH relative ${PROJECT_SOURCE_DIR} ${header})
     string(MAKE_C_IDENTIFIER ${relative} unit_name)
     set(unit ${CMAKE_CURRENT_BINARY_DIR}/headers/${unit_name}.cpp)
@@ -98,6 +103,10 @@ function(tenon_unit_tests library tests)
   target_link_libraries(${library}_test PRIVATE ${library} GTest::gtest_main)
   target_compile_definitions(${library}_test
                              PRIVATE TENON_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(TENON_SANITIZE)
+    # Half the compile time; what is tested keeps its optimisation.
+    target_compile_options(${library}_test PRIVATE -O0)
+  endif()
   set_target_properties(${library}_test PROPERTIES CXX_CLANG_TIDY "")
   gtest_discover_tests(
     ${library}_test

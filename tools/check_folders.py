@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the dependency rule of tenon/folders.txt over every #include line of tenon/.
+"""Holds the dependency rule of tenon/folders.txt over every #include line of tenon/, and that a
+source file includes its own header first, which proves that the header stands alone.
 
 Usage: check_folders.py [ROOT]. Exit 0: the rule holds; 1: each breach on a line of its own.
 """
@@ -22,7 +23,7 @@ LIBRARIES = {
     "Eigen/*": ["tenon/math/*.cpp", "tenon/physics/*.cpp"],
     "lz4*.h": ["tenon/bytes/*.cpp"],
     "mujoco/*": ["tenon/engines/mujoco/*", "bench/step_mujoco.cpp"],
-    "CLI/*": ["cli/*"],
+    "CLI/*": ["cli/command_line.cpp"],
     "nlohmann/*": ["cli/*", "tests/*", "bench/*"],
 }
 
@@ -82,17 +83,28 @@ def folder_breach(path, quote, target, folders, tests):
     return None
 
 
+def own_header(root, path):
+    """The header that x.cpp has to include first: x.h beside it; None without one."""
+    header = re.sub(r"\.cpp$", ".h", path)
+    there = header != path and os.path.exists(os.path.join(root, header))
+    return header if there else None
+
+
 def check_file(root, path, folders, tests):
     in_library = path.startswith("tenon/")
     if in_library and folder_of(path, folders) is None:
         yield f"{path}:1: the folder is not listed in tenon/folders.txt"
         return
+    header = own_header(root, path)
     with open(os.path.join(root, path), encoding="utf-8") as file:
         for number, line in enumerate(file, 1):
             match = INCLUDE.match(line)
             if not match:
                 continue
             quote, target = match.groups()
+            if header and target != header:
+                yield f"{path}:{number}: {header} is included first, so that it stands alone"
+            header = None
             reason = library_breach(path, target)
             if not reason and in_library:
                 reason = folder_breach(path, quote, target, folders, tests)

@@ -61,6 +61,13 @@ class Folders(unittest.TestCase):
                 self.assertEqual(files, [path])
                 self.assertEqual(faults == [], allowed, faults)
 
+    def test_own_header_first(self):
+        own, other = '#include "tenon/layer/a.h"\n', '#include "tenon/base/b.h"\n'
+        for text, faults in ((own + other, 0), (other + own, 1), ("", 0)):
+            files = {"tenon/layer/a.h": "", "tenon/layer/a.cpp": text}
+            with self.subTest(text=text), tree(files) as root:
+                self.assertEqual(len(check_folders.check(root)[1]), faults)
+
     def test_cycle(self):
         with tree({"tenon/folders.txt": "a : b\nb : a\n"}) as root:
             self.assertEqual(len(check_folders.check(root)[1]), 1)
