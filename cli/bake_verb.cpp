@@ -40,15 +40,15 @@ int run_bake(const Globals& globals, const Options& options) {
 
 }  // namespace
 
-void add_bake(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = app.add_subcommand(
+void add_bake(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
       "bake", "Simulate and write the motion into a layer over the asset, which stays untouched");
   auto options = std::make_shared<Options>();
-  options->simulate.add_to(*verb);
-  verb->add_option("-o,--output", options->output, "The layer to write: .usda, .usdc or .usd")
-      ->required();
-  verb->footer("Example:\n  tenon bake grasp.usda -o motion.usda --fps 60 --duration 4");
-  choose(*verb, chosen, [&globals, options] { return run_bake(globals, *options); });
+  options->simulate.add_to(verb);
+  verb.add_option("-o,--output", options->output, "The layer to write: .usda, .usdc or .usd")
+      .required();
+  verb.footer("Example:\n  tenon bake grasp.usda -o motion.usda --fps 60 --duration 4");
+  choose(verb, chosen, [&globals, options] { return run_bake(globals, *options); });
 }
 
 }  // namespace tenon::cli

@@ -67,20 +67,21 @@ int run_cat(const Globals& globals, const Options& options) {
 
 }  // namespace
 
-void add_cat(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = app.add_subcommand("cat", "Read any layer, write it as text, binary or package");
+void add_cat(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb =
+      parent.add_subcommand("cat", "Read any layer, write it as text, binary or package");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(*verb);
-  verb->add_option("-o,--output", options->output, "Where to write; - is standard output");
-  verb->add_flag("-f,--flatten", options->flatten, "Compose first and write one layer");
-  verb->add_flag("--flatten-layer-stack,--flattenLayerStack", options->flatten_layer_stack,
-                 "Merge the sublayers, keep references and the like");
-  verb->add_option("--format,--usdFormat", options->format, "usda, usdc or usdz");
-  verb->footer(
+  options->asset.add_to(verb);
+  verb.add_option("-o,--output", options->output, "Where to write; - is standard output");
+  verb.add_flag("-f,--flatten", options->flatten, "Compose first and write one layer");
+  verb.add_flag("--flatten-layer-stack,--flattenLayerStack", options->flatten_layer_stack,
+                "Merge the sublayers, keep references and the like");
+  verb.add_option("--format,--usdFormat", options->format, "usda, usdc or usdz");
+  verb.footer(
       "Examples:\n  tenon cat geometry.usdc\n  tenon cat hand.usda --flatten -o flat.usdc\n"
       "A package (-o hand.usdz) takes in all layers and textures that it needs.\n"
       "Selecting with --mask or --physics composes, too.");
-  choose(*verb, chosen, [&globals, options] { return run_cat(globals, *options); });
+  choose(verb, chosen, [&globals, options] { return run_cat(globals, *options); });
 }
 
 }  // namespace tenon::cli

@@ -373,26 +373,27 @@ constexpr const char* kFooter =
 
 }  // namespace
 
-void add_check(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = app.add_subcommand("check", "What is wrong with assets, and how to correct it");
+void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb =
+      parent.add_subcommand("check", "What is wrong with assets, and how to correct it");
   auto options = std::make_shared<Options>();
-  verb->add_option("assets", options->paths, "USD files or folders");
-  options->asset.add_options_to(*verb);
-  verb->add_flag("--fix", options->fix, "Correct what has a safe fix, in the files that own it");
-  verb->add_flag("--dry-run", options->dry_run, "With --fix: print the difference, write nothing");
-  verb->add_flag("--strict", options->strict, "Warnings count as errors for the exit code");
-  verb->add_option("--only", options->rules.only,
-                   "These rules or families alone (mass, joint.body-missing)")
-      ->delimiter(',');
-  verb->add_option("--skip", options->rules.skip, "Not these rules or families")->delimiter(',');
-  verb->add_option("--sarif", options->sarif, "Write a SARIF 2.1.0 log; - is standard output");
-  verb->add_option("--baseline", options->baseline, "Findings in this file are known");
-  verb->add_option("--write-baseline", options->write_baseline,
-                   "Write all findings to a baseline for later runs");
-  verb->add_flag("--list-rules", options->list_rules, "Name all rules");
-  verb->add_option("--explain", options->explain, "Print the page of a rule");
-  verb->footer(kFooter);
-  choose(*verb, chosen, [&globals, options] { return run_check(globals, *options); });
+  verb.add_option("assets", options->paths, "USD files or folders");
+  options->asset.add_options_to(verb);
+  verb.add_flag("--fix", options->fix, "Correct what has a safe fix, in the files that own it");
+  verb.add_flag("--dry-run", options->dry_run, "With --fix: print the difference, write nothing");
+  verb.add_flag("--strict", options->strict, "Warnings count as errors for the exit code");
+  verb.add_option("--only", options->rules.only,
+                  "These rules or families alone (mass, joint.body-missing)")
+      .split_at_commas();
+  verb.add_option("--skip", options->rules.skip, "Not these rules or families").split_at_commas();
+  verb.add_option("--sarif", options->sarif, "Write a SARIF 2.1.0 log; - is standard output");
+  verb.add_option("--baseline", options->baseline, "Findings in this file are known");
+  verb.add_option("--write-baseline", options->write_baseline,
+                  "Write all findings to a baseline for later runs");
+  verb.add_flag("--list-rules", options->list_rules, "Name all rules");
+  verb.add_option("--explain", options->explain, "Print the page of a rule");
+  verb.footer(kFooter);
+  choose(verb, chosen, [&globals, options] { return run_check(globals, *options); });
 }
 
 }  // namespace tenon::cli

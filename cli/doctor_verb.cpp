@@ -30,11 +30,11 @@ int run_doctor(const Globals& globals) {
 
 }  // namespace
 
-void add_doctor(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb =
-      app.add_subcommand("doctor", "Engines and optional parts: found, missing, how to get them");
-  verb->footer("Example:\n  tenon doctor --json");
-  choose(*verb, chosen, [&globals] { return run_doctor(globals); });
+void add_doctor(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
+      "doctor", "Engines and optional parts: found, missing, how to get them");
+  verb.footer("Example:\n  tenon doctor --json");
+  choose(verb, chosen, [&globals] { return run_doctor(globals); });
 }
 
 }  // namespace tenon::cli

@@ -56,21 +56,21 @@ int run_dump_index(const Globals& globals, const Options& options) {
 
 }  // namespace
 
-void add_dump_index(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  add_index_dump(app, "dump-index", "", globals, chosen);
+void add_dump_index(const Command& parent, const Globals& globals, Chosen& chosen) {
+  add_index_dump(parent, "dump-index", "", globals, chosen);
 }
 
-void add_index_dump(CLI::App& app, const std::string& name, const std::string& fallbacks,
+void add_index_dump(const Command& parent, const std::string& name, const std::string& fallbacks,
                     const Globals& globals, Chosen& chosen) {
-  CLI::App* verb =
-      app.add_subcommand(name, "How prims are composed: layers, specs, offsets, targets");
+  const Command verb =
+      parent.add_subcommand(name, "How prims are composed: layers, specs, offsets, targets");
   auto options = std::make_shared<Options>();
   options->fallbacks = fallbacks;
-  options->asset.add_to(*verb);
-  verb->add_option("prims", options->prims, "Prim paths; without them all prims");
-  verb->add_option("--variant-fallback", options->fallbacks, "set=variant|variant,set=...");
-  verb->footer("Example:\n  tenon dump-index hand.usda /inspire_hand/right_thumb_1");
-  choose(*verb, chosen, [&globals, options] { return run_dump_index(globals, *options); });
+  options->asset.add_to(verb);
+  verb.add_option("prims", options->prims, "Prim paths; without them all prims");
+  verb.add_option("--variant-fallback", options->fallbacks, "set=variant|variant,set=...");
+  verb.footer("Example:\n  tenon dump-index hand.usda /inspire_hand/right_thumb_1");
+  choose(verb, chosen, [&globals, options] { return run_dump_index(globals, *options); });
 }
 
 }  // namespace tenon::cli

@@ -44,21 +44,22 @@ int run_dump(const Globals& globals, const Options& options) {
 
 }  // namespace
 
-void add_dump(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = app.add_subcommand("dump", "Canonical JSON of the composed stage, to compare");
+void add_dump(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb =
+      parent.add_subcommand("dump", "Canonical JSON of the composed stage, to compare");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(*verb);
-  verb->add_option("-o,--output", options->output, "Where to write; - is standard output");
-  verb->add_option("--session", options->session, "A session layer");
-  verb->add_flag("--no-payloads", options->dump.no_payloads, "Leave payloads out");
-  verb->add_flag("--builtins", options->dump.builtins, "Also properties that only schemas give");
-  verb->add_flag("--stacks", options->dump.stacks, "Layers and paths of every opinion");
-  verb->add_flag("--xforms", options->dump.xforms, "World transforms");
-  verb->add_option("--variant-fallback", options->fallbacks, "set=variant|variant,set=...");
-  verb->add_option("--full-arrays", options->dump.full_arrays,
-                   "Longest array that is written out in full");
-  verb->footer("Example:\n  tenon dump hand.usda --physics physx --stacks -o hand.json");
-  choose(*verb, chosen, [&globals, options] { return run_dump(globals, *options); });
+  options->asset.add_to(verb);
+  verb.add_option("-o,--output", options->output, "Where to write; - is standard output");
+  verb.add_option("--session", options->session, "A session layer");
+  verb.add_flag("--no-payloads", options->dump.no_payloads, "Leave payloads out");
+  verb.add_flag("--builtins", options->dump.builtins, "Also properties that only schemas give");
+  verb.add_flag("--stacks", options->dump.stacks, "Layers and paths of every opinion");
+  verb.add_flag("--xforms", options->dump.xforms, "World transforms");
+  verb.add_option("--variant-fallback", options->fallbacks, "set=variant|variant,set=...");
+  verb.add_option("--full-arrays", options->dump.full_arrays,
+                  "Longest array that is written out in full");
+  verb.footer("Example:\n  tenon dump hand.usda --physics physx --stacks -o hand.json");
+  choose(verb, chosen, [&globals, options] { return run_dump(globals, *options); });
 }
 
 }  // namespace tenon::cli

@@ -91,21 +91,21 @@ int run_explain(const Globals& globals, const Options& options) {
 
 }  // namespace
 
-void add_explain(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = app.add_subcommand(
+void add_explain(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
       "explain", "Where a number comes from: layer and line, rule, and what lost to it");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(*verb);
-  verb->add_option("object", options->object, "PRIM or PRIM.property")->required();
-  verb->add_option("other", options->other, "A second prim: do the two collide, and why not");
-  add_readings(*verb, options->readings);
-  verb->footer(
+  options->asset.add_to(verb);
+  verb.add_option("object", options->object, "PRIM or PRIM.property").required();
+  verb.add_option("other", options->other, "A second prim: do the two collide, and why not");
+  add_readings(verb, options->readings);
+  verb.footer(
       readings_help() +
       "\n\nExamples:\n  tenon explain hand.usda /hand/palm                    its mass, its "
       "joints\n"
       "  tenon explain hand.usda /hand/palm.physics:mass       every opinion, strongest first\n"
       "  tenon explain hand.usda /hand/palm /hand/thumb        whether they collide, and why not");
-  choose(*verb, chosen, [&globals, options] { return run_explain(globals, *options); });
+  choose(verb, chosen, [&globals, options] { return run_explain(globals, *options); });
 }
 
 }  // namespace tenon::cli

@@ -156,14 +156,13 @@ int run_info(const Globals& globals, const AssetArguments& arguments) {
 
 }  // namespace
 
-void add_info(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = app.add_subcommand(
+void add_info(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
       "info", "What the asset is: layers, variants, units, physics, missing files");
   auto arguments = std::make_shared<AssetArguments>();
-  arguments->add_to(*verb);
-  verb->footer(
-      "Examples:\n  tenon info hand.usda\n  tenon info hand.usda --json --physics physics");
-  choose(*verb, chosen, [&globals, arguments] { return run_info(globals, *arguments); });
+  arguments->add_to(verb);
+  verb.footer("Examples:\n  tenon info hand.usda\n  tenon info hand.usda --json --physics physics");
+  choose(verb, chosen, [&globals, arguments] { return run_info(globals, *arguments); });
 }
 
 }  // namespace tenon::cli

@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <clocale>
 #include <cstdio>
+#include <optional>
 
-#include <CLI/CLI.hpp>
-
+#include "cli/command_line.h"
 #include "cli/exit_code.h"
 #include "cli/verb.h"
 
 namespace {
 
 using tenon::cli::Chosen;
+using tenon::cli::Command;
+using tenon::cli::CommandLine;
 using tenon::cli::Globals;
 
 constexpr const char* kExamples =
@@ -25,37 +27,32 @@ constexpr const char* kExamples =
     "Exit codes: 0 ok, 1 the answer is no, 2 usage, I/O or parse error, 3 unstable simulation,\n"
     "4 engine not installed, 130 interrupted.";
 
-void add_global_options(CLI::App& app, Globals& globals) {
-  app.add_flag("--json", globals.json, "Print exactly one JSON object on standard output");
-  app.add_flag("-q,--quiet", globals.quiet, "Only errors on standard error");
-  app.add_flag("-v,--verbose", globals.verbose, "Also what is only worth knowing");
-  app.add_option("--color", globals.color, "auto, always or never")
-      ->check(CLI::IsMember({"auto", "always", "never"}));
-  app.set_version_flag("--version", "tenon " TENON_VERSION);
+void add_global_options(const Command& root, Globals& globals) {
+  root.add_flag("--json", globals.json, "Print exactly one JSON object on standard output");
+  root.add_flag("-q,--quiet", globals.quiet, "Only errors on standard error");
+  root.add_flag("-v,--verbose", globals.verbose, "Also what is only worth knowing");
+  root.add_option("--color", globals.color, "auto, always or never")
+      .one_of({"auto", "always", "never"});
+  root.add_version_flag("--version", "tenon " TENON_VERSION);
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("tenon: open, explain and simulate physics-ready USD assets", "tenon");
+  const CommandLine line("tenon: open, explain and simulate physics-ready USD assets", "tenon");
+  const Command root = line.root();
   Globals globals;
   Chosen chosen;
-  app.footer(kExamples);
-  app.require_subcommand(1);
-  app.fallthrough();
-  add_global_options(app, globals);
+  root.footer(kExamples);
+  root.require_subcommand();
+  add_global_options(root, globals);
   for (auto* add :
        {tenon::cli::add_bake, tenon::cli::add_cat, tenon::cli::add_check, tenon::cli::add_doctor,
         tenon::cli::add_dump, tenon::cli::add_dump_index, tenon::cli::add_explain,
         tenon::cli::add_info, tenon::cli::add_physics, tenon::cli::add_sim, tenon::cli::add_strip,
         tenon::cli::add_test_runner, tenon::cli::add_tree, tenon::cli::add_variant}) {
-    add(app, globals, chosen);
+    add(root, globals, chosen);
   }
-  for (CLI::App* verb : app.get_subcommands({})) {
-    verb->fallthrough();
-  }
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? tenon::cli::kOk : tenon::cli::kFailed;
+  if (const std::optional<bool> is_error = line.parse(argc, argv)) {
+    return *is_error ? tenon::cli::kFailed : tenon::cli::kOk;
   }
   return chosen.run ? chosen.run() : tenon::cli::kFailed;
 }

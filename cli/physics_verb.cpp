@@ -49,18 +49,18 @@ int run_physics(const Globals& globals, const Options& options) {
 
 }  // namespace
 
-void add_physics(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = app.add_subcommand(
+void add_physics(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
       "physics", "The neutral physics description that engines receive, in SI and radians");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(*verb);
-  add_readings(*verb, options->readings);
-  verb->add_flag("--mass", options->mass,
-                 "A table of every body's mass, centre and inertia: authored, resolved, reason");
-  verb->footer(readings_help() +
-               "\n\nExample:\n  tenon physics hand.usda --physics physx --json\n"
-               "  tenon physics hand.usda --mass");
-  choose(*verb, chosen, [&globals, options] { return run_physics(globals, *options); });
+  options->asset.add_to(verb);
+  add_readings(verb, options->readings);
+  verb.add_flag("--mass", options->mass,
+                "A table of every body's mass, centre and inertia: authored, resolved, reason");
+  verb.footer(readings_help() +
+              "\n\nExample:\n  tenon physics hand.usda --physics physx --json\n"
+              "  tenon physics hand.usda --mass");
+  choose(verb, chosen, [&globals, options] { return run_physics(globals, *options); });
 }
 
 }  // namespace tenon::cli

@@ -6,10 +6,9 @@
 
 namespace tenon::cli {
 
-void add_readings(CLI::App& verb, std::vector<std::string>& assignments) {
+void add_readings(const Command& verb, std::vector<std::string>& assignments) {
   verb.add_option("--reading", assignments, "NAME=VALUE of those below; may be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      .repeatable();
 }
 
 Result<physics::Readings> chosen_readings(const std::vector<std::string>& assignments) {

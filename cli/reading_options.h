@@ -5,15 +5,14 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "cli/command_line.h"
 #include "tenon/base/result.h"
 #include "tenon/physics/readings.h"
 
 namespace tenon::cli {
 
 /// The option --reading NAME=VALUE, which may be repeated.
-void add_readings(CLI::App& verb, std::vector<std::string>& assignments);
+void add_readings(const Command& verb, std::vector<std::string>& assignments);
 /// Errors: Invalid, with the names and values that there are.
 Result<physics::Readings> chosen_readings(const std::vector<std::string>& assignments);
 /// Help of --reading: every name with its values and who reads how.

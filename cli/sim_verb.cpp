@@ -160,17 +160,17 @@ int run_sim(const Globals& globals, const Options& options) {
 
 }  // namespace
 
-void add_sim(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = app.add_subcommand("sim", "Simulate the asset on a real engine");
+void add_sim(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand("sim", "Simulate the asset on a real engine");
   auto options = std::make_shared<Options>();
-  options->simulate.add_to(*verb);
-  verb->add_option("-o,--output", options->log, "Write a log: .csv, .jsonl or .npz");
-  verb->add_option("--bake", options->bake, "Also write the motion as a layer over the asset");
-  verb->footer(
+  options->simulate.add_to(verb);
+  verb.add_option("-o,--output", options->log, "Write a log: .csv, .jsonl or .npz");
+  verb.add_option("--bake", options->bake, "Also write the motion as a layer over the asset");
+  verb.footer(
       "Examples:\n"
       "  tenon sim hand.usda --physics physics --duration 5 -o run.csv\n"
       "  tenon sim door.usda --set /Door/hinge.drive:angular:physics:targetPosition=45 --json");
-  choose(*verb, chosen, [&globals, options] { return run_sim(globals, *options); });
+  choose(verb, chosen, [&globals, options] { return run_sim(globals, *options); });
 }
 
 }  // namespace tenon::cli

@@ -76,7 +76,7 @@ Result<void> check_arguments(const SimulateArguments& arguments) {
 
 }  // namespace
 
-void SimulateArguments::add_to(CLI::App& verb) {
+void SimulateArguments::add_to(const Command& verb) {
   asset.add_to(verb);
   verb.add_option("--engine", engine, "mujoco (physx and jolt are not built yet)");
   verb.add_option("--duration", duration,
@@ -84,8 +84,7 @@ void SimulateArguments::add_to(CLI::App& verb) {
   verb.add_option("--dt", time_step, "Time step in seconds; without it the asset's, else 0.002");
   verb.add_option("--fps", frames_per_second, "Frames per second of logs and baked layers");
   verb.add_option("--set", asset.overrides, "PATH.attr=value, for this run only; may be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      .repeatable();
 }
 
 int Simulated::exit_code() const {

@@ -23,7 +23,7 @@ struct SimulateArguments {
   double time_step = 0;  ///< [s]; 0: the asset's, else the engine's
   double frames_per_second = 60;
 
-  void add_to(CLI::App& verb);
+  void add_to(const Command& verb);
 };
 
 /// A finished run and everything that it was made of; the simulation refers to the scene.

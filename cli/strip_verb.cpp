@@ -122,24 +122,24 @@ int run_mute(Report& report, const Options& options) {
 
 }  // namespace
 
-void add_strip(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = app.add_subcommand(
+void add_strip(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
       "strip", "Take all physics out of an asset, or mute it, and leave the rest as it is");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(*verb);
-  verb->add_option("-o,--output", options->output,
-                   "Write the asset without physics here; layers below it that hold physics come "
-                   "into a folder beside it");
-  verb->add_flag("--in-place", options->in_place,
-                 "Change the asset's own layers; comments and layout of text stay");
-  verb->add_flag("--mute", options->mute,
-                 "Delete nothing: switch bodies, colliders and joints off by their enable flags, "
-                 "in a layer over the asset (-o) or in its root layer (--in-place)");
-  verb->footer(
+  options->asset.add_to(verb);
+  verb.add_option("-o,--output", options->output,
+                  "Write the asset without physics here; layers below it that hold physics come "
+                  "into a folder beside it");
+  verb.add_flag("--in-place", options->in_place,
+                "Change the asset's own layers; comments and layout of text stay");
+  verb.add_flag("--mute", options->mute,
+                "Delete nothing: switch bodies, colliders and joints off by their enable flags, "
+                "in a layer over the asset (-o) or in its root layer (--in-place)");
+  verb.footer(
       "Examples:\n  tenon strip hand.usda -o visual.usda\n"
       "  tenon strip hand.usda --in-place\n"
       "  tenon strip hand.usda --mute -o muted.usda");
-  choose(*verb, chosen, [&globals, options] {
+  choose(verb, chosen, [&globals, options] {
     Report report(globals, "strip", options->asset.asset);
     if (options->output.empty() != options->in_place) {
       return report.fail(Error(ErrorCode::Invalid, "the result needs a place to be written to")

@@ -87,45 +87,46 @@ Result<std::string> values_text(const ValueOptions& options, Diagnostics& diagno
   return out.str();
 }
 
-void add_layer(CLI::App& runner, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = runner.add_subcommand("layer", "The fields of every spec of one layer, as JSON");
+void add_layer(const Command& runner, const Globals& globals, Chosen& chosen) {
+  const Command verb =
+      runner.add_subcommand("layer", "The fields of every spec of one layer, as JSON");
   auto file = std::make_shared<std::string>();
-  verb->add_option("file", *file, "A .usd, .usda, .usdc or .usdz file")->required();
-  choose(*verb, chosen, [&globals, file] {
+  verb.add_option("file", *file, "A .usd, .usda, .usdc or .usdz file").required();
+  choose(verb, chosen, [&globals, file] {
     Report report(globals, kName, *file);
     return answer(report, layer_text(*file, report.diagnostics));
   });
 }
 
-void add_list_op(CLI::App& runner, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = runner.add_subcommand(
+void add_list_op(const Command& runner, const Globals& globals, Chosen& chosen) {
+  const Command verb = runner.add_subcommand(
       "list-op", "Fold a chain of list edits, strongest first, from standard input into one");
-  verb->footer(
+  verb.footer(
       "Example:\n  echo '[{\"appended_items\": [1]}, {\"explicit_items\": [2, 1]}]' | "
       "tenon test-runner list-op");
-  choose(*verb, chosen, [&globals] {
+  choose(verb, chosen, [&globals] {
     Report report(globals, kName, "");
     return answer(report, folded_list_ops(std::cin));
   });
 }
 
-void add_value(CLI::App& runner, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb =
+void add_value(const Command& runner, const Globals& globals, Chosen& chosen) {
+  const Command verb =
       runner.add_subcommand("value", "The resolved value of an attribute at each time, as JSON");
   auto options = std::make_shared<ValueOptions>();
-  options->asset.add_to(*verb);
-  verb->add_option("attribute", options->attribute, "Such as /World/ball.radius")->required();
-  verb->add_option("times", options->times, "Time codes; \"default\" asks for the default value")
-      ->required();
-  choose(*verb, chosen, [&globals, options] {
+  options->asset.add_to(verb);
+  verb.add_option("attribute", options->attribute, "Such as /World/ball.radius").required();
+  verb.add_option("times", options->times, "Time codes; \"default\" asks for the default value")
+      .required();
+  choose(verb, chosen, [&globals, options] {
     Report report(globals, kName, options->asset.asset);
     return answer(report, values_text(*options, report.diagnostics));
   });
 }
 
-void add_schemas(CLI::App& runner, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = runner.add_subcommand("schemas", "Every schema that tenon knows, as JSON");
-  choose(*verb, chosen, [&globals] {
+void add_schemas(const Command& runner, const Globals& globals, Chosen& chosen) {
+  const Command verb = runner.add_subcommand("schemas", "Every schema that tenon knows, as JSON");
+  choose(verb, chosen, [&globals] {
     Report report(globals, kName, "");
     std::ostringstream out;
     write_schemas_json(out);
@@ -135,19 +136,16 @@ void add_schemas(CLI::App& runner, const Globals& globals, Chosen& chosen) {
 
 }  // namespace
 
-void add_test_runner(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* runner = app.add_subcommand(
+void add_test_runner(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command runner = parent.add_subcommand(
       kName, "What conformance suites compare: layers, list edits, values, schemas, composition");
-  runner->require_subcommand(1);
-  runner->footer("Example:\n  tenon test-runner layer model.usdc");
-  add_layer(*runner, globals, chosen);
-  add_list_op(*runner, globals, chosen);
-  add_value(*runner, globals, chosen);
-  add_schemas(*runner, globals, chosen);
-  add_index_dump(*runner, "composition", "standin=render", globals, chosen);
-  for (CLI::App* verb : runner->get_subcommands({})) {
-    verb->fallthrough();
-  }
+  runner.require_subcommand();
+  runner.footer("Example:\n  tenon test-runner layer model.usdc");
+  add_layer(runner, globals, chosen);
+  add_list_op(runner, globals, chosen);
+  add_value(runner, globals, chosen);
+  add_schemas(runner, globals, chosen);
+  add_index_dump(runner, "composition", "standin=render", globals, chosen);
 }
 
 }  // namespace tenon::cli

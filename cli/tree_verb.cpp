@@ -154,21 +154,21 @@ void untangle_physics(Options& options, bool physics_given) {
 
 }  // namespace
 
-void add_tree(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb =
-      app.add_subcommand("tree", "The prim tree; with --physics the tree of bodies and joints");
+void add_tree(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb =
+      parent.add_subcommand("tree", "The prim tree; with --physics the tree of bodies and joints");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(*verb);
-  verb->get_option("asset")->required(false);
-  CLI::Option* physics = verb->get_option("--physics");
-  physics->expected(0, 1)->description(
+  options->asset.add_to(verb);
+  verb.option("asset").required(false);
+  const Option physics = verb.option("--physics");
+  physics.with_optional_value().description(
       "Also bodies, joint types, degrees of freedom and masses, under this variant of the default "
       "prim's variant set \"Physics\"; without a value only those, under the selection in force");
-  verb->add_flag("-a,--attributes", options->attributes, "Also attributes and their values");
-  verb->add_flag("-m,--metadata", options->metadata, "Also metadata");
-  verb->footer("Examples:\n  tenon tree hand.usda -a\n  tenon tree hand.usda --physics");
-  choose(*verb, chosen, [&globals, options, physics] {
-    untangle_physics(*options, physics->count() > 0);
+  verb.add_flag("-a,--attributes", options->attributes, "Also attributes and their values");
+  verb.add_flag("-m,--metadata", options->metadata, "Also metadata");
+  verb.footer("Examples:\n  tenon tree hand.usda -a\n  tenon tree hand.usda --physics");
+  choose(verb, chosen, [&globals, options, physics] {
+    untangle_physics(*options, physics.given());
     return run_tree(globals, *options);
   });
 }

@@ -182,20 +182,20 @@ int run_variant(const Globals& globals, const Options& options) {
 
 }  // namespace
 
-void add_variant(CLI::App& app, const Globals& globals, Chosen& chosen) {
-  CLI::App* verb = app.add_subcommand("variant", "List variant sets, or author a selection");
+void add_variant(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand("variant", "List variant sets, or author a selection");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(*verb);
-  verb->add_option("selection", options->assignment, "SET=VARIANT; without it all sets are listed");
-  verb->add_option("--prim", options->prim, "The prim with the set; without it the default prim");
-  verb->add_option("-o,--output", options->output, "Write the changed layer here");
-  verb->add_flag("--in-place", options->in_place,
-                 "Change the asset's root layer; comments and layout of text stay");
-  verb->footer(
+  options->asset.add_to(verb);
+  verb.add_option("selection", options->assignment, "SET=VARIANT; without it all sets are listed");
+  verb.add_option("--prim", options->prim, "The prim with the set; without it the default prim");
+  verb.add_option("-o,--output", options->output, "Write the changed layer here");
+  verb.add_flag("--in-place", options->in_place,
+                "Change the asset's root layer; comments and layout of text stay");
+  verb.footer(
       "Examples:\n  tenon variant hand.usda\n"
       "  tenon variant hand.usda Physics=mujoco --in-place\n"
       "  tenon variant hand.usda Physics=physx -o hand_physx.usda");
-  choose(*verb, chosen, [&globals, options] { return run_variant(globals, *options); });
+  choose(verb, chosen, [&globals, options] { return run_variant(globals, *options); });
 }
 
 }  // namespace tenon::cli

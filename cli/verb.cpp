@@ -24,25 +24,25 @@ std::vector<std::string> environment_search_paths() {
 
 }  // namespace
 
-void AssetArguments::add_to(CLI::App& verb) {
-  verb.add_option("asset", asset, "A .usd, .usda, .usdc or .usdz file")->required();
+void AssetArguments::add_to(const Command& verb) {
+  verb.add_option("asset", asset, "A .usd, .usda, .usdc or .usdz file").required();
   add_options_to(verb);
 }
 
-void AssetArguments::add_options_to(CLI::App& verb) {
+void AssetArguments::add_options_to(const Command& verb) {
   verb.add_option("--physics", physics,
                   "Select this variant of the default prim's variant set \"Physics\"; no file is "
                   "touched");
   verb.add_option("--mask", mask, "Only these prims, with what is above and below them")
-      ->delimiter(',');
+      .split_at_commas();
   verb.add_flag("--unloaded", unloaded, "Leave payloads out");
   verb.add_option("--search-path", search_paths,
                   "Look up asset paths without ./ in these folders, too, before those of the "
                   "environment variable PXR_AR_DEFAULT_SEARCH_PATH")
-      ->delimiter(',');
+      .split_at_commas();
   verb.add_option("--sandbox", sandbox,
                   "Open no file outside of these folders, whatever layers, links and packages name")
-      ->delimiter(',');
+      .split_at_commas();
 }
 
 OpenOptions AssetArguments::open_options() const {

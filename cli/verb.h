@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "cli/command_line.h"
 #include "tenon/base/result.h"
 #include "tenon/tenon.h"
 
@@ -39,18 +38,18 @@ struct AssetArguments {
   std::vector<std::string> sandbox;       ///< --sandbox
 
   /// Adds the positional and the options to `verb`.
-  void add_to(CLI::App& verb);
+  void add_to(const Command& verb);
   /// The options alone.
-  void add_options_to(CLI::App& verb);
+  void add_options_to(const Command& verb);
   OpenOptions open_options() const;
 };
 
 /// Lets `verb` run `run` when it is chosen.
-inline void choose(CLI::App& verb, Chosen& chosen, std::function<int()> run) {
-  verb.callback([&chosen, run = std::move(run)] { chosen.run = run; });
+inline void choose(const Command& verb, Chosen& chosen, std::function<int()> run) {
+  verb.when_chosen([&chosen, run = std::move(run)] { chosen.run = run; });
 }
 
-using AddVerb = void(CLI::App& app, const Globals& globals, Chosen& chosen);
+using AddVerb = void(const Command& parent, const Globals& globals, Chosen& chosen);
 AddVerb add_bake;
 AddVerb add_cat;
 AddVerb add_check;
@@ -67,7 +66,7 @@ AddVerb add_variant;
 AddVerb add_test_runner;
 
 /// The verb dump-index under the name `name`, with variant fallbacks for where none are given.
-void add_index_dump(CLI::App& app, const std::string& name, const std::string& fallbacks,
+void add_index_dump(const Command& parent, const std::string& name, const std::string& fallbacks,
                     const Globals& globals, Chosen& chosen);
 
 /// "NAME=VALUE" taken apart at the first '='.
