@@ -29,6 +29,28 @@ add_library(tenon_qhull INTERFACE)
 target_include_directories(tenon_qhull SYSTEM INTERFACE ${TENON_QHULL_INCLUDE_DIR})
 target_link_libraries(tenon_qhull INTERFACE ${TENON_QHULL_LIBRARY})
 
+find_path(TENON_PUGIXML_INCLUDE_DIR pugixml.hpp)
+find_library(TENON_PUGIXML_LIBRARY NAMES libpugixml.a pugixml)
+if(NOT TENON_PUGIXML_INCLUDE_DIR OR NOT TENON_PUGIXML_LIBRARY)
+  message(FATAL_ERROR "pugixml not found: install libpugixml-dev (tools/bootstrap.sh).")
+endif()
+add_library(tenon_pugixml INTERFACE)
+target_include_directories(tenon_pugixml SYSTEM INTERFACE ${TENON_PUGIXML_INCLUDE_DIR})
+target_link_libraries(tenon_pugixml INTERFACE ${TENON_PUGIXML_LIBRARY})
+
+# Loaded at run time when a mesh needs it; only its headers count here.
+find_path(TENON_ASSIMP_INCLUDE_DIR assimp/cimport.h)
+add_library(tenon_assimp INTERFACE)
+if(TENON_ASSIMP_INCLUDE_DIR)
+  target_include_directories(tenon_assimp SYSTEM INTERFACE ${TENON_ASSIMP_INCLUDE_DIR})
+  target_compile_definitions(tenon_assimp INTERFACE TENON_WITH_ASSIMP=1
+                                                    TENON_ASSIMP_SONAME="libassimp.so.5")
+else()
+  message(STATUS "assimp not found (libassimp-dev): .dae, .gltf and .glb meshes are not read")
+  target_compile_definitions(tenon_assimp INTERFACE TENON_WITH_ASSIMP=0)
+endif()
+target_link_libraries(tenon_assimp INTERFACE ${CMAKE_DL_LIBS})
+
 if(TENON_DEVELOPER)
   find_package(GTest REQUIRED)
 endif()

@@ -20,7 +20,7 @@ DATA = ("tests/golden/", "tests/conformance/", "tests/data/", "fuzz/corpus/", "e
 LINE_LENGTH = 100
 ARCHITECTURE_LINES = 200
 VAGUE = re.compile(r"(^|[/_])(utils?|helpers?|common|managers?|misc)([_./]|$)")
-ADDRESS = re.compile(r"\b[a-z]+://([A-Za-z0-9.-]+)")
+ADDRESS = re.compile(r"\b(?!package:|model:)[a-z]+://([A-Za-z0-9.-]+)")  # ROS's name packages
 # Hosts that a file may name. Where packages come from is the user's own configuration.
 HOSTS = {"www.apache.org", "spdx.org", "openusd.org", "aousd.org", "mujoco.org",
          "mujoco.readthedocs.io", "docs.isaacsim.omniverse.nvidia.com", "github.com",

@@ -35,6 +35,7 @@ inline constexpr std::uint64_t kDecompressionRatio = 300;  ///< bytes out per by
 inline constexpr std::size_t kKinematicChain = 5000;       ///< bodies on one chain of joints
 inline constexpr std::size_t kTrianglePieces = 20000;  ///< triangles taken one by one as colliders
 inline constexpr std::size_t kConvexityChecks = 100'000'000;  ///< point-plane tests of one mesh
+inline constexpr std::size_t kMeshCorners = 100'000'000;   ///< corners of the faces of a mesh file
 
 // Binary layers: what a file may ask for in proportion to its size.
 // Compressed tables hold up to 0.2 rows for each byte of files of regular scenes.

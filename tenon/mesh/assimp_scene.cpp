@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The only file that knows assimp: its C interface, loaded when the first such mesh is met, so that
+// programs that read none neither need nor wait for it.
+#include <filesystem>
+#include <memory>
+
+#include <dlfcn.h>
+
+#include "tenon/base/limits.h"
+#include "tenon/math/matrix.h"
+#include "tenon/mesh/point_welder.h"
+#include "tenon/mesh/read_mesh.h"
+
+#if TENON_WITH_ASSIMP
+#include <assimp/cimport.h>
+#include <assimp/config.h>
+#include <assimp/material.h>
+#include <assimp/scene.h>
+#include <assimp/version.h>
+#endif
+
+namespace tenon::mesh {
+
+#if TENON_WITH_ASSIMP
+namespace {
+
+/// What is used of the library; `library` is nullptr where it cannot be loaded.
+struct Assimp {
+  void* library = nullptr;
+  decltype(&aiImportFileExWithProperties) import_file = nullptr;
+  decltype(&aiReleaseImport) release = nullptr;
+  decltype(&aiGetErrorString) error_text = nullptr;
+  decltype(&aiCreatePropertyStore) make_properties = nullptr;
+  decltype(&aiReleasePropertyStore) release_properties = nullptr;
+  decltype(&aiSetImportPropertyInteger) set_integer = nullptr;
+  decltype(&aiGetMaterialString) material_string = nullptr;
+  decltype(&aiGetMaterialColor) material_color = nullptr;
+  decltype(&aiGetMaterialFloatArray) material_floats = nullptr;
+  decltype(&aiGetVersionMajor) major = nullptr;
+  decltype(&aiGetVersionMinor) minor = nullptr;
+};
+
+template <class Function>
+bool load(void* library, const char* name, Function& function) {
+  function = reinterpret_cast<Function>(dlsym(library, name));
+  return function != nullptr;
+}
+
+Assimp load_assimp() {
+  Assimp a;
+  void* library = dlopen(TENON_ASSIMP_SONAME, RTLD_NOW | RTLD_LOCAL);
+  if (library != nullptr && load(library, "aiImportFileExWithProperties", a.import_file) &&
+      load(library, "aiReleaseImport", a.release) &&
+      load(library, "aiGetErrorString", a.error_text) &&
+      load(library, "aiCreatePropertyStore", a.make_properties) &&
+      load(library, "aiReleasePropertyStore", a.release_properties) &&
+      load(library, "aiSetImportPropertyInteger", a.set_integer) &&
+      load(library, "aiGetMaterialString", a.material_string) &&
+      load(library, "aiGetMaterialColor", a.material_color) &&
+      load(library, "aiGetMaterialFloatArray", a.material_floats) &&
+      load(library, "aiGetVersionMajor", a.major) && load(library, "aiGetVersionMinor", a.minor)) {
+    a.library = library;
+  }
+  return a;
+}
+
+const Assimp& assimp() {
+  static const Assimp loaded = load_assimp();
+  return loaded;
+}
+
+struct Properties {
+  Properties() : store(assimp().make_properties()) {}
+  Properties(const Properties&) = delete;
+  Properties& operator=(const Properties&) = delete;
+  ~Properties() { assimp().release_properties(store); }
+  aiPropertyStore* store;
+};
+
+struct Release {
+  void operator()(const aiScene* scene) const { assimp().release(scene); }
+};
+
+Mat4d row_matrix(const aiMatrix4x4& m) {
+  const float* at = &m.a1;
+  Mat4d result;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      result[j][i] = static_cast<double>(at[4 * i + j]);
+    }
+  }
+  return result;
+}
+
+Vec3f moved(const aiVector3D& v, const Mat4d& m) {
+  return to_float(transform_point(
+      Vec3d{{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}}, m));
+}
+
+class SceneReader {
+ public:
+  SceneReader(const aiScene& scene, const std::string& path, Diagnostics& diagnostics)
+      : scene_(scene), path_(path), diagnostics_(diagnostics) {}
+
+  Result<MeshScene> run() {
+    for (unsigned i = 0; i < scene_.mNumMaterials; ++i) {
+      result_.appearances.push_back(appearance(*scene_.mMaterials[i]));
+    }
+    struct Open {
+      const aiNode* node;
+      Mat4d to_root;
+    };
+    std::vector<Open> open{{scene_.mRootNode, Mat4d::identity()}};
+    while (!open.empty()) {
+      const Open at = open.back();
+      open.pop_back();
+      const Mat4d to_root = row_matrix(at.node->mTransformation) * at.to_root;
+      for (unsigned i = 0; i < at.node->mNumMeshes; ++i) {
+        TENON_CHECK(add(*scene_.mMeshes[at.node->mMeshes[i]], to_root, *at.node));
+      }
+      for (unsigned i = at.node->mNumChildren; i-- > 0;) {
+        open.push_back({at.node->mChildren[i], to_root});
+      }
+    }
+    if (result_.meshes.empty()) {
+      return Error(ErrorCode::Parse, "the file has no faces")
+          .in_file(path_)
+          .with_rule("mesh.assimp");
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void report(std::string message, std::string fix) {
+    Diagnostic finding;
+    finding.severity = Severity::Warning;
+    finding.rule = "mesh.left-out";
+    finding.message = std::move(message);
+    finding.file = path_;
+    finding.fix = std::move(fix);
+    diagnostics_.add(std::move(finding));
+  }
+
+  Appearance appearance(const aiMaterial& material) {
+    Appearance look;
+    aiString text;
+    if (assimp().material_string(&material, AI_MATKEY_NAME, &text) == AI_SUCCESS) {
+      look.name = text.C_Str();
+    }
+    aiColor4D color;
+    if (assimp().material_color(&material, "$clr.base", 0, 0, &color) == AI_SUCCESS ||
+        assimp().material_color(&material, AI_MATKEY_COLOR_DIFFUSE, &color) == AI_SUCCESS) {
+      look.color = Vec4f{{color.r, color.g, color.b, color.a}};
+      float opacity = 1;
+      unsigned count = 1;
+      if (assimp().material_floats(&material, AI_MATKEY_OPACITY, &opacity, &count) == AI_SUCCESS &&
+          count == 1) {
+        (*look.color)[3] = opacity;
+      }
+    }
+    if (assimp().material_string(&material, AI_MATKEY_TEXTURE(aiTextureType_DIFFUSE, 0), &text) ==
+        AI_SUCCESS) {
+      const std::string name = text.C_Str();
+      if (name.starts_with('*')) {
+        report("a texture lies inside the mesh file; it is left out",
+               "save the textures as files beside the mesh");
+      } else {
+        look.texture = (std::filesystem::path(path_).parent_path() / name).generic_string();
+      }
+    }
+    return look;
+  }
+
+  Result<void> add(const aiMesh& from, const Mat4d& to_root, const aiNode& node) {
+    PolygonMesh mesh;
+    mesh.name = from.mName.length > 0 ? from.mName.C_Str() : node.mName.C_Str();
+    mesh.appearance = from.mMaterialIndex;
+    const bool ok = from.mMaterialIndex < result_.appearances.size();
+    if (!ok) {
+      mesh.appearance.reset();
+    }
+    bool invertible = false;
+    const Mat3d turned = transpose(inverse(upper_left(to_root), &invertible));
+    PointWelder welder(from.mNumVertices);
+    const bool uv = from.mTextureCoords[0] != nullptr;
+    for (unsigned i = 0; i < from.mNumFaces; ++i) {
+      const aiFace& face = from.mFaces[i];
+      if (face.mNumIndices < 3) {
+        ++lines_;
+        continue;
+      }
+      corners_ += face.mNumIndices;
+      if (corners_ > limits::kMeshCorners) {
+        return Error(ErrorCode::Limit, "more corners of faces than a mesh may have")
+            .in_file(path_)
+            .with_rule("mesh.assimp");
+      }
+      mesh.face_counts.push_back(static_cast<std::int32_t>(face.mNumIndices));
+      for (unsigned corner = 0; corner < face.mNumIndices; ++corner) {
+        const unsigned at = face.mIndices[corner];
+        mesh.face_points.push_back(welder.number(moved(from.mVertices[at], to_root)));
+        if (from.mNormals != nullptr && invertible) {
+          const aiVector3D& n = from.mNormals[at];
+          mesh.normals.push_back(
+              to_float(normalized(Vec3d{{static_cast<double>(n.x), static_cast<double>(n.y),
+                                         static_cast<double>(n.z)}} *
+                                  turned)));
+        }
+        if (uv) {
+          const aiVector3D& t = from.mTextureCoords[0][at];
+          mesh.texture_coordinates.push_back({{t.x, t.y}});
+        }
+      }
+    }
+    if (!mesh.face_counts.empty()) {
+      mesh.points = welder.take_points();
+      result_.meshes.push_back(std::move(mesh));
+    }
+    return {};
+  }
+
+  const aiScene& scene_;
+  const std::string& path_;
+  Diagnostics& diagnostics_;
+  MeshScene result_;
+  std::size_t corners_ = 0;
+  std::size_t lines_ = 0;
+};
+
+}  // namespace
+
+bool has_assimp() { return assimp().library != nullptr; }
+
+std::string assimp_version() {
+  return has_assimp() ? std::to_string(assimp().major()) + "." + std::to_string(assimp().minor())
+                      : "";
+}
+
+Result<MeshScene> read_with_assimp(const std::string& path, Diagnostics& diagnostics) {
+  if (!has_assimp()) {
+    return Error(ErrorCode::Missing, "this mesh is read by assimp, which is not installed")
+        .in_file(path)
+        .with_rule("mesh.assimp")
+        .with_fix("install libassimp5, or export the mesh as .obj or .stl");
+  }
+  const Properties properties;
+  assimp().set_integer(properties.store, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
+  const std::unique_ptr<const aiScene, Release> scene(
+      assimp().import_file(path.c_str(), 0, nullptr, properties.store));
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    return Error(ErrorCode::Corrupt,
+                 std::string("the mesh cannot be read: ") + assimp().error_text())
+        .in_file(path)
+        .with_rule("mesh.assimp")
+        .with_fix("export the mesh again");
+  }
+  return SceneReader(*scene, path, diagnostics).run();
+}
+
+#else
+
+bool has_assimp() { return false; }
+std::string assimp_version() { return ""; }
+
+Result<MeshScene> read_with_assimp(const std::string& path, Diagnostics&) {
+  return Error(ErrorCode::Missing, "this mesh is read by assimp, which this build is without")
+      .in_file(path)
+      .with_rule("mesh.assimp")
+      .with_fix("export the mesh as .obj or .stl");
+}
+
+#endif
+
+}  // namespace tenon::mesh

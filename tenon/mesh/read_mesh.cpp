@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/mesh/read_mesh.h"
+
+#include "tenon/bytes/file_bytes.h"
+
+namespace tenon::mesh {
+namespace {
+
+/// The ending of a file name in lower case, without the dot.
+std::string ending_of(const std::string& path) {
+  const std::size_t dot = path.find_last_of("./");
+  if (dot == std::string::npos || path[dot] == '/') {
+    return "";
+  }
+  std::string ending = path.substr(dot + 1);
+  for (char& c : ending) {
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return ending;
+}
+
+}  // namespace
+
+Result<MeshScene> read_mesh(const std::string& path, Diagnostics& diagnostics) {
+  const std::string ending = ending_of(path);
+  if (ending == "dae" || ending == "gltf" || ending == "glb") {
+    return read_with_assimp(path, diagnostics);
+  }
+  if (ending != "stl" && ending != "obj") {
+    return Error(ErrorCode::Unsupported, "meshes of the kind \"" + ending + "\" are not read")
+        .in_file(path)
+        .with_rule("mesh.format")
+        .with_fix("export the mesh as .stl, .obj, .dae, .gltf or .glb");
+  }
+  TENON_TRY(const auto bytes, bytes::FileBytes::open(path));
+  return ending == "stl" ? read_stl(bytes->text(), path)
+                         : read_obj(bytes->text(), path, diagnostics);
+}
+
+}  // namespace tenon::mesh

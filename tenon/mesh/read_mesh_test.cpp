@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/mesh/read_mesh.h"
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace tenon::mesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own for each test.
+class ReadMesh : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("tenon_mesh_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& contents) {
+    std::ofstream(folder_ / name, std::ios::binary) << contents;
+    return (folder_ / name).string();
+  }
+
+  Diagnostics findings_;
+
+ private:
+  fs::path folder_;
+};
+
+/// A binary STL whose triangles have these corners.
+std::string binary_stl(const std::vector<Vec3f>& corners, std::uint32_t count,
+                       const std::string& header) {
+  std::string bytes = header;
+  bytes.resize(80, ' ');
+  bytes.append(reinterpret_cast<const char*>(&count), 4);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (i % 3 == 0) {
+      bytes.append(12, '\0');
+    }
+    bytes.append(reinterpret_cast<const char*>(&corners[i]), 12);
+    if (i % 3 == 2) {
+      bytes.append(2, '\0');
+    }
+  }
+  return bytes;
+}
+
+const std::vector<Vec3f> kTwoTriangles = {{{0, 0, 0}},    {{0.1f, 0, 0}},  {{0, 0.3f, 0}},
+                                          {{0.1f, 0, 0}}, {{1, 1, 1e-7f}}, {{-0.0f, 0.3f, 0}}};
+
+TEST_F(ReadMesh, KeepsEveryBitOfABinaryStl) {
+  const auto scene =
+      read_mesh(write("a.STL", binary_stl(kTwoTriangles, 2, "solid but binary")), findings_);
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  const PolygonMesh& mesh = scene->meshes.at(0);
+  EXPECT_EQ(mesh.points,
+            (std::vector<Vec3f>{{{0, 0, 0}}, {{0.1f, 0, 0}}, {{0, 0.3f, 0}}, {{1, 1, 1e-7f}}}));
+  EXPECT_EQ(mesh.face_points, (std::vector<std::int32_t>{0, 1, 2, 1, 3, 2}));
+  EXPECT_EQ(mesh.face_counts, (std::vector<std::int32_t>{3, 3}));
+}
+
+TEST_F(ReadMesh, ReadsStlText) {
+  const auto scene = read_stl(
+      "solid x\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1e-1 0 0\n"
+      "   vertex 0 +3.0E-1 0\n  endloop\n endfacet\nendsolid x\n",
+      "x.stl");
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  EXPECT_EQ(scene->meshes[0].points,
+            (std::vector<Vec3f>{{{0, 0, 0}}, {{0.1f, 0, 0}}, {{0, 0.3f, 0}}}));
+}
+
+TEST_F(ReadMesh, RefusesStlsThatContradictThemselves) {
+  EXPECT_EQ(read_stl(binary_stl(kTwoTriangles, 1000000000, ""), "x.stl").error().code(),
+            ErrorCode::Corrupt);
+  EXPECT_EQ(read_stl(binary_stl({}, 0, ""), "x.stl").error().code(), ErrorCode::Corrupt);
+  EXPECT_EQ(read_stl("", "x.stl").error().code(), ErrorCode::Corrupt);
+  const auto cut = read_stl("solid x\nfacet\nvertex 0 0 0\nvertex 1 0\n", "x.stl");
+  EXPECT_EQ(cut.error().code(), ErrorCode::Parse);
+  EXPECT_EQ(cut.error().diagnostic().line, 4u);
+}
+
+TEST_F(ReadMesh, ReadsObjWithMaterials) {
+  write("m.mtl", "newmtl red\nKd 1 0.25 0\nd 0.5\nnewmtl wood\nmap_Kd -s 1 1 1 planks.png\n");
+  const std::string path = write(
+      "m.obj",
+      "mtllib m.mtl\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0 \\\n\nv 0 0 0.1 # a corner\nvt 0 0\nvt 1 0\n"
+      "vt 1 1\nvn 0 0 1\nusemtl red\nf 1 2 3\nusemtl wood\nf 1/1/1 -3/2/1 -1/3/1\nl 1 2\n");
+  const auto scene = read_mesh(path, findings_);
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  ASSERT_EQ(scene->meshes.size(), 2u);
+  EXPECT_EQ(scene->meshes[0].points.size(), 3u);
+  EXPECT_TRUE(scene->meshes[0].normals.empty());
+  const PolygonMesh& wood = scene->meshes[1];
+  EXPECT_EQ(wood.points, (std::vector<Vec3f>{{{0, 0, 0}}, {{0.1f, 0, 0}}, {{0, 0, 0.1f}}}));
+  EXPECT_EQ(wood.face_points, (std::vector<std::int32_t>{0, 1, 2}));
+  EXPECT_EQ(wood.texture_coordinates, (std::vector<Vec2f>{{{0, 0}}, {{1, 0}}, {{1, 1}}}));
+  EXPECT_EQ(wood.normals.size(), 3u);
+  EXPECT_EQ(scene->appearances[0].color, (Vec4f{{1, 0.25f, 0, 0.5f}}));
+  EXPECT_TRUE(scene->appearances[1].texture.ends_with("/planks.png"));
+  ASSERT_EQ(findings_.size(), 1u);  // the line
+  EXPECT_EQ(findings_.items()[0].rule, "mesh.left-out");
+}
+
+TEST_F(ReadMesh, RefusesBadObj) {
+  for (const char* text : {"v 0 0\n", "v 0 0 0\nf 1 2 3\n", "v 0 0 0\nf 1 1\n", "", "f 0 0 0\n",
+                           "v 0 0 0\nf 1//2 1 1\n", "v 0 0 0\nf 99999999999999999999 1 1\n"}) {
+    const auto scene = read_obj(text, "x.obj", findings_);
+    ASSERT_FALSE(scene) << text;
+    EXPECT_EQ(scene.error().code(), ErrorCode::Parse) << text;
+  }
+}
+
+constexpr const char* kCollada = R"(<?xml version="1.0"?>
+<COLLADA version="1.4.1">
+ <asset><unit name="centimeter" meter="0.01"/><up_axis>Y_UP</up_axis></asset>
+ <library_geometries><geometry id="g" name="tri"><mesh>
+  <source id="p"><float_array id="pa" count="9">0 0 0 10 0 0 0 30 0</float_array>
+   <technique_common><accessor source="#pa" count="3" stride="3"><param name="X" type="float"/>
+   <param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common>
+  </source>
+  <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+  <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+ </mesh></geometry></library_geometries>
+ <library_visual_scenes><visual_scene id="s"><node id="n"><translate>100 0 0</translate>
+  <instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+ <scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>
+)";
+
+TEST_F(ReadMesh, ReadsColladaInMetresWithItsAxes) {
+  if (!has_assimp()) {
+    GTEST_SKIP() << "assimp is not installed";
+  }
+  const auto scene = read_mesh(write("t.dae", kCollada), findings_);
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  const PolygonMesh& mesh = scene->meshes.at(0);
+  ASSERT_EQ(mesh.points.size(), 3u);
+  EXPECT_NEAR(mesh.points[1][0], 1.1f, 1e-6);
+  EXPECT_NEAR(mesh.points[2][1], 0.3f, 1e-6);
+  EXPECT_EQ(mesh.points[2][2], 0);
+}
+
+// Positions 0 0 0, 1 0 0, 0 0.1 0 as floats.
+constexpr const char* kGltf = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"mesh":0,"translation":[0,0,2]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+"materials":[{"name":"blue","pbrMetallicRoughness":{"baseColorFactor":[0,0,1,1]}}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+"min":[0,0,0],"max":[1,0.1,0]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,
+AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAM3MzD0AAAAA"}]})";
+
+TEST_F(ReadMesh, ReadsGltfToTheBit) {
+  if (!has_assimp()) {
+    GTEST_SKIP() << "assimp is not installed";
+  }
+  std::string text = kGltf;
+  std::erase(text, '\n');
+  const auto scene = read_mesh(write("t.gltf", text), findings_);
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  EXPECT_EQ(scene->meshes.at(0).points,
+            (std::vector<Vec3f>{{{0, 0, 2}}, {{1, 0, 2}}, {{0, 0.1f, 2}}}));
+  EXPECT_EQ(scene->appearances.at(*scene->meshes[0].appearance).color, (Vec4f{{0, 0, 1, 1}}));
+}
+
+TEST_F(ReadMesh, SaysWhyAMeshCannotBeRead) {
+  EXPECT_EQ(read_mesh("/nowhere/x.stl", findings_).error().code(), ErrorCode::NotFound);
+  EXPECT_EQ(read_mesh("x.step", findings_).error().code(), ErrorCode::Unsupported);
+  if (has_assimp()) {
+    EXPECT_FALSE(read_mesh(write("bad.dae", "<COLLADA"), findings_));
+    EXPECT_FALSE(read_mesh(write("bad.glb", "glTF\x02\x01"), findings_));
+  }
+}
+
+}  // namespace
+}  // namespace tenon::mesh

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Binary STL: 80 bytes of anything, a count, then 50 bytes for each triangle (normal, three points,
+// two bytes). Text STL: `facet normal`, `outer loop`, three `vertex`. A binary file may begin with
+// the word "solid", so the size decides first. Normals are what the points say; they are not kept.
+#include <bit>
+#include <cstring>
+
+#include "tenon/base/limits.h"
+#include "tenon/mesh/point_welder.h"
+#include "tenon/mesh/read_mesh.h"
+#include "tenon/mesh/text_scanner.h"
+
+namespace tenon::mesh {
+namespace {
+
+constexpr std::size_t kHeader = 84;
+constexpr std::size_t kTriangle = 50;
+
+Error fault(ErrorCode code, const char* rule, const std::string& path, std::string message) {
+  return Error(code, std::move(message)).in_file(path).with_rule(rule);
+}
+
+std::uint32_t read_uint32(const char* at) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(at);
+  return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8u |
+         static_cast<std::uint32_t>(bytes[2]) << 16u | static_cast<std::uint32_t>(bytes[3]) << 24u;
+}
+
+Vec3f read_point(const char* at) {
+  return {{std::bit_cast<float>(read_uint32(at)), std::bit_cast<float>(read_uint32(at + 4)),
+           std::bit_cast<float>(read_uint32(at + 8))}};
+}
+
+MeshScene scene_of(PointWelder& welder, std::vector<std::int32_t> corners) {
+  MeshScene scene;
+  PolygonMesh& mesh = scene.meshes.emplace_back();
+  mesh.points = welder.take_points();
+  mesh.face_counts.assign(corners.size() / 3, 3);
+  mesh.face_points = std::move(corners);
+  return scene;
+}
+
+MeshScene read_binary(std::string_view bytes) {
+  const std::size_t count = (bytes.size() - kHeader) / kTriangle;
+  PointWelder welder(count);
+  std::vector<std::int32_t> corners;
+  corners.reserve(count * 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    const char* triangle = bytes.data() + kHeader + i * kTriangle + 12;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      corners.push_back(welder.number(read_point(triangle + 12 * corner)));
+    }
+  }
+  return scene_of(welder, std::move(corners));
+}
+
+Result<MeshScene> read_text(std::string_view text, const std::string& path) {
+  TextScanner scanner(text);
+  PointWelder welder(0);
+  std::vector<std::int32_t> corners;
+  std::size_t in_facet = 0;
+  while (scanner.next_line()) {
+    const std::string_view word = scanner.word();
+    if (word == "vertex") {
+      Vec3f point;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::optional<float> number = number_of<float>(scanner.word());
+        if (!number) {
+          return fault(ErrorCode::Parse, "mesh.stl", path, "a vertex needs three numbers")
+              .at(scanner.line(), 0);
+        }
+        point[i] = *number;
+      }
+      if (corners.size() >= limits::kMeshCorners) {
+        return fault(ErrorCode::Limit, "mesh.stl", path, "more corners than a mesh may have")
+            .at(scanner.line(), 0);
+      }
+      corners.push_back(welder.number(point));
+      ++in_facet;
+    } else if (word == "endfacet") {
+      if (in_facet != 3) {
+        return fault(ErrorCode::Parse, "mesh.stl", path,
+                     "a facet has " + std::to_string(in_facet) + " vertices, not 3")
+            .at(scanner.line(), 0);
+      }
+      in_facet = 0;
+    }
+  }
+  if (corners.empty() || in_facet != 0) {
+    return fault(ErrorCode::Parse, "mesh.stl", path, "the file ends without a whole facet")
+        .at(scanner.line(), 0);
+  }
+  return scene_of(welder, std::move(corners));
+}
+
+}  // namespace
+
+Result<MeshScene> read_stl(std::string_view bytes, const std::string& path) {
+  const bool has_header = bytes.size() >= kHeader;
+  const std::uint64_t count = has_header ? read_uint32(bytes.data() + 80) : 0;
+  if (has_header && count * kTriangle == bytes.size() - kHeader && count > 0) {
+    if (count > limits::kMeshCorners / 3) {
+      return fault(ErrorCode::Limit, "mesh.stl", path,
+                   std::to_string(count) + " triangles are more than a mesh may have");
+    }
+    return read_binary(bytes);
+  }
+  const std::size_t start = bytes.find_first_not_of(" \t\r\n");
+  if (start != std::string_view::npos && bytes.substr(start).starts_with("solid")) {
+    return read_text(bytes, path);
+  }
+  return fault(ErrorCode::Corrupt, "mesh.stl", path,
+               has_header ? "the file counts " + std::to_string(count) + " triangles and has " +
+                                std::to_string(bytes.size()) + " bytes, not " +
+                                std::to_string(kHeader + count * kTriangle)
+                          : "the file is too short for an STL")
+      .with_fix("export the mesh again");
+}
+
+}  // namespace tenon::mesh

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <string>
+
+#include "tenon/math/inertia.h"
+#include "tenon/robot/kinematic_tree.h"
+
+namespace tenon::robot {
+namespace {
+
+bool finite(const Vec3d& v) {
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+bool finite(const Pose& pose) {
+  const Quatd& q = pose.orientation;
+  return finite(pose.position) && std::isfinite(dot(q, q));
+}
+
+bool finite(const Mat3d& m) {
+  return finite(Vec3d{m[0]}) && finite(Vec3d{m[1]}) && finite(Vec3d{m[2]});
+}
+
+class Mending {
+ public:
+  Mending(RobotModel& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
+
+  void run() {
+    for (Link& link : model_.links) {
+      mend_inertial(link);
+      mend_shapes(link, link.visuals, "visual");
+      mend_shapes(link, link.colliders, "collision");
+    }
+    for (Joint& joint : model_.joints) {
+      mend_frames(joint);
+      mend_axis(joint);
+      mend_numbers(joint);
+      mend_limit(joint);
+      mend_mimic(joint);
+    }
+    break_mimic_circles();
+  }
+
+ private:
+  void report(std::uint32_t line, const char* rule, std::string message, std::string fix,
+              Severity severity = Severity::Error) {
+    Diagnostic finding;
+    finding.severity = severity;
+    finding.rule = rule;
+    finding.message = std::move(message);
+    finding.file = model_.file;
+    finding.line = line;
+    finding.fix = std::move(fix);
+    diagnostics_.add(std::move(finding));
+  }
+
+  void mend_inertial(Link& link) {
+    if (!link.inertial) {
+      return;
+    }
+    Inertial& inertial = *link.inertial;
+    const std::string whose = "the inertial of link \"" + link.name + "\" ";
+    if (!std::isfinite(inertial.mass) || !finite(inertial.center_of_mass) ||
+        !std::isfinite(dot(inertial.axes, inertial.axes)) || !finite(inertial.inertia)) {
+      report(inertial.line, "robot.not-finite",
+             whose + "holds a number that is not finite; it is left out", "give finite numbers");
+      link.inertial.reset();
+      return;
+    }
+    if (inertial.mass < 0) {
+      report(inertial.line, "robot.negative-mass", whose + "has a negative mass; it is left out",
+             "give a mass above 0");
+      link.inertial.reset();
+      return;
+    }
+    const Vec3d moments = principal_inertia(inertial.inertia).moments;
+    const double sum = moments[0] + moments[1] + moments[2];
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (sum - 2 * moments[i] < -1e-6 * std::fabs(sum)) {
+        report(inertial.line, "robot.inertia-triangle",
+               whose +
+                   "has a principal moment larger than the sum of the other two, which no body "
+                   "has; it is kept as it is",
+               "take the inertia from the part's shape and mass", Severity::Warning);
+        break;
+      }
+    }
+  }
+
+  static bool sized(const Geometry& geometry) {
+    const Vec3d& e = geometry.half_extents;
+    switch (geometry.kind) {
+      case GeometryKind::Box:
+      case GeometryKind::Ellipsoid:
+        return finite(e) && e[0] > 0 && e[1] > 0 && e[2] > 0;
+      case GeometryKind::Sphere:
+        return std::isfinite(geometry.radius) && geometry.radius > 0;
+      case GeometryKind::Cylinder:
+      case GeometryKind::Capsule:
+        return std::isfinite(geometry.radius) && geometry.radius > 0 &&
+               std::isfinite(geometry.half_height) && geometry.half_height > 0;
+      case GeometryKind::Plane:
+        return finite(e);
+      case GeometryKind::Mesh:
+        return finite(geometry.scale) &&
+               geometry.scale[0] * geometry.scale[1] * geometry.scale[2] != 0;
+    }
+    return false;
+  }
+
+  template <class Shape>
+  void mend_shapes(const Link& link, std::vector<Shape>& shapes, const std::string& what) {
+    std::vector<Shape> kept;
+    for (Shape& shape : shapes) {
+      const std::string name(geometry_name(shape.geometry.kind));
+      if (!finite(shape.pose)) {
+        report(shape.line, "robot.not-finite",
+               "a " + what + " of link \"" + link.name +
+                   "\" stands at no finite place; it is left out",
+               "give finite numbers");
+      } else if (!sized(shape.geometry)) {
+        report(shape.line, "robot.bad-size",
+               "a " + what + " of link \"" + link.name + "\" is a " + name +
+                   " of no size; it is left out",
+               "give sizes above 0");
+      } else {
+        kept.push_back(std::move(shape));
+      }
+    }
+    shapes = std::move(kept);
+  }
+
+  void mend_frames(Joint& joint) {
+    for (Pose* pose : {&joint.origin, &joint.frame}) {
+      if (!finite(*pose)) {
+        report(joint.line, "robot.not-finite",
+               "the joint \"" + joint.name + "\" stands at no finite place; 0 is taken",
+               "give finite numbers");
+        *pose = {};
+      }
+    }
+  }
+
+  void mend_axis(Joint& joint) {
+    const double size = length(joint.axis);
+    if (std::isfinite(size) && size > 0) {
+      const Vec3d& a = joint.axis;
+      // An axis along a coordinate axis stays exact.
+      const bool exact = std::fabs(dot(a, a) - 1) < 1e-15;
+      joint.axis = exact ? a : normalized(a);
+      return;
+    }
+    if (joint.has_one_axis() || joint.kind == JointKind::Planar) {
+      report(joint.line, "robot.zero-axis",
+             "the axis of joint \"" + joint.name + "\" has no direction; 1 0 0 is taken",
+             "give the axis three numbers that are not all 0");
+    }
+    joint.axis = {{1, 0, 0}};
+  }
+
+  void mend_number(const Joint& joint, const char* name, double fallback, double& value) {
+    if (std::isnan(value) || value < 0 || (std::isinf(value) && fallback == 0)) {
+      report(joint.line, "robot.bad-number",
+             std::string("the ") + name + " of joint \"" + joint.name +
+                 "\" is negative or not finite; it is left out",
+             "give a number that is not negative");
+      value = fallback;
+    }
+  }
+
+  void mend_numbers(Joint& joint) {
+    mend_number(joint, "effort limit", kUnlimited, joint.effort_limit);
+    mend_number(joint, "velocity limit", kUnlimited, joint.velocity_limit);
+    mend_number(joint, "damping", 0, joint.damping);
+    mend_number(joint, "friction", 0, joint.friction);
+    mend_number(joint, "armature", 0, joint.armature);
+    mend_number(joint, "stiffness", 0, joint.stiffness);
+    if (!std::isfinite(joint.spring_reference)) {
+      joint.spring_reference = 0;
+    }
+  }
+
+  void mend_limit(Joint& joint) {
+    if (!joint.limit) {
+      return;
+    }
+    const Limit& limit = *joint.limit;
+    if (std::isnan(limit.lower) || std::isnan(limit.upper)) {
+      report(joint.line, "robot.not-finite",
+             "a limit of joint \"" + joint.name + "\" is not a number; the joint is unlimited",
+             "give finite limits");
+      joint.limit.reset();
+    } else if (limit.lower > limit.upper) {
+      report(joint.line, "robot.limit-order",
+             "the lower limit of joint \"" + joint.name +
+                 "\" lies above the upper one; they are swapped",
+             "swap them");
+      joint.limit = Limit{limit.upper, limit.lower};
+    }
+  }
+
+  void mend_mimic(Joint& joint) {
+    if (!joint.mimic) {
+      return;
+    }
+    const Joint& leader = model_.joints[joint.mimic->leader];
+    std::string why;
+    if (&leader == &joint) {
+      why = "follows itself";
+    } else if (!joint.has_one_axis() || !leader.has_one_axis()) {
+      why = "or its leader has not exactly one degree of freedom";
+    } else if (!std::isfinite(joint.mimic->multiplier) || !std::isfinite(joint.mimic->offset)) {
+      why = "has a mimic whose numbers are not finite";
+    }
+    if (!why.empty()) {
+      report(joint.mimic->line, "robot.mimic",
+             "the joint \"" + joint.name + "\" " + why + "; the mimic is left out",
+             "name another joint with one axis, and finite numbers");
+      joint.mimic.reset();
+    }
+  }
+
+  /// Each walk toward the leaders ends where an earlier one has been.
+  void break_mimic_circles() {
+    constexpr std::size_t kNever = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> walked_by(model_.joints.size(), kNever);
+    for (std::size_t start = 0; start < model_.joints.size(); ++start) {
+      std::size_t at = start;
+      while (walked_by[at] == kNever && model_.joints[at].mimic) {
+        walked_by[at] = start;
+        at = model_.joints[at].mimic->leader;
+      }
+      Joint& joint = model_.joints[at];
+      if (walked_by[at] == start && joint.mimic) {
+        report(
+            joint.mimic->line, "robot.mimic",
+            "the joint \"" + joint.name + "\" follows itself through others; its mimic is left out",
+            "let one joint of the circle lead");
+        joint.mimic.reset();
+      }
+    }
+  }
+
+  RobotModel& model_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+void mend_model(RobotModel& model, Diagnostics& diagnostics) { Mending(model, diagnostics).run(); }
+
+}  // namespace tenon::robot

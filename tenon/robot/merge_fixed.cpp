@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/robot/merge_fixed.h"
+
+#include "tenon/math/inertia.h"
+
+namespace tenon::robot {
+namespace {
+
+Mat3d sum(Mat3d a, const Mat3d& b) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      a[i][j] += b[i][j];
+    }
+  }
+  return a;
+}
+
+template <class Shape>
+void take_shapes(const std::vector<Shape>& from, const Pose& pose, std::vector<Shape>& to) {
+  for (Shape shape : from) {
+    shape.pose = pose * shape.pose;
+    to.push_back(std::move(shape));
+  }
+}
+
+}  // namespace
+
+Inertial placed(const Inertial& inertial, const Pose& pose) {
+  Inertial result = inertial;
+  result.center_of_mass = transform_point(pose, inertial.center_of_mass);
+  result.axes = pose.orientation * inertial.axes;
+  return result;
+}
+
+Inertial sum_inertials(const Inertial& a, const Inertial& b) {
+  Inertial result;
+  result.line = a.line;
+  result.mass = a.mass + b.mass;
+  result.center_of_mass =
+      result.mass > 0 ? (a.center_of_mass * a.mass + b.center_of_mass * b.mass) * (1 / result.mass)
+                      : a.center_of_mass;
+  for (const Inertial* part : {&a, &b}) {
+    result.inertia =
+        sum(result.inertia, shift_inertia(part->inertia_in_link(), part->mass,
+                                          part->center_of_mass - result.center_of_mass));
+  }
+  return result;
+}
+
+RobotModel merge_fixed(const RobotModel& model, const KinematicTree& tree) {
+  RobotModel result = model;
+  result.links.clear();
+  result.joints.clear();
+  struct Host {
+    Index link = 0;  // in the result
+    Pose pose;       // of the merged link in it
+  };
+  std::vector<Host> hosts(model.links.size());
+  for (const Index link : tree.order) {
+    const std::optional<Index> above = tree.joint_to_parent[link];
+    if (!above || model.joints[*above].kind != JointKind::Fixed) {
+      hosts[link].link = static_cast<Index>(result.links.size());
+      result.links.push_back(model.links[link]);
+      continue;
+    }
+    const Joint& joint = model.joints[*above];
+    const Host& parent = hosts[joint.parent];
+    hosts[link] = {parent.link, parent.pose * joint.origin};
+    const Link& part = model.links[link];
+    Link& whole = result.links[parent.link];
+    if (part.inertial) {
+      const Inertial moved = placed(*part.inertial, hosts[link].pose);
+      whole.inertial = whole.inertial ? sum_inertials(*whole.inertial, moved) : moved;
+    }
+    take_shapes(part.visuals, hosts[link].pose, whole.visuals);
+    take_shapes(part.colliders, hosts[link].pose, whole.colliders);
+  }
+  std::vector<Index> number(model.joints.size(), 0);
+  for (Index i = 0; i < model.joints.size(); ++i) {
+    if (model.joints[i].kind != JointKind::Fixed) {
+      Joint joint = model.joints[i];
+      joint.origin = hosts[joint.parent].pose * joint.origin;
+      joint.parent = hosts[joint.parent].link;
+      joint.child = hosts[joint.child].link;
+      number[i] = static_cast<Index>(result.joints.size());
+      result.joints.push_back(std::move(joint));
+    }
+  }
+  for (Joint& joint : result.joints) {
+    if (joint.mimic) {
+      joint.mimic->leader = number[joint.mimic->leader];
+    }
+  }
+  return result;
+}
+
+}  // namespace tenon::robot

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/robot/robot_model.h"
+
+#include "tenon/math/inertia.h"
+
+namespace tenon::robot {
+
+Mat3d Inertial::inertia_in_link() const {
+  return axes == kIdentityRotation ? inertia : rotate_inertia(axes, inertia);
+}
+
+std::string_view geometry_name(GeometryKind kind) {
+  constexpr std::string_view kNames[] = {"box",     "sphere", "ellipsoid", "cylinder",
+                                         "capsule", "plane",  "mesh"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string_view joint_kind_name(JointKind kind) {
+  constexpr std::string_view kNames[] = {"fixed", "revolute", "continuous", "prismatic",
+                                         "ball",  "planar",   "floating"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace tenon::robot

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tenon/math/matrix.h"
+#include "tenon/math/transform.h"
+#include "tenon/math/vector.h"
+#include "tenon/robot/joint_quantity.h"
+
+/// A robot as its description says, before it is a scene: what readers of robot formats make and
+/// writers take. Plain structs in metres, kilograms, seconds and radians; knows no format, no USD
+/// and no engine. Things refer to each other by index.
+namespace tenon::robot {
+
+inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+using Index = std::uint32_t;
+
+struct Inertial {
+  double mass = 0;                 ///< [kg]
+  Vec3d center_of_mass;            ///< in the link frame [m]
+  Quatd axes = kIdentityRotation;  ///< link <- frame of `inertia`
+  Mat3d inertia;  ///< about the centre of mass [kg m^2], symmetric, in the frame `axes`
+  std::uint32_t line = 0;
+
+  /// The same in the axes of the link.
+  Mat3d inertia_in_link() const;
+};
+
+enum class GeometryKind : std::uint8_t {
+  Box,        ///< half_extents
+  Sphere,     ///< radius
+  Ellipsoid,  ///< half_extents are the semi-axes
+  Cylinder,   ///< radius, half_height along Z
+  Capsule,    ///< radius, half_height without the caps, along Z
+  Plane,      ///< solid below z = 0; half_extents x, y for display, 0: without end
+  Mesh,       ///< mesh, scale
+};
+
+/// "box", "sphere", "ellipsoid", "cylinder", "capsule", "plane", "mesh".
+std::string_view geometry_name(GeometryKind kind);
+
+struct Geometry {
+  GeometryKind kind = GeometryKind::Box;
+  Vec3d half_extents;      ///< [m]
+  double radius = 0;       ///< [m]
+  double half_height = 0;  ///< [m]
+  Index mesh = 0;          ///< into RobotModel::meshes
+  Vec3d scale{{1, 1, 1}};  ///< of the mesh
+};
+
+struct Visual {
+  std::string name;  ///< empty: none given
+  Pose pose;         ///< in the link frame
+  Geometry geometry;
+  std::optional<Index> material;  ///< into RobotModel::materials
+  std::uint32_t line = 0;
+};
+
+struct Surface {
+  std::optional<double> static_friction;
+  std::optional<double> dynamic_friction;
+  std::optional<double> torsional_friction;  ///< [m]
+  std::optional<double> rolling_friction;    ///< [m]
+  std::optional<double> restitution;
+  bool operator==(const Surface&) const = default;
+  bool is_default() const { return *this == Surface{}; }
+};
+
+struct Collider {
+  std::string name;
+  Pose pose;  ///< in the link frame
+  Geometry geometry;
+  Surface surface;
+  std::optional<Index> material;  ///< how it looks, where the description says so
+  std::uint32_t line = 0;
+};
+
+struct Material {
+  std::string name;
+  std::optional<Vec4d> color;  ///< red, green, blue, opacity as displayed (sRGB), 0 to 1
+  std::string texture;         ///< file; empty: none
+  std::uint32_t line = 0;
+};
+
+/// A mesh file that geometries show.
+struct MeshFile {
+  std::string written;  ///< as the description names it
+  std::string path;     ///< the file; empty: not found
+  std::uint32_t line = 0;
+};
+
+struct Link {
+  std::string name;
+  std::optional<Inertial> inertial;
+  std::vector<Visual> visuals;
+  std::vector<Collider> colliders;
+  std::uint32_t line = 0;
+};
+
+enum class JointKind : std::uint8_t {
+  Fixed,
+  Revolute,    ///< about `axis`, limited
+  Continuous,  ///< about `axis`, without limits
+  Prismatic,   ///< along `axis`
+  Ball,        ///< all rotations
+  Planar,      ///< translations in the plane normal to `axis`, rotation about it
+  Floating,    ///< free
+};
+
+/// "fixed", "revolute", "continuous", "prismatic", "ball", "planar", "floating".
+std::string_view joint_kind_name(JointKind kind);
+
+/// Bounds of a joint with one degree of freedom [rad or m], lower <= upper in a valid model.
+struct Limit {
+  double lower = 0;
+  double upper = 0;
+};
+
+/// Bounds that a controller is to keep (URDF's safety_controller) [rad or m, SI gains].
+struct Safety {
+  std::optional<double> soft_lower;
+  std::optional<double> soft_upper;
+  double position_gain = 0;
+  double velocity_gain = 0;
+};
+
+/// Where edges of a reference switch lie [rad or m] (URDF's calibration).
+struct Calibration {
+  std::optional<double> rising;
+  std::optional<double> falling;
+};
+
+/// q = offset + multiplier * leader + higher[0] leader^2 + ... [rad or m].
+struct Mimic {
+  Index leader = 0;  ///< into RobotModel::joints
+  double multiplier = 1;
+  double offset = 0;
+  std::array<double, 3> higher{};
+  std::uint32_t line = 0;
+};
+
+/// effort = stiffness (target - q) + damping (0 - v), clamped to the joint's effort.
+struct Drive {
+  double stiffness = 0;  ///< [N m/rad or N/m]
+  double damping = 0;    ///< [N m s/rad or N s/m]
+  double target = 0;     ///< [rad or m]
+};
+
+struct Joint {
+  std::string name;
+  JointKind kind = JointKind::Fixed;
+  Index parent = 0;  ///< into RobotModel::links
+  Index child = 0;
+  Pose origin;            ///< of the child link's frame in the parent's, where the coordinate is 0
+  Pose frame;             ///< of the joint in the child link; the joint turns about its origin
+  Vec3d axis{{1, 0, 0}};  ///< unit vector in the joint frame
+  std::optional<Limit> limit;          ///< none: without end
+  double effort_limit = kUnlimited;    ///< [N m or N]
+  double velocity_limit = kUnlimited;  ///< [rad/s or m/s]
+  double damping = 0;                  ///< passive [N m s/rad or N s/m]
+  double friction = 0;                 ///< Coulomb [N m or N]
+  double armature = 0;                 ///< [kg m^2 or kg]
+  double stiffness = 0;                ///< passive spring [N m/rad or N/m]
+  double spring_reference = 0;         ///< its rest position [rad or m]
+  std::optional<Safety> safety;
+  std::optional<Calibration> calibration;
+  std::optional<Mimic> mimic;
+  std::optional<Drive> drive;
+  std::uint32_t line = 0;
+
+  /// One degree of freedom about or along `axis`.
+  bool has_one_axis() const {
+    return kind == JointKind::Revolute || kind == JointKind::Continuous ||
+           kind == JointKind::Prismatic;
+  }
+  Motion motion() const { return kind == JointKind::Prismatic ? Motion::Linear : Motion::Angular; }
+};
+
+struct RobotModel {
+  std::string name;
+  std::string file;  ///< the description; lines are lines of it, 0 where unknown
+  std::vector<Link> links;
+  std::vector<Joint> joints;
+  std::vector<Material> materials;
+  std::vector<MeshFile> meshes;  ///< each file once
+};
+
+}  // namespace tenon::robot
