@@ -23,6 +23,7 @@ LIBRARIES = {
     "Eigen/*": ["tenon/math/*.cpp", "tenon/physics/*.cpp"],
     "lz4*.h": ["tenon/bytes/*.cpp"],
     "mujoco/*": ["tenon/engines/mujoco/*", "bench/step_mujoco.cpp"],
+    "pugixml.hpp": ["tenon/urdf/*"],
     "assimp/*": ["tenon/mesh/assimp_scene.cpp"],
     "CLI/*": ["cli/command_line.cpp"],
     "nlohmann/*": ["cli/*", "tests/*", "bench/*"],

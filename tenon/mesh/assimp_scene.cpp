@@ -145,6 +145,7 @@ class SceneReader {
 
   Appearance appearance(const aiMaterial& material) {
     Appearance look;
+    look.linear = !path_.ends_with("dae") && !path_.ends_with("DAE");
     aiString text;
     if (assimp().material_string(&material, AI_MATKEY_NAME, &text) == AI_SUCCESS) {
       look.name = text.C_Str();

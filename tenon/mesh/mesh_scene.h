@@ -16,6 +16,7 @@ namespace tenon::mesh {
 struct Appearance {
   std::string name;
   std::optional<Vec4f> color;  ///< red, green, blue, opacity, 0 to 1
+  bool linear = false;         ///< the colour is linear (glTF), not as displayed
   std::string texture;         ///< of the colour: a file, joined to the mesh's folder; empty: none
 };
 

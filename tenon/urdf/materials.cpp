@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A material is defined below <robot> or inside a visual; a visual may also name one that is
+// defined anywhere. Two definitions of one name that differ stay two.
+#include "tenon/base/text_number.h"
+#include "tenon/urdf/urdf_reader.h"
+
+namespace tenon::urdf {
+namespace {
+
+bool says_something(const robot::Material& material) {
+  return material.color || !material.texture.empty();
+}
+
+}  // namespace
+
+Result<robot::Material> UrdfReader::read_material(pugi::xml_node element) {
+  xml_.list_unknown(element, {"name"}, {"color", "texture"});
+  robot::Material material;
+  material.name = element.attribute("name").value();
+  material.line = xml_.line_of(element);
+  if (const pugi::xml_node color = element.child("color")) {
+    xml_.list_unknown(color, {"rgba"}, {});
+    TENON_TRY(const std::vector<double> rgba, xml_.numbers(color, "rgba", 4, {}));
+    Vec4d values{{rgba[0], rgba[1], rgba[2], rgba[3]}};
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!(values[i] >= 0 && values[i] <= 1)) {
+        xml_.warn(color, "urdf.color", "rgba has a number outside of 0 to 1; the nearest is taken",
+                  "divide colours of 0 to 255 by 255");
+        values[i] = values[i] > 1 ? 1 : 0;
+      }
+    }
+    material.color = values;
+  }
+  if (const pugi::xml_node texture = element.child("texture")) {
+    xml_.list_unknown(texture, {"filename"}, {});
+    TENON_TRY(const std::string written, xml_.text(texture, "filename"));
+    const std::optional<std::string> file = paths_.find(written);
+    if (!file) {
+      xml_.warn(texture, "urdf.texture-missing",
+                "the texture \"" + written + "\" cannot be found; it is left out",
+                paths_.advice(written), Severity::Error);
+    }
+    material.texture = file.value_or("");
+  }
+  return material;
+}
+
+robot::Index UrdfReader::material_number(robot::Material material) {
+  std::string key = material.name + '\n' + material.texture;
+  for (std::size_t i = 0; material.color && i < 4; ++i) {
+    key += '\n' + shortest((*material.color)[i]);
+  }
+  const auto number = static_cast<robot::Index>(model_.materials.size());
+  const auto [at, is_new] = material_numbers_.emplace(std::move(key), number);
+  if (is_new) {
+    first_material_.emplace(material.name, number);
+    model_.materials.push_back(std::move(material));
+  }
+  return at->second;
+}
+
+void UrdfReader::find_material_definitions(pugi::xml_node robot) {
+  for (const pugi::xml_node link : robot.children("link")) {
+    for (const pugi::xml_node visual : link.children("visual")) {
+      const pugi::xml_node material = visual.child("material");
+      if (material.child("color") || material.child("texture")) {
+        definitions_.emplace(material.attribute("name").value(), material);
+      }
+    }
+  }
+}
+
+Result<void> UrdfReader::read_global_material(pugi::xml_node element) {
+  TENON_TRY(robot::Material material, read_material(element));
+  TENON_CHECK(xml_.text(element, "name"));
+  if (says_something(material)) {
+    material_number(std::move(material));
+  }
+  return {};
+}
+
+Result<std::optional<robot::Index>> UrdfReader::read_material_of(pugi::xml_node shape) {
+  const pugi::xml_node element = shape.child("material");
+  if (!element) {
+    return std::optional<robot::Index>();
+  }
+  TENON_TRY(robot::Material material, read_material(element));
+  if (says_something(material)) {
+    return std::optional<robot::Index>(material_number(std::move(material)));
+  }
+  if (const auto known = first_material_.find(material.name); known != first_material_.end()) {
+    return std::optional<robot::Index>(known->second);
+  }
+  if (const auto later = definitions_.find(material.name); later != definitions_.end()) {
+    TENON_TRY(robot::Material defined, read_material(later->second));
+    return std::optional<robot::Index>(material_number(std::move(defined)));
+  }
+  if (!material.name.empty()) {
+    xml_.warn(element, "urdf.material-missing",
+              "no material \"" + material.name + "\" is defined; the shape has none",
+              "define it below <robot>");
+  }
+  return std::optional<robot::Index>();
+}
+
+}  // namespace tenon::urdf

@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/urdf/read_urdf.h"
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "tenon/robot/kinematic_tree.h"
+
+namespace tenon::urdf {
+namespace {
+
+namespace fs = std::filesystem;
+using robot::JointKind;
+
+class ReadUrdf : public testing::Test {
+ protected:
+  /// The model of `elements` below <robot>; nothing and `error_` where there is none.
+  std::optional<robot::RobotModel> read(const std::string& elements) {
+    findings_ = {};
+    auto model =
+        read_urdf_text("<robot name=\"r\">\n" + elements + "</robot>\n", "r.urdf", {}, findings_);
+    error_ = model ? std::nullopt : std::optional<Error>(model.error());
+    return model ? std::optional(*std::move(model)) : std::nullopt;
+  }
+  /// RULE:LINE of all findings.
+  std::string found() const {
+    std::string text;
+    for (const Diagnostic& finding : findings_) {
+      text += finding.rule + ":" + std::to_string(finding.line) + " ";
+    }
+    return text;
+  }
+  std::string failed() const {
+    return error_ ? error_->diagnostic().rule + ":" + std::to_string(error_->diagnostic().line)
+                  : "";
+  }
+
+  Diagnostics findings_;
+  std::optional<Error> error_;
+};
+
+constexpr const char* kTwoLinks = "<link name='a'/><link name='b'/>\n";
+
+std::string joint(const std::string& type, const std::string& inside) {
+  return std::string(kTwoLinks) + "<joint name='j' type='" + type +
+         "'><parent link='a'/><child link='b'/>" + inside + "</joint>\n";
+}
+
+TEST_F(ReadUrdf, TakesInertials) {
+  const auto model = read(
+      "<link name='a'><inertial><origin xyz='1 2 3' rpy='0 0 1.5'/><mass value='0.14143'/>"
+      "<inertia ixx='1' ixy='0.1' ixz='0.2' iyy='2' iyz='0.3' izz='3'/></inertial></link>");
+  ASSERT_TRUE(model) << error_->to_string();
+  const robot::Inertial& inertial = *model->links[0].inertial;
+  EXPECT_EQ(inertial.mass, 0.14143);
+  EXPECT_EQ(inertial.center_of_mass, (Vec3d{{1, 2, 3}}));
+  EXPECT_EQ(inertial.inertia, (Mat3d{{{{1, 0.1, 0.2}, {0.1, 2, 0.3}, {0.2, 0.3, 3}}}}));
+  EXPECT_NEAR(inertial.axes.z, std::sin(0.75), 1e-16);
+  EXPECT_EQ(found(), "");
+}
+
+TEST_F(ReadUrdf, TurnsByRollPitchYawAboutFixedAxes) {
+  const auto model =
+      read(joint("fixed", "<origin rpy='1.5707963267948966 0 1.5707963267948966'/>"));
+  // Roll takes y to z; yaw leaves z.
+  const Vec3d y = rotate(model->joints[0].origin.orientation, {{0, 1, 0}});
+  EXPECT_NEAR(y[2], 1, 1e-15);
+  const Vec3d x = rotate(model->joints[0].origin.orientation, {{1, 0, 0}});
+  EXPECT_NEAR(x[1], 1, 1e-15);
+}
+
+TEST_F(ReadUrdf, TakesShapesAndMaterials) {
+  const auto model = read(
+      "<material name='red'><color rgba='1 0 0 1'/></material>\n"
+      "<link name='a'><visual name='v'><origin xyz='0 0 1'/><geometry><box size='2 4 6'/>"
+      "</geometry><material name='red'/></visual>\n"
+      "<visual><geometry><sphere radius='3'/></geometry><material name='later'/></visual>\n"
+      "<collision><geometry><cylinder radius='1' length='4'/></geometry></collision>\n"
+      "<collision><geometry><capsule radius='1' length='6'/></geometry></collision></link>\n"
+      "<link name='b'><visual><geometry><box size='1 1 1'/></geometry>"
+      "<material name='later'><color rgba='0 1 2 1'/></material></visual></link>\n");
+  ASSERT_TRUE(model) << error_->to_string();
+  const robot::Link& link = model->links[0];
+  EXPECT_EQ(link.visuals[0].name, "v");
+  EXPECT_EQ(link.visuals[0].geometry.half_extents, (Vec3d{{1, 2, 3}}));
+  EXPECT_EQ(model->materials[*link.visuals[0].material].color, (Vec4d{{1, 0, 0, 1}}));
+  EXPECT_EQ(model->materials[*link.visuals[1].material].name, "later");
+  EXPECT_EQ(model->materials.size(), 2u);
+  EXPECT_EQ(link.colliders[0].geometry.half_height, 2);
+  EXPECT_EQ(link.colliders[1].geometry.half_height, 3);
+  EXPECT_EQ(found(), "urdf.color:7 urdf.color:7 ");
+}
+
+TEST_F(ReadUrdf, TakesAllKindsOfJoints) {
+  struct Row {
+    const char* type;
+    JointKind kind;
+  };
+  for (const Row& row : {Row{"fixed", JointKind::Fixed},
+                         {"continuous", JointKind::Continuous},
+                         {"floating", JointKind::Floating},
+                         {"planar", JointKind::Planar},
+                         {"spherical", JointKind::Ball}}) {
+    const auto model = read(joint(row.type, ""));
+    ASSERT_TRUE(model) << row.type;
+    EXPECT_EQ(model->joints[0].kind, row.kind);
+    EXPECT_EQ(found(), "");
+  }
+  EXPECT_FALSE(read(joint("gear", "")));
+  EXPECT_EQ(failed(), "urdf.joint-type:3");
+}
+
+TEST_F(ReadUrdf, TakesEveryNumberOfAJoint) {
+  const auto model = read(
+      joint("revolute",
+            "<origin xyz='1 2 3'/><axis xyz='0 0 -1'/>"
+            "<limit lower='-0.1' upper='1.3' effort='7' velocity='0.5'/>"
+            "<dynamics damping='0.25' friction='0.125'/><calibration rising='0.5'/>"
+            "<safety_controller soft_lower_limit='-0.05' k_position='10' k_velocity='20'/>") +
+      "<link name='c'/><joint name='k' type='prismatic'><parent link='b'/><child link='c'/>"
+      "<limit upper='2' effort='0' velocity='0'/><mimic joint='j' multiplier='-2' offset='0.5'/>"
+      "</joint>");
+  ASSERT_TRUE(model) << error_->to_string();
+  const robot::Joint& j = model->joints[0];
+  EXPECT_EQ(j.origin.position, (Vec3d{{1, 2, 3}}));
+  EXPECT_EQ(j.axis, (Vec3d{{0, 0, -1}}));
+  EXPECT_EQ(j.limit->lower, -0.1);
+  EXPECT_EQ(j.limit->upper, 1.3);
+  EXPECT_EQ(j.effort_limit, 7);
+  EXPECT_EQ(j.velocity_limit, 0.5);
+  EXPECT_EQ(j.damping, 0.25);
+  EXPECT_EQ(j.friction, 0.125);
+  EXPECT_EQ(j.calibration->rising, 0.5);
+  EXPECT_FALSE(j.calibration->falling);
+  EXPECT_EQ(j.safety->soft_lower, -0.05);
+  EXPECT_FALSE(j.safety->soft_upper);
+  EXPECT_EQ(j.safety->velocity_gain, 20);
+  const robot::Joint& k = model->joints[1];
+  EXPECT_EQ(k.axis, (Vec3d{{1, 0, 0}}));
+  EXPECT_EQ(k.limit->lower, 0);
+  EXPECT_EQ(k.effort_limit, robot::kUnlimited);
+  EXPECT_EQ(k.mimic->leader, 0u);
+  EXPECT_EQ(k.mimic->multiplier, -2);
+  EXPECT_EQ(k.mimic->offset, 0.5);
+  EXPECT_EQ(found(), "urdf.zero-limit:4 ");
+}
+
+TEST_F(ReadUrdf, ListsWhatItLeavesOut) {
+  ASSERT_TRUE(
+      read("<link name='a' color='red'>\n<visual><geometry><box size='1 1 1'/></geometry>\n"
+           "<shadow/></visual></link>\n<gazebo reference='a'/>\n<transmission name='t'/>\n"
+           "<mujoco/>\n<plugin/>\n"));
+  EXPECT_EQ(found(),
+            "urdf.left-out:8 urdf.left-out:2 urdf.left-out:4 urdf.extension:5 urdf.extension:6 "
+            "urdf.extension:7 ");
+  ASSERT_TRUE(read(joint("revolute", "")));
+  EXPECT_EQ(found(), "urdf.missing:3 ");
+}
+
+TEST_F(ReadUrdf, SaysWhatIsWrongAndWhere) {
+  struct Row {
+    std::string text;
+    std::string failure;
+  };
+  const Row rows[] = {
+      {"<link name='a'>", "urdf.xml:2"},
+      {"<link/>", "urdf.missing:2"},
+      {"<link name='a'><inertial><mass value='1'/></inertial></link>", "urdf.missing:2"},
+      {"<link name='a'>\n<inertial>\n<mass value='one'/></inertial></link>", "urdf.number:4"},
+      {"<link name='a'><visual><geometry/></visual></link>", "urdf.missing:2"},
+      {"<link name='a'><visual/></link>", "urdf.missing:2"},
+      {"<link name='a'><visual><geometry><box size='1 1'/></geometry></visual></link>",
+       "urdf.number:2"},
+      {joint("fixed", "<origin xyz='1 2 3 4'/>"), "urdf.number:3"},
+      {joint("fixed", "<mimic joint='x'/>"), "urdf.joint-missing:3"},
+      {"<joint name='j' type='fixed'><parent link='a'/></joint>", "urdf.link-missing:2"},
+      {"<xacro:macro name='m'/>", "urdf.xacro:2"},
+  };
+  for (const Row& row : rows) {
+    EXPECT_FALSE(read(row.text)) << row.text;
+    EXPECT_EQ(failed(), row.failure) << row.text;
+  }
+  EXPECT_EQ(read_urdf_text("<mujoco/>", "m.xml", {}, findings_).error().diagnostic().rule,
+            "urdf.root");
+  EXPECT_EQ(read_urdf_text("", "m.xml", {}, findings_).error().diagnostic().rule, "urdf.xml");
+  EXPECT_EQ(read_urdf("/nowhere/x.urdf", {}, findings_).error().code(), ErrorCode::NotFound);
+}
+
+TEST_F(ReadUrdf, FindsMeshesOfPackages) {
+  const fs::path root = fs::temp_directory_path() / ("tenon_urdf_" + std::to_string(getpid()));
+  fs::create_directories(root / "pkg_folder/urdf");
+  fs::create_directories(root / "pkg_folder/meshes");
+  fs::create_directories(root / "other");
+  std::ofstream(root / "pkg_folder/package.xml") << "<package><name>hand</name></package>";
+  std::ofstream(root / "pkg_folder/meshes/a.stl") << "x";
+  std::ofstream(root / "other/b.stl") << "x";
+  const auto shape = [](const std::string& file) {
+    return "<visual><geometry><mesh filename='" + file + "' scale='1 2 -3'/></geometry></visual>\n";
+  };
+  std::ofstream(root / "pkg_folder/urdf/r.urdf")
+      << "<robot name='r'><link name='a'>\n"
+      << shape("package://hand/meshes/a.stl") << shape("../meshes/a.stl")
+      << shape("file://" + (root / "other/b.stl").string()) << shape("package://elsewhere/b.stl")
+      << shape("package://none/b.stl") << "</link></robot>";
+  const auto model = read_urdf((root / "pkg_folder/urdf/r.urdf").string(),
+                               {{{"elsewhere", (root / "other").string()}}}, findings_);
+  ASSERT_TRUE(model) << model.error().to_string();
+  ASSERT_EQ(model->links[0].visuals.size(), 4u);
+  EXPECT_EQ(model->links[0].visuals[0].geometry.scale, (Vec3d{{1, 2, -3}}));
+  EXPECT_EQ(model->meshes[0].path, model->meshes[1].path);
+  EXPECT_TRUE(model->meshes[3].path.ends_with("other/b.stl"));
+  EXPECT_EQ(found(), "urdf.mesh-missing:6 ");
+  EXPECT_NE(findings_.items()[0].fix.find("--package none=DIR"), std::string::npos);
+  fs::remove_all(root);
+}
+
+TEST_F(ReadUrdf, StandsDeepAndWideInput) {
+  std::string deep;
+  for (int i = 0; i < 1'000'000; ++i) {
+    deep += "<a>";
+  }
+  EXPECT_FALSE(read(deep));
+  std::string chain = "<link name='l0'/>";
+  for (int i = 1; i < 20'000; ++i) {
+    const std::string n = std::to_string(i);
+    chain += "<link name='l" + n + "'/><joint name='j" + n + "' type='continuous'><parent link='l" +
+             std::to_string(i - 1) + "'/><child link='l" + n + "'/></joint><unknown/>";
+  }
+  const auto model = read(chain);
+  ASSERT_TRUE(model);
+  EXPECT_TRUE(robot::kinematic_tree(*model));
+  EXPECT_EQ(findings_.size(), 10'000u);
+}
+
+}  // namespace
+}  // namespace tenon::urdf

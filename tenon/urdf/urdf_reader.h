@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <unordered_map>
+
+#include "tenon/robot/robot_model.h"
+#include "tenon/urdf/mesh_paths.h"
+#include "tenon/urdf/xml_reader.h"
+
+/// Internal to this folder.
+namespace tenon::urdf {
+
+/// One reading of a description: passes over the elements below <robot>.
+class UrdfReader {
+ public:
+  UrdfReader(XmlReader& xml, MeshPaths paths) : xml_(xml), paths_(std::move(paths)) {}
+
+  Result<robot::RobotModel> run(pugi::xml_node robot);
+
+ private:
+  // links.cpp
+  Result<void> read_link(pugi::xml_node element);
+  Result<robot::Inertial> read_inertial(pugi::xml_node element);
+  Result<void> read_visual(pugi::xml_node element, robot::Link& link);
+  Result<void> read_collision(pugi::xml_node element, robot::Link& link);
+  /// None for a mesh that cannot be found, which is reported.
+  Result<std::optional<robot::Geometry>> read_geometry(pugi::xml_node element);
+  Result<std::optional<robot::Geometry>> read_mesh(pugi::xml_node element);
+  robot::Index mesh_number(const std::string& written, pugi::xml_node element);
+
+  // materials.cpp
+  void find_material_definitions(pugi::xml_node robot);
+  Result<void> read_global_material(pugi::xml_node element);
+  Result<std::optional<robot::Index>> read_material_of(pugi::xml_node shape);
+  Result<robot::Material> read_material(pugi::xml_node element);
+  robot::Index material_number(robot::Material material);
+
+  // joints.cpp
+  Result<void> read_joint(pugi::xml_node element);
+  Result<robot::Index> link_named(pugi::xml_node joint, const char* end) const;
+  Result<void> read_limit(pugi::xml_node element, robot::Joint& joint);
+  Result<void> read_dynamics(pugi::xml_node element, robot::Joint& joint);
+  Result<void> read_safety(pugi::xml_node element, robot::Joint& joint);
+  Result<void> read_calibration(pugi::xml_node element, robot::Joint& joint);
+  Result<void> read_mimics();
+
+  XmlReader& xml_;
+  MeshPaths paths_;
+  robot::RobotModel model_;
+  std::unordered_map<std::string, robot::Index> links_;
+  std::unordered_map<std::string, robot::Index> joints_;
+  std::unordered_map<std::string, robot::Index> meshes_;
+  std::unordered_map<std::string, robot::Index> material_numbers_;  // by all that they say
+  std::unordered_map<std::string, robot::Index> first_material_;    // by name
+  std::unordered_map<std::string, pugi::xml_node> definitions_;     // in visuals, by name
+  std::vector<pugi::xml_node> joint_elements_;                      // (joint_count)
+};
+
+}  // namespace tenon::urdf

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/urdf/xml_reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tenon/base/limits.h"
+#include "tenon/base/text_number.h"
+
+namespace tenon::urdf {
+namespace {
+
+bool contains(std::initializer_list<std::string_view> list, std::string_view name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+}  // namespace
+
+XmlReader::XmlReader(std::string_view text, std::string file, Diagnostics& diagnostics)
+    : text_(text), file_(std::move(file)), diagnostics_(diagnostics) {
+  line_starts_.push_back(0);
+  for (std::size_t i = 0; i < text_.size(); ++i) {
+    if (text_[i] == '\n') {
+      line_starts_.push_back(i + 1);
+    }
+  }
+}
+
+Result<pugi::xml_node> XmlReader::parse() {
+  const pugi::xml_parse_result parsed =
+      document_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
+  if (!parsed) {
+    const auto offset = static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 0));
+    const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
+    const auto line = static_cast<std::size_t>(next - line_starts_.begin());
+    return Error(ErrorCode::Parse, std::string("the XML is broken: ") + parsed.description())
+        .in_file(file_)
+        .at(static_cast<std::uint32_t>(line),
+            static_cast<std::uint32_t>(offset - line_starts_[line - 1] + 1))
+        .with_rule("urdf.xml")
+        .with_fix("correct the XML there");
+  }
+  return document_.document_element();
+}
+
+std::uint32_t XmlReader::line_of(pugi::xml_node element) const {
+  const std::ptrdiff_t offset = element.offset_debug();
+  if (offset < 0) {
+    return 0;
+  }
+  const auto next =
+      std::upper_bound(line_starts_.begin(), line_starts_.end(), static_cast<std::size_t>(offset));
+  return static_cast<std::uint32_t>(next - line_starts_.begin());
+}
+
+Error XmlReader::fault(pugi::xml_node element, const char* rule, std::string message,
+                       std::string fix) const {
+  return Error(ErrorCode::Parse, "<" + std::string(element.name()) + ">: " + std::move(message))
+      .in_file(file_)
+      .at(line_of(element), 0)
+      .with_rule(rule)
+      .with_fix(std::move(fix));
+}
+
+void XmlReader::warn(pugi::xml_node element, const char* rule, std::string message, std::string fix,
+                     Severity severity) {
+  if (++findings_ > limits::kLayerFindings) {
+    return;
+  }
+  Diagnostic finding;
+  finding.severity = severity;
+  finding.rule = rule;
+  finding.message = findings_ == limits::kLayerFindings
+                        ? "further findings are not listed"
+                        : "<" + std::string(element.name()) + ">: " + std::move(message);
+  finding.file = file_;
+  finding.line = line_of(element);
+  finding.fix = std::move(fix);
+  diagnostics_.add(std::move(finding));
+}
+
+void XmlReader::list_unknown(pugi::xml_node element,
+                             std::initializer_list<std::string_view> attributes,
+                             std::initializer_list<std::string_view> children) {
+  for (const pugi::xml_attribute attribute : element.attributes()) {
+    const std::string_view name = attribute.name();
+    if (!contains(attributes, name) && !name.starts_with("xmlns")) {
+      warn(element, "urdf.left-out",
+           "the attribute " + std::string(name) + "=\"" + attribute.value() +
+               "\" is not known; it is left out",
+           "");
+    }
+  }
+  for (const pugi::xml_node child : element.children()) {
+    if (child.type() == pugi::node_element && !contains(children, child.name())) {
+      warn(child, "urdf.left-out",
+           "is not known inside <" + std::string(element.name()) + ">; it is left out", "");
+    }
+  }
+}
+
+Result<std::string> XmlReader::text(pugi::xml_node element, const char* attribute) const {
+  const std::string value = element.attribute(attribute).value();
+  if (value.empty()) {
+    return fault(element, "urdf.missing", std::string("needs the attribute ") + attribute,
+                 std::string("write ") + attribute + "=\"...\"");
+  }
+  return value;
+}
+
+Result<std::vector<double>> XmlReader::numbers(pugi::xml_node element, const char* attribute,
+                                               std::size_t count,
+                                               std::vector<double> fallback) const {
+  const pugi::xml_attribute found = element.attribute(attribute);
+  if (!found && !fallback.empty()) {
+    return fallback;
+  }
+  std::string_view rest = found.value();
+  std::vector<double> values;
+  while (true) {
+    constexpr std::string_view kSpace = " \t\r\n";
+    const std::size_t begin = rest.find_first_not_of(kSpace);
+    if (begin == std::string_view::npos || values.size() > count) {
+      break;
+    }
+    const std::size_t end = std::min(rest.find_first_of(kSpace, begin), rest.size());
+    const std::optional<double> value = parse_double(rest.substr(begin, end - begin));
+    if (!value) {
+      values.clear();
+      break;
+    }
+    values.push_back(*value);
+    rest = rest.substr(end);
+  }
+  if (values.size() != count) {
+    const std::string wanted = count == 1 ? "a number" : std::to_string(count) + " numbers";
+    return fault(element, found ? "urdf.number" : "urdf.missing",
+                 found ? std::string(attribute) + "=\"" + found.value() + "\" is not " + wanted
+                       : std::string("needs the attribute ") + attribute,
+                 std::string("write ") + attribute + "=\"...\" with " + wanted);
+  }
+  return values;
+}
+
+Result<double> XmlReader::number(pugi::xml_node element, const char* attribute,
+                                 std::optional<double> fallback) const {
+  TENON_TRY(const std::vector<double> values,
+            numbers(element, attribute, 1,
+                    fallback ? std::vector<double>{*fallback} : std::vector<double>()));
+  return values[0];
+}
+
+Result<Pose> XmlReader::origin(pugi::xml_node element) {
+  const pugi::xml_node origin = element.child("origin");
+  Pose pose;
+  if (!origin) {
+    return pose;
+  }
+  list_unknown(origin, {"xyz", "rpy", "quat_xyzw"}, {});
+  TENON_TRY(const std::vector<double> xyz, numbers(origin, "xyz", 3, {0, 0, 0}));
+  pose.position = {{xyz[0], xyz[1], xyz[2]}};
+  if (origin.attribute("quat_xyzw")) {
+    TENON_TRY(const std::vector<double> q, numbers(origin, "quat_xyzw", 4, {}));
+    pose.orientation = normalized(Quatd{q[0], q[1], q[2], q[3]});
+    return pose;
+  }
+  TENON_TRY(const std::vector<double> rpy, numbers(origin, "rpy", 3, {0, 0, 0}));
+  pose.orientation = rotation_of_rpy(rpy[0], rpy[1], rpy[2]);
+  return pose;
+}
+
+Quatd rotation_of_rpy(double roll, double pitch, double yaw) {
+  const Quatd q = rotation_about({{0, 0, 1}}, yaw) * rotation_about({{0, 1, 0}}, pitch) *
+                  rotation_about({{1, 0, 0}}, roll);
+  return {q.x + 0.0, q.y + 0.0, q.z + 0.0, q.w + 0.0};  // no -0
+}
+
+}  // namespace tenon::urdf
