@@ -95,6 +95,27 @@ function(tenon_header_check library headers)
   endif()
 endfunction()
 
+# GoogleTest's header, compiled once for all unit tests. Not with ccache, which precompiled headers
+# would only disturb.
+function(tenon_precompiled_gtest out)
+  set(${out} "" PARENT_SCOPE)
+  if(TENON_CCACHE)
+    return()
+  endif()
+  if(NOT TARGET tenon_gtest)
+    # A program, as the tests are: its flags have to be theirs.
+    set(unit ${CMAKE_BINARY_DIR}/gtest_header.cpp)
+    file(CONFIGURE OUTPUT ${unit} CONTENT "int main() {}\n" @ONLY)
+    add_executable(tenon_gtest ${unit})
+    target_link_libraries(tenon_gtest PRIVATE tenon_flags GTest::gtest)
+    target_precompile_headers(tenon_gtest PRIVATE <gtest/gtest.h>)
+    if(TENON_SANITIZE)
+      target_compile_options(tenon_gtest PRIVATE -O0)
+    endif()
+  endif()
+  set(${out} tenon_gtest PARENT_SCOPE)
+endfunction()
+
 function(tenon_unit_tests library tests)
   if(NOT tests)
     return()
@@ -106,6 +127,10 @@ function(tenon_unit_tests library tests)
   if(TENON_SANITIZE)
     # Half the compile time; what is tested keeps its optimisation.
     target_compile_options(${library}_test PRIVATE -O0)
+  endif()
+  tenon_precompiled_gtest(precompiled)
+  if(precompiled)
+    target_precompile_headers(${library}_test REUSE_FROM ${precompiled})
   endif()
   set_target_properties(${library}_test PROPERTIES CXX_CLANG_TIDY "")
   gtest_discover_tests(
