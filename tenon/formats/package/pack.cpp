@@ -39,6 +39,20 @@ bool is_layer_name(const std::string& name) {
   return false;
 }
 
+/// Images and sounds that packages may hold (USDZ specification, section on file types).
+bool is_media_name(const std::string& name) {
+  std::string ending = name.substr(std::min(name.rfind('.'), name.size()));
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  for (const char* known :
+       {".png", ".jpg", ".jpeg", ".exr", ".avif", ".m4a", ".mp3", ".wav", ".usdz"}) {
+    if (ending == known) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// `pattern` with `from` replaced by `to`, once.
 std::string replaced(std::string pattern, std::string_view from, const std::string& to) {
   const std::size_t at = pattern.find(from);
@@ -76,6 +90,8 @@ class Packer {
   Packer(const bytes::AssetResolver& resolver, Diagnostics& diagnostics)
       : resolver_(resolver), diagnostics_(diagnostics) {}
 
+  const std::vector<PackedFile>& packed() const { return packed_; }
+
   Result<std::string> run(const layer::Layer& root) {
     base_ = folder_of(root.identifier());
     const bytes::PackagePath inside = bytes::split_package_path(root.identifier());
@@ -94,7 +110,7 @@ class Packer {
       layer::Layer copy = root;
       rename_all(copy, name);
       TENON_TRY(std::string crate, write_crate(copy));
-      add(name, bytes::FileBytes::own(std::move(crate)));
+      add({"", name}, bytes::FileBytes::own(std::move(crate)), true);
     }
     while (!pending_.empty()) {
       const Pending next = pending_.front();
@@ -110,8 +126,31 @@ class Packer {
     std::string name;  // in the package
   };
 
-  void add(std::string name, std::shared_ptr<const bytes::FileBytes> contents) {
-    files_.emplace_back(std::move(name), std::move(contents));
+  void add(const Pending& file, std::shared_ptr<const bytes::FileBytes> contents, bool rewritten) {
+    const bool outside = !file.identifier.empty() && !file.identifier.starts_with(base_);
+    packed_.push_back({file.name, file.identifier, contents->size(), rewritten, outside});
+    if (outside) {
+      report(Severity::Info, "package.outside", file,
+             "lies outside of the package's folder and is packed as " + file.name, "");
+    }
+    if (!is_layer_name(file.name) && !is_media_name(file.name)) {
+      report(Severity::Warning, "package.file-type", file,
+             "is packed, but is of no type that packages are specified to hold; what it names "
+             "itself is not packed",
+             "give the asset layers, and images as png, jpeg, exr or avif");
+    }
+    files_.emplace_back(file.name, std::move(contents));
+  }
+
+  void report(Severity severity, const char* rule, const Pending& file, const std::string& what,
+              const char* fix) {
+    Diagnostic finding;
+    finding.severity = severity;
+    finding.rule = rule;
+    finding.message = file.name + " " + what;
+    finding.file = file.identifier;
+    finding.fix = fix;
+    diagnostics_.add(std::move(finding));
   }
 
   Result<std::string> write() const {
@@ -135,20 +174,20 @@ class Packer {
   Result<void> add_file(const Pending& file) {
     TENON_TRY(const auto contents, resolver_.open(file.identifier));
     if (!is_layer_name(file.name)) {
-      add(file.name, contents);
+      add(file, contents, false);
       return {};
     }
     TENON_TRY(layer::Layer layer, read_layer(contents, file.identifier, diagnostics_));
     if (!rename_all(layer, file.name)) {
-      add(file.name, contents);
+      add(file, contents, false);
       return {};
     }
     if (format_of(*contents) == LayerFormat::Text) {
-      add(file.name, bytes::FileBytes::own(edit_text(contents->text(), layer).text));
+      add(file, bytes::FileBytes::own(edit_text(contents->text(), layer).text), true);
       return {};
     }
     TENON_TRY(std::string crate, write_crate(layer));
-    add(file.name, bytes::FileBytes::own(std::move(crate)));
+    add(file, bytes::FileBytes::own(std::move(crate)), true);
     return {};
   }
 
@@ -289,13 +328,19 @@ class Packer {
   std::set<std::string> taken_;
   std::deque<Pending> pending_;
   std::vector<std::pair<std::string, std::shared_ptr<const bytes::FileBytes>>> files_;
+  std::vector<PackedFile> packed_;
 };
 
 }  // namespace
 
 Result<std::string> pack(const bytes::AssetResolver& resolver, const layer::Layer& root,
-                         Diagnostics& diagnostics) {
-  return Packer(resolver, diagnostics).run(root);
+                         Diagnostics& diagnostics, std::vector<PackedFile>* files) {
+  Packer packer(resolver, diagnostics);
+  TENON_TRY(std::string package, packer.run(root));
+  if (files != nullptr) {
+    *files = packer.packed();
+  }
+  return package;
 }
 
 }  // namespace tenon::formats

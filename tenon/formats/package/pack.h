@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
@@ -11,14 +13,26 @@
 
 namespace tenon::formats {
 
+/// A file that went into a package.
+struct PackedFile {
+  std::string name;        ///< in the package
+  std::string source;      ///< identifier of where it comes from; empty for a layer made in memory
+  std::size_t size = 0;    ///< bytes
+  bool rewritten = false;  ///< asset paths in it changed
+  bool outside = false;    ///< it lies outside of the root layer's folder, and got a place
+};
+
 /// A package (.usdz) with the layer in front and everything that it needs: all layers that it and
 /// they name in sublayers, references, payloads and clips (templates included), and all files that
 /// asset values name (`<UDIM>` patterns: every tile that is there). Files below the layer's folder
 /// keep their place; others come into numbered folders, and the paths to them are rewritten. Files
 /// that need no change go in byte by byte; packages that are named go in whole.
-/// Diagnostics: "package.missing" for what cannot be found, which stays as it was named.
+/// Diagnostics: "package.missing" for what cannot be found, which stays as it was named;
+/// "package.outside" (info) for files from outside of the layer's folder; "package.file-type" for
+/// files of a type that the specification of packages does not name.
+/// `files`, where given, receives what went in, in the order of the package.
 /// Errors: those of reading the layers, of write_crate and of bytes::write_zip.
 Result<std::string> pack(const bytes::AssetResolver& resolver, const layer::Layer& root,
-                         Diagnostics& diagnostics);
+                         Diagnostics& diagnostics, std::vector<PackedFile>* files = nullptr);
 
 }  // namespace tenon::formats

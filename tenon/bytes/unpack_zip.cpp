@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/bytes/unpack_zip.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <set>
+#include <vector>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "tenon/bytes/atomic_write.h"
+
+namespace tenon::bytes {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_safe_part(std::string_view part, bool first) {
+  if (part.empty() || part == "." || part == "..") {
+    return false;
+  }
+  for (const char c : part) {
+    const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+    if (control || c == '\\' || (first && c == ':')) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The folders that a name stands in, outermost first; nothing for a name that is not safe.
+bool is_safe_name(std::string_view name, std::vector<std::string>& folders) {
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t slash = name.find('/', begin);
+    const std::size_t end = slash == std::string_view::npos ? name.size() : slash;
+    if (!is_safe_part(name.substr(begin, end - begin), begin == 0)) {
+      return false;
+    }
+    if (slash == std::string_view::npos) {
+      return true;
+    }
+    folders.emplace_back(name.substr(0, slash));
+    begin = slash + 1;
+  }
+}
+
+Error bad_name(const std::string& name, const std::string& why) {
+  std::string shown;
+  for (const char c : name) {
+    shown += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  }
+  return Error(ErrorCode::Invalid, "the package holds \"" + shown + "\", " + why)
+      .with_rule("package.bad-name")
+      .with_fix("do not trust it; nothing was written");
+}
+
+/// An entry that names a folder alone, as some tools write them.
+bool is_folder(const ZipEntry& entry) { return entry.name.ends_with('/') && entry.size == 0; }
+
+Error io_error(const std::string& path, const std::string& what) {
+  return Error(ErrorCode::Io, what).in_file(path).with_rule("file.unwritable");
+}
+
+Result<void> write_entries(const ZipArchive& archive, const fs::path& folder) {
+  for (const ZipEntry& entry : archive.entries()) {
+    const fs::path path = folder / entry.name;
+    std::error_code failed;
+    fs::create_directories(is_folder(entry) ? path : path.parent_path(), failed);
+    if (failed) {
+      return io_error(path.string(), "cannot make its folder: " + failed.message());
+    }
+    if (!is_folder(entry)) {
+      TENON_TRY(const auto contents, archive.read(entry));
+      TENON_CHECK(write_file(path.string(), contents->text()));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> check_entry_names(const ZipArchive& archive) {
+  std::set<std::string> files;
+  std::set<std::string> folders;
+  for (const ZipEntry& entry : archive.entries()) {
+    std::string name = entry.name;
+    if (is_folder(entry)) {
+      name.pop_back();
+    }
+    std::vector<std::string> above;
+    if (!is_safe_name(name, above)) {
+      return bad_name(entry.name, "a name that does not stay below a folder");
+    }
+    folders.insert(above.begin(), above.end());
+    if (is_folder(entry)) {
+      folders.insert(name);
+    } else if (!files.insert(name).second) {
+      return bad_name(entry.name, "a name that stands there twice");
+    }
+  }
+  for (const std::string& folder : folders) {
+    if (files.contains(folder)) {
+      return bad_name(folder, "a file and a folder of the same name");
+    }
+  }
+  return {};
+}
+
+Result<void> unpack_zip(const ZipArchive& archive, const std::string& folder) {
+  TENON_CHECK(check_entry_names(archive));
+  const fs::path target = fs::absolute(folder).lexically_normal();
+  const fs::path place = target.has_filename() ? target : target.parent_path();
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(place, ignored)) && !fs::is_empty(place, ignored)) {
+    return Error(ErrorCode::Invalid, "the folder holds something already")
+        .in_file(place.string())
+        .with_rule("file.exists")
+        .with_fix("name a folder that does not exist yet");
+  }
+  std::error_code failed;
+  fs::create_directories(place.parent_path(), failed);
+  std::string beside =
+      (place.parent_path() / ("." + place.filename().string() + ".XXXXXX")).string();
+  if (failed || ::mkdtemp(beside.data()) == nullptr) {
+    return io_error(place.string(), std::string("cannot make the folder: ") +
+                                        (failed ? failed.message() : std::strerror(errno)));
+  }
+  Result<void> written = write_entries(archive, beside);
+  if (written) {
+    ::chmod(beside.c_str(), 0755);
+    fs::rename(beside, place, failed);
+    if (failed) {
+      written = io_error(place.string(), "cannot make the folder: " + failed.message());
+    }
+  }
+  if (!written) {
+    fs::remove_all(beside, ignored);
+  }
+  return written;
+}
+
+}  // namespace tenon::bytes
