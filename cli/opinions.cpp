@@ -37,15 +37,6 @@ std::string list_text(const layer::ListOp<Path>& op) {
   return text.empty() ? "None" : text;
 }
 
-std::string short_text(const layer::Value& value) {
-  const auto* list = value.get<layer::ListOp<Path>>();
-  std::string text = list != nullptr ? list_text(*list) : formats::value_text(value);
-  for (char& c : text) {
-    c = c == '\n' ? ' ' : c;
-  }
-  return text.size() <= kLongest ? text : text.substr(0, kLongest) + " ...";
-}
-
 /// One field of a spec that speaks about the value; the first opinion of all counts.
 class Rows {
  public:
@@ -54,7 +45,7 @@ class Rows {
   void add(const stage::SpecSite& site, const char* what, const layer::Value& value) {
     Json row = place_json(site);
     row["what"] = what;
-    row["value"] = short_text(value);
+    row["value"] = short_value_text(value);
     row["used"] = combined_ || !used_;
     used_ = true;
     rows_.push_back(std::move(row));
@@ -104,6 +95,15 @@ Json relationship_rows(const stage::Relationship& relationship) {
 }
 
 }  // namespace
+
+std::string short_value_text(const layer::Value& value) {
+  const auto* list = value.get<layer::ListOp<Path>>();
+  std::string text = list != nullptr ? list_text(*list) : formats::value_text(value);
+  for (char& c : text) {
+    c = c == '\n' ? ' ' : c;
+  }
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + " ...";
+}
 
 Json opinions_json(const stage::Prim& prim, Token property) {
   return prim.is_relationship(property) ? relationship_rows(prim.relationship(property))

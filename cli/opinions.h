@@ -19,6 +19,9 @@ Json specs_json(const stage::Prim& prim);
 /// "scene.usda:12:9" of a row of these.
 std::string place_text(const Json& row);
 
+/// A value on one line, long ones cut; list edits of paths in words.
+std::string short_value_text(const layer::Value& value);
+
 /// The rows of `opinions_json` for people, a line each.
 std::string opinions_text(const Json& opinions, const std::string& indent);
 
