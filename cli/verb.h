@@ -53,6 +53,7 @@ using AddVerb = void(const Command& parent, const Globals& globals, Chosen& chos
 AddVerb add_bake;
 AddVerb add_cat;
 AddVerb add_check;
+AddVerb add_diff;
 AddVerb add_doctor;
 AddVerb add_dump;
 AddVerb add_dump_index;
@@ -64,6 +65,8 @@ AddVerb add_strip;
 AddVerb add_tree;
 AddVerb add_variant;
 AddVerb add_test_runner;
+AddVerb add_where;
+AddVerb add_zip;
 
 /// The verb dump-index under the name `name`, with variant fallbacks for where none are given.
 void add_index_dump(const Command& parent, const std::string& name, const std::string& fallbacks,

@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "cli/difference_text.h"
+#include "cli/report.h"
+#include "cli/verb.h"
+#include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/zip_archive.h"
+#include "tenon/diff/layer_difference.h"
+#include "tenon/diff/physics_difference.h"
+#include "tenon/formats/open_layer.h"
+#include "tenon/physics/read_physics.h"
+#include "tenon/stage/flatten.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kNothing = "/dev/null";  ///< git's name of the side that is not there
+
+struct Options {
+  std::vector<std::string> inputs;
+  double tolerance = 0;
+  bool physics = false;
+  bool composed = false;
+  std::string variant;
+  std::vector<std::string> search_paths;
+};
+
+/// What is compared: two names, or what git hands to an external diff driver.
+struct Sides {
+  std::string before;
+  std::string after;
+  std::string shown;  ///< name of the file for people; empty outside of git
+};
+
+struct Found {
+  Json rows = Json::array();
+  std::string text;
+
+  template <class Difference>
+  void add(const std::string& file, const Difference& difference) {
+    Json row = difference_json(difference);
+    if (!file.empty()) {
+      row["file"] = file;
+    }
+    rows.push_back(std::move(row));
+    text += (file.empty() ? "" : file + ": ") + difference_text(difference) + "\n";
+  }
+  void add_file(const std::string& file, const char* change, const char* mark) {
+    rows.push_back({{"change", change}, {"file", file}, {"kind", "file"}});
+    text += std::string(mark) + " " + file + "  file " + change + "\n";
+  }
+};
+
+OpenOptions open_options(const Options& options) {
+  OpenOptions open;
+  open.physics_variant = options.variant;
+  open.search_paths = options.search_paths;
+  return open;
+}
+
+layer::LayerPtr empty_layer() { return std::make_shared<const layer::Layer>("anon:nothing.usda"); }
+
+Result<layer::LayerPtr> read_side(const std::string& path, const Options& options,
+                                  Diagnostics& diagnostics) {
+  return path == kNothing ? Result<layer::LayerPtr>(empty_layer())
+                          : open_layer(path, open_options(options), diagnostics);
+}
+
+Result<stage::Stage> open_side(const std::string& path, const Options& options,
+                               Diagnostics& diagnostics) {
+  if (path != kNothing) {
+    return open_stage(path, open_options(options), diagnostics);
+  }
+  const auto no_layers = [](const std::string& asset, const layer::Layer&) {
+    return Result<layer::LayerPtr>(Error(ErrorCode::NotFound, "no " + asset));
+  };
+  return stage::Stage::open(empty_layer(), nullptr, no_layers);
+}
+
+Result<void> compare_layers(const Sides& sides, const Options& options, Diagnostics& diagnostics,
+                            Found& found) {
+  TENON_TRY(const layer::LayerPtr before, read_side(sides.before, options, diagnostics));
+  TENON_TRY(const layer::LayerPtr after, read_side(sides.after, options, diagnostics));
+  for (const auto& difference : diff::layer_differences(*before, *after, {options.tolerance})) {
+    found.add("", difference);
+  }
+  return {};
+}
+
+Result<void> compare_stages(const Sides& sides, const Options& options, Diagnostics& diagnostics,
+                            Found& found) {
+  TENON_TRY(const stage::Stage before, open_side(sides.before, options, diagnostics));
+  TENON_TRY(const stage::Stage after, open_side(sides.after, options, diagnostics));
+  if (options.physics) {
+    const auto a = physics::read_physics(before, {}, diagnostics);
+    const auto b = physics::read_physics(after, {}, diagnostics);
+    for (const auto& difference : diff::physics_differences(a, b, {options.tolerance})) {
+      found.add("", difference);
+    }
+    return {};
+  }
+  for (const auto& difference : diff::layer_differences(
+           stage::flatten(before), stage::flatten(after), {options.tolerance})) {
+    found.add("", difference);
+  }
+  return {};
+}
+
+bool is_folder(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+bool is_package(const std::string& path) {
+  return is_folder(path) ||
+         (bytes::is_package_name(path) && bytes::split_package_path(path).inner.empty());
+}
+
+/// Files of a package or folder: name below it -> identifier. Hidden ones are left out.
+Result<std::map<std::string, std::string>> files_of(const std::string& path) {
+  std::map<std::string, std::string> files;
+  if (path == kNothing) {
+    return files;
+  }
+  if (!is_folder(path)) {
+    const std::string file = bytes::absolute_file_path(path);
+    TENON_TRY(const auto contents, bytes::AssetResolver().open(file));
+    TENON_TRY(const bytes::ZipArchive archive, bytes::ZipArchive::open(contents));
+    for (const bytes::ZipEntry& entry : archive.entries()) {
+      files.emplace(entry.name, bytes::join_package_path(file, entry.name));
+    }
+    return files;
+  }
+  const fs::path root = bytes::absolute_file_path(path);
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(root, error), end; !error && at != end;
+       at.increment(error)) {
+    const std::string name = at->path().lexically_relative(root).generic_string();
+    if (at->path().filename().string().starts_with('.')) {
+      at.disable_recursion_pending();
+    } else if (at->is_regular_file(error)) {
+      files.emplace(name, at->path().string());
+    }
+  }
+  if (error) {
+    return Error(ErrorCode::Io, "cannot list the folder: " + error.message()).in_file(path);
+  }
+  return files;
+}
+
+bool is_layer_name(const std::string& name) {
+  return name.ends_with(".usd") || name.ends_with(".usda") || name.ends_with(".usdc");
+}
+
+Result<void> compare_file(const std::string& name, const std::string& before,
+                          const std::string& after, const Options& options,
+                          Diagnostics& diagnostics, Found& found) {
+  const bytes::AssetResolver resolver;
+  TENON_TRY(const auto a, resolver.open(before));
+  TENON_TRY(const auto b, resolver.open(after));
+  if (a->text() == b->text()) {
+    return {};
+  }
+  if (!is_layer_name(name)) {
+    found.add_file(name, "changed", "~");
+    return {};
+  }
+  TENON_TRY(const layer::Layer old, formats::read_layer(a, before, diagnostics));
+  TENON_TRY(const layer::Layer now, formats::read_layer(b, after, diagnostics));
+  for (const auto& difference : diff::layer_differences(old, now, {options.tolerance})) {
+    found.add(name, difference);
+  }
+  return {};
+}
+
+Result<void> compare_packages(const Sides& sides, const Options& options, Diagnostics& diagnostics,
+                              Found& found) {
+  TENON_TRY(const auto before, files_of(sides.before));
+  TENON_TRY(const auto after, files_of(sides.after));
+  std::set<std::string> names;
+  for (const auto* files : {&before, &after}) {
+    for (const auto& [name, identifier] : *files) {
+      names.insert(name);
+    }
+  }
+  for (const std::string& name : names) {
+    const auto a = before.find(name);
+    const auto b = after.find(name);
+    if (a == before.end()) {
+      found.add_file(name, "added", "+");
+    } else if (b == after.end()) {
+      found.add_file(name, "removed", "-");
+    } else {
+      TENON_CHECK(compare_file(name, a->second, b->second, options, diagnostics, found));
+    }
+  }
+  return {};
+}
+
+Result<Sides> sides_of(const Options& options) {
+  const std::vector<std::string>& inputs = options.inputs;
+  if (inputs.size() == 2) {
+    return Sides{inputs[0], inputs[1], {}};
+  }
+  // git: path old-file old-hex old-mode new-file new-hex new-mode [new-path what-happened]
+  if (inputs.size() == 7 || inputs.size() == 9) {
+    const std::string moved = inputs.size() == 9 ? " -> " + inputs[7] : "";
+    return Sides{inputs[1], inputs[4], inputs[0] + moved};
+  }
+  return Error(ErrorCode::Invalid,
+               "a difference is one of two: " + std::to_string(inputs.size()) + " names were given")
+      .with_fix("tenon diff BEFORE AFTER; git hands over seven or nine arguments");
+}
+
+const char* mode_of(const Sides& sides, const Options& options) {
+  if (options.physics || options.composed) {
+    return options.physics ? "physics" : "composed";
+  }
+  const bool packages = (is_package(sides.before) || sides.before == kNothing) &&
+                        (is_package(sides.after) || sides.after == kNothing) &&
+                        (is_package(sides.before) || is_package(sides.after));
+  return packages ? "packages" : "layers";
+}
+
+int run_diff(const Globals& globals, const Options& options) {
+  Report report(globals, "diff", options.inputs.empty() ? "" : options.inputs.front());
+  auto sides = sides_of(options);
+  if (!sides) {
+    return report.fail(sides.error());
+  }
+  if (options.tolerance < 0) {
+    return report.fail(Error(ErrorCode::Invalid, "a tolerance is not negative"));
+  }
+  const std::string mode = mode_of(*sides, options);
+  Found found;
+  const auto done = mode == "packages"
+                        ? compare_packages(*sides, options, report.diagnostics, found)
+                    : mode == "layers" ? compare_layers(*sides, options, report.diagnostics, found)
+                                       : compare_stages(*sides, options, report.diagnostics, found);
+  if (!done) {
+    return report.fail(done.error());
+  }
+  const bool equal = found.rows.empty();
+  const bool in_git = !sides->shown.empty();
+  if (!report.json() && !equal && !report.quiet()) {
+    const std::string title = in_git ? "tenon diff " + sides->shown + "\n" : "";
+    std::fputs((title + found.text).c_str(), stdout);
+  }
+  // git takes every other code for a crash of the driver.
+  const int code = equal || in_git ? kOk : kNo;
+  return report.finish(code, {{"before", sides->before},
+                              {"after", sides->after},
+                              {"mode", mode},
+                              {"equal", equal},
+                              {"differences", std::move(found.rows)}});
+}
+
+constexpr const char* kFooter =
+    "Two layers are compared as they are, two packages or folders file by file; --composed "
+    "compares\n"
+    "what they compose to, --physics what an engine receives. Exit codes: 0 equal, 1 different.\n\n"
+    "With git, in .gitattributes \"*.usd* diff=usd\" and in the configuration either\n"
+    "  git config diff.usd.command \"tenon diff\"        these differences\n"
+    "  git config diff.usd.textconv \"tenon cat\"        lines of text, of binary layers, too\n\n"
+    "Examples:\n"
+    "  tenon diff old/hand.usda new/hand.usda --physics\n"
+    "  tenon diff hand.usda hand.usdc                  equal: the form does not count\n"
+    "  tenon diff hand/ hand.usdz\n"
+    "  tenon diff a.usda b.usda --composed --tolerance 1e-6 --json";
+
+}  // namespace
+
+void add_diff(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
+      "diff", "What differs between two layers, packages, scenes or their physics");
+  auto options = std::make_shared<Options>();
+  verb.add_option("inputs", options->inputs, "BEFORE AFTER; /dev/null is an empty layer")
+      .required();
+  verb.add_flag("--physics", options->physics,
+                "Joints, masses, frames, limits, colliders and materials as engines receive them");
+  verb.add_flag("--composed", options->composed, "Compose both and compare the scenes");
+  verb.add_option("--variant", options->variant,
+                  "With these two: select this variant of \"Physics\" in both");
+  verb.add_option("--tolerance", options->tolerance,
+                  "Numbers a, b are equal when |a - b| <= T max(1, |a|, |b|)");
+  verb.add_option("--search-path", options->search_paths, "As for other verbs").split_at_commas();
+  verb.footer(kFooter);
+  choose(verb, chosen, [&globals, options] { return run_diff(globals, *options); });
+}
+
+}  // namespace tenon::cli
