@@ -19,7 +19,9 @@ Option Option::split_at_commas() const {
 }
 
 Option Option::repeatable() const {
-  option_->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  // Without the second call a list takes the positionals behind it as well.
+  option_->expected(1)->allow_extra_args(false)->multi_option_policy(
+      CLI::MultiOptionPolicy::TakeAll);
   return *this;
 }
 
