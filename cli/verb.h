@@ -60,6 +60,7 @@ AddVerb add_dump_index;
 AddVerb add_explain;
 AddVerb add_info;
 AddVerb add_physics;
+AddVerb add_set;
 AddVerb add_sim;
 AddVerb add_strip;
 AddVerb add_tree;

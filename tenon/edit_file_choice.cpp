@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/edit_file_choice.h"
+
+#include <algorithm>
+
+#include "tenon/bytes/asset_resolver.h"
+#include "tenon/layer/field_values.h"
+#include "tenon/layer/fields.h"
+#include "tenon/stage/opinion_sources.h"
+
+namespace tenon {
+namespace {
+
+namespace fields = layer::fields;
+using structure::Role;
+
+bool in_package(const std::string& identifier) {
+  return !bytes::split_package_path(identifier).inner.empty() || bytes::is_package_name(identifier);
+}
+
+bool is_about_api(const AssetEdit& edit) {
+  return edit.kind == AssetEdit::Kind::ApplyApi || edit.kind == AssetEdit::Kind::RemoveApi;
+}
+
+std::string subject(const AssetEdit& edit) {
+  return is_about_api(edit) ? edit.api.str() : edit.object.name().str();
+}
+
+Error no_file(const FileQuestion& q, const std::string& message, const std::string& fix) {
+  return Error(ErrorCode::NotFound, message)
+      .with_prim(q.prim.path().str())
+      .with_rule("edit.no-file")
+      .with_fix(fix);
+}
+
+std::string listed(const std::vector<std::string>& layers) {
+  std::string text;
+  for (const std::string& layer : layers) {
+    text += (text.empty() ? "" : ", ") + file_part(layer);
+  }
+  return text;
+}
+
+Result<FileChoice> named_file(const FileQuestion& q) {
+  const std::string absolute = bytes::absolute_file_path(q.options.layer);
+  std::vector<std::string> found;
+  for (const std::string& layer : q.layers) {
+    if (layer == absolute) {
+      return FileChoice{layer, "it was asked for"};
+    }
+    if (layer.ends_with("/" + q.options.layer)) {
+      found.push_back(layer);
+    }
+  }
+  if (found.size() == 1) {
+    return FileChoice{found.front(), "it was asked for"};
+  }
+  return no_file(
+      q,
+      (found.empty() ? "no layer of the asset is called " : "several layers are called ") +
+          q.options.layer,
+      "choose one of: " + listed(q.layers));
+}
+
+/// An opinion on the property, or on the list of API schemas.
+bool speaks(const stage::OpinionSource& source, const AssetEdit& edit) {
+  if (!is_about_api(edit)) {
+    return source.spec->has(fields::default_value) || source.spec->has(fields::timeSamples) ||
+           source.spec->has(fields::targetPaths) || source.spec->has(fields::spline);
+  }
+  const auto* op = source.spec->get<layer::ListOp<Token>>(fields::apiSchemas);
+  if (op == nullptr) {
+    return false;
+  }
+  const auto has = [&](const std::vector<Token>& list) {
+    return std::find(list.begin(), list.end(), edit.api) != list.end();
+  };
+  return edit.kind == AssetEdit::Kind::ApplyApi || has(op->explicit_items) || has(op->prepended) ||
+         has(op->appended) || has(op->added);
+}
+
+/// Layers with an opinion, strongest first.
+std::vector<std::string> speaking(const FileQuestion& q) {
+  const Token property = is_about_api(q.edit) ? Token() : q.edit.object.name();
+  std::vector<std::string> layers;
+  for (const auto& source : stage::opinion_sources(q.stage, q.prim.path(), property)) {
+    if (speaks(source, q.edit)) {
+      layers.push_back(source.layer->identifier());
+    }
+  }
+  return layers;
+}
+
+Result<FileChoice> strongest_file(const FileQuestion& q) {
+  for (const std::string& layer : speaking(q)) {
+    if (!in_package(layer)) {
+      return FileChoice{layer, "it has the strongest opinion"};
+    }
+    break;
+  }
+  if (q.prim.is_instance_proxy()) {
+    for (const auto& source : stage::opinion_sources(q.stage, q.prim.path())) {
+      if (!in_package(source.layer->identifier())) {
+        return FileChoice{source.layer->identifier(), "instances share what it says"};
+      }
+    }
+    return no_file(q, "the prim is inside an instance whose content lies in a package",
+                   "unpack it: tenon zip PACKAGE --extract FOLDER");
+  }
+  return FileChoice{q.stage.root_layer().identifier(), "it is the root layer, no other one speaks"};
+}
+
+std::vector<std::string> files_with(const FileQuestion& q, Role role) {
+  std::vector<std::string> files;
+  for (const auto& [file, has] : q.roles) {
+    if (has == role) {
+      files.push_back(file);
+    }
+  }
+  return files;
+}
+
+structure::Ownership ownership(const FileQuestion& q) {
+  return is_about_api(q.edit)
+             ? structure::owner_of_api(q.edit.api)
+             : structure::owner_of_property(q.edit.object.name(), q.prim.type_name(),
+                                            q.prim.authored_api_schemas());
+}
+
+Result<FileChoice> engine_file(const FileQuestion& q) {
+  const std::string& engine = q.options.engine;
+  if (q.roles.empty()) {
+    return no_file(q, "the asset has no files for single engines", "name the file with --in");
+  }
+  if (q.prim.is_instance_proxy()) {
+    return Error(ErrorCode::Invalid, "<" + q.prim.path().str() +
+                                         "> is inside an instance: what an engine's file says "
+                                         "about it is not composed")
+        .with_prim(q.prim.path().str())
+        .with_rule("edit.instance-proxy")
+        .with_fix("leave --engine out: the file of the instances holds it for all engines");
+  }
+  const Role role = structure::role_of_physics_variant(engine);
+  const structure::Ownership owner = ownership(q);
+  if (!owner.may_be_in(role)) {
+    return Error(ErrorCode::Invalid, subject(q.edit) + " is nothing that " + engine + " reads")
+        .with_prim(q.prim.path().str())
+        .with_rule("edit.wrong-engine")
+        .with_fix("leave --engine out");
+  }
+  for (const std::string& file : files_with(q, role)) {
+    const std::string name = file_part(file);
+    if (role != Role::Engine || name.substr(0, name.rfind('.')) == engine) {
+      return FileChoice{file, "it holds what is for " + engine + " alone"};
+    }
+  }
+  return no_file(q, "the asset has no file for " + engine,
+                 "its variants of \"Physics\" are those that tenon variant lists");
+}
+
+Result<FileChoice> owning_file(const FileQuestion& q) {
+  const structure::Ownership owner = ownership(q);
+  const Role role = structure::file_for(owner.owner, q.prim.is_instance_proxy());
+  const auto why = [&](Role of) {
+    return std::string(structure::role_name(of)) + " is where " + subject(q.edit) + " belongs";
+  };
+  // A neighbour of the owner that speaks already, such as the base for the shapes in it.
+  for (const std::string& layer : speaking(q)) {
+    const auto at = q.roles.find(layer);
+    const bool for_all =
+        at != q.roles.end() && !structure::is_engine(at->second) && at->second != Role::Variant;
+    if (for_all && owner.may_be_in(at->second)) {
+      return FileChoice{layer, std::string(structure::role_name(at->second)) + " has " +
+                                   subject(q.edit) + " already"};
+    }
+  }
+  for (const std::string& file : files_with(q, role)) {
+    return FileChoice{
+        file, q.prim.is_instance_proxy() ? why(role) + ": the prim is in an instance" : why(role)};
+  }
+  return no_file(q,
+                 "the asset has no file for " + std::string(structure::role_name(role)) +
+                     ", where " + subject(q.edit) + " belongs",
+                 "name the file with --in");
+}
+
+}  // namespace
+
+std::string file_part(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+Result<FileChoice> choose_file(const FileQuestion& question) {
+  if (!question.options.layer.empty()) {
+    return named_file(question);
+  }
+  if (!question.options.engine.empty()) {
+    return engine_file(question);
+  }
+  return question.roles.empty() ? strongest_file(question) : owning_file(question);
+}
+
+}  // namespace tenon

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tenon/base/result.h"
+#include "tenon/edit_asset.h"
+#include "tenon/stage/stage.h"
+#include "tenon/structure/layout.h"
+
+/// Which file an edit belongs to. Internal to the wiring.
+namespace tenon {
+
+struct FileChoice {
+  std::string layer;  ///< identifier
+  std::string why;
+};
+
+struct FileQuestion {
+  const stage::Stage& stage;
+  const stage::Prim& prim;
+  const AssetEdit& edit;
+  const structure::RolesOfFiles& roles;    ///< empty: the asset has not this structure
+  const std::vector<std::string>& layers;  ///< all of the asset, of all variants
+  const EditOptions& options;
+};
+
+/// The file that is named by the options, that owns the thing under the structure, or that has the
+/// strongest opinion on it. Errors: ErrorCode::NotFound, Invalid, with what can be done.
+Result<FileChoice> choose_file(const FileQuestion& question);
+
+/// "physx.usda" of "/a/b/physx.usda".
+std::string file_part(const std::string& path);
+
+}  // namespace tenon

@@ -1,0 +1,269 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""tenon set: each edit in the file that owns it, nothing else changed, and proved.
+
+    test_set.py ROOT TENON CLASS...
+
+The hand of ../shared joins in where it is there.
+"""
+
+import difflib
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT, TENON = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
+HAND = ROOT / "examples/inspire_hand/inspire_hand.usda"
+SHARED = pathlib.Path(os.environ.get("TENON_SHARED_DIR", ROOT.parent / "shared"))
+ISAAC = SHARED / "assets/inspire_hand_isaac/inspire_hand.usda"
+R = "/inspire_hand"
+JOINT = f"{R}/Physics/right_thumb_1_joint"
+FOLLOWER = f"{R}/Physics/right_thumb_4_joint"
+COLLIDER = f"{R}/r_base_link/r_base_link_1/r_base_link"
+PHYSICS, PHYSX = "payloads/Physics/physics.usda", "payloads/Physics/physx.usda"
+MUJOCO = "payloads/Physics/mujoco.usda"
+
+
+def tenon(*arguments, cwd=None):
+    return subprocess.run([TENON, *map(str, arguments)], capture_output=True, text=True,
+                          check=False, cwd=cwd)
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.take(HAND)
+
+    def take(self, asset):
+        self.home = self.folder / asset.parent.name
+        shutil.copytree(asset.parent, self.home)
+        for path in self.home.rglob("*"):
+            path.chmod(0o755 if path.is_dir() else 0o644)
+        self.hand = self.home / asset.name
+        self.original = self.files()
+
+    def files(self):
+        return {str(path.relative_to(self.home)): path.read_bytes()
+                for path in self.home.rglob("*") if path.is_file()}
+
+    def changed(self):
+        """File -> lines that went and came."""
+        lines = {}
+        for name, data in self.files().items():
+            before = self.original[name]
+            if data != before:
+                lines[name] = [line for line in difflib.ndiff(before.decode().splitlines(),
+                                                              data.decode().splitlines())
+                               if line[0] in "+-"]
+        return lines
+
+    def set(self, *arguments, code=0):
+        process = tenon("set", self.hand, *arguments, "--json")
+        self.assertEqual(process.returncode, code, process.stdout + process.stderr)
+        return json.loads(process.stdout)
+
+    def refused(self, *arguments):
+        answer = self.set(*arguments, code=2)
+        self.assertEqual(self.files(), self.original)
+        finding = answer["diagnostics"][-1]
+        return f"{finding['file']} {finding['message']} {finding['fix']} [{finding['rule']}]"
+
+    def value(self, path, variant="physics"):
+        process = tenon("where", self.hand, path, "--physics", variant, "--json")
+        return json.loads(process.stdout)["value"]
+
+
+class Edits(Case):
+    def test_each_property_lands_in_its_file(self):
+        for path, value, file in (
+                (f"{JOINT}.physics:upperLimit", "60", PHYSICS),
+                (f"{JOINT}.drive:angular:physics:stiffness", "0.25", PHYSICS),
+                (f"{R}/r_base_link.physics:mass", "0.4", PHYSICS),
+                (f"{FOLLOWER}.physxMimicJoint:rotX:naturalFrequency", "25", PHYSX),
+                (f"{FOLLOWER}.physxMimicJoint:rotX:dampingRatio", "0.005", PHYSX),
+                (f"{R}.isaac:license", "MIT", "payloads/robot.usda"),
+                (f"{R}/right_thumb_1.xformOp:translate", "(1, 2, 3)", "payloads/base.usda"),
+                (f"{COLLIDER}.physics:approximation", "convexDecomposition",
+                 "payloads/instances.usda")):
+            answer = self.set(f"{path}={value}")
+            changed = self.changed()
+            self.assertEqual(list(changed), [file], path)
+            self.assertEqual([line[0] for line in changed[file]], ["-", "+"], changed)
+            self.assertIn(value, changed[file][1])
+            place = answer["edits"][0]
+            self.assertTrue(place["file"].endswith(file))
+            line = (self.home / file).read_text().splitlines()[place["line"] - 1]
+            self.assertEqual("+ " + line, changed[file][1])
+            self.assertEqual(self.value(path, "physx").strip('"'), value)
+            (self.home / file).write_bytes(self.original[file])
+
+    def test_a_value_that_is_new_is_made_with_the_type_of_the_schema(self):
+        answer = self.set(f"{JOINT}.physics:breakForce=12.5")
+        self.assertEqual(self.changed()[PHYSICS], ["+             float physics:breakForce = 12.5"])
+        self.assertEqual(answer["edits"][0]["variants"], ["physics", "mujoco", "physx"])
+
+    def test_several_edits_at_once_and_comments_stay(self):
+        path = self.home / PHYSICS
+        text = path.read_text().replace("def PhysicsRevoluteJoint \"right_thumb_1_joint\"",
+                                        "# mine\n        def PhysicsRevoluteJoint "
+                                        "\"right_thumb_1_joint\"", 1)
+        path.write_text(text)
+        self.original = self.files()
+        self.set(f"{JOINT}.physics:upperLimit=60", f"{JOINT}.physics:lowerLimit=-5",
+                 f"{FOLLOWER}.physxMimicJoint:rotX:offset=0.2")
+        changed = self.changed()
+        self.assertEqual({name: len(lines) for name, lines in changed.items()},
+                         {PHYSICS: 4, PHYSX: 2})
+        self.assertIn("# mine", path.read_text())
+
+    def test_a_dry_run_shows_what_patch_applies(self):
+        process = tenon("set", self.hand.name, f"{JOINT}.physics:upperLimit=60", "--dry-run",
+                        cwd=self.home)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertEqual(self.files(), self.original)
+        self.assertIn("-            float physics:upperLimit = 75\n"
+                      "+            float physics:upperLimit = 60\n", process.stdout)
+        patch = subprocess.run(["patch", "-p1", "-s"], cwd=self.home, input=process.stdout,
+                               text=True, check=False) if shutil.which("patch") else None
+        if patch is not None:
+            self.assertEqual(patch.returncode, 0)
+            self.assertEqual(self.value(f"{JOINT}.physics:upperLimit"), "60")
+
+    def test_an_engine_has_values_of_its_own(self):
+        path = f"{JOINT}.drive:angular:physics:damping"
+        answer = self.set("--engine", "mujoco", f"{path}=0.2")
+        self.assertEqual(list(self.changed()), [MUJOCO])
+        self.assertEqual(answer["edits"][0]["variants"], ["mujoco"])
+        self.assertEqual(self.value(path, "mujoco"), "0.2")
+        self.assertEqual(self.value(path, "physx"), "0.0015")
+        # The neutral value goes to its file and does not count where the engine has its own.
+        answer = self.set(f"{path}=0.3")
+        self.assertEqual([d["rule"] for d in answer["diagnostics"]], ["edit.hidden-in-variant"])
+        self.assertEqual((self.value(path), self.value(path, "mujoco")), ("0.3", "0.2"))
+
+    def test_a_value_that_would_not_count_is_refused(self):
+        path = f"{JOINT}.drive:angular:physics:damping"
+        self.set("--engine", "mujoco", f"{path}=0.2")
+        self.original = self.files()
+        text = self.refused("--physics", "mujoco", f"{path}=0.3")
+        self.assertIn("mujoco.usda", text)
+        self.assertIn("edit.hidden", text)
+
+
+class Refusals(Case):
+    def test_what_cannot_be_is_refused_with_a_way_out(self):
+        for arguments, words in (
+                ((f"{JOINT}.physics:uperLimit=1",), "did you mean physics:upperLimit?"),
+                ((f"{JOINT}.physics:upperLimit=high",), "no value of type float"),
+                ((f"{JOINT}.physics:axis=W",), "choose one of: X, Y, Z"),
+                ((f"{R}/nowhere.physics:mass=1",), "no prim"),
+                ((f"{JOINT}.physics:mass=1",), "PhysicsMassAPI"),
+                ((f"{R}.notknown=1",), "--type"),
+                (("--engine", "mujoco", f"{COLLIDER}.physics:approximation=none"),
+                 "inside an instance"),
+                (("--engine", "havok", f"{JOINT}.physics:upperLimit=1"), "no file for havok"),
+                (("--engine", "mujoco", f"{FOLLOWER}.physxMimicJoint:rotX:offset=1"),
+                 "nothing that mujoco reads"),
+                (("--in", "nosuch.usda", f"{JOINT}.physics:upperLimit=1"), "choose one of"),
+                (("--apply", f"{R}/r_base_link=PhysicsMassApi"), "did you mean PhysicsMassAPI?"),
+                (("--apply", f"{JOINT}=PhysicsDriveAPI"), "PhysicsDriveAPI:angular"),
+                (("nonsense",), "NAME=VALUE")):
+            self.assertIn(words, self.refused(*arguments), arguments)
+
+    def test_all_or_nothing(self):
+        self.assertIn("no prim", self.refused(f"{JOINT}.physics:upperLimit=60",
+                                              f"{R}/nowhere.physics:mass=1"))
+
+    def test_files_in_a_package_are_not_changed(self):
+        package = self.folder / "hand.usdz"
+        tenon("zip", self.hand, "-o", package)
+        before = package.read_bytes()
+        process = tenon("set", package, f"{JOINT}.physics:upperLimit=60")
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("--extract", process.stderr)
+        self.assertEqual(package.read_bytes(), before)
+
+
+class Kinds(Case):
+    def test_a_file_can_be_forced(self):
+        self.set("--in", "inspire_hand.usda", f"{JOINT}.physics:upperLimit=50")
+        self.assertEqual(list(self.changed()), ["inspire_hand.usda"])
+        self.assertEqual(self.value(f"{JOINT}.physics:upperLimit"), "50")
+
+    def test_schemas_are_applied_and_removed_in_the_file_that_owns_them(self):
+        self.set("--apply", f"{R}/r_base_link=PhysxRigidBodyAPI",
+                 f"{R}/r_base_link.physxRigidBody:linearDamping=0.1")
+        self.assertEqual(list(self.changed()), [PHYSX])
+        self.set("--remove", f"{R}/r_base_link=PhysxRigidBodyAPI",
+                 "--clear", f"{R}/r_base_link.physxRigidBody:linearDamping")
+        rows = json.loads(tenon("where", self.hand, f"{R}/r_base_link", "--physics", "physx",
+                                "--json").stdout)["opinions"]
+        self.assertNotIn("PhysxRigidBodyAPI", json.dumps(rows))
+
+    def test_relationships_are_set_in_the_namespace_of_their_file(self):
+        self.set(f"{FOLLOWER}.physxMimicJoint:rotX:referenceJoint={JOINT}")
+        self.assertEqual(list(self.changed()), [PHYSX])
+        self.assertEqual(self.value(f"{FOLLOWER}.physxMimicJoint:rotX:referenceJoint", "physx"),
+                         [JOINT])
+
+    def test_typed_edits(self):
+        self.set("--mass", f"{R}/r_base_link=0.5", "--drive", f"{JOINT}=stiffness:2,damping:0.1",
+                 "--collider", f"{COLLIDER}=boundingCube",
+                 "--mimic", f"{FOLLOWER}={JOINT},0.5,2")
+        self.assertEqual(set(self.changed()), {PHYSICS, "payloads/instances.usda"})
+        for path, value in ((f"{R}/r_base_link.physics:mass", "0.5"),
+                            (f"{JOINT}.drive:angular:physics:stiffness", "2"),
+                            (f"{COLLIDER}.physics:approximation", '"boundingCube"'),
+                            (f"{FOLLOWER}.newton:mimicCoef1", "0.5"),
+                            (f"{FOLLOWER}.newton:mimicCoef0", "2"),
+                            (f"{FOLLOWER}.newton:mimicJoint", [JOINT])):
+            self.assertEqual(self.value(path), value, path)
+        self.set("--engine", "physx", "--mimic", f"{FOLLOWER}={JOINT},0.5,2")
+        self.assertEqual(self.value(f"{FOLLOWER}.physxMimicJoint:rotX:gearing", "physx"), "-0.5")
+
+    def test_an_asset_without_the_structure(self):
+        weak = self.folder / "weak.usdc"
+        text = self.folder / "weak.usda"
+        text.write_text('#usda 1.0\n(\n    defaultPrim = "A"\n)\ndef Cube "A"\n{\n'
+                        '    double size = 1\n}\n')
+        tenon("cat", text, "-o", weak)
+        root = self.folder / "root.usda"
+        root.write_text('#usda 1.0\n# kept\n(\n    subLayers = [@./weak.usdc@]\n)\n')
+        process = tenon("set", root, "/A.size=3", "/A.visibility=invisible", "--json")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        edits = json.loads(process.stdout)["edits"]
+        self.assertTrue(edits[0]["file"].endswith("weak.usdc"))
+        self.assertIn("strongest opinion", edits[0]["why"])
+        self.assertTrue(edits[1]["file"].endswith("root.usda"))
+        self.assertEqual(weak.read_bytes()[:8], b"PXR-USDC")
+        self.assertIn("double size = 3", tenon("cat", weak).stdout)
+        self.assertIn("# kept", root.read_text())
+
+    def test_the_hand_of_isaacs_own_pipeline(self):
+        if not ISAAC.exists():
+            self.skipTest(f"{ISAAC} does not exist")
+        self.take(ISAAC)
+        joint = "/Lhand/Physics/R_thumb_proximal_yaw_joint"
+        link = "/Lhand/Geometry/right_wrist_yaw_link/R_hand_base_link"
+        for arguments, file in (
+                ((f"{joint}.physics:upperLimit=60",), PHYSICS),
+                (("--engine", "physx", f"{joint}.drive:angular:physics:damping=1"), PHYSX),
+                ((f"{joint}.physxJoint:armature=0.01",), PHYSX),
+                ((f"{link}/R_hand_base_link_1/R_hand_base_link.physics:approximation=none",),
+                 "payloads/instances.usda"),
+                (("--mass", f"{link}=0.2"), PHYSICS),
+                ((f"{link}.xformOp:translate=(0.05, 0, 0)",), "payloads/base.usda")):
+            self.set(*arguments)
+            self.assertEqual(list(self.changed()), [file], arguments)
+            (self.home / file).write_bytes(self.original[file])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
