@@ -218,7 +218,9 @@ void NodeGraph::set_inert(NodeId id, bool inert) {
 void NodeGraph::set_culled(NodeId id) {
   if (!nodes_[id].culled) {
     nodes_[id].culled = true;
-    restrict(id);
+    if (nodes_[id].restriction_depth == 0) {  // else its ancestors may be restricted already
+      restrict(id);
+    }
   }
 }
 

@@ -10,10 +10,8 @@ namespace {
 
 void elide_subtree(NodeGraph& graph, NodeId node) {
   for (const NodeId id : graph.subtree(node)) {
-    const std::uint16_t before = graph[id].restriction_depth;
     graph.set_culled(id);
-    // One restricted at a depth of its own still counts above that; all others nowhere.
-    graph[id].restriction_depth = before == 0 ? std::uint16_t{1} : before;
+    graph[id].restriction_depth = 1;  // not by its ancestors either
   }
 }
 
