@@ -11,14 +11,22 @@
 #include "tenon/bytes/byte_writer.h"
 
 // Layout: local headers with their data, then the central directory, then its end record, which
-// stands at most 65535 bytes (a comment) before the end of the file.
+// stands at most 65535 bytes (a comment) before the end of the file. Where its numbers are too
+// small, a locator right before it says where the end record of 64 bits is (APPNOTE.TXT 6.3.10 of
+// PKWARE, 4.3.14 to 4.3.16 and 4.5.3).
 namespace tenon::bytes {
 namespace {
 
 constexpr std::uint32_t kLocalSignature = 0x04034b50;
 constexpr std::uint32_t kCentralSignature = 0x02014b50;
 constexpr std::uint32_t kEndSignature = 0x06054b50;
+constexpr std::uint32_t kEnd64Signature = 0x06064b50;
+constexpr std::uint32_t kLocator64Signature = 0x07064b50;
+constexpr std::size_t kLocator64Size = 20;
+constexpr std::uint16_t kField64 = 1;            // id of the extra field with numbers of 64 bits
+constexpr std::uint32_t kIn64Bits = 0xffffffff;  // where the number stands there instead
 constexpr std::size_t kLocalSize = 30;
+constexpr std::size_t kCentralSize = 46;
 constexpr std::size_t kEndSize = 22;
 constexpr std::size_t kAlignment = 64;
 constexpr std::uint16_t kPaddingField = 0x1986;  // id of the extra field that OpenUSD pads with
@@ -30,9 +38,38 @@ Error damaged(std::string message) {
 }
 
 struct EndRecord {
-  std::uint16_t entry_count = 0;
-  std::uint32_t directory = 0;
+  std::uint64_t entry_count = 0;
+  std::uint64_t directory = 0;
 };
+
+/// The end record of 64 bits, by the locator before the short end record at `end`.
+Result<EndRecord> read_end_record_64(const FileBytes& bytes, std::size_t end) {
+  if (end < kLocator64Size) {
+    return damaged("the 64-bit table of contents of the zip file is missing");
+  }
+  ByteReader in(bytes.span());
+  TENON_CHECK(in.seek(end - kLocator64Size));
+  TENON_TRY(const auto locator, in.read<std::uint32_t>());
+  TENON_CHECK(in.take(4));
+  TENON_TRY(const auto offset, in.read<std::uint64_t>());
+  if (locator != kLocator64Signature || offset > end) {
+    return damaged("the 64-bit table of contents of the zip file is missing");
+  }
+  TENON_CHECK(in.seek(offset));
+  TENON_TRY(const auto signature, in.read<std::uint32_t>());
+  if (signature != kEnd64Signature) {
+    return damaged("the 64-bit table of contents of the zip file is damaged");
+  }
+  EndRecord record;
+  TENON_CHECK(in.seek(offset + 32));
+  TENON_TRY(record.entry_count, in.read<std::uint64_t>());
+  TENON_CHECK(in.take(8));
+  TENON_TRY(record.directory, in.read<std::uint64_t>());
+  if (record.directory > end || record.entry_count > (end - record.directory) / kCentralSize) {
+    return damaged("the 64-bit table of contents of the zip file is damaged");
+  }
+  return record;
+}
 
 Result<EndRecord> read_end_record(const FileBytes& bytes) {
   if (bytes.size() < kEndSize) {
@@ -47,13 +84,14 @@ Result<EndRecord> read_end_record(const FileBytes& bytes) {
   ByteReader in(bytes.span());
   EndRecord end;
   TENON_CHECK(in.seek(at + 10));
-  TENON_TRY(end.entry_count, in.read<std::uint16_t>());
+  TENON_TRY(const auto entry_count, in.read<std::uint16_t>());
   TENON_CHECK(in.take(4));
-  TENON_TRY(end.directory, in.read<std::uint32_t>());
-  if (end.entry_count == 0xffff || end.directory == 0xffffffff) {
-    return Error(ErrorCode::Unsupported, "zip files in the 64-bit form cannot be read")
-        .with_rule("package.unsupported");
+  TENON_TRY(const auto directory, in.read<std::uint32_t>());
+  if (entry_count == 0xffff || directory == kIn64Bits) {
+    return read_end_record_64(bytes, at);
   }
+  end.entry_count = entry_count;
+  end.directory = directory;
   return end;
 }
 
@@ -91,7 +129,32 @@ struct LocalHeader {
   std::uint16_t extra_size;
 };
 #pragma pack(pop)
-static_assert(sizeof(CentralHeader) == 46 && sizeof(LocalHeader) == kLocalSize);
+static_assert(sizeof(CentralHeader) == kCentralSize && sizeof(LocalHeader) == kLocalSize);
+
+/// Puts in the numbers that stand in the extra field of 64 bits; it holds just those that do not
+/// fit, in this order.
+Result<void> read_field_64(ByteReader& extra, const CentralHeader& header, ZipEntry& entry) {
+  while (extra.remaining() >= 4) {
+    TENON_TRY(const auto id, extra.read<std::uint16_t>());
+    TENON_TRY(const auto size, extra.read<std::uint16_t>());
+    TENON_TRY(const auto content, extra.take(size));
+    if (id != kField64) {
+      continue;
+    }
+    ByteReader in(content);
+    if (header.size == kIn64Bits) {
+      TENON_CHECK(in.take(8));
+    }
+    if (header.compressed_size == kIn64Bits) {
+      TENON_TRY(entry.size, in.read<std::uint64_t>());
+    }
+    if (header.header == kIn64Bits) {
+      TENON_TRY(entry.header, in.read<std::uint64_t>());
+    }
+    return {};
+  }
+  return damaged("the 64-bit table of contents of the zip file is damaged");
+}
 
 Result<ZipEntry> read_central_header(ByteReader& in) {
   TENON_TRY(const CentralHeader header, in.read<CentralHeader>());
@@ -99,13 +162,19 @@ Result<ZipEntry> read_central_header(ByteReader& in) {
     return damaged("the table of contents of the zip file is damaged");
   }
   TENON_TRY(const auto name, in.take(header.name_size));
-  TENON_CHECK(in.take(std::uint64_t{header.extra_size} + header.comment_size));
+  TENON_TRY(const auto extra, in.take(header.extra_size));
+  TENON_CHECK(in.take(header.comment_size));
   ZipEntry entry;
   entry.name.assign(reinterpret_cast<const char*>(name.data()), name.size());
   entry.header = header.header;
   entry.size = header.compressed_size;
   entry.method = header.method;
   entry.encrypted = (header.flags & 1u) != 0;
+  if (header.size == kIn64Bits || header.compressed_size == kIn64Bits ||
+      header.header == kIn64Bits) {
+    ByteReader numbers(extra);
+    TENON_CHECK(read_field_64(numbers, header, entry));
+  }
   return entry;
 }
 
@@ -195,7 +264,7 @@ Result<ZipArchive> ZipArchive::open(std::shared_ptr<const FileBytes> bytes) {
   TENON_TRY(const EndRecord end, read_end_record(*bytes));
   ByteReader in(bytes->span());
   TENON_CHECK(in.seek(end.directory));
-  for (unsigned i = 0; i < end.entry_count; ++i) {
+  for (std::uint64_t i = 0; i < end.entry_count; ++i) {
     TENON_TRY(ZipEntry entry, read_central_header(in));
     archive.entries_.push_back(std::move(entry));
   }

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/bytes/zip_archive.h"
 
+#include <cstdint>
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace tenon::bytes {
@@ -48,23 +51,89 @@ TEST(ZipArchive, NamesEntriesThatAreNotStored) {
             std::string::npos);
 }
 
-TEST(ZipArchive, SurvivesDamage) {
-  const std::string zip = two_files();
-  std::size_t opened = 0;
-  for (std::size_t i = 0; i < zip.size(); ++i) {
-    for (const int flip : {0xff, 0x01, 0x80}) {
-      std::string damaged = zip;
-      damaged[i] = static_cast<char>(damaged[i] ^ flip);
-      const auto archive = open_zip(damaged);
-      opened += archive ? 1 : 0;
-      for (std::size_t e = 0; archive && e < archive->entries().size(); ++e) {
-        const auto contents = archive->read(archive->entries()[e]);
-        EXPECT_TRUE(!contents || (*contents)->size() <= zip.size());
-      }
-    }
-    EXPECT_FALSE(open_zip(zip.substr(0, i)));
+void append(std::string& text, std::uint64_t value, int bytes) {
+  for (int i = 0; i < bytes; ++i) {
+    text += static_cast<char>(value >> (8 * i) & 0xff);
   }
-  EXPECT_GT(opened, 0u);
+}
+
+/// A stored file with every number of its table of contents in 64 bits.
+std::string zip_of_64_bits(const std::string& name, const std::string& contents) {
+  const std::string plain = *write_zip({{name, contents}});
+  const std::size_t directory = plain.find("PK\x01\x02");
+  std::string header = plain.substr(directory, 46);
+  header.replace(20, 8, 8, '\xff');  // sizes
+  header.replace(42, 4, 4, '\xff');  // offset of the local header
+  header.replace(30, 2, std::string("\x22\0", 2));
+  std::string zip = plain.substr(0, directory) + header + name;
+  append(zip, 0x1986, 2);  // another extra field first
+  append(zip, 2, 2);
+  append(zip, 0, 2);
+  append(zip, 1, 2);
+  append(zip, 24, 2);
+  append(zip, contents.size(), 8);
+  append(zip, contents.size(), 8);
+  append(zip, 0, 8);
+  const std::size_t record = zip.size();
+  zip += "PK\x06\x06";
+  append(zip, 44, 8);
+  append(zip, 0x2d002d, 4);
+  append(zip, 0, 8);
+  append(zip, 1, 8);
+  append(zip, 1, 8);
+  append(zip, record - directory, 8);
+  append(zip, directory, 8);
+  zip += "PK\x06\x07";
+  append(zip, 0, 4);
+  append(zip, record, 8);
+  append(zip, 1, 4);
+  return zip + "PK\x05\x06" + std::string(4, '\0') + std::string(12, '\xff') + std::string(2, '\0');
+}
+
+TEST(ZipArchive, SurvivesDamage) {
+  for (const std::string& zip : {two_files(), zip_of_64_bits("root.usda", "#usda 1.0\n")}) {
+    std::size_t opened = 0;
+    for (std::size_t i = 0; i < zip.size(); ++i) {
+      for (const int flip : {0xff, 0x01, 0x80}) {
+        std::string damaged = zip;
+        damaged[i] = static_cast<char>(damaged[i] ^ flip);
+        const auto archive = open_zip(damaged);
+        opened += archive ? 1 : 0;
+        for (std::size_t e = 0; archive && e < archive->entries().size(); ++e) {
+          const auto contents = archive->read(archive->entries()[e]);
+          EXPECT_TRUE(!contents || (*contents)->size() <= zip.size());
+        }
+      }
+      EXPECT_FALSE(open_zip(zip.substr(0, i)));
+    }
+    EXPECT_GT(opened, 0u);
+  }
+}
+
+TEST(ZipArchive, ReadsATableOfContentsOf64Bits) {
+  const auto archive = open_zip(zip_of_64_bits("root.usda", "#usda 1.0\n"));
+  ASSERT_TRUE(archive) << archive.error().to_string();
+  ASSERT_EQ(archive->entries().size(), 1u);
+  const auto contents = archive->read(archive->entries()[0]);
+  ASSERT_TRUE(contents) << contents.error().to_string();
+  EXPECT_EQ((*contents)->text(), "#usda 1.0\n");
+}
+
+TEST(ZipArchive, RefusesATableOfContentsOf64BitsThatIsNotThere) {
+  const std::string zip = zip_of_64_bits("root.usda", "#usda 1.0\n");
+  std::string no_locator = zip;
+  no_locator.replace(zip.find("PK\x06\x07"), 4, "XXXX");
+  std::string no_record = zip;
+  no_record.replace(zip.find("PK\x06\x06"), 4, "XXXX");
+  std::string many = zip;
+  many.replace(zip.find("PK\x06\x06") + 32, 8, 8, '\x7f');  // entries
+  std::string no_field = zip;
+  no_field.replace(zip.find(std::string("\x01\0\x18\0", 4)), 1, "\x02");
+  for (const std::string& damaged : {no_locator, no_record, many, no_field}) {
+    const auto archive = open_zip(damaged);
+    ASSERT_FALSE(archive);
+    EXPECT_EQ(archive.error().code(), ErrorCode::Corrupt) << archive.error().to_string();
+  }
 }
 
 TEST(ZipArchive, RefusesBadNames) {
