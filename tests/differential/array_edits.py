@@ -36,6 +36,7 @@ except ImportError:
     suite.skip("no OpenUSD modules in this Python")
 
 SCENES = 200
+BATCH = 50
 NUMBER = re.compile(r"-?(?:\d+\.?\d*(?:e[+-]?\d+)?|inf|nan)")
 TUPLES = {"float3": 3, "int2": 2, "quatd": 4, "color3f": 3, "half4": 4}
 COMPOSED = ("int", "float", "double", "half", "token", "string", "bool", "uchar", "int64", "uint64",
@@ -112,6 +113,7 @@ class Scene:
     def __init__(self, seed, folder):
         rng = random.Random(seed)
         self.folder = folder
+        os.mkdir(folder)
         self.attributes = [(f"x{i}", kind) for i, kind in enumerate(rng.sample(COMPOSED, 4))]
         self.attributes.append(EXTENT)
         only = rng.choice(LAYERS_ONLY)
@@ -167,34 +169,38 @@ def run(program, *arguments):
     return done.stdout
 
 
-def layer_differences(scene, programs):
-    """Of the layers as text and as binary ones."""
+def layer_differences(scenes, programs, folder):
+    """[what differs of the layers of a scene, as text and as binary ones] for each of `scenes`."""
     retext, recrate, _ = programs
-    into = os.path.join(scene.folder, "out")
-    crates = []
-    expected = []
-    for path in scene.layers:
-        layer = Sdf.Layer.FindOrOpen(path)
-        expected.append(layer.ExportToString())
-        crates.append(path + ".usdc")
-        layer.Export(crates[-1])
-    for what, files in (("text", scene.layers), ("OpenUSD's binary layer", crates)):
-        os.makedirs(into, exist_ok=True)
-        run(retext, "--into", into, *files)
+    files, crates, expected, owners = [], [], [], []
+    for owner, scene in enumerate(scenes):
+        for path in scene.layers:
+            layer = Sdf.Layer.FindOrOpen(path)
+            files.append(path)
+            expected.append(layer.ExportToString())
+            crates.append(path + ".usdc")
+            layer.Export(crates[-1])
+            owners.append(owner)
+    found = [[] for _ in scenes]
+    for what, given in (("text", files), ("OpenUSD's binary layer", crates)):
+        into = tempfile.mkdtemp(dir=folder)
+        run(retext, "--into", into, *given)
         for i, text in enumerate(expected):
             path = os.path.join(into, str(i))
             actual = read(path) if os.path.exists(path) else ""
             if actual != text:
                 lines = [(a, b) for a, b in zip(text.split("\n"), actual.split("\n")) if a != b]
-                yield f"{what} {i}: expected {lines[:1] or text[-200:]}"
-        shutil.rmtree(into)
-    os.makedirs(into)
-    run(recrate, "crate", into, *scene.layers)
+                name = os.path.basename(files[i])
+                found[owners[i]].append(f"{what} {name}: expected {lines[:1] or text[-200:]}")
+    into = tempfile.mkdtemp(dir=folder)
+    run(recrate, "crate", into, *files)
     for i, text in enumerate(expected):
         path = os.path.join(into, f"{i}.usdc")
         layer = Sdf.Layer.OpenAsAnonymous(path) if os.path.exists(path) else None
         if layer is None or layer.ExportToString() != text:
-            yield f"our binary layer {i}: OpenUSD reads it otherwise"
+            name = os.path.basename(files[i])
+            found[owners[i]].append(f"our binary layer {name}: OpenUSD reads it otherwise")
+    return found
 
 
 def questions(attribute_object):
@@ -204,23 +210,55 @@ def questions(attribute_object):
     return [None, *times, *between, *outside]
 
 
-def value_differences(scene, value_at):
-    stage = Usd.Stage.Open(scene.root)
+def asked_values(scene, stage):
+    """[(attribute, kind, times)] of what OpenUSD gives values to."""
     for name, kind in scene.attributes:
-        asked = stage.GetPrimAtPath("/A").GetAttribute(name)
-        if not asked or asked.GetResolveInfo().ValueIsBlocked():
-            continue
-        times = questions(asked)
-        words = ["default" if time is None else repr(float(time)) for time in times]
-        out = run(value_at, scene.root, f"/A.{name}", *words)
-        actual = re.split(r"^\w+\t", out, flags=re.MULTILINE)[1:]
-        first = min((time for time in asked.GetTimeSamples()), default=None)
-        for time, answer in zip(times, actual):
-            value = asked.Get() if time is None else asked.Get(time)
-            expected = text_of(value, asked.GetTypeName())
-            early = time is not None and first is not None and time < first
-            if not (same_text(expected, answer.strip()) or early and "nan" in expected):
-                yield f"{kind}[] {name} at {time}: expected {expected}, actual {answer.strip()}"
+        attribute_object = stage.GetPrimAtPath("/A").GetAttribute(name)
+        if attribute_object and not attribute_object.GetResolveInfo().ValueIsBlocked():
+            yield attribute_object, kind, questions(attribute_object)
+
+
+def value_differences(scenes, value_at):
+    """[what differs of the values of a scene] for each of `scenes`."""
+    stages = [Usd.Stage.Open(scene.root) for scene in scenes]
+    asked = [list(asked_values(scene, stage)) for scene, stage in zip(scenes, stages)]
+    words = []
+    for scene, attributes in zip(scenes, asked):
+        words.append("@" + scene.root)
+        for attribute_object, _, times in attributes:
+            words.append(str(attribute_object.GetPath()))
+            words += ["default" if time is None else repr(float(time)) for time in times]
+    words[0] = words[0][1:]
+    answers = iter(re.split(r"^\w+\t", run(value_at, *words), flags=re.MULTILINE)[1:])
+    return [[text for question in attributes for text in wrong_answers(*question, answers)]
+            for attributes in asked]
+
+
+def wrong_answers(attribute_object, kind, times, answers):
+    first = min(attribute_object.GetTimeSamples(), default=None)
+    for time in times:
+        answer = next(answers, "").strip()
+        value = attribute_object.Get() if time is None else attribute_object.Get(time)
+        expected = text_of(value, attribute_object.GetTypeName())
+        early = time is not None and first is not None and time < first
+        if not (same_text(expected, answer) or early and "nan" in expected):
+            name = attribute_object.GetName()
+            yield f"{kind}[] {name} at {time}: expected {expected}, actual {answer}"
+
+
+def judge(seeds, arguments, results):
+    """Of some seeds at once: a program built with sanitizers takes long to start."""
+    with tempfile.TemporaryDirectory() as folder:
+        scenes = [Scene(seed, os.path.join(folder, str(seed))) for seed in seeds]
+        layers = layer_differences(scenes, arguments.programs, folder)
+        values = value_differences(scenes, arguments.programs[2])
+        for seed, scene, *found in zip(seeds, scenes, layers, values):
+            for what, texts in zip(("layers", "values"), found):
+                results.add(f"edits of arrays: {what}, against OpenUSD", f"{what} of seed {seed}",
+                            texts[0] if texts else None)
+            if arguments.keep and any(found):
+                shutil.copytree(scene.folder, os.path.join(arguments.keep, str(seed)),
+                                dirs_exist_ok=True)
 
 
 def main():
@@ -231,18 +269,9 @@ def main():
     parser.add_argument("--keep")
     arguments = parser.parse_args()
     results = suite.Results("array_edits", os.path.join(HERE, "array_edit_misses.txt"))
-    for seed in range(arguments.seed, arguments.seed + arguments.scenes):
-        with tempfile.TemporaryDirectory() as folder:
-            scene = Scene(seed, folder)
-            found = list(layer_differences(scene, arguments.programs))
-            results.add("edits of arrays: layers, against OpenUSD", f"layers of seed {seed}",
-                        found[0] if found else None)
-            values = list(value_differences(scene, arguments.programs[2]))
-            results.add("edits of arrays: values, against OpenUSD", f"values of seed {seed}",
-                        values[0] if values else None)
-            if arguments.keep and (found or values):
-                shutil.copytree(folder, os.path.join(arguments.keep, str(seed)),
-                                dirs_exist_ok=True)
+    seeds = range(arguments.seed, arguments.seed + arguments.scenes)
+    for start in range(0, len(seeds), BATCH):
+        judge(seeds[start:start + BATCH], arguments, results)
     whole = arguments.seed == 0 and arguments.scenes == SCENES
     sys.exit(results.finish(is_whole=whole))
 
