@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Compares `tenon cat --flatten` with UsdStage.Flatten, and `--flatten-layer-stack` with
-UsdUtils.FlattenLayerStack: the flattened layers are opened with OpenUSD and dumped by the script of
-the dump. Needs Python with OpenUSD's modules.
+"""Compares flattened stages with UsdStage.Flatten, and flattened layer stacks with
+UsdUtils.FlattenLayerStack: where their texts are not the same, the flattened layers are opened with
+OpenUSD and dumped by the script of the dump. Needs Python with OpenUSD's modules.
 
-usage: flatten.py TENON [--suite NAME]... [--layer-stack] [--keep FOLDER] [--show N]
+usage: flatten.py FLATTEN [--suite NAME]... [--layer-stack] [--keep FOLDER] [--show N]
 
+FLATTEN is the program tests/tools/flatten_files.cpp.
 Suites are those of dump_stage.py; without --suite the three that hold most rules, noted for
 CONFORMANCE.md. Known misses of whole stages are named in flatten_misses.txt: one more or one less
 fails. Exit 77: the material or OpenUSD is absent.
@@ -16,6 +17,7 @@ import json
 import multiprocessing
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -24,6 +26,7 @@ import dump_stage
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SKIPPED = 77
+BATCH = 60  # cases
 MISSES = os.path.join(HERE, "flatten_misses.txt")
 SUITES = ("openusd_usd", "mxpv_fixtures", "aousd_composition")
 PROTOTYPE = re.compile(r"/Flattened_Prototype_\d+")
@@ -52,7 +55,8 @@ def dump(module, path):
 
 
 def expected_and_actual(module, case, actual, folder, layer_stack):
-    """Run in a child: both flattened layers as dumps, written to a file."""
+    """Run in a child: both flattened layers as dumps, written to a file; [] when the texts are the
+    same."""
     sys.stderr = open(os.devnull, "w", encoding="utf-8")
     os.dup2(sys.stderr.fileno(), 2)
     expected = os.path.join(folder, "expected.usda")
@@ -60,11 +64,21 @@ def expected_and_actual(module, case, actual, folder, layer_stack):
         flatten_with_openusd(case.path, expected, layer_stack)
     except Exception:  # pylint: disable=broad-except
         sys.exit(3)
-    pair = [dump(module, expected), dump(module, actual)]
+    pair = []
+    if text_of(expected) != text_of(actual):
+        pair = [dump(module, expected), dump(module, actual)]
     with open(os.path.join(folder, "pair.json"), "w", encoding="utf-8",
               errors="surrogateescape") as file:
         json.dump(pair, file)
     sys.exit(0)
+
+
+def text_of(path):
+    """But for the numbers of prototypes."""
+    if not os.path.exists(path):
+        return None
+    with open(path, encoding="utf-8", errors="surrogateescape") as file:
+        return PROTOTYPE.sub("/Flattened_Prototype", file.read())
 
 
 def plain(value):
@@ -77,15 +91,10 @@ def plain(value):
     return PROTOTYPE.sub("/Flattened_Prototype", value) if isinstance(value, str) else value
 
 
-def judge(module, arguments, case):
-    """What differs, as lines; None when OpenUSD cannot flatten the file."""
+def judge(module, arguments, case, actual):
+    """What differs, as lines; None when OpenUSD cannot flatten the file. `actual` is the file that
+    FLATTEN wrote."""
     with tempfile.TemporaryDirectory() as folder:
-        actual = os.path.join(folder, "actual.usda")
-        option = "--flatten-layer-stack" if arguments.layer_stack else "--flatten"
-        with open(actual, "wb") as file:
-            command = [arguments.tenon, "cat", option, case.path]
-            run = subprocess.run(command, stdout=file, stderr=subprocess.DEVNULL, check=False,
-                                 timeout=dump_stage.SECONDS)
         process = multiprocessing.get_context("fork").Process(
             target=expected_and_actual,
             args=(module, case, actual, folder, arguments.layer_stack))
@@ -97,29 +106,50 @@ def judge(module, arguments, case):
         if not os.path.exists(pair):
             return None
         with open(pair, encoding="utf-8", errors="surrogateescape") as file:
-            expected, found = json.load(file)
+            dumps = json.load(file)
         if arguments.keep:
-            keep(arguments.keep, case, folder)
+            keep(arguments.keep, case, os.path.join(folder, "expected.usda"), actual)
+    if not dumps:
+        return []
+    expected, found = dumps
     if expected is None:
         return None
-    if found is None or run.returncode != 0:
+    if found is None:
         return ["OpenUSD does not read what tenon wrote"]
     return sorted(dump_stage.differences(plain(expected), plain(found)))
 
 
-def keep(target, case, folder):
+def judge_all(module, arguments, cases):
+    """{name of a case: what differs}; FLATTEN does many at once: with sanitizers it takes long to
+    start."""
+    kind, results = "layer-stack" if arguments.layer_stack else "stage", {}
+    for start in range(0, len(cases), BATCH):
+        batch = cases[start:start + BATCH]
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([arguments.flatten, kind, folder, *(case.path for case in batch)],
+                                  stderr=subprocess.PIPE, check=False,
+                                  timeout=BATCH * dump_stage.SECONDS)
+            if done.returncode != 0:
+                sys.exit(f"{arguments.flatten} ended with {done.returncode} after "
+                         f"{len(os.listdir(folder))} of {[case.name for case in batch]}:\n"
+                         + done.stderr.decode("utf-8", "replace")[-3000:])
+            for number, case in enumerate(batch):
+                actual = os.path.join(folder, f"{number}.usda")
+                results[case.name] = judge(module, arguments, case, actual)
+    return results
+
+
+def keep(target, case, *paths):
     os.makedirs(target, exist_ok=True)
-    for name in ("expected", "actual"):
+    for name, path in zip(("expected", "actual"), paths):
         kept = case.name.replace("/", "_").replace(" ", "_") + f".{name}.usda"
-        with open(os.path.join(folder, name + ".usda"), "rb") as file:
-            content = file.read()
-        with open(os.path.join(target, kept), "wb") as file:
-            file.write(content)
+        if os.path.exists(path):
+            shutil.copyfile(path, os.path.join(target, kept))
 
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("tenon")
+    parser.add_argument("flatten")
     parser.add_argument("--suite", action="append")
     parser.add_argument("--layer-stack", action="store_true")
     parser.add_argument("--keep")
@@ -140,7 +170,7 @@ def main():
     suites = arguments.suite or list(SUITES)
     module = dump_stage.oracle_module()
     cases = list(dump_stage.published_cases(suites))
-    results = {case.name: judge(module, arguments, case) for case in cases}
+    results = judge_all(module, arguments, cases)
     reasons = {} if arguments.layer_stack else dump_stage.measured.read_misses(MISSES)
     known = {name for name in reasons if name.split()[0] in suites}
     record_as = None if arguments.suite else what
