@@ -53,6 +53,7 @@ class RandomCase(physics.Case):
 
     def run(self):
         super().run()
+        self.compare_owners()
         self.compare_velocities()
         self.compare_breaks()
         self.compare_bounds()
@@ -68,6 +69,24 @@ class RandomCase(physics.Case):
         return bool(enabled) and all(
             row["shape"] in shapes and
             self.stage.GetPrimAtPath(row["path"]).GetTypeName() != "Mesh" for row in enabled)
+
+    def compare_owners(self):
+        """The scene that an object names simulates it, else the first one; OpenUSD lists what is
+        named. A collider goes with its body."""
+        first = next((str(prim.GetPath()) for prim in self.stage.Traverse()
+                      if prim.GetTypeName() == "PhysicsScene"), None)
+        wanted = {path: (row["simulationOwners"] or [first])[0]
+                  for _, path, row in self.objects(["RigidBody"])}
+        for path, ours in self.rows("bodies").items():
+            if ours["scene"] != wanted.get(path):
+                self.add("body-owner", path, (wanted.get(path), ours["scene"]))
+        for _, path, row in self.objects(physics.SHAPES):
+            ours = self.rows("colliders").get(path)
+            if ours is not None:
+                owner = (row["simulationOwners"] or [first])[0]
+                owner = wanted[ours["body"]] if ours["body"] else owner
+                if ours["scene"] != owner:
+                    self.add("collider-owner", path, (owner, ours["scene"]))
 
     def compare_velocities(self):
         for path, row in self.bodies().items():

@@ -145,7 +145,7 @@ class Maker:
                                "kilogramsPerUnit": pick(["1", "0.001", "0.45"]),
                                "upAxis": token(pick("YZ"))}
         self.scene.add("/W", "Xform")
-        self.physics_scene()
+        self.physics_scene("/W/S")
         for _ in range(self.random.randint(0, 3)):
             self.material()
         parents = ["/W"]
@@ -159,6 +159,8 @@ class Maker:
         for _ in range(self.random.randint(0, 4)):
             self.joint()
         self.articulation(parents)
+        if self.chance(0.4):
+            self.owners()
         self.put_in_order()
         return self.scene
 
@@ -166,6 +168,27 @@ class Maker:
         if self.chance(0.4):
             path = self.random.choice(parents + self.bodies)
             self.scene.prims[path].apis.append("PhysicsArticulationRootAPI")
+
+    def owners(self):
+        """A second scene, and owners: one for bodies that joints connect, any for colliders, whose
+        own owner counts where no body is above them."""
+        scenes = ("/W/S", "/W/T")
+        self.physics_scene(scenes[1])
+        island = {path: {path} for path in self.bodies}
+        for prim in self.scene.prims.values():
+            sides = [path for name in ("physics:body0", "physics:body1")
+                     for path in prim.targets.get(name, []) if path in island]
+            union = set().union(*(island[path] for path in sides))
+            island.update((path, union) for path in union)
+        for path in self.bodies:
+            if path == min(island[path]) and self.chance(0.7):
+                owner = self.random.choice(scenes)
+                for link in sorted(island[path]):
+                    self.scene.prims[link].targets["physics:simulationOwner"] = [owner]
+        for path in self.colliders:
+            if path not in self.bodies and self.chance(0.3):
+                self.scene.prims[path].targets["physics:simulationOwner"] = \
+                    [self.random.choice(scenes)]
 
     def put_in_order(self):
         """Parents before children and each subtree in one piece."""
@@ -175,8 +198,8 @@ class Maker:
         self.scene.prims = {path: self.scene.prims[path]
                             for path in sorted(self.scene.prims, key=order.get)}
 
-    def physics_scene(self):
-        prim = self.scene.add("/W/S", "PhysicsScene")
+    def physics_scene(self, path):
+        prim = self.scene.add(path, "PhysicsScene")
         if self.chance(0.4):
             prim.set("float", "physics:gravityMagnitude", number(self.span(-20, 20)))
         if self.chance(0.4):
