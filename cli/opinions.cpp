@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/opinions.h"
 
+#include <optional>
+
 #include "tenon/formats/text/value_text.h"
+#include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/value.h"
 
@@ -20,21 +23,49 @@ Json place_json(const stage::SpecSite& site) {
   return row;
 }
 
-/// "add </A>, </B>" of a list edit of paths.
-std::string list_text(const layer::ListOp<Path>& op) {
+std::string item_text(Token item) { return item.str(); }
+std::string item_text(const std::string& item) { return "\"" + item + "\""; }
+std::string item_text(Path item) { return "<" + item.str() + ">"; }
+template <class Arc>
+  requires requires(const Arc& arc) { arc.asset_path; }
+std::string item_text(const Arc& arc) {
+  return (arc.asset_path.empty() ? "" : "@" + arc.asset_path + "@") +
+         (arc.prim_path.empty() ? "" : item_text(arc.prim_path));
+}
+
+/// "prepend </A>, append </B>" of a list edit; nothing for values that are none.
+template <class T>
+std::optional<std::string> list_text(const layer::Value& value) {
+  const auto* op = value.get<layer::ListOp<T>>();
+  if (op == nullptr) {
+    return std::nullopt;
+  }
   std::string text;
-  const auto add = [&](const char* word, const std::vector<Path>& paths) {
-    for (const Path& path : paths) {
-      text += (text.empty() ? "" : ", ") + std::string(word) + "<" + path.str() + ">";
+  const auto add = [&](const char* word, const std::vector<T>& items) {
+    for (const T& item : items) {
+      text += (text.empty() ? "" : ", ") + std::string(word) + item_text(item);
     }
   };
-  add("", op.explicit_items);
-  add("prepend ", op.prepended);
-  add("append ", op.appended);
-  add("add ", op.added);
-  add("delete ", op.deleted);
-  add("reorder ", op.ordered);
+  add("", op->explicit_items);
+  add("prepend ", op->prepended);
+  add("append ", op->appended);
+  add("add ", op->added);
+  add("delete ", op->deleted);
+  add("reorder ", op->ordered);
   return text.empty() ? "None" : text;
+}
+
+/// "Physics=physx" of variant selections; nothing for other values.
+std::optional<std::string> selections_text(const layer::Value& value) {
+  const auto* selections = value.get<layer::VariantSelections>();
+  if (selections == nullptr) {
+    return std::nullopt;
+  }
+  std::string text;
+  for (const auto& [set, variant] : selections->items) {
+    text += (text.empty() ? "" : ", ") + set + "=" + variant;
+  }
+  return text;
 }
 
 /// One field of a spec that speaks about the value; the first opinion of all counts.
@@ -97,8 +128,12 @@ Json relationship_rows(const stage::Relationship& relationship) {
 }  // namespace
 
 std::string short_value_text(const layer::Value& value) {
-  const auto* list = value.get<layer::ListOp<Path>>();
-  std::string text = list != nullptr ? list_text(*list) : formats::value_text(value);
+  std::optional<std::string> list = selections_text(value);
+  for (auto* text : {list_text<Path>, list_text<Token>, list_text<std::string>,
+                     list_text<layer::Reference>, list_text<layer::Payload>}) {
+    list = list ? list : text(value);
+  }
+  std::string text = list ? *list : formats::value_text(value);
   for (char& c : text) {
     c = c == '\n' ? ' ' : c;
   }

@@ -93,8 +93,9 @@ Result<Edits> collider_edits(const std::string& text) {
 
 Result<Edits> material_edits(const std::string& text) {
   TENON_TRY(const Assignment material, read_assignment(text, "PRIM=/path/of/Material"));
-  return Edits{applied(material.prim, "MaterialBindingAPI"),
-               set(material.prim, "material:binding:physics", material.value)};
+  AssetEdit binding = set(material.prim, "material:binding:physics", material.value);
+  binding.type_name = Token("rel");
+  return Edits{applied(material.prim, "MaterialBindingAPI"), std::move(binding)};
 }
 
 Result<Edits> drive_edits(const stage::Stage& stage, const std::string& text) {

@@ -331,7 +331,8 @@ std::string way_text(const Json& row) {
   return text;
 }
 
-std::string row_text(const Json& row) {
+/// The way there is said once for rows of one place.
+std::string row_text(const Json& row, std::string& last_way) {
   const bool fallback = row["what"] == "fallback";
   const std::string verdict = row["verdict"].get<std::string>();
   const bool counts = verdict.starts_with("wins") || verdict == "combined";
@@ -345,8 +346,11 @@ std::string row_text(const Json& row) {
   text += row["value"].is_null() ? "" : " = " + row["value"].get<std::string>();
   text += "  [" + verdict;
   text += row["why"].is_null() ? "]\n" : ": " + row["why"].get<std::string>() + "]\n";
+  const std::string place = fallback ? "" : place_text(row);
   const std::string way = way_text(row);
-  return way.empty() ? text : text + "        " + way + "\n";
+  const bool known = last_way == place + way;
+  last_way = place + way;
+  return way.empty() || known ? text : text + "        " + way + "\n";
 }
 
 std::string value_line(const Json& answer) {
@@ -405,8 +409,9 @@ std::string where_text(const Json& answer) {
   text += answer["property"].is_null() ? "" : "." + answer["property"].get<std::string>();
   text += "  " + answer["type"].get<std::string>() + "\n" + value_line(answer);
   text += answer["opinions"].empty() ? "  no opinion\n" : "  opinions, strongest first\n";
+  std::string last_way;
   for (const Json& row : answer["opinions"]) {
-    text += row_text(row);
+    text += row_text(row, last_way);
   }
   return text;
 }

@@ -158,7 +158,9 @@ Result<TypedEdit> typed_edit(const stage::Prim& prim, const AssetEdit& edit,
   typed.is_relationship = definition != nullptr
                               ? definition->is_relationship
                               : prim.is_relationship(name) || edit.type_name == "rel";
-  typed.custom = definition == nullptr;
+  // Bindings for one purpose are of MaterialBindingAPI, which declares the plain one alone.
+  const bool binding = name.view().starts_with("material:binding:");
+  typed.custom = definition == nullptr && !binding;
   typed.variability = definition == nullptr ? layer::Variability::Varying : definition->variability;
   if (typed.is_relationship) {
     TENON_TRY(typed.targets, read_targets(edit));

@@ -228,6 +228,18 @@ class Kinds(Case):
         self.set("--engine", "physx", "--mimic", f"{FOLLOWER}={JOINT},0.5,2")
         self.assertEqual(self.value(f"{FOLLOWER}.physxMimicJoint:rotX:gearing", "physx"), "-0.5")
 
+    def test_a_material_is_bound_within_what_instances_share(self):
+        link = f"{R}/r_base_link/r_base_link"
+        self.set("--material", f"{link}/r_base_link={link}/Materials/Rubber_Smooth")
+        self.assertEqual(self.changed(), {"payloads/instances.usda": [
+            "+             rel material:binding:physics = "
+            "</Instances/r_base_link/Materials/Rubber_Smooth>"]})
+        self.assertEqual(self.value(f"{link}/r_base_link.material:binding:physics"),
+                         [f"{link}/Materials/Rubber_Smooth"])
+        self.original = self.files()
+        self.assertIn("no name in this file",
+                      self.refused("--material", f"{link}/r_base_link={R}/elsewhere"))
+
     def test_an_asset_without_the_structure(self):
         weak = self.folder / "weak.usdc"
         text = self.folder / "weak.usda"

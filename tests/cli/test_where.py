@@ -114,7 +114,13 @@ class Where(unittest.TestCase):
         self.assertEqual([row["verdict"] for row in answer["opinions"]],
                          ["combined", "wins", "loses"])
         rows = [row for row in self.where(root, "/A")["opinions"] if row["what"] == "apiSchemas"]
-        self.assertEqual([row["verdict"] for row in rows], ["combined", "combined"])
+        self.assertEqual([(row["value"], row["verdict"]) for row in rows],
+                         [("prepend Y", "combined"), ("prepend X", "combined")])
+        rows = self.where(root.parent / "weak.usda", "/")["opinions"]
+        rows_of_hand = self.where(HAND, "/inspire_hand")["opinions"]
+        self.assertIn(("variantSelection", "Physics=physics"),
+                      [(row["what"], row["value"]) for row in rows_of_hand])
+        self.assertIn("subLayers", [row["what"] for row in rows])
 
     def test_what_instances_ignore_is_named(self):
         self.write("shape.usda", 'def "S"\n{\n    def "M"\n    {\n        double a = 1\n    }\n}\n')
