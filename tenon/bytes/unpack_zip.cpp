@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/atomic_write.h"
 
 namespace tenon::bytes {
@@ -112,7 +113,7 @@ Result<void> check_entry_names(const ZipArchive& archive) {
 
 Result<void> unpack_zip(const ZipArchive& archive, const std::string& folder) {
   TENON_CHECK(check_entry_names(archive));
-  const fs::path target = fs::absolute(folder).lexically_normal();
+  const fs::path target = absolute_file_path(folder);
   const fs::path place = target.has_filename() ? target : target.parent_path();
   std::error_code ignored;
   if (fs::exists(fs::symlink_status(place, ignored)) && !fs::is_empty(place, ignored)) {
