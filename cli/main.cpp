@@ -23,6 +23,7 @@ constexpr const char* kExamples =
     "  tenon physics hand.usda --json                    what an engine receives, SI and radians\n"
     "  tenon sim hand.usda --duration 5 -o run.csv       simulate it on MuJoCo\n"
     "  tenon bake hand.usda -o motion.usda               a layer that any USD viewer plays\n"
+    "  tenon convert hand.urdf hand.usda                 an asset of a robot's description\n"
     "  tenon cat model.usdc                              a binary layer as text\n"
     "Exit codes: 0 ok, 1 the answer is no, 2 usage, I/O or parse error, 3 unstable simulation,\n"
     "4 engine not installed, 130 interrupted.";
@@ -44,12 +45,13 @@ int run(int argc, char** argv) {
   root.footer(kExamples);
   root.require_subcommand();
   add_global_options(root, globals);
-  for (auto* add : {tenon::cli::add_bake, tenon::cli::add_cat, tenon::cli::add_check,
-                    tenon::cli::add_diff, tenon::cli::add_doctor, tenon::cli::add_dump,
-                    tenon::cli::add_dump_index, tenon::cli::add_explain, tenon::cli::add_info,
-                    tenon::cli::add_physics, tenon::cli::add_set, tenon::cli::add_sim,
-                    tenon::cli::add_strip, tenon::cli::add_test_runner, tenon::cli::add_tree,
-                    tenon::cli::add_variant, tenon::cli::add_where, tenon::cli::add_zip}) {
+  for (auto* add :
+       {tenon::cli::add_bake, tenon::cli::add_cat, tenon::cli::add_check, tenon::cli::add_convert,
+        tenon::cli::add_diff, tenon::cli::add_doctor, tenon::cli::add_dump,
+        tenon::cli::add_dump_index, tenon::cli::add_explain, tenon::cli::add_info,
+        tenon::cli::add_physics, tenon::cli::add_set, tenon::cli::add_sim, tenon::cli::add_strip,
+        tenon::cli::add_test_runner, tenon::cli::add_tree, tenon::cli::add_variant,
+        tenon::cli::add_where, tenon::cli::add_zip}) {
     add(root, globals, chosen);
   }
   if (const std::optional<bool> is_error = line.parse(argc, argv)) {

@@ -53,6 +53,7 @@ using AddVerb = void(const Command& parent, const Globals& globals, Chosen& chos
 AddVerb add_bake;
 AddVerb add_cat;
 AddVerb add_check;
+AddVerb add_convert;
 AddVerb add_diff;
 AddVerb add_doctor;
 AddVerb add_dump;

@@ -22,7 +22,7 @@ LIBRARIES = {
     "tl/*": ["tenon/base/result.h"],
     "Eigen/*": ["tenon/math/*.cpp", "tenon/physics/*.cpp"],
     "lz4*.h": ["tenon/bytes/*.cpp"],
-    "mujoco/*": ["tenon/engines/mujoco/*", "bench/step_mujoco.cpp"],
+    "mujoco/*": ["tenon/engines/mujoco/*", "tenon/mjcf/*", "bench/step_mujoco.cpp"],
     "pugixml.hpp": ["tenon/urdf/*"],
     "assimp/*": ["tenon/mesh/assimp_scene.cpp"],
     "CLI/*": ["cli/command_line.cpp"],

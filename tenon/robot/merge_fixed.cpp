@@ -75,6 +75,10 @@ RobotModel merge_fixed(const RobotModel& model, const KinematicTree& tree) {
     }
     take_shapes(part.visuals, hosts[link].pose, whole.visuals);
     take_shapes(part.colliders, hosts[link].pose, whole.colliders);
+    take_shapes(part.sites, hosts[link].pose, whole.sites);
+  }
+  for (std::array<Index, 2>& pair : result.excluded_pairs) {
+    pair = {hosts[pair[0]].link, hosts[pair[1]].link};
   }
   std::vector<Index> number(model.joints.size(), 0);
   for (Index i = 0; i < model.joints.size(); ++i) {

@@ -90,11 +90,19 @@ struct Material {
   std::uint32_t line = 0;
 };
 
-/// A mesh file that geometries show.
+/// A mesh that geometries show: a file, or triangles that came with the description.
 struct MeshFile {
   std::string written;  ///< as the description names it
   std::string path;     ///< the file; empty: not found
   std::uint32_t line = 0;
+  std::vector<Vec3f> points;     ///< (point_count) [m], without a file
+  std::vector<Vec3i> triangles;  ///< (triangle_count), indices into points
+};
+
+/// A named frame on a link.
+struct Site {
+  std::string name;
+  Pose pose;  ///< in the link frame
 };
 
 struct Link {
@@ -102,6 +110,7 @@ struct Link {
   std::optional<Inertial> inertial;
   std::vector<Visual> visuals;
   std::vector<Collider> colliders;
+  std::vector<Site> sites;
   std::uint32_t line = 0;
 };
 
@@ -191,6 +200,8 @@ struct RobotModel {
   std::vector<Joint> joints;
   std::vector<Material> materials;
   std::vector<MeshFile> meshes;  ///< each file once
+  /// Pairs of links whose colliders do not touch each other.
+  std::vector<std::array<Index, 2>> excluded_pairs;
 };
 
 }  // namespace tenon::robot

@@ -156,7 +156,8 @@ robot::Index UrdfReader::mesh_number(const std::string& written, pugi::xml_node 
   const auto [at, is_new] =
       meshes_.emplace(written, static_cast<robot::Index>(model_.meshes.size()));
   if (is_new) {
-    model_.meshes.push_back({written, paths_.find(written).value_or(""), xml_.line_of(element)});
+    model_.meshes.push_back(
+        {written, paths_.find(written).value_or(""), xml_.line_of(element), {}, {}});
   }
   return at->second;
 }

@@ -18,7 +18,7 @@ import unittest
 
 ROOT, TENON = pathlib.Path(sys.argv[1]), sys.argv[2]
 HAND = ROOT / "examples/inspire_hand/inspire_hand.usda"
-VERBS = ("bake cat check diff doctor dump dump-index explain info physics set sim strip "
+VERBS = ("bake cat check convert diff doctor dump dump-index explain info physics set sim strip "
          "test-runner tree variant where zip").split()
 
 

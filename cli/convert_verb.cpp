@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/report.h"
+#include "cli/verb.h"
+#include "tenon/base/text_number.h"
+#include "tenon/convert_file.h"
+#include "tenon/export_mjcf.h"
+#include "tenon/formats/save_layer.h"
+#include "tenon/physics/read_physics.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string input;
+  std::string output;
+  std::vector<std::string> packages;
+  std::string gains;
+  std::string schema = "current";
+  bool fix_base = false;
+  bool merge_fixed = false;
+  bool flat = false;
+};
+
+/// "K,D", both numbers.
+std::optional<convert::Gains> gains_of(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) {
+    return std::nullopt;
+  }
+  const auto stiffness = parse_double(text.substr(0, comma));
+  const auto damping = parse_double(text.substr(comma + 1));
+  if (!stiffness || !damping || !(*stiffness >= 0) || !(*damping >= 0)) {
+    return std::nullopt;
+  }
+  return convert::Gains{*stiffness, *damping};
+}
+
+/// A JSON object: joint -> [K, D], "*" for all others.
+Result<void> read_gains_file(const std::string& path, convert::ConvertOptions& options) {
+  const auto fault = [&](const std::string& message) {
+    return Error(ErrorCode::Invalid, message)
+        .in_file(path)
+        .with_fix("write {\"joint\": [K, D], \"*\": [K, D]} in N m/rad and N m s/rad");
+  };
+  std::ifstream file(path);
+  if (!file) {
+    return fault("the gains are neither two numbers K,D nor a file that can be read");
+  }
+  const Json json = Json::parse(file, nullptr, false);
+  if (!json.is_object()) {
+    return fault("the file of gains is no JSON object");
+  }
+  for (const auto& [name, pair] : json.items()) {
+    const bool sound = pair.is_array() && pair.size() == 2 && pair[0].is_number() &&
+                       pair[1].is_number() && pair[0].get<double>() >= 0 &&
+                       pair[1].get<double>() >= 0;
+    if (!sound) {
+      return fault("the gains of \"" + name + "\" are not two numbers that are not negative");
+    }
+    const convert::Gains gains{pair[0].get<double>(), pair[1].get<double>()};
+    if (name == "*") {
+      options.gains = gains;
+    } else {
+      options.joint_gains[name] = gains;
+    }
+  }
+  return {};
+}
+
+Result<ConvertFileOptions> convert_options(const Options& options) {
+  ConvertFileOptions result;
+  result.robot.flat = options.flat;
+  result.robot.fix_base = options.fix_base;
+  result.robot.merge_fixed = options.merge_fixed;
+  result.robot.schema = options.schema == "legacy" ? convert::SchemaGeneration::Legacy
+                        : options.schema == "both" ? convert::SchemaGeneration::Both
+                                                   : convert::SchemaGeneration::Current;
+  if (!options.gains.empty()) {
+    result.robot.gains = gains_of(options.gains);
+    if (!result.robot.gains) {
+      TENON_CHECK(read_gains_file(options.gains, result.robot));
+    }
+  }
+  for (const std::string& text : options.packages) {
+    TENON_TRY(auto package, split_assignment(text));
+    result.packages.insert(std::move(package));
+  }
+  return result;
+}
+
+/// Absolute asset paths become relative to the folder of `output`.
+void make_relative(layer::Layer& layer, const std::string& output) {
+  const fs::path folder = fs::absolute(output).lexically_normal().parent_path();
+  for (const layer::Layer::Entry& entry : layer.entries()) {
+    const auto* asset = entry.spec.get<layer::AssetPath>(layer::fields::default_value);
+    if (asset == nullptr || !fs::path(asset->authored).is_absolute()) {
+      continue;
+    }
+    std::string name = fs::path(asset->authored).lexically_relative(folder).generic_string();
+    if (!name.starts_with("../")) {
+      name.insert(0, "./");
+    }
+    layer.find(entry.path)
+        ->set(layer::fields::default_value,
+              layer::Value(layer::AssetPath{std::move(name), "", ""}));
+  }
+}
+
+Result<void> write(layer::Layer& layer, const Options& options, Diagnostics& diagnostics) {
+  TENON_TRY(const formats::LayerFormat format, formats::layer_format_for(options.output));
+  if (format == formats::LayerFormat::Package) {
+    TENON_TRY(const std::string package,
+              pack_layer(std::move(layer), options.output, {}, diagnostics));
+    return write_output(options.output, package);
+  }
+  make_relative(layer, options.output);
+  return formats::save_layer(layer, options.output);
+}
+
+Result<ConvertedFile> convert_and_write(const Options& options, Diagnostics& diagnostics) {
+  TENON_TRY(const ConvertFileOptions wanted, convert_options(options));
+  TENON_TRY(ConvertedFile converted, convert_file(options.input, wanted, diagnostics));
+  TENON_CHECK(write(converted.layer, options, diagnostics));
+  return converted;
+}
+
+/// The other way: an asset's physics as a model of MuJoCo.
+int run_export(Report& report, const Options& options) {
+  auto stage = open_stage(options.input, {}, report.diagnostics);
+  if (!stage) {
+    return report.fail(stage.error());
+  }
+  const physics::PhysicsScene scene = physics::read_physics(*stage, {}, report.diagnostics);
+  const auto text = export_mjcf(scene, report.diagnostics);
+  if (!text) {
+    return report.fail(text.error());
+  }
+  if (const auto written = write_output(options.output, *text); !written) {
+    return report.fail(written.error());
+  }
+  return report.finish(kOk, {{"output", options.output},
+                             {"bodies", scene.bodies.size()},
+                             {"joints", scene.joints.size()}});
+}
+
+bool ends_in(const std::string& path, std::initializer_list<const char*> endings) {
+  const std::string ending = fs::path(path).extension().string();
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+int run_convert(const Globals& globals, const Options& options) {
+  Report report(globals, "convert", options.input);
+  if (ends_in(options.input, {".usda", ".usdc", ".usd", ".usdz"})) {
+    if (!ends_in(options.output, {".xml"})) {
+      return report.fail(Error(ErrorCode::Unsupported, "an asset becomes MJCF only")
+                             .with_fix("name the output .xml; `tenon cat` writes assets"));
+    }
+    return run_export(report, options);
+  }
+  const auto converted = convert_and_write(options, report.diagnostics);
+  if (!converted) {
+    return report.fail(converted.error());
+  }
+  report.note("wrote " + shown_path(options.output) + ": " + std::to_string(converted->links) +
+              " links, " + std::to_string(converted->joints) + " joints, " +
+              std::to_string(converted->meshes) + " mesh files");
+  return report.finish(report.diagnostics.has_errors() ? kNo : kOk,
+                       {{"output", options.output},
+                        {"links", converted->links},
+                        {"joints", converted->joints},
+                        {"meshes", converted->meshes}});
+}
+
+}  // namespace
+
+void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
+      "convert", "Make an asset of a robot's description (URDF, MJCF), or MJCF of an asset");
+  auto options = std::make_shared<Options>();
+  verb.add_option("input", options->input, "A URDF or MJCF file, or an asset").required();
+  verb.add_option("output", options->output,
+                  "A .usda, .usdc, .usd or .usdz file; for an asset an .xml file")
+      .required();
+  verb.add_option("--package", options->packages,
+                  "NAME=DIR: where a ROS package lies; else it "
+                  "is looked for upward from the input")
+      .repeatable();
+  verb.add_flag("--fix-base", options->fix_base, "Hold the root link in the world");
+  verb.add_flag("--merge-fixed", options->merge_fixed,
+                "Make links on fixed joints parts of the links that hold them");
+  verb.add_flag("--flat", options->flat, "Links side by side, not nested");
+  verb.add_option("--gains", options->gains,
+                  "K,D: a drive for each joint that follows no other, in N m/rad and N m s/rad "
+                  "(N/m and N s/m); or a JSON file {\"joint\": [K, D], \"*\": [K, D]}");
+  verb.add_option("--schema", options->schema,
+                  "Vendors' schemas for joints: current (Newton, PhysX joint axes), legacy (PhysX "
+                  "joints and mimics of Isaac Sim 5, MuJoCo) or both")
+      .one_of({"current", "legacy", "both"});
+  verb.footer(
+      "Examples:\n  tenon convert hand.urdf hand.usda\n"
+      "  tenon convert arm.urdf arm.usdc --fix-base --gains 400,40\n"
+      "  tenon convert humanoid.xml humanoid.usda\n  tenon convert hand.usda hand.xml\n"
+      "  tenon convert ur5.urdf ur5.usdz --package ur_description=../ur_description\n"
+      "Exit code 1: written, but something of the robot is left out; each case is listed.");
+  choose(verb, chosen, [&globals, options] { return run_convert(globals, *options); });
+}
+
+}  // namespace tenon::cli

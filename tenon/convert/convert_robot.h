@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/layer/layer.h"
+#include "tenon/robot/robot_model.h"
+
+/// From robots to layers.
+namespace tenon::convert {
+
+/// Which of the vendors' schemas for joints and mimics are written; UsdPhysics always is.
+enum class SchemaGeneration : std::uint8_t {
+  Legacy,   ///< PhysxJointAPI, PhysxMimicJointAPI, numbers of MjcJointAPI and MjcEqualityJointAPI
+  Current,  ///< NewtonJointAPI, NewtonMimicAPI, PhysxJointAxisAPI
+  Both,
+};
+
+struct Gains {
+  double stiffness = 0;  ///< [N m/rad or N/m]
+  double damping = 0;    ///< [N m s/rad or N s/m]
+};
+
+struct ConvertOptions {
+  bool flat = false;         ///< links side by side below the robot, not nested
+  bool fix_base = false;     ///< the root is held by the world
+  bool merge_fixed = false;  ///< links on fixed joints become parts of their parents
+  SchemaGeneration schema = SchemaGeneration::Current;
+  std::optional<Gains> gains;                ///< a drive for each joint that leads
+  std::map<std::string, Gains> joint_gains;  ///< by joint, before `gains`
+};
+
+/// One layer that holds the robot as a plain asset: metres, kilograms, Z up.
+///   /<robot>                   Xform, default prim, IsaacRobotAPI, PhysicsArticulationRootAPI
+///   /<robot>/Geometry/<link>   Xforms, nested as the links are (`flat`: /<robot>/<link>), with
+///                              visuals and colliders (purpose guide) below
+///   /<robot>/Physics/<joint>   joints, and actuators where there are gains
+///   /<robot>/Materials/<name>  materials, visual and physical
+/// A link without inertial is no body: at the root it stands still, on a fixed joint it is a frame
+/// (IsaacSiteAPI) of the link that holds it. Mesh files are read; texture paths are those of the
+/// model. Faults that leave something out go to `diagnostics`. Errors: what is no tree (Invalid), a
+/// chain too long to be nested (Limit).
+Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions& options,
+                                   Diagnostics& diagnostics);
+
+}  // namespace tenon::convert

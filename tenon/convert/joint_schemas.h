@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tenon/convert/convert_robot.h"
+#include "tenon/convert/layer_builder.h"
+
+/// Internal to this folder.
+namespace tenon::convert {
+
+/// Writes one joint with one axis, each number by the schema that holds it and in that schema's
+/// unit (robot/joint_quantity.h): degrees in PhysicsDriveAPI, Newton's and PhysX's APIs, radians in
+/// those of MuJoCo.
+class JointPrinter {
+ public:
+  /// `axis` is the token of physics:axis.
+  JointPrinter(LayerBuilder& builder, Path path, const robot::Joint& joint, std::string axis,
+               SchemaGeneration generation)
+      : builder_(builder),
+        path_(path),
+        joint_(joint),
+        axis_(std::move(axis)),
+        generation_(generation) {}
+
+  /// Limits, drive, state and settings.
+  void print();
+  /// The mimic of `leader`, whose prim is `leader_path` and whose axis token `leader_axis`.
+  void print_mimic(const robot::Joint& leader, Path leader_path, const std::string& leader_axis);
+  /// MuJoCo's actuator of the joint's drive, below `scope`.
+  void print_actuator(Path scope, Token name);
+
+ private:
+  bool legacy() const { return generation_ != SchemaGeneration::Current; }
+  bool current() const { return generation_ != SchemaGeneration::Legacy; }
+  bool angular() const { return joint_.motion() == robot::Motion::Angular; }
+  double position(double si) const {
+    return robot::JointPosition::from_si(si, joint_.motion()).in_layer();
+  }
+  double velocity(double si) const {
+    return robot::JointVelocity::from_si(si, joint_.motion()).in_layer();
+  }
+  double gain(double si) const {
+    return robot::JointStiffness::from_si(si, joint_.motion()).in_layer();
+  }
+
+  void print_limits();
+  void print_drive();
+  void print_state();
+  void print_newton();
+  void print_physx_axis();
+  void print_physx_joint();
+  void print_mujoco();
+  void print_description();
+
+  LayerBuilder& builder_;
+  Path path_;
+  const robot::Joint& joint_;
+  std::string axis_;
+  SchemaGeneration generation_;
+};
+
+}  // namespace tenon::convert

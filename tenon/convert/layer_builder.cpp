@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/convert/layer_builder.h"
+
+#include "tenon/base/assert.h"
+#include "tenon/layer/list_op.h"
+
+namespace tenon::convert {
+
+using layer::SpecKind;
+using layer::Value;
+namespace fields = layer::fields;
+
+LayerBuilder::LayerBuilder(std::string identifier) : layer_(std::move(identifier)) {}
+
+Path LayerBuilder::define(Path parent, Token name, Token type) {
+  const Path path = parent.child(name);
+  TENON_ASSERT(!layer_.has(path));
+  lists_[parent].children.push_back(name);
+  layer::Spec& spec = layer_.create(path, SpecKind::Prim);
+  spec.append(fields::specifier, Value(layer::Specifier::Def));
+  if (!type.empty()) {
+    spec.append(fields::typeName, Value(type));
+  }
+  return path;
+}
+
+void LayerBuilder::set_metadata(Path prim, Token field, Value value) {
+  layer_.find(prim)->set(field, std::move(value));
+}
+
+void LayerBuilder::apply(Path prim, Token api) {
+  std::vector<Token>& apis = lists_[prim].apis;
+  if (std::find(apis.begin(), apis.end(), api) == apis.end()) {
+    apis.push_back(api);
+  }
+}
+
+const schema::PropertyDefinition& LayerBuilder::declared(Token schema,
+                                                         std::string_view property) const {
+  constexpr std::string_view kInstance = "__INSTANCE_NAME__";
+  const auto [name, instance] = schema::split_api_name(schema);
+  const schema::Schema* found = schema::Registry::instance().find(name);
+  for (Token at = name; found != nullptr; found = schema::Registry::instance().find(at)) {
+    for (const schema::PropertyDefinition& definition : found->properties) {
+      std::string text = definition.name.str();
+      if (const std::size_t hole = text.find(kInstance); hole != std::string::npos) {
+        text.replace(hole, kInstance.size(), instance.str());
+      }
+      if (text == property) {
+        return definition;
+      }
+    }
+    at = found->base;
+  }
+  TENON_ASSERT(false && "no such property in the schema");
+  static const schema::PropertyDefinition none;
+  return none;
+}
+
+layer::Spec& LayerBuilder::property_spec(Path prim, Token name, SpecKind kind) {
+  const Path path = prim.property(name);
+  if (layer::Spec* known = layer_.find(path)) {
+    return *known;
+  }
+  lists_[prim].properties.push_back(name);
+  return layer_.create(path, kind);
+}
+
+void LayerBuilder::set_attribute(Path prim, Token name, Token type_name, Value value,
+                                 layer::Variability variability) {
+  layer::Spec& spec = property_spec(prim, name, SpecKind::Attribute);
+  spec.set(fields::typeName, Value(type_name));
+  if (variability == layer::Variability::Uniform) {
+    spec.set(fields::variability, Value(variability));
+  }
+  spec.set(fields::default_value, std::move(value));
+}
+
+void LayerBuilder::set_custom(Path prim, Token name, Token type_name, Value value) {
+  set_attribute(prim, name, type_name, std::move(value));
+  layer_.find(prim.property(name))->set(fields::custom, Value(true));
+}
+
+void LayerBuilder::set_connection(Path prim, Token name, Token type_name, Path source) {
+  layer::Spec& spec = property_spec(prim, name, SpecKind::Attribute);
+  spec.set(fields::typeName, Value(type_name));
+  spec.set(fields::connectionPaths, Value(layer::ListOp<Path>::make_explicit({source})));
+}
+
+void LayerBuilder::set_value(Path prim, Token schema, std::string_view property, Value value) {
+  const schema::PropertyDefinition& definition = declared(schema, property);
+  set_attribute(prim, Token(property), definition.type_name, std::move(value),
+                definition.variability);
+}
+
+void LayerBuilder::set_number(Path prim, Token schema, std::string_view property, double value) {
+  const schema::PropertyDefinition& definition = declared(schema, property);
+  const Token type = definition.type_name;
+  Value typed(value);
+  if (type == "float") {
+    typed = Value(static_cast<float>(value));
+  } else if (type == "int") {
+    typed = Value(static_cast<std::int32_t>(value));
+  } else {
+    TENON_ASSERT(type == "double");
+  }
+  set_value(prim, schema, property, std::move(typed));
+}
+
+void LayerBuilder::set_vector(Path prim, Token schema, std::string_view property,
+                              const Vec3d& value) {
+  set_value(prim, schema, property, Value(to_float(value)));
+}
+
+void LayerBuilder::set_rotation(Path prim, Token schema, std::string_view property,
+                                const Quatd& value) {
+  set_value(prim, schema, property, Value(to_float(value)));
+}
+
+void LayerBuilder::set_targets(Path prim, Token schema, std::string_view property,
+                               std::vector<Path> targets) {
+  [[maybe_unused]] const bool is_relationship = declared(schema, property).is_relationship;
+  TENON_ASSERT(is_relationship);
+  set_relationship(prim, Token(property), std::move(targets));
+}
+
+void LayerBuilder::set_relationship(Path prim, Token name, std::vector<Path> targets) {
+  layer::Spec& spec = property_spec(prim, name, SpecKind::Relationship);
+  spec.set(fields::variability, Value(layer::Variability::Uniform));
+  spec.set(fields::targetPaths, Value(layer::ListOp<Path>::make_explicit(std::move(targets))));
+}
+
+void LayerBuilder::declare(Path prim, Token name, Token type_name) {
+  property_spec(prim, name, SpecKind::Attribute).set(fields::typeName, Value(type_name));
+}
+
+layer::Layer LayerBuilder::take() {
+  for (auto& [prim, lists] : lists_) {
+    layer::Spec& spec = *layer_.find(prim);
+    if (!lists.apis.empty()) {
+      spec.set(fields::apiSchemas,
+               Value(layer::ListOp<Token>::make_prepended(std::move(lists.apis))));
+    }
+    if (!lists.properties.empty()) {
+      spec.set(fields::properties, Value(std::move(lists.properties)));
+    }
+    if (!lists.children.empty()) {
+      spec.set(fields::primChildren, Value(std::move(lists.children)));
+    }
+  }
+  return std::move(layer_);
+}
+
+}  // namespace tenon::convert

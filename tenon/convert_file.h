@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/convert/convert_robot.h"
+#include "tenon/layer/layer.h"
+
+namespace tenon {
+
+struct ConvertFileOptions {
+  convert::ConvertOptions robot;
+  std::map<std::string, std::string> packages;  ///< folders of ROS packages by name
+};
+
+struct ConvertedFile {
+  layer::Layer layer;
+  std::size_t links = 0;  ///< of the description
+  std::size_t joints = 0;
+  std::size_t meshes = 0;  ///< files
+};
+
+/// A robot's description as a layer (convert/convert_robot.h): URDF or MJCF, told by its root.
+/// Asset paths of the layer are absolute. Errors: those of reading and converting; Missing for MJCF
+/// without MuJoCo.
+Result<ConvertedFile> convert_file(const std::string& path, const ConvertFileOptions& options,
+                                   Diagnostics& diagnostics);
+
+}  // namespace tenon

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/mujoco/write_mjcf.h"
+
+#include "tenon/engines/mujoco/build.h"
+#include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/mujoco/surfaces.h"
+
+namespace tenon::engines::mujoco {
+namespace {
+
+constexpr int kWordsSize = 1000;
+
+void report_not_mapped(const Build& build) {
+  for (const NotMapped& part : build.not_mapped) {
+    Diagnostic finding;
+    finding.severity = Severity::Info;
+    finding.rule = "mujoco.not-mapped";
+    finding.message = part.why;
+    finding.prim = part.prim.str();
+    finding.property = part.property;
+    build.diagnostics.add(std::move(finding));
+  }
+}
+
+/// MuJoCo answers how much room the text needs where it is given too little.
+Result<std::string> text_of(const mjSpec& spec) {
+  char words[kWordsSize] = "";
+  std::string text(std::size_t{1} << 20u, '\0');
+  int missing = 0;
+  const auto save = [&] {
+    missing =
+        mj_saveXMLString(&spec, text.data(), static_cast<int>(text.size()), words, kWordsSize);
+  };
+  TENON_CHECK(guarded(save));
+  if (missing > 0) {
+    text.assign(static_cast<std::size_t>(missing) + 1, '\0');
+    TENON_CHECK(guarded(save));
+  }
+  if (missing != 0) {
+    return Error(ErrorCode::Invalid, std::string("MuJoCo cannot write the model: ") + words)
+        .with_rule("mujoco.write");
+  }
+  text.resize(text.find('\0'));
+  return text;
+}
+
+}  // namespace
+
+Result<std::string> write_mjcf(const physics::PhysicsScene& scene, const SimulationOptions& options,
+                               Diagnostics& diagnostics) {
+  // The model is made once as for a simulation: what MuJoCo refuses is found there.
+  TENON_TRY(const Model model, build_model(scene, options, diagnostics));
+  Build build(scene, diagnostics);
+  build.time_step = model.model->opt.timestep;
+  build.plan = plan_tree(scene);
+  for (const physics::Joint& joint : scene.joints) {
+    build.dofs.push_back(joint_dofs(joint));
+  }
+  build.joints.assign(scene.joints.size(), {});
+  build.balls.assign(scene.joints.size(), nullptr);
+  add_options(build);
+  add_bodies(build);
+  add_joints(build);
+  add_equalities(build);
+  add_actuators(build);
+  add_geoms(build);
+  add_filters(build);
+  add_surfaces(build);
+  report_unmapped(build);
+  TENON_CHECK(compile(build));
+  report_not_mapped(build);
+  return text_of(*build.spec);
+}
+
+}  // namespace tenon::engines::mujoco

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/engines/simulation.h"
+#include "tenon/physics/physics_scene.h"
+
+namespace tenon::engines::mujoco {
+
+/// The model that would be simulated, as text in MuJoCo's own format; meshes stand in it, the state
+/// is that of the start. What MuJoCo cannot express goes to `diagnostics`, each as an Info named
+/// "mujoco.not-mapped". Averaged friction of two materials is worked out at run time and not in it.
+/// Errors: those of making a model.
+Result<std::string> write_mjcf(const physics::PhysicsScene& scene, const SimulationOptions& options,
+                               Diagnostics& diagnostics);
+
+}  // namespace tenon::engines::mujoco

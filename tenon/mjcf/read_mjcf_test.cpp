@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/mjcf/read_mjcf.h"
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "tenon/math/inertia.h"
+#include "tenon/robot/kinematic_tree.h"
+
+namespace tenon::mjcf {
+namespace {
+
+using robot::JointKind;
+
+class ReadMjcf : public testing::Test {
+ protected:
+  ReadMjcf()
+      : path_((std::filesystem::temp_directory_path() /
+               ("tenon_mjcf_" + std::to_string(getpid()) + ".xml"))
+                  .string()) {}
+  ~ReadMjcf() override { std::filesystem::remove(path_); }
+
+  Result<robot::RobotModel> read(const std::string& inside) {
+    findings_ = {};
+    std::ofstream(path_) << "<mujoco model='m'>" << inside << "</mujoco>";
+    return read_mjcf(path_, findings_);
+  }
+  std::string found() const {
+    std::string text;
+    for (const Diagnostic& finding : findings_) {
+      text += finding.rule + ";";
+    }
+    return text;
+  }
+
+  std::string path_;
+  Diagnostics findings_;
+};
+
+TEST_F(ReadMjcf, ResolvesDefaultsAnglesAndInertias) {
+  const auto model = read(
+      "<compiler angle='degree'/><default><default class='d'><joint damping='0.5' armature='0.1'/>"
+      "</default></default><worldbody><body name='a' pos='0 0 1' euler='0 0 90'>"
+      "<joint name='j' class='d' axis='0 0 2' range='-90 45' pos='0.1 0 0'/>"
+      "<geom type='box' size='0.1 0.2 0.3' density='1000'/></body></worldbody>");
+  ASSERT_TRUE(model) << model.error().to_string();
+  ASSERT_TRUE(robot::kinematic_tree(*model));
+  ASSERT_EQ(model->joints.size(), 1u);
+  const robot::Joint& j = model->joints[0];
+  EXPECT_EQ(j.kind, JointKind::Revolute);
+  EXPECT_NEAR(j.limit->lower, -std::numbers::pi / 2, 1e-12);
+  EXPECT_NEAR(j.limit->upper, std::numbers::pi / 4, 1e-12);
+  EXPECT_EQ(j.damping, 0.5);
+  EXPECT_EQ(j.armature, 0.1);
+  EXPECT_EQ(j.frame.position, (Vec3d{{0.1, 0, 0}}));
+  EXPECT_EQ(j.origin.position, (Vec3d{{0, 0, 1}}));
+  const robot::Inertial& inertial = *model->links[1].inertial;
+  EXPECT_NEAR(inertial.mass, 48, 1e-9);  // 0.2 x 0.4 x 0.6 m, 1000 kg/m^3
+  EXPECT_NEAR(inertial.inertia_in_link()[2][2], 48.0 / 12 * (0.04 + 0.16), 1e-9);
+  EXPECT_EQ(found(), "");
+}
+
+TEST_F(ReadMjcf, CountsFromTheReference) {
+  const auto model = read(
+      "<compiler angle='radian'/><worldbody><body><joint name='a' axis='0 0 1' ref='0.5' "
+      "range='0 1' stiffness='3' springref='0.75'/><geom size='0.1'/><body><joint name='b' axis='0 "
+      "0 1'/>"
+      "<geom size='0.1'/></body></body></worldbody>"
+      "<equality><joint joint1='b' joint2='a' polycoef='0.25 -2 0 0 0'/></equality>");
+  ASSERT_TRUE(model) << model.error().to_string();
+  EXPECT_DOUBLE_EQ(model->joints[0].limit->lower, -0.5);
+  EXPECT_DOUBLE_EQ(model->joints[0].limit->upper, 0.5);
+  EXPECT_DOUBLE_EQ(model->joints[0].spring_reference, 0.25);
+  EXPECT_EQ(model->joints[1].mimic->leader, 0u);
+  EXPECT_EQ(model->joints[1].mimic->multiplier, -2);
+  EXPECT_EQ(model->joints[1].mimic->offset, 0.25);
+  EXPECT_EQ(found(), "mjcf.reference;");
+}
+
+TEST_F(ReadMjcf, PutsLinksBetweenJointsOfOneBody) {
+  const auto model = read(
+      "<worldbody><body name='torso'><freejoint/><geom size='0.1'/><body name='leg'>"
+      "<joint name='x' axis='1 0 0'/><joint name='y' axis='0 1 0'/><geom size='0.1'/></body></body>"
+      "</worldbody>");
+  ASSERT_TRUE(model) << model.error().to_string();
+  ASSERT_TRUE(robot::kinematic_tree(*model));
+  ASSERT_EQ(model->links.size(), 4u);
+  EXPECT_EQ(model->joints[0].kind, JointKind::Floating);
+  EXPECT_EQ(model->links[model->joints[1].child].name, "leg_x");
+  EXPECT_EQ(model->links[model->joints[2].child].name, "leg");
+  EXPECT_LT(model->links[3].inertial->mass, 1e-5 * model->links[2].inertial->mass);
+  EXPECT_EQ(found(), "mjcf.several-joints;");
+}
+
+TEST_F(ReadMjcf, TakesActuatorsThatAreSpringsAndListsTheRest) {
+  const auto model = read(
+      "<worldbody><body name='a'><joint name='j' axis='0 0 1'/><geom size='0.1' rgba='1 0 0 1' "
+      "friction='0.3 0.01 0.001'/><site name='tip' pos='0 0 1'/><body name='b'><joint name='k'/>"
+      "<geom size='0.1' contype='0' conaffinity='0'/></body></body></worldbody>"
+      "<contact><exclude body1='a' body2='b'/></contact>"
+      "<actuator><position joint='j' kp='20' kv='2' gear='2' forcerange='-3 3'/>"
+      "<motor name='m' joint='k'/></actuator><keyframe><key/></keyframe>");
+  ASSERT_TRUE(model) << model.error().to_string();
+  const robot::Joint& j = model->joints[0];
+  EXPECT_EQ(j.drive->stiffness, 80);  // kp gear^2
+  EXPECT_EQ(j.drive->damping, 8);
+  EXPECT_EQ(j.effort_limit, 6);
+  EXPECT_EQ(found(), "mjcf.left-out;mjcf.left-out;");
+  EXPECT_EQ(model->links[1].sites.at(0).name, "tip");
+  EXPECT_EQ(*model->links[1].colliders.at(0).surface.torsional_friction, 0.01);
+  EXPECT_EQ(model->links[2].visuals.size(), 1u);
+  EXPECT_TRUE(model->links[2].colliders.empty());
+  ASSERT_EQ(model->excluded_pairs.size(), 1u);
+}
+
+TEST_F(ReadMjcf, SaysWhatMuJoCoRefuses) {
+  const auto bad = read("<worldbody>\n<geom type='blob'/></worldbody>");
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().diagnostic().rule, "mjcf.parse");
+  EXPECT_EQ(bad.error().diagnostic().line, 2u);
+  EXPECT_FALSE(read("<worldbody><body><joint/></body></worldbody>"));  // moves without mass
+  EXPECT_EQ(read_mjcf("/nowhere/m.xml", findings_).error().code(), ErrorCode::NotFound);
+}
+
+}  // namespace
+}  // namespace tenon::mjcf

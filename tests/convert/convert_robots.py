@@ -1,0 +1,221 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""`tenon convert` on the robots in tests/convert/urdf and mjcf and on the shared hand.
+
+    convert_robots.py ROOT TENON
+
+The hand, where ../shared has it, is held to the numbers of its URDF as Python reads them.
+"""
+
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree
+
+ROOT, TENON = pathlib.Path(sys.argv[1]), sys.argv[2]
+URDF = ROOT / "tests/convert/urdf"
+SHARED = pathlib.Path(os.environ.get("TENON_SHARED_DIR", ROOT.parent / "shared"))
+HAND = SHARED / "assets/inspire_hand_urdf/inspire_hand.urdf"
+FLOAT = 2e-7  # relative rounding of floats, turned into radians
+
+faults = []
+
+
+def expect(what, found, wanted):
+    if found != wanted:
+        faults.append(f"{what}: {found!r}, expected {wanted!r}")
+
+
+def near(what, found, wanted, tolerance):
+    if not abs(found - wanted) <= tolerance:
+        faults.append(f"{what}: {found!r}, expected {wanted!r}")
+
+
+def tenon(*arguments):
+    process = subprocess.run([TENON, *map(str, arguments)], capture_output=True, text=True,
+                             check=False)
+    return process.returncode, process.stdout, process.stderr
+
+
+def convert(source, target, *options):
+    """-> exit code, rules of the findings, the answer."""
+    code, out, _ = tenon("convert", source, target, "--json", *options)
+    answer = json.loads(out)
+    rules = sorted(finding["rule"] for finding in answer["diagnostics"])
+    return code, rules, answer
+
+
+def physics(asset):
+    code, out, err = tenon("physics", asset, "--json")
+    if code != 0:
+        faults.append(f"{asset}: {err}")
+        return {"bodies": [], "joints": [], "colliders": []}
+    return json.loads(out)
+
+
+def by_name(items):
+    return {item["path"].rsplit("/", 1)[1]: item for item in items}
+
+
+def check_every_joint(work):
+    for schema in ("current", "legacy", "both"):
+        for flat in ((), ("--flat",)):
+            target = work / f"every_{schema}{len(flat)}.usda"
+            code, _, _ = convert(URDF / "every_joint.urdf", target, "--schema", schema, *flat)
+            expect(f"{target.name}: exit code", code, 0)
+            scene = physics(target)
+            joints = by_name(scene["joints"])
+            expect("kinds", {name: joint["type"] for name, joint in joints.items()},
+                   {"bolt": "fixed", "glide": "d6", "push": "prismatic", "roll": "revolute",
+                    "shoulder": "spherical", "turn": "revolute"})
+            near("turn upper", joints["turn"]["upper"], 2, FLOAT)
+            near("push follows", joints["push"]["mimic"]["multiplier"], 0.1, FLOAT)
+            near("push offset", joints["push"]["mimic"]["offset"], 0.05, FLOAT)
+            bodies = by_name(scene["bodies"])
+            expect("bodies", len(bodies), 8)
+            near("loose", bodies["loose"]["position"][2], 3, 0)
+
+
+def check_shapes(work):
+    for ending in ("usda", "usdc", "usdz"):
+        target = work / f"shapes.{ending}"
+        code, rules, answer = convert(URDF / "shapes.urdf", target)
+        expect(f"{target.name}: exit code", (code, rules), (0, []))
+        expect("mesh files", answer["meshes"], 2)
+        scene = physics(target)
+        expect("colliders", len(scene["colliders"]), 5)  # the mesh has two materials
+        code, text, _ = tenon("cat", target) if ending != "usdz" else (0, "", "")
+        if ending == "usda":
+            relative = os.path.relpath(URDF / "stripes.png", work)
+            expect("texture is relative", f"@{relative}@" in text or f"@./{relative}@" in text,
+                   True)
+
+
+def check_bad_input(work):
+    target = work / "bad.usda"
+    for name, code, rule in (("cycle", 2, "robot.circle"), ("missing_mesh", 1, "urdf.mesh-missing"),
+                             ("not_a_number", 1, "robot.not-finite"),
+                             ("no_inertial", 0, "convert.no-mass"), ("macro", 2, "urdf.xacro")):
+        found, out, err = tenon("convert", URDF / f"{name}.urdf", target)
+        expect(f"{name}: exit code", found, code)
+        expect(f"{name}: says {rule}", f"[{rule}]" in err, True)
+        expect(f"{name}: names the line", f"{name}.urdf:" in err, True)
+    expect("no output folder", tenon("convert", URDF / "shapes.urdf", "/nowhere/x.usda")[0], 2)
+    expect("bad gains", tenon("convert", URDF / "shapes.urdf", target, "--gains", "stiff")[0], 2)
+
+
+def check_mjcf(work):
+    """MJCF to an asset, back to MJCF, and again: bodies, masses, limits stay."""
+    first, model, second = work / "arm.usda", work / "arm.xml", work / "again.usda"
+    code, rules, _ = convert(ROOT / "tests/convert/mjcf/arm.xml", first)
+    expect("arm: findings", (code, rules), (0, ["convert.floating", "mjcf.several-joints"]))
+    scene = physics(first)
+    bodies, joints = by_name(scene["bodies"]), by_name(scene["joints"])
+    expect("arm: bodies", sorted(bodies), ["finger", "loose", "lower", "lower_elbow_y", "upper"])
+    expect("arm: joints", sorted(joints), ["elbow_x", "elbow_y", "shoulder", "slide"])
+    near("arm: upper limit", joints["shoulder"]["upper"], math.pi / 2, FLOAT * 2)
+    near("arm: damping", joints["shoulder"]["damping"], 0.5, FLOAT)
+    near("arm: stiffness", joints["shoulder"]["drives"][0]["stiffness"], 50, 1e-5)
+    near("arm: law", joints["slide"]["mimic"]["multiplier"], 0.02, FLOAT)
+    # 1000 kg/m^3 in 0.2 x 0.04 x 0.04 m
+    near("arm: mass", bodies["lower"]["mass"], 0.32, 1e-6)
+    expect("arm: back", convert(first, model)[0], 0)
+    expect("arm: again", convert(model, second)[0], 0)
+    again = physics(second)
+    masses = sorted(round(body["mass"], 4) for body in scene["bodies"])
+    expect("arm: masses again", sorted(round(body["mass"], 4) for body in again["bodies"]), masses)
+    limits = sorted(round(joint["upper"], 4) for joint in joints.values()
+                    if isinstance(joint["upper"], float))
+    expect("arm: limits again",
+           sorted(round(joint["upper"], 4) for joint in again["joints"]
+                  if isinstance(joint["upper"], float)), limits)
+
+
+def numbers(element, attribute, count=3):
+    text = element.get(attribute) if element is not None else None
+    return [float(word) for word in text.split()] if text else [0.0] * count
+
+
+def check_hand(work):
+    if not HAND.exists():
+        print(f"without the hand: {HAND} is not there")
+        return
+    target = work / "hand.usda"
+    code, rules, _ = convert(HAND, target)
+    expect("hand: findings", (code, rules), (0, ["urdf.extension"]))
+    scene = physics(target)
+    bodies, joints = by_name(scene["bodies"]), by_name(scene["joints"])
+    robot = xml.etree.ElementTree.parse(HAND).getroot()
+    expect("hand: bodies, joints, colliders",
+           (len(bodies), len(joints), len(scene["colliders"])), (13, 13, 13))
+    for link in robot.findall("link"):
+        inertial = link.find("inertial")
+        if inertial is None:
+            continue
+        body, name = bodies[link.get("name")], link.get("name")
+        mass = float(inertial.find("mass").get("value"))
+        near(f"{name}: mass", body["mass"], mass, FLOAT * mass)
+        inertia = inertial.find("inertia")
+        for row, a in enumerate("xyz"):
+            for column, b in enumerate("xyz"):
+                wanted = float(inertia.get("i" + "".join(sorted(a + b))))
+                expect(f"{name}: i{a}{b}", body["inertia"][3 * row + column], wanted)
+        for found, wanted in zip(body["centerOfMass"], numbers(inertial.find("origin"), "xyz")):
+            near(f"{name}: centre", found, wanted, 1e-8)
+    mimics = 0
+    for source in robot.findall("joint"):
+        name, found = source.get("name"), joints[source.get("name")]
+        limit, mimic = source.find("limit"), source.find("mimic")
+        if limit is None:
+            expect(f"{name}: kind", found["type"], "fixed")
+            continue
+        for end in ("lower", "upper"):
+            wanted = float(limit.get(end))
+            near(f"{name}: {end}", found[end], wanted, FLOAT * max(1, abs(wanted)))
+        near(f"{name}: velocity", found["velocityLimit"], 0.5, FLOAT)
+        if mimic is not None:
+            mimics += 1
+            law = found["mimic"]
+            expect(f"{name}: leader", law["leader"].rsplit("/", 1)[1], mimic.get("joint"))
+            near(f"{name}: multiplier", law["multiplier"], float(mimic.get("multiplier")), FLOAT)
+            expect(f"{name}: offset", law["offset"], 0.0)
+    expect("hand: mimics", mimics, 6)
+    check_in_openusd(target)
+
+
+def check_in_openusd(target):
+    """What OpenUSD's own physics parser finds in the hand."""
+    try:
+        from pxr import Usd, UsdPhysics
+    except ImportError:
+        print("without usd-core")
+        return
+    stage = Usd.Stage.Open(str(target))
+    found = UsdPhysics.LoadUsdPhysicsFromRange(stage, [stage.GetPseudoRoot().GetPath()])
+    kinds = {str(kind).rsplit(".", 1)[-1]: len(paths) for kind, (paths, _) in found.items()}
+    expect("OpenUSD finds", kinds, {"RigidBody": 13, "MeshShape": 13, "RevoluteJoint": 12,
+                                    "FixedJoint": 1, "Articulation": 1})
+    expect("OpenUSD composes", stage.GetCompositionErrors(), [])
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        work = pathlib.Path(folder)
+        check_every_joint(work)
+        check_shapes(work)
+        check_bad_input(work)
+        check_mjcf(work)
+        check_hand(work)
+    for fault in faults:
+        print(fault)
+    print(f"{len(faults)} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
