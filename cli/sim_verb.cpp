@@ -58,6 +58,15 @@ Json not_mapped_json(const Simulated& s) {
   return items;
 }
 
+/// What changed for good: joints that broke (S-93).
+Json events_json(const Simulated& s) {
+  Json items = Json::array();
+  for (const engines::Event& event : s.simulation->events()) {
+    items.push_back({{"time", event.time}, {"prim", event.prim.str()}, {"what", event.what}});
+  }
+  return items;
+}
+
 Json end_state(const Simulated& s, const std::string& engine) {
   Json state = Json::object();
   state["engine"] = engine;
@@ -72,6 +81,7 @@ Json end_state(const Simulated& s, const std::string& engine) {
   state["energy"] = {{"initial", s.run.initial_energy.total()},
                      {"final", s.run.final_energy.total()}};
   state["contacts"] = s.simulation->contact_count();
+  state["events"] = events_json(s);
   state["notMapped"] = not_mapped_json(s);
   return state;
 }
@@ -123,6 +133,10 @@ void print_text(const Json& state) {
     std::printf("  %-56s", path.c_str());
     print_numbers(body["position"]);
     std::printf("\n");
+  }
+  for (const auto& event : state["events"]) {
+    std::printf("at %g s  <%s> %s\n", event["time"].get<double>(),
+                event["prim"].get<std::string>().c_str(), event["what"].get<std::string>().c_str());
   }
   print_not_mapped(state["notMapped"]);
 }

@@ -18,7 +18,7 @@ import unittest
 
 ROOT, TENON = pathlib.Path(sys.argv[1]), sys.argv[2]
 HAND = ROOT / "examples/inspire_hand/inspire_hand.usda"
-VERBS = ("bake cat check convert diff doctor dump dump-index explain info physics set sim strip "
+VERBS = ("bake cat check diff doctor dump dump-index explain info physics set sim strip "
          "test-runner tree variant where zip").split()
 
 
@@ -177,7 +177,7 @@ class Contract(unittest.TestCase):
         answer = self.json("sim", HAND, "--duration", 0.1, "--dt", 0.001)
         self.assertEqual((answer["engine"], answer["dt"], answer["steps"]), ("mujoco", 0.001, 100))
         for key in ("engineVersion", "time", "realTimeFactor", "unstable", "bodies", "joints",
-                    "energy", "contacts", "notMapped"):
+                    "energy", "contacts", "events", "notMapped"):
             self.assertIn(key, answer)
         body = answer["bodies"]["/inspire_hand/r_base_link"]
         self.assertEqual({k: len(v) for k, v in body.items()},
@@ -231,6 +231,16 @@ class Contract(unittest.TestCase):
         text = out.read_text()
         self.assertTrue(re.search(r"@\./hand/inspire_hand\.usda@", text), text[:400])
         self.assertEqual(self.json("info", out)["missing"], [])
+
+    def test_sim_tells_of_joints_that_broke(self):
+        scene = ROOT / "tests/physics/scenes/switches.usda"
+        answer = self.json("sim", scene, "--duration", 0.2)
+        events = {event["prim"]: event for event in answer["events"]}
+        self.assertIn("/World/Thread", events)  # 98 N on 50 N
+        self.assertNotIn("/World/Cable", events)  # 98 N on 150 N
+        self.assertIn("broke", events["/World/Thread"]["what"])
+        self.assertLessEqual(events["/World/Thread"]["time"], 0.2)
+        self.assertIn("</World/Thread> broke", tenon("sim", scene, "--duration", 0.2).stdout)
 
     def test_doctor_lists_engines(self):
         process = tenon("doctor", "--json")
