@@ -378,7 +378,7 @@ class PropertyReader {
     if (path.empty() || path.is_absolute()) {
       return path;
     }
-    Path from = owner_.is_variant_selection() ? owner_.strip_variants() : owner_;
+    Path from = owner_.prim();
     std::string rest = path.str();
     if (rest == ".") {
       return {};

@@ -153,6 +153,23 @@ TEST(TextReader, ListEditsAreCollected) {
   EXPECT_EQ(inherits->explicit_items, std::vector<Path>{Path::from("/B")});
 }
 
+TEST(TextReader, OnlyTheVariantAroundARelativePathIsNoLevelOfIt) {
+  const auto within = [](const std::string& line) {
+    return "def \"A\" {\nvariantSet \"v\" = {\n\"x\" {\ndef \"B\" {\nvariantSet \"w\" = {\n\"y\" "
+           "{\n" +
+           line + "\n}\n}\n}\n}\n}\n}\n";
+  };
+  const std::string body = within("rel to = <../../C>\ndouble a.connect = <../C.a>");
+  const auto items = [&](const char* path, Token field) {
+    return spec_of(body, path).get<ListOp<Path>>(field)->explicit_items;
+  };
+  using Paths = std::vector<Path>;
+  EXPECT_EQ(items("/A{v=x}B{w=y}.to", fields::targetPaths), Paths{Path::from("/A/C")});
+  EXPECT_EQ(items("/A{v=x}B{w=y}.a", fields::connectionPaths), Paths{Path::from("/A/C.a")});
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_text("#usda 1.0\n" + within("rel to = <../C>"), "test", diagnostics));
+}
+
 TEST(TextReader, RelativePathsInVariantsLeadOutOfThem) {
   const std::string body =
       "def \"A\" {\nvariantSet \"v\" = {\n\"x\" {\n rel own = <C>\ndef \"B\" (inherits = "
