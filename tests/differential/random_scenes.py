@@ -50,6 +50,18 @@ FAMILIES = {
     "cycles": {"any_order": 0.5, "wild": 0.3, "layers": (1, 3), "roots": (2, 3)},
 }
 WEIGHTS = {"mixed": 5, "cycles": 1}
+# Seeds above this one draw more kinds of things; those up to it stay the scenes that they were.
+WIDE_SEEDS = 100_000
+WIDE = {
+    "relocates": 0.3, "expressions": 0.15, "sets": 0.15, "nested_sets": 0.25, "selection": 0.25,
+    "odd_scale": 0.15, "permission": 0.08, "deep_sets": 0.3,
+}
+EXPRESSIONS = (
+    '`"./l${NUMBER}.usda"`', '`if(eq(${SEL}, "a"), "./l1.usda", "./${LAYER}.usda")`',
+    '`if(contains(["l1", "l2"], ${LAYER}), "./${LAYER}.usda")`', '`"./${LAYER}.${TYPE}"`',
+    '`if(defined("NUMBER", "SEL"), "./l2.usda", "./l1.usda")`', '`at(["./l1.usda"], 1)`',
+    '`"./absent${SEL}.usda"`', '`""`', '`None`', "`${SEL`",
+)
 
 
 def family_of(seed):
@@ -64,6 +76,10 @@ class Generator:
     def __init__(self, seed):
         self.random = random.Random(seed)
         self.chances = dict(BASE, **FAMILIES[family_of(seed)])
+        self.wide = seed > WIDE_SEEDS
+        if self.wide:
+            self.chances.update({what: max(chance, self.chances.get(what, 0))
+                                 for what, chance in WIDE.items()})
         self.count = self.random.randint(*self.chances["layers"])
         self.known = [[] for _ in range(self.count + 1)]  # prim paths of each layer
         self.used = {}  # (path, field) -> items authored so far, for deletes
@@ -147,7 +163,9 @@ class Generator:
     def variables(self):
         layer = self.random.randint(0, self.count)  # one too many at times
         names = {"LAYER": f"l{layer}", "SEL": self.pick(VARIANTS)}
-        chosen = self.random.sample(sorted(names), self.random.randint(1, 2))
+        if self.wide:
+            names.update({"NUMBER": str(self.random.randint(1, self.count)), "TYPE": "usda"})
+        chosen = self.random.sample(sorted(names), self.random.randint(1, 3 if self.wide else 2))
         words = "; ".join(f'string {name} = "{names[name]}"' for name in chosen)
         return f"expressionVariables = {{ {words} }}"
 
@@ -161,6 +179,8 @@ class Generator:
             return ""
         if self.has("wild") and self.chance(0.2):
             return f" (scale = {self.pick((0, -1))})"
+        if self.wide and self.has("odd_scale"):
+            return f" (offset = {self.pick((0, 3))}; scale = {self.pick((0, -1, -0.5, 1e-3, 1e9))})"
         offset, scale = self.pick((0, 1, 2.5, -3)), self.pick((1, 2, 0.5))
         words = [f"offset = {offset}"] * (offset != 0) + [f"scale = {scale}"] * (scale != 1)
         return f" ({'; '.join(words)})" if words else ""
@@ -223,12 +243,22 @@ class Generator:
         for variant in self.random.sample(VARIANTS, self.random.randint(1, 2)):
             filled = self.filled({"head": f'"{variant}"'}, path, depth + 1, False, variant)
             others = [other for other in SETS if other != name]
+            if self.wide and self.variants == 1 and self.has("deep_sets"):
+                self.add_kid_with_set(filled, path, depth + 1)
             if self.has("nested_sets"):
                 self.add_set(filled, path, depth + 1, others[0])
                 filled["meta"].append(f'prepend variantSets = "{others[0]}"')
             variants.append(filled)
         self.variants -= 1
         prim["sets"].append({"name": name, "variants": variants})
+
+    def add_kid_with_set(self, variant, path, depth):
+        """A child within a variant that has variants itself."""
+        name = self.pick(KIDS)
+        if all(f'"{name}"' not in kid["head"] for kid in variant["kids"]):
+            kid = self.filled({"head": f'def "{name}"'}, f"{path}/{name}", 2, False, "inner")
+            self.add_sets(kid, f"{path}/{name}", depth + 1)
+            variant["kids"].append(kid)
 
     # ----- arcs
 
@@ -264,6 +294,8 @@ class Generator:
         name = f"./l{layer}.usda"
         if self.chance(self.chances["expressions"] / 2):
             name = self.pick(('`"./${LAYER}.usda"`', '`if(defined("LAYER"), "l1.usda")`'))
+            if self.wide and self.chance(0.7):
+                name = self.pick(EXPRESSIONS)
         if self.has("wild") and self.chance(0.2):
             name = "./absent.usda"
         # classes apply wherever they are implied: what they lead to must not lead back
@@ -336,6 +368,8 @@ class Generator:
     def add_meta(self, prim, path):
         if self.has("inactive"):
             prim["meta"].append("active = false")
+        if self.wide and self.has("permission"):
+            prim["meta"].append(f"permission = {self.pick(('private', 'private', 'public'))}")
         if not self.has("meta"):
             return
         lines = (
