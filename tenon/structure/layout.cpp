@@ -160,9 +160,12 @@ bool is_a(Token type, const char* base) {
   return schema::Registry::instance().is_a(type, Token(base));
 }
 
-/// The API schema of the list that declares the property.
+/// The API schema of the list that declares the property; those of the base are not looked at.
 Token declaring_api(Token property, std::span<const Token> apis) {
   for (const Token& api : apis) {
+    if (find_row(kApis, api.view()) == nullptr) {
+      continue;
+    }
     const schema::PrimDefinition definition(Token(), {api});
     if (definition.find(property) != nullptr) {
       return api;

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/structure/collect_assets.h"
+
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "tenon/formats/package/asset_paths.h"
+
+namespace tenon::structure {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kTilePattern = "<UDIM>";
+constexpr int kFirstTile = 1001;
+constexpr int kLastTile = 1100;
+
+/// A file, or the tiles of a pattern: what replaces the pattern -> bytes.
+using Files = std::map<std::string, std::shared_ptr<const bytes::FileBytes>>;
+
+class Collector {
+ public:
+  Collector(const AssetSource& source, Names names, Package& package, Diagnostics& diagnostics)
+      : source_(source), names_(names), package_(package), diagnostics_(diagnostics) {}
+
+  void run() {
+    std::vector<std::string> layers;
+    for (const auto& [name, file] : package_.files) {
+      if (file.layer != nullptr) {
+        layers.push_back(name);
+      }
+    }
+    for (const std::string& name : layers) {
+      layer::Layer layer = *package_.files.at(name).layer;
+      const fs::path folder = fs::path(name).parent_path();
+      const bool changed = formats::rename_assets(
+          layer, [&](const std::string& asset, formats::AssetUse use, Path at) {
+            return use == formats::AssetUse::Value ? renamed(asset, folder, at) : asset;
+          });
+      if (changed) {
+        package_.files.at(name).layer = std::make_shared<layer::Layer>(std::move(layer));
+      }
+    }
+  }
+
+ private:
+  std::string renamed(const std::string& asset, const fs::path& folder, Path at) {
+    if (!fs::path(asset).is_absolute()) {
+      return asset;  // it was found nowhere: a module that comes with the renderer, or missing
+    }
+    const auto known = places_.find(asset);
+    std::string place = known == places_.end() ? collect(asset, at) : known->second;
+    places_[asset] = place;
+    if (place.empty()) {
+      return asset;
+    }
+    place = fs::path(place).lexically_relative(folder).generic_string();
+    return place.starts_with("../") ? place : "./" + place;
+  }
+
+  std::string collect(const std::string& asset, Path at) {
+    const Files files = read(asset);
+    if (files.empty()) {
+      Diagnostic missing;
+      missing.severity = Severity::Warning;
+      missing.rule = "structure.asset-missing";
+      missing.message = "the asset @" + asset + "@ cannot be read and is not collected";
+      missing.prim = at.prim().str();
+      missing.property = at.name().str();
+      missing.fix = "put the file there, or correct the path";
+      diagnostics_.add(std::move(missing));
+      return {};
+    }
+    const fs::path inner = bytes::split_package_path(asset).inner;
+    const std::string name = (inner.empty() ? fs::path(asset) : inner).filename().string();
+    const std::string place = free_place(name, files);
+    for (const auto& [tile, bytes] : files) {
+      package_.files[with_tile(place, tile)].bytes = bytes;
+    }
+    return place;
+  }
+
+  Files read(const std::string& asset) const {
+    Files files;
+    if (asset.find(kTilePattern) == std::string::npos) {
+      if (auto bytes = source_.open_asset(asset)) {
+        files.emplace("", *std::move(bytes));
+      }
+      return files;
+    }
+    for (int tile = kFirstTile; tile <= kLastTile; ++tile) {
+      if (auto bytes = source_.open_asset(with_tile(asset, std::to_string(tile)))) {
+        files.emplace(std::to_string(tile), *std::move(bytes));
+      }
+    }
+    return files;
+  }
+
+  /// The name in the folder, with a number where another file has it.
+  std::string free_place(const std::string& name, const Files& files) const {
+    const fs::path path(name);
+    const bool module = path.extension() == ".mdl" && names_ == Names::Tutorial;
+    const std::string folder = module ? "Materials/" : "Textures/";
+    std::string place = folder + name;
+    for (int i = 2; !is_free(place, files); ++i) {
+      place = folder + path.stem().string() + "_" + std::to_string(i) + path.extension().string();
+    }
+    return place;
+  }
+
+  bool is_free(const std::string& place, const Files& files) const {
+    for (const auto& [tile, bytes] : files) {
+      const auto there = package_.files.find(with_tile(place, tile));
+      if (there != package_.files.end() && there->second.bytes->text() != bytes->text()) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  static std::string with_tile(std::string path, const std::string& tile) {
+    const std::size_t at = path.find(kTilePattern);
+    if (at != std::string::npos && !tile.empty()) {
+      path.replace(at, kTilePattern.size(), tile);
+    }
+    return path;
+  }
+
+  const AssetSource& source_;
+  Names names_;
+  Package& package_;
+  Diagnostics& diagnostics_;
+  std::map<std::string, std::string> places_;
+};
+
+}  // namespace
+
+void collect_assets(const AssetSource& source, Names names, Package& package,
+                    Diagnostics& diagnostics) {
+  Collector(source, names, package, diagnostics).run();
+}
+
+}  // namespace tenon::structure

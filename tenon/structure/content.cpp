@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/structure/content.h"
+
+#include <algorithm>
+
+#include "tenon/base/limits.h"
+#include "tenon/layer/fields.h"
+#include "tenon/schema/registry.h"
+#include "tenon/stage/flatten.h"
+#include "tenon/structure/layer_tree.h"
+
+namespace tenon::structure {
+namespace {
+
+namespace fields = layer::fields;
+using layer::Layer;
+using layer::Spec;
+
+/// The prototype that an instance of a flattened stage refers to; empty for other prims.
+Path prototype_of(const Spec& prim) {
+  const auto* op = prim.get<layer::ListOp<layer::Reference>>(fields::references);
+  return op == nullptr || op->appended.empty() ? Path() : op->appended.front().prim_path;
+}
+
+/// Copies prototypes to where they are used. Instances within them come along and are met later.
+Result<void> unfold_instances(Layer& flat) {
+  std::vector<Path> prototypes;
+  std::vector<Path> pending{Path::absolute_root()};
+  while (!pending.empty()) {
+    const Path path = pending.back();
+    pending.pop_back();
+    const Path prototype = prototype_of(*flat.find(path));
+    if (!prototype.empty()) {
+      flat.find(path)->erase(fields::references);
+      for (const Path& child : child_prims(flat, prototype)) {
+        copy_tree(flat, child, flat, path.child(child.name()),
+                  [&](Path at) { return at.replace_prefix(prototype, path); });
+      }
+      if (std::find(prototypes.begin(), prototypes.end(), prototype) == prototypes.end()) {
+        prototypes.push_back(prototype);
+      }
+    }
+    if (flat.spec_count() > limits::kStagePrims) {
+      return Error(ErrorCode::Limit,
+                   "the asset has too many prims when its instances are unfolded");
+    }
+    const std::vector<Path> children = child_prims(flat, path);
+    pending.insert(pending.end(), children.rbegin(), children.rend());
+  }
+  for (const Path& prototype : prototypes) {
+    remove_tree(flat, prototype);
+  }
+  return {};
+}
+
+/// Prims that are switched off are in no flattened stage.
+void add_inactive(const stage::Stage& stage, Layer& flat) {
+  std::vector<stage::Prim> pending{stage.pseudo_root()};
+  while (!pending.empty()) {
+    const stage::Prim prim = pending.back();
+    pending.pop_back();
+    std::vector<Token> names;
+    for (const stage::Prim& child : prim.children()) {
+      names.push_back(child.name());
+      if (child.is_active()) {
+        pending.push_back(child);
+      } else {
+        Spec& spec = make_prim(flat, child.path());
+        spec.set(fields::specifier, child.specifier());
+        if (!child.type_name().empty()) {
+          spec.set(fields::typeName, child.type_name());
+        }
+        spec.set(fields::active, false);
+      }
+    }
+    if (!names.empty()) {
+      flat.find(prim.path())->set(fields::primChildren, std::move(names));
+    }
+  }
+}
+
+void tidy_prim(Spec& prim) {
+  prim.erase(fields::instanceable);
+  prim.erase(fields::variantSelection);
+  prim.erase(fields::variantSetNames);
+  if (prim.get_or(fields::active, false)) {
+    prim.erase(fields::active);
+  }
+  if (prim.get_or(fields::hidden, true) == false) {
+    prim.erase(fields::hidden);
+  }
+}
+
+/// As the schemas of vendors declare it, which stock OpenUSD does not know.
+void tidy_property(Spec& property, const schema::PropertyDefinition* declared) {
+  if (declared == nullptr) {
+    return;
+  }
+  property.set(fields::custom, false);
+  if (!declared->is_relationship && property.kind == layer::SpecKind::Attribute) {
+    property.set(fields::variability, declared->variability);
+  }
+}
+
+void tidy(Layer& content) {
+  for (const Path& prim : prims_below(content)) {
+    tidy_prim(*content.find(prim));
+    const schema::PrimDefinition definition(type_of(content, prim), apis_of(content, prim));
+    for (const Path& property : properties_of(content, prim)) {
+      tidy_property(*content.find(property), definition.find(property.name()));
+    }
+  }
+}
+
+/// Prims that are overridden and defined nowhere act on nothing.
+void drop_undefined(Layer& content, Path robot) {
+  for (const Path& prim : prims_below(content)) {
+    const Spec* spec = content.find(prim);
+    if (spec != nullptr && prim != robot &&
+        spec->get_or(fields::specifier, layer::Specifier::Over) == layer::Specifier::Over) {
+      remove_tree(content, prim);
+    }
+  }
+}
+
+/// Where prims of the root beside the robot come: below it, under names that are free.
+std::vector<std::pair<Path, Path>> places_below(const Layer& flat, Path top) {
+  std::vector<std::pair<Path, Path>> places;
+  std::vector<Path> taken = child_prims(flat, top);
+  for (const Path& other : child_prims(flat, Path::absolute_root())) {
+    if (other == top) {
+      continue;
+    }
+    Path to = top.child(other.name());
+    for (int i = 1; std::find(taken.begin(), taken.end(), to) != taken.end(); ++i) {
+      to = top.child(Token(other.name().str() + "_" + std::to_string(i)));
+    }
+    taken.push_back(to);
+    places.emplace_back(other, to);
+  }
+  return places;
+}
+
+/// The content with everything below the default prim.
+Layer below_default_prim(const Layer& flat, Token robot) {
+  const Path top = Path::absolute_root().child(robot);
+  const std::vector<std::pair<Path, Path>> places = places_below(flat, top);
+  const PathMap map = [&](Path path) {
+    for (const auto& [from, to] : places) {
+      if (path.has_prefix(from)) {
+        return path.replace_prefix(from, to);
+      }
+    }
+    return path;
+  };
+  Layer content(flat.identifier());
+  for (const layer::Field& field : flat.root().fields()) {
+    if (field.name != fields::primChildren && field.name != fields::subLayers) {
+      content.root().set(field.name, field.value);
+    }
+  }
+  content.root().set(fields::defaultPrim, robot);
+  copy_tree(flat, top, content, top, map);
+  for (const auto& [from, to] : places) {
+    copy_tree(flat, from, content, to, map);
+  }
+  return content;
+}
+
+}  // namespace
+
+Result<Layer> content_of(const stage::Stage& stage) {
+  const stage::Prim robot = stage.default_prim();
+  if (!robot) {
+    return Error(ErrorCode::NotFound, "the asset has no default prim, which is to become the robot")
+        .in_file(stage.root_layer().identifier())
+        .with_rule("stage.default-prim-missing")
+        .with_fix("author defaultPrim with the name of the root prim");
+  }
+  Layer flat = stage::flatten(stage);
+  TENON_CHECK(unfold_instances(flat));
+  add_inactive(stage, flat);
+  drop_undefined(flat, robot.path());
+  Layer content = below_default_prim(flat, robot.name());
+  tidy(content);
+  return content;
+}
+
+}  // namespace tenon::structure

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/bytes/file_bytes.h"
+#include "tenon/compose/layer_opener.h"
+#include "tenon/layer/layer.h"
+#include "tenon/structure/layout.h"
+#include "tenon/structure/package.h"
+
+namespace tenon::structure {
+
+/// An asset and the way to what it needs. Nothing of it is changed.
+struct AssetSource {
+  layer::LayerPtr root;
+  compose::LayerOpener open_layer;
+  /// As in stage::StageOptions.
+  std::function<std::string(const std::string& asset_path, const layer::Layer& anchor)>
+      resolve_asset;
+  /// The bytes of a resolved asset: a texture, a module of a material.
+  std::function<Result<std::shared_ptr<const bytes::FileBytes>>(const std::string& identifier)>
+      open_asset;
+};
+
+struct StructureOptions {
+  Names names = Names::Current;
+  /// Name of the interface without ending; empty: that of the default prim.
+  std::string name;
+  /// Meshes that collide are no instances, so that every engine's layer may tune them.
+  bool overridable_colliders = false;
+};
+
+struct StructuredAsset {
+  Package package;
+  std::vector<std::string> physics_variants;  ///< in the order of the interface; "none" first
+  std::string selection;                      ///< of the set "Physics"
+  /// Old path -> new path of prims that are not where they were: meshes, which got a wrapper.
+  std::map<Path, Path> moved;
+};
+
+/// Any USD asset in Asset Structure 3.0, proven: each variant of the result composes to what the
+/// source composes to, as far as it belongs into that variant, and its neutral physics is the same.
+/// The result depends on what the source composes to alone, so that making it again from the result
+/// changes no byte.
+///
+/// Per variant: what is for PhysX alone is in "physx" alone, and so on; "none" has no physics, and
+/// colliders that are not visible are switched off there. Meshes get a wrapper where they have
+/// none. Prims beside the default prim come below it, a PhysicsScene for one. Robots get
+/// IsaacRobotAPI with links and joints in kinematic order where they have none.
+///
+/// Errors: ErrorCode::NotFound without a default prim; Invalid "structure.differs" when the proof
+/// fails, with the prim where it does; those of opening. Diagnostics: "structure.asset-missing".
+Result<StructuredAsset> make_package(const AssetSource& source, const StructureOptions& options,
+                                     Diagnostics& diagnostics);
+
+}  // namespace tenon::structure

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tenon/layer/layer.h"
+#include "tenon/structure/layer_tree.h"
+
+namespace tenon::structure {
+
+/// In the structure each mesh stands alone below an Xform, its wrapper, which can be an instance.
+/// Which meshes of a content have none yet, and where they come.
+class MeshMoves {
+ public:
+  /// Decided on all views of an asset laid over each other, so that all of them move alike.
+  explicit MeshMoves(const layer::Layer& united);
+
+  bool empty() const { return moves_.empty(); }
+  /// Old place and new place of each mesh that moves.
+  std::map<Path, Path> all() const;
+  /// Where a prim or property of the content comes.
+  Path moved(Path path) const;
+  /// Where a target comes: of a mesh that is a body its wrapper is meant.
+  Path moved_target(Path target) const;
+  /// The content with its meshes in wrappers. These take the transforms, and of bodies all that is
+  /// not about shape.
+  layer::Layer apply(const layer::Layer& content) const;
+
+ private:
+  struct Move {
+    Path wrapper;
+    Path mesh;
+    bool body = false;
+    std::vector<Path> subsets;  // of the mesh, which move along
+  };
+
+  void add(const layer::Layer& united, Path mesh, const std::string& name);
+  void move_mesh(const layer::Layer& content, Path from, const Move& move, layer::Layer& to) const;
+
+  std::map<Path, Move> moves_;
+};
+
+/// The parent of a mesh is a wrapper: an Xform with this mesh and its materials below it, and no
+/// part in the simulation.
+bool is_wrapped(const layer::Layer& content, Path mesh);
+/// The scope or prim holds materials and nothing else.
+bool holds_materials(const layer::Layer& content, Path prim);
+
+/// What is geometry of the mesh and its subsets, as one text that differs where they do, to the
+/// last bit. The name of the mesh is no part of it.
+Result<std::string> geometry_key(const layer::Layer& content, Path mesh);
+/// The geometry alone, at `to`.
+void copy_geometry(const layer::Layer& content, Path mesh, layer::Layer& target, Path to);
+
+}  // namespace tenon::structure

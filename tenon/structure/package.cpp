@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/structure/package.h"
+
+#include "tenon/formats/save_layer.h"
+#include "tenon/layer/field_values.h"
+#include "tenon/layer/fields.h"
+#include "tenon/structure/layout.h"
+
+namespace tenon::structure {
+namespace {
+
+namespace fields = layer::fields;
+
+constexpr std::string_view kRoot = "/package/";
+
+}  // namespace
+
+layer::LayerPtr selections_layer(Token prim, const std::map<std::string, std::string>& selections) {
+  layer::Layer session("anon:selections.usda");
+  const Path path = Path::absolute_root().child(prim);
+  session.root().set(fields::primChildren, std::vector<Token>{prim});
+  layer::Spec& spec = session.create(path, layer::SpecKind::Prim);
+  spec.set(fields::specifier, layer::Specifier::Over);
+  layer::VariantSelections chosen;
+  chosen.items.insert(selections.begin(), selections.end());
+  spec.set(fields::variantSelection, std::move(chosen));
+  return std::make_shared<layer::Layer>(std::move(session));
+}
+
+std::string identifier_in_package(const std::string& name) { return std::string(kRoot) + name; }
+
+compose::LayerOpener opener_of(const Package& package) {
+  return [&package](const std::string& asset_path,
+                    const layer::Layer& anchor) -> Result<layer::LayerPtr> {
+    const std::string target = target_of(asset_path, anchor);
+    const bool inside = target.starts_with(kRoot);
+    const auto found = package.files.find(inside ? target.substr(kRoot.size()) : "");
+    if (found == package.files.end() || found->second.layer == nullptr) {
+      return Error(ErrorCode::NotFound, "the package has no layer @" + asset_path + "@")
+          .in_file(anchor.identifier());
+    }
+    return found->second.layer;
+  };
+}
+
+Result<stage::Stage> open_package(const Package& package,
+                                  const std::map<std::string, std::string>& selections) {
+  const layer::LayerPtr interface = package.files.at(package.interface).layer;
+  stage::StageOptions options;
+  options.resolve_asset = [&package](const std::string& path, const layer::Layer& anchor) {
+    const std::string target = target_of(path, anchor);
+    const bool inside = target.starts_with(kRoot);
+    return inside && package.files.contains(target.substr(kRoot.size())) ? target : std::string();
+  };
+  return stage::Stage::open(interface, selections_layer(interface->default_prim(), selections),
+                            opener_of(package), options);
+}
+
+Result<std::map<std::string, std::string>> encode_package(const Package& package) {
+  std::map<std::string, std::string> files;
+  for (const auto& [name, file] : package.files) {
+    if (file.layer == nullptr) {
+      files[name] = file.bytes->text();
+      continue;
+    }
+    TENON_TRY(files[name], formats::encode_layer(*file.layer, file.format));
+  }
+  return files;
+}
+
+Result<void> write_package(const Package& package, const std::string& folder) {
+  TENON_TRY(const auto files, encode_package(package));
+  return write_folder(files, folder);
+}
+
+}  // namespace tenon::structure

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/ptrace.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tenon/structure/package.h"
+
+namespace tenon::structure {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = std::map<std::string, std::string>;
+
+class WriteFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "tenon_write_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    parent_ = pattern;
+    folder_ = pattern + "/hand";
+  }
+  void TearDown() override { fs::remove_all(parent_); }
+
+  Files read() const {
+    Files files;
+    if (!fs::exists(folder_)) {
+      return files;
+    }
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+      if (entry.is_regular_file()) {
+        std::ifstream stream(entry.path(), std::ios::binary);
+        files[entry.path().lexically_relative(folder_).generic_string()] =
+            std::string(std::istreambuf_iterator<char>(stream), {});
+      }
+    }
+    return files;
+  }
+
+  void put(const Files& files) const {
+    for (const auto& [name, contents] : files) {
+      const fs::path path = fs::path(folder_) / name;
+      fs::create_directories(path.parent_path());
+      std::ofstream(path, std::ios::binary) << contents;
+    }
+  }
+
+  std::string parent_;
+  std::string folder_;
+};
+
+const Files kOld{{"hand.usda", "old"}, {"payloads/base.usda", "old base"}};
+const Files kNew{{"hand.usda", "new"},
+                 {"payloads/base.usda", "new base"},
+                 {"payloads/Physics/physics.usda", std::string(10000, 'p')}};
+
+TEST_F(WriteFolder, ReplacesTheWholeFolder) {
+  ASSERT_TRUE(write_folder(kOld, folder_).has_value());
+  EXPECT_EQ(read(), kOld);
+  ASSERT_TRUE(write_folder(kNew, folder_ + "/").has_value());
+  EXPECT_EQ(read(), kNew);
+  ASSERT_TRUE(write_folder(kOld, folder_).has_value());
+  EXPECT_EQ(read(), kOld);
+  EXPECT_EQ(std::distance(fs::directory_iterator(parent_), fs::directory_iterator()), 1);
+}
+
+TEST_F(WriteFolder, RefusesAFolderWithFilesOfSomebodyElse) {
+  ASSERT_TRUE(write_folder(kOld, folder_).has_value());
+  std::ofstream(folder_ + "/thesis.txt") << "years of work";
+  const auto written = write_folder(kNew, folder_);
+  ASSERT_FALSE(written.has_value());
+  EXPECT_EQ(written.error().code(), ErrorCode::Invalid);
+  EXPECT_NE(written.error().message().find("thesis.txt"), std::string::npos);
+  EXPECT_EQ(read().size(), 3u);
+}
+
+TEST_F(WriteFolder, RefusesNamesThatLeadElsewhere) {
+  for (const char* name : {"../x.usda", "/x.usda", "a/../../x", "", "a/"}) {
+    EXPECT_FALSE(write_folder({{name, "x"}}, folder_).has_value()) << name;
+  }
+  EXPECT_FALSE(fs::exists(folder_));
+}
+
+/// Runs write_folder in a child and kills it as it enters its system call number `call`. False once
+/// the child ends before that; nothing where processes may not be traced.
+std::optional<bool> killed_at(int call, const Files& files, const std::string& folder) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) {
+      ::_exit(77);
+    }
+    ::raise(SIGSTOP);
+    ::_exit(write_folder(files, folder).has_value() ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (!WIFSTOPPED(status)) {
+    return std::nullopt;
+  }
+  for (int i = 0; i < 2 * call - 1; ++i) {  // it stops as it enters and as it leaves
+    ::ptrace(PTRACE_SYSCALL, child, nullptr, nullptr);
+    ::waitpid(child, &status, 0);
+    if (WIFEXITED(status)) {
+      EXPECT_EQ(WEXITSTATUS(status), 0);
+      return false;
+    }
+  }
+  ::kill(child, SIGKILL);
+  ::waitpid(child, &status, 0);
+  return true;
+}
+
+TEST_F(WriteFolder, AKillAtAnySystemCallLeavesTheOldOrTheNew) {
+  int old_ones = 0;
+  int new_ones = 0;
+  for (const Files& before : {Files(), kOld}) {
+    for (int call = 1;; ++call) {
+      fs::remove_all(parent_);
+      fs::create_directory(parent_);
+      put(before);
+      const std::optional<bool> killed = killed_at(call, kNew, folder_);
+      if (!killed) {
+        GTEST_SKIP() << "processes may not be traced here";
+      }
+      const Files after = read();
+      ASSERT_TRUE(after == before || after == kNew) << "killed at call " << call;
+      ++(after == kNew ? new_ones : old_ones);
+      if (!*killed) {
+        EXPECT_EQ(after, kNew);
+        break;
+      }
+      ASSERT_LT(call, 5000);
+    }
+  }
+  EXPECT_GT(old_ones, 20);
+  EXPECT_GT(new_ones, 2);
+}
+
+}  // namespace
+}  // namespace tenon::structure
