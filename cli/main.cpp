@@ -46,12 +46,13 @@ int run(int argc, char** argv) {
   root.require_subcommand();
   add_global_options(root, globals);
   for (auto* add :
-       {tenon::cli::add_bake, tenon::cli::add_cat, tenon::cli::add_check, tenon::cli::add_convert,
-        tenon::cli::add_diff, tenon::cli::add_doctor, tenon::cli::add_dump,
-        tenon::cli::add_dump_index, tenon::cli::add_explain, tenon::cli::add_info,
-        tenon::cli::add_physics, tenon::cli::add_set, tenon::cli::add_sim, tenon::cli::add_strip,
-        tenon::cli::add_test_runner, tenon::cli::add_tree, tenon::cli::add_variant,
-        tenon::cli::add_where, tenon::cli::add_zip}) {
+       {tenon::cli::add_bake,        tenon::cli::add_cat,        tenon::cli::add_check,
+        tenon::cli::add_convert,     tenon::cli::add_diff,       tenon::cli::add_doctor,
+        tenon::cli::add_dump,        tenon::cli::add_dump_index, tenon::cli::add_explain,
+        tenon::cli::add_info,        tenon::cli::add_physics,    tenon::cli::add_set,
+        tenon::cli::add_sim,         tenon::cli::add_strip,      tenon::cli::add_structure,
+        tenon::cli::add_test_runner, tenon::cli::add_tree,       tenon::cli::add_variant,
+        tenon::cli::add_where,       tenon::cli::add_zip}) {
     add(root, globals, chosen);
   }
   if (const std::optional<bool> is_error = line.parse(argc, argv)) {

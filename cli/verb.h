@@ -64,6 +64,7 @@ AddVerb add_physics;
 AddVerb add_set;
 AddVerb add_sim;
 AddVerb add_strip;
+AddVerb add_structure;
 AddVerb add_tree;
 AddVerb add_variant;
 AddVerb add_test_runner;

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+
+#include "cli/report.h"
+#include "cli/verb.h"
+#include "tenon/structure_asset.h"
+
+namespace tenon::cli {
+namespace {
+
+struct Options {
+  AssetArguments asset;
+  structure::StructureOptions structure;
+  std::string output;
+  std::string names = "current";
+  bool dry_run = false;
+};
+
+struct ListedFile {
+  std::string name;
+  std::string role;
+  std::size_t size = 0;
+};
+
+Result<std::vector<ListedFile>> list_files(const std::map<std::string, std::string>& files) {
+  std::vector<ListedFile> list;
+  for (const auto& [name, contents] : files) {
+    const structure::Role role = structure::role_of_file_name(name);
+    list.push_back({name, std::string(structure::role_name(role)), contents.size()});
+  }
+  return list;
+}
+
+Json json_of(const structure::StructuredAsset& asset, const std::vector<ListedFile>& files) {
+  Json body = Json::object();
+  body["interface"] = asset.package.interface;
+  body["files"] = Json::array();
+  for (const ListedFile& file : files) {
+    body["files"].push_back({{"file", file.name}, {"role", file.role}, {"bytes", file.size}});
+  }
+  body["variants"] = asset.physics_variants;
+  body["selection"] = asset.selection;
+  body["moved"] = Json::array();
+  for (const auto& [from, to] : asset.moved) {
+    body["moved"].push_back({{"from", from.str()}, {"to", to.str()}});
+  }
+  return body;
+}
+
+int run_structure(Report& report, const Options& options) {
+  const auto asset = structure_asset(options.asset.asset, options.asset.open_options(),
+                                     options.structure, report.diagnostics);
+  if (!asset) {
+    return report.fail(asset.error());
+  }
+  const auto encoded = structure::encode_package(asset->package);
+  if (!encoded) {
+    return report.fail(encoded.error());
+  }
+  const auto files = list_files(*encoded);
+  if (!options.dry_run) {
+    if (auto written = structure::write_folder(*encoded, options.output); !written) {
+      return report.fail(written.error());
+    }
+  }
+  if (options.dry_run && !report.json()) {
+    for (const ListedFile& file : *files) {
+      std::printf("%10zu  %-11s %s\n", file.size, file.role.c_str(), file.name.c_str());
+    }
+  }
+  report.note((options.dry_run ? "would write " : "wrote ") + std::to_string(files->size()) +
+              " files; " + std::to_string(asset->moved.size()) +
+              " meshes came into wrappers; Physics=" + asset->selection + " is selected");
+  return report.finish(kOk, json_of(*asset, *files));
+}
+
+}  // namespace
+
+void add_structure(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
+      "structure", "Make an asset into Asset Structure 3.0, one file for each concern");
+  auto options = std::make_shared<Options>();
+  options->asset.add_to(verb);
+  verb.add_option("-o,--output", options->output,
+                  "Folder of the new asset; what such an asset has there is replaced in one step");
+  verb.add_option("--name", options->structure.name,
+                  "Name of the file that opens the asset; that of the default prim if not given");
+  verb.add_option("--names", options->names,
+                  "Names of files and scopes: those of Isaac Sim 6, or "
+                  "those of its tutorial")
+      .one_of({"current", "tutorial"});
+  verb.add_flag("--overridable-colliders", options->structure.overridable_colliders,
+                "Meshes that collide are no instances: each engine's layer may tune them");
+  verb.add_flag("--dry-run", options->dry_run, "List the files and write nothing");
+  verb.footer(
+      "The result is compared with the asset before it is written: each variant composes to the\n"
+      "same scene and has the same physics, or nothing is written.\n\n"
+      "Examples:\n"
+      "  tenon structure robot.usda -o robot\n"
+      "  tenon structure robot.usda --dry-run --json");
+  choose(verb, chosen, [&globals, options] {
+    Report report(globals, "structure", options->asset.asset);
+    if (options->output.empty() && !options->dry_run) {
+      return report.fail(Error(ErrorCode::Invalid, "the result needs a place to be written to")
+                             .with_fix("give -o FOLDER, or --dry-run"));
+    }
+    options->structure.names =
+        options->names == "tutorial" ? structure::Names::Tutorial : structure::Names::Current;
+    return run_structure(report, *options);
+  });
+}
+
+}  // namespace tenon::cli

@@ -1,0 +1,235 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""`tenon structure` on the example hand, on a vendor's hand in this structure, on flattened copies
+and on its own output. Each of ten defects known of another tool has a test that it is absent.
+
+    test_structure.py ROOT TENON [CLASS]...
+
+Tests of the vendor's hand skip, with the reason, where ../shared is absent.
+"""
+
+import functools
+import pathlib
+import sys
+import tempfile
+import unittest
+
+from program import EXAMPLE, INCUMBENT, breaches, files_of, run, structure, tenon
+
+FOLDER = tempfile.TemporaryDirectory()
+VARIANTS = ("none", "physics", "physx", "mujoco")
+
+
+@functools.cache
+def made(asset, *options):
+    """-> interface of the asset in this structure, made once."""
+    name = f"{asset.parent.name}{len(list(pathlib.Path(FOLDER.name).iterdir()))}"
+    return structure(asset, pathlib.Path(FOLDER.name) / name, *options)
+
+
+def file_of(interface, name):
+    return (interface.parent / "payloads" / name).read_text(encoding="utf-8")
+
+
+def physics_of(asset, variant):
+    found = tenon("physics", asset, "--physics", variant)
+    for key in ("diagnostics", "asset", "verb"):
+        found.pop(key, None)
+    return found
+
+
+def write(name, text):
+    path = pathlib.Path(FOLDER.name) / "sources" / name
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(text.replace("}", "\n}\n"), encoding="utf-8")  # short sources on few lines
+    return path
+
+
+HEAD = '#usda 1.0\n(defaultPrim = "r"\n metersPerUnit = 1\n upAxis = "Z")\n'
+
+
+def box_mesh(name, half, apis=""):
+    points = [(x * half, y * half, z * half) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    return f'''
+    def Mesh "{name}" ({f'prepend apiSchemas = [{apis}]' if apis else ''}) {{
+        int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
+        int[] faceVertexIndices = [0,1,3,2, 4,6,7,5, 0,4,5,1, 2,3,7,6, 0,2,6,4, 1,5,7,3]
+        point3f[] points = {points}
+    }}
+'''
+
+
+class Hands:
+    """What holds for each hand; subclasses name it."""
+
+    asset = EXAMPLE
+
+    def setUp(self):
+        if not self.asset.exists():
+            self.skipTest(f"{self.asset} is absent")
+
+    def test_its_own_output_gives_the_same_bytes(self):
+        first = made(self.asset)
+        again = structure(first, pathlib.Path(FOLDER.name) / f"again_{self.asset.parent.name}")
+        self.assertEqual(files_of(again.parent), files_of(first.parent))
+
+    def test_a_flattened_copy_gives_the_same_physics_and_then_the_same_bytes(self):
+        folder = pathlib.Path(FOLDER.name)
+        flat = folder / f"flat_{self.asset.parent.name}.usda"
+        self.assertEqual(run("cat", self.asset, "--flatten", "-o", flat).returncode, 0)
+        first = structure(flat, folder / f"of_flat_{self.asset.parent.name}")
+        again = structure(first, folder / f"of_flat_again_{self.asset.parent.name}")
+        self.assertEqual(files_of(again.parent), files_of(first.parent))
+        selection = tenon("structure", first, "--dry-run")["selection"]
+        bodies = [body["path"] for body in physics_of(first, selection)["bodies"]]
+        self.assertEqual(bodies, [b["path"] for b in physics_of(self.asset, "physics")["bodies"]])
+
+    def test_the_input_stays_as_it_is(self):
+        before = files_of(self.asset.parent)
+        made(self.asset)
+        self.assertEqual(files_of(self.asset.parent), before)
+
+    def test_bodies_joints_and_colliders_are_those_of_the_input(self):
+        for variant in VARIANTS[1:]:
+            with self.subTest(variant):
+                self.assertEqual(physics_of(made(self.asset), variant)["bodies"],
+                                 physics_of(self.asset, variant)["bodies"])
+                self.assertEqual(physics_of(made(self.asset), variant)["joints"],
+                                 physics_of(self.asset, variant)["joints"])
+
+    def test_it_keeps_to_the_structure(self):
+        found = [d for d in breaches(made(self.asset)) if d["severity"] != "info"]
+        self.assertEqual(found, [])
+
+    def test_names_of_the_tutorial(self):
+        files = tenon("structure", self.asset, "--dry-run", "--names", "tutorial")["files"]
+        names = {file["file"] for file in files}
+        self.assertLessEqual({"payloads/geometry.usdc", "payloads/material.usda"}, names)
+
+
+class Example(Hands, unittest.TestCase):
+    pass
+
+
+class VendorsHand(Hands, unittest.TestCase):
+    asset = INCUMBENT
+
+    def test_nothing_that_it_has_is_lost(self):
+        for variant in VARIANTS[1:]:
+            physics = tenon("info", made(self.asset), "--physics", variant)["physics"]
+            self.assertEqual((physics["bodies"], physics["joints"]["revolute"],
+                              physics["joints"]["fixed"], physics["mimics"],
+                              physics["colliders"]), (13, 12, 1, 6, 13))
+
+    def test_none_has_no_colliders(self):  # 6
+        self.assertEqual(len(physics_of(self.asset, "none")["colliders"]), 13)
+        self.assertEqual(physics_of(made(self.asset), "none")["colliders"], [])
+
+    def test_properties_are_declared_as_their_schemas_do(self):  # quirks of spec copying
+        text = file_of(made(self.asset), "Physics/physics.usda")
+        text += file_of(made(self.asset), "instances.usda")
+        self.assertNotIn("custom rel", text)
+        self.assertIn('uniform token purpose = "guide"', text)
+
+    def test_no_joint_list_dangles_without_physics(self):
+        self.assertNotIn("joint", file_of(made(self.asset), "robot.usda"))
+
+
+class Defects(unittest.TestCase):
+    """Of the ten defects those that small sources show; the rest are above."""
+
+    def test_geometry_of_small_parts_stays_apart(self):  # 4
+        path = write("boxes.usda", HEAD + 'def Xform "r" {' + "".join(
+            box_mesh(f"b{i}", half) for i, half in enumerate((5e-3, 5.2e-3, 8e-4, 3e-4))) + "}\n")
+        geometries = run("cat", made(path).parent / "payloads/geometries.usd").stdout
+        self.assertEqual(geometries.count("def Mesh"), 4)
+
+    def test_engines_tune_colliders(self):  # 5
+        apis = '"PhysicsCollisionAPI", "PhysicsMeshCollisionAPI", "PhysxCollisionAPI"'
+        mesh = box_mesh("hull", 0.1, apis).replace(
+            "point3f", 'uniform token purpose = "guide"\n'
+            "        float physxCollision:contactOffset = 0.25\n        point3f")
+        path = write("tuned.usda", HEAD + 'def Xform "r" {' + mesh + "}\n")
+        interface = made(path)
+        self.assertIn("physxCollision:contactOffset", file_of(interface, "Physics/physx.usda"))
+        self.assertEqual(physics_of(interface, "physx")["colliders"][0]["contactOffset"], 0.25)
+        self.assertNotIn(0.25, physics_of(interface, "physics")["colliders"][0].values())
+        self.assertEqual(breaches(interface), [])
+
+    def test_no_selection_dangles(self):  # 7
+        path = write("still.usda", HEAD + 'def Xform "r" { def Cube "c" { } }\n')
+        self.assertEqual(tenon("structure", path, "--dry-run")["selection"], "none")
+
+    def test_no_orphan_engine_file(self):  # 8
+        path = write("plain.usda", HEAD + 'def Xform "r" { def Cube "c" '
+                     '(prepend apiSchemas = ["PhysicsRigidBodyAPI"]) { } }\n')
+        made_of = tenon("structure", path, "--dry-run")
+        self.assertEqual(made_of["variants"], ["none", "physics"])
+        self.assertEqual([f["file"] for f in made_of["files"] if "Physics/" in f["file"]],
+                         ["payloads/Physics/physics.usda"])
+
+    def test_the_scene_is_composed(self):  # 9
+        path = write("scene.usda", HEAD + '''
+def PhysicsScene "Scene" { float physics:gravityMagnitude = 3.5 }
+def Xform "r" { def Cube "c" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) { } }
+''')
+        self.assertEqual([s["path"] for s in physics_of(made(path), "physics")["scenes"]],
+                         ["/r/Scene"])
+
+    def test_schemas_that_nobody_knows_go_to_their_vendor(self):  # 10
+        path = write("vendor.usda", HEAD + '''
+def Xform "r" { def Cube "c" (
+    prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysxOfTomorrowAPI"]) {
+    float physxOfTomorrow:x = 1
+} }
+''')
+        physx = file_of(made(path), "Physics/physx.usda")
+        self.assertIn("PhysxOfTomorrowAPI", physx)
+        self.assertIn("physxOfTomorrow:x", physx)
+        self.assertNotIn("Physx", file_of(made(path), "Physics/physics.usda"))
+
+class Writing(unittest.TestCase):
+    def test_dry_run_writes_nothing(self):
+        before = set(pathlib.Path(FOLDER.name).iterdir())
+        done = run("structure", EXAMPLE, "--dry-run")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("payloads/base.usda", done.stdout)
+        self.assertEqual(set(pathlib.Path(FOLDER.name).iterdir()), before)
+
+    def test_a_folder_with_other_files_is_left_alone(self):
+        folder = pathlib.Path(FOLDER.name) / "mine"
+        folder.mkdir()
+        (folder / "notes.txt").write_text("mine", encoding="utf-8")
+        done = run("structure", EXAMPLE, "-o", folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("notes.txt", done.stderr)
+        self.assertEqual(files_of(folder), {"notes.txt": b"mine"})
+
+    def test_a_place_is_asked_for(self):
+        self.assertEqual(run("structure", EXAMPLE).returncode, 2)
+
+    def test_variants_that_go_are_told(self):
+        path = write("inner.usda", HEAD + '''
+def Xform "r" { def Xform "tool" (
+    variants = { string Size = "big" }
+    prepend variantSets = "Size") {
+    variantSet "Size" = {
+        "big" {
+            def Cube "c" { }
+        }
+        "small" {
+            def Sphere "s" { }
+        }
+    }
+} }
+''')
+        found = tenon("structure", path, "--dry-run")["diagnostics"]
+        self.assertEqual([d["rule"] for d in found], ["structure.variants-flattened"])
+
+
+if __name__ == "__main__":
+    try:
+        unittest.main(argv=sys.argv[:1] + sys.argv[3:])
+    finally:
+        FOLDER.cleanup()
