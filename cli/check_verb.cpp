@@ -22,6 +22,7 @@ struct Options {
   std::vector<std::string> paths;
   AssetArguments asset;
   check::Selection rules;
+  std::string profile;
   bool fix = false;
   bool dry_run = false;
   bool strict = false;
@@ -83,6 +84,7 @@ class Run {
     CheckOptions check;
     check.open = options_.asset.open_options();
     check.rules = options_.rules;
+    check.profile = options_.profile;
     auto checked = check_asset(path, check);
     if (checked && options_.fix) {
       TENON_TRY(const bool changed, correct(checked->findings));
@@ -368,6 +370,7 @@ constexpr const char* kFooter =
     "  tenon check hand.usda\n"
     "  tenon check assets/ --strict --baseline known.json\n"
     "  tenon check hand.usda --fix --dry-run\n"
+    "  tenon check hand.usda --profile isaac-3.0\n"
     "  tenon check hand.usda --skip collider.overlap-at-start,units --sarif hand.sarif\n"
     "  tenon check --explain mass.inertia-triangle";
 
@@ -382,6 +385,9 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_flag("--fix", options->fix, "Correct what has a safe fix, in the files that own it");
   verb.add_flag("--dry-run", options->dry_run, "With --fix: print the difference, write nothing");
   verb.add_flag("--strict", options->strict, "Warnings count as errors for the exit code");
+  verb.add_option("--profile", options->profile,
+                  "Hold the files to this structure of assets as well")
+      .one_of({"isaac-3.0"});
   verb.add_option("--only", options->rules.only,
                   "These rules or families alone (mass, joint.body-missing)")
       .split_at_commas();

@@ -9,6 +9,8 @@
 
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/check/apply_edits.h"
+#include "tenon/check/rule.h"
+#include "tenon/check_profile.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
@@ -27,6 +29,18 @@ struct Run {
   std::string selection;
 };
 
+void add_findings(const Diagnostics& diagnostics, const check::Selection& rules,
+                  std::vector<check::Finding>& findings) {
+  for (const Diagnostic& diagnostic : diagnostics) {
+    if (rules.takes(diagnostic.rule)) {
+      check::Finding finding;
+      finding.rule = check::find_rule(diagnostic.rule);
+      finding.diagnostic = diagnostic;
+      findings.push_back(std::move(finding));
+    }
+  }
+}
+
 Result<Run> run_once(const std::string& path, const CheckOptions& options,
                      const std::string& variant) {
   OpenOptions open = options.open;
@@ -42,6 +56,12 @@ Result<Run> run_once(const std::string& path, const CheckOptions& options,
   }
   run.found.variant = variant.empty() ? run.selection : variant;
   run.found.findings = check::check_stage(stage, opening.items(), options.rules);
+  if (!options.profile.empty()) {
+    TENON_TRY(const structure::AssetFiles files, asset_files(path, options.open));
+    add_findings(structure::check_files(files), options.rules, run.found.findings);
+    add_findings(structure::check_variant(stage, run.found.variant), options.rules,
+                 run.found.findings);
+  }
   return run;
 }
 
