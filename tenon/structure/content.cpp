@@ -92,6 +92,12 @@ void tidy_prim(Spec& prim) {
   }
 }
 
+/// Relationships that MaterialBindingAPI stands for; its definition lists none of them, for their
+/// names go on with purposes and collections.
+bool is_material_binding(std::string_view name) {
+  return name == "material:binding" || name.starts_with("material:binding:");
+}
+
 /// As the schemas of vendors declare it, which stock OpenUSD does not know.
 void tidy_property(Spec& property, const schema::PropertyDefinition* declared) {
   if (declared == nullptr) {
@@ -108,7 +114,11 @@ void tidy(Layer& content) {
     tidy_prim(*content.find(prim));
     const schema::PrimDefinition definition(type_of(content, prim), apis_of(content, prim));
     for (const Path& property : properties_of(content, prim)) {
-      tidy_property(*content.find(property), definition.find(property.name()));
+      Spec& spec = *content.find(property);
+      tidy_property(spec, definition.find(property.name()));
+      if (is_material_binding(property.name().view())) {
+        spec.set(fields::custom, false);
+      }
     }
   }
 }
