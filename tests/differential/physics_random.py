@@ -72,19 +72,22 @@ class RandomCase(physics.Case):
 
     def compare_owners(self):
         """The scene that an object names simulates it, else the first one; OpenUSD lists what is
-        named. A collider goes with its body."""
-        first = next((str(prim.GetPath()) for prim in self.stage.Traverse()
-                      if prim.GetTypeName() == "PhysicsScene"), None)
-        wanted = {path: (row["simulationOwners"] or [first])[0]
-                  for _, path, row in self.objects(["RigidBody"])}
+        named, be it a scene or not. A collider goes with its body."""
+        scenes = [str(prim.GetPath()) for prim in self.stage.Traverse()
+                  if prim.GetTypeName() == "PhysicsScene"]
+
+        def owner_of(row):
+            named = [path for path in row["simulationOwners"] if path in scenes]
+            return (named or scenes or [None])[0]
+
+        wanted = {path: owner_of(row) for _, path, row in self.objects(["RigidBody"])}
         for path, ours in self.rows("bodies").items():
             if ours["scene"] != wanted.get(path):
                 self.add("body-owner", path, (wanted.get(path), ours["scene"]))
         for _, path, row in self.objects(physics.SHAPES):
             ours = self.rows("colliders").get(path)
             if ours is not None:
-                owner = (row["simulationOwners"] or [first])[0]
-                owner = wanted[ours["body"]] if ours["body"] else owner
+                owner = wanted[ours["body"]] if ours["body"] else owner_of(row)
                 if ours["scene"] != owner:
                     self.add("collider-owner", path, (owner, ours["scene"]))
 
