@@ -222,7 +222,8 @@ void check_inertia_conflict(const Subject& subject, Reporter& report) {
     full[0][1] = full[1][0] = n[3];
     full[0][2] = full[2][0] = n[4];
     full[1][2] = full[2][1] = n[5];
-    const Vec3d moments = principal_inertia(full).moments;
+    Vec3d moments = principal_inertia(full).moments;
+    std::sort(moments.v.begin(), moments.v.end());
     Vec3d other = to_double(*diagonal);
     std::sort(other.v.begin(), other.v.end());
     if (length(moments - other) > 0.01 * length(moments)) {
