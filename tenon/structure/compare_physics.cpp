@@ -243,15 +243,27 @@ class Comparison {
           });
   }
 
+  /// By their roots: one prim may hold several trees that stand on the ground side by side.
   void articulations() {
-    match(expected_.articulations, found_.articulations, false, "the articulation is missing",
-          [this](const physics::Articulation& a, const physics::Articulation& b) {
-            if (a.root != b.root || a.fixed_base != b.fixed_base ||
-                a.links.size() != b.links.size() || a.joints.size() != b.joints.size() ||
-                a.self_collision != b.self_collision) {
-              report(a.path, "the articulation has another root, links or joints");
-            }
-          });
+    std::map<Path, const physics::Articulation*> others;
+    for (const physics::Articulation& other : found_.articulations) {
+      others.emplace(other.root, &other);
+    }
+    for (const physics::Articulation& a : expected_.articulations) {
+      const auto at = others.find(a.root);
+      if (at == others.end()) {
+        report(a.path, "the articulation is missing, or has another root");
+        continue;
+      }
+      const physics::Articulation& b = *at->second;
+      if (a.path != b.path || a.fixed_base != b.fixed_base || a.links.size() != b.links.size() ||
+          a.joints.size() != b.joints.size() || a.self_collision != b.self_collision) {
+        report(a.path, "the articulation has other links or joints");
+      }
+    }
+    if (expected_.articulations.size() != found_.articulations.size()) {
+      report(Path(), "the source has another number of articulations");
+    }
   }
 
   using PathPairs = std::set<std::pair<Path, Path>>;
