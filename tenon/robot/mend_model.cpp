@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -75,6 +76,9 @@ class Mending {
       return;
     }
     const Vec3d moments = principal_inertia(inertial.inertia).moments;
+    if (mend_moments(inertial, whose, moments)) {
+      return;
+    }
     const double sum = moments[0] + moments[1] + moments[2];
     for (std::size_t i = 0; i < 3; ++i) {
       if (sum - 2 * moments[i] < -1e-6 * std::fabs(sum)) {
@@ -86,6 +90,22 @@ class Mending {
         break;
       }
     }
+  }
+
+  /// Engines let no body turn without inertia: one without about some axis gets the mean about all
+  /// axes. None at all stays so: it is computed from the colliders.
+  bool mend_moments(Inertial& inertial, const std::string& whose, const Vec3d& moments) {
+    const double sum = moments[0] + moments[1] + moments[2];
+    const double least = std::min({moments[0], moments[1], moments[2]});
+    if (inertial.mass == 0 || inertial.inertia == Mat3d{} || least > 1e-9 * std::fabs(sum)) {
+      return false;
+    }
+    inertial.inertia = sum > 0 ? diagonal_matrix(Vec3d{{1, 1, 1}} * (sum / 3)) : Mat3d{};
+    report(inertial.line, "robot.inertia-not-positive",
+           whose + "has a principal moment that is not above 0; " +
+               (sum > 0 ? "the mean of the three is taken for each" : "it is left out"),
+           "take the inertia from the part's shape and mass", Severity::Warning);
+    return true;
   }
 
   static bool sized(const Geometry& geometry) {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/math/inertia.h"
 #include "tenon/robot/kinematic_tree.h"
 #include "tenon/robot/merge_fixed.h"
 
@@ -132,6 +133,17 @@ TEST(MendModel, NamesWhatNoBodyHas) {
   EXPECT_FALSE(model.links[0].inertial);
   EXPECT_FALSE(model.links[1].inertial);
   EXPECT_EQ(model.links[2].inertial->inertia[2][2], 3);
+}
+
+TEST(MendModel, GivesEveryAxisAnInertia) {
+  RobotModel model = four_links();
+  model.links[0].inertial->inertia = {{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}}};  // 3, 0, 0
+  model.links[1].inertial->inertia = diagonal_matrix({{-1, 0, 0}});
+  model.links[2].inertial->inertia = {};
+  EXPECT_EQ(mended(model), "robot.inertia-not-positive;robot.inertia-not-positive;");
+  EXPECT_NEAR(model.links[0].inertial->inertia[1][1], 1, 1e-15);
+  EXPECT_EQ(model.links[0].inertial->inertia[0][1], 0);
+  EXPECT_EQ(model.links[1].inertial->inertia, Mat3d{});
 }
 
 TEST(MendModel, MendsJoints) {

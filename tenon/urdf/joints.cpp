@@ -170,8 +170,11 @@ Result<void> UrdfReader::read_mimics() {
     TENON_TRY(const std::string name, xml_.text(mimic, "joint"));
     const auto leader = joints_.find(name);
     if (leader == joints_.end()) {
-      return xml_.fault(mimic, "urdf.joint-missing", "no joint is named \"" + name + "\"",
-                        "name one of the joints");
+      xml_.warn(mimic, "urdf.joint-missing",
+                "no joint is named \"" + name + "\"; the mimic of joint \"" +
+                    model_.joints[i].name + "\" is left out",
+                "name one of the joints", Severity::Error);
+      continue;
     }
     robot::Mimic& values = model_.joints[i].mimic.emplace();
     values.leader = leader->second;

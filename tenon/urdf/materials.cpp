@@ -35,9 +35,11 @@ Result<robot::Material> UrdfReader::read_material(pugi::xml_node element) {
   }
   if (const pugi::xml_node texture = element.child("texture")) {
     xml_.list_unknown(texture, {"filename"}, {});
-    TENON_TRY(const std::string written, xml_.text(texture, "filename"));
-    const std::optional<std::string> file = paths_.find(written);
-    if (!file) {
+    const std::string written = texture.attribute("filename").value();
+    const std::optional<std::string> file = written.empty() ? "" : paths_.find(written);
+    if (written.empty()) {
+      xml_.warn(texture, "urdf.missing", "names no file; it is left out", "write filename=\"...\"");
+    } else if (!file) {
       xml_.warn(texture, "urdf.texture-missing",
                 "the texture \"" + written + "\" cannot be found; it is left out",
                 paths_.advice(written), Severity::Error);

@@ -162,6 +162,14 @@ TEST_F(ReadUrdf, ListsWhatItLeavesOut) {
   EXPECT_EQ(found(), "urdf.missing:3 ");
 }
 
+TEST_F(ReadUrdf, LeavesOutAMimicOfNoJointAndATextureOfNoFile) {
+  const auto model = read(joint("fixed", "<mimic joint='x'/>") +
+                          "<material name='m'><color rgba='1 0 0 1'/><texture/></material>");
+  ASSERT_TRUE(model) << error_->to_string();
+  EXPECT_FALSE(model->joints[0].mimic);
+  EXPECT_EQ(found(), "urdf.missing:4 urdf.joint-missing:3 ");
+}
+
 TEST_F(ReadUrdf, SaysWhatIsWrongAndWhere) {
   struct Row {
     std::string text;
@@ -177,7 +185,6 @@ TEST_F(ReadUrdf, SaysWhatIsWrongAndWhere) {
       {"<link name='a'><visual><geometry><box size='1 1'/></geometry></visual></link>",
        "urdf.number:2"},
       {joint("fixed", "<origin xyz='1 2 3 4'/>"), "urdf.number:3"},
-      {joint("fixed", "<mimic joint='x'/>"), "urdf.joint-missing:3"},
       {"<joint name='j' type='fixed'><parent link='a'/></joint>", "urdf.link-missing:2"},
       {"<xacro:macro name='m'/>", "urdf.xacro:2"},
   };
