@@ -25,6 +25,7 @@ struct Options {
   std::string gains;
   std::string schema = "current";
   bool fix_base = false;
+  bool float_base = false;
   bool merge_fixed = false;
   bool flat = false;
 };
@@ -79,6 +80,7 @@ Result<ConvertFileOptions> convert_options(const Options& options) {
   ConvertFileOptions result;
   result.robot.flat = options.flat;
   result.robot.fix_base = options.fix_base;
+  result.robot.float_base = options.float_base;
   result.robot.merge_fixed = options.merge_fixed;
   result.robot.schema = options.schema == "legacy" ? convert::SchemaGeneration::Legacy
                         : options.schema == "both" ? convert::SchemaGeneration::Both
@@ -194,6 +196,9 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
                   "is looked for upward from the input")
       .repeatable();
   verb.add_flag("--fix-base", options->fix_base, "Hold the root link in the world");
+  verb.add_flag("--float-base", options->float_base,
+                "A root link without mass is free to move, as that of a walking robot; else it "
+                "stands still");
   verb.add_flag("--merge-fixed", options->merge_fixed,
                 "Make links on fixed joints parts of the links that hold them");
   verb.add_flag("--flat", options->flat, "Links side by side, not nested");

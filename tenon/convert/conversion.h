@@ -63,10 +63,12 @@ class Conversion {
   // links.cpp
   Result<void> place_links();
   LinkRole role_of(robot::Index link) const;
+  std::optional<robot::Index> carried_by_root() const;
   Path parent_path(robot::Index link) const;
   void define_link(robot::Index link);
   void write_body(robot::Index link);
   void write_mass(Path path, const robot::Inertial& inertial);
+  void write_root_share(Path path, const robot::Link& root);
   void write_pose(Path prim, const Pose& pose, const Vec3d& scale);
   void write_excluded_pairs();
 

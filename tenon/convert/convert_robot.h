@@ -29,6 +29,7 @@ struct Gains {
 
 struct ConvertOptions {
   bool flat = false;         ///< links side by side below the robot, not nested
+  bool float_base = false;   ///< a root without mass moves too, with a millionth of what it carries
   bool fix_base = false;     ///< the root is held by the world
   bool merge_fixed = false;  ///< links on fixed joints become parts of their parents
   SchemaGeneration schema = SchemaGeneration::Current;

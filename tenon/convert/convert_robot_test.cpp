@@ -243,6 +243,26 @@ TEST(ConvertRobot, HoldsTheBaseWhereAsked) {
   EXPECT_TRUE(ghost.scene.articulations.at(0).fixed_base);
 }
 
+TEST(ConvertRobot, LetsARobotFloatWhoseRootIsEmptyWhereAsked) {
+  const std::string rest = link("trunk") + link("leg");
+  const auto joints = [](const std::string& root) {
+    return joint("hold", "fixed", root, "trunk", "") +
+           joint("hip", "continuous", root, "leg", "<axis xyz='0 0 1'/>");
+  };
+  ConvertOptions options;
+  options.float_base = true;
+  const Converted floating = convert("<link name='base'/>" + rest + joints("base"), options);
+  EXPECT_EQ(floating.rules(), "convert.massless-root;");
+  EXPECT_EQ(floating.scene.bodies.size(), 3u);
+  EXPECT_NEAR(floating.body("base").mass, 2e-6, 1e-12);
+  ASSERT_EQ(floating.scene.articulations.size(), 1u);
+  EXPECT_FALSE(floating.scene.articulations[0].fixed_base);
+  const Converted standing = convert("<link name='base'/>" + rest + joints("base"));
+  EXPECT_EQ(standing.rules(), "convert.static-root;");
+  EXPECT_EQ(standing.scene.bodies.size(), 2u);
+  EXPECT_TRUE(standing.scene.articulations.at(0).fixed_base);
+}
+
 TEST(ConvertRobot, MakesFramesOfLinksWithoutMass) {
   const std::string text =
       link("base") +

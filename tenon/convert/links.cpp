@@ -19,9 +19,33 @@ namespace {
 /// What a text layer may nest, less what stands above and below links.
 constexpr std::size_t kNestedLinks = limits::kTextNestingDepth - 20;
 
+/// Of the mass of what a root without mass carries; solvers still hold it.
+constexpr double kRootShare = 1e-6;
+
 bool has_mass(const robot::Link& link) { return link.inertial && link.inertial->mass > 0; }
 
 }  // namespace
+
+/// Of a robot that is to float: the first link with mass that fixed joints hold to a root without.
+/// ROS's own reader takes no inertia at the root, so robots begin with an empty link.
+std::optional<Index> Conversion::carried_by_root() const {
+  if (!options_.float_base) {
+    return std::nullopt;
+  }
+  std::vector<bool> is_part(model_.links.size(), false);
+  is_part[tree_.root] = true;
+  for (const Index link : tree_.order) {
+    const std::optional<Index> above = tree_.joint_to_parent[link];
+    if (above && is_part[model_.joints[*above].parent] &&
+        model_.joints[*above].kind == JointKind::Fixed) {
+      if (has_mass(model_.links[link])) {
+        return link;
+      }
+      is_part[link] = true;
+    }
+  }
+  return std::nullopt;
+}
 
 LinkRole Conversion::role_of(Index link) const {
   if (has_mass(model_.links[link])) {
@@ -29,7 +53,7 @@ LinkRole Conversion::role_of(Index link) const {
   }
   const std::optional<Index> above = tree_.joint_to_parent[link];
   if (!above) {
-    return LinkRole::Static;
+    return carried_by_root() ? LinkRole::Body : LinkRole::Static;
   }
   return model_.joints[*above].kind == JointKind::Fixed ? LinkRole::Frame : LinkRole::Body;
 }
@@ -115,6 +139,22 @@ void Conversion::write_mass(Path path, const robot::Inertial& inertial) {
                                                inertia[0][1], inertia[0][2], inertia[1][2]}));
 }
 
+void Conversion::write_root_share(Path path, const robot::Link& root) {
+  const robot::Link& carried = model_.links[*carried_by_root()];
+  robot::Inertial share = *carried.inertial;
+  share.mass *= kRootShare;
+  for (auto& row : share.inertia.m) {
+    for (double& moment : row) {
+      moment *= kRootShare;
+    }
+  }
+  write_mass(path, share);
+  report(root.line, Severity::Warning, "convert.massless-root",
+         "the root \"" + root.name + "\" has no mass: it gets a millionth of that of \"" +
+             carried.name + "\"",
+         "");
+}
+
 void Conversion::write_body(Index link) {
   const LinkPrim& prim = links_[link];
   const robot::Link& source = model_.links[link];
@@ -122,6 +162,12 @@ void Conversion::write_body(Index link) {
   const bool relative = above && !(options_.flat && prim.role != LinkRole::Frame);
   write_pose(prim.path, relative ? model_.joints[*above].origin : prim.in_robot, {{1, 1, 1}});
   if (prim.role != LinkRole::Body) {
+    if (!above && source.name != "world") {
+      report(source.line, Severity::Info, "convert.static-root",
+             "the root \"" + source.name +
+                 "\" has no mass: it is no body, and what fixed joints hold to it stands still",
+             "convert with --float-base where the robot is free to move");
+    }
     if (prim.role == LinkRole::Frame) {
       builder_.apply(prim.path, "IsaacSiteAPI");
     }
@@ -130,6 +176,14 @@ void Conversion::write_body(Index link) {
   builder_.apply(prim.path, "PhysicsRigidBodyAPI");
   if (has_mass(source)) {
     write_mass(prim.path, *source.inertial);
+    if (source.inertial->inertia == Mat3d{}) {
+      report(source.line, Severity::Info, "convert.no-inertia",
+             "the link \"" + source.name +
+                 "\" has a mass and no inertia; engines take that of its colliders",
+             "give it an inertia");
+    }
+  } else if (!above) {
+    write_root_share(prim.path, source);
   } else {
     report(source.line, Severity::Warning, "convert.no-mass",
            "the link \"" + source.name +
