@@ -97,7 +97,11 @@ Result<void> UrdfReader::read_limit(pugi::xml_node element, robot::Joint& joint)
   TENON_TRY(const double upper, xml_.number(limit, "upper", 0.0));
   TENON_TRY(const double effort, xml_.number(limit, "effort", robot::kUnlimited));
   TENON_TRY(const double velocity, xml_.number(limit, "velocity", robot::kUnlimited));
-  if (bounded) {
+  if (bounded && !limit.attribute("lower") && !limit.attribute("upper")) {
+    xml_.warn(limit, "urdf.missing",
+              "gives the joint \"" + joint.name + "\" no bounds; it is taken as unlimited",
+              "write lower and upper, or type=\"continuous\"");
+  } else if (bounded) {
     joint.limit = robot::Limit{lower, upper};
   }
   // Many descriptions say 0 where they mean nothing; a joint that cannot move would be fixed.

@@ -150,6 +150,14 @@ TEST_F(ReadUrdf, TakesEveryNumberOfAJoint) {
   EXPECT_EQ(found(), "urdf.zero-limit:4 ");
 }
 
+TEST_F(ReadUrdf, TakesALimitWithoutBoundsAsNone) {
+  const auto model = read(joint("revolute", "<limit effort='1' velocity='2'/>"));
+  ASSERT_TRUE(model);
+  EXPECT_FALSE(model->joints[0].limit);
+  EXPECT_EQ(model->joints[0].effort_limit, 1);
+  EXPECT_EQ(found(), "urdf.missing:3 ");
+}
+
 TEST_F(ReadUrdf, ListsWhatItLeavesOut) {
   ASSERT_TRUE(
       read("<link name='a' color='red'>\n<visual><geometry><box size='1 1 1'/></geometry>\n"
