@@ -144,6 +144,19 @@ def is_robot(path):
     return "<robot" in text if path.suffix == ".urdf" else "<worldbody" in text
 
 
+def rows_of(options, folder):
+    rows = [(name, path, collections.Counter(found)) for name, path, found in TABLE]
+    if options.all:
+        known = {path for _, path, _ in rows}
+        found = [path for prefix in MORE for ending in ("urdf", "xml")
+                 for path in sorted(folder.glob(f"{prefix}**/*.{ending}"))]
+        rows += [(path.name, path, None) for path in found
+                 if path.relative_to(folder).as_posix() not in known and is_robot(path)]
+    if options.only:
+        rows = [row for row in rows if row[0] == options.only]
+    return rows
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("root", type=pathlib.Path)
@@ -162,16 +175,8 @@ def main():
     except ImportError as error:
         print(f"skipped: MuJoCo's reader is not there: {error}")
         return 77
-    rows = [(name, path, collections.Counter(found)) for name, path, found in TABLE]
-    if options.all:
-        known = {path for _, path, _ in rows}
-        found = [path for prefix in MORE for ending in ("urdf", "xml")
-                 for path in sorted(folder.glob(f"{prefix}**/*.{ending}"))]
-        rows += [(path.name, path, None) for path in found
-                 if path.relative_to(folder).as_posix() not in known and is_robot(path)]
+    rows = rows_of(options, folder)
     faults, total = [], 0
-    if options.only:
-        rows = [row for row in rows if row[0] == options.only]
     for name, path, expected in rows:
         found, compared, findings, times = try_robot(options.tenon, name, folder / path, expected)
         print(f"{name}: {compared} numbers compared, {len(found)} faults, findings "
