@@ -11,6 +11,7 @@
 #include "tenon/export_mjcf.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/structure_asset.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -127,10 +128,30 @@ Result<void> write(layer::Layer& layer, const Options& options, Diagnostics& dia
   return formats::save_layer(layer, options.output);
 }
 
+/// The output is a folder: the asset goes straight into Asset Structure 3.0.
+bool wants_structure(const std::string& output) {
+  std::error_code error;
+  return output.ends_with('/') || fs::path(output).extension().empty() ||
+         fs::is_directory(output, error);
+}
+
+/// As `tenon structure` would make of the same asset in a file, proven in the same way.
+Result<void> write_structure(layer::Layer layer, const std::string& folder,
+                             Diagnostics& diagnostics) {
+  const structure::AssetSource source = asset_source(std::move(layer));
+  TENON_TRY(const structure::StructuredAsset asset,
+            structure::make_package(source, {}, diagnostics));
+  return structure::write_package(asset.package, folder);
+}
+
 Result<ConvertedFile> convert_and_write(const Options& options, Diagnostics& diagnostics) {
   TENON_TRY(const ConvertFileOptions wanted, convert_options(options));
   TENON_TRY(ConvertedFile converted, convert_file(options.input, wanted, diagnostics));
-  TENON_CHECK(write(converted.layer, options, diagnostics));
+  if (wants_structure(options.output)) {
+    TENON_CHECK(write_structure(converted.layer, options.output, diagnostics));
+  } else {
+    TENON_CHECK(write(converted.layer, options, diagnostics));
+  }
   return converted;
 }
 
@@ -189,7 +210,8 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
   auto options = std::make_shared<Options>();
   verb.add_option("input", options->input, "A URDF or MJCF file, or an asset").required();
   verb.add_option("output", options->output,
-                  "A .usda, .usdc, .usd or .usdz file; for an asset an .xml file")
+                  "A .usda, .usdc, .usd or .usdz file, or a folder for Asset Structure 3.0; for an "
+                  "asset an .xml file")
       .required();
   verb.add_option("--package", options->packages,
                   "NAME=DIR: where a ROS package lies; else it "
@@ -211,6 +233,7 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
       .one_of({"current", "legacy", "both"});
   verb.footer(
       "Examples:\n  tenon convert hand.urdf hand.usda\n"
+      "  tenon convert hand.urdf hand/     one file for each concern, as tenon structure makes it\n"
       "  tenon convert arm.urdf arm.usdc --fix-base --gains 400,40\n"
       "  tenon convert humanoid.xml humanoid.usda\n  tenon convert hand.usda hand.xml\n"
       "  tenon convert ur5.urdf ur5.usdz --package ur_description=../ur_description\n"

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/structure_asset.h"
 
+#include <filesystem>
+
 #include "tenon/stage_sources.h"
 
 namespace tenon {
@@ -20,6 +22,24 @@ Result<structure::AssetSource> asset_source(const std::string& path, const OpenO
   };
   source.open_asset = [registry = sources.registry](const std::string& identifier) {
     return registry->resolver().open(identifier);
+  };
+  return source;
+}
+
+structure::AssetSource asset_source(layer::Layer layer) {
+  structure::AssetSource source;
+  source.root = std::make_shared<const layer::Layer>(std::move(layer));
+  source.open_layer = [](const std::string& asset, const layer::Layer&) -> Result<layer::LayerPtr> {
+    return Error(ErrorCode::NotFound, "the layer stands alone").in_file(asset);
+  };
+  source.resolve_asset = [](const std::string& asset, const layer::Layer&) {
+    std::error_code error;
+    const bool found =
+        std::filesystem::path(asset).is_absolute() && std::filesystem::exists(asset, error);
+    return found ? asset : std::string();
+  };
+  source.open_asset = [](const std::string& identifier) {
+    return bytes::FileBytes::open(identifier);
   };
   return source;
 }

@@ -123,6 +123,25 @@ void tidy(Layer& content) {
   }
 }
 
+/// Fields in the order of their names: binary files keep the order in which a layer came by them.
+void order_fields(Layer& content) {
+  const auto by_name = [](const layer::Field& a, const layer::Field& b) {
+    return a.name.view() < b.name.view();
+  };
+  for (const Layer::Entry& entry : content.entries()) {
+    std::vector<layer::Field> fields(entry.spec.fields().begin(), entry.spec.fields().end());
+    if (std::is_sorted(fields.begin(), fields.end(), by_name)) {
+      continue;
+    }
+    std::sort(fields.begin(), fields.end(), by_name);
+    layer::FieldList ordered;
+    for (layer::Field& field : fields) {
+      ordered.append(field.name, std::move(field.value));
+    }
+    content.find(entry.path)->set_field_list(std::move(ordered));
+  }
+}
+
 /// Prims that are overridden and defined nowhere act on nothing.
 void drop_undefined(Layer& content, Path robot) {
   for (const Path& prim : prims_below(content)) {
@@ -194,6 +213,7 @@ Result<Layer> content_of(const stage::Stage& stage) {
   drop_undefined(flat, robot.path());
   Layer content = below_default_prim(flat, robot.name());
   tidy(content);
+  order_fields(content);
   return content;
 }
 
