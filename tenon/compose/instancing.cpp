@@ -28,6 +28,15 @@ void walk_shareable(const NodeGraph& graph, const Visit& visit) {
   }
 }
 
+/// Stacks of one layer differ by where their expression variables come from.
+std::string sources_of_variables(const LayerStack& stack) {
+  std::string text;
+  for (const LayerStack* at = stack.override_source; at != nullptr; at = at->override_source) {
+    text += " @" + at->identifier() + "@";
+  }
+  return text;
+}
+
 bool composed_instanceable(const NodeGraph& graph) {
   for (const NodeId id : graph.subtree(0)) {
     if (!graph[id].can_contribute() || !graph[id].has_specs) {
@@ -83,8 +92,7 @@ std::string instance_key(const NodeGraph& graph, bool has_payloads) {
       const layer::LayerOffset& offset = node.map_to_root->offset();
       key += std::to_string(static_cast<int>(node.arc)) + " @" + node.layer_stack->identifier() +
              "@<" + node.path.str() + "> " + shortest(offset.offset) + " " +
-             shortest(offset.scale) + " @" + node.layer_stack->expression_source->identifier() +
-             "@\n";
+             shortest(offset.scale) + sources_of_variables(*node.layer_stack) + "\n";
     }
     // Payloads that are or are not included tell instances apart wherever they are.
     return !shareable || has_payloads;

@@ -188,6 +188,7 @@ const layer::Dictionary* authored_variables(const layer::Layer& layer) {
 
 /// Variables of the referencing stack win over the session's, and those over the root layer's.
 void compose_variables(LayerStack& stack, const LayerStack* override_source) {
+  stack.override_source = override_source;
   layer::Dictionary own;
   for (const layer::LayerPtr& layer : {stack.session, stack.root}) {
     if (const auto* authored = layer == nullptr ? nullptr : authored_variables(*layer)) {

@@ -40,6 +40,8 @@ struct LayerStack {
   layer::Dictionary expression_variables;
   /// The stack that first authored these variables, this one or a referencing one.
   const LayerStack* expression_source = nullptr;
+  /// Whose variables were composed over this stack's own; null for that of the stage.
+  const LayerStack* override_source = nullptr;
   /// Relocates in force as authored: source to target, both absolute, target may be empty; sorted
   /// by source.
   MapFunction::Pairs relocates;

@@ -43,17 +43,22 @@ struct EditedArc {
     return identity == other.identity && arc.prim_path == other.arc.prim_path &&
            arc.offset == other.arc.offset;
   }
+  std::size_t hash() const {
+    return std::hash<std::string>{}(identity) ^ std::hash<Path>{}(arc.prim_path) ^
+           arc.offset.hash();
+  }
 };
 
 /// The strongest layer that names an item is where it counts as authored.
 template <class Item>
 void apply_and_attribute(const ListOp<Item>& op, std::vector<Item>& list) {
   op.apply_to(list);
+  const layer::ItemPositions<Item> positions(list);
   for (const auto* named : {&op.explicit_items, &op.prepended, &op.appended, &op.added}) {
     for (const Item& item : *named) {
-      const auto found = std::find(list.begin(), list.end(), item);
-      if (found != list.end()) {
-        *found = item;
+      const std::size_t found = positions.find(item);
+      if (found != layer::ItemPositions<Item>::kNone) {
+        list[found] = item;
       }
     }
   }
@@ -80,7 +85,11 @@ class AssetArcList {
  public:
   AssetArcList(const LayerStack& stack, Path path, const AssetIdentity& identity, bool many_layers,
                std::string_view what, Diagnostics* errors)
-      : stack_(stack), path_(path), identity_(identity), many_layers_(many_layers), what_(what),
+      : stack_(stack),
+        path_(path),
+        identity_(identity),
+        many_layers_(many_layers),
+        what_(what),
         errors_(errors) {}
 
   template <class Authored>
@@ -138,8 +147,7 @@ class AssetArcList {
 };
 
 bool evaluate_selection(const LayerStack& stack, const layer::Layer& layer, Path path,
-                        const std::string& authored, std::string* selection,
-                        Diagnostics* errors) {
+                        const std::string& authored, std::string* selection, Diagnostics* errors) {
   if (!is_variable_expression(authored)) {
     *selection = authored;
     return true;
@@ -150,10 +158,10 @@ bool evaluate_selection(const LayerStack& stack, const layer::Layer& layer, Path
     return true;
   }
   if (errors != nullptr) {
-    errors->add(composition_error(
-        error_class::kVariableExpressionError, Severity::Error, {&layer, path, {}},
-        "variant selection expression " + authored + ": " + result.errors,
-        "correct the expression or define its variables"));
+    errors->add(composition_error(error_class::kVariableExpressionError, Severity::Error,
+                                  {&layer, path, {}},
+                                  "variant selection expression " + authored + ": " + result.errors,
+                                  "correct the expression or define its variables"));
   }
   return false;
 }
@@ -222,11 +230,10 @@ std::vector<ClassArc> composed_class_arcs(const LayerStack& stack, Path path, To
   for (auto it = found.rbegin(); it != found.rend(); ++it) {
     if (const auto* op = it->value->get<ListOp<Path>>()) {
       const layer::Layer* layer = it->stacked->layer.get();
-      apply_and_attribute(converted<ClassArc>(*op,
-                                              [&](Path item, auto& to) {
-                                                to.push_back({item.absolute(anchor), layer});
-                                              }),
-                          list);
+      apply_and_attribute(
+          converted<ClassArc>(
+              *op, [&](Path item, auto& to) { to.push_back({item.absolute(anchor), layer}); }),
+          list);
     }
   }
   return list;

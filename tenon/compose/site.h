@@ -57,6 +57,7 @@ struct ClassArc {
   Path path;
   const layer::Layer* layer = nullptr;
   bool operator==(const ClassArc& other) const { return path == other.path; }
+  std::size_t hash() const { return std::hash<Path>{}(path); }
 };
 std::vector<ClassArc> composed_class_arcs(const LayerStack& stack, Path path, Token field);
 

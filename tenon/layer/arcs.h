@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,9 @@ struct LayerOffset {
     return {apply(inner.offset), scale * inner.scale};
   }
   LayerOffset inverse() const { return {-offset / scale, 1 / scale}; }
+  std::size_t hash() const {
+    return std::hash<double>{}(offset) ^ (std::hash<double>{}(scale) << 1);
+  }
 };
 
 /// `@asset@</prim> (offset; scale)`. An empty asset path refers to the same layer stack, an empty
@@ -35,6 +40,9 @@ struct Reference {
   Dictionary custom_data;
 
   bool operator==(const Reference&) const = default;
+  std::size_t hash() const {
+    return std::hash<std::string>{}(asset_path) ^ std::hash<Path>{}(prim_path) ^ offset.hash();
+  }
 };
 
 struct Payload {
@@ -43,6 +51,9 @@ struct Payload {
   LayerOffset offset;
 
   bool operator==(const Payload&) const = default;
+  std::size_t hash() const {
+    return std::hash<std::string>{}(asset_path) ^ std::hash<Path>{}(prim_path) ^ offset.hash();
+  }
 };
 
 /// Source and target path pairs in authored order. An empty target deletes the source.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -30,6 +32,8 @@ Dictionary merge(const Dictionary& stronger, const Dictionary& weaker);
 struct UnregisteredValue {
   Value value;
   bool operator==(const UnregisteredValue&) const = default;
+  /// Of the text; the same for all others.
+  std::size_t hash() const { return std::hash<std::string>{}(value.get_or(std::string())); }
 };
 
 /// Variant set name to chosen variant.

@@ -15,11 +15,7 @@ namespace tenon::layer {
 template <class T>
 std::vector<T> unique_keeping_first(const std::vector<T>& list) {
   std::vector<T> result;
-  for (const T& item : list) {
-    if (std::find(result.begin(), result.end(), item) == result.end()) {
-      result.push_back(item);
-    }
-  }
+  append_absent(result, list);
   return result;
 }
 
@@ -45,13 +41,8 @@ std::optional<ListOp<T>> fold(const ListOp<T>& stronger, const ListOp<T>& weaker
     return ListOp<T>::make_explicit(std::move(items));
   }
   ListOp<T> result = weaker;
-  const auto take_out = [](const List& items, List& from) {
-    std::erase_if(from, [&](const T& item) {
-      return std::find(items.begin(), items.end(), item) != items.end();
-    });
-  };
-  take_out(stronger.deleted, result.prepended);
-  take_out(stronger.deleted, result.appended);
+  remove_items(result.prepended, stronger.deleted);
+  remove_items(result.appended, stronger.deleted);
   result.deleted.insert(result.deleted.end(), stronger.deleted.begin(), stronger.deleted.end());
   result.deleted = unique_keeping_first(result.deleted);
   const List front = unique_keeping_first(stronger.prepended);
@@ -59,9 +50,9 @@ std::optional<ListOp<T>> fold(const ListOp<T>& stronger, const ListOp<T>& weaker
   back = unique_keeping_first(back);  // where it stands last
   std::reverse(back.begin(), back.end());
   for (const List* moved : {&front, static_cast<const List*>(&back)}) {
-    take_out(*moved, result.deleted);
-    take_out(*moved, result.prepended);
-    take_out(*moved, result.appended);
+    remove_items(result.deleted, *moved);
+    remove_items(result.prepended, *moved);
+    remove_items(result.appended, *moved);
     List& to = moved == &front ? result.prepended : result.appended;
     to.insert(moved == &front ? to.begin() : to.end(), moved->begin(), moved->end());
   }

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
-#include <iterator>
+#include <cstddef>
 #include <vector>
+
+#include "tenon/layer/item_set.h"
 
 namespace tenon::layer {
 
@@ -47,45 +49,27 @@ struct ListOp {
       append_absent(list, explicit_items);
       return;
     }
-    remove(list, deleted);
+    remove_items(list, deleted);
     append_absent(list, added);
     if (!prepended.empty()) {
       std::vector<T> front;
       append_absent(front, prepended);
-      remove(list, front);
+      remove_items(list, front);
       list.insert(list.begin(), front.begin(), front.end());
     }
     if (!appended.empty()) {
       std::vector<T> back = unique_keeping_last(appended);
-      remove(list, back);
+      remove_items(list, back);
       list.insert(list.end(), back.begin(), back.end());
     }
     reorder(list, ordered);
   }
 
  private:
-  static bool contains(const std::vector<T>& list, const T& item) {
-    return std::find(list.begin(), list.end(), item) != list.end();
-  }
-  static void append_absent(std::vector<T>& list, const std::vector<T>& items) {
-    for (const T& item : items) {
-      if (!contains(list, item)) {
-        list.push_back(item);
-      }
-    }
-  }
-  static void remove(std::vector<T>& list, const std::vector<T>& items) {
-    if (!items.empty()) {
-      std::erase_if(list, [&](const T& item) { return contains(items, item); });
-    }
-  }
-  static std::vector<T> unique_keeping_last(const std::vector<T>& items) {
+  static std::vector<T> unique_keeping_last(std::vector<T> items) {
+    std::reverse(items.begin(), items.end());
     std::vector<T> result;
-    for (auto it = items.rbegin(); it != items.rend(); ++it) {
-      if (!contains(result, *it)) {
-        result.push_back(*it);
-      }
-    }
+    append_absent(result, items);
     std::reverse(result.begin(), result.end());
     return result;
   }
@@ -94,20 +78,25 @@ struct ListOp {
   /// Puts the items named in `order` into that order. Each takes along the unnamed items that
   /// follow it; unnamed items before the first named one stay in front.
   static void reorder(std::vector<T>& list, const std::vector<T>& order) {
+    if (order.empty()) {
+      return;
+    }
+    const ItemPositions<T> positions(list);
     std::vector<T> keys;
     append_absent(keys, order);
-    std::erase_if(keys, [&](const T& key) { return !contains(list, key); });
+    std::erase_if(keys, [&](const T& key) { return !positions.contains(key); });
     if (keys.empty()) {
       return;
     }
-    auto is_key = [&](const T& item) { return contains(keys, item); };
+    const ItemPositions<T> named(keys);
+    auto is_key = [&](const T& item) { return named.contains(item); };
     std::vector<T> result(list.begin(), std::find_if(list.begin(), list.end(), is_key));
     for (const T& key : keys) {
-      auto it = std::find(list.begin(), list.end(), key);
+      std::size_t at = positions.find(key);
       do {
-        result.push_back(*it);
-        ++it;
-      } while (it != list.end() && !is_key(*it));
+        result.push_back(list[at]);
+        ++at;
+      } while (at < list.size() && !is_key(list[at]));
     }
     list = std::move(result);
   }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tenon/compose/site.h"
+#include "tenon/layer/item_set.h"
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/prim.h"
 #include "tenon/stage/stage_data.h"
@@ -26,14 +27,13 @@ void put_in_order(const PrimData& prim, std::vector<Token>& names) {
             [](Token a, Token b) { return dictionary_less(a.view(), b.view()); });
   for (const compose::Opinion& opinion : prim.index->opinions) {
     if (const auto* order = opinion.spec->get<std::vector<Token>>(fields::propertyOrder)) {
-      auto next = names.begin();
-      for (const Token name : *order) {
-        const auto found = std::find(next, names.end(), name);
-        if (found != names.end()) {
-          std::rotate(next, found, found + 1);
-          ++next;
-        }
-      }
+      const layer::ItemPositions<Token> positions(names);
+      std::vector<Token> ordered;
+      ordered.reserve(names.size());
+      layer::append_absent(ordered, *order);
+      std::erase_if(ordered, [&](Token name) { return !positions.contains(name); });
+      layer::append_absent(ordered, names);
+      names = std::move(ordered);
       return;
     }
   }

@@ -47,7 +47,8 @@ std::vector<Path> Relationship::targets() const {
 // like any other where a cycle leads back.
 std::vector<Path> Relationship::forwarded_targets() const {
   std::vector<Path> result;
-  std::set<Path> seen;
+  std::set<Path> seen;   // relationships followed
+  std::set<Path> found;  // what is in the result
   std::vector<Path> pending = targets();
   std::reverse(pending.begin(), pending.end());
   while (!pending.empty()) {
@@ -64,7 +65,7 @@ std::vector<Path> Relationship::forwarded_targets() const {
         continue;
       }
     }
-    if (std::find(result.begin(), result.end(), target) == result.end()) {
+    if (found.insert(target).second) {
       result.push_back(target);
     }
   }
@@ -72,9 +73,8 @@ std::vector<Path> Relationship::forwarded_targets() const {
 }
 
 layer::Value Relationship::metadata(Token field) const {
-  return prim_ == nullptr
-             ? layer::Value()
-             : compose_field(*stage_, *prim_, property_opinions(*prim_, name_), field);
+  return prim_ == nullptr ? layer::Value()
+                          : compose_field(*stage_, *prim_, property_opinions(*prim_, name_), field);
 }
 
 std::map<std::string, layer::Value> Relationship::all_authored_metadata() const {
