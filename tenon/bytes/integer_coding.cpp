@@ -104,19 +104,36 @@ class Decoder {
   const char* end_ = nullptr;
 };
 
+/// How often each difference occurs: the small ones, which are nearly all in meshes, by index.
+template <class Signed>
+class DifferenceCounts {
+ public:
+  std::size_t add(Signed difference) {
+    if (difference >= -kSmall && difference < kSmall) {
+      return ++small_[static_cast<std::size_t>(difference + kSmall)];
+    }
+    return ++others_[difference];
+  }
+
+ private:
+  static constexpr Signed kSmall = 2048;
+  std::vector<std::size_t> small_ = std::vector<std::size_t>(2 * kSmall);
+  std::unordered_map<Signed, std::size_t> others_;
+};
+
 /// The commonest difference, the largest of several.
 template <class W, class T>
 typename W::Signed commonest_difference(std::span<const T> integers) {
   using Signed = typename W::Signed;
   using Unsigned = typename W::Unsigned;
-  std::unordered_map<Signed, std::size_t> counts;
+  DifferenceCounts<Signed> counts;
   Signed common = 0;
   std::size_t common_count = 0;
   Unsigned before = 0;
   for (const T integer : integers) {
     const auto difference = static_cast<Signed>(static_cast<Unsigned>(integer) - before);
     before = static_cast<Unsigned>(integer);
-    const std::size_t count = ++counts[difference];
+    const std::size_t count = counts.add(difference);
     if (count > common_count || (count == common_count && difference > common)) {
       common = difference;
       common_count = count;
