@@ -85,7 +85,17 @@ void set_other_gravities(const physics::PhysicsScene& scene, Model& model);
 void report_overlaps(const physics::PhysicsScene& scene, const Model& model,
                      Diagnostics& diagnostics);
 
-/// All passes.
+/// A model and what it was compiled from.
+struct SpecAndModel {
+  SpecPtr spec;
+  Model model;
+};
+
+/// All passes. A part that MuJoCo refuses is left out with a warning.
+Result<SpecAndModel> build_spec(const physics::PhysicsScene& scene,
+                                const SimulationOptions& options, Diagnostics& diagnostics,
+                                Begin begin = Begin::Start);
+/// The same where only the model is wanted.
 Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOptions& options,
                           Diagnostics& diagnostics, Begin begin = Begin::Start);
 

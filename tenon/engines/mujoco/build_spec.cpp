@@ -103,8 +103,9 @@ Result<Model> build_once(Build& build, Begin begin) {
 
 }  // namespace
 
-Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOptions& options,
-                          Diagnostics& diagnostics, Begin begin) {
+Result<SpecAndModel> build_spec(const physics::PhysicsScene& scene,
+                                const SimulationOptions& options, Diagnostics& diagnostics,
+                                Begin begin) {
   const double time_step = choose_time_step(scene, options, diagnostics);
   std::set<Path> refused;
   while (true) {
@@ -115,19 +116,25 @@ Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOp
     Result<Model> model = build_once(build, begin);
     if (model.has_value()) {
       diagnostics.append(findings);
-      return model;
+      return SpecAndModel{std::move(build.spec), std::move(*model)};
     }
     // MuJoCo refuses whole models: what it names is left out, and said.
     const Path part = refused_part(scene, model.error().message());
     if (part.empty() || refused.size() >= kMostRefused || !refused.insert(part).second) {
       diagnostics.append(findings);
-      return model;
+      return model.error();
     }
     diagnostics.add(
         {Severity::Warning, "mujoco.part-left-out",
          "MuJoCo refuses a part of the model, which goes on without it: " + model.error().message(),
          "", 0, 0, part.str(), "", "give the shape a size, the joint sound limits"});
   }
+}
+
+Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOptions& options,
+                          Diagnostics& diagnostics, Begin begin) {
+  TENON_TRY(SpecAndModel built, build_spec(scene, options, diagnostics, begin));
+  return std::move(built.model);
 }
 
 }  // namespace tenon::engines::mujoco

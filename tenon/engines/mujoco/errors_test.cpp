@@ -5,6 +5,7 @@
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/mujoco_engine.h"
 #include "tenon/engines/mujoco/test_scene.h"
+#include "tenon/engines/mujoco/write_mjcf.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -37,10 +38,10 @@ TEST(Errors, GuardsNest) {
   EXPECT_NE(outer.error().message().find("outer"), std::string::npos);
 }
 
-TEST(Errors, PartThatMuJoCoRefusesIsLeftOutAndSaid) {
-  TestScene scene;
+/// A ball with a hull of 1e-6 m, in which MuJoCo finds no volume, and a cone of that kind.
+physics::Index add_body_with_refused_parts(TestScene& scene) {
   const auto body = scene.add_body("Body", {{0, 0, 2}});
-  physics::TriangleMesh speck;  // a hull of 1e-6 m: MuJoCo finds no volume in it
+  physics::TriangleMesh speck;
   speck.points = {{{0, 0, 0}}, {{1e-6, 0, 0}}, {{0, 1e-6, 0}}, {{0, 0, 1e-6}}};
   scene.meshes.push_back(speck);
   physics::Shape shape;
@@ -53,10 +54,10 @@ TEST(Errors, PartThatMuJoCoRefusesIsLeftOutAndSaid) {
   scene.add_collider("Cone", body, cone);
   scene.add_collider("Ball", body, sphere(0.5));
   scene.add_collider("Ground", {}, ground());
-  Diagnostics findings;
-  auto sim = simulation(scene, 0.002, &findings);
-  run(*sim, 3);
-  EXPECT_NEAR(sim->body_state(body).pose.position[2], 0.5, 1e-2);  // on the ball that is left
+  return body;
+}
+
+std::vector<std::string> parts_left_out(const Diagnostics& findings) {
   std::vector<std::string> left_out;
   for (const Diagnostic& finding : findings) {
     if (finding.rule == "mujoco.part-left-out") {
@@ -64,8 +65,29 @@ TEST(Errors, PartThatMuJoCoRefusesIsLeftOutAndSaid) {
     }
   }
   std::sort(left_out.begin(), left_out.end());
-  EXPECT_EQ(left_out, (std::vector<std::string>{"/Cone", "/Speck"}));
+  return left_out;
+}
+
+TEST(Errors, PartThatMuJoCoRefusesIsLeftOutAndSaid) {
+  TestScene scene;
+  const auto body = add_body_with_refused_parts(scene);
+  Diagnostics findings;
+  auto sim = simulation(scene, 0.002, &findings);
+  run(*sim, 3);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], 0.5, 1e-2);  // on the ball that is left
+  EXPECT_EQ(parts_left_out(findings), (std::vector<std::string>{"/Cone", "/Speck"}));
   EXPECT_TRUE(mentions(sim->not_mapped(), "/Speck", "extent"));
+}
+
+TEST(Errors, WrittenModelLeavesOutTheSameParts) {
+  TestScene scene;
+  add_body_with_refused_parts(scene);
+  Diagnostics findings;
+  const Result<std::string> text = write_mjcf(scene, {}, findings);
+  ASSERT_TRUE(text.has_value()) << text.error().to_string();
+  EXPECT_EQ(parts_left_out(findings), (std::vector<std::string>{"/Cone", "/Speck"}));
+  EXPECT_NE(text->find("\"/Ball\""), std::string::npos);
+  EXPECT_EQ(text->find("\"/Cone\""), std::string::npos);
 }
 
 TEST(Errors, DegenerateLimitsDoNotSpoilTheModel) {

@@ -4,22 +4,21 @@
 
 #include "tenon/engines/mujoco/build.h"
 #include "tenon/engines/mujoco/error_hook.h"
-#include "tenon/engines/mujoco/surfaces.h"
 
 namespace tenon::engines::mujoco {
 namespace {
 
 constexpr int kWordsSize = 1000;
 
-void report_not_mapped(const Build& build) {
-  for (const NotMapped& part : build.not_mapped) {
+void report_not_mapped(const Model& model, Diagnostics& diagnostics) {
+  for (const NotMapped& part : model.not_mapped) {
     Diagnostic finding;
     finding.severity = Severity::Info;
     finding.rule = "mujoco.not-mapped";
     finding.message = part.why;
     finding.prim = part.prim.str();
     finding.property = part.property;
-    build.diagnostics.add(std::move(finding));
+    diagnostics.add(std::move(finding));
   }
 }
 
@@ -49,28 +48,9 @@ Result<std::string> text_of(const mjSpec& spec) {
 
 Result<std::string> write_mjcf(const physics::PhysicsScene& scene, const SimulationOptions& options,
                                Diagnostics& diagnostics) {
-  // The model is made once as for a simulation: what MuJoCo refuses is found there.
-  TENON_TRY(const Model model, build_model(scene, options, diagnostics));
-  Build build(scene, diagnostics);
-  build.time_step = model.model->opt.timestep;
-  build.plan = plan_tree(scene);
-  for (const physics::Joint& joint : scene.joints) {
-    build.dofs.push_back(joint_dofs(joint));
-  }
-  build.joints.assign(scene.joints.size(), {});
-  build.balls.assign(scene.joints.size(), nullptr);
-  add_options(build);
-  add_bodies(build);
-  add_joints(build);
-  add_equalities(build);
-  add_actuators(build);
-  add_geoms(build);
-  add_filters(build);
-  add_surfaces(build);
-  report_unmapped(build);
-  TENON_CHECK(compile(build));
-  report_not_mapped(build);
-  return text_of(*build.spec);
+  TENON_TRY(const SpecAndModel built, build_spec(scene, options, diagnostics));
+  report_not_mapped(built.model, diagnostics);
+  return text_of(*built.spec);
 }
 
 }  // namespace tenon::engines::mujoco
