@@ -3,36 +3,25 @@
 #include "tenon/bytes/atomic_write.h"
 
 #include <array>
-#include <atomic>
-#include <cerrno>
 #include <climits>
-#include <cstring>
 #include <optional>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "tenon/bytes/posix_files.h"
+
 namespace tenon::bytes {
 namespace {
 
-constexpr int kLinks = 40;   // links that lead to links
-constexpr int kNames = 100;  // hidden names tried
+constexpr int kLinks = 40;  // links that lead to links
 
-Error write_error(const std::string& path, const std::string& what, const std::string& fix) {
-  return Error(ErrorCode::Io, "cannot write the file: " + what)
+Error refused(const std::string& path, const std::string& why, const std::string& fix) {
+  return Error(ErrorCode::Io, "cannot write the file: " + why)
       .in_file(path)
       .with_rule("file.unwritable")
       .with_fix(fix);
-}
-
-Error write_error(const std::string& path, int number) {
-  const bool full = number == ENOSPC || number == EDQUOT || number == EFBIG;
-  const bool closed = number == EACCES || number == EPERM || number == EROFS;
-  return write_error(path, std::strerror(number),
-                     full     ? "make room, or write to another disk"
-                     : closed ? "allow writing in its folder, or write elsewhere"
-                              : "name a file in a folder that exists");
 }
 
 /// What links lead to, whether it exists or not.
@@ -47,45 +36,6 @@ std::string follow_links(std::string path) {
     path = target.front() == '/' ? target : path.substr(0, path.rfind('/') + 1) + target;
   }
   return path;
-}
-
-/// 0 or the error number.
-int write_all(int descriptor, std::string_view contents) {
-  while (!contents.empty()) {
-    const ssize_t written = ::write(descriptor, contents.data(), contents.size());
-    if (written < 0 && errno == EINTR) {
-      continue;
-    }
-    if (written < 0) {
-      return errno;
-    }
-    contents.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
-}
-
-void sync_folder(const std::string& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor >= 0) {
-    ::fsync(descriptor);  // the rename is done; that it may be lost in a power cut is no error
-    ::close(descriptor);
-  }
-}
-
-/// Calls `make(name)` with hidden names in the folder until one is free; its error number.
-template <class Make>
-int with_free_name(const std::string& folder, std::string& name, Make make) {
-  static std::atomic<unsigned> counter{0};
-  for (int i = 0; i < kNames; ++i) {
-    name = folder + ".tenon-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
-    if (make(name)) {
-      return 0;
-    }
-    if (errno != EEXIST) {
-      return errno;
-    }
-  }
-  return EEXIST;
 }
 
 /// A file in the making. It has no name at first where the file system knows such files, so that
@@ -143,7 +93,6 @@ class NewFile {
         return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
       });
       if (error != 0) {
-        name_.clear();
         return error;
       }
     }
@@ -156,14 +105,10 @@ class NewFile {
 
  private:
   int open_with_name() {
-    const int error = with_free_name(folder_, name_, [&](const std::string& name) {
+    return with_free_name(folder_, name_, [&](const std::string& name) {
       descriptor_ = ::open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
       return descriptor_ >= 0;
     });
-    if (error != 0) {
-      name_.clear();
-    }
-    return error;
   }
 
   std::string folder_;  // with '/' at the end, or empty
@@ -174,13 +119,13 @@ class NewFile {
 Result<void> write_directly(const std::string& path, std::string_view contents) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) {
-    return write_error(path, errno);
+    return unwritable(path, "file", errno);
   }
   int error = write_all(descriptor, contents);
   if (::close(descriptor) != 0 && error == 0) {
     error = errno;
   }
-  return error == 0 ? Result<void>() : Result<void>(write_error(path, error));
+  return error == 0 ? Result<void>() : Result<void>(unwritable(path, "file", error));
 }
 
 }  // namespace
@@ -192,13 +137,13 @@ Result<void> write_file(const std::string& path, std::string_view contents) {
     old.reset();
   }
   if (old && S_ISDIR(old->st_mode)) {
-    return write_error(path, "it is a folder", "name a file in it");
+    return refused(path, "it is a folder", "name a file in it");
   }
   if (old && !S_ISREG(old->st_mode)) {
     return write_directly(target, contents);
   }
   if (old && ((old->st_mode & 0222u) == 0 || ::access(target.c_str(), W_OK) != 0)) {
-    return write_error(path, "it is read-only", "allow writing (chmod u+w), or write elsewhere");
+    return refused(path, "it is read-only", "allow writing (chmod u+w), or write elsewhere");
   }
   const std::string folder = target.substr(0, target.rfind('/') + 1);
   NewFile file(folder);
@@ -213,9 +158,9 @@ Result<void> write_file(const std::string& path, std::string_view contents) {
     error = file.rename_to(target);
   }
   if (error != 0) {
-    return write_error(path, error);
+    return unwritable(path, "file", error);
   }
-  sync_folder(folder.empty() ? "." : folder);
+  sync_folder(folder.empty() ? "." : folder);  // that it may be lost in a power cut is no error
   return {};
 }
 

@@ -2,17 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/bytes/unpack_zip.h"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <set>
 #include <vector>
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include "tenon/bytes/asset_resolver.h"
-#include "tenon/bytes/atomic_write.h"
+#include "tenon/bytes/new_folder.h"
+#include "tenon/bytes/posix_files.h"
 
 namespace tenon::bytes {
 namespace {
@@ -62,21 +58,13 @@ Error bad_name(const std::string& name, const std::string& why) {
 /// An entry that names a folder alone, as some tools write them.
 bool is_folder(const ZipEntry& entry) { return entry.name.ends_with('/') && entry.size == 0; }
 
-Error io_error(const std::string& path, const std::string& what) {
-  return Error(ErrorCode::Io, what).in_file(path).with_rule("file.unwritable");
-}
-
-Result<void> write_entries(const ZipArchive& archive, const fs::path& folder) {
+Result<void> write_entries(const ZipArchive& archive, NewFolder& folder) {
   for (const ZipEntry& entry : archive.entries()) {
-    const fs::path path = folder / entry.name;
-    std::error_code failed;
-    fs::create_directories(is_folder(entry) ? path : path.parent_path(), failed);
-    if (failed) {
-      return io_error(path.string(), "cannot make its folder: " + failed.message());
-    }
-    if (!is_folder(entry)) {
+    if (is_folder(entry)) {
+      TENON_CHECK(folder.add_folder(entry.name));
+    } else {
       TENON_TRY(const auto contents, archive.read(entry));
-      TENON_CHECK(write_file(path.string(), contents->text()));
+      TENON_CHECK(folder.add_file(entry.name, contents->text()));
     }
   }
   return {};
@@ -124,24 +112,12 @@ Result<void> unpack_zip(const ZipArchive& archive, const std::string& folder) {
   }
   std::error_code failed;
   fs::create_directories(place.parent_path(), failed);
-  std::string beside =
-      (place.parent_path() / ("." + place.filename().string() + ".XXXXXX")).string();
-  if (failed || ::mkdtemp(beside.data()) == nullptr) {
-    return io_error(place.string(), std::string("cannot make the folder: ") +
-                                        (failed ? failed.message() : std::strerror(errno)));
+  if (failed) {
+    return unwritable(place.string(), "folder", failed.value());
   }
-  Result<void> written = write_entries(archive, beside);
-  if (written) {
-    ::chmod(beside.c_str(), 0755);
-    fs::rename(beside, place, failed);
-    if (failed) {
-      written = io_error(place.string(), "cannot make the folder: " + failed.message());
-    }
-  }
-  if (!written) {
-    fs::remove_all(beside, ignored);
-  }
-  return written;
+  TENON_TRY(NewFolder made, NewFolder::beside(place.string()));
+  TENON_CHECK(write_entries(archive, made));
+  return made.take_place(NewFolder::Replace::Empty);
 }
 
 }  // namespace tenon::bytes

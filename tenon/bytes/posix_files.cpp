@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/bytes/posix_files.h"
+
+#include <atomic>
+#include <cstring>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace tenon::bytes {
+
+Error unwritable(const std::string& path, const char* kind, int number) {
+  const bool full = number == ENOSPC || number == EDQUOT || number == EFBIG;
+  const bool closed = number == EACCES || number == EPERM || number == EROFS;
+  return Error(ErrorCode::Io,
+               std::string("cannot write the ") + kind + ": " + std::strerror(number))
+      .in_file(path)
+      .with_rule("file.unwritable")
+      .with_fix(full     ? "make room, or write to another disk"
+                : closed ? "allow writing in its folder, or write elsewhere"
+                         : std::string("name a ") + kind + " in a folder that exists");
+}
+
+int write_all(int descriptor, std::string_view contents) {
+  while (!contents.empty()) {
+    const ssize_t written = ::write(descriptor, contents.data(), contents.size());
+    if (written < 0 && errno == EINTR) {
+      continue;
+    }
+    if (written < 0) {
+      return errno;
+    }
+    contents.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+int sync_folder(const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) {
+    return errno;
+  }
+  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  return error;
+}
+
+std::string next_hidden_name(const std::string& folder) {
+  static std::atomic<unsigned> counter{0};
+  return folder + ".tenon-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+}
+
+}  // namespace tenon::bytes
