@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/convert/conversion.h"
 
+#include "tenon/base/file_finding.h"
 #include "tenon/robot/merge_fixed.h"
 
 namespace tenon::convert {
@@ -21,14 +22,8 @@ Conversion::Conversion(const robot::RobotModel& model, const robot::KinematicTre
 
 void Conversion::report(std::uint32_t line, Severity severity, const char* rule,
                         std::string message, std::string fix) {
-  Diagnostic finding;
-  finding.severity = severity;
-  finding.rule = rule;
-  finding.message = std::move(message);
-  finding.file = model_.file;
-  finding.line = line;
-  finding.fix = std::move(fix);
-  diagnostics_.add(std::move(finding));
+  diagnostics_.add(
+      file_finding(severity, rule, std::move(message), model_.file, line, std::move(fix)));
 }
 
 void Conversion::name_prim(Path prim, Token name, const std::string& wanted) {
@@ -93,12 +88,10 @@ void report_unknown_gains(const robot::RobotModel& model, const ConvertOptions& 
       known = known || joint.name == name;
     }
     if (!known) {
-      Diagnostic finding;
-      finding.rule = "convert.gains";
-      finding.message = "gains are given for \"" + name + "\", which is no joint of the robot";
-      finding.file = model.file;
-      finding.fix = "name a joint as the description does";
-      diagnostics.add(std::move(finding));
+      diagnostics.add(
+          file_finding(Severity::Error, "convert.gains",
+                       "gains are given for \"" + name + "\", which is no joint of the robot",
+                       model.file, 0, "name a joint as the description does"));
     }
   }
 }

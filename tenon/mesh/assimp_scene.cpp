@@ -8,6 +8,7 @@
 
 #include <dlfcn.h>
 
+#include "tenon/base/file_finding.h"
 #include "tenon/base/limits.h"
 #include "tenon/math/matrix.h"
 #include "tenon/mesh/point_welder.h"
@@ -134,13 +135,8 @@ class SceneReader {
 
  private:
   void report(std::string message, std::string fix) {
-    Diagnostic finding;
-    finding.severity = Severity::Warning;
-    finding.rule = "mesh.left-out";
-    finding.message = std::move(message);
-    finding.file = path_;
-    finding.fix = std::move(fix);
-    diagnostics_.add(std::move(finding));
+    diagnostics_.add(file_finding(Severity::Warning, "mesh.left-out", std::move(message), path_, 0,
+                                  std::move(fix)));
   }
 
   Appearance appearance(const aiMaterial& material) {

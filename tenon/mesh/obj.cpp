@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "tenon/base/file_finding.h"
 #include "tenon/base/limits.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/mesh/read_mesh.h"
@@ -171,14 +172,10 @@ class ObjReader {
     const std::string file = beside(path_, name);
     const auto bytes = bytes::FileBytes::open(file);
     if (!bytes) {
-      Diagnostic finding;
-      finding.severity = Severity::Warning;
-      finding.rule = "mesh.material-library-missing";
-      finding.message = "the material library \"" + name + "\" cannot be read; colours are lost";
-      finding.file = path_;
-      finding.line = scanner_.line();
-      finding.fix = "put the file beside the mesh";
-      diagnostics_.add(std::move(finding));
+      diagnostics_.add(
+          file_finding(Severity::Warning, "mesh.material-library-missing",
+                       "the material library \"" + name + "\" cannot be read; colours are lost",
+                       path_, scanner_.line(), "put the file beside the mesh"));
       return;
     }
     TextScanner lines((*bytes)->text());
@@ -258,13 +255,9 @@ class ObjReader {
       return fault(ErrorCode::Parse, "the file has no faces");
     }
     if (left_out_ > 0) {
-      Diagnostic finding;
-      finding.severity = Severity::Warning;
-      finding.rule = "mesh.left-out";
-      finding.message =
-          std::to_string(left_out_) + " lines, points and curves of the mesh are left out";
-      finding.file = path_;
-      diagnostics_.add(std::move(finding));
+      diagnostics_.add(file_finding(
+          Severity::Warning, "mesh.left-out",
+          std::to_string(left_out_) + " lines, points and curves of the mesh are left out", path_));
     }
     return scene;
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "tenon/base/file_finding.h"
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/math/inertia.h"
 #include "tenon/mjcf/mjcf_reader.h"
@@ -13,12 +14,7 @@ using engines::mujoco::read_vector;
 using robot::Index;
 
 void MjcfReader::report(const char* rule, std::string message, Severity severity) {
-  Diagnostic finding;
-  finding.severity = severity;
-  finding.rule = rule;
-  finding.message = std::move(message);
-  finding.file = file_;
-  diagnostics_.add(std::move(finding));
+  diagnostics_.add(file_finding(severity, rule, std::move(message), file_));
 }
 
 std::string MjcfReader::name_of(mjtObj kind, int id) const {

@@ -5,18 +5,15 @@
 #include <string>
 #include <unordered_map>
 
+#include "tenon/base/file_finding.h"
+
 namespace tenon::robot {
 namespace {
 
 Error fault(const RobotModel& model, std::uint32_t line, const char* rule, std::string message,
             std::string fix) {
-  Diagnostic diagnostic;
-  diagnostic.rule = rule;
-  diagnostic.message = std::move(message);
-  diagnostic.file = model.file;
-  diagnostic.line = line;
-  diagnostic.fix = std::move(fix);
-  return {ErrorCode::Invalid, std::move(diagnostic)};
+  return {ErrorCode::Invalid, file_finding(Severity::Error, rule, std::move(message), model.file,
+                                           line, std::move(fix))};
 }
 
 template <class Thing>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "tenon/base/file_finding.h"
 #include "tenon/math/inertia.h"
 #include "tenon/robot/kinematic_tree.h"
 
@@ -46,14 +47,8 @@ class Mending {
  private:
   void report(std::uint32_t line, const char* rule, std::string message, std::string fix,
               Severity severity = Severity::Error) {
-    Diagnostic finding;
-    finding.severity = severity;
-    finding.rule = rule;
-    finding.message = std::move(message);
-    finding.file = model_.file;
-    finding.line = line;
-    finding.fix = std::move(fix);
-    diagnostics_.add(std::move(finding));
+    diagnostics_.add(
+        file_finding(severity, rule, std::move(message), model_.file, line, std::move(fix)));
   }
 
   void mend_inertial(Link& link) {

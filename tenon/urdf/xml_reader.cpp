@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/base/file_finding.h"
 #include "tenon/base/limits.h"
 #include "tenon/base/text_number.h"
 
@@ -68,16 +69,11 @@ void XmlReader::warn(pugi::xml_node element, const char* rule, std::string messa
   if (++findings_ > limits::kLayerFindings) {
     return;
   }
-  Diagnostic finding;
-  finding.severity = severity;
-  finding.rule = rule;
-  finding.message = findings_ == limits::kLayerFindings
-                        ? "further findings are not listed"
-                        : "<" + std::string(element.name()) + ">: " + std::move(message);
-  finding.file = file_;
-  finding.line = line_of(element);
-  finding.fix = std::move(fix);
-  diagnostics_.add(std::move(finding));
+  message = findings_ == limits::kLayerFindings
+                ? "further findings are not listed"
+                : "<" + std::string(element.name()) + ">: " + std::move(message);
+  diagnostics_.add(
+      file_finding(severity, rule, std::move(message), file_, line_of(element), std::move(fix)));
 }
 
 void XmlReader::list_unknown(pugi::xml_node element,
