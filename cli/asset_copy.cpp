@@ -34,10 +34,6 @@ std::string relative_to(const std::string& file, const std::string& folder) {
   return name.starts_with("../") ? name : "./" + name;
 }
 
-bool in_package(const std::string& identifier) {
-  return !bytes::split_package_path(identifier).inner.empty() || bytes::is_package_name(identifier);
-}
-
 }  // namespace
 
 Result<AssetLayers> AssetLayers::open(const std::string& path, const OpenOptions& options) {
@@ -73,7 +69,7 @@ Result<AssetLayers> AssetLayers::open(const std::string& path, const OpenOptions
 Result<std::vector<std::string>> AssetLayers::write_in_place() {
   std::vector<std::string> written;
   for (const AssetLayer& part : layers_) {
-    if (part.edited != nullptr && in_package(part.layer->identifier())) {
+    if (part.edited != nullptr && bytes::is_in_package(part.layer->identifier())) {
       return Error(ErrorCode::Unsupported,
                    "files in a package are not changed in place: " + part.layer->identifier())
           .with_fix("give -o FILE");
@@ -116,7 +112,7 @@ std::map<std::string, std::string> AssetLayers::new_places(const std::string& ou
       continue;
     }
     fs::path name = fs::path(identifier).lexically_relative(home);
-    if (in_package(identifier) || name.empty() || *name.begin() == "..") {
+    if (bytes::is_in_package(identifier) || name.empty() || *name.begin() == "..") {
       name = fs::path(std::to_string(i)) / (fs::path(identifier).stem().string() + ".usda");
     }
     places[identifier] = i == 0 ? target.string() : (folder / name).lexically_normal().string();
@@ -143,7 +139,7 @@ void AssetLayers::rename(layer::Layer& layer, const std::string& from, const std
     }
     // Also patterns such as <UDIM>, which name no file: from the old folder.
     const bool found_beside = identifier.has_value() || name.starts_with(".");
-    return found_beside && !in_package(from)
+    return found_beside && !bytes::is_in_package(from)
                ? relative_to((fs::path(from).parent_path() / name).lexically_normal().string(),
                              folder)
                : name;

@@ -156,10 +156,6 @@ Result<std::map<std::string, std::string>> files_of(const std::string& path) {
   return files;
 }
 
-bool is_layer_name(const std::string& name) {
-  return name.ends_with(".usd") || name.ends_with(".usda") || name.ends_with(".usdc");
-}
-
 Result<void> compare_file(const std::string& name, const std::string& before,
                           const std::string& after, const Options& options,
                           Diagnostics& diagnostics, Found& found) {
@@ -169,7 +165,7 @@ Result<void> compare_file(const std::string& name, const std::string& before,
   if (a->text() == b->text()) {
     return {};
   }
-  if (!is_layer_name(name)) {
+  if (!formats::is_layer_name(name)) {
     found.add_file(name, "changed", "~");
     return {};
   }

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cli/list_item_text.h"
 #include "tenon/formats/text/value_text.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
+#include "tenon/math/angle.h"
 
 namespace tenon::cli {
 namespace {
@@ -17,7 +19,6 @@ using layer::Value;
 
 constexpr std::size_t kLongest = 100;     ///< characters of a value in a line
 constexpr std::size_t kShownNumbers = 9;  ///< of a fact in a line
-constexpr double kDegrees = 57.29577951308232;
 
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -45,26 +46,6 @@ const char* kind_name(layer::SpecKind kind) {
     default:
       return "spec";
   }
-}
-
-std::string item_text(const std::string& item) { return "\"" + item + "\""; }
-std::string item_text(Token item) { return item.str(); }
-std::string item_text(Path item) { return "<" + item.str() + ">"; }
-template <class Number>
-  requires std::is_arithmetic_v<Number>
-std::string item_text(Number item) {
-  return std::to_string(item);
-}
-template <class Arc>
-  requires requires(const Arc& arc) { arc.asset_path; }
-std::string item_text(const Arc& arc) {
-  std::string text = arc.asset_path.empty() ? "" : "@" + arc.asset_path + "@";
-  text += arc.prim_path.empty() ? "" : "<" + arc.prim_path.str() + ">";
-  if (!arc.offset.is_identity()) {
-    text += " (offset " + std::to_string(arc.offset.offset) + ", scale " +
-            std::to_string(arc.offset.scale) + ")";
-  }
-  return text;
 }
 
 /// "prepend + A, - B" of one of the lists of an edit.
@@ -172,7 +153,7 @@ struct ShownUnit {
 /// People read angles in degrees.
 ShownUnit shown_unit(const std::string& unit) {
   if (unit == "rad" || unit == "rad/s") {
-    return {unit == "rad" ? "deg" : "deg/s", kDegrees};
+    return {unit == "rad" ? "deg" : "deg/s", kDegreesPerRadian};
   }
   return {unit, 1};
 }

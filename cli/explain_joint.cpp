@@ -4,6 +4,7 @@
 
 #include "cli/explain.h"
 #include "tenon/base/rounded_text.h"
+#include "tenon/math/angle.h"
 #include "tenon/physics/joint_limits.h"
 
 namespace tenon::cli {
@@ -11,8 +12,6 @@ namespace {
 
 using physics::Dof;
 using physics::Joint;
-
-constexpr double kToDegrees = 57.295779513082323;
 
 Json number(double value) { return std::isfinite(value) ? Json(value + 0.0) : Json(nullptr); }
 
@@ -98,7 +97,7 @@ std::string side_text(const Json& side, const char* name) {
 
 std::string bound_text(const Json& value, bool angular) {
   return value.is_null() ? "unlimited"
-                         : text(Json(value.get<double>() * (angular ? kToDegrees : 1))) +
+                         : text(Json(value.get<double>() * (angular ? kDegreesPerRadian : 1))) +
                                (angular ? " deg" : " m");
 }
 
@@ -159,7 +158,7 @@ std::string joint_text(const Json& joint) {
                         (joint["enabled"].get<bool>() ? "\n" : ", disabled [S-91]\n");
   text_of += side_text(joint["side0"], "body0") + side_text(joint["side1"], "body1");
   text_of += "    at the start frame 1 is " + text(joint["start"]["distance"]) + " m and " +
-             text(Json(joint["start"]["angle"].get<double>() * kToDegrees)) +
+             text(Json(joint["start"]["angle"].get<double>() * kDegreesPerRadian)) +
              " deg away from frame 0\n";
   for (const Json& row : joint["dofs"]) {
     text_of += dof_text(row);

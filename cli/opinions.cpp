@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "cli/list_item_text.h"
 #include "tenon/formats/text/value_text.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
@@ -21,16 +22,6 @@ Json place_json(const stage::SpecSite& site) {
   row["column"] = site.spec->line == 0 ? Json(nullptr) : Json(site.spec->column);
   row["path"] = site.path.str();
   return row;
-}
-
-std::string item_text(Token item) { return item.str(); }
-std::string item_text(const std::string& item) { return "\"" + item + "\""; }
-std::string item_text(Path item) { return "<" + item.str() + ">"; }
-template <class Arc>
-  requires requires(const Arc& arc) { arc.asset_path; }
-std::string item_text(const Arc& arc) {
-  return (arc.asset_path.empty() ? "" : "@" + arc.asset_path + "@") +
-         (arc.prim_path.empty() ? "" : item_text(arc.prim_path));
 }
 
 /// "prepend </A>, append </B>" of a list edit; nothing for values that are none.

@@ -4,6 +4,7 @@
 
 #include "cli/physics_json.h"
 #include "tenon/base/rounded_text.h"
+#include "tenon/math/angle.h"
 
 namespace tenon::cli {
 namespace {
@@ -24,7 +25,7 @@ std::string plural(std::size_t count, const char* one, const char* many) {
 std::string range(double lower, double upper, bool angular) {
   const auto end = [&](double x) {
     return std::isinf(x) ? std::string("unlimited")
-                         : text(angular ? x * 57.295779513082323 : x) + (angular ? " deg" : " m");
+                         : text(angular ? x * kDegreesPerRadian : x) + (angular ? " deg" : " m");
   };
   return lower > upper ? "locked" : end(lower) + " to " + end(upper);
 }

@@ -8,7 +8,9 @@
 #include <set>
 
 #include "cli/opinions.h"
+#include "tenon/compose/arc_name.h"
 #include "tenon/formats/text/value_text.h"
+#include "tenon/layer/child_lists.h"
 #include "tenon/layer/fields.h"
 #include "tenon/schema/registry.h"
 #include "tenon/stage/opinion_sources.h"
@@ -22,7 +24,7 @@ using stage::OpinionSource;
 Json optional_number(std::uint32_t number) { return number == 0 ? Json(nullptr) : Json(number); }
 
 Json arc_json(const stage::ArcStep& step) {
-  Json arc = {{"arc", std::string(stage::arc_name(step.kind))},
+  Json arc = {{"arc", std::string(compose::arc_name(step.kind))},
               {"from", step.from.str()},
               {"file", step.layer.empty() ? Json(nullptr) : Json(shown_path(step.layer))},
               {"line", optional_number(step.line)},
@@ -206,17 +208,11 @@ class FieldJudge {
   std::map<Token, std::string> decided_;  // place of what counts, by field
 };
 
-bool is_list_of_children(Token field) {
-  return field == fields::primChildren || field == fields::properties ||
-         field == fields::variantSetChildren || field == fields::variantChildren ||
-         field == fields::targetChildren || field == fields::connectionChildren;
-}
-
 Json prim_rows(const std::vector<OpinionSource>& sources) {
   FieldJudge judge;
   for (const OpinionSource& source : sources) {
     for (const layer::Field& field : source.spec->fields()) {
-      if (!is_list_of_children(field.name)) {
+      if (!layer::is_child_list(field.name)) {
         judge.add(source, field);
       }
     }

@@ -43,7 +43,7 @@ Error no_prim(Path prim) {
 }
 
 Result<void> check_in_no_package(const std::string& identifier) {
-  if (bytes::split_package_path(identifier).inner.empty() && !bytes::is_package_name(identifier)) {
+  if (!bytes::is_in_package(identifier)) {
     return {};
   }
   return Error(ErrorCode::Unsupported, "files in a package are not changed in place")
@@ -52,18 +52,14 @@ Result<void> check_in_no_package(const std::string& identifier) {
       .with_fix("tenon zip PACKAGE --extract FOLDER unpacks it");
 }
 
-bool is_about_api(const AssetEdit& edit) {
-  return edit.kind == Kind::ApplyApi || edit.kind == Kind::RemoveApi;
-}
-
 Result<void> check_object(const AssetEdit& edit) {
   const Path path = edit.object;
-  const bool fits = is_about_api(edit) ? path.is_prim() : path.kind() == PathKind::Property;
+  const bool fits = edit.is_about_api() ? path.is_prim() : path.kind() == PathKind::Property;
   if (fits && path.is_absolute() && !path.has_variants()) {
     return {};
   }
-  return Error(ErrorCode::Invalid,
-               "<" + path.str() + "> is no path of a " + (is_about_api(edit) ? "prim" : "property"))
+  return Error(ErrorCode::Invalid, "<" + path.str() + "> is no path of a " +
+                                       (edit.is_about_api() ? "prim" : "property"))
       .with_rule("edit.bad-path")
       .with_fix("write it from the root, as in /hand/palm.physics:mass");
 }
@@ -277,7 +273,7 @@ class AssetEditor {
     auto changed = std::make_shared<layer::Layer>(*layers_.at(file.layer));
     TypedEdit typed;
     EditedPlace place;
-    if (!is_about_api(edit)) {
+    if (!edit.is_about_api()) {
       TENON_TRY(typed,
                 typed_edit(prim, edit, changed->find(site.path.property(edit.object.name()))));
       place.before = composed_text(prim, edit.object.name());
@@ -307,7 +303,7 @@ class AssetEditor {
         if (!selection.shown.empty()) {
           place.variants.push_back(selection.shown);
         }
-        if (first && !is_about_api(edit)) {
+        if (first && !edit.is_about_api()) {
           place.after = composed_text(prim, edit.object.name());
           warn_of_samples(prim, edit, typed);
         }
@@ -338,15 +334,15 @@ class AssetEditor {
 
   Error hidden(const stage::Stage& stage, const AssetEdit& edit, const std::string& file,
                const Selection& selection) const {
-    const Token property = is_about_api(edit) ? Token() : edit.object.name();
+    const Token property = edit.is_about_api() ? Token() : edit.object.name();
     std::string stronger = "another layer";
     std::uint32_t line = 0;
     for (const auto& source : stage::opinion_sources(stage, edit.object.prim(), property)) {
       if (source.layer->identifier() == file) {
         break;
       }
-      const bool speaks = is_about_api(edit) ? source.spec->has(fields::apiSchemas)
-                                             : source.spec->fields().size() > 0;
+      const bool speaks = edit.is_about_api() ? source.spec->has(fields::apiSchemas)
+                                              : source.spec->fields().size() > 0;
       if (speaks) {
         stronger = source.layer->identifier();
         line = source.spec->line;

@@ -24,6 +24,8 @@ struct AssetEdit {
                       ///< "None" blocks; of a relationship: paths, all that it has then
   Token api;          ///< "PhysicsMassAPI", "PhysicsDriveAPI:angular"
   Token type_name;    ///< of an attribute that no schema and no layer knows: makes it
+
+  bool is_about_api() const { return kind == Kind::ApplyApi || kind == Kind::RemoveApi; }
 };
 
 struct EditOptions {

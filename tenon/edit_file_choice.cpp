@@ -15,16 +15,8 @@ namespace {
 namespace fields = layer::fields;
 using structure::Role;
 
-bool in_package(const std::string& identifier) {
-  return !bytes::split_package_path(identifier).inner.empty() || bytes::is_package_name(identifier);
-}
-
-bool is_about_api(const AssetEdit& edit) {
-  return edit.kind == AssetEdit::Kind::ApplyApi || edit.kind == AssetEdit::Kind::RemoveApi;
-}
-
 std::string subject(const AssetEdit& edit) {
-  return is_about_api(edit) ? edit.api.str() : edit.object.name().str();
+  return edit.is_about_api() ? edit.api.str() : edit.object.name().str();
 }
 
 Error no_file(const FileQuestion& q, const std::string& message, const std::string& fix) {
@@ -65,7 +57,7 @@ Result<FileChoice> named_file(const FileQuestion& q) {
 
 /// An opinion on the property, or on the list of API schemas.
 bool speaks(const stage::OpinionSource& source, const AssetEdit& edit) {
-  if (!is_about_api(edit)) {
+  if (!edit.is_about_api()) {
     return source.spec->has(fields::default_value) || source.spec->has(fields::timeSamples) ||
            source.spec->has(fields::targetPaths) || source.spec->has(fields::spline);
   }
@@ -82,7 +74,7 @@ bool speaks(const stage::OpinionSource& source, const AssetEdit& edit) {
 
 /// Layers with an opinion, strongest first.
 std::vector<std::string> speaking(const FileQuestion& q) {
-  const Token property = is_about_api(q.edit) ? Token() : q.edit.object.name();
+  const Token property = q.edit.is_about_api() ? Token() : q.edit.object.name();
   std::vector<std::string> layers;
   for (const auto& source : stage::opinion_sources(q.stage, q.prim.path(), property)) {
     if (speaks(source, q.edit)) {
@@ -94,14 +86,14 @@ std::vector<std::string> speaking(const FileQuestion& q) {
 
 Result<FileChoice> strongest_file(const FileQuestion& q) {
   for (const std::string& layer : speaking(q)) {
-    if (!in_package(layer)) {
+    if (!bytes::is_in_package(layer)) {
       return FileChoice{layer, "it has the strongest opinion"};
     }
     break;
   }
   if (q.prim.is_instance_proxy()) {
     for (const auto& source : stage::opinion_sources(q.stage, q.prim.path())) {
-      if (!in_package(source.layer->identifier())) {
+      if (!bytes::is_in_package(source.layer->identifier())) {
         return FileChoice{source.layer->identifier(), "instances share what it says"};
       }
     }
@@ -122,7 +114,7 @@ std::vector<std::string> files_with(const FileQuestion& q, Role role) {
 }
 
 structure::Ownership ownership(const FileQuestion& q) {
-  return is_about_api(q.edit)
+  return q.edit.is_about_api()
              ? structure::owner_of_api(q.edit.api)
              : structure::owner_of_property(q.edit.object.name(), q.prim.type_name(),
                                             q.prim.authored_api_schemas());

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/bake/stage_values.h"
 
+#include "tenon/math/angle.h"
+
 namespace tenon::bake {
 namespace {
-
-constexpr double kDegreesPerRadian = 57.295779513082320876798154814105;
 
 /// Which coordinates of the joint are angles, in Dof order of its free axes.
 std::vector<bool> angular_axes(const physics::Joint& joint) {

@@ -132,6 +132,10 @@ bool is_package_name(std::string_view path) {
   return ending == ".usdz";
 }
 
+bool is_in_package(std::string_view path) {
+  return !split_package_path(path).inner.empty() || is_package_name(path);
+}
+
 std::string absolute_file_path(std::string_view path) {
   std::error_code ignored;
   const std::filesystem::path absolute = std::filesystem::absolute(path, ignored);
@@ -148,8 +152,7 @@ Result<std::string> AssetResolver::resolve(const std::string& asset_path,
         .with_rule("layer.not-found");
   }
   const PackagePath wanted = split_package_path(plain_asset_path(asset_path));
-  const bool in_package = !split_package_path(anchor).inner.empty() || is_package_name(anchor);
-  TENON_TRY(std::string file, in_package && !is_absolute(wanted.package)
+  TENON_TRY(std::string file, is_in_package(anchor) && !is_absolute(wanted.package)
                                   ? resolve_in_package(wanted.package, anchor)
                                   : resolve_file(wanted.package, anchor));
   if (wanted.inner.empty()) {

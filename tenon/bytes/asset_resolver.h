@@ -26,6 +26,8 @@ PackagePath split_package_path(std::string_view path);
 std::string join_package_path(std::string_view package, std::string_view inner);
 /// True for a name that ends in ".usdz", whatever its case.
 bool is_package_name(std::string_view path);
+/// True for what is in a package, and for a package itself.
+bool is_in_package(std::string_view path);
 
 struct ResolverOptions {
   /// Folders that `x.usda` (without "./") is looked up in, after the anchor's folder and the

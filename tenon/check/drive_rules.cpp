@@ -22,15 +22,6 @@ std::string attribute_name(Token instance, const char* what) {
   return "drive:" + instance.str() + ":physics:" + what;
 }
 
-bool has_one_axis(const Joint& joint) {
-  return joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic;
-}
-
-double unit_of(const Subject& subject, const Joint& joint) {
-  return joint.kind == JointKind::Revolute ? 180 / 3.14159265358979323846
-                                           : 1 / subject.scene.meters_per_unit;
-}
-
 /// Calls visit(prim, name, value) for each authored number of each drive.
 template <class Visit>
 void each_gain(const Subject& subject, Visit visit) {
@@ -103,7 +94,7 @@ void check_target_limits(const Subject& subject, Reporter& report) {
     }
     const double target = drive.target_position;
     if (target < joint.lower - kSlack || target > joint.upper + kSlack) {
-      const double unit = unit_of(subject, joint);
+      const double unit = coordinate_unit(subject.scene, joint);
       report.at(prim,
                 "the drive's target " + digits(target * unit) + " lies outside of the limits " +
                     digits(joint.lower * unit) + " and " + digits(joint.upper * unit),
@@ -118,7 +109,7 @@ void check_target_state(const Subject& subject, Reporter& report) {
       return;
     }
     if (std::fabs(drive.target_position - *joint.initial_position) > 1e-2) {
-      const double unit = unit_of(subject, joint);
+      const double unit = coordinate_unit(subject.scene, joint);
       report.at(prim,
                 "the drive's target " + digits(drive.target_position * unit) +
                     " differs from the joint state " + digits(*joint.initial_position * unit) +

@@ -17,13 +17,8 @@ using physics::Joint;
 using physics::JointKind;
 
 constexpr double kPi2 = 6.2831853071795865;
-constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 const Token kLower("physics:lowerLimit");
-
-bool has_one_axis(const Joint& joint) {
-  return joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic;
-}
 
 stage::Prim prim_of(const Subject& subject, const Joint& joint) {
   return subject.stage.prim(joint.path);
@@ -108,8 +103,8 @@ void check_radian_limits(const Subject& subject, Reporter& report) {
       report.at(prim, kLower,
                 "the limits " + digits(limits.lower) + " and " + digits(limits.upper) +
                     " degrees look like radians",
-                "author " + digits(limits.lower * kDegrees) + " and " +
-                    digits(limits.upper * kDegrees) + " if radians were meant");
+                "author " + digits(limits.lower * kDegreesPerRadian) + " and " +
+                    digits(limits.upper * kDegreesPerRadian) + " if radians were meant");
     }
   }
 }
@@ -218,7 +213,7 @@ void check_joint_state(const Subject& subject, Reporter& report) {
     double gap = std::fabs(*joint.initial_position - posed);
     gap = angular ? std::fabs(std::remainder(gap, kPi2)) : gap;
     if (gap > (angular ? 1e-2 : 1e-3)) {
-      const double unit = angular ? kDegrees : 1 / subject.scene.meters_per_unit;
+      const double unit = coordinate_unit(subject.scene, joint);
       report.at(prim_of(subject, joint),
                 "the joint state says " + digits(*joint.initial_position * unit) +
                     ", the poses of the bodies say " + digits(posed * unit),

@@ -24,11 +24,6 @@ double value_of(const physics::Mimic& mimic, double leader) {
   return value;
 }
 
-double unit_of(const Subject& subject, const Joint& joint) {
-  return joint.kind == JointKind::Revolute ? 180 / 3.14159265358979323846
-                                           : 1 / subject.scene.meters_per_unit;
-}
-
 template <class Visit>
 void each_follower(const Subject& subject, Visit visit) {
   for (const Joint& joint : subject.scene.joints) {
@@ -51,7 +46,7 @@ void check_mimic_limits(const Subject& subject, Reporter& report) {
     const double low = std::fmin(a, b);
     const double high = std::fmax(a, b);
     if (low < joint.lower - kSlack || high > joint.upper + kSlack) {
-      const double unit = unit_of(subject, joint);
+      const double unit = coordinate_unit(subject.scene, joint);
       report.at(prim,
                 "over the leader's limits the follower goes from " + digits(low * unit) + " to " +
                     digits(high * unit) + ", its own limits are " + digits(joint.lower * unit) +
@@ -99,7 +94,7 @@ void check_mimic_start(const Subject& subject, Reporter& report) {
     const bool turns = joint.kind == JointKind::Revolute;
     const double gap = turns ? std::remainder(wanted - start, 6.2831853071795865) : wanted - start;
     if (std::fabs(gap) > kSlack) {
-      const double unit = unit_of(subject, joint);
+      const double unit = coordinate_unit(subject.scene, joint);
       report.at(prim,
                 "at the start the joint is at " + digits(start * unit) + ", the mimic wants " +
                     digits(wanted * unit) + ": it jerks",

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 
+#include "tenon/compose/arc_name.h"
 #include "tenon/compose/targets.h"
 #include "tenon/layer/fields.h"
 
@@ -30,12 +31,6 @@ std::string two_digits(double value) {
 
 std::string in_brackets(const layer::LayerOffset& offset) {
   return "(offset=" + two_digits(offset.offset) + ", scale=" + two_digits(offset.scale) + ")";
-}
-
-const char* arc_name(ArcKind kind) {
-  constexpr std::array<const char*, 7> kNames{"root",     "inherit",   "variant", "relocate",
-                                              "reference", "payload", "specialize"};
-  return kNames[static_cast<std::size_t>(kind)];
 }
 
 /// As Python prints a list of strings.
@@ -134,12 +129,12 @@ class Dump {
     text_ += "\nTime Offsets:\n";
     for (const Node& node : index.nodes) {
       text_ += "    " + padded(label_(*node.layer_stack->layers.front().layer), 20) + " " +
-               padded(node.path.str(), 15) + " " + padded(arc_name(node.arc), 10) + " " +
-               in_brackets(node.map_to_root->offset()) + "\n";
+               padded(node.path.str(), 15) + " " + padded(std::string(arc_name(node.arc)), 10) +
+               " " + in_brackets(node.map_to_root->offset()) + "\n";
       for (const StackedLayer& stacked : node.layer_stack->layers) {
         if (!stacked.offset.is_identity()) {
-          text_ += "        " + padded(label_(*stacked.layer), 32) + " " +
-                   padded("sublayer", 10) + " " + in_brackets(stacked.offset) + "\n";
+          text_ += "        " + padded(label_(*stacked.layer), 32) + " " + padded("sublayer", 10) +
+                   " " + in_brackets(stacked.offset) + "\n";
         }
       }
     }
@@ -182,7 +177,7 @@ class Dump {
   }
 
   void targets(const char* heading, const std::vector<Property>& properties, bool attributes,
-               std::vector<Path> TargetList::*paths) {
+               std::vector<Path> TargetList::* paths) {
     std::string block;
     for (const Property& property : properties) {
       if (property.attribute() == attributes && !(property.targets.*paths).empty()) {
@@ -252,7 +247,7 @@ std::string dump_nodes(const PrimIndex& index, const LayerLabel& label) {
   for (std::size_t id = 0; id < index.nodes.size(); ++id) {
     const Node& node = index.nodes[id];
     depths[id] = node.parent == kNoNode ? 0 : depths[node.parent] + 1;
-    text += std::string(2 * depths[id], ' ') + arc_name(node.arc) + " " +
+    text += std::string(2 * depths[id], ' ') + std::string(arc_name(node.arc)) + " " +
             label(*node.layer_stack->root) + " " + node.path.str();
     text += node.can_contribute() ? "" : " inert";
     text += node.culled ? " culled" : "";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tenon/compose/arc_name.h"
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/index_cache.h"
 #include "tenon/compose/node_graph.h"
@@ -49,26 +50,6 @@ Path climb_to_introduction(const PrimIndex& index, std::uint32_t node, Path path
     path = path.parent();
   }
   return path;
-}
-
-std::string arc_name(ArcKind kind) {
-  switch (kind) {
-    case ArcKind::Inherit:
-      return "inherit";
-    case ArcKind::Variant:
-      return "variant";
-    case ArcKind::Relocate:
-      return "relocate";
-    case ArcKind::Reference:
-      return "reference";
-    case ArcKind::Payload:
-      return "payload";
-    case ArcKind::Specialize:
-      return "specialize";
-    case ArcKind::Root:
-      break;
-  }
-  return "root";
 }
 
 class TargetCombiner {
@@ -147,7 +128,7 @@ class TargetCombiner {
       const Path introduced = parent == kNoNode ? Path() : index_.nodes[parent].path;
       const Path introduced_at = climb_to_introduction(index_, opinion.node, introduced);
       report(error_class::kInvalidExternalTargetPath, opinion, {},
-             quoted(in_node) + " is outside of what the " + arc_name(arc) + " of " +
+             quoted(in_node) + " is outside of what the " + std::string(arc_name(arc)) + " of " +
                  quoted(introduced_at) + " brings in; it is ignored",
              "target something below the prim that the arc leads to");
       return {};
@@ -184,8 +165,7 @@ class TargetCombiner {
     if (node.arc != ArcKind::Inherit || !node.layer_stack->has_relocates()) {
       return false;
     }
-    const Path user =
-        climb_to_introduction(index_, opinion.node, index_.nodes[node.parent].path);
+    const Path user = climb_to_introduction(index_, opinion.node, index_.nodes[node.parent].path);
     for (Path at = in_node; !at.empty(); at = at.parent()) {
       if (const Path* source = node.layer_stack->relocation_source(at)) {
         return source->has_prefix(user);

@@ -8,6 +8,7 @@
 
 #include "tenon/base/text_number.h"
 #include "tenon/diff/value_difference.h"
+#include "tenon/layer/child_lists.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 
@@ -23,12 +24,6 @@ bool is_compared(SpecKind kind) {
   return kind == SpecKind::PseudoRoot || kind == SpecKind::Prim || kind == SpecKind::Attribute ||
          kind == SpecKind::Relationship || kind == SpecKind::VariantSet ||
          kind == SpecKind::Variant;
-}
-
-bool is_list_of_children(Token field) {
-  return field == fields::primChildren || field == fields::properties ||
-         field == fields::variantSetChildren || field == fields::variantChildren ||
-         field == fields::targetChildren || field == fields::connectionChildren;
 }
 
 /// Items of nested dictionaries by "outer:inner"; a list of what is open instead of recursion.
@@ -151,7 +146,7 @@ class Comparison {
     difference.field = field;
     difference.before_line = before.line;
     difference.after_line = after.line;
-    if (is_list_of_children(field)) {
+    if (layer::is_child_list(field)) {
       compare_order(difference, a, b);
     } else if (has_items(a) || has_items(b)) {
       compare_items(difference, a, b);

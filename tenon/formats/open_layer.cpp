@@ -20,6 +20,10 @@ std::string absolute_identifier(const std::string& identifier) {
 
 }  // namespace
 
+bool is_layer_name(std::string_view name) {
+  return name.ends_with(".usd") || name.ends_with(".usda") || name.ends_with(".usdc");
+}
+
 LayerFormat format_of(const bytes::FileBytes& bytes) {
   if (bytes.text().starts_with(kCrateMagic)) {
     return LayerFormat::Crate;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
@@ -20,6 +21,9 @@ enum class LayerFormat : unsigned char { Text, Crate, Package };
 
 /// Told by the first bytes, never by the name; what is neither crate nor zip is text.
 LayerFormat format_of(const bytes::FileBytes& bytes);
+
+/// True for a name that ends as those of layers in one file do: .usd, .usda, .usdc.
+bool is_layer_name(std::string_view name);
 
 /// The layer that `identifier` names: a file (a relative path is taken from the working directory)
 /// or a file in a package, `a.usdz[b.usda]`; a package alone means its root layer, the first of

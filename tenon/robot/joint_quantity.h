@@ -4,11 +4,11 @@
 
 #include <cstdint>
 
+#include "tenon/math/angle.h"
+
 /// Numbers of joints that know their unit, so that none reaches a file in the wrong one: formats of
 /// robots and engines count angles in radians, layers (UsdPhysics, PhysX, Newton) in degrees.
 namespace tenon::robot {
-
-inline constexpr double kDegreesPerRadian = 57.295779513082320877;
 
 /// What the coordinate of a joint is.
 enum class Motion : std::uint8_t {

@@ -5,6 +5,7 @@
 // default hides weaker samples, as value resolution would.
 #include <algorithm>
 
+#include "tenon/layer/child_lists.h"
 #include "tenon/layer/fold_list_ops.h"
 #include "tenon/stage/flatten.h"
 #include "tenon/stage/moved_to_stack.h"
@@ -70,11 +71,6 @@ Value combinable(Value value, Types<T...>) {
   return value;
 }
 
-bool is_children_field(Token field) {
-  return field == fields::primChildren || field == fields::properties ||
-         field == fields::variantSetChildren || field == fields::variantChildren;
-}
-
 bool is_weak(Token field, const Value& value) {
   if (field == fields::specifier) {
     return value.get_or(layer::Specifier::Over) == layer::Specifier::Over;
@@ -86,7 +82,7 @@ Value composed(Token field, Value stronger, const Value& weaker) {
   if (is_weak(field, stronger)) {
     return weaker;
   }
-  if (is_children_field(field)) {
+  if (layer::is_child_list(field)) {
     const auto* below = weaker.get<std::vector<Token>>();
     const auto* above = stronger.get<std::vector<Token>>();
     if (below != nullptr && above != nullptr) {

@@ -178,10 +178,4 @@ std::optional<LayerSite> site_in_layer(const Stage& stage, Path prim, const std:
   return std::nullopt;
 }
 
-std::string_view arc_name(ArcKind kind) {
-  static constexpr std::string_view kNames[] = {"root",      "inherit", "variant",   "relocate",
-                                                "reference", "payload", "specialize"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
-
 }  // namespace tenon::stage

@@ -61,7 +61,4 @@ struct LayerSite {
 /// instances share counts. Nothing when the layer does not reach the prim.
 std::optional<LayerSite> site_in_layer(const Stage& stage, Path prim, const std::string& layer);
 
-/// "reference", "payload", "variant", "inherit", "specialize", "relocate", "root".
-std::string_view arc_name(compose::ArcKind kind);
-
 }  // namespace tenon::stage

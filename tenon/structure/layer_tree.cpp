@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tenon/layer/child_lists.h"
 #include "tenon/layer/fields.h"
 
 namespace tenon::structure {
@@ -12,11 +13,6 @@ namespace {
 namespace fields = layer::fields;
 using layer::Layer;
 using layer::Spec;
-
-bool is_child_list(Token field) {
-  return field == fields::primChildren || field == fields::properties ||
-         field == fields::variantSetChildren;
-}
 
 void add_name(Layer& layer, Path parent, Token field, Token name) {
   Spec& spec = *layer.find(parent);
@@ -112,7 +108,7 @@ Spec& put_property(Layer& layer, Path path, const Spec& from, const PathMap& map
 
 void put_prim_fields(Spec& to, const Spec& from) {
   for (const layer::Field& field : from.fields()) {
-    if (!is_child_list(field.name)) {
+    if (!layer::is_child_list(field.name)) {
       to.set(field.name, field.value);
     }
   }

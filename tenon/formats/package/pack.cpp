@@ -10,6 +10,7 @@
 #include <set>
 #include <vector>
 
+#include "tenon/base/file_finding.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/zip_archive.h"
 #include "tenon/formats/crate/writer.h"
@@ -29,15 +30,6 @@ constexpr std::string_view kUdim = "<UDIM>";
 std::string normal(const std::string& path) { return fs::path(path).lexically_normal().string(); }
 
 std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
-
-bool is_layer_name(const std::string& name) {
-  for (const char* ending : {".usd", ".usda", ".usdc"}) {
-    if (name.ends_with(ending)) {
-      return true;
-    }
-  }
-  return false;
-}
 
 /// Images and sounds that packages may hold (USDZ specification, section on file types).
 bool is_media_name(const std::string& name) {
@@ -95,7 +87,7 @@ class Packer {
   Result<std::string> run(const layer::Layer& root) {
     base_ = folder_of(root.identifier());
     const bytes::PackagePath inside = bytes::split_package_path(root.identifier());
-    if (!inside.inner.empty() || bytes::is_package_name(root.identifier())) {
+    if (bytes::is_in_package(root.identifier())) {
       base_package_ = inside.package;
       base_ = inside.package + "[";
     }
@@ -144,13 +136,7 @@ class Packer {
 
   void report(Severity severity, const char* rule, const Pending& file, const std::string& what,
               const char* fix) {
-    Diagnostic finding;
-    finding.severity = severity;
-    finding.rule = rule;
-    finding.message = file.name + " " + what;
-    finding.file = file.identifier;
-    finding.fix = fix;
-    diagnostics_.add(std::move(finding));
+    diagnostics_.add(file_finding(severity, rule, file.name + " " + what, file.identifier, 0, fix));
   }
 
   Result<std::string> write() const {
@@ -206,13 +192,10 @@ class Packer {
   }
 
   void report_missing(const std::string& path, const std::string& anchor, Path spec) {
-    Diagnostic missing;
-    missing.severity = Severity::Warning;
-    missing.rule = "package.missing";
-    missing.message = "@" + path + "@ is not in the package: it cannot be found";
-    missing.file = anchor;
+    Diagnostic missing = file_finding(Severity::Warning, "package.missing",
+                                      "@" + path + "@ is not in the package: it cannot be found",
+                                      anchor, 0, "put the file there, or correct the path");
     missing.prim = spec.prim().str();
-    missing.fix = "put the file there, or correct the path";
     diagnostics_.add(std::move(missing));
   }
 

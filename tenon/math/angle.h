@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace tenon {
+
+inline constexpr double kDegreesPerRadian = 57.295779513082320876798154814105;
+
+}  // namespace tenon
