@@ -3,10 +3,11 @@
 #include "tenon/structure/collect_assets.h"
 
 #include <filesystem>
-#include <map>
 #include <utility>
 
+#include "tenon/base/file_finding.h"
 #include "tenon/formats/package/asset_paths.h"
+#include "tenon/structure/layout.h"
 
 namespace tenon::structure {
 namespace {
@@ -25,7 +26,7 @@ class Collector {
   Collector(const AssetSource& source, Names names, Package& package, Diagnostics& diagnostics)
       : source_(source), names_(names), package_(package), diagnostics_(diagnostics) {}
 
-  void run() {
+  CollectedAssets run() {
     std::vector<std::string> layers;
     for (const auto& [name, file] : package_.files) {
       if (file.layer != nullptr) {
@@ -43,6 +44,8 @@ class Collector {
         package_.files.at(name).layer = std::make_shared<layer::Layer>(std::move(layer));
       }
     }
+    std::erase_if(places_, [](const auto& place) { return place.second.empty(); });
+    return std::move(places_);
   }
 
  private:
@@ -63,13 +66,12 @@ class Collector {
   std::string collect(const std::string& asset, Path at) {
     const Files files = read(asset);
     if (files.empty()) {
-      Diagnostic missing;
-      missing.severity = Severity::Warning;
-      missing.rule = "structure.asset-missing";
-      missing.message = "the asset @" + asset + "@ cannot be read and is not collected";
+      Diagnostic missing =
+          file_finding(Severity::Warning, "structure.asset-missing",
+                       "the asset @" + asset + "@ cannot be read and is not collected", "", 0,
+                       "put the file there, or correct the path");
       missing.prim = at.prim().str();
       missing.property = at.name().str();
-      missing.fix = "put the file there, or correct the path";
       diagnostics_.add(std::move(missing));
       return {};
     }
@@ -132,14 +134,25 @@ class Collector {
   Names names_;
   Package& package_;
   Diagnostics& diagnostics_;
-  std::map<std::string, std::string> places_;
+  CollectedAssets places_;  // empty places of what cannot be read
 };
 
 }  // namespace
 
-void collect_assets(const AssetSource& source, Names names, Package& package,
-                    Diagnostics& diagnostics) {
-  Collector(source, names, package, diagnostics).run();
+CollectedAssets collect_assets(const AssetSource& source, Names names, Package& package,
+                               Diagnostics& diagnostics) {
+  return Collector(source, names, package, diagnostics).run();
+}
+
+layer::Layer with_collected_assets(const layer::Layer& content, const CollectedAssets& assets) {
+  layer::Layer renamed = content;
+  formats::rename_assets(renamed, [&](const std::string& asset, formats::AssetUse use, Path) {
+    const auto place = assets.find(asset);
+    return use == formats::AssetUse::Value && place != assets.end()
+               ? identifier_in_package(place->second)
+               : asset;
+  });
+  return renamed;
 }
 
 }  // namespace tenon::structure

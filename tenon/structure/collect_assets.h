@@ -2,16 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "tenon/base/diagnostics.h"
 #include "tenon/structure/make_package.h"
 
 namespace tenon::structure {
 
+/// Where files went: absolute asset path -> name in the package.
+using CollectedAssets = std::map<std::string, std::string>;
+
 /// Puts the files that attributes of the package's layers name into its folder "Textures" (modules
 /// of materials into "Materials" with Names::Tutorial), each content once, and makes the paths to
 /// them relative. `<UDIM>` patterns bring all their tiles. What cannot be read stays as it is
 /// named, with the diagnostic "structure.asset-missing".
-void collect_assets(const AssetSource& source, Names names, Package& package,
-                    Diagnostics& diagnostics);
+CollectedAssets collect_assets(const AssetSource& source, Names names, Package& package,
+                               Diagnostics& diagnostics);
+
+/// The content with asset paths as a stage of the package has them (identifier_in_package).
+layer::Layer with_collected_assets(const layer::Layer& content, const CollectedAssets& assets);
 
 }  // namespace tenon::structure

@@ -4,7 +4,6 @@
 
 #include <cctype>
 
-#include "tenon/formats/package/asset_paths.h"
 #include "tenon/layer/fields.h"
 #include "tenon/structure/layer_tree.h"
 #include "tenon/structure/layout.h"
@@ -99,15 +98,6 @@ std::string file_of_variant(const std::string& set, const std::string& variant) 
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   return "payloads/" + set + "/" + name + ".usda";
-}
-
-Layer resolved_assets(const Layer& layer) {
-  Layer resolved = layer;
-  formats::rename_assets(resolved, [&](const std::string& asset, formats::AssetUse use, Path) {
-    const bool relative = asset.starts_with("./") || asset.starts_with("../");
-    return relative && use == formats::AssetUse::Value ? target_of(asset, layer) : asset;
-  });
-  return resolved;
 }
 
 }  // namespace tenon::structure

@@ -37,7 +37,4 @@ void put_stage_metadata(const layer::Layer& content, layer::Layer& file, bool of
 /// "payloads/<Set>/<variant>.usda", with the variant in lower case.
 std::string file_of_variant(const std::string& set, const std::string& variant);
 
-/// Relative asset paths of a layer become absolute.
-layer::Layer resolved_assets(const layer::Layer& layer);
-
 }  // namespace tenon::structure

@@ -59,7 +59,7 @@ class Maker {
     make_other_variants();
     TENON_CHECK(make_files());
     make_interface();
-    collect_assets(source_, options_.names, asset_.package, diagnostics_);
+    assets_ = collect_assets(source_, options_.names, asset_.package, diagnostics_);
     TENON_CHECK(prove());
     return std::move(asset_);
   }
@@ -68,9 +68,9 @@ class Maker {
   // The variants and what the source has of them.
 
   void add_view(const std::string& variant, Role role, const Layer& from) {
-    Layer plain = from;
-    keep_roles(plain, roles_in(role));
-    views_.push_back({variant, role, plain, plain, std::nullopt});
+    View& view = views_.emplace_back(View{variant, role, from, Layer(from.identifier()), {}});
+    keep_roles(view.plain, roles_in(role));
+    view.content = view.plain;
   }
 
   const SourceView& chosen() const { return sources_.physics[sources_.chosen]; }
@@ -111,6 +111,13 @@ class Maker {
     const auto found = std::find_if(views_.begin(), views_.end(),
                                     [&](const View& view) { return view.variant == variant; });
     return found == views_.end() ? nullptr : &*found;
+  }
+
+  Result<physics::PhysicsScene> physics_of(const Layer& content) const {
+    TENON_TRY(const stage::Stage stage,
+              stage::Stage::open(std::make_shared<Layer>(content), nullptr, source_.open_layer));
+    Diagnostics ignored;
+    return physics::read_physics(stage, {}, ignored);
   }
 
   // Wrappers, local materials, metadata: the same for all.
@@ -340,18 +347,15 @@ class Maker {
   Result<void> prove(const View& view) const {
     TENON_TRY(const stage::Stage stage, open_view(std::string(kPhysicsSet), view.variant));
     TENON_TRY(Layer found, content_of(stage));
-    TENON_TRY(Layer expected, with_collected_assets(view.content));
-    if (const auto where = compare_contents(expected, found)) {
+    if (const auto where = compare_contents(with_collected_assets(view.content, assets_), found)) {
       return differs("Physics=" + view.variant, *where, "the stage");
     }
     if (view.role == Role::Base) {
       return {};  // has none
     }
-    const auto plain = std::make_shared<Layer>(view.plain);
-    TENON_TRY(const stage::Stage before, stage::Stage::open(plain, nullptr, source_.open_layer));
+    TENON_TRY(const physics::PhysicsScene before, physics_of(view.plain));
     Diagnostics ignored;
-    const auto where = compare_physics(physics::read_physics(before, {}, ignored),
-                                       physics::read_physics(stage, {}, ignored),
+    const auto where = compare_physics(before, physics::read_physics(stage, {}, ignored),
                                        [this](Path path) { return moves_->moved(path); });
     return where ? Result<void>(differs("Physics=" + view.variant, *where, "the physics"))
                  : Result<void>();
@@ -367,28 +371,12 @@ class Maker {
     if (role == Role::Base) {
       put_to_sleep(plain, colliders_);
     }
-    TENON_TRY(const Layer expected, with_collected_assets(plain));
     TENON_TRY(const stage::Stage stage, open_view(other.set, other.variant));
     TENON_TRY(Layer found, content_of(stage));
     keep_roles(found, roles_in(role));
-    const auto where = compare_contents(expected, found);
+    const auto where = compare_contents(with_collected_assets(plain, assets_), found);
     return where ? Result<void>(differs(other.set + "=" + other.variant, *where, "the stage"))
                  : Result<void>();
-  }
-
-  /// Asset paths as a composed package has them.
-  Result<Layer> with_collected_assets(const Layer& content) const {
-    Package alone;
-    alone.interface = "x.usda";
-    PackageFile file;
-    Layer layer = content;
-    layer.set_identifier(identifier_in_package("x.usda"));
-    file.layer = std::make_shared<Layer>(std::move(layer));
-    alone.files = asset_.package.files;
-    alone.files[alone.interface] = file;
-    Diagnostics known;
-    collect_assets(source_, options_.names, alone, known);
-    return resolved_assets(*alone.files.at(alone.interface).layer);
   }
 
   const AssetSource& source_;
@@ -403,6 +391,7 @@ class Maker {
   SplitOptions split_;
   std::map<std::string, Layer> other_files_;
   InterfaceParts interface_;
+  CollectedAssets assets_;
   StructuredAsset asset_;
 };
 
