@@ -14,6 +14,7 @@ struct Options {
   structure::StructureOptions structure;
   std::string output;
   std::string names = "current";
+  std::string schema = "as-authored";
   bool dry_run = false;
 };
 
@@ -23,7 +24,7 @@ struct ListedFile {
   std::size_t size = 0;
 };
 
-Result<std::vector<ListedFile>> list_files(const std::map<std::string, std::string>& files) {
+std::vector<ListedFile> list_files(const std::map<std::string, std::string>& files) {
   std::vector<ListedFile> list;
   for (const auto& [name, contents] : files) {
     const structure::Role role = structure::role_of_file_name(name);
@@ -48,6 +49,14 @@ Json json_of(const structure::StructuredAsset& asset, const std::vector<ListedFi
   return body;
 }
 
+structure::SchemaGeneration generation_of(const std::string& name) {
+  using structure::SchemaGeneration;
+  return name == "current"  ? SchemaGeneration::Current
+         : name == "legacy" ? SchemaGeneration::Legacy
+         : name == "both"   ? SchemaGeneration::Both
+                            : SchemaGeneration::AsAuthored;
+}
+
 int run_structure(Report& report, const Options& options) {
   const auto asset = structure_asset(options.asset.asset, options.asset.open_options(),
                                      options.structure, report.diagnostics);
@@ -58,21 +67,21 @@ int run_structure(Report& report, const Options& options) {
   if (!encoded) {
     return report.fail(encoded.error());
   }
-  const auto files = list_files(*encoded);
+  const std::vector<ListedFile> files = list_files(*encoded);
   if (!options.dry_run) {
     if (auto written = structure::write_folder(*encoded, options.output); !written) {
       return report.fail(written.error());
     }
   }
   if (options.dry_run && !report.json()) {
-    for (const ListedFile& file : *files) {
+    for (const ListedFile& file : files) {
       std::printf("%10zu  %-11s %s\n", file.size, file.role.c_str(), file.name.c_str());
     }
   }
-  report.note((options.dry_run ? "would write " : "wrote ") + std::to_string(files->size()) +
+  report.note((options.dry_run ? "would write " : "wrote ") + std::to_string(files.size()) +
               " files; " + std::to_string(asset->moved.size()) +
               " meshes came into wrappers; Physics=" + asset->selection + " is selected");
-  return report.finish(kOk, json_of(*asset, *files));
+  return report.finish(kOk, json_of(*asset, files));
 }
 
 }  // namespace
@@ -90,6 +99,10 @@ void add_structure(const Command& parent, const Globals& globals, Chosen& chosen
                   "Names of files and scopes: those of Isaac Sim 6, or "
                   "those of its tutorial")
       .one_of({"current", "tutorial"});
+  verb.add_option("--schema", options->schema,
+                  "Vendors' schemas for joints: as-authored, current (Newton mimics, PhysX joint "
+                  "axes), legacy (PhysX mimics and joints of Isaac Sim 5) or both")
+      .one_of({"as-authored", "current", "legacy", "both"});
   verb.add_flag("--overridable-colliders", options->structure.overridable_colliders,
                 "Meshes that collide are no instances: each engine's layer may tune them");
   verb.add_flag("--dry-run", options->dry_run, "List the files and write nothing");
@@ -107,6 +120,7 @@ void add_structure(const Command& parent, const Globals& globals, Chosen& chosen
     }
     options->structure.names =
         options->names == "tutorial" ? structure::Names::Tutorial : structure::Names::Current;
+    options->structure.schema = generation_of(options->schema);
     return run_structure(report, *options);
   });
 }

@@ -15,6 +15,7 @@
 #include "tenon/structure/mesh_wrappers.h"
 #include "tenon/structure/proof.h"
 #include "tenon/structure/robot_metadata.h"
+#include "tenon/structure/schema_generation.h"
 #include "tenon/structure/sleeping_colliders.h"
 #include "tenon/structure/source_views.h"
 #include "tenon/structure/split.h"
@@ -52,6 +53,7 @@ class Maker {
 
   Result<StructuredAsset> run() {
     TENON_TRY(sources_, read_views(source_, diagnostics_));
+    TENON_CHECK(change_generation());
     make_views();
     give_wrappers();
     make_base();
@@ -111,6 +113,29 @@ class Maker {
     const auto found = std::find_if(views_.begin(), views_.end(),
                                     [&](const View& view) { return view.variant == variant; });
     return found == views_.end() ? nullptr : &*found;
+  }
+
+  // Schemas.
+
+  /// Proven as well: the physics of every variant stays what it was.
+  Result<void> change_generation() {
+    if (options_.schema == SchemaGeneration::AsAuthored) {
+      return {};
+    }
+    const std::vector<SourceView> before = sources_.physics;
+    const std::set<std::string> widened = use_generation(sources_, options_.schema, diagnostics_);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const SourceView& after = sources_.physics[i];
+      if (widened.contains(after.variant)) {
+        continue;
+      }
+      TENON_TRY(const physics::PhysicsScene was, physics_of(before[i].content));
+      TENON_TRY(const physics::PhysicsScene is, physics_of(after.content));
+      if (const auto where = compare_physics(was, is, [](Path path) { return path; })) {
+        return differs("Physics=" + after.variant, *where, "the physics in other schemas");
+      }
+    }
+    return {};
   }
 
   Result<physics::PhysicsScene> physics_of(const Layer& content) const {

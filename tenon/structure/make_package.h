@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -30,12 +31,21 @@ struct AssetSource {
       open_asset;
 };
 
+/// Vendors' schemas of joints (schema_generation.h); UsdPhysics is the same in all.
+enum class SchemaGeneration : std::uint8_t {
+  AsAuthored,  ///< no schema is exchanged
+  Current,     ///< NewtonMimicAPI, PhysxJointAxisAPI
+  Legacy,      ///< PhysxMimicJointAPI, PhysxJointAPI
+  Both,        ///< side by side
+};
+
 struct StructureOptions {
   Names names = Names::Current;
   /// Name of the interface without ending; empty: that of the default prim.
   std::string name;
   /// Meshes that collide are no instances, so that every engine's layer may tune them.
   bool overridable_colliders = false;
+  SchemaGeneration schema = SchemaGeneration::AsAuthored;
 };
 
 struct StructuredAsset {

@@ -189,6 +189,90 @@ def Xform "r" { def Cube "c" (
         self.assertIn("physxOfTomorrow:x", physx)
         self.assertNotIn("Physx", file_of(made(path), "Physics/physics.usda"))
 
+
+
+LEGACY = HEAD + """
+def Xform "r" {
+    def Xform "a" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) { }
+    def Xform "b" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) { }
+    def Xform "c" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) { }
+    def PhysicsRevoluteJoint "lead" (prepend apiSchemas = ["PhysxJointAPI"]) {
+        rel physics:body0 = </r/a>
+        rel physics:body1 = </r/b>
+        float physxJoint:armature = 0.25
+        float physxJoint:maxJointVelocity = 90
+    }
+    def PhysicsRevoluteJoint "follow" (
+        prepend apiSchemas = ["PhysxJointAPI", "PhysxMimicJointAPI:rotX"]
+    ) {
+        rel physics:body0 = </r/b>
+        rel physics:body1 = </r/c>
+        float physxJoint:jointFriction = 0.5
+        float physxMimicJoint:rotX:gearing = -0.75
+        float physxMimicJoint:rotX:offset = 6
+        rel physxMimicJoint:rotX:referenceJoint = </r/lead>
+    }
+}
+"""
+
+
+def joints_of(asset, variant):
+    """-> joints by name, without the schema that their mimic stands in."""
+    joints = {joint["path"].rsplit("/", 1)[1]: joint
+              for joint in physics_of(asset, variant)["joints"]}
+    for joint in joints.values():
+        (joint.get("mimic") or {}).pop("schema", None)
+    return joints
+
+
+class Generations(unittest.TestCase):  # 2
+    def test_current(self):
+        path = write("legacy.usda", LEGACY)
+        interface = made(path, "--schema", "current")
+        physx, physics = (file_of(interface, f"Physics/{name}.usda") for name in
+                          ("physx", "physics"))
+        self.assertIn("PhysxJointAxisAPI:angular", physx)
+        self.assertIn("physxJointAxis:angular:armature = 0.25", physx)
+        self.assertNotIn("PhysxMimicJointAPI", physx)
+        self.assertIn("newton:mimicCoef0 = -6", physics)
+        self.assertIn("newton:mimicCoef1 = 0.75", physics)
+        self.assertNotIn("physxJoint:armature", physx)
+        self.assertIn("physxJoint:jointFriction = 0.5", physx)  # has no counterpart
+        self.assertEqual(joints_of(interface, "physx"), joints_of(made(path), "physx"))
+        self.assertAlmostEqual(joints_of(interface, "physics")["follow"]["mimic"]["multiplier"],
+                               0.75)
+        kept = tenon("structure", path, "--dry-run", "--schema", "current")["diagnostics"]
+        self.assertEqual({(d["rule"], d["prim"]) for d in kept},
+                         {("structure.schema-kept", "/r/follow")})
+
+    def test_there_and_back(self):
+        path = write("legacy.usda", LEGACY)
+        current = made(path, "--schema", "current")
+        legacy = made(current, "--schema", "legacy")
+        physx = file_of(legacy, "Physics/physx.usda")
+        self.assertIn("physxMimicJoint:rotX:gearing = -0.75", physx)
+        self.assertIn("physxMimicJoint:rotX:offset = 6", physx)
+        self.assertIn("physxJoint:armature = 0.25", physx)
+        self.assertNotIn("PhysxJointAxisAPI", physx)
+        self.assertEqual(joints_of(legacy, "physx"), joints_of(made(path), "physx"))
+
+    def test_both(self):
+        interface = made(write("legacy.usda", LEGACY), "--schema", "both")
+        physx = file_of(interface, "Physics/physx.usda")
+        for name in ("PhysxJointAPI", "PhysxJointAxisAPI:angular", "PhysxMimicJointAPI:rotX"):
+            self.assertIn(name, physx)
+        self.assertIn("NewtonMimicAPI", file_of(interface, "Physics/physics.usda"))
+
+    def test_a_hand_stays_what_it_is(self):
+        for generation in ("current", "legacy", "both"):
+            with self.subTest(generation):
+                interface = made(EXAMPLE, "--schema", generation)
+                again = made(interface, "--schema", generation)
+                self.assertEqual(files_of(again.parent), files_of(interface.parent))
+                for variant in VARIANTS[1:]:
+                    self.assertEqual(joints_of(interface, variant), joints_of(EXAMPLE, variant))
+
+
 class Writing(unittest.TestCase):
     def test_dry_run_writes_nothing(self):
         before = set(pathlib.Path(FOLDER.name).iterdir())
