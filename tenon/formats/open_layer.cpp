@@ -3,6 +3,7 @@
 #include "tenon/formats/open_layer.h"
 
 #include "tenon/base/limits.h"
+#include "tenon/bytes/lfs_pointer.h"
 #include "tenon/bytes/zip_archive.h"
 #include "tenon/formats/crate/reader.h"
 #include "tenon/formats/text/reader.h"
@@ -63,6 +64,7 @@ Result<layer::Layer> read_layer(std::shared_ptr<const bytes::FileBytes> bytes,
   if (format_of(*bytes) == LayerFormat::Crate) {
     return read_crate(std::move(bytes), std::move(identifier), diagnostics);
   }
+  TENON_CHECK(bytes::check_no_lfs_pointer(bytes->text(), identifier));
   return read_text(bytes->text(), std::move(identifier), diagnostics);
 }
 

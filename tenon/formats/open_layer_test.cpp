@@ -87,6 +87,17 @@ TEST_F(OpenLayer, SaysWhyAFileCannotBeOpened) {
   }
 }
 
+TEST_F(OpenLayer, APointerOfGitLfsIsNoLayer) {
+  EXPECT_TRUE(bytes::write_file(in("robot.usd"),
+                                "version https://git-lfs.github.com/spec/v1\n"
+                                "oid sha256:0000\nsize 12345\n"));
+  Diagnostics diagnostics;
+  const auto layer = open_layer_file(in("robot.usd"), diagnostics);
+  ASSERT_FALSE(layer);
+  EXPECT_EQ(layer.error().diagnostic().rule, "file.lfs-pointer");
+  EXPECT_EQ(layer.error().diagnostic().file, in("robot.usd"));
+}
+
 TEST_F(OpenLayer, OneIdentifierIsOneLayer) {
   LayerRegistry registry;
   const auto root = registry.open_root(in("a.usda"));

@@ -3,6 +3,7 @@
 #include "tenon/mesh/read_mesh.h"
 
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/lfs_pointer.h"
 
 namespace tenon::mesh {
 namespace {
@@ -24,16 +25,18 @@ std::string ending_of(const std::string& path) {
 
 Result<MeshScene> read_mesh(const std::string& path, Diagnostics& diagnostics) {
   const std::string ending = ending_of(path);
-  if (ending == "dae" || ending == "gltf" || ending == "glb") {
-    return read_with_assimp(path, diagnostics);
-  }
-  if (ending != "stl" && ending != "obj") {
+  const bool by_assimp = ending == "dae" || ending == "gltf" || ending == "glb";
+  if (!by_assimp && ending != "stl" && ending != "obj") {
     return Error(ErrorCode::Unsupported, "meshes of the kind \"" + ending + "\" are not read")
         .in_file(path)
         .with_rule("mesh.format")
         .with_fix("export the mesh as .stl, .obj, .dae, .gltf or .glb");
   }
   TENON_TRY(const auto bytes, bytes::FileBytes::open(path));
+  TENON_CHECK(bytes::check_no_lfs_pointer(bytes->text(), path));
+  if (by_assimp) {
+    return read_with_assimp(path, diagnostics);
+  }
   return ending == "stl" ? read_stl(bytes->text(), path)
                          : read_obj(bytes->text(), path, diagnostics);
 }

@@ -174,6 +174,12 @@ TEST_F(ReadMesh, ReadsGltfToTheBit) {
 TEST_F(ReadMesh, SaysWhyAMeshCannotBeRead) {
   EXPECT_EQ(read_mesh("/nowhere/x.stl", findings_).error().code(), ErrorCode::NotFound);
   EXPECT_EQ(read_mesh("x.step", findings_).error().code(), ErrorCode::Unsupported);
+  const char* const pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
+  for (const char* name : {"pointer.stl", "pointer.obj", "pointer.dae"}) {
+    const auto mesh = read_mesh(write(name, pointer), findings_);
+    ASSERT_FALSE(mesh) << name;
+    EXPECT_EQ(mesh.error().diagnostic().rule, "file.lfs-pointer") << name;
+  }
   if (has_assimp()) {
     EXPECT_FALSE(read_mesh(write("bad.dae", "<COLLADA"), findings_));
     EXPECT_FALSE(read_mesh(write("bad.glb", "glTF\x02\x01"), findings_));

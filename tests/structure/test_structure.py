@@ -10,7 +10,9 @@ Tests of the vendor's hand skip, with the reason, where ../shared is absent.
 """
 
 import functools
+import math
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -138,6 +140,34 @@ class VendorsHand(Hands, unittest.TestCase):
 
 class Defects(unittest.TestCase):
     """Of the ten defects those that small sources show; the rest are above."""
+
+    def test_assets_that_are_not_there_are_told(self):  # 1
+        pointer = write("pointer.usda", "version https://git-lfs.github.com/spec/v1\noid x\n")
+        process = run("structure", pointer, "--dry-run", "--json")
+        self.assertIn("file.lfs-pointer", process.stdout)
+        self.assertNotEqual(process.returncode, 0)
+
+    def test_angles_and_gains_reach_engines_in_radians(self):  # 3
+        joint = """def PhysicsRevoluteJoint "%s" (prepend apiSchemas = [%s]) {
+            rel physics:body0 = </r/%s>
+            rel physics:body1 = </r/%s>
+            %s
+        }
+"""
+        path = write("gains.usda", HEAD + 'def Xform "r" {' + "".join(
+            f'def Sphere "{name}" (prepend apiSchemas = ["PhysicsRigidBodyAPI", '
+            '"PhysicsCollisionAPI"]) { double radius = 0.1 }\n' for name in "abc") +
+            joint % ("lead", '"PhysicsDriveAPI:angular"', "a", "b",
+                     "float drive:angular:physics:stiffness = 2") +
+            joint % ("follow", '"NewtonMimicAPI"', "b", "c",
+                     "float newton:mimicCoef0 = 90\n rel newton:mimicJoint = </r/lead>") + "}\n")
+        model = path.with_suffix(".xml")
+        self.assertEqual(run("convert", path, model).returncode, 0)
+        text = model.read_text(encoding="utf-8")
+        gain = -float(re.search(r'biasprm="\S+ ([^ "]+)', text)[1])
+        offset = float(re.search(r'polycoef="([^ "]+)', text)[1])
+        self.assertAlmostEqual(gain, 2 * 180 / math.pi, places=2)
+        self.assertAlmostEqual(offset, math.pi / 2, places=4)
 
     def test_geometry_of_small_parts_stays_apart(self):  # 4
         path = write("boxes.usda", HEAD + 'def Xform "r" {' + "".join(
