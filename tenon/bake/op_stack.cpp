@@ -3,7 +3,9 @@
 #include "tenon/bake/op_stack.h"
 
 #include <cmath>
+#include <string_view>
 
+#include "tenon/bake/euler.h"
 #include "tenon/bake/over_specs.h"
 #include "tenon/math/transform.h"
 
@@ -52,6 +54,38 @@ Value vector_value(const Vec3d& v, Token type) {
   return type == "float3" ? Value(to_float(v)) : Value(v);
 }
 
+/// Half precision loses turns of a fraction of a degree.
+bool can_hold_angles(Token type) {
+  return type == "float" || type == "double" || type == "float3" || type == "double3";
+}
+
+/// The axis of an op about one; 3 of one about three.
+std::size_t axis_of(Token op) {
+  constexpr std::size_t kBefore = std::string_view("xformOp:rotate").size();
+  const std::string_view order = op.view().substr(kBefore);
+  return order.size() == 1 ? static_cast<std::size_t>(order[0] - 'X') : 3;
+}
+
+/// What a rotate op says, about x, y, z [deg]; zero where it says nothing.
+Vec3d angles_at(const Value& value, Token op) {
+  const std::size_t axis = axis_of(op);
+  Vec3d angles;
+  if (axis < 3) {
+    const auto* wide = value.get<double>();
+    angles[axis] = wide != nullptr ? *wide : static_cast<double>(value.get_or<float>(0));
+    return angles;
+  }
+  return read_vector(value).value_or(angles);
+}
+
+Value angle_value(const Vec3d& angles, Token op, Token type) {
+  const std::size_t axis = axis_of(op);
+  if (axis < 3) {
+    return type == "float" ? Value(static_cast<float>(angles[axis])) : Value(angles[axis]);
+  }
+  return vector_value(angles, type);
+}
+
 /// Translate, then one rotation, then scale: each at most once, in this order.
 enum class Stage : unsigned char { Start, Translated, Rotated, Scaled };
 
@@ -88,6 +122,11 @@ OpStack OpStack::of(const stage::Prim& prim, double start_code) {
     }
     at = *next;
     has_translate = has_translate || op == kTranslate;
+    if (is_plain_rotation(op) && can_hold_angles(prim.attribute(op).type_name())) {
+      stack.rotate_ = op;
+      stack.rotate_type_ = prim.attribute(op).type_name();
+      stack.angles_.push_back(angles_at(prim.attribute(op).get(start_code), op));
+    }
     has_orient = has_orient || (op == kOrient && prim.attribute(op).type_name() == "quatd");
     if (op == kScale) {
       const auto scale = read_vector(prim.attribute(kScale).get(start_code));
@@ -104,7 +143,8 @@ OpStack OpStack::of(const stage::Prim& prim, double start_code) {
     stack.translate_type_ = "float3";
   }
   stack.orient_ = has_orient ? kOrient : kBakedOrient;
-  stack.order_is_new_ = !has_translate || !has_orient;
+  stack.has_orient_ = has_orient;
+  stack.has_translate_ = has_translate;
   return stack;
 }
 
@@ -145,8 +185,24 @@ bool OpStack::add(double code, const Mat4d& local) {
     q = {-q.x, -q.y, -q.z, -q.w};
   }
   orientations_.push_back(q);
+  if (!rotate_.empty()) {
+    if (const auto angles = euler_degrees(rigid, rotate_, angles_.back())) {
+      angles_.push_back(*angles);
+    } else {
+      rotate_ = {};
+    }
+  }
   translations_.push_back({{local[3][0], local[3][1], local[3][2]}});
   return true;
+}
+
+void OpStack::write_angles(layer::Layer& layer, Path prim) const {
+  TimeSamples samples;
+  for (std::size_t i = 0; i < codes_.size(); ++i) {
+    samples.set(codes_[i], angle_value(angles_[i + 1], rotate_, rotate_type_));
+  }
+  over_attribute(layer, prim, rotate_, rotate_type_)
+      .set(layer::fields::timeSamples, Value(std::move(samples)));
 }
 
 void OpStack::write(layer::Layer& layer, Path prim) const {
@@ -163,7 +219,8 @@ void OpStack::write(layer::Layer& layer, Path prim) const {
     over_attribute(layer, prim, kTransform, "matrix4d")
         .set(layer::fields::timeSamples, Value(std::move(samples)));
   } else {
-    order.insert(order.end(), {kTranslate, orient_});
+    const bool rotates = !rotate_.empty();
+    order.insert(order.end(), {kTranslate, rotates ? rotate_ : orient_});
     if (has_scale_) {
       order.push_back(kScale);
     }
@@ -175,10 +232,14 @@ void OpStack::write(layer::Layer& layer, Path prim) const {
     }
     over_attribute(layer, prim, kTranslate, translate_type_)
         .set(layer::fields::timeSamples, Value(std::move(translations)));
-    over_attribute(layer, prim, orient_, "quatd")
-        .set(layer::fields::timeSamples, Value(std::move(orientations)));
+    if (rotates) {
+      write_angles(layer, prim);
+    } else {
+      over_attribute(layer, prim, orient_, "quatd")
+          .set(layer::fields::timeSamples, Value(std::move(orientations)));
+    }
   }
-  if (as_matrix_ || order_is_new_) {
+  if (as_matrix_ || !has_translate_ || (!has_orient_ && rotate_.empty())) {
     layer::Spec& spec = over_attribute(layer, prim, kOrder, "token[]");
     spec.set(layer::fields::variability, Value(layer::Variability::Uniform));
     spec.set(layer::fields::default_value, Value(std::move(order)));

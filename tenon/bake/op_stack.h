@@ -12,9 +12,9 @@
 
 namespace tenon::bake {
 
-/// How a prim's local transform is to be written over time: on the translate and orient ops that it
-/// has (or gets), with its scale op left alone; or, where scale or shear do not allow that, as one
-/// matrix op.
+/// How a prim's local transform is to be written over time: on the translate, orient or rotate ops
+/// that it has (or on translate and orient ops that it gets), with its scale op left alone; or,
+/// where scale or shear do not allow that, as one matrix op (S-35).
 class OpStack {
  public:
   /// Looks at the prim's xformOpOrder. `start_code` is the stage time at which its scale is read.
@@ -29,16 +29,22 @@ class OpStack {
   void write(layer::Layer& layer, Path prim) const;
 
  private:
+  void write_angles(layer::Layer& layer, Path prim) const;
+
   Token translate_type_ = "double3";
   Token orient_;  // name of the op that gets the orientations, quatd
+  Token rotate_;  // rotate op that gets them instead; empty: none, or it cannot hold them
+  Token rotate_type_;
   bool has_scale_ = false;
   Vec3d scale_{{1, 1, 1}};
   bool resets_stack_ = false;
-  bool order_is_new_ = false;  // xformOpOrder must be authored
+  bool has_translate_ = false;
+  bool has_orient_ = false;
   bool as_matrix_ = false;
   std::vector<double> codes_;
   std::vector<Vec3d> translations_;
   std::vector<Quatd> orientations_;
+  std::vector<Vec3d> angles_;  // of rotate_, about x, y, z [deg]
   std::vector<Mat4d> matrices_;
 };
 
