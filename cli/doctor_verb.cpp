@@ -4,6 +4,7 @@
 
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/approximate/mesh_approximator.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -25,7 +26,17 @@ int run_doctor(const Globals& globals) {
                   engine.available ? "" : engine.how_to_get.c_str());
     }
   }
-  return report.finish(all ? kOk : kMissing, {{"engines", engines}});
+  const approximate::LibraryInfo pieces = approximate::decomposition_library();
+  if (!globals.json) {
+    std::printf("%-8s %-14s %s\n", pieces.name.c_str(),
+                pieces.available ? pieces.version.c_str() : "not available",
+                pieces.how_to_get.c_str());
+  }
+  const Json libraries{{{"name", pieces.name},
+                        {"available", pieces.available},
+                        {"version", pieces.available ? Json(pieces.version) : Json(nullptr)},
+                        {"howToGet", pieces.available ? Json(nullptr) : Json(pieces.how_to_get)}}};
+  return report.finish(all ? kOk : kMissing, {{"engines", engines}, {"libraries", libraries}});
 }
 
 }  // namespace

@@ -139,6 +139,9 @@ void add_sizes(const PhysicsScene& scene, const physics::Shape& shape, Json& row
       add_spheres(shape, row);
       break;
   }
+      if (!shape.pieces.empty()) {
+        row["pieces"] = shape.pieces.size();
+      }
 }
 
 Json colliders_json(const PhysicsScene& scene) {

@@ -7,6 +7,7 @@
 #include "cli/reading_options.h"
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/approximate/mesh_approximator.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/tenon.h"
 
@@ -31,6 +32,7 @@ int run_physics(const Globals& globals, const Options& options) {
   }
   physics::ReadOptions read;
   read.readings = *readings;
+  read.mesh_tools = approximate::mesh_tools({approximate::default_cache_folder()});
   physics::Accounts accounts;
   const physics::PhysicsScene scene =
       physics::read_physics(*stage, read, report.diagnostics, options.mass ? &accounts : nullptr);

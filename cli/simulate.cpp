@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "tenon/approximate/mesh_approximator.h"
 #include "tenon/bake/write_time_samples.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/physics/read_physics.h"
@@ -103,8 +104,10 @@ Result<Simulated> simulate(const SimulateArguments& arguments, Report& report) {
   TENON_TRY(stage::Stage stage,
             open_stage(arguments.asset.asset, arguments.asset.open_options(), report.diagnostics));
   result.stage = std::make_unique<stage::Stage>(std::move(stage));
+  physics::ReadOptions read;
+  read.mesh_tools = approximate::mesh_tools({approximate::default_cache_folder()});
   result.scene = std::make_unique<physics::PhysicsScene>(
-      physics::read_physics(*result.stage, {}, report.diagnostics));
+      physics::read_physics(*result.stage, read, report.diagnostics));
   engines::SimulationOptions options;
   options.time_step = arguments.time_step;
   TENON_TRY(result.simulation,

@@ -8,6 +8,12 @@ endif()
 install(TARGETS tenon_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon)
+if(tenon_coacd_library)
+  install(DIRECTORY ${tenon_coacd_root}/coacd ${tenon_coacd_root}/coacd.libs
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/tenon)
+  install(DIRECTORY ${tenon_coacd_root}/licences/
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon/coacd)
+endif()
 if(TENON_WITH_MUJOCO)
   install(FILES ${tenon_mujoco_library} DESTINATION ${CMAKE_INSTALL_LIBDIR}/tenon)
   install(FILES ${tenon_mujoco_licences}

@@ -50,6 +50,16 @@ else()
   target_compile_definitions(tenon_assimp INTERFACE TENON_WITH_ASSIMP=0)
 endif()
 target_link_libraries(tenon_assimp INTERFACE ${CMAKE_DL_LIBS})
+find_path(TENON_MESHOPTIMIZER_INCLUDE_DIR meshoptimizer.h)
+find_library(TENON_MESHOPTIMIZER_LIBRARY meshoptimizer)
+if(NOT TENON_MESHOPTIMIZER_INCLUDE_DIR OR NOT TENON_MESHOPTIMIZER_LIBRARY)
+  message(FATAL_ERROR "meshoptimizer not found: install libmeshoptimizer-dev "
+                      "(tools/bootstrap.sh).")
+endif()
+add_library(tenon_meshoptimizer INTERFACE)
+target_include_directories(tenon_meshoptimizer SYSTEM
+                           INTERFACE ${TENON_MESHOPTIMIZER_INCLUDE_DIR})
+target_link_libraries(tenon_meshoptimizer INTERFACE ${TENON_MESHOPTIMIZER_LIBRARY})
 
 if(TENON_DEVELOPER)
   find_package(GTest REQUIRED)

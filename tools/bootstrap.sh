@@ -51,7 +51,7 @@ need_for_build() {
   need_tool python3 python3 --version
   need_tool python3-pip python3 -m pip --version
   need_package ca-certificates libcli11-dev nlohmann-json3-dev liblz4-dev libexpected-dev \
-    libeigen3-dev libqhull-dev libpugixml-dev libassimp-dev
+    libeigen3-dev libqhull-dev libpugixml-dev libassimp-dev libmeshoptimizer-dev
 }
 
 need_for_test() {

@@ -21,6 +21,7 @@ USERS = ("cli/", "tests/", "bench/", "fuzz/")
 LIBRARIES = {
     "tl/*": ["tenon/base/result.h"],
     "Eigen/*": ["tenon/math/*.cpp", "tenon/physics/*.cpp"],
+    "meshoptimizer.h": ["tenon/approximate/*.cpp"],
     "lz4*.h": ["tenon/bytes/*.cpp"],
     "mujoco/*": ["tenon/engines/mujoco/*", "tenon/mjcf/*", "bench/step_mujoco.cpp"],
     "pugixml.hpp": ["tenon/urdf/*"],

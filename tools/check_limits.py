@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the limits: each constant of tenon/base/limits.h is used and stands in docs/limits.md.
+"""Holds the limits: each constant of the tables is used and stands in docs/limits.md.
 
 Exit 0: held; 1: each fault on a line of its own.
 """
@@ -12,7 +12,7 @@ import sys
 
 import source_files
 
-TABLE = "tenon/base/limits.h"
+TABLES = ("tenon/base/limits.h", "tenon/base/physics_limits.h")
 PAGE = "docs/limits.md"
 CONSTANT = re.compile(r"inline constexpr [\w:]+ (k\w+) = ([^;]+);")
 
@@ -26,20 +26,25 @@ def numeral(text):
 
 def check(root, files):
     """-> faults of the project at `root`, whose files are `files`."""
-    with open(os.path.join(root, TABLE), encoding="utf-8") as file:
-        limits = {name: numeral(value) for name, value in CONSTANT.findall(file.read())}
+    limits, faults = {}, []
+    for table in TABLES:
+        if os.path.exists(os.path.join(root, table)):
+            with open(os.path.join(root, table), encoding="utf-8") as file:
+                limits.update((name, numeral(value))
+                              for name, value in CONSTANT.findall(file.read()))
     with open(os.path.join(root, PAGE), encoding="utf-8") as file:
         rows = dict(re.findall(r"^\| `(k\w+)` \| ([\d ]+) \|", file.read(), re.MULTILINE))
     used = set()
     for path in files:
-        if path.startswith(("tenon/", "cli/")) and path != TABLE:
+        if path.startswith(("tenon/", "cli/")) and path not in TABLES:
             if path.endswith(source_files.CODE):
                 with open(os.path.join(root, path), encoding="utf-8") as file:
                     used.update(re.findall(r"limits::(k\w+)", file.read()))
-    faults = [] if limits else [f"{TABLE}: no limits found"]
+    if not limits:
+        faults.append(f"{TABLES[0]}: no limits found")
     for name, value in limits.items():
         if name not in used:
-            faults.append(f"{TABLE}: {name} is not used")
+            faults.append(f"{TABLES[0]}: {name} is not used")
         if name not in rows:
             faults.append(f"{PAGE}: no row for {name}")
         elif int(rows[name].replace(" ", "")) != value:

@@ -6,7 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "tenon/base/physics_limits.h"
 #include "tenon/physics/convex_hull.h"
+#include "tenon/physics/read_physics.h"
 #include "tenon/physics/shapes.h"
 #include "tenon/physics/world_pose.h"
 #include "tenon/stage/material_binding.h"
@@ -205,19 +207,8 @@ ShapeReading bounded_by_ball(const TriangleMesh& mesh) {
   return reading;
 }
 
-/// What replaces the tokens that are not carried out, said aloud (S-62, S-64).
-Approximation settle(ReadState& state, const ShapeSource& source, Approximation wanted) {
-  const stage::Prim& prim = source.found.prim;
-  if (wanted == Approximation::ConvexDecomposition) {
-    state.not_read(prim, "physics:approximation",
-                   "convexDecomposition is not carried out; one convex hull is used");
-    return Approximation::ConvexHull;
-  }
-  if (wanted == Approximation::MeshSimplification && !source.dynamic) {
-    state.not_read(prim, "physics:approximation",
-                   "meshSimplification is not carried out; the mesh itself is used");
-    return Approximation::None;
-  }
+/// What replaces triangles on bodies that move, said aloud (S-64).
+Approximation settle(const ReadState& state, const ShapeSource& source, Approximation wanted) {
   if (source.dynamic &&
       (wanted == Approximation::None || wanted == Approximation::MeshSimplification)) {
     state.report(prim, Severity::Warning, "collider.dynamic-mesh",
@@ -226,6 +217,60 @@ Approximation settle(ReadState& state, const ShapeSource& source, Approximation 
     return Approximation::ConvexHull;
   }
   return wanted;
+}
+
+void not_carried_out(ReadState& state, const ShapeSource& source, const char* why) {
+  state.not_read(source.found.prim, "physics:approximation", why);
+}
+
+/// S-62: the triangles of a mesh, fewer where they can be.
+void simplify(ReadState& state, const ShapeSource& source, TriangleMesh& mesh) {
+  if (state.mesh_tools == nullptr || !state.mesh_tools->simplify) {
+    not_carried_out(state, source,
+                    "meshSimplification is not carried out; the mesh itself is used");
+    return;
+  }
+  TriangleMesh fewer = state.mesh_tools->simplify(mesh);
+  if (!fewer.triangles.empty()) {
+    fewer.flat = mesh.flat;
+    mesh = std::move(fewer);
+  }
+}
+
+/// The most hulls and corners that PhysX makes; its settings where they are authored.
+int most_of(const ReadState& state, const ShapeSource& source, const char* name, int fallback) {
+  const double most = state.values.authored_number(source.found.prim, name).value_or(fallback);
+  return most >= 1 && most <= 2048 ? static_cast<int>(most) : fallback;
+}
+
+/// S-62: convex pieces of a mesh, into the scene; none when it is left whole, said why.
+std::vector<Index> decompose(ReadState& state, const ShapeSource& source,
+                             const TriangleMesh& mesh) {
+  const char* fault = nullptr;
+  std::vector<TriangleMesh> pieces;
+  if (state.mesh_tools == nullptr || !state.mesh_tools->decompose) {
+    fault = "convexDecomposition is not carried out; one convex hull is used";
+  } else if (mesh.flat) {
+    return {};  // one polygon, said as such
+  } else if (!is_closed(mesh)) {
+    fault = "the mesh is open and has no inside to be taken apart; one convex hull is used";
+  } else if (mesh.triangles.size() > limits::kDecomposedTriangles) {
+    fault = "the mesh has too many triangles to be taken apart; one convex hull is used";
+  } else {
+    const std::string space = "physxConvexDecompositionCollision:";
+    pieces = state.mesh_tools->decompose(
+        mesh, most_of(state, source, (space + "maxConvexHulls").c_str(), 32),
+        std::max(4, most_of(state, source, (space + "hullVertexLimit").c_str(), 64)));
+    fault = pieces.empty() ? "convexDecomposition failed; one convex hull is used" : nullptr;
+  }
+  if (fault != nullptr) {
+    not_carried_out(state, source, fault);
+  }
+  std::vector<Index> indices;
+  for (TriangleMesh& piece : pieces) {
+    indices.push_back(add_mesh(state, std::move(piece)));
+  }
+  return indices;
 }
 
 }  // namespace
@@ -248,8 +293,14 @@ std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource&
     return reading;
   }
   reading.approximation = asked;
-  reading.shape.kind = kind == Approximation::ConvexHull ? ShapeKind::ConvexHull : ShapeKind::Mesh;
-  if (mesh->flat && kind == Approximation::ConvexHull) {
+  const bool hull = kind == Approximation::ConvexHull || kind == Approximation::ConvexDecomposition;
+  reading.shape.kind = hull ? ShapeKind::ConvexHull : ShapeKind::Mesh;
+  if (kind == Approximation::ConvexDecomposition) {
+    reading.shape.pieces = decompose(state, source, *mesh);
+  } else if (kind == Approximation::MeshSimplification) {
+    simplify(state, source, *mesh);
+  }
+  if (mesh->flat && hull) {
     // S-65
     state.report(source.found.prim, Severity::Info, "collider.flat-hull",
                  "the points lie in one plane: the hull is a flat polygon, solid from both sides",

@@ -85,7 +85,10 @@ struct Shape {
   double radius = 0;       ///< [m]
   double half_height = 0;  ///< [m]
   Axis axis = Axis::Z;
-  Index mesh = 0;                     ///< into PhysicsScene::meshes, of ConvexHull and Mesh
+  Index mesh = 0;  ///< into PhysicsScene::meshes, of ConvexHull and Mesh
+  /// Of ConvexHull: the hulls that it is taken apart into (S-62), into PhysicsScene::meshes; empty:
+  /// the one hull of `mesh`.
+  std::vector<Index> pieces;
   std::vector<Vec3d> sphere_centers;  ///< [m], in the collider frame
   std::vector<double> sphere_radii;   ///< [m]
 };

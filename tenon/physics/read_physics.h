@@ -3,9 +3,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/physics/accounts.h"
+#include "tenon/physics/mesh_tools.h"
 #include "tenon/physics/physics_scene.h"
 #include "tenon/physics/readings.h"
 #include "tenon/stage/stage.h"
@@ -18,6 +20,7 @@ struct ReadOptions {
   double start_time_code = std::numeric_limits<double>::quiet_NaN();
   /// Which reading counts where the proposal, OpenUSD and engines disagree.
   Readings readings;
+  MeshTools mesh_tools;
 };
 
 /// Reads every physics prim of the stage. Findings about the asset go to `diagnostics` with stable

@@ -11,6 +11,7 @@
 #include "tenon/physics/accounts.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/mesh_inertia.h"
+#include "tenon/physics/mesh_tools.h"
 #include "tenon/physics/physics_scene.h"
 #include "tenon/physics/physics_tokens.h"
 #include "tenon/physics/readings.h"
@@ -36,6 +37,7 @@ struct ReadState {
   const Readings& readings;
   Units units;
   AttributeValues values;
+  const MeshTools* mesh_tools = nullptr;
   Accounts* accounts = nullptr;  ///< filled where not null
   Walk walk{};
   PhysicsScene scene{};

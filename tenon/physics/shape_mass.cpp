@@ -72,17 +72,12 @@ SolidIntegrals capsule_integrals(double r, double h, Axis axis) {
   return result;
 }
 
-/// M-11, M-12
-SolidIntegrals spheres_integrals(const Shape& shape) {
+/// The sum of solids, each counted whole where they overlap.
+SolidIntegrals sum_of(const std::vector<SolidIntegrals>& parts) {
   SolidIntegrals result;
-  std::vector<SolidIntegrals> parts;
-  for (std::size_t i = 0; i < shape.sphere_centers.size(); ++i) {
-    const double r = shape.sphere_radii[i];
-    SolidIntegrals part = ellipsoid_integrals({{r, r, r}});
-    part.center = shape.sphere_centers[i];
+  for (const SolidIntegrals& part : parts) {
     result.volume += part.volume;
     result.center += part.center * part.volume;
-    parts.push_back(part);
   }
   if (!(result.volume > 0)) {
     return {};
@@ -99,12 +94,35 @@ SolidIntegrals spheres_integrals(const Shape& shape) {
   return result;
 }
 
+/// M-11, M-12
+SolidIntegrals spheres_integrals(const Shape& shape) {
+  std::vector<SolidIntegrals> parts;
+  for (std::size_t i = 0; i < shape.sphere_centers.size(); ++i) {
+    const double r = shape.sphere_radii[i];
+    parts.push_back(ellipsoid_integrals({{r, r, r}}));
+    parts.back().center = shape.sphere_centers[i];
+  }
+  return sum_of(parts);
+}
+
+/// M-10: the sum of the hulls.
+SolidIntegrals pieces_integrals(const Shape& shape, const std::vector<TriangleMesh>& meshes) {
+  std::vector<SolidIntegrals> parts;
+  for (const Index piece : shape.pieces) {
+    parts.push_back(mesh_integrals(convex_hull(meshes[piece].points)));
+  }
+  return sum_of(parts);
+}
+
 /// M-8..M-10
 SolidIntegrals triangles_integrals(const Shape& shape, const std::vector<TriangleMesh>& meshes,
                                    bool* used_hull) {
   const TriangleMesh& mesh = meshes[shape.mesh];
   if (mesh.flat) {
     return {};
+  }
+  if (!shape.pieces.empty()) {
+    return pieces_integrals(shape, meshes);
   }
   if (shape.kind == ShapeKind::Mesh && is_closed(mesh)) {
     return mesh_integrals(mesh);

@@ -119,5 +119,31 @@ TEST(ShapeMass, ProfileOfEqualBallsIsACapsule) {
   EXPECT_NEAR(profile.inertia[2][2], capsule.inertia[2][2], 1e-12);
 }
 
+// M-10: two unit cubes side by side count as two, what lies between them not.
+TEST(ShapeMass, PiecesCountTogether) {
+  std::vector<TriangleMesh> meshes(3);
+  for (std::size_t piece = 0; piece < 2; ++piece) {
+    for (const double x : {0.0, 1.0}) {
+      for (const double y : {0.0, 1.0}) {
+        for (const double z : {0.0, 1.0}) {
+          meshes[piece].points.push_back({{x + 3 * static_cast<double>(piece), y, z}});
+        }
+      }
+    }
+    meshes[2].points.insert(meshes[2].points.end(), meshes[piece].points.begin(),
+                            meshes[piece].points.end());
+  }
+  Shape shape;
+  shape.kind = ShapeKind::ConvexHull;
+  shape.mesh = 2;
+  EXPECT_NEAR(shape_integrals(shape, meshes).volume, 4, 1e-9);
+  shape.pieces = {0, 1};
+  const SolidIntegrals pieces = shape_integrals(shape, meshes);
+  EXPECT_NEAR(pieces.volume, 2, 1e-9);
+  EXPECT_NEAR(pieces.center[0], 2, 1e-9);
+  // Two cubes 1.5 m from the centre: 2 (1/6 + 1.5^2) about y.
+  EXPECT_NEAR(pieces.inertia[1][1], 2 * (1.0 / 6 + 2.25), 1e-9);
+}
+
 }  // namespace
 }  // namespace tenon::physics

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "tenon/physics/physics_scene.h"
+
+namespace tenon::approximate {
+
+/// lib_coacd.so can be loaded and has what is needed: from the file that the environment variable
+/// TENON_COACD_LIBRARY names, from ../lib/tenon/coacd beside the program, or from where the build
+/// put it.
+bool coacd_is_there();
+
+/// Convex pieces of a closed mesh (Wei et al., Approximate Convex Decomposition for 3D Meshes with
+/// Collision-Aware Concavity and Tree Search, 2022), in the same order every time; empty when the
+/// library fails or is not there.
+std::vector<physics::TriangleMesh> coacd_pieces(const physics::TriangleMesh& mesh, int most,
+                                                int vertices);
+
+}  // namespace tenon::approximate

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/approximate/mesh_approximator.h"
+
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "tenon/approximate/coacd.h"
+#include "tenon/approximate/piece_cache.h"
+#include "tenon/approximate/simplify.h"
+
+namespace tenon::approximate {
+namespace {
+
+using Pieces = std::vector<physics::TriangleMesh>;
+
+/// Pieces by the content of meshes: in memory for this run, on disk for the next.
+struct Decomposer {
+  PieceCache cache;
+  std::map<std::string, Pieces> known{};
+
+  Pieces pieces(const physics::TriangleMesh& mesh, int most, int vertices) {
+    const std::string key = piece_key(mesh, most, vertices);
+    const auto [at, is_new] = known.try_emplace(key);
+    if (!is_new) {
+      return at->second;
+    }
+    if (std::optional<Pieces> kept = cache.find(key)) {
+      at->second = *std::move(kept);
+      return at->second;
+    }
+    at->second = coacd_pieces(mesh, most, vertices);
+    if (!at->second.empty()) {
+      cache.keep(key, at->second);
+    }
+    return at->second;
+  }
+};
+
+}  // namespace
+
+LibraryInfo decomposition_library() {
+  LibraryInfo info{"coacd", "", coacd_is_there(), ""};
+  if (info.available) {
+    info.version = "1.0.14";
+  } else {
+    info.how_to_get =
+        "Build tenon with -DTENON_WITH_COACD=ON, or name lib_coacd.so of the wheel `coacd` in "
+        "TENON_COACD_LIBRARY.";
+  }
+  return info;
+}
+
+physics::MeshTools mesh_tools(const ApproximateOptions& options) {
+  physics::MeshTools tools;
+  tools.simplify = simplified;
+  if (coacd_is_there()) {
+    const auto decomposer =
+        std::make_shared<Decomposer>(Decomposer{PieceCache(options.cache_folder)});
+    tools.decompose = [decomposer](const physics::TriangleMesh& mesh, int most, int vertices) {
+      return decomposer->pieces(mesh, most, vertices);
+    };
+  }
+  return tools;
+}
+
+std::string default_cache_folder() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  if (cache != nullptr && *cache == '/') {
+    return std::string(cache) + "/tenon/pieces";
+  }
+  const char* home = std::getenv("HOME");
+  return home == nullptr || *home != '/' ? "" : std::string(home) + "/.cache/tenon/pieces";
+}
+
+}  // namespace tenon::approximate

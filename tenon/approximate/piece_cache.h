@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tenon/physics/physics_scene.h"
+
+namespace tenon::approximate {
+
+/// Pieces of meshes kept in a folder, one file each, found by the content of the mesh: the file
+/// holds the mesh that it is of, which must be the same to the last bit. Files that are damaged
+/// are as good as none; what cannot be written is not kept.
+class PieceCache {
+ public:
+  explicit PieceCache(std::string folder) : folder_(std::move(folder)) {}
+
+  std::optional<std::vector<physics::TriangleMesh>> find(const std::string& key) const;
+  void keep(const std::string& key, const std::vector<physics::TriangleMesh>& pieces) const;
+
+ private:
+  std::string folder_;  // empty: nothing is kept
+};
+
+/// The bytes that tell meshes apart: how they are taken apart, then points and triangles.
+std::string piece_key(const physics::TriangleMesh& mesh, int most, int vertices);
+
+}  // namespace tenon::approximate

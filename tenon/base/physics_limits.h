@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+/// Limits that only physics asks for, beside those of tenon/base/limits.h.
+namespace tenon::limits {
+
+inline constexpr std::size_t kPointInstances = 1'000'000;     ///< instances with physics of a stage
+inline constexpr std::size_t kPointInstancerDepth = 8;        ///< point instancers in one another
+inline constexpr std::size_t kDecomposedTriangles = 200'000;  ///< of a mesh to be taken apart
+
+}  // namespace tenon::limits

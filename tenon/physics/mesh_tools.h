@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "tenon/physics/physics_scene.h"
+
+namespace tenon::physics {
+
+/// What takes meshes apart and thins them out: libraries that the reader does without (S-62).
+/// tenon/approximate has them. Empty functions, and empty answers: not carried out, said as such.
+struct MeshTools {
+  /// Convex pieces that together stand for a closed mesh, at most `most` with at most `vertices`
+  /// corners each.
+  std::function<std::vector<TriangleMesh>(const TriangleMesh& mesh, int most, int vertices)>
+      decompose;
+  /// The mesh with fewer triangles, within one hundredth of its size.
+  std::function<TriangleMesh(const TriangleMesh& mesh)> simplify;
+};
+
+}  // namespace tenon::physics
