@@ -185,7 +185,9 @@ Json materials_json(const PhysicsScene& scene) {
                     {"staticFriction", number(material.static_friction)},
                     {"dynamicFriction", number(material.dynamic_friction)},
                     {"restitution", number(material.restitution)},
-                    {"density", material.density > 0 ? number(material.density) : Json(nullptr)}});
+                    {"density", material.density > 0 ? number(material.density) : Json(nullptr)},
+                    {"frictionCombine", physics::combine_name(material.friction_combine)},
+                    {"restitutionCombine", physics::combine_name(material.restitution_combine)}});
   }
   return list;
 }

@@ -24,6 +24,23 @@ double coefficient(const ReadState& state, const stage::Prim& prim, Token name) 
   return value;
 }
 
+/// S-72: what a vendor's API says of pairs.
+CombineMode combine_mode(const ReadState& state, const PhysicsPrim& found, Token name) {
+  if (!found.roles.has(Api::PhysxMaterial)) {
+    return CombineMode::Average;
+  }
+  const Token mode = state.values.get<Token>(found.prim, name).value_or(Token("average"));
+  for (int i = 0; i <= static_cast<int>(CombineMode::Max); ++i) {
+    if (mode == combine_name(static_cast<CombineMode>(i))) {
+      return static_cast<CombineMode>(i);
+    }
+  }
+  state.report(found.prim, name, Severity::Warning, "material.combine-unknown",
+               name.str() + " is \"" + mode.str() + "\"; the average is used instead",
+               "use average, min, multiply or max");
+  return CombineMode::Average;
+}
+
 Material read_material(const ReadState& state, const PhysicsPrim& found) {
   Material material;
   material.path = found.path;
@@ -34,6 +51,8 @@ Material read_material(const ReadState& state, const PhysicsPrim& found) {
   if (density > 0 && std::isfinite(density)) {
     material.density = density * state.units.density();
   }
+  material.friction_combine = combine_mode(state, found, state.tokens.physx_friction_combine);
+  material.restitution_combine = combine_mode(state, found, state.tokens.physx_restitution_combine);
   // S-73
   if (material.dynamic_friction > material.static_friction) {
     state.report(

@@ -63,6 +63,25 @@ std::string_view mass_source_name(MassSource source) {
   return kNames[static_cast<std::size_t>(source)];
 }
 
+double combine(double a, CombineMode mode_a, double b, CombineMode mode_b) {
+  switch (std::max(mode_a, mode_b)) {
+    case CombineMode::Average:
+      return (a + b) / 2;
+    case CombineMode::Min:
+      return std::fmin(a, b);
+    case CombineMode::Multiply:
+      return a * b;
+    case CombineMode::Max:
+      break;
+  }
+  return std::fmax(a, b);
+}
+
+std::string_view combine_name(CombineMode mode) {
+  constexpr std::string_view kNames[] = {"average", "min", "multiply", "max"};
+  return kNames[static_cast<std::size_t>(mode)];
+}
+
 std::string_view shape_name(ShapeKind kind) {
   constexpr std::array<std::string_view, 10> kNames{"box",      "sphere", "ellipsoid", "capsule",
                                                     "cylinder", "cone",   "plane",     "convexHull",

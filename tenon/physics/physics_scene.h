@@ -140,12 +140,23 @@ enum class JointKind : std::uint8_t { Revolute, Prismatic, Spherical, Fixed, Dis
 
 /// "revolute", "prismatic", "spherical", "fixed", "distance", "d6".
 std::string_view joint_kind_name(JointKind kind);
+/// How the coefficients of two materials become that of a contact; of two modes the later one in
+/// this list counts, as PhysX has it (S-72).
+enum class CombineMode : std::uint8_t { Average, Min, Multiply, Max };
+
+/// The coefficient of a pair.
+double combine(double a, CombineMode mode_a, double b, CombineMode mode_b);
+/// "average", "min", "multiply" or "max".
+std::string_view combine_name(CombineMode mode);
+
 
 /// Degrees of freedom in the joint frame. Revolute and prismatic joints use the one that their axis
 /// names: RotX..RotZ, TransX..TransZ.
 enum class Dof : std::uint8_t { TransX, TransY, TransZ, RotX, RotY, RotZ, Distance };
 
 /// "transX" ... "rotZ", "distance".
+  CombineMode friction_combine = CombineMode::Average;
+  CombineMode restitution_combine = CombineMode::Average;
 std::string_view dof_name(Dof dof);
 inline bool is_angular(Dof dof) { return dof >= Dof::RotX && dof <= Dof::RotZ; }
 

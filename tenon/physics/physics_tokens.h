@@ -61,6 +61,8 @@ struct PhysicsTokens {
   Token static_friction{"physics:staticFriction"};
   Token dynamic_friction{"physics:dynamicFriction"};
   Token restitution{"physics:restitution"};
+  Token physx_friction_combine{"physxMaterial:frictionCombineMode"};
+  Token physx_restitution_combine{"physxMaterial:restitutionCombineMode"};
   // joints
   Token body0{"physics:body0"};
   Token body1{"physics:body1"};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -32,9 +33,11 @@ struct Build {
   SpecPtr spec;
   double time_step = 0.002;  ///< [s]
   TreePlan plan;
-  std::vector<mjsBody*> bodies;                      ///< (body_count)
-  std::vector<Pose> engine_frames;                   ///< X_BE (body_count)
-  std::vector<std::vector<mjsGeom*>> geoms;          ///< (collider_count)
+  std::vector<mjsBody*> bodies;              ///< (body_count)
+  std::vector<Pose> engine_frames;           ///< X_BE (body_count)
+  std::vector<std::vector<mjsGeom*>> geoms;  ///< (collider_count)
+  /// Materials of these (collider_count), into PhysicsScene::materials.
+  std::vector<std::vector<std::optional<physics::Index>>> geom_materials;
   std::vector<mjsBody*> static_bodies;               ///< (collider_count), nullptr for moving ones
   std::vector<JointDofs> dofs;                       ///< (joint_count)
   std::vector<std::vector<mjsJoint*>> joints;        ///< (joint_count), in the order of dofs.free

@@ -236,7 +236,12 @@ void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces) {
     const int collider = model.collider_of_geom[g];
     if (collider >= 0) {
       geom_class[g] = filter.geom_class[static_cast<std::size_t>(collider)];
-      geom_surface[g] = surfaces.geom_surface[static_cast<std::size_t>(collider)];
+    }
+  }
+  for (std::size_t i = 0; i < surfaces.of_collider.size(); ++i) {
+    for (std::size_t g = 0; g < surfaces.of_collider[i].size(); ++g) {
+      const int geom = model.geoms_of_collider[i][g];
+      geom_surface[static_cast<std::size_t>(geom)] = surfaces.of_collider[i][g];
     }
   }
   std::vector<std::uint64_t> pairs;

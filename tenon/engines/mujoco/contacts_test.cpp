@@ -227,5 +227,86 @@ TEST(Contacts, OverlapAtTheStartIsReportedAndLeftGently) {
   }
 }
 
+TEST(Contacts, CombineModesOfMaterialsDecideFriction) {
+  using physics::CombineMode;
+  struct Case {
+    CombineMode ground;
+    double friction;  // of 0.5 on the box, averaging, and 0.1 on the ground
+  };
+  for (const Case& c : {Case{CombineMode::Average, 0.3}, Case{CombineMode::Min, 0.1},
+                        Case{CombineMode::Multiply, 0.05}, Case{CombineMode::Max, 0.5}}) {
+    TestScene scene = box_on_ground();
+    scene.colliders[0].material = add_material(scene, "Rough", 0.5);
+    scene.colliders[1].material = add_material(scene, "Smooth", 0.1);
+    scene.materials[1].friction_combine = c.ground;
+    scene.bodies[0].linear_velocity = {{2, 0, 0}};
+    auto sim = simulation(scene);
+    run(*sim, 0.3);
+    // S-72: v = v0 - mu g t.
+    EXPECT_NEAR(sim->body_state(0).linear_velocity[0], 2 - c.friction * kG * 0.3, 0.03);
+  }
+}
+
+// A flat slab of 4 m by 8 m, its half with y > 0 of another material.
+physics::TriangleMesh slab_of_two() {
+  physics::TriangleMesh slab;
+  slab.points = {{{-2, -4, 0}}, {{2, -4, 0}}, {{-2, 0, 0}}, {{2, 0, 0}}, {{-2, 4, 0}}, {{2, 4, 0}}};
+  slab.triangles = {{{0, 1, 3}}, {{0, 3, 2}}, {{2, 3, 5}}, {{2, 5, 4}}};
+  slab.flat = true;
+  return slab;
+}
+
+TEST(Contacts, FacesOfAMeshHaveMaterialsOfTheirOwn) {
+  for (const double side : {-2.0, 2.0}) {
+    TestScene scene;
+    const auto body = scene.add_body("Box", {{0, side, 0.1}}, 2, {{0.03, 0.03, 0.05}});
+    scene.add_collider("BoxShape", body, box({{0.2, 0.2, 0.1}}));
+    scene.meshes.push_back(slab_of_two());
+    physics::Shape mesh;
+    mesh.kind = physics::ShapeKind::Mesh;
+    scene.add_collider("Slab", {}, mesh);
+    scene.colliders[0].material = add_material(scene, "Wood", 0.5);
+    scene.colliders[1].material = add_material(scene, "Tar", 1.1);
+    scene.colliders[1].face_materials = {{named("Ice"), add_material(scene, "Ice", 0.1), {2, 3}}};
+    scene.bodies[0].linear_velocity = {{1.5, 0, 0}};
+    auto sim = simulation(scene);
+    run(*sim, 0.15);
+    // E-79: averages 0.8 on tar and 0.3 on ice.
+    const double friction = side < 0 ? 0.8 : 0.3;
+    EXPECT_NEAR(sim->body_state(0).linear_velocity[0], 1.5 - friction * kG * 0.15, 0.05) << side;
+    EXPECT_FALSE(mentions(sim->not_mapped(), "/Ice", "material:binding"));
+  }
+}
+
+TEST(Contacts, PiecesOfAMeshLeaveItsHollowOpen) {
+  TestScene scene;
+  const auto body = scene.add_body("Ball", {{0, 0, 1}}, 1, {{0.004, 0.004, 0.004}});
+  scene.add_collider("BallShape", body, sphere(0.1));
+  physics::Shape cup;
+  cup.kind = physics::ShapeKind::ConvexHull;
+  physics::TriangleMesh whole;
+  for (const double left : {-1.0, 0.3}) {  // two blocks with a gap of 0.6 m, 0.5 m high
+    physics::TriangleMesh block;
+    for (const double x : {left, left + 0.7}) {
+      for (const double y : {-1.0, 1.0}) {
+        for (const double z : {0.0, 0.5}) {
+          block.points.push_back({{x, y, z}});
+        }
+      }
+    }
+    whole.points.insert(whole.points.end(), block.points.begin(), block.points.end());
+    cup.pieces.push_back(static_cast<physics::Index>(scene.meshes.size()));
+    scene.meshes.push_back(block);
+  }
+  cup.mesh = static_cast<physics::Index>(scene.meshes.size());
+  scene.meshes.push_back(whole);
+  scene.add_collider("Cup", {}, cup);
+  scene.add_collider("Ground", {}, ground());
+  auto sim = simulation(scene);
+  run(*sim, 1.5);
+  // S-62: the ball falls between the pieces; on the hull it would rest at 0.6.
+  EXPECT_NEAR(sim->body_state(0).pose.position[2], 0.1, 2e-3);
+}
+
 }  // namespace
 }  // namespace tenon::engines::mujoco

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "tenon/engines/mujoco/build.h"
 #include "tenon/engines/mujoco/mesh_pieces.h"
@@ -31,10 +33,67 @@ Quatd axis_rotation(physics::Axis axis) {
   return kIdentityRotation;
 }
 
+// Triangles of one material, in a mesh of their own.
+struct MaterialPart {
+  std::optional<physics::Index> material;
+  physics::TriangleMesh mesh;
+};
+
+physics::TriangleMesh part_of(const physics::TriangleMesh& mesh, const std::vector<int>& kinds,
+                              int kind) {
+  std::vector<int> place(mesh.points.size(), -1);
+  physics::TriangleMesh part;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (kinds[i] != kind) {
+      continue;
+    }
+    Vec3i& t = part.triangles.emplace_back(mesh.triangles[i]);
+    for (int& corner : t.v) {
+      int& at = place[static_cast<std::size_t>(corner)];
+      if (at < 0) {
+        at = static_cast<int>(part.points.size());
+        part.points.push_back(mesh.points[static_cast<std::size_t>(corner)]);
+      }
+      corner = at;
+    }
+  }
+  return part;
+}
+
+// A mesh whose faces have several materials, one part per material (S-70).
+std::vector<MaterialPart> parts_by_material(const Collider& collider,
+                                            const physics::TriangleMesh& mesh) {
+  if (collider.face_materials.empty()) {
+    return {{collider.material, mesh}};
+  }
+  std::vector<int> kinds(mesh.triangles.size(), -1);
+  std::vector<MaterialPart> parts;
+  const int count = static_cast<int>(collider.face_materials.size());
+  for (int i = 0; i < count; ++i) {
+    for (const physics::Index t : collider.face_materials[static_cast<std::size_t>(i)].triangles) {
+      if (t < kinds.size() && kinds[t] < 0) {
+        kinds[t] = i;
+      }
+    }
+  }
+  for (int i = -1; i < count; ++i) {
+    physics::TriangleMesh part = part_of(mesh, kinds, i);
+    if (!part.triangles.empty()) {
+      parts.push_back({i < 0 ? collider.material
+                             : collider.face_materials[static_cast<std::size_t>(i)].material,
+                       std::move(part)});
+    }
+  }
+  return parts;
+}
+
 class ColliderPass {
  public:
   ColliderPass(Build& build, physics::Index index)
-      : build_(build), index_(index), collider_(build.scene.colliders[index]) {}
+      : build_(build),
+        index_(index),
+        collider_(build.scene.colliders[index]),
+        material_(collider_.material) {}
 
   void add() {
     find_place();
@@ -112,6 +171,7 @@ class ColliderPass {
     write_quaternion(geom->quat, normalized(pose.orientation));
     write_vector(geom->size, size);
     geoms.push_back(geom);
+    build_.geom_materials[index_].push_back(material_);
     return geom;
   }
 
@@ -141,7 +201,7 @@ class ColliderPass {
         add_plane(turned);
         break;
       case ShapeKind::ConvexHull:
-        add_pieces(hull_pieces(build_.scene.meshes[shape.mesh].points, up()));
+        add_hulls();
         break;
       case ShapeKind::Mesh:
         add_mesh();
@@ -176,15 +236,28 @@ class ColliderPass {
     add_geom(mjGEOM_PLANE, turned, {{0, 0, 1}});
   }
 
+  void add_hulls() {
+    const Shape& shape = collider_.shape;
+    for (const physics::Index piece : shape.pieces) {
+      add_pieces(hull_pieces(build_.scene.meshes[piece].points, up()));
+    }
+    if (shape.pieces.empty()) {
+      add_pieces(hull_pieces(build_.scene.meshes[shape.mesh].points, up()));
+    }
+  }
+
   void add_mesh() {
     const physics::TriangleMesh& mesh = build_.scene.meshes[collider_.shape.mesh];
+    if (!moves_freely_) {
+      for (const MaterialPart& part : parts_by_material(collider_, mesh)) {
+        material_ = part.material;
+        add_pieces(triangle_pieces(part.mesh, up()));
+      }
+      return;
+    }
     for (const physics::FaceMaterial& faces : collider_.face_materials) {
       build_.report(faces.subset, "material:binding",
-                    "MuJoCo has one material per mesh; that of the whole mesh is used");
-    }
-    if (!moves_freely_) {
-      add_pieces(triangle_pieces(mesh, up()));
-      return;
+                    "the hull that stands for the moving mesh has one material, that of the mesh");
     }
     add_pieces(hull_pieces(mesh.points, up()));
     build_.report(collider_.path, "physics:approximation",
@@ -224,6 +297,7 @@ class ColliderPass {
   Build& build_;
   physics::Index index_;
   const Collider& collider_;
+  std::optional<physics::Index> material_;  // of the geoms made next
   mjsBody* body_ = nullptr;
   Pose pose_;   // of the collider in the MuJoCo body
   Pose world_;  // of the collider at the start
@@ -236,6 +310,7 @@ class ColliderPass {
 void add_geoms(Build& build) {
   const std::size_t count = build.scene.colliders.size();
   build.geoms.assign(count, {});
+  build.geom_materials.assign(count, {});
   build.static_bodies.assign(count, nullptr);
   for (std::size_t i = 0; i < count; ++i) {
     if (build.scene.colliders[i].enabled) {

@@ -85,9 +85,11 @@ struct ContactFilter {
   std::vector<std::uint64_t> pairs_off;  ///< sorted, smaller geom in the upper half
 };
 
-/// One value of friction and restitution per geom, and their averages per pair (S-72).
+/// One value of friction and restitution per geom, and how those of pairs combine (S-72).
 struct Surfaces {
   std::vector<int> geom_surface;  ///< (geom_count); -1: made contacts are left as they are
+  /// The same per collider and geom of it, until ids of geoms are known.
+  std::vector<std::vector<int>> of_collider;
   std::size_t count = 0;
   std::vector<double> friction;               ///< (count x count)
   std::vector<std::array<double, 2>> solref;  ///< (count x count)

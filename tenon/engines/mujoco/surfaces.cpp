@@ -26,6 +26,8 @@ constexpr double kMostDamping = 0.9;       // damping times time step: below 1, 
 struct Surface {
   double friction = 0;
   double restitution = 0;
+  physics::CombineMode friction_combine = physics::CombineMode::Average;
+  physics::CombineMode restitution_combine = physics::CombineMode::Average;
   auto operator<=>(const Surface&) const = default;
 };
 
@@ -58,10 +60,10 @@ double mean_rebound(double stiffness, double damping, double time_step) {
   return sum / kPhases;
 }
 
-Surface surface_of(const physics::PhysicsScene& scene, const physics::Collider& collider) {
-  const physics::Material& material =
-      collider.material.has_value() ? scene.materials[*collider.material] : scene.unbound;
-  return {material.dynamic_friction, std::clamp(material.restitution, 0.0, 1.0)};
+Surface surface_of(const physics::PhysicsScene& scene, const std::optional<physics::Index>& index) {
+  const physics::Material& material = index ? scene.materials[*index] : scene.unbound;
+  return {material.dynamic_friction, std::clamp(material.restitution, 0.0, 1.0),
+          material.friction_combine, material.restitution_combine};
 }
 
 void tabulate(Surfaces& surfaces, const std::vector<Surface>& kinds, double time_step) {
@@ -69,12 +71,14 @@ void tabulate(Surfaces& surfaces, const std::vector<Surface>& kinds, double time
   std::map<double, std::array<double, 2>> known;
   for (const Surface& a : kinds) {
     for (const Surface& b : kinds) {
-      const double restitution = (a.restitution + b.restitution) / 2;
+      const double restitution = physics::combine(a.restitution, a.restitution_combine,
+                                                  b.restitution, b.restitution_combine);
       const auto [entry, is_new] = known.try_emplace(restitution);
       if (is_new) {
         entry->second = contact_solref(restitution, time_step);
       }
-      surfaces.friction.push_back((a.friction + b.friction) / 2);
+      surfaces.friction.push_back(
+          physics::combine(a.friction, a.friction_combine, b.friction, b.friction_combine));
       surfaces.solref.push_back(entry->second);
     }
   }
@@ -86,6 +90,11 @@ void report_materials(Build& build) {
   for (const physics::Collider& collider : build.scene.colliders) {
     if (collider.material.has_value() && collider.enabled) {
       used[*collider.material] = 1;
+    }
+    for (const physics::FaceMaterial& faces : collider.face_materials) {
+      if (faces.material && collider.enabled) {
+        used[*faces.material] = 1;
+      }
     }
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
@@ -121,25 +130,24 @@ std::array<double, 2> contact_solref(double restitution, double time_step) {
 Surfaces add_surfaces(Build& build) {
   Surfaces surfaces;
   std::vector<Surface> kinds;
-  surfaces.geom_surface.assign(build.geoms.size(), -1);  // per collider until the ids are known
+  surfaces.of_collider.resize(build.geoms.size());
   for (std::size_t i = 0; i < build.geoms.size(); ++i) {
-    if (build.geoms[i].empty()) {
-      continue;
+    for (const std::optional<physics::Index>& material : build.geom_materials[i]) {
+      const Surface surface = surface_of(build.scene, material);
+      auto found = std::find(kinds.begin(), kinds.end(), surface);
+      if (found == kinds.end()) {
+        found = kinds.insert(kinds.end(), surface);
+      }
+      surfaces.of_collider[i].push_back(static_cast<int>(found - kinds.begin()));
     }
-    const Surface surface = surface_of(build.scene, build.scene.colliders[i]);
-    auto found = std::find(kinds.begin(), kinds.end(), surface);
-    if (found == kinds.end()) {
-      found = kinds.insert(kinds.end(), surface);
-    }
-    surfaces.geom_surface[i] = static_cast<int>(found - kinds.begin());
   }
   tabulate(surfaces, kinds, build.time_step);
   for (std::size_t i = 0; i < build.geoms.size(); ++i) {
-    const auto kind = static_cast<std::size_t>(std::max(surfaces.geom_surface[i], 0));
-    for (mjsGeom* geom : build.geoms[i]) {
-      geom->friction[0] = kinds[kind].friction;
+    for (std::size_t g = 0; g < build.geoms[i].size(); ++g) {
+      const auto kind = static_cast<std::size_t>(surfaces.of_collider[i][g]);
+      build.geoms[i][g]->friction[0] = kinds[kind].friction;
       const auto& solref = surfaces.solref[kind * surfaces.count + kind];
-      std::copy(solref.begin(), solref.end(), geom->solref);
+      std::copy(solref.begin(), solref.end(), build.geoms[i][g]->solref);
     }
   }
   report_materials(build);
