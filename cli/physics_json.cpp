@@ -78,6 +78,11 @@ Json bodies_json(const PhysicsScene& scene) {
                     {"linearDamping", number(body.linear_damping)},
                     {"angularDamping", number(body.angular_damping)},
                     {"gravityScale", number(body.gravity_scale)}});
+    if (body.instance) {
+      list.back()["instance"] = {{"instancer", body.instance->instancer.str()},
+                                 {"prim", body.instance->prim.str()},
+                                 {"index", body.instance->index}};
+    }
   }
   return list;
 }
@@ -134,14 +139,14 @@ void add_sizes(const PhysicsScene& scene, const physics::Shape& shape, Json& row
     case physics::ShapeKind::ConvexHull:
     case physics::ShapeKind::Mesh:
       add_triangles(scene.meshes[shape.mesh], row);
+      if (!shape.pieces.empty()) {
+        row["pieces"] = shape.pieces.size();
+      }
       break;
     case physics::ShapeKind::Spheres:
       add_spheres(shape, row);
       break;
   }
-      if (!shape.pieces.empty()) {
-        row["pieces"] = shape.pieces.size();
-      }
 }
 
 Json colliders_json(const PhysicsScene& scene) {

@@ -12,7 +12,8 @@ BodyTransforms::BodyTransforms(const stage::Stage& stage, const physics::Physics
     const physics::Body& body = scene.bodies[i];
     Placed placed;
     placed.prim = stage.prim(body.path);
-    const Mat4d world = stage::local_to_world(placed.prim, scene.start_time_code);
+    const Mat4d world = body.instance ? body.instance->world
+                                      : stage::local_to_world(placed.prim, scene.start_time_code);
     placed.stretch = world * inverse(pose_matrix(rigid_part(world)));
     placed_.push_back(placed);
     if (!body.kinematic) {

@@ -24,14 +24,16 @@ class BodyTransforms {
   /// `code` is the stage time of the frame, for what else is animated.
   Mat4d local(std::size_t i, const PoseRecording& recording, std::size_t frame, double code) const;
 
- private:
-  struct Placed {
-    Mat4d stretch = Mat4d::identity();
-    stage::Prim prim;
-  };
+  /// World matrix of a body's prim, and of any prim, at the poses of `frame`; stage units.
   Mat4d world_of_body(std::size_t i, const PoseRecording& recording, std::size_t frame) const;
   Mat4d world_of_prim(const stage::Prim& prim, const PoseRecording& recording, std::size_t frame,
                       double code) const;
+
+ private:
+  struct Placed {
+    Mat4d stretch = Mat4d::identity();
+    stage::Prim prim;  // invalid for instances of point instancers
+  };
 
   double meters_per_unit_;
   std::vector<Placed> placed_;           // (body_count)

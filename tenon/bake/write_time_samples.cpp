@@ -3,6 +3,7 @@
 #include "tenon/bake/write_time_samples.h"
 
 #include "tenon/bake/body_transforms.h"
+#include "tenon/bake/instance_arrays.h"
 #include "tenon/bake/op_stack.h"
 #include "tenon/bake/over_specs.h"
 
@@ -92,6 +93,7 @@ layer::Layer write_time_samples(const stage::Stage& stage, const physics::Physic
     }
     stack.write(layer, prim.path());
   }
+  write_instance_arrays(stage, scene, recording, transforms, layer, diagnostics);
   return layer;
 }
 

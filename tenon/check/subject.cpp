@@ -76,6 +76,9 @@ std::optional<physics::Index> Subject::joint_at(Path path) const {
 }
 
 void Reporter::add(Diagnostic diagnostic, const stage::Prim& prim, std::string fix) {
+  if (!prim) {
+    return;  // an instance of a point instancer: its prototype is judged where it is placed
+  }
   if (diagnostic.prim.empty()) {
     diagnostic.prim = prim.path().str();
   }

@@ -16,6 +16,16 @@ bool differs(const Vec3d& a, const Vec3d& b) {
   return length(a - b) > 1e-5 * (length(a) + length(b));
 }
 
+/// The array entry that gives the body its velocity: of the prototypes of point instancers (S-38).
+const ArrayInstance* array_of(const ReadState& state, const PhysicsPrim& found) {
+  if (found.instance == kNone) {
+    return nullptr;
+  }
+  const PointInstance& instance = state.walk.instances[found.instance];
+  const bool given = instance.array.has_velocity || instance.array.has_angular_velocity;
+  return given && instance.prototype == found.prim ? &instance.array : nullptr;
+}
+
 /// The space that velocities are given in: that of the prim's transform (S-30), or by option the
 /// body's own axes or the world's, which have no scale.
 Mat4d velocity_space(const ReadState& state, const PhysicsPrim& found, const Body& body) {
@@ -25,10 +35,14 @@ Mat4d velocity_space(const ReadState& state, const PhysicsPrim& found, const Bod
   if (state.readings.velocity_space == VelocitySpace::World) {
     return Mat4d::identity();
   }
-  if (stage::local_transform(found.prim, state.values.start()).resets_stack) {
+  if (found.instance == kNone &&
+      stage::local_transform(found.prim, state.values.start()).resets_stack) {
     return Mat4d::identity();
   }
-  return stage::local_to_world(found.prim.parent(), state.values.start());
+  if (const ArrayInstance* array = array_of(state, found); array != nullptr) {
+    return state.walk.instances[found.instance].instancer_world;
+  }
+  return state.walk.world_near(found, found.prim.parent(), state.values.start());
 }
 
 /// S-118
@@ -50,9 +64,14 @@ void report_animated_velocity(const ReadState& state, const PhysicsPrim& found) 
 void read_velocities(const ReadState& state, const PhysicsPrim& found, Body& body) {
   report_animated_velocity(state, found);
   const Vec3d zero;
-  const Vec3d linear = state.values.vector(found.prim, state.tokens.velocity).value_or(zero);
+  const ArrayInstance* array = array_of(state, found);
+  const Vec3d linear = array != nullptr
+                           ? array->velocity
+                           : state.values.vector(found.prim, state.tokens.velocity).value_or(zero);
   const Vec3d angular =
-      state.values.vector(found.prim, state.tokens.angular_velocity).value_or(zero);
+      array != nullptr
+          ? array->angular_velocity
+          : state.values.vector(found.prim, state.tokens.angular_velocity).value_or(zero);
   if (linear == zero && angular == zero) {
     return;
   }
@@ -125,6 +144,15 @@ void read_damping(const ReadState& state, const PhysicsPrim& found, Body& body) 
 Body read_body(const ReadState& state, const PhysicsPrim& found, Index scene) {
   Body body;
   body.path = found.path;
+  if (found.instance != kNone) {
+    const PointInstance& instance = state.walk.instances[found.instance];
+    body.instance = InstanceSource{instance.instancer.path(),
+                                   instance.prototype.path(),
+                                   found.prim.path(),
+                                   instance.array.index,
+                                   found.world,
+                                   instance.outer != kNone};
+  }
   body.kinematic = state.values.flag(found.prim, state.tokens.kinematic, false);
   body.enabled = state.values.flag(found.prim, state.tokens.body_enabled, true);
   body.kinematic = body.kinematic || !body.enabled;

@@ -60,7 +60,10 @@ void read_group_states(ReadState& state, const std::vector<std::uint32_t>& prims
 void find_members(ReadState& state, const PhysicsPrim& found, Index group) {
   const stage::Collection members = stage::Collection::read(found.prim, Token("colliders"));
   for (std::size_t i = 0; i < state.scene.colliders.size(); ++i) {
-    if (members.contains(state.scene.colliders[i].path)) {
+    // Instances of point instancers are members where their prototypes are, too.
+    const PhysicsPrim& prim = state.prim_of_collider(static_cast<Index>(i));
+    if (members.contains(prim.path) ||
+        (prim.instance != kNone && members.contains(prim.prim.path()))) {
       state.scene.filter.groups_of_collider[i].push_back(group);
     }
   }

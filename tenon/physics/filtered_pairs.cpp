@@ -164,13 +164,14 @@ class PairFilter {
                       "name an existing prim");
         continue;
       }
-      if (target == found.path) {
+      const Path meant = state_.walk.near(found, target);
+      if (meant == found.path) {
         // S-82
         state_.report(found.prim, name, Severity::Warning, "filter.self",
                       "physics:filteredPairs names its own prim: contacts within it are off",
                       "use the self collision switch of the articulation");
       }
-      add_all(own, meant_by(target));
+      add_all(own, meant_by(meant));
     }
   }
 

@@ -21,8 +21,9 @@ void drop(const ReadState& state, const stage::Prim& joint, Token name, const ch
 }
 
 /// The prim that a side names; an invalid one when it is unusable (S-87), reported.
-stage::Prim find_target(const ReadState& state, const stage::Prim& joint, Token name, Path target) {
-  if (const PhysicsPrim* met = state.walk.find(target)) {
+stage::Prim find_target(const ReadState& state, const PhysicsPrim& from, Token name, Path target) {
+  const stage::Prim& joint = from.prim;
+  if (const PhysicsPrim* met = state.walk.find(state.walk.near(from, target))) {
     return met->prim;  // the walk meets usable prims only
   }
   if (!target.is_prim_or_root()) {
@@ -45,17 +46,21 @@ stage::Prim find_target(const ReadState& state, const stage::Prim& joint, Token 
 
 }  // namespace
 
-Attachment find_attachment(const ReadState& state, const stage::Prim& prim) {
-  if (const PhysicsPrim* known = state.walk.find(prim.path())) {
+Attachment find_attachment(const ReadState& state, const PhysicsPrim& from,
+                           const stage::Prim& prim) {
+  const auto met = [&](const stage::Prim& at) {
+    return state.walk.find(state.walk.near(from, at.path()));
+  };
+  if (const PhysicsPrim* known = met(prim)) {
     Attachment found{{}, known->world};
     if (known->body != kNone) {
       found.body = state.body_of_prim[known->body];
     }
     return found;
   }
-  Attachment found{{}, stage::local_to_world(prim, state.values.start())};
+  Attachment found{{}, state.walk.world_near(from, prim, state.values.start())};
   for (stage::Prim above = prim.parent(); above; above = above.parent()) {
-    if (const PhysicsPrim* known = state.walk.find(above.path())) {
+    if (const PhysicsPrim* known = met(above)) {
       if (known->body != kNone) {
         found.body = state.body_of_prim[known->body];
       }
@@ -65,8 +70,9 @@ Attachment find_attachment(const ReadState& state, const stage::Prim& prim) {
   return found;
 }
 
-std::optional<JointSide> read_joint_side(const ReadState& state, const stage::Prim& joint,
+std::optional<JointSide> read_joint_side(const ReadState& state, const PhysicsPrim& found,
                                          int side) {
+  const stage::Prim& joint = found.prim;
   const PhysicsTokens& tokens = state.tokens;
   const Token name = side == 0 ? tokens.body0 : tokens.body1;
   const Vec3d position =
@@ -87,7 +93,7 @@ std::optional<JointSide> read_joint_side(const ReadState& state, const stage::Pr
         name.str() + " has " + std::to_string(targets.size()) + " targets; only the first counts",
         "leave one target");
   }
-  const stage::Prim prim = find_target(state, joint, name, targets.front());
+  const stage::Prim prim = find_target(state, found, name, targets.front());
   if (!prim) {
     if (state.readings.missing_target == MissingTarget::Drop) {
       return std::nullopt;
@@ -95,10 +101,10 @@ std::optional<JointSide> read_joint_side(const ReadState& state, const stage::Pr
     result.frame = {position * state.units.length, rotation};
     return result;
   }
-  const Attachment attached = find_attachment(state, prim);
-  result.target = targets.front();
+  const Attachment attached = find_attachment(state, found, prim);
+  result.target = state.walk.near(found, targets.front());
   result.body = attached.body;
-  const PhysicsPrim* itself = state.walk.find(targets.front());
+  const PhysicsPrim* itself = state.walk.find(result.target);
   if (state.readings.sheared_offsets == ShearedOffsets::Factored && itself != nullptr &&
       itself->is_body) {
     // As OpenUSD: scaled along the body's own axes (S-84).

@@ -17,14 +17,15 @@ struct JointSide {
 
 /// Reads side 0 or 1 of a joint (S-83..S-89); nullopt with a diagnostic when its target is
 /// unusable.
-std::optional<JointSide> read_joint_side(const ReadState& state, const stage::Prim& joint,
+std::optional<JointSide> read_joint_side(const ReadState& state, const PhysicsPrim& found,
                                          int side);
 
-/// Nearest enabled body at or above a prim of the stage, and the prim's world matrix.
+/// Nearest enabled body at or above a prim of the stage as `from` sees it, and its world matrix.
 struct Attachment {
   std::optional<Index> body;
   Mat4d world = Mat4d::identity();
 };
-Attachment find_attachment(const ReadState& state, const stage::Prim& prim);
+Attachment find_attachment(const ReadState& state, const PhysicsPrim& from,
+                           const stage::Prim& prim);
 
 }  // namespace tenon::physics

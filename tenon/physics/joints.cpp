@@ -81,8 +81,8 @@ bool sides_fit(const ReadState& state, const stage::Prim& prim, const Joint& joi
 }
 
 std::optional<Joint> read_joint(const ReadState& state, const PhysicsPrim& found) {
-  const std::optional<JointSide> side0 = read_joint_side(state, found.prim, 0);
-  const std::optional<JointSide> side1 = read_joint_side(state, found.prim, 1);
+  const std::optional<JointSide> side0 = read_joint_side(state, found, 0);
+  const std::optional<JointSide> side1 = read_joint_side(state, found, 1);
   if (!side0 || !side1) {
     return std::nullopt;
   }

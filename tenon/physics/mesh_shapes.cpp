@@ -163,7 +163,7 @@ void append(const TriangleMesh& part, TriangleMesh& mesh) {
 void add_submeshes(const ReadState& state, const ShapeSource& source, TriangleMesh& mesh) {
   const std::vector<stage::Prim> parts = submeshes(source.found.prim);
   for (const stage::Prim& prim : parts) {
-    const Mat4d world = stage::local_to_world(prim, state.values.start());
+    const Mat4d world = state.walk.world_near(source.found, prim, state.values.start());
     if (const auto part = read_triangles(state, source, prim, world)) {
       append(*part, mesh);
     }
@@ -211,7 +211,7 @@ ShapeReading bounded_by_ball(const TriangleMesh& mesh) {
 Approximation settle(const ReadState& state, const ShapeSource& source, Approximation wanted) {
   if (source.dynamic &&
       (wanted == Approximation::None || wanted == Approximation::MeshSimplification)) {
-    state.report(prim, Severity::Warning, "collider.dynamic-mesh",
+    state.report(source.found.prim, Severity::Warning, "collider.dynamic-mesh",
                  "a triangle mesh on a body that moves collides as its convex hull",
                  "author physics:approximation = \"convexHull\" to say so");
     return Approximation::ConvexHull;

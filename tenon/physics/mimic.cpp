@@ -64,7 +64,7 @@ class MimicReader {
     std::string why = name + " names no joint";
     if (!targets.empty()) {
       why = name + " names <" + targets.front().str() + ">, which is no joint of one axis";
-      const auto found = state_.walk.index_of.find(targets.front());
+      const auto found = state_.walk.index_of.find(state_.walk.near(found_, targets.front()));
       if (found != state_.walk.index_of.end()) {
         const std::uint32_t joint = state_.joint_of_prim[found->second];
         if (joint != kNone && has_one_axis(state_.scene.joints[joint]) &&

@@ -35,6 +35,17 @@ enum class MassSource : std::uint8_t { Authored, Density, Default };
 /// "authored", "density" or "default".
 std::string_view mass_source_name(MassSource source);
 
+/// The instance of a UsdGeomPointInstancer that a body comes from (S-38). The path of such a body
+/// is made up: it names no prim of the stage.
+struct InstanceSource {
+  Path instancer;
+  Path prototype;                   ///< the target of the instancer
+  Path prim;                        ///< the body's prim at or below the prototype
+  Index index = 0;                  ///< into the instancer's arrays
+  Mat4d world = Mat4d::identity();  ///< of the prim at the start, stage units
+  bool nested = false;              ///< the instancer itself is in an instance of another
+};
+
 struct Body {
   Path path;
   bool kinematic = false;  ///< pose is given, never computed (S-27); so while not `enabled`
@@ -51,6 +62,7 @@ struct Body {
   double linear_damping = 0;   ///< [1/s]
   double angular_damping = 0;  ///< [1/s]
   double gravity_scale = 1;
+  std::optional<InstanceSource> instance;
 };
 
 enum class ShapeKind : std::uint8_t {
@@ -128,18 +140,6 @@ struct Collider {
   std::optional<int> max_hull_vertices;
 };
 
-struct Material {
-  Path path;
-  double static_friction = 0;
-  double dynamic_friction = 0;
-  double restitution = 0;
-  double density = 0;  ///< [kg/m^3]; 0: none given
-};
-
-enum class JointKind : std::uint8_t { Revolute, Prismatic, Spherical, Fixed, Distance, D6 };
-
-/// "revolute", "prismatic", "spherical", "fixed", "distance", "d6".
-std::string_view joint_kind_name(JointKind kind);
 /// How the coefficients of two materials become that of a contact; of two modes the later one in
 /// this list counts, as PhysX has it (S-72).
 enum class CombineMode : std::uint8_t { Average, Min, Multiply, Max };
@@ -149,14 +149,26 @@ double combine(double a, CombineMode mode_a, double b, CombineMode mode_b);
 /// "average", "min", "multiply" or "max".
 std::string_view combine_name(CombineMode mode);
 
+struct Material {
+  Path path;
+  double static_friction = 0;
+  double dynamic_friction = 0;
+  double restitution = 0;
+  double density = 0;  ///< [kg/m^3]; 0: none given
+  CombineMode friction_combine = CombineMode::Average;
+  CombineMode restitution_combine = CombineMode::Average;
+};
+
+enum class JointKind : std::uint8_t { Revolute, Prismatic, Spherical, Fixed, Distance, D6 };
+
+/// "revolute", "prismatic", "spherical", "fixed", "distance", "d6".
+std::string_view joint_kind_name(JointKind kind);
 
 /// Degrees of freedom in the joint frame. Revolute and prismatic joints use the one that their axis
 /// names: RotX..RotZ, TransX..TransZ.
 enum class Dof : std::uint8_t { TransX, TransY, TransZ, RotX, RotY, RotZ, Distance };
 
 /// "transX" ... "rotZ", "distance".
-  CombineMode friction_combine = CombineMode::Average;
-  CombineMode restitution_combine = CombineMode::Average;
 std::string_view dof_name(Dof dof);
 inline bool is_angular(Dof dof) { return dof >= Dof::RotX && dof <= Dof::RotZ; }
 

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <unordered_set>
 
 #include "tenon/physics/read_state.h"
 
@@ -43,13 +45,19 @@ ReadState begin(const stage::Stage& stage, const ReadOptions& options, Diagnosti
   return state;
 }
 
-}  // namespace
+/// What is said of a prototype is said once, not for each of its instances.
+void append_once(const Diagnostics& found, Diagnostics& diagnostics) {
+  std::unordered_set<std::string> said;
+  for (const Diagnostic& finding : found) {
+    if (said.insert(finding.prim + '\n' + finding.property + '\n' + finding.rule + '\n' +
+                    finding.message)
+            .second) {
+      diagnostics.add(finding);
+    }
+  }
+}
 
-PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
-                          Diagnostics& diagnostics, Accounts* accounts) {
-  ReadState state = begin(stage, options, diagnostics);
-  state.accounts = accounts;
-  state.walk = walk_stage(stage, state.values, options.readings);
+PhysicsScene read_walked(ReadState& state) {
   read_scenes(state);
   read_bodies(state);
   read_materials(state);
@@ -67,6 +75,24 @@ PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
   read_tracks(state);
   note_what_is_not_read(state);
   return std::move(state.scene);
+}
+
+}  // namespace
+
+PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
+                          Diagnostics& diagnostics, Accounts* accounts) {
+  Diagnostics found;
+  ReadState state = begin(stage, options, found);
+  state.accounts = accounts;
+  state.mesh_tools = &options.mesh_tools;
+  state.walk = walk_stage(stage, state.values, options.readings);
+  PhysicsScene scene = read_walked(state);
+  if (state.walk.instances.empty()) {
+    diagnostics.append(found);
+  } else {
+    append_once(found, diagnostics);
+  }
+  return scene;
 }
 
 }  // namespace tenon::physics

@@ -29,6 +29,7 @@ enum class StretchedSphere : std::uint8_t { Ellipsoid, Ball };         ///< S-53
 enum class CollisionOnGroup : std::uint8_t { Ignore, ShapesBelow };    ///< S-47
 enum class ValueTypes : std::uint8_t { Strict, Lenient };              ///< S-3
 enum class HeldSamples : std::uint8_t { Linear, Held };                ///< S-117
+enum class PointInstancers : std::uint8_t { Expand, Skip };            ///< S-38
 
 struct Readings {
   VelocitySpace velocity_space = VelocitySpace::Parent;
@@ -47,6 +48,7 @@ struct Readings {
   CollisionOnGroup collision_on_group = CollisionOnGroup::Ignore;
   ValueTypes value_types = ValueTypes::Strict;
   HeldSamples held_samples = HeldSamples::Linear;
+  PointInstancers point_instancers = PointInstancers::Expand;
 };
 
 /// One choice for users: "nesting" with the values "independent", "ignore", "error".

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/physics/stage_walk.h"
 
+#include <string>
 #include <utility>
 
+#include "tenon/base/physics_limits.h"
 #include "tenon/physics/physics_tokens.h"
 #include "tenon/physics/stray_properties.h"
 #include "tenon/stage/transform_at.h"
@@ -19,6 +21,7 @@ struct Inherited {
   std::uint32_t articulation_root = kNone;
   bool resets_below_body = false;
   bool collides = false;  ///< the collision API of a prim above means its shapes (S-47)
+  std::uint32_t instance = kNone;
 };
 
 struct Pending {
@@ -45,11 +48,16 @@ class Walker {
   static bool counts(const stage::Prim& prim) {
     return prim.is_active() && prim.is_defined() && !prim.is_abstract() && prim.is_loaded();
   }
+  /// Prototypes of point instancers may lie below an over or a class, so as not to be drawn.
+  static bool counts_in_prototype(const stage::Prim& prim) {
+    return prim.is_active() && prim.is_loaded();
+  }
 
   void push_children(const stage::Prim& prim, const Inherited& state) {
     const std::vector<stage::Prim> children = prim.children();
     for (std::size_t i = children.size(); i > 0; --i) {
-      if (counts(children[i - 1])) {
+      if (state.instance == kNone ? counts(children[i - 1])
+                                  : counts_in_prototype(children[i - 1])) {
         pending_.push_back({children[i - 1], state});
       }
     }
@@ -71,7 +79,7 @@ class Walker {
     bool resets = false;
     if (roles.xformable) {
       const stage::LocalTransform local = stage::local_transform(prim, values_.start());
-      resets = local.resets_stack;
+      resets = local.resets_stack && state.instance == kNone;
       state.world = resets ? local.matrix : local.matrix * state.world;
     }
     state.resets_below_body = state.resets_below_body || resets;
@@ -81,17 +89,128 @@ class Walker {
     if (roles.matters()) {
       add(prim, roles, state);
     }
-    // S-38: prototypes are not simulated where they stand.
     if (roles.kind != PrimKind::PointInstancer) {
       push_children(prim, state);
+    } else if (readings_.point_instancers == PointInstancers::Expand) {
+      expand(prim, state);
     }
+  }
+
+  // S-38: prototypes are simulated once per instance, not where they stand.
+  void expand(const stage::Prim& instancer, const Inherited& state) {
+    if (!has_physics(instancer)) {
+      return;
+    }
+    const InstancerReading reading = read_point_instancer(values_, instancer);
+    std::string fault = reading.fault;
+    if (walk_.instances.size() + reading.instances.size() > limits::kPointInstances ||
+        depth_of(state.instance) >= limits::kPointInstancerDepth) {
+      fault = "there are more instances, or instancers within instancers, than the limit";
+    }
+    if (!fault.empty()) {
+      report(values_.diagnostics(), instancer, Severity::Error, "point-instancer.invalid",
+             "the point instancer is not simulated: " + fault,
+             "author protoIndices that name prototypes, and as many positions");
+      return;
+    }
+    std::size_t simulated = 0;
+    const std::string stem = free_stem(instancer);
+    const Path place = placed_path(instancer, state.instance);
+    for (std::size_t i = reading.instances.size(); i > 0; --i) {
+      const ArrayInstance& array = reading.instances[i - 1];
+      const stage::Prim& prototype = reading.prototypes[array.prototype];
+      if (!counts_in_prototype(prototype) || instancer.path().has_prefix(prototype.path()) ||
+          !has_physics(prototype)) {
+        continue;
+      }
+      Inherited inside = state;
+      inside.instance = static_cast<std::uint32_t>(walk_.instances.size());
+      walk_.instances.push_back({instancer, prototype, array,
+                                 place.child(Token(stem + std::to_string(array.index))),
+                                 state.world, state.instance});
+      inside.world = walk_.instances.back().placement();
+      pending_.push_back({prototype, inside});
+      ++simulated;
+    }
+    if (simulated > 0) {
+      report_expanded(instancer, simulated, state.body != kNone);
+    }
+  }
+
+  void report_expanded(const stage::Prim& instancer, std::size_t count, bool in_body) const {
+    report(values_.diagnostics(), instancer, Severity::Warning, "point-instancer.readings",
+           std::to_string(count) +
+               " instances of prototypes with physics are simulated one by one; OpenUSD's parser "
+               "passes over them" +
+               (in_body ? ", its mass properties of the body above count each prototype once" : ""),
+           "use instanceable references, which all readers take alike");
+  }
+
+  /// Beginning of the names of instances, such as no child of the instancer has.
+  static std::string free_stem(const stage::Prim& instancer) {
+    std::string stem = "instance_";
+    for (const stage::Prim& child : instancer.children()) {
+      while (child.name().view().starts_with(stem)) {
+        stem = "_" + stem;
+      }
+    }
+    return stem;
+  }
+
+  std::size_t depth_of(std::uint32_t instance) const {
+    std::size_t depth = 0;
+    for (; instance != kNone; instance = walk_.instances[instance].outer) {
+      ++depth;
+    }
+    return depth;
+  }
+
+  Path placed_path(const stage::Prim& prim, std::uint32_t instance) const {
+    if (instance == kNone) {
+      return prim.path();
+    }
+    const PointInstance& in = walk_.instances[instance];
+    return prim.path().replace_prefix(in.prototype.path().parent(), in.scope);
+  }
+
+  /// A body, a collider, a joint or a further point instancer is at or below the prim, or among
+  /// the prototypes of a point instancer.
+  bool has_physics(const stage::Prim& prim) {
+    const auto known = physics_below_.find(prim.path());
+    if (known != physics_below_.end()) {
+      return known->second;
+    }
+    std::vector<stage::Prim> pending{prim};
+    const bool instancer = finder_.roles_of(prim).kind == PrimKind::PointInstancer;
+    if (instancer) {
+      pending.clear();
+      for (const Path& target : prim.relationship("prototypes").forwarded_targets()) {
+        pending.push_back(prim.prim_at(target));
+      }
+    }
+    bool found = false;
+    while (!pending.empty() && !found) {
+      const stage::Prim next = pending.back();
+      pending.pop_back();
+      if (!next || !counts_in_prototype(next)) {
+        continue;
+      }
+      const Roles& roles = finder_.roles_of(next);
+      found = roles.has(Api::RigidBody) || roles.has(Api::Collision) || is_joint(roles.kind) ||
+              roles.kind == PrimKind::PointInstancer;
+      const std::vector<stage::Prim> children = next.children();
+      pending.insert(pending.end(), children.begin(), children.end());
+    }
+    physics_below_.emplace(prim.path(), found);
+    return found;
   }
 
   void add(const stage::Prim& prim, const Roles& roles, Inherited& state) {
     const auto index = static_cast<std::uint32_t>(walk_.prims.size());
     PhysicsPrim found;
     found.prim = prim;
-    found.path = prim.path();
+    found.path = placed_path(prim, state.instance);
+    found.instance = state.instance;
     found.roles = roles;
     found.world = state.world;
     found.resets_below_body = state.resets_below_body;
@@ -157,9 +276,36 @@ class Walker {
   Walk& walk_;
   RoleFinder finder_;
   std::vector<Pending> pending_;
+  std::unordered_map<Path, bool> physics_below_;
 };
 
 }  // namespace
+
+Path Walk::near(const PhysicsPrim& from, Path target) const {
+  for (std::uint32_t i = from.instance; i != kNone; i = instances[i].outer) {
+    const PointInstance& instance = instances[i];
+    if (target.has_prefix(instance.prototype.path())) {
+      return target.replace_prefix(instance.prototype.path().parent(), instance.scope);
+    }
+  }
+  return target;
+}
+
+Mat4d Walk::world_near(const PhysicsPrim& from, const stage::Prim& prim, stage::Time time) const {
+  for (std::uint32_t i = from.instance; i != kNone; i = instances[i].outer) {
+    const PointInstance& instance = instances[i];
+    const Path top = instance.prototype.parent().path();
+    if (!prim.path().has_prefix(instance.prototype.path()) && !(prim.path() == top)) {
+      continue;
+    }
+    Mat4d world = Mat4d::identity();
+    for (stage::Prim at = prim; at.is_valid() && !(at.path() == top); at = at.parent()) {
+      world = world * stage::local_transform(at, time).matrix;
+    }
+    return world * instance.placement();
+  }
+  return stage::local_to_world(prim, time);
+}
 
 Walk walk_stage(const stage::Stage& stage, const AttributeValues& values,
                 const Readings& readings) {

@@ -10,6 +10,7 @@
 #include "tenon/base/path.h"
 #include "tenon/math/matrix.h"
 #include "tenon/physics/attribute_values.h"
+#include "tenon/physics/point_instancers.h"
 #include "tenon/physics/prim_roles.h"
 #include "tenon/physics/readings.h"
 #include "tenon/stage/stage.h"
@@ -18,10 +19,23 @@ namespace tenon::physics {
 
 inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
+/// An instance of a point instancer whose prototype holds physics (S-38). Its prims have paths of
+/// their own: the instancer's, a child named after the index, then the prototype's prims.
+struct PointInstance {
+  stage::Prim instancer;
+  stage::Prim prototype;
+  ArrayInstance array;
+  Path scope;  ///< what stands in place of the prototype's parent
+  Mat4d instancer_world = Mat4d::identity();
+  std::uint32_t outer = 0xffffffffu;  ///< instance that the instancer lies in, or kNone
+  /// World matrix of what stands in place of the prototype's parent.
+  Mat4d placement() const { return array.local * instancer_world; }
+};
+
 /// A prim that means something to physics, met on the walk.
 struct PhysicsPrim {
-  stage::Prim prim;
-  Path path;
+  stage::Prim prim;  ///< inside an instance of a point instancer: that of the prototype
+  Path path;         ///< prim.path(), but for instances of point instancers
   Roles roles;
   Mat4d world = Mat4d::identity();  ///< local to world, stage units, at the start
   /// Nearest enabled body at or above, into Walk::prims (S-23).
@@ -32,6 +46,7 @@ struct PhysicsPrim {
   std::uint32_t mass_above = kNone;  ///< the same, without this prim
   /// Nearest articulation root at or above, into Walk::prims.
   std::uint32_t articulation_root = kNone;
+  std::uint32_t instance = kNone;  ///< into Walk::instances
   bool is_body = false;            ///< an enabled rigid body
   bool resets_below_body = false;  ///< a transform stack reset lies between it and the body above
 };
@@ -40,15 +55,21 @@ struct PhysicsPrim {
 struct Walk {
   std::vector<PhysicsPrim> prims;
   std::unordered_map<Path, std::uint32_t> index_of;  ///< by path
+  std::vector<PointInstance> instances;
 
   const PhysicsPrim* find(Path path) const {
     const auto found = index_of.find(path);
     return found == index_of.end() ? nullptr : &prims[found->second];
   }
+  /// What `target` means to a prim: inside an instance of a point instancer, the prim of the same
+  /// instance where it lies in the prototype.
+  Path near(const PhysicsPrim& from, Path target) const;
+  /// Local to world of a prim of the stage as `from` sees it: within its own instance.
+  Mat4d world_near(const PhysicsPrim& from, const stage::Prim& prim, stage::Time time) const;
 };
 
-/// Visits active, loaded, defined, non-abstract prims, instance proxies included (S-1); prims below
-/// a point instancer are left out (S-38).
+/// Visits active, loaded, defined, non-abstract prims, instance proxies included (S-1). Prototypes
+/// of point instancers are visited once per instance, not where they stand (S-38).
 Walk walk_stage(const stage::Stage& stage, const AttributeValues& values, const Readings& readings);
 
 }  // namespace tenon::physics

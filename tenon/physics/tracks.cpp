@@ -126,8 +126,8 @@ class TrackReader {
   void add_body(Index i) {
     const PhysicsPrim& found = state_.prim_of_body(i);
     const std::vector<double> codes = stage::transform_samples(found.prim);
-    if (codes.size() < 2) {
-      return;
+    if (codes.size() < 2 || found.instance != kNone) {
+      return;  // instances of point instancers stay in their arrays' first place
     }
     const Body& body = state_.scene.bodies[i];
     const bool at_times = found.prim.attribute(state_.tokens.kinematic).is_animated();
@@ -147,7 +147,7 @@ class TrackReader {
   void add_static(Index i) {
     const PhysicsPrim& found = state_.prim_of_collider(i);
     const std::vector<double> codes = stage::transform_samples(found.prim);
-    if (codes.size() < 2) {
+    if (codes.size() < 2 || found.instance != kNone) {
       return;
     }
     const Pose start = world_pose(found.world, state_.units);

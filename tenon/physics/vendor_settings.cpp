@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 
 #include "tenon/physics/read_state.h"
 
@@ -55,9 +56,9 @@ constexpr std::string_view kRead[] = {"mjc:armature",
                                       "physxArticulation:enabledSelfCollisions",
                                       "physxCollision:contactOffset",
                                       "physxCollision:restOffset",
-                                      "physxConvexHullCollision:hullVertexLimit",
                                       "physxConvexDecompositionCollision:hullVertexLimit",
                                       "physxConvexDecompositionCollision:maxConvexHulls",
+                                      "physxConvexHullCollision:hullVertexLimit",
                                       "physxJoint:armature",
                                       "physxJoint:jointFriction",
                                       "physxJoint:maxJointVelocity",
@@ -66,9 +67,9 @@ constexpr std::string_view kRead[] = {"mjc:armature",
                                       "physxJointAxis:*:maxJointVelocity",
                                       "physxJointAxis:*:staticFrictionEffort",
                                       "physxJointAxis:*:viscousFrictionCoefficient",
-                                      "physxMimicJoint:*:dampingRatio",
                                       "physxMaterial:frictionCombineMode",
                                       "physxMaterial:restitutionCombineMode",
+                                      "physxMimicJoint:*:dampingRatio",
                                       "physxMimicJoint:*:gearing",
                                       "physxMimicJoint:*:naturalFrequency",
                                       "physxMimicJoint:*:offset",
@@ -136,18 +137,23 @@ void note_vendor_settings(ReadState& state, const PhysicsPrim& found) {
   }
 }
 
-/// S-38: bodies and colliders below a point instancer.
+/// S-38: bodies and colliders below a point instancer that is passed over.
 void note_instancer(ReadState& state, const PhysicsPrim& found) {
+  if (state.readings.point_instancers == PointInstancers::Expand) {
+    return;
+  }
   std::vector<stage::Prim> pending = found.prim.children();
   while (!pending.empty()) {
     const stage::Prim prim = pending.back();
     pending.pop_back();
     if (prim.has_api("PhysicsRigidBodyAPI") || prim.has_api("PhysicsCollisionAPI")) {
-      state.not_read(found.prim, "prototypes", "instances of a point instancer are not simulated");
+      state.not_read(found.prim, "prototypes",
+                     "as asked, instances of a point instancer are not simulated");
       state.report(
-          found.prim, Severity::Warning, "point-instancer.not-simulated",
-          "the point instancer has prototypes with physics; its instances are not simulated",
-          "use instanceable references");
+          found.prim, Severity::Warning, "point-instancer.readings",
+          "the point instancer has prototypes with physics; as asked, it is passed over like by "
+          "OpenUSD's parser",
+          "use instanceable references, which all readers take alike");
       return;
     }
     const std::vector<stage::Prim> children = prim.children();
@@ -158,7 +164,11 @@ void note_instancer(ReadState& state, const PhysicsPrim& found) {
 }  // namespace
 
 void note_what_is_not_read(ReadState& state) {
+  std::unordered_set<Path> prototypes;  // prims of point instancers are said of once
   for (const PhysicsPrim& found : state.walk.prims) {
+    if (found.instance != kNone && !prototypes.insert(found.prim.path()).second) {
+      continue;
+    }
     note_vendor_settings(state, found);
     if (found.roles.kind == PrimKind::PointInstancer) {
       note_instancer(state, found);

@@ -20,7 +20,9 @@ except ImportError:
     sys.exit(77)
 
 SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scenes", "write_back.usda")
-BODIES = ("/World/Outer", "/World/Outer/Free", "/World/Outer/Held", "/World/Turned/Slab")
+INSTANCES = ("/World/Many/instance_0/Drop", "/World/Many/instance_1/Drop")
+BODIES = (*INSTANCES, "/World/Outer", "/World/Outer/Free", "/World/Outer/Held", "/World/Tumbling",
+          "/World/Turned/Slab")
 RUN = ("--duration", "0.5", "--fps", "24")
 TOLERANCE = 1e-4  # stage units; positions are written as doubles, rotations as doubles
 
@@ -37,9 +39,15 @@ def pose_matrix(position, w, x, y, z):
 
 
 def worlds(stage, code):
+    """World matrices of BODIES; those of instances by the point instancer, without its velocities,
+    which tell of the time between samples."""
     cache = UsdGeom.XformCache(code)
-    return [np.array(cache.GetLocalToWorldTransform(stage.GetPrimAtPath(path)))
-            for path in BODIES]
+    many = UsdGeom.PointInstancer(stage.GetPrimAtPath("/World/Many"))
+    placed = many.ComputeInstanceTransformsAtTime(code, code)
+    above = cache.GetLocalToWorldTransform(many.GetPrim())
+    return [np.array(matrix * above) for matrix in placed] + \
+        [np.array(cache.GetLocalToWorldTransform(stage.GetPrimAtPath(path)))
+         for path in BODIES[len(INSTANCES):]]
 
 
 def run(program, *arguments):
@@ -60,11 +68,14 @@ def faults(baked, log):
             error = np.abs(actual - shape @ pose).max()
             if not error < TOLERANCE:
                 yield f"{path} at frame {frame}: off by {error}\n{actual}\n{shape @ pose}"
-    for path in BODIES:
+    for path in BODIES[len(INSTANCES):]:
         scale = baked.GetPrimAtPath(path).GetAttribute("xformOp:scale")
         before = asset.GetPrimAtPath(path).GetAttribute("xformOp:scale")
         if before and (scale.GetNumTimeSamples() or scale.Get() != before.Get()):
             yield f"{path}: the scale op is not as it was"
+    turned = baked.GetPrimAtPath("/World/Tumbling").GetAttribute("xformOp:rotateZYX")
+    if turned.GetNumTimeSamples() < 2:
+        yield "/World/Tumbling: the rotate op is not animated"
     moved = [np.abs(poses[-1][i] - poses[0][i]).max() for i in range(len(BODIES))]
     for path, distance in zip(BODIES, moved):
         if (distance < 1) != (path == "/World/Outer/Held"):
