@@ -148,6 +148,14 @@ void AssetLayers::rename(layer::Layer& layer, const std::string& from, const std
 
 Result<std::vector<std::string>> AssetLayers::write_to(const std::string& output) {
   if (output == "-") {
+    for (std::size_t i = 1; i < layers_.size(); ++i) {
+      if (layers_[i].edited != nullptr) {
+        return Error(ErrorCode::Unsupported,
+                     "standard output takes one layer, and a layer below the asset changes too")
+            .in_file(layers_[i].layer->identifier())
+            .with_fix("give -o FILE, or one layer: tenon cat --flatten");
+      }
+    }
     const layer::Layer& root = layers_[0].edited ? *layers_[0].edited : *layers_[0].layer;
     TENON_TRY(const std::string text, formats::encode_layer(root, formats::LayerFormat::Text));
     TENON_CHECK(write_output("-", text));

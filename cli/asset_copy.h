@@ -33,6 +33,8 @@ class AssetLayers {
   Result<std::vector<std::string>> write_in_place();
   /// Writes the root layer to `output` and, into the folder "<output without its ending>_layers",
   /// every layer that is edited or leads to an edited one; asset paths follow. The files written.
+  /// "-" is standard output, for the root layer as text. Errors: Unsupported for "-" where another
+  /// layer is edited.
   Result<std::vector<std::string>> write_to(const std::string& output);
   /// Files whose comments and layout could not be kept.
   const std::vector<std::string>& without_layout() const { return without_layout_; }

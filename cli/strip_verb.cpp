@@ -39,10 +39,12 @@ Result<Stripped> strip(const Options& options, Report& report) {
     result.counts.prims += counts.prims;
     result.counts.api_schemas += counts.api_schemas;
     result.counts.properties += counts.properties;
+    result.counts.metadata += counts.metadata;
     result.layers.push_back({{"file", shown_path(part.layer->identifier())},
                              {"prims", counts.prims},
                              {"apiSchemas", counts.api_schemas},
-                             {"properties", counts.properties}});
+                             {"properties", counts.properties},
+                             {"metadata", counts.metadata}});
     part.edited = std::make_shared<layer::Layer>(std::move(edited));
   }
   TENON_TRY(const std::vector<std::string> written,
@@ -65,6 +67,7 @@ int run_strip(Report& report, const Options& options) {
   return report.finish(kOk, {{"prims", stripped->counts.prims},
                              {"apiSchemas", stripped->counts.api_schemas},
                              {"properties", stripped->counts.properties},
+                             {"metadata", stripped->counts.metadata},
                              {"layers", stripped->layers}});
 }
 
@@ -127,9 +130,10 @@ void add_strip(const Command& parent, const Globals& globals, Chosen& chosen) {
       "strip", "Take all physics out of an asset, or mute it, and leave the rest as it is");
   auto options = std::make_shared<Options>();
   options->asset.add_to(verb);
-  verb.add_option("-o,--output", options->output,
-                  "Write the asset without physics here; layers below it that hold physics come "
-                  "into a folder beside it");
+  verb.add_option(
+      "-o,--output", options->output,
+      "Write the asset without physics here, \"-\" for standard output; layers below it "
+      "that hold physics come into a folder beside it");
   verb.add_flag("--in-place", options->in_place,
                 "Change the asset's own layers; comments and layout of text stay");
   verb.add_flag("--mute", options->mute,
@@ -144,6 +148,9 @@ void add_strip(const Command& parent, const Globals& globals, Chosen& chosen) {
     if (options->output.empty() != options->in_place) {
       return report.fail(Error(ErrorCode::Invalid, "the result needs a place to be written to")
                              .with_fix("give either -o FILE or --in-place"));
+    }
+    if (options->output == "-") {
+      report.speak_as_text();  // standard output is the layer's
     }
     return options->mute ? run_mute(report, *options) : run_strip(report, *options);
   });

@@ -15,8 +15,10 @@ namespace {
 using layer::SpecKind;
 
 constexpr std::string_view kSchemaPrefixes[] = {"Physics", "Physx", "OmniPhysics", "Newton", "Mjc"};
-constexpr std::string_view kPropertyPrefixes[] = {"physics:", "physx",
-                                                  "newton:", "mjc:", "omniphysics:"};
+constexpr std::string_view kPropertyPrefixes[] = {
+    "physics:", "physx", "newton:", "mjc:", "omniphysics:", "isaac:physics:"};
+/// Metadata of layers that nothing but physics reads (S-8).
+constexpr const char* kMassUnit = "kilogramsPerUnit";
 /// Multiple-apply schemas: "drive:angular:physics:stiffness".
 constexpr std::string_view kInstancePrefixes[] = {"drive:", "limit:", "state:"};
 constexpr std::string_view kBinding = "material:binding:physics";
@@ -52,6 +54,10 @@ class Stripper {
       } else if (entry.path.is_property() == false && entry.spec.kind != SpecKind::PseudoRoot) {
         targets_.push_back(entry.path);  // specs of single targets and connections
       }
+    }
+    if (layer_.root().find(Token(kMassUnit)) != nullptr) {
+      layer_.root().erase(Token(kMassUnit));
+      ++counts_.metadata;
     }
     remove_properties(properties);
     for (const Path& prim : prims) {

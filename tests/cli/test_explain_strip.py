@@ -19,7 +19,7 @@ ROOT, TENON = pathlib.Path(sys.argv[1]), sys.argv[2]
 HAND = ROOT / "examples/inspire_hand/inspire_hand.usda"
 SCENES = ROOT / "tests/physics/scenes"
 GOLDEN = ROOT / "tests/golden/physics"
-PHYSICS = ("physics:", "physx", "newton:", "mjc:", "drive:", "limit:", "state:",
+PHYSICS = ("physics:", "isaac:physics:", "physx", "newton:", "mjc:", "drive:", "limit:", "state:",
            "material:binding:physics")
 
 try:
@@ -47,6 +47,7 @@ WEAK = """#usda 1.0
     defaultPrim = "World"
     upAxis = "Z"
     metersPerUnit = 1
+    kilogramsPerUnit = 1
 )
 def Xform "World"
 {
@@ -58,6 +59,8 @@ def Xform "World"
     {
         double size = 1
         float physics:mass = 5
+        custom double isaac:physics:Rot_X:DofOffset:op = 1
+        custom string isaac:license = "MIT"
         color3f[] primvars:displayColor = [(1, 0, 0)]  # red
         rel material:binding:physics = </World/Ice>
     }
@@ -137,7 +140,7 @@ class Explain(Base):
         self.assertEqual(answer["value"], "2")
         found = [(pathlib.Path(o["file"]).name, o["line"], o["value"], o["used"])
                  for o in answer["opinions"]]
-        self.assertEqual(found, [("strong.usda", 12, "2", True), ("weak.usda", 16, "5", False)])
+        self.assertEqual(found, [("strong.usda", 12, "2", True), ("weak.usda", 17, "5", False)])
         text = tenon("explain", self.layered(), "/World/Box.physics:mass").stdout
         self.assertIn("strong.usda:12:9  default 2", text)
         self.assertIn("(weaker)", text)
@@ -181,7 +184,7 @@ class Explain(Base):
     def test_binding_says_where_it_comes_from(self):
         collider = self.json("explain", self.layered(), "/World/Box")["collider"]
         self.assertEqual(collider["binding"]["material"], "/World/Ice")
-        self.assertEqual(collider["binding"]["opinions"][0]["line"], 18)
+        self.assertEqual(collider["binding"]["opinions"][0]["line"], 21)
 
     def test_unknown_objects_are_2(self):
         for name in ("/Nowhere", "/World/Box.nothing"):
@@ -214,10 +217,11 @@ class Strip(Base):
         for line in ('    # what falls', '        customData = { string note = "keep" }',
                      '        color3f[] primvars:displayColor = [(1, 0, 0)]  # red'):
             self.assertIn(line + "\n", kept)
-        for word in ("physics:", "Physics", "lowerLimit"):
+        for word in ("physics:", "Physics", "lowerLimit", "kilogramsPerUnit"):
             self.assertNotIn(word, kept)
             self.assertNotIn(word, asset.read_text())
         self.assertIn('def Sphere "Mark"', kept)
+        self.assertIn('isaac:license = "MIT"', kept)
         again = self.json("strip", asset, "--in-place")
         self.assertEqual((again["prims"], again["apiSchemas"], again["properties"]), (0, 0, 0))
 
@@ -233,6 +237,23 @@ class Strip(Base):
         flat = tenon("cat", "--flatten", other / "visual.usda").stdout
         self.assertIn('"keep"', flat)
         self.assertIn("displayColor", flat)
+
+    def test_standard_output_takes_one_layer(self):
+        asset = self.layered()
+        process = tenon("strip", asset, "-o", "-")
+        self.assertEqual(process.returncode, 2)  # the layer below holds physics, too
+        self.assertIn("weak.usda", process.stderr)
+        self.assertEqual(process.stdout, "")
+        process = tenon("strip", self.folder / "weak.usda", "-o", "-", "--json")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.json("strip", self.folder / "weak.usda", "-o", self.folder / "visual.usda")
+        self.assertTrue(process.stdout.startswith("#usda 1.0"))
+        (self.folder / "printed.usda").write_text(process.stdout)
+        (self.folder / "copied.usda").write_text((self.folder / "visual.usda").read_text())
+        printed, copied = (tenon("cat", self.folder / name).stdout
+                           for name in ("printed.usda", "copied.usda"))
+        self.assertEqual(printed, copied)
+        self.assertNotIn("physics:", printed)
 
     def test_hand_loses_physics_under_every_variant_and_keeps_its_looks(self):
         out = self.folder / "visual.usda"
