@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "cli/baseline.h"
+#include "cli/reading_options.h"
 #include "cli/report.h"
 #include "cli/sarif.h"
 #include "cli/unified_diff.h"
@@ -22,6 +23,7 @@ struct Options {
   std::vector<std::string> paths;
   AssetArguments asset;
   check::Selection rules;
+  std::vector<std::string> readings;  ///< --reading NAME=VALUE
   std::string profile;
   bool fix = false;
   bool dry_run = false;
@@ -85,6 +87,7 @@ class Run {
     check.open = options_.asset.open_options();
     check.rules = options_.rules;
     check.profile = options_.profile;
+    TENON_TRY(check.readings, chosen_readings(options_.readings));
     auto checked = check_asset(path, check);
     if (checked && options_.fix) {
       TENON_TRY(const bool changed, correct(checked->findings));
@@ -385,6 +388,7 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_flag("--fix", options->fix, "Correct what has a safe fix, in the files that own it");
   verb.add_flag("--dry-run", options->dry_run, "With --fix: print the difference, write nothing");
   verb.add_flag("--strict", options->strict, "Warnings count as errors for the exit code");
+  add_readings(verb, options->readings);
   verb.add_option("--profile", options->profile,
                   "Hold the files to this structure of assets as well")
       .one_of({"isaac-3.0"});

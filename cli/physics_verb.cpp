@@ -26,7 +26,9 @@ int run_physics(const Globals& globals, const Options& options) {
   if (!readings) {
     return report.fail(readings.error());
   }
-  auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
+  OpenOptions open = options.asset.open_options();
+  open.layer_units = readings->layer_units == physics::LayerUnits::Layer;
+  auto stage = open_stage(options.asset.asset, open, report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }

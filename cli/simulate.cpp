@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "cli/reading_options.h"
 #include "tenon/approximate/mesh_approximator.h"
 #include "tenon/bake/write_time_samples.h"
 #include "tenon/formats/save_layer.h"
@@ -84,6 +85,7 @@ void SimulateArguments::add_to(const Command& verb) {
                   "Seconds to simulate; without it the stage's time range, else 5");
   verb.add_option("--dt", time_step, "Time step in seconds; without it the asset's, else 0.002");
   verb.add_option("--fps", frames_per_second, "Frames per second of logs and baked layers");
+  add_readings(verb, readings);
   verb.add_option("--set", asset.overrides, "PATH.attr=value, for this run only; may be repeated")
       .repeatable();
 }
@@ -101,10 +103,12 @@ int Simulated::exit_code() const {
 Result<Simulated> simulate(const SimulateArguments& arguments, Report& report) {
   TENON_CHECK(check_arguments(arguments));
   Simulated result;
-  TENON_TRY(stage::Stage stage,
-            open_stage(arguments.asset.asset, arguments.asset.open_options(), report.diagnostics));
-  result.stage = std::make_unique<stage::Stage>(std::move(stage));
   physics::ReadOptions read;
+  TENON_TRY(read.readings, chosen_readings(arguments.readings));
+  OpenOptions open = arguments.asset.open_options();
+  open.layer_units = read.readings.layer_units == physics::LayerUnits::Layer;
+  TENON_TRY(stage::Stage stage, open_stage(arguments.asset.asset, open, report.diagnostics));
+  result.stage = std::make_unique<stage::Stage>(std::move(stage));
   read.mesh_tools = approximate::mesh_tools({approximate::default_cache_folder()});
   result.scene = std::make_unique<physics::PhysicsScene>(
       physics::read_physics(*result.stage, read, report.diagnostics));
@@ -144,6 +148,7 @@ Result<void> write_bake(const Simulated& simulated, const SimulateArguments& arg
   const fs::path folder = output == "-" ? fs::current_path() : fs::absolute(output).parent_path();
   const fs::path asset = fs::absolute(arguments.asset.asset).lexically_normal();
   const std::string relative = asset.lexically_relative(folder.lexically_normal()).generic_string();
+  options.uninstance = arguments.uninstance;
   options.asset_path = relative.empty()          ? asset.generic_string()
                        : relative.front() == '.' ? relative
                                                  : "./" + relative;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/report.h"
 #include "cli/verb.h"
@@ -18,6 +19,8 @@ namespace tenon::cli {
 
 struct SimulateArguments {
   AssetArguments asset;
+  std::vector<std::string> readings;  ///< --reading NAME=VALUE
+  bool uninstance = false;            ///< of bake: instances with bodies inside are taken apart
   std::string engine = "mujoco";
   double duration = 0;   ///< [s]; 0: what the stage's time range says, else 5
   double time_step = 0;  ///< [s]; 0: the asset's, else the engine's

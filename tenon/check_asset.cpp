@@ -45,6 +45,7 @@ Result<Run> run_once(const std::string& path, const CheckOptions& options,
                      const std::string& variant) {
   OpenOptions open = options.open;
   open.physics_variant = variant;
+  open.layer_units = options.readings.layer_units == physics::LayerUnits::Layer;
   Diagnostics opening;
   TENON_TRY(const stage::Stage stage, open_stage(path, open, opening));
   Run run;
@@ -55,7 +56,7 @@ Result<Run> run_once(const std::string& path, const CheckOptions& options,
     run.selection = prim.variant_selection(kPhysics);
   }
   run.found.variant = variant.empty() ? run.selection : variant;
-  run.found.findings = check::check_stage(stage, opening.items(), options.rules);
+  run.found.findings = check::check_stage(stage, opening.items(), options.rules, options.readings);
   if (!options.profile.empty()) {
     TENON_TRY(const structure::AssetFiles files, asset_files(path, options.open));
     add_findings(structure::check_files(files), options.rules, run.found.findings);

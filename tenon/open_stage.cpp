@@ -10,6 +10,7 @@
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/package/pack.h"
 #include "tenon/formats/text/reader.h"
+#include "tenon/physics/layer_units.h"
 #include "tenon/session_opinions.h"
 #include "tenon/stage_sources.h"
 #include "tenon/tenon.h"
@@ -40,6 +41,25 @@ Result<stage::StageOptions> stage_options(const OpenOptions& options, const Regi
 Result<stage::Stage> compose_stage(const StageSources& sources, const OpenOptions& options) {
   TENON_TRY(auto composed, stage_options(options, sources.registry));
   return stage::Stage::open(sources.root, sources.session, sources.opener(), std::move(composed));
+}
+
+/// The stage composed again, of layers in its own units (S-11).
+Result<void> convert_layers(const StageSources& sources, const OpenOptions& options,
+                            stage::Stage& stage) {
+  const auto converted = physics::layers_in_stage_units(stage);
+  if (converted.empty()) {
+    return {};
+  }
+  TENON_TRY(auto composed, stage_options(options, sources.registry));
+  const auto opener = [open = sources.opener(), converted](
+                          const std::string& asset,
+                          const layer::Layer& anchor) -> Result<layer::LayerPtr> {
+    TENON_TRY(layer::LayerPtr layer, open(asset, anchor));
+    const auto found = converted.find(layer->identifier());
+    return found == converted.end() ? layer : found->second;
+  };
+  TENON_TRY(stage, stage::Stage::open(sources.root, sources.session, opener, std::move(composed)));
+  return {};
 }
 
 /// The variant that was asked for must exist; a stage without the set says so and opens as it is.
@@ -125,6 +145,9 @@ Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& opti
     TENON_TRY(sources.session,
               with_overrides(sources.session, stage, options.overrides, formats::read_text));
     TENON_TRY(stage, compose_stage(sources, options));
+  }
+  if (options.layer_units) {
+    TENON_CHECK(convert_layers(sources, options, stage));
   }
   diagnostics.append(sources.registry->diagnostics());
   diagnostics.append(stage.diagnostics());

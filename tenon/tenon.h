@@ -34,6 +34,9 @@ struct OpenOptions {
   /// Folders that asset paths without "./" are looked up in, after the layer's own folder, the
   /// working directory and the folder of the asset.
   std::vector<std::string> search_paths;
+  /// Opinions of layers whose metersPerUnit or kilogramsPerUnit are not those of the stage are
+  /// converted to them (S-11, physics/layer_units.h).
+  bool layer_units = false;
 };
 
 /// Opens one layer file of any kind, without composing it.

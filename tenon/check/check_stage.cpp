@@ -81,9 +81,11 @@ bool Selection::takes(std::string_view rule) const {
 }
 
 std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Diagnostic>& opening,
-                                 const Selection& selection) {
+                                 const Selection& selection, const physics::Readings& readings) {
   Diagnostics read;
-  const physics::PhysicsScene scene = physics::read_physics(stage, {}, read);
+  physics::ReadOptions options;
+  options.readings = readings;
+  const physics::PhysicsScene scene = physics::read_physics(stage, options, read);
   std::vector<Diagnostic> found = opening;
   const Diagnostics properties = stage::property_errors(stage);
   found.insert(found.end(), properties.begin(), properties.end());

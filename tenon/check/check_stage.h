@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tenon/check/finding.h"
+#include "tenon/physics/readings.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::check {
@@ -21,7 +22,8 @@ struct Selection {
 /// Everything that the rules find on a stage, in the order of the rules: what was found while it
 /// was opened (`opening`), what the physics reader finds, then the rules of this folder.
 std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Diagnostic>& opening,
-                                 const Selection& selection);
+                                 const Selection& selection,
+                                 const physics::Readings& readings = {});
 
 /// Findings of one asset under one variant of its set "Physics".
 struct VariantFindings {

@@ -52,6 +52,11 @@ const Row kRows[] = {
      {"linear", "held"},
      "poses between time samples: the interpolation of the stage (S-117)",
      assign<&Readings::held_samples>},
+    {"layer-units",
+     {"stage", "layer"},
+     "layers with units of their own: OpenUSD has one set per stage, the proposal converts each "
+     "opinion by the metadata of its layer (S-11)",
+     assign<&Readings::layer_units>},
     {"mass-inheritance",
      {"subtree", "own"},
      "a mass API between body and collider: OpenUSD passes over it (S-40)",

@@ -30,6 +30,7 @@ enum class CollisionOnGroup : std::uint8_t { Ignore, ShapesBelow };    ///< S-47
 enum class ValueTypes : std::uint8_t { Strict, Lenient };              ///< S-3
 enum class HeldSamples : std::uint8_t { Linear, Held };                ///< S-117
 enum class PointInstancers : std::uint8_t { Expand, Skip };            ///< S-38
+enum class LayerUnits : std::uint8_t { Stage, Layer };                 ///< S-11
 
 struct Readings {
   VelocitySpace velocity_space = VelocitySpace::Parent;
@@ -49,6 +50,8 @@ struct Readings {
   ValueTypes value_types = ValueTypes::Strict;
   HeldSamples held_samples = HeldSamples::Linear;
   PointInstancers point_instancers = PointInstancers::Expand;
+  /// Acts where the stage is opened (tenon::OpenOptions::layer_units).
+  LayerUnits layer_units = LayerUnits::Stage;
 };
 
 /// One choice for users: "nesting" with the values "independent", "ignore", "error".

@@ -34,7 +34,9 @@ void report_mixed(const stage::Stage& stage, const char* field, double used,
     finding.file = layer->identifier();
     finding.message = std::string("the layer says ") + field + " = " + shortest(authored) +
                       ", the stage " + shortest(used) + "; its numbers are not converted";
-    finding.fix = "convert the layer, or scale where it is referenced and author masses anew";
+    finding.fix =
+        "convert the layer, or scale where it is referenced and author masses anew; the reading "
+        "layer-units=layer converts its opinions";
     diagnostics.add(std::move(finding));
   }
 }
