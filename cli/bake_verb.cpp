@@ -47,6 +47,8 @@ void add_bake(const Command& parent, const Globals& globals, Chosen& chosen) {
   options->simulate.add_to(verb);
   verb.add_option("-o,--output", options->output, "The layer to write: .usda, .usdc or .usd")
       .required();
+  verb.add_flag("--uninstance", options->simulate.uninstance,
+                "Take instances apart that have moving bodies inside (instanceable = false)");
   verb.footer("Example:\n  tenon bake grasp.usda -o motion.usda --fps 60 --duration 4");
   choose(verb, chosen, [&globals, options] { return run_bake(globals, *options); });
 }

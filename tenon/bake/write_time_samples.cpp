@@ -64,6 +64,25 @@ bool collect(const BodyTransforms& transforms, std::size_t body, const PoseRecor
   return true;
 }
 
+void report_instanced(const stage::Prim& prim, Diagnostics& diagnostics) {
+  Diagnostic finding = prim.located(
+      Severity::Error, "bake.instanced-body",
+      "the body <" + prim.path().str() + "> lies inside an instance and cannot be animated");
+  finding.fix =
+      "take the instances apart (tenon bake --uninstance), or put the rigid body on the instance "
+      "root";
+  diagnostics.add(std::move(finding));
+}
+
+/// Makes the prims above an instance proxy ordinary ones, which opinions reach.
+void take_apart(const stage::Prim& proxy, layer::Layer& layer) {
+  for (stage::Prim at = proxy.parent(); at.is_valid() && !at.is_pseudo_root(); at = at.parent()) {
+    if (at.is_instance()) {
+      over_prim(layer, at.path()).set("instanceable", Value(false));
+    }
+  }
+}
+
 }  // namespace
 
 layer::Layer write_time_samples(const stage::Stage& stage, const physics::PhysicsScene& scene,
@@ -79,12 +98,11 @@ layer::Layer write_time_samples(const stage::Stage& stage, const physics::Physic
       continue;
     }
     if (prim.is_instance_proxy()) {
-      Diagnostic finding = prim.located(
-          Severity::Warning, "bake.instanced-body",
-          "the body <" + prim.path().str() + "> lies inside an instance and cannot be animated");
-      finding.fix = "put the rigid body on the instance root, or set instanceable = false";
-      diagnostics.add(std::move(finding));
-      continue;
+      if (!options.uninstance) {
+        report_instanced(prim, diagnostics);
+        continue;
+      }
+      take_apart(prim, layer);
     }
     OpStack stack = OpStack::of(prim, scene.start_time_code);
     if (!collect(transforms, body, recording, scene, stack)) {

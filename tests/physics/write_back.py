@@ -7,6 +7,7 @@ usage: write_back.py --tenon PROGRAM
 """
 
 import argparse
+import json
 import os
 import subprocess
 import sys
@@ -21,8 +22,8 @@ except ImportError:
 
 SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scenes", "write_back.usda")
 INSTANCES = ("/World/Many/instance_0/Drop", "/World/Many/instance_1/Drop")
-BODIES = (*INSTANCES, "/World/Outer", "/World/Outer/Free", "/World/Outer/Held", "/World/Tumbling",
-          "/World/Turned/Slab")
+BODIES = (*INSTANCES, "/World/Outer", "/World/Outer/Free", "/World/Outer/Held",
+          "/World/Part/Box", "/World/Tumbling", "/World/Turned/Slab")
 RUN = ("--duration", "0.5", "--fps", "24")
 TOLERANCE = 1e-4  # stage units; positions are written as doubles, rotations as doubles
 
@@ -54,6 +55,19 @@ def run(program, *arguments):
     done = subprocess.run([program, *arguments], capture_output=True, text=True, check=False)
     if done.returncode not in (0, 1):
         sys.exit(f"{arguments}: exit {done.returncode}\n{done.stdout}{done.stderr}")
+
+
+def instanced_faults(program, layer):
+    """A body inside an instance stays unless the instance may be taken apart (S-123)."""
+    done = subprocess.run([program, "--json", "bake", SCENE, "-o", layer, *RUN],
+                          capture_output=True, text=True, check=False)
+    found = [d for d in json.loads(done.stdout)["diagnostics"]
+             if d["rule"] == "bake.instanced-body"]
+    if [(d["severity"], d["prim"]) for d in found] != [("error", "/World/Part/Box")]:
+        yield f"bodies inside instances: {found}"
+    stage = Usd.Stage.Open(layer)
+    if not stage.GetPrimAtPath("/World/Part").IsInstance():
+        yield "/World/Part was taken apart unasked"
 
 
 def faults(baked, log):
@@ -88,10 +102,11 @@ def main():
     program = parser.parse_args().tenon
     with tempfile.TemporaryDirectory() as folder:
         layer, table = os.path.join(folder, "baked.usda"), os.path.join(folder, "run.npz")
-        run(program, "bake", SCENE, "-o", layer, *RUN)
+        found = list(instanced_faults(program, layer))
+        run(program, "bake", SCENE, "-o", layer, "--uninstance", *RUN)
         run(program, "sim", SCENE, "-o", table, *RUN)
         with np.load(table) as log:
-            found = list(faults(Usd.Stage.Open(layer), log))
+            found += faults(Usd.Stage.Open(layer), log)
     for fault in found:
         print(fault)
     print(f"{len(BODIES)} bodies, {len(found)} faults")
