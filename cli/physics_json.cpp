@@ -341,6 +341,15 @@ void add_changes(const PhysicsScene& scene, Json& list) {
     add({{"scene", scene.scenes[track.scene].path.str()}, {"value", "gravity"}}, track.times.size(),
         track.held);
   }
+  for (const physics::ShapesTrack& track : scene.shapes_tracks) {
+    Json row{{"body", scene.bodies[track.body].path.str()}, {"value", "shapes"}};
+    for (const physics::Index i : track.colliders) {
+      row["colliders"].push_back(scene.colliders[i].path.str());
+    }
+    row["lastMass"] = number(track.shapes.back().mass);
+    row["lastCenterOfMass"] = vector(track.shapes.back().center_of_mass);
+    add(std::move(row), track.times.size(), true);
+  }
   if (!scene.group_states.empty()) {
     add({{"value", "collisionGroups"}}, scene.group_states.size(), true);
   }

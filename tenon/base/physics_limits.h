@@ -10,5 +10,6 @@ namespace tenon::limits {
 inline constexpr std::size_t kPointInstances = 1'000'000;     ///< instances with physics of a stage
 inline constexpr std::size_t kPointInstancerDepth = 8;        ///< point instancers in one another
 inline constexpr std::size_t kDecomposedTriangles = 200'000;  ///< of a mesh to be taken apart
+inline constexpr std::size_t kShapeSamples = 4'000;           ///< of shapes that move inside a body
 
 }  // namespace tenon::limits

@@ -93,7 +93,7 @@ void read_velocities(const ReadState& state, const PhysicsPrim& found, Body& bod
       differs(body.linear_velocity, as_world) || differs(body.angular_velocity, spin);
   const bool from_body = differs(as_world, rotate(body.pose.orientation, as_world)) ||
                          differs(spin, rotate(body.pose.orientation, spin));
-  if (from_world || from_body) {
+  if (array == nullptr && (from_world || from_body)) {  // those of arrays have one meaning
     state.report(found.prim, linear == zero ? state.tokens.angular_velocity : state.tokens.velocity,
                  Severity::Warning, "body.velocity-space",
                  std::string("velocities are read in the space of the parent; engines that take ") +

@@ -119,7 +119,27 @@ void report_not_finite(const ReadState& state, const PhysicsPrim& found) {
                "author finite sizes, points and transforms");
 }
 
-/// The collider of one prim without its index in the scene; nullopt when it has no usable shape.
+/// What the caller says that an enabled collider weighs (M-20); of a prim that is no shape, one
+/// that touches nothing.
+std::optional<ShapeReading> told_shape(ReadState& state, const PhysicsPrim& found,
+                                       std::optional<ShapeReading> own) {
+  if (state.integrals == nullptr ||
+      !state.values.flag(found.prim, state.tokens.collision_enabled, true)) {
+    return own;
+  }
+  const std::optional<SolidIntegrals> told = (*state.integrals)(found.prim);
+  if (!told) {
+    return own;
+  }
+  if (!own) {
+    own.emplace().shape.kind = ShapeKind::Spheres;
+  }
+  own->integrals = placed(*told, inverse(own->pose));
+  return own;
+}
+
+}  // namespace
+
 std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found,
                                       std::optional<SolidIntegrals>& integrals) {
   check_apis(state, found);
@@ -144,7 +164,7 @@ std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found
     const OwnerScene owner = owner_scene(state, found.prim, default_scene(state));
     collider.scene = owner.scene;
   }
-  std::optional<ShapeReading> reading = read_shape(state, source);
+  std::optional<ShapeReading> reading = told_shape(state, found, read_shape(state, source));
   if (!reading) {
     return std::nullopt;
   }
@@ -160,6 +180,8 @@ std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found
   read_contact_settings(state, found, collider);
   return collider;
 }
+
+namespace {
 
 /// S-63
 void report_lone_mesh_apis(const ReadState& state) {

@@ -175,6 +175,10 @@ JointBounds BoundsTrack::at(double seconds) const {
   return now;
 }
 
+std::size_t ShapesTrack::at(double seconds) const {
+  return times.empty() ? 0 : place_of(times, seconds).before;
+}
+
 Vec3d GravityTrack::at(double seconds) const {
   if (times.empty()) {
     return {};

@@ -364,6 +364,26 @@ struct PoseTrack {
   Pose at(double seconds) const;
 };
 
+/// The shapes of one body that move in it, and what that makes of its mass, at one time.
+struct BodyShapes {
+  std::vector<Pose> poses;            ///< in the body frame (collider_count of the track) [m]
+  std::vector<Shape> shapes;          ///< (collider_count of the track)
+  double mass = 1;                    ///< [kg]
+  Vec3d center_of_mass;               ///< in the body frame [m]
+  Mat3d inertia = Mat3d::identity();  ///< as Body::inertia [kg m^2]
+};
+
+/// Animation of prims inside a body (S-37). Each sample holds until the next; the change itself
+/// gives the body neither velocity nor momentum.
+struct ShapesTrack {
+  Index body = 0;
+  std::vector<Index> colliders;    ///< those that move, ascending
+  std::vector<double> times;       ///< [s] from the start, ascending (sample_count)
+  std::vector<BodyShapes> shapes;  ///< (sample_count)
+  /// The sample in force; the first one before all of them.
+  std::size_t at(double seconds) const;
+};
+
 /// What this description could not take over from the stage; never silent.
 struct NotRead {
   Path prim;
@@ -386,6 +406,7 @@ struct PhysicsScene {
   std::vector<SwitchTrack> switch_tracks;
   std::vector<BoundsTrack> bounds_tracks;
   std::vector<GravityTrack> gravity_tracks;
+  std::vector<ShapesTrack> shapes_tracks;
   std::vector<GroupState> group_states;  ///< ascending in time; empty: `filter` holds throughout
   std::vector<NotRead> not_read;
 

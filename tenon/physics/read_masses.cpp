@@ -422,10 +422,14 @@ void report_between(const ReadState& state) {
 
 }  // namespace
 
+void weigh_body(ReadState& state, Index body) {
+  BodyWeigher(state, body).run(state.colliders_of_body[body]);
+}
+
 void read_masses(ReadState& state) {
   report_between(state);
   for (Index i = 0; i < state.scene.bodies.size(); ++i) {
-    BodyWeigher(state, i).run(state.colliders_of_body[i]);
+    weigh_body(state, i);
   }
   for (const PhysicsPrim& found : state.walk.prims) {
     const bool counts =

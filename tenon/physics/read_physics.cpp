@@ -73,6 +73,7 @@ PhysicsScene read_walked(ReadState& state) {
   read_collision_groups(state);
   read_filtered_pairs(state);
   read_tracks(state);
+  read_moving_shapes(state);
   note_what_is_not_read(state);
   return std::move(state.scene);
 }
@@ -85,6 +86,7 @@ PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
   ReadState state = begin(stage, options, found);
   state.accounts = accounts;
   state.mesh_tools = &options.mesh_tools;
+  state.integrals = options.integrals ? &options.integrals : nullptr;
   state.walk = walk_stage(stage, state.values, options.readings);
   PhysicsScene scene = read_walked(state);
   if (state.walk.instances.empty()) {

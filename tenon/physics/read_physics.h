@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/physics/accounts.h"
+#include "tenon/physics/mesh_inertia.h"
 #include "tenon/physics/mesh_tools.h"
 #include "tenon/physics/physics_scene.h"
 #include "tenon/physics/readings.h"
@@ -21,6 +25,10 @@ struct ReadOptions {
   /// Which reading counts where the proposal, OpenUSD and engines disagree.
   Readings readings;
   MeshTools mesh_tools;
+  /// Integrals of enabled colliders for those who know better (M-20): asked once per collider, in
+  /// its rigid frame [m]. They replace what the shape weighs; a prim that is no shape known here
+  /// weighs by them, too, and touches nothing. nullopt: the shape's own.
+  std::function<std::optional<SolidIntegrals>(const stage::Prim& collider)> integrals;
 };
 
 /// Reads every physics prim of the stage. Findings about the asset go to `diagnostics` with stable

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -38,6 +39,7 @@ struct ReadState {
   Units units;
   AttributeValues values;
   const MeshTools* mesh_tools = nullptr;
+  const std::function<std::optional<SolidIntegrals>(const stage::Prim&)>* integrals = nullptr;
   Accounts* accounts = nullptr;  ///< filled where not null
   Walk walk{};
   PhysicsScene scene{};
@@ -106,6 +108,12 @@ std::vector<std::uint32_t> sorted_prims(const Walk& walk, Wanted wanted) {
   return found;
 }
 
+/// One collider as it is at the time of `state.values`, without its material.
+std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found,
+                                      std::optional<SolidIntegrals>& integrals);
+/// Mass, centre and inertia of one body from the colliders that it has in the scene.
+void weigh_body(ReadState& state, Index body);
+
 // The passes, in the order in which they run; each needs those before it.
 void read_scenes(ReadState& state);
 void read_bodies(ReadState& state);
@@ -122,6 +130,7 @@ void read_articulations(ReadState& state);
 void read_collision_groups(ReadState& state);
 void read_filtered_pairs(ReadState& state);
 void read_tracks(ReadState& state);
+void read_moving_shapes(ReadState& state);
 void note_what_is_not_read(ReadState& state);
 
 }  // namespace tenon::physics

@@ -26,7 +26,8 @@ bool can_break(const physics::Joint& joint) {
 
 bool changes(const PhysicsScene& scene) {
   return !scene.switch_tracks.empty() || !scene.bounds_tracks.empty() ||
-         !scene.gravity_tracks.empty() || !scene.group_states.empty() ||
+         !scene.gravity_tracks.empty() || !scene.shapes_tracks.empty() ||
+         !scene.group_states.empty() ||
          std::any_of(scene.joints.begin(), scene.joints.end(), can_break) ||
          std::any_of(scene.pose_tracks.begin(), scene.pose_tracks.end(),
                      [](const physics::PoseTrack& track) { return track.joint.has_value(); });
@@ -152,7 +153,8 @@ Result<void> MujocoSimulation::follow_changes() {
   const bool switched = follow_switches();
   const bool regrouped = follow_groups();
   const bool reshaped = follow_bounds();
-  return switched || regrouped || reshaped ? rebuild() : Result<void>();
+  const bool moved = follow_shapes();
+  return switched || regrouped || reshaped || moved ? rebuild() : Result<void>();
 }
 
 void MujocoSimulation::set_switch(const physics::SwitchTrack& track, bool on) {
@@ -258,6 +260,33 @@ bool MujocoSimulation::follow_bounds() {
     }
   }
   return reshaped;
+}
+
+// S-37: shapes that move inside bodies, and the mass that moves with them. The body moves on as it
+// did: keep_state() takes the velocity of the new centre of mass, a point of the old model's body.
+bool MujocoSimulation::follow_shapes() {
+  const auto& tracks = own_->shapes_tracks;
+  shape_states_.resize(tracks.size(), 0);
+  bool moved = false;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const physics::ShapesTrack& track = tracks[i];
+    const std::size_t wanted = track.at(model_.data->time + kSameTime);
+    if (wanted == shape_states_[i] || wanted >= track.shapes.size()) {
+      continue;
+    }
+    shape_states_[i] = wanted;
+    moved = true;
+    const physics::BodyShapes& now = track.shapes[wanted];
+    for (std::size_t k = 0; k < track.colliders.size(); ++k) {
+      own_->colliders[track.colliders[k]].pose = now.poses[k];
+      own_->colliders[track.colliders[k]].shape = now.shapes[k];
+    }
+    physics::Body& body = own_->bodies[track.body];
+    body.mass = now.mass;
+    body.center_of_mass = now.center_of_mass;
+    body.inertia = now.inertia;
+  }
+  return moved;
 }
 
 void MujocoSimulation::follow_gravity() {
