@@ -65,6 +65,7 @@ void MujocoSimulation::collect_breakable() {
     const std::string name = joint.path.str();
     breakable.equalities = ids(m, mjOBJ_EQUALITY, name, {"", ".loop", ".a", ".b"});
     breakable.tendons = ids(m, mjOBJ_TENDON, name, {".distance.max", ".distance.min"});
+    breakable.cone = mj_name2id(m, mjOBJ_TENDON, (name + ".cone").c_str());
     for (std::size_t b = 0; b < model_.plan.bodies.size(); ++b) {
       const BodyPlan& plan = model_.plan.bodies[b];
       if (plan.base == BodyBase::Jointed && plan.joint == j) {
@@ -73,6 +74,26 @@ void MujocoSimulation::collect_breakable() {
     }
     breakable.arm = hinge_arm(*own_, joint);
     breakable_.push_back(std::move(breakable));
+  }
+}
+
+// A cone pulls the tip of the child's axis toward that of the parent's: MuJoCo counts the pull as
+// external to the joint, here it is part of what the joint carries.
+void MujocoSimulation::load_of_cone(const Breakable& breakable, Vec3d& force, Vec3d& torque) const {
+  const physics::Joint& joint = own_->joints[breakable.joint];
+  const Vec3d tip = unit_axis(joint.axis) * breakable.arm;
+  const Pose frame0 = frame_in_world(joint.body0, joint.frame0);
+  const Pose frame1 = frame_in_world(joint.body1, joint.frame1);
+  const bool reversed = model_.joints[breakable.joint].reversed;
+  const Pose& parent = reversed ? frame1 : frame0;
+  const Pose& child = reversed ? frame0 : frame1;
+  const Vec3d arm = rotate(child.orientation, tip);
+  const Vec3d apart = parent.position + rotate(parent.orientation, tip) - child.position - arm;
+  const double distance = length(apart);
+  for (const double size : rows_of(*model_.data, mjCNSTR_LIMIT_TENDON, breakable.cone)) {
+    const Vec3d pull = distance > 0 ? apart * (size / distance) : Vec3d{};
+    force += pull;
+    torque += cross(arm, pull);
   }
 }
 
@@ -88,6 +109,9 @@ void MujocoSimulation::load_on(const Breakable& breakable, Vec3d& force, Vec3d& 
     const Vec3d center = read_vector(d.subtree_com + 3 * m.body_rootid[breakable.child]);
     const Vec3d anchor = frame_in_world(joint.body1, joint.frame1).position;
     torque = read_vector(wrench) + cross(center - anchor, force);
+  }
+  if (breakable.cone >= 0) {
+    load_of_cone(breakable, force, torque);
   }
   std::vector<Vec3d> points;
   for (const int equality : breakable.equalities) {

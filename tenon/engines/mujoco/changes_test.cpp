@@ -205,6 +205,46 @@ TestScene hanging(JointKind kind, double break_force) {
   return scene;
 }
 
+/// A body of 2 kg whose ball of 0.1 m moves from its origin to `end` at 0.2 s, its mass with it.
+TestScene body_with_moving_ball(double gravity, const Vec3d& end) {
+  TestScene scene(gravity);
+  const auto body = scene.add_body("Body", {{0, 0, 1}}, 2, {{0.02, 0.02, 0.02}});
+  const auto ball = scene.add_collider("Ball", body, sphere(0.1));
+  physics::ShapesTrack track;
+  track.body = body;
+  track.colliders = {ball};
+  track.times = {0, 0.2};
+  const Mat3d inertia = scene.bodies[body].inertia;
+  track.shapes = {{{Pose{}}, {sphere(0.1)}, 2, {}, inertia},
+                  {{Pose{end}}, {sphere(0.1)}, 2, end, inertia}};
+  scene.shapes_tracks.push_back(track);
+  return scene;
+}
+
+TEST(Changes, ShapesThatMoveInABodyTakeItsMassAlong) {
+  TestScene scene = body_with_moving_ball(kG, {{0, 0, -0.5}});
+  scene.add_collider("Ground", {}, ground());
+  auto sim = simulation(scene, kDt);
+  run(*sim, 0.25);
+  // S-37: the body falls on as it fell, z = 1 - g t^2 / 2, semi-implicit: g t dt / 2 more.
+  EXPECT_NEAR(sim->body_state(0).pose.position[2], 1 - kG * 0.03125, kG * 0.25 * kDt);
+  EXPECT_NEAR(sim->body_state(0).linear_velocity[2], -kG * 0.25, 1e-6);
+  run(*sim, 2);
+  EXPECT_NEAR(sim->body_state(0).pose.position[2], 0.6, 5e-3);  // the ball is half a metre below
+}
+
+TEST(Changes, ASpinningBodyIsNotPushedByWhatMovesInIt) {
+  TestScene scene = body_with_moving_ball(0, {{0.5, 0, 0}});
+  scene.bodies[0].angular_velocity = {{0, 0, 1}};
+  auto sim = simulation(scene, kDt);
+  run(*sim, 0.201);
+  const BodyState state = sim->body_state(0);
+  EXPECT_NEAR(length(state.pose.position - Vec3d{{0, 0, 1}}), 0, 1e-3);
+  // The new centre of mass moves as the point of the body that it is: w x r.
+  EXPECT_NEAR(state.linear_velocity[0], -0.5 * std::sin(0.2), 2e-3);
+  EXPECT_NEAR(state.linear_velocity[1], 0.5 * std::cos(0.2), 2e-3);
+}
+
 TEST(Breaking, JointsGiveWayAboveTheirForceOnly) {
   for (const JointKind kind : {JointKind::Fixed, JointKind::Revolute, JointKind::Spherical}) {
     // 10 kg weigh 98.1 N: 50 N breaks at once, 150 N holds.
@@ -267,6 +307,42 @@ TEST(Breaking, LoopsBreakToo) {
     auto sim = simulation(scene, kDt);
     run(*sim, 0.2);
     EXPECT_EQ(sim->events().size(), limit < 19.6 ? 1u : 0u) << limit;
+  }
+}
+
+TEST(Breaking, WeldsInLoopsCarryTorque) {
+  // A rod of 4 kg and 1 m held at its left end by a hinge and by a fixed joint: m g l / 2 = 19.6.
+  for (const double limit : {15.0, 25.0}) {
+    TestScene scene;
+    const auto rod = scene.add_body("Rod", {{0.5, 0, 0}}, 4, {{0.01, 0.33, 0.33}});
+    scene.add_joint("Hinge", JointKind::Revolute, {}, rod, physics::Axis::Y);
+    scene.joints[0].frame1.position = {{-0.5, 0, 0}};
+    scene.add_joint("Weld", JointKind::Fixed, {}, rod);
+    scene.joints[1].frame1.position = {{-0.5, 0, 0}};
+    scene.joints[1].break_torque = limit;
+    auto sim = simulation(scene, kDt);
+    run(*sim, 0.3);
+    EXPECT_EQ(sim->events().size(), limit < 19.6 ? 1u : 0u) << limit;
+  }
+}
+
+TEST(Breaking, ConeLimitsCarryTorque) {
+  // The same rod on a ball joint rests on its cone of 30 degrees: m g l / 2 cos 30 = 17.0, and
+  // twice that when it comes to a stop in one step.
+  for (const double limit : {15.0, 45.0}) {
+    TestScene scene;
+    const double tilt = 30 * M_PI / 180;
+    const auto rod = scene.add_body("Rod", {{0.5 * std::cos(tilt), 0, -0.5 * std::sin(tilt)}}, 4,
+                                    {{0.01, 0.33, 0.33}});
+    scene.bodies[rod].pose.orientation = rotation_about({{0, 1, 0}}, tilt);
+    scene.add_joint("Ball", JointKind::Spherical, {}, rod, physics::Axis::X);
+    scene.joints[0].frame1.position = {{-0.5, 0, 0}};
+    scene.joints[0].cone_angle0 = tilt;
+    scene.joints[0].cone_angle1 = tilt;
+    scene.joints[0].break_torque = limit;
+    auto sim = simulation(scene, kDt);
+    run(*sim, 0.5);
+    EXPECT_EQ(sim->events().size(), limit < 17 ? 1u : 0u) << limit;
   }
 }
 

