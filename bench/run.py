@@ -280,6 +280,12 @@ def workloads(bench):
     yield Workload("read_physics", [program("read_physics"), scene("physics.usda")],
                    ["physics", scene("physics.usda")],
                    [("open", "open", ""), ("physics", "physics", "")])
+    for name, file in bench.robots.items():
+        yield Workload(f"physics_{name}", [program("read_physics"), file], ["physics", file],
+                       [("physics", "physics", "")])
+    triangles = "2000" if bench.arguments.smoke else "1000000"
+    yield Workload("mesh_mass", [program("mesh_mass"), triangles], None,
+                   [(phase, phase, "") for phase in ("copy", "closed", "integrals")])
     script = ["--dump-script", DUMP_SCRIPT] if os.path.exists(DUMP_SCRIPT) else []
     for name, file in (("open_hand", HAND), ("open_isaac_hand", ISAAC_HAND)):
         if os.path.exists(file):

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <numeric>
 #include <vector>
 
 namespace tenon::physics {
@@ -19,7 +21,7 @@ namespace {
 struct Moments {
   double volume = 0;
   Vec3d first;
-  Mat3d second;
+  Mat3d second;  // at and above the diagonal
 };
 
 void add_tetrahedron(const Vec3d& a, const Vec3d& b, const Vec3d& c, Moments& sum) {
@@ -28,7 +30,7 @@ void add_tetrahedron(const Vec3d& a, const Vec3d& b, const Vec3d& c, Moments& su
   sum.volume += v;
   sum.first += s * (v / 4);
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t j = i; j < 3; ++j) {  // symmetric
       sum.second[i][j] += v / 20 * (a[i] * a[j] + b[i] * b[j] + c[i] * c[j] + s[i] * s[j]);
     }
   }
@@ -81,10 +83,11 @@ SolidIntegrals mesh_integrals(const TriangleMesh& mesh) {
   const double sign = sum.volume < 0 ? -1 : 1;  // M-9
   result.volume = sign * sum.volume;
   const Vec3d offset = sum.first * (1 / sum.volume);
-  Mat3d second = sum.second;
+  Mat3d second;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      second[i][j] = sign * (second[i][j] - sum.volume * offset[i] * offset[j]);
+      second[i][j] =
+          sign * (sum.second[std::min(i, j)][std::max(i, j)] - sum.volume * offset[i] * offset[j]);
     }
   }
   result.center = origin + offset;
@@ -92,21 +95,75 @@ SolidIntegrals mesh_integrals(const TriangleMesh& mesh) {
   return result;
 }
 
-bool is_closed(const TriangleMesh& mesh) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
-  edges.reserve(mesh.triangles.size() * 3);
+namespace {
+
+/// Ends of the directed edges that leave each point: those of point p from first[p] to first[p+1],
+/// ascending. Empty when an index names no point.
+struct DirectedEdges {
+  std::vector<std::uint32_t> first;
+  std::vector<std::int32_t> ends;
+
+  auto begin_of(std::size_t point) const { return ends.begin() + first[point]; }
+  auto end_of(std::size_t point) const { return ends.begin() + first[point + 1]; }
+};
+
+DirectedEdges directed_edges(const TriangleMesh& mesh) {
+  std::int32_t last = -1;
   for (const Vec3i& t : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      edges.emplace_back(t[i], t[(i + 1) % 3]);
+    if (std::min({t[0], t[1], t[2]}) < 0) {
+      return {};
+    }
+    last = std::max({last, t[0], t[1], t[2]});
+  }
+  if (last < 0 || static_cast<std::size_t>(last) >= mesh.points.size()) {
+    return {};
+  }
+  DirectedEdges edges;
+  edges.first.assign(static_cast<std::size_t>(last) + 2, 0);
+  for (const Vec3i& t : mesh.triangles) {
+    for (const std::int32_t corner : t.v) {
+      ++edges.first[static_cast<std::size_t>(corner) + 1];
     }
   }
-  std::sort(edges.begin(), edges.end());
-  if (edges.empty() || std::adjacent_find(edges.begin(), edges.end()) != edges.end()) {
+  std::partial_sum(edges.first.begin(), edges.first.end(), edges.first.begin());
+  edges.ends.resize(mesh.triangles.size() * 3);
+  std::vector<std::uint32_t> next(edges.first.begin(), edges.first.end() - 1);
+  for (const Vec3i& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      edges.ends[next[static_cast<std::size_t>(t[i])]++] = t[(i + 1) % 3];
+    }
+  }
+  for (std::size_t p = 0; p + 1 < edges.first.size(); ++p) {
+    std::sort(edges.ends.begin() + edges.first[p], edges.ends.begin() + edges.first[p + 1]);
+  }
+  return edges;
+}
+
+}  // namespace
+
+bool is_closed(const TriangleMesh& mesh) {
+  if (mesh.triangles.size() >= std::numeric_limits<std::uint32_t>::max() / 3) {
     return false;
   }
-  return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
-    return std::binary_search(edges.begin(), edges.end(), std::pair(edge.second, edge.first));
-  });
+  const DirectedEdges edges = directed_edges(mesh);
+  if (edges.ends.empty()) {
+    return false;
+  }
+  for (std::size_t p = 0; p + 1 < edges.first.size(); ++p) {
+    const auto begin = edges.begin_of(p);
+    const auto end = edges.end_of(p);
+    if (std::adjacent_find(begin, end) != end) {
+      return false;
+    }
+    for (auto at = begin; at != end; ++at) {
+      const auto other = static_cast<std::size_t>(*at);
+      if (!std::binary_search(edges.begin_of(other), edges.end_of(other),
+                              static_cast<std::int32_t>(p))) {
+        return false;
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace tenon::physics
