@@ -65,6 +65,17 @@ SHAPES = {
                       ["scene.owner-missing"]),
     "pair with nothing": ("Cube", BODY + ["PhysicsFilteredPairsAPI"],
                           "rel physics:filteredPairs = </Nowhere>", ["filter.target-missing"]),
+    "subset of faces that are not there": (
+        "Mesh", ["PhysicsCollisionAPI"], "point3f[] points = [(0,0,0),(1,0,0),(0,1,0)]\n"
+        "int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n"
+        'def GeomSubset "S" (\n prepend apiSchemas = ["MaterialBindingAPI"]\n)\n{\n'
+        "int[] indices = [-1, 0, 2000000000]\nrel material:binding = </Nowhere>\n}", []),
+    "shape that moves to NaN": (
+        "Xform", ["PhysicsRigidBodyAPI"],
+        'def Cube "C" (\n prepend apiSchemas = ["PhysicsCollisionAPI"]\n)\n{\n'
+        "double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 1e9: (nan, 0, 0) }\n"
+        "float3 xformOp:scale.timeSamples = { 0: (1, 1, 1), 5: (0, inf, 1) }\n"
+        'uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]\n}', []),
     "pair with itself": ("Cube", BODY + ["PhysicsFilteredPairsAPI"],
                          "rel physics:filteredPairs = </Bad>", ["filter.self"]),
 }
@@ -130,6 +141,28 @@ class BadPhysics(unittest.TestCase):
                 ("gravity of another type", "double physics:gravityMagnitude = 5",
                  ["attribute.wrong-type"])):
             self.expect(name, f'def PhysicsScene "Scene"\n{{\n{text}\n}}\n', wanted)
+
+    def test_point_instancers(self):
+        proto = ('def Cube "C" (\n prepend apiSchemas = ["PhysicsRigidBodyAPI", '
+                 '"PhysicsCollisionAPI"]\n)\n{\n}\n')
+        for name, rel, arrays, wanted in (
+                ("no such prototype", "</P/C>", "int[] protoIndices = [0, 4]\n"
+                 "point3f[] positions = [(0,0,0), (1,0,0)]", ["point-instancer.invalid"]),
+                ("negative prototype", "</P/C>", "int[] protoIndices = [-1]\n"
+                 "point3f[] positions = [(0,0,0)]", ["point-instancer.invalid"]),
+                ("too few positions", "</P/C>", "int[] protoIndices = [0, 0]\n"
+                 "point3f[] positions = [(0,0,0)]", ["point-instancer.invalid"]),
+                ("place NaN", "</P/C>", "int[] protoIndices = [0]\n"
+                 "point3f[] positions = [(0,nan,0)]", ["body.not-finite"]),
+                ("scale zero", "</P/C>", "int[] protoIndices = [0]\n"
+                 "point3f[] positions = [(0,0,0)]\nfloat3[] scales = [(0,0,0)]",
+                 ["body.zero-scale"]),
+                ("missing prototype", "</Nowhere>", "int[] protoIndices = [0]\n"
+                 "point3f[] positions = [(0,0,0)]", []),
+                ("in itself", "</P>", "int[] protoIndices = [0, 0, 0]\n"
+                 "point3f[] positions = [(0,0,0), (1,0,0), (2,0,0)]", [])):
+            self.expect(name, f'{SCENE}def PointInstancer "P"\n{{\nrel prototypes = {rel}\n'
+                        f"{arrays}\n{proto}}}\n", wanted)
 
     def test_relations_in_circles(self):
         text = self.prim("Cube", BODY + ["PhysicsFilteredPairsAPI"],
