@@ -79,7 +79,7 @@ class Limits(unittest.TestCase):
     USE = "int x = limits::kOne + limits::kTwo;\n"
 
     def faults(self, page=PAGE, use=USE):
-        files = {check_limits.TABLE: self.TABLE, check_limits.PAGE: page, "tenon/a.cpp": use}
+        files = {check_limits.TABLES[0]: self.TABLE, check_limits.PAGE: page, "tenon/a.cpp": use}
         with tree(files) as root:
             return check_limits.check(root, list(files))
 
