@@ -142,6 +142,10 @@ class "P" { def "x" {} })"}};
   Scene below(texts, options);
   EXPECT_EQ(below.children("/A"), "x B");  // what is above a loaded prim is loaded as well
   EXPECT_EQ(below.specs("/C"), "root/C");
+  options.unloaded = {Path::from("/C/x")};
+  options.loaded = {Path::from("/C/x/y")};
+  Scene hidden(texts, options);
+  EXPECT_EQ(hidden.specs("/C"), "root/C");  // not from above one that is not to be loaded
   options = {};
   options.loaded_alone = {Path::from("/A")};
   options.unloaded = {Path::absolute_root()};

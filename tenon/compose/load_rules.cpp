@@ -24,11 +24,6 @@ bool has_rules(const ComposeOptions& options) {
   return !options.loaded.empty() || !options.loaded_alone.empty() || !options.unloaded.empty();
 }
 
-bool is_above_any(const std::set<Path>& paths, Path path) {
-  const auto below = paths.lower_bound(path);
-  return below != paths.end() && below->has_prefix(path);
-}
-
 /// Paths strictly below `path`, in order: what is above comes first.
 std::set<Path> paths_below(const ComposeOptions& options, Path path) {
   std::set<Path> result;
@@ -38,6 +33,22 @@ std::set<Path> paths_below(const ComposeOptions& options, Path path) {
     }
   }
   return result;
+}
+
+/// Whether a rule below loads something. As in OpenUSD 26.11 an unloaded path keeps what is loaded
+/// below it from those above.
+bool is_above_loaded(const ComposeOptions& options, Path path) {
+  Path unloaded;
+  for (const Path below : paths_below(options, path)) {
+    if (below.has_prefix(unloaded)) {
+      continue;
+    }
+    if (rule_at(options, below, LoadRule::None) != LoadRule::None) {
+      return true;
+    }
+    unloaded = below;
+  }
+  return false;
 }
 
 }  // namespace
@@ -55,9 +66,7 @@ LoadRule load_rule(const ComposeOptions& options, Path prim_path) {
   if (rule == LoadRule::All || (rule == LoadRule::Only && nearest == prim_path)) {
     return rule;
   }
-  return is_above_any(options.loaded, prim_path) || is_above_any(options.loaded_alone, prim_path)
-             ? LoadRule::Only
-             : LoadRule::None;
+  return is_above_loaded(options, prim_path) ? LoadRule::Only : LoadRule::None;
 }
 
 std::string load_rules_below(const ComposeOptions& options, Path prim_path) {
