@@ -3,6 +3,7 @@
 // References and payloads: arcs to a prim of another layer stack, or of the same one.
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/indexer.h"
+#include "tenon/compose/muting.h"
 
 namespace tenon::compose {
 namespace {
@@ -80,10 +81,10 @@ class AssetArcAdder {
     return {};
   }
 
-  bool is_muted(const AssetArc& item, const layer::Layer* layer) const {
+  bool is_muted_arc(const AssetArc& item, const layer::Layer* layer) const {
     const std::set<std::string>& muted = indexer_.services.options->muted;
-    return muted.count(item.asset_path) != 0 ||
-           (layer != nullptr && muted.count(layer->identifier()) != 0);
+    return layer == nullptr ? is_muted(muted, item.asset_path, *item.layer)
+                            : muted.count(item.asset_path) + muted.count(layer->identifier()) != 0;
   }
 
   Destination destination(const AssetArc& item) {
@@ -93,7 +94,7 @@ class AssetArcAdder {
     }
     Result<layer::LayerPtr> opened = indexer_.services.open(item.asset_path, *item.layer);
     const layer::LayerPtr layer = opened ? *opened : nullptr;
-    if (is_muted(item, layer.get())) {
+    if (is_muted_arc(item, layer.get())) {
       report(error_class::kMutedAssetPath, item,
              "@" + item.asset_path + "@ is muted, the " + std::string(noun(kind_)) + " is left out",
              "unmute the layer");

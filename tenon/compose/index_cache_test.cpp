@@ -295,6 +295,17 @@ def "A" (references = @ref@</M>) {})"},
   EXPECT_EQ(scene.stack_errors(), "invalid-sublayer-path sublayer-cycle");
 }
 
+TEST(IndexCache, MutesLayersThatCannotBeOpened) {
+  ComposeOptions options;
+  options.muted = {"absent", "/shots/absent.usda", "/lost.usda"};
+  Scene scene({{"root", "(subLayers = [@absent@, @/shots/a.usda@])\ndef \"A\" {}"},
+               {"/shots/a.usda", R"((subLayers = [@./absent.usda@])
+over "A" (references = @../lost.usda@</M>) {})"}},
+              options);
+  EXPECT_EQ(scene.errors("/A"), "muted-asset-path");
+  EXPECT_EQ(scene.stack_errors(), "");
+}
+
 TEST(IndexCache, PutsTheSessionFirst) {
   Scene scene({{"root", R"(def "A" (prepend variantSets = "v"
  variants = { string v = "a" }) { variantSet "v" = { "a" { }

@@ -9,6 +9,7 @@
 
 #include "tenon/base/limits.h"
 #include "tenon/compose/composition_error.h"
+#include "tenon/compose/muting.h"
 #include "tenon/compose/relocations.h"
 #include "tenon/compose/variable_expression.h"
 #include "tenon/layer/fields.h"
@@ -89,7 +90,8 @@ class Builder {
     const std::vector<std::string>& paths = layer.sublayers();
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const std::string path = evaluated(paths[i], layer);
-      if (path.empty() || (inputs_.muted != nullptr && inputs_.muted->count(path) != 0)) {
+      if (path.empty() ||
+          (inputs_.muted != nullptr && compose::is_muted(*inputs_.muted, path, layer))) {
         continue;
       }
       const layer::LayerPtr sublayer = open(path, layer);
