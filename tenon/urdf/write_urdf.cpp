@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/urdf/write_urdf.h"
+
+#include <cmath>
+#include <initializer_list>
+#include <utility>
+
+#include "tenon/base/text_number.h"
+
+namespace tenon::urdf {
+
+using robot::GeometryKind;
+using robot::JointKind;
+
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string text_of(std::initializer_list<double> numbers) {
+  std::string out;
+  for (const double number : numbers) {
+    out += (out.empty() ? "" : " ") + shortest(number + 0.0);
+  }
+  return out;
+}
+
+std::string text_of(const Vec3d& v) { return text_of({v[0], v[1], v[2]}); }
+
+/// Elements in order, with attributes; indents by depth.
+class Writer {
+ public:
+  using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
+
+  void open(const char* name, Attributes attributes = {}) {
+    start(name, attributes);
+    text_ += ">\n";
+    ++depth_;
+  }
+  void empty(const char* name, Attributes attributes) {
+    start(name, attributes);
+    text_ += "/>\n";
+  }
+  void close(const char* name) {
+    --depth_;
+    text_ += std::string(2 * depth_, ' ') + "</" + name + ">\n";
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  void start(const char* name, Attributes attributes) {
+    text_ += std::string(2 * depth_, ' ') + "<" + name;
+    for (const auto& [key, value] : attributes) {
+      text_ += std::string(" ") + key + "=\"" + escaped(value) + "\"";
+    }
+  }
+  std::string text_ = "<?xml version=\"1.0\"?>\n";
+  std::size_t depth_ = 0;
+};
+
+const char* type_of(JointKind kind) {
+  return kind == JointKind::Ball ? "spherical" : robot::joint_kind_name(kind).data();
+}
+
+class UrdfWriter {
+ public:
+  explicit UrdfWriter(const robot::RobotModel& model) : model_(model) {}
+
+  std::string run() {
+    out_.open("robot", {{"name", model_.name}});
+    for (const robot::Material& material : model_.materials) {
+      write_material(material);
+    }
+    for (const robot::Link& link : model_.links) {
+      write_link(link);
+    }
+    for (const robot::Joint& joint : model_.joints) {
+      write_joint(joint);
+    }
+    out_.close("robot");
+    return out_.take();
+  }
+
+ private:
+  void write_material(const robot::Material& material) {
+    out_.open("material", {{"name", material.name}});
+    if (material.color) {
+      const Vec4d& c = *material.color;
+      out_.empty("color", {{"rgba", text_of({c[0], c[1], c[2], c[3]})}});
+    }
+    if (!material.texture.empty()) {
+      out_.empty("texture", {{"filename", material.texture}});
+    }
+    out_.close("material");
+  }
+
+  void write_origin(const Pose& pose) {
+    if (!(pose == Pose{})) {
+      out_.empty("origin",
+                 {{"xyz", text_of(pose.position)}, {"rpy", text_of(rpy_of(pose.orientation))}});
+    }
+  }
+
+  void write_inertial(const robot::Inertial& inertial) {
+    const Mat3d i = inertial.inertia_in_link();
+    out_.open("inertial");
+    write_origin({inertial.center_of_mass, kIdentityRotation});
+    out_.empty("mass", {{"value", text_of({inertial.mass})}});
+    out_.empty("inertia", {{"ixx", text_of({i[0][0]})},
+                           {"ixy", text_of({i[0][1]})},
+                           {"ixz", text_of({i[0][2]})},
+                           {"iyy", text_of({i[1][1]})},
+                           {"iyz", text_of({i[1][2]})},
+                           {"izz", text_of({i[2][2]})}});
+    out_.close("inertial");
+  }
+
+  void write_geometry(const robot::Geometry& g) {
+    const std::string radius = text_of({g.radius});
+    const std::string length = text_of({2 * g.half_height});
+    out_.open("geometry");
+    switch (g.kind) {
+      case GeometryKind::Box:
+        out_.empty("box", {{"size", text_of(g.half_extents * 2.0)}});
+        break;
+      case GeometryKind::Sphere:
+        out_.empty("sphere", {{"radius", radius}});
+        break;
+      case GeometryKind::Cylinder:
+        out_.empty("cylinder", {{"radius", radius}, {"length", length}});
+        break;
+      case GeometryKind::Capsule:
+        out_.empty("capsule", {{"radius", radius}, {"length", length}});
+        break;
+      case GeometryKind::Mesh:
+        out_.empty("mesh",
+                   {{"filename", model_.meshes[g.mesh].written}, {"scale", text_of(g.scale)}});
+        break;
+      case GeometryKind::Ellipsoid:
+      case GeometryKind::Plane:
+        break;  // URDF has no word for them
+    }
+    out_.close("geometry");
+  }
+
+  template <class Shape>
+  void write_shape(const char* element, const Shape& shape) {
+    if (shape.geometry.kind == GeometryKind::Ellipsoid ||
+        shape.geometry.kind == GeometryKind::Plane) {
+      return;
+    }
+    if (shape.name.empty()) {
+      out_.open(element);
+    } else {
+      out_.open(element, {{"name", shape.name}});
+    }
+    write_origin(shape.pose);
+    write_geometry(shape.geometry);
+    if (shape.material) {
+      out_.empty("material", {{"name", model_.materials[*shape.material].name}});
+    }
+    out_.close(element);
+  }
+
+  void write_link(const robot::Link& link) {
+    out_.open("link", {{"name", link.name}});
+    if (link.inertial) {
+      write_inertial(*link.inertial);
+    }
+    for (const robot::Visual& visual : link.visuals) {
+      write_shape("visual", visual);
+    }
+    for (const robot::Collider& collider : link.colliders) {
+      write_shape("collision", collider);
+    }
+    out_.close("link");
+  }
+
+  /// Readers ask for effort and velocity wherever there is a limit; 0 stands for none.
+  void write_limit(const robot::Joint& joint) {
+    const auto or_zero = [](double value) { return text_of({std::isfinite(value) ? value : 0}); };
+    const std::string effort = or_zero(joint.effort_limit);
+    const std::string velocity = or_zero(joint.velocity_limit);
+    if (joint.limit) {
+      out_.empty("limit", {{"lower", text_of({joint.limit->lower})},
+                           {"upper", text_of({joint.limit->upper})},
+                           {"effort", effort},
+                           {"velocity", velocity}});
+    } else {
+      out_.empty("limit", {{"effort", effort}, {"velocity", velocity}});
+    }
+  }
+
+  void write_one_axis(const robot::Joint& joint) {
+    out_.empty("axis", {{"xyz", text_of(rotate(joint.frame.orientation, joint.axis))}});
+    write_limit(joint);
+    if (joint.damping != 0 || joint.friction != 0) {
+      out_.empty("dynamics",
+                 {{"damping", text_of({joint.damping})}, {"friction", text_of({joint.friction})}});
+    }
+    if (joint.mimic) {
+      out_.empty("mimic", {{"joint", model_.joints[joint.mimic->leader].name},
+                           {"multiplier", text_of({joint.mimic->multiplier})},
+                           {"offset", text_of({joint.mimic->offset})}});
+    }
+  }
+
+  void write_joint(const robot::Joint& joint) {
+    out_.open("joint", {{"name", joint.name}, {"type", type_of(joint.kind)}});
+    write_origin(joint.origin);
+    out_.empty("parent", {{"link", model_.links[joint.parent].name}});
+    out_.empty("child", {{"link", model_.links[joint.child].name}});
+    if (joint.has_one_axis()) {
+      write_one_axis(joint);
+    }
+    out_.close("joint");
+  }
+
+  const robot::RobotModel& model_;
+  Writer out_;
+};
+
+}  // namespace
+
+Vec3d rpy_of(const Quatd& q) {
+  const double sine = 2 * (q.w * q.y - q.z * q.x);
+  if (std::fabs(sine) > 1 - 1e-12) {  // straight up or down: yaw says nothing of its own
+    return {{2 * std::atan2(q.x, q.w), std::copysign(std::acos(-1.0) / 2, sine), 0}};
+  }
+  return {{std::atan2(2 * (q.w * q.x + q.y * q.z), 1 - 2 * (q.x * q.x + q.y * q.y)),
+           std::asin(sine),
+           std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))}};
+}
+
+std::string write_urdf(const robot::RobotModel& model) { return UrdfWriter(model).run(); }
+
+}  // namespace tenon::urdf
