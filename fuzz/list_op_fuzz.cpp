@@ -87,7 +87,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<Token> twice = list;
     edit.apply_to(twice);
     check(std::set<Token>(list.begin(), list.end()) == std::set<Token>(twice.begin(), twice.end()));
-    check_stored(edit);
+    if (!(edit == TokenEdit())) {  // text has no word for an edit that does nothing, as OpenUSD's
+      check_stored(edit);
+    }
   }
   return 0;
 }

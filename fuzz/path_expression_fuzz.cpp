@@ -3,6 +3,7 @@
 
 // Input: lines with a prefix, an anchor and a path expression (the rest). The text that a tree
 // gives is read as the same text; taken from the anchor and with paths mapped it can be read too.
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -25,6 +26,14 @@ PathExpressionTree read_again(const PathExpressionTree& tree) {
   return *std::move(again);
 }
 
+/// Paths of prims that expressions can name: as in OpenUSD, theirs are of ASCII alone.
+bool is_nameable(Path path) {
+  const std::string text = path.str();
+  return path.is_absolute() && path.is_prim() && std::all_of(text.begin(), text.end(), [](char c) {
+           return static_cast<unsigned char>(c) < 0x80;
+         });
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -36,11 +45,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   PathExpressionTree tree = read_again(*parsed);
-  if (anchor.is_absolute() && anchor.is_prim()) {
+  if (is_nameable(anchor)) {
     tree.make_absolute(anchor);
     tree = read_again(tree);
   }
-  if (prefix.is_absolute() && prefix.is_prim()) {
+  if (is_nameable(prefix)) {
     read_again(tree.mapped([&](Path path) { return path.has_prefix(prefix) ? prefix : Path(); }));
   }
   if (const auto composed = tree.composed_over(*parsed)) {
