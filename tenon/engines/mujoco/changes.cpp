@@ -124,13 +124,16 @@ Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::make(const PhysicsSc
 }
 
 void MujocoSimulation::collect_changes() {
-  switches_.clear();
   tracked_bounds_.clear();
   if (own_ == nullptr) {
     return;
   }
-  for (const physics::SwitchTrack& track : own_->switch_tracks) {
-    switches_.push_back({&track, is_on(*own_, track)});
+  // A new model leaves the switches where they are. The scene may say other than they do: disabled
+  // bodies are kinematic, broken joints disabled.
+  if (switches_.empty()) {
+    for (const physics::SwitchTrack& track : own_->switch_tracks) {
+      switches_.push_back({&track, is_on(*own_, track)});
+    }
   }
   const mjModel* m = model_.model.get();
   for (const physics::BoundsTrack& track : own_->bounds_tracks) {
