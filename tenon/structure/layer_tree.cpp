@@ -189,6 +189,14 @@ bool has_api(const Layer& layer, Path prim, std::string_view api) {
   return std::any_of(apis.begin(), apis.end(), [&](Token name) { return name == api; });
 }
 
+void add_api(Layer& layer, Path prim, Token api) {
+  if (!has_api(layer, prim, api.view())) {
+    std::vector<Token> apis = apis_of(layer, prim);
+    apis.push_back(api);
+    set_apis(*layer.find(prim), std::move(apis));
+  }
+}
+
 bool is_active(const Layer& layer, Path prim) {
   const Spec* spec = layer.find(prim);
   return spec != nullptr && spec->get_or(fields::active, true);

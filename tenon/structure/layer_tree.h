@@ -45,6 +45,8 @@ std::vector<Token> apis_of(const layer::Layer& layer, Path prim);
 /// Writes the list as `prepend apiSchemas`; an empty one is erased.
 void set_apis(layer::Spec& prim, std::vector<Token> apis);
 bool has_api(const layer::Layer& layer, Path prim, std::string_view api);
+/// Applies an API schema, after those that the prim has; nothing where it has it.
+void add_api(layer::Layer& layer, Path prim, Token api);
 /// False where the layer switches the prim off itself.
 bool is_active(const layer::Layer& layer, Path prim);
 

@@ -27,14 +27,6 @@ Path first_target(const Layer& content, Path prim, const char* name) {
   return targets.empty() ? Path() : targets.front();
 }
 
-void add_api(Layer& content, Path prim, const char* api) {
-  std::vector<Token> apis = apis_of(content, prim);
-  if (std::find(apis.begin(), apis.end(), Token(api)) == apis.end()) {
-    apis.emplace_back(api);
-    set_apis(*content.find(prim), std::move(apis));
-  }
-}
-
 void add_list(Layer& content, Path property, const std::vector<Path>& all) {
   std::vector<Path> targets;
   std::copy_if(all.begin(), all.end(), std::back_inserter(targets),
@@ -134,17 +126,17 @@ void add_robot_metadata(Layer& content, const KinematicOrder& order) {
   if (order.links.empty() || has_api(content, robot, "IsaacRobotAPI")) {
     return;
   }
-  add_api(content, robot, "IsaacRobotAPI");
+  add_api(content, robot, Token("IsaacRobotAPI"));
   add_list(content, robot.property("isaac:physics:robotLinks"), order.links);
   add_list(content, robot.property("isaac:physics:robotJoints"), order.joints);
   for (const Path& link : order.links) {
     if (content.has(link) && is_active(content, link)) {
-      add_api(content, link, "IsaacLinkAPI");
+      add_api(content, link, Token("IsaacLinkAPI"));
     }
   }
   for (const Path& joint : order.joints) {
     if (content.has(joint) && is_active(content, joint)) {
-      add_api(content, joint, "IsaacJointAPI");
+      add_api(content, joint, Token("IsaacJointAPI"));
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "tenon/base/file_finding.h"
 #include "tenon/layer/fields.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/schema/registry.h"
@@ -28,14 +29,6 @@ struct MimicLaw {
   double multiplier = 1;
   Path leader;
 };
-
-void apply(Layer& content, Path prim, Token api) {
-  if (!has_api(content, prim, api.view())) {
-    std::vector<Token> apis = apis_of(content, prim);
-    apis.push_back(api);
-    set_apis(*content.find(prim), std::move(apis));
-  }
-}
 
 /// Removes an API schema and all that it declares.
 void remove(Layer& content, Path prim, Token api) {
@@ -149,10 +142,7 @@ class Migration {
 
   void note(const char* rule, Path prim, std::string message) {
     if (noted_.emplace(prim, message).second) {
-      Diagnostic finding;
-      finding.severity = Severity::Info;
-      finding.rule = rule;
-      finding.message = std::move(message);
+      Diagnostic finding = file_finding(Severity::Info, rule, std::move(message), "");
       finding.prim = prim.str();
       diagnostics_.add(std::move(finding));
     }
@@ -211,7 +201,7 @@ class Migration {
 
   static void put_law(Layer& content, Path prim, const MimicLaw& law) {
     const Token api(kNewtonMimic);
-    apply(content, prim, api);
+    add_api(content, prim, api);
     set_number(content, prim, api, "newton:mimicCoef0", law.offset);
     set_number(content, prim, api, "newton:mimicCoef1", law.multiplier);
     set_leader(content, prim, api, "newton:mimicJoint", law.leader);
@@ -244,7 +234,7 @@ class Migration {
     const std::string instance = rotation_axis(content, prim);
     const std::string prefix = "physxMimicJoint:" + instance + ":";
     const Token api("PhysxMimicJointAPI:" + instance);
-    apply(content, prim, api);
+    add_api(content, prim, api);
     set_number(content, prim, api, prefix + "gearing",
                -number(content, prim, "newton:mimicCoef1", 1));
     set_number(content, prim, api, prefix + "offset",
@@ -264,7 +254,7 @@ class Migration {
     const Spec* known = content.find(prim.property(Token(from)));
     if (known != nullptr && !content.has(prim.property(Token(to)))) {
       const Spec spec = *known;
-      apply(content, prim, api);
+      add_api(content, prim, api);
       put_property(content, prim.property(Token(to)), spec);
     }
   }
