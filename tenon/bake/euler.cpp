@@ -12,10 +12,11 @@
 #include <cmath>
 #include <string_view>
 
+#include "tenon/math/angle.h"
+
 namespace tenon::bake {
 namespace {
 
-constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr double kStraight = 1e-9;  // cosine of b below which two of the angles are one
 constexpr std::string_view kPrefix = "xformOp:rotate";
 
@@ -43,10 +44,11 @@ Vec3d nearest(const Angles& angles, const std::array<std::size_t, 3>& axes, cons
   for (int other = 0; other < 2; ++other) {
     Vec3d found;
     const double turn = other == 0 ? 0 : kHalf;
-    found[axes[0]] = near(angles[0] * kDegrees + turn, before[axes[0]]);
+    found[axes[0]] = near(angles[0] * kDegreesPerRadian + turn, before[axes[0]]);
     found[axes[1]] =
-        near(other == 0 ? angles[1] * kDegrees : kHalf - angles[1] * kDegrees, before[axes[1]]);
-    found[axes[2]] = near(angles[2] * kDegrees + turn, before[axes[2]]);
+        near(other == 0 ? angles[1] * kDegreesPerRadian : kHalf - angles[1] * kDegreesPerRadian,
+             before[axes[1]]);
+    found[axes[2]] = near(angles[2] * kDegreesPerRadian + turn, before[axes[2]]);
     const double distance = length(found - before);
     if (other == 0 || distance < least) {
       best = found;
@@ -72,7 +74,7 @@ std::optional<Vec3d> euler_degrees(const Mat3d& rigid, Token op, const Vec3d& be
     }
     const std::size_t j = (i + 1) % 3;
     Vec3d found;
-    found[i] = near(std::atan2(rigid[j][(i + 2) % 3], rigid[j][j]) * kDegrees, before[i]);
+    found[i] = near(std::atan2(rigid[j][(i + 2) % 3], rigid[j][j]) * kDegreesPerRadian, before[i]);
     return found;
   }
   if (order.size() != 3) {

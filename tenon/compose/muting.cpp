@@ -8,8 +8,11 @@ namespace tenon::compose {
 
 bool is_muted(const std::set<std::string>& muted, const std::string& asset_path,
               const layer::Layer& anchor) {
-  if (muted.empty() || muted.count(asset_path) != 0) {
-    return !muted.empty();
+  if (muted.empty()) {
+    return false;  // as in nearly all scenes: no path is taken apart
+  }
+  if (muted.count(asset_path) != 0) {
+    return true;
   }
   const std::string& identifier = anchor.identifier();
   const bool beside = asset_path.starts_with("./") || asset_path.starts_with("../");

@@ -14,13 +14,13 @@
 #include "tenon/layer/spline.h"
 #include "tenon/layer/time_samples.h"
 #include "tenon/physics/attribute_values.h"
+#include "tenon/physics/units.h"
 #include "tenon/stage/stage_units.h"
 
 namespace tenon::physics {
 namespace {
 
-constexpr double kUnlimitedFrom = 0.5e38;  // S-4
-constexpr double kSameUnit = 1e-5;         // S-8
+constexpr double kSameUnit = 1e-5;  // S-8
 
 constexpr Dimension kLength{1, 0};
 constexpr Dimension kMass{0, 1};
@@ -107,11 +107,10 @@ Dimension instance_dimension(std::string_view name, bool acceleration) {
 template <class T>
 T scaled_number(T number, double factor) {
   const double value = static_cast<double>(number);
-  return std::fabs(value) < kUnlimitedFrom ? static_cast<T>(static_cast<float>(value * factor))
-                                           : number;
+  return is_sentinel(value) ? number : static_cast<T>(static_cast<float>(value * factor));
 }
 double scaled_number(double number, double factor) {
-  return std::fabs(number) < kUnlimitedFrom ? number * factor : number;
+  return is_sentinel(number) ? number : number * factor;
 }
 
 template <class T>
