@@ -6,7 +6,7 @@
 #include <map>
 #include <memory>
 
-#include "tenon/bytes/atomic_write.h"
+#include "tenon/bytes/replace_files.h"
 #include "tenon/edit/edit_target.h"
 #include "tenon/edit/layer_editor.h"
 #include "tenon/edit_file_choice.h"
@@ -408,19 +408,11 @@ Result<EditedAsset> edit_asset(const std::string& path, const std::vector<AssetE
 }
 
 Result<void> write_files(const std::vector<EditedFile>& files) {
-  std::vector<std::pair<std::string, std::string>> old;
+  std::map<std::string, std::string> contents;
   for (const EditedFile& file : files) {
-    TENON_TRY(const auto before, bytes::FileBytes::open(file.path));
-    old.emplace_back(file.path, std::string(before->text()));
-    if (auto written = bytes::write_file(file.path, file.after); !written) {
-      old.pop_back();
-      for (const auto& [path, contents] : old) {
-        (void)bytes::write_file(path, contents);
-      }
-      return written;
-    }
+    contents.insert_or_assign(file.path, file.after);
   }
-  return {};
+  return bytes::replace_files(contents);
 }
 
 }  // namespace tenon

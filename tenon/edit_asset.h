@@ -71,7 +71,7 @@ struct EditedAsset {
 Result<EditedAsset> edit_asset(const std::string& path, const std::vector<AssetEdit>& edits,
                                const EditOptions& options, Diagnostics& diagnostics);
 
-/// Writes all files, each in one step; when one cannot be written those before it are put back.
+/// Writes all files in one step, also when the process is killed (bytes/replace_files.h).
 Result<void> write_files(const std::vector<EditedFile>& files);
 
 }  // namespace tenon

@@ -89,6 +89,31 @@ Result<void> NewFolder::add_file(const std::string& name, std::string_view conte
   return error == 0 ? Result<void>() : unwritable(place_ + "/" + name, "file", error);
 }
 
+int NewFolder::add_link(const std::string& name, const std::string& target) {
+  const int error = make_folders(parent_of(name));
+  return error == 0 && ::symlink(target.c_str(), (path_ + "/" + name).c_str()) != 0 ? errno : error;
+}
+
+int NewFolder::add_hard_link(const std::string& name, const std::string& existing) {
+  const int error = make_folders(parent_of(name));
+  return error == 0 && ::link(existing.c_str(), (path_ + "/" + name).c_str()) != 0 ? errno : error;
+}
+
+/// That the owner may not be changed is no error.
+int NewFolder::take_mode(const std::string& name, const std::string& existing) {
+  const std::string path = name.empty() ? path_ : path_ + "/" + name;
+  struct stat old = {};
+  struct stat own = {};
+  if (::stat(existing.c_str(), &old) != 0 || ::stat(path.c_str(), &own) != 0) {
+    return errno;
+  }
+  if ((own.st_uid != old.st_uid || own.st_gid != old.st_gid) &&
+      ::chown(path.c_str(), old.st_uid, old.st_gid) != 0) {
+    errno = 0;
+  }
+  return ::chmod(path.c_str(), old.st_mode & 07777u) == 0 ? 0 : errno;
+}
+
 int NewFolder::sync_and_rename(Replace replace) {
   for (const std::string& folder : folders_) {
     if (const int error = sync_folder(folder); error != 0) {

@@ -28,6 +28,13 @@ class NewFolder {
   Result<void> add_folder(const std::string& name);
   Result<void> add_file(const std::string& name, std::string_view contents);
 
+  /// The same for a symbolic link with these contents, and for another name of the file `existing`;
+  /// the owner and permissions of `existing` for what has that name, "" for the folder itself.
+  /// Return 0 or an error number.
+  int add_link(const std::string& name, const std::string& target);
+  int add_hard_link(const std::string& name, const std::string& existing);
+  int take_mode(const std::string& name, const std::string& existing);
+
   enum class Replace { Empty, Anything };
   /// Syncs all of it and gives it its place in one step. What stood there before goes: an empty
   /// folder, or any folder. Errors, which leave the place as it was: ErrorCode::Io, Unsupported

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -10,10 +9,9 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <sys/ptrace.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "tenon/bytes/killed_child.h"
 #include "tenon/structure/package.h"
 
 namespace tenon::structure {
@@ -91,35 +89,6 @@ TEST_F(WriteFolder, RefusesNamesThatLeadElsewhere) {
   EXPECT_FALSE(fs::exists(folder_));
 }
 
-/// Runs write_folder in a child and kills it as it enters its system call number `call`. False once
-/// the child ends before that; nothing where processes may not be traced.
-std::optional<bool> killed_at(int call, const Files& files, const std::string& folder) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    if (::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) {
-      ::_exit(77);
-    }
-    ::raise(SIGSTOP);
-    ::_exit(write_folder(files, folder).has_value() ? 0 : 1);
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  if (!WIFSTOPPED(status)) {
-    return std::nullopt;
-  }
-  for (int i = 0; i < 2 * call - 1; ++i) {  // it stops as it enters and as it leaves
-    ::ptrace(PTRACE_SYSCALL, child, nullptr, nullptr);
-    ::waitpid(child, &status, 0);
-    if (WIFEXITED(status)) {
-      EXPECT_EQ(WEXITSTATUS(status), 0);
-      return false;
-    }
-  }
-  ::kill(child, SIGKILL);
-  ::waitpid(child, &status, 0);
-  return true;
-}
-
 TEST_F(WriteFolder, AKillAtAnySystemCallLeavesTheOldOrTheNew) {
   int old_ones = 0;
   int new_ones = 0;
@@ -128,7 +97,8 @@ TEST_F(WriteFolder, AKillAtAnySystemCallLeavesTheOldOrTheNew) {
       fs::remove_all(parent_);
       fs::create_directory(parent_);
       put(before);
-      const std::optional<bool> killed = killed_at(call, kNew, folder_);
+      const std::optional<bool> killed =
+          bytes::killed_at(call, [&] { return write_folder(kNew, folder_).has_value(); });
       if (!killed) {
         GTEST_SKIP() << "processes may not be traced here";
       }
