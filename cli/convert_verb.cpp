@@ -9,6 +9,7 @@
 #include "tenon/base/text_number.h"
 #include "tenon/convert_file.h"
 #include "tenon/export_mjcf.h"
+#include "tenon/export_urdf.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/structure_asset.h"
@@ -174,6 +175,39 @@ int run_export(Report& report, const Options& options) {
                              {"joints", scene.joints.size()}});
 }
 
+/// The meshes come first, so that a description never names files that are not there.
+Result<void> write_urdf_files(const ExportedUrdf& urdf, const std::string& output) {
+  const fs::path folder = fs::path(output).parent_path();
+  for (const auto& [name, text] : urdf.meshes) {
+    std::error_code error;
+    fs::create_directories((folder / name).parent_path(), error);
+    TENON_CHECK(write_output((folder / name).string(), text));
+  }
+  return write_output(output, urdf.text);
+}
+
+int run_export_urdf(Report& report, const Options& options) {
+  auto stage = open_stage(options.input, {}, report.diagnostics);
+  if (!stage) {
+    return report.fail(stage.error());
+  }
+  const std::string folder = fs::path(options.output).stem().string() + "_meshes";
+  const auto urdf = export_urdf(*stage, folder, report.diagnostics);
+  if (!urdf) {
+    return report.fail(urdf.error());
+  }
+  if (const auto written = write_urdf_files(*urdf, options.output); !written) {
+    return report.fail(written.error());
+  }
+  report.note("wrote " + shown_path(options.output) + ": " + std::to_string(urdf->links) +
+              " links, " + std::to_string(urdf->joints) + " joints, " +
+              std::to_string(urdf->meshes.size()) + " mesh files");
+  return report.finish(kOk, {{"output", options.output},
+                             {"links", urdf->links},
+                             {"joints", urdf->joints},
+                             {"meshes", urdf->meshes.size()}});
+}
+
 bool ends_in(const std::string& path, std::initializer_list<const char*> endings) {
   const std::string ending = fs::path(path).extension().string();
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
@@ -182,9 +216,14 @@ bool ends_in(const std::string& path, std::initializer_list<const char*> endings
 int run_convert(const Globals& globals, const Options& options) {
   Report report(globals, "convert", options.input);
   if (ends_in(options.input, {".usda", ".usdc", ".usd", ".usdz"})) {
+    if (ends_in(options.output, {".urdf"})) {
+      return run_export_urdf(report, options);
+    }
     if (!ends_in(options.output, {".xml"})) {
-      return report.fail(Error(ErrorCode::Unsupported, "an asset becomes MJCF only")
-                             .with_fix("name the output .xml; `tenon cat` writes assets"));
+      return report.fail(
+          Error(ErrorCode::Unsupported, "an asset becomes MJCF or URDF only")
+              .with_fix("name the output .xml or .urdf; `tenon cat` and `tenon structure` write "
+                        "assets"));
     }
     return run_export(report, options);
   }
@@ -206,12 +245,13 @@ int run_convert(const Globals& globals, const Options& options) {
 
 void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
-      "convert", "Make an asset of a robot's description (URDF, MJCF), or MJCF of an asset");
+      "convert",
+      "Make an asset of a robot's description (URDF, MJCF), or a description of an asset");
   auto options = std::make_shared<Options>();
   verb.add_option("input", options->input, "A URDF or MJCF file, or an asset").required();
   verb.add_option("output", options->output,
                   "A .usda, .usdc, .usd or .usdz file, or a folder for Asset Structure 3.0; for an "
-                  "asset an .xml file")
+                  "asset an .xml or .urdf file")
       .required();
   verb.add_option("--package", options->packages,
                   "NAME=DIR: where a ROS package lies; else it "
@@ -236,6 +276,7 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
       "  tenon convert hand.urdf hand/     one file for each concern, as tenon structure makes it\n"
       "  tenon convert arm.urdf arm.usdc --fix-base --gains 400,40\n"
       "  tenon convert humanoid.xml humanoid.usda\n  tenon convert hand.usda hand.xml\n"
+      "  tenon convert hand.usda hand.urdf\n"
       "  tenon convert ur5.urdf ur5.usdz --package ur_description=../ur_description\n"
       "Exit code 1: written, but something of the robot is left out; each case is listed.");
   choose(verb, chosen, [&globals, options] { return run_convert(globals, *options); });

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "tenon/base/text_number.h"
 
@@ -48,14 +50,14 @@ std::string text_of(const Vec3d& v) { return text_of({v[0], v[1], v[2]}); }
 /// Elements in order, with attributes; indents by depth.
 class Writer {
  public:
-  using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
+  using AttributeList = std::vector<std::pair<const char*, std::string>>;
 
-  void open(const char* name, Attributes attributes = {}) {
+  void open(const char* name, const AttributeList& attributes = {}) {
     start(name, attributes);
     text_ += ">\n";
     ++depth_;
   }
-  void empty(const char* name, Attributes attributes) {
+  void empty(const char* name, const AttributeList& attributes) {
     start(name, attributes);
     text_ += "/>\n";
   }
@@ -66,7 +68,7 @@ class Writer {
   std::string take() { return std::move(text_); }
 
  private:
-  void start(const char* name, Attributes attributes) {
+  void start(const char* name, const AttributeList& attributes) {
     text_ += std::string(2 * depth_, ' ') + "<" + name;
     for (const auto& [key, value] : attributes) {
       text_ += std::string(" ") + key + "=\"" + escaped(value) + "\"";
@@ -209,12 +211,37 @@ class UrdfWriter {
     }
   }
 
-  void write_one_axis(const robot::Joint& joint) {
+  void write_axis(const robot::Joint& joint) {
     out_.empty("axis", {{"xyz", text_of(rotate(joint.frame.orientation, joint.axis))}});
+  }
+
+  void write_optional(const char* name,
+                      std::initializer_list<std::pair<const char*, std::optional<double>>> values) {
+    Writer::AttributeList attributes;
+    for (const auto& [key, value] : values) {
+      if (value) {
+        attributes.emplace_back(key, text_of({*value}));
+      }
+    }
+    out_.empty(name, attributes);
+  }
+
+  void write_one_axis(const robot::Joint& joint) {
+    write_axis(joint);
     write_limit(joint);
     if (joint.damping != 0 || joint.friction != 0) {
       out_.empty("dynamics",
                  {{"damping", text_of({joint.damping})}, {"friction", text_of({joint.friction})}});
+    }
+    if (const auto& safety = joint.safety) {
+      write_optional("safety_controller", {{"soft_lower_limit", safety->soft_lower},
+                                           {"soft_upper_limit", safety->soft_upper},
+                                           {"k_position", safety->position_gain},
+                                           {"k_velocity", safety->velocity_gain}});
+    }
+    if (joint.calibration) {
+      write_optional("calibration", {{"rising", joint.calibration->rising},
+                                     {"falling", joint.calibration->falling}});
     }
     if (joint.mimic) {
       out_.empty("mimic", {{"joint", model_.joints[joint.mimic->leader].name},
@@ -230,6 +257,8 @@ class UrdfWriter {
     out_.empty("child", {{"link", model_.links[joint.child].name}});
     if (joint.has_one_axis()) {
       write_one_axis(joint);
+    } else if (joint.kind == JointKind::Planar) {
+      write_axis(joint);
     }
     out_.close("joint");
   }

@@ -10,8 +10,8 @@ namespace tenon::urdf {
 
 /// A robot as URDF text (version 1.0, with the capsules of 1.2), numbers to their last bit.
 /// Orientations are roll, pitch and yaw [rad]; meshes are named by MeshFile::written. Written are
-/// links, joints, limits, mimics of a multiplier and an offset, damping, friction and materials.
-/// All else of the model is left out, ellipsoids, planes, safety limits and calibration among it;
+/// links, joints, limits, mimics of a multiplier and an offset, damping, friction, safety limits,
+/// calibration and materials. All else of the model is left out, ellipsoids and planes among it;
 /// whoever calls says so.
 std::string write_urdf(const robot::RobotModel& model);
 

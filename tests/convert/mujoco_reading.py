@@ -124,6 +124,10 @@ class Reading:
 class Comparison:
     """Faults of one robot, and how many numbers were held to each other."""
 
+    unsaid = ()  # numbers of joints that the description cannot give
+    shift = 0  # of the description in the world [m]
+    tolerance = FLOAT
+
     def __init__(self, name, reading, scene):
         self.name, self.reading, self.scene = name, reading, scene
         self.faults, self.compared = [], 0
@@ -138,7 +142,7 @@ class Comparison:
             scale = max(1, float(numpy.max(numpy.abs(wanted[numpy.isfinite(wanted)]), initial=0)))
         self.compared += 1
         with numpy.errstate(invalid="ignore"):
-            good = (found == wanted) | (numpy.abs(found - wanted) <= FLOAT * scale)
+            good = (found == wanted) | (numpy.abs(found - wanted) <= self.tolerance * scale)
         if not good.all():
             self.faults.append(f"{self.name}: {what}: {found.tolist()}, MuJoCo {wanted.tolist()}")
 
@@ -196,7 +200,7 @@ class Comparison:
         body = self.by_path[joint["body1"]]
         turn, frame = rotation(body["orientation"]), joint["frame1"]
         self.near(f"{name}: anchor", numpy.array(body["position"]) + turn @ frame["position"],
-                  data.xanchor[number])
+                  data.xanchor[number] + self.shift)
         if wanted == "spherical":
             return
         axis = (turn @ rotation(frame["orientation"]))[:, "xyz".index(joint["axis"].lower())]
@@ -215,6 +219,8 @@ class Comparison:
                              ("friction", model.dof_frictionloss[dof]),
                              ("armature", model.dof_armature[dof]),
                              ("stiffness", model.jnt_stiffness[number])):
+            if word in self.unsaid:
+                continue
             self.near(f"{name}: {word}", joint[word], numpy.ravel(wanted)[0])
 
     def compare_mimic(self, name, law):
@@ -227,7 +233,51 @@ class Comparison:
         while leader in self.reading.mimics:
             leader, m, o = self.reading.mimics[leader]
             multiplier, offset = multiplier * m, offset + multiplier * o
-        found = joint["mimic"]
-        if found["leader"].rsplit("/", 1)[1] != legal(leader):
-            self.faults.append(f"{self.name}: {name} follows {found['leader']}, not {leader}")
-        self.near(f"{name}: law", [found["multiplier"], found["offset"]], [multiplier, offset])
+        path, m, o = self.law(joint["mimic"])
+        if path != legal(leader):
+            self.faults.append(f"{self.name}: {name} follows {path}, not {leader}")
+        self.near(f"{name}: law", [m, o], [multiplier, offset])
+
+    def law(self, mimic):
+        """-> name of the first leader, multiplier, offset."""
+        leader = mimic["leader"].rsplit("/", 1)[1]
+        above = self.joints[leader]["mimic"]
+        if not above:
+            return leader, mimic["multiplier"], mimic["offset"]
+        leader, m, o = self.law(above)
+        return leader, mimic["multiplier"] * m, mimic["offset"] + mimic["multiplier"] * o
+
+
+class WorldComparison(Comparison):
+    """Of a description whose link frames may stand at joints: centres of mass in the world.
+
+    What descriptions have no word for is not compared.
+    """
+
+    unsaid = ("armature", "stiffness")
+    tolerance = 3e-6  # bodies of such assets stand where their joints say, but for rounding
+
+    def __init__(self, name, reading, scene):
+        super().__init__(name, reading, scene)
+        # A description begins at the root; where that stands in the world it cannot say.
+        root = self.bodies.get(legal(reading.model.body(1).name))
+        carried = {joint["body1"] for joint in scene["joints"]}
+        self.shift = numpy.zeros(3)
+        if root is not None and root["path"] not in carried:
+            self.shift = numpy.array(root["position"]) - reading.data.xpos[1]
+
+    def compare_body(self, number):
+        model, data = self.reading.model, self.reading.data
+        body = self.bodies.get(legal(model.body(number).name))
+        if body is None or model.body_mass[number] == 0:
+            return  # a frame
+        turn = rotation(body["orientation"])
+        self.near(f"{body['path']}: mass", body["mass"], model.body_mass[number], body["mass"])
+        self.near(f"{body['path']}: centre",
+                  numpy.array(body["position"]) + turn @ body["centerOfMass"],
+                  data.xipos[number] + self.shift)
+        axes = rotation(model.body_iquat[number])
+        inertia = axes @ numpy.diag(model.body_inertia[number]) @ axes.T
+        inertia = self.reading.refused.get(model.body(number).name, inertia)
+        self.near(f"{body['path']}: inertia", body["inertia"], inertia,
+                  numpy.max(numpy.abs(inertia)))

@@ -109,7 +109,8 @@ def said(answer):
 
 def try_robot(tenon, name, source, expected):
     """-> faults, numbers compared, findings, seconds of each verb."""
-    from mujoco_reading import Comparison, Reading  # pylint: disable=import-outside-toplevel
+    # pylint: disable-next=import-outside-toplevel
+    from mujoco_reading import Comparison, Reading, WorldComparison
 
     with tempfile.TemporaryDirectory() as folder:
         robot = Robot(tenon, source, pathlib.Path(folder))
@@ -136,7 +137,14 @@ def try_robot(tenon, name, source, expected):
         if code != 0:
             return faults + [f"{name}: physics: {said(scene)}"], 0, findings, robot.times
         comparison = Comparison(name, Reading(source), scene).run()
-        return faults + comparison.faults, comparison.compared, findings, robot.times
+        faults += comparison.faults
+        back = robot.package.parent / "back.urdf"
+        code, answer = robot.run("convert", interface, back)
+        if code != 0:
+            return faults + [f"{name}: to URDF: {said(answer)}"], 0, findings, robot.times
+        again = WorldComparison(f"{name} as URDF", Reading(back), scene).run()
+        return (faults + again.faults, comparison.compared + again.compared, findings,
+                robot.times)
 
 
 def is_robot(path):
