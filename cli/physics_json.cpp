@@ -323,6 +323,21 @@ Json switch_json(const PhysicsScene& scene, const physics::SwitchTrack& track) {
   return {{"joint", scene.joints[track.object].path.str()}, {"value", "collisionEnabled"}};
 }
 
+/// Which bodies are parts of others, and what that makes them weigh.
+Json nesting_json(const PhysicsScene& scene, const physics::NestingState& state) {
+  Json row{{"time", number(state.time)}, {"carried", Json::array()}, {"masses", Json::array()}};
+  for (const physics::CarriedBody& carried : state.carried) {
+    row["carried"].push_back({{"body", scene.bodies[carried.body].path.str()},
+                              {"carrier", scene.bodies[carried.carrier].path.str()}});
+  }
+  for (const auto& [body, mass] : state.masses) {
+    row["masses"].push_back({{"body", scene.bodies[body].path.str()},
+                             {"mass", number(mass.mass)},
+                             {"centerOfMass", vector(mass.center_of_mass)}});
+  }
+  return row;
+}
+
 /// Switches, bounds, gravity and groups that follow samples.
 void add_changes(const PhysicsScene& scene, Json& list) {
   const auto add = [&](Json row, std::size_t samples, bool held) {
@@ -349,6 +364,13 @@ void add_changes(const PhysicsScene& scene, Json& list) {
     row["lastMass"] = number(track.shapes.back().mass);
     row["lastCenterOfMass"] = vector(track.shapes.back().center_of_mass);
     add(std::move(row), track.times.size(), true);
+  }
+  if (!scene.nesting_states.empty()) {
+    Json row{{"value", "nesting"}, {"states", Json::array()}};
+    for (const physics::NestingState& state : scene.nesting_states) {
+      row["states"].push_back(nesting_json(scene, state));
+    }
+    add(std::move(row), scene.nesting_states.size(), true);
   }
   if (!scene.group_states.empty()) {
     add({{"value", "collisionGroups"}}, scene.group_states.size(), true);

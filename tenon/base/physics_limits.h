@@ -12,4 +12,6 @@ inline constexpr std::size_t kPointInstancerDepth = 8;        ///< point instanc
 inline constexpr std::size_t kDecomposedTriangles = 200'000;  ///< of a mesh to be taken apart
 inline constexpr std::size_t kShapeSamples = 4'000;           ///< of shapes that move inside a body
 
+inline constexpr std::size_t kNestingStates = 1'000;          ///< of bodies switched off in others
+
 }  // namespace tenon::limits

@@ -384,6 +384,28 @@ struct ShapesTrack {
   std::size_t at(double seconds) const;
 };
 
+/// Mass, centre of mass and inertia of a body, as in Body.
+struct BodyMass {
+  double mass = 1;                    ///< [kg]
+  Vec3d center_of_mass;               ///< in the body frame [m]
+  Mat3d inertia = Mat3d::identity();  ///< [kg m^2]
+};
+
+/// A body that samples switch off inside another one: while it is off it moves as a part of that.
+struct CarriedBody {
+  Index body = 0;
+  Index carrier = 0;  ///< the nearest body around it that is on
+};
+
+/// Which bodies are parts of others from a time on (S-23).
+struct NestingState {
+  double time = 0;                   ///< [s] from the start; the first one holds before, too
+  std::vector<CarriedBody> carried;  ///< ascending
+  /// What carried bodies and their carriers weigh in that state, ascending by body; what a carried
+  /// body adds, or nothing where the carrier's own mass API speaks for all of it.
+  std::vector<std::pair<Index, BodyMass>> masses;
+};
+
 /// What this description could not take over from the stage; never silent.
 struct NotRead {
   Path prim;
@@ -408,6 +430,7 @@ struct PhysicsScene {
   std::vector<GravityTrack> gravity_tracks;
   std::vector<ShapesTrack> shapes_tracks;
   std::vector<GroupState> group_states;  ///< ascending in time; empty: `filter` holds throughout
+  std::vector<NestingState> nesting_states;  ///< ascending in time; empty: no body is ever carried
   std::vector<NotRead> not_read;
 
   double meters_per_unit = 0.01;  ///< of the stage, to go back to its units

@@ -131,6 +131,7 @@ void read_collision_groups(ReadState& state);
 void read_filtered_pairs(ReadState& state);
 void read_tracks(ReadState& state);
 void read_moving_shapes(ReadState& state);
+void read_nesting(ReadState& state);
 void note_what_is_not_read(ReadState& state);
 
 }  // namespace tenon::physics

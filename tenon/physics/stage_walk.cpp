@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/physics/stage_walk.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -31,8 +32,9 @@ struct Pending {
 
 class Walker {
  public:
-  Walker(const AttributeValues& values, const Readings& readings, Walk& walk)
-      : values_(values), readings_(readings), walk_(walk) {}
+  Walker(const AttributeValues& values, const Readings& readings,
+         std::optional<stage::Time> switches_at, Walk& walk)
+      : values_(values), readings_(readings), switches_at_(switches_at), walk_(walk) {}
 
   void run(const stage::Prim& root) {
     push_children(root, {});
@@ -248,8 +250,11 @@ class Walker {
     }
     // S-28: a body that is enabled at some time is one throughout.
     const stage::Attribute enabled = prim.attribute(physics_tokens().body_enabled);
-    const bool later = values_.stage_is_animated() && enabled.is_animated();
-    return values_.flag(prim, physics_tokens().body_enabled, true) || later;
+    const bool animated = values_.stage_is_animated() && enabled.is_animated();
+    if (animated && switches_at_) {
+      return enabled.get_as<bool>(*switches_at_).value_or(true);
+    }
+    return animated || values_.flag(prim, physics_tokens().body_enabled, true);
   }
 
   /// S-24: whether a body below another is one of its own.
@@ -273,6 +278,7 @@ class Walker {
 
   const AttributeValues& values_;
   const Readings& readings_;
+  std::optional<stage::Time> switches_at_;
   Walk& walk_;
   RoleFinder finder_;
   std::vector<Pending> pending_;
@@ -307,10 +313,10 @@ Mat4d Walk::world_near(const PhysicsPrim& from, const stage::Prim& prim, stage::
   return stage::local_to_world(prim, time);
 }
 
-Walk walk_stage(const stage::Stage& stage, const AttributeValues& values,
-                const Readings& readings) {
+Walk walk_stage(const stage::Stage& stage, const AttributeValues& values, const Readings& readings,
+                std::optional<stage::Time> switches_at) {
   Walk walk;
-  Walker(values, readings, walk).run(stage.pseudo_root());
+  Walker(values, readings, switches_at, walk).run(stage.pseudo_root());
   return walk;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -69,7 +70,10 @@ struct Walk {
 };
 
 /// Visits active, loaded, defined, non-abstract prims, instance proxies included (S-1). Prototypes
-/// of point instancers are visited once per instance, not where they stand (S-38).
-Walk walk_stage(const stage::Stage& stage, const AttributeValues& values, const Readings& readings);
+/// of point instancers are visited once per instance, not where they stand (S-38). With
+/// `switches_at`, bodies that samples switch off at that time are none; else they are bodies
+/// throughout (S-28).
+Walk walk_stage(const stage::Stage& stage, const AttributeValues& values, const Readings& readings,
+                std::optional<stage::Time> switches_at = std::nullopt);
 
 }  // namespace tenon::physics

@@ -31,6 +31,23 @@ TEST(OwnScenes, FallingBoxFollowsTheParabolaAndComesToRest) {
   EXPECT_LT(run.speed("/World/Box"), 1e-3);
 }
 
+TEST(OwnScenes, ABodySwitchedOffInAnotherGoesOnAsAPartOfIt) {
+  SceneRun run(own_scene("nested_switch.usda"));
+  ASSERT_TRUE(run.ready());
+  run.run_until(1);
+  EXPECT_NEAR(run.position("/World/Carrier")[0], 0, 1e-9);
+  EXPECT_NEAR(run.position("/World/Carrier/Part")[0], 5, 1e-6);
+  run.run_until(1.5);
+  // Two cubes of 1000 kg share the momentum of the one that flew, and keep their distance.
+  EXPECT_NEAR(run.speed("/World/Carrier"), 1.5, 1e-6);
+  EXPECT_NEAR(run.speed("/World/Carrier/Part"), 1.5, 1e-6);
+  EXPECT_NEAR(run.position("/World/Carrier")[0], 0.75, 0.01);
+  EXPECT_NEAR(run.position("/World/Carrier/Part")[0], 5.75, 0.01);
+  run.run_until(3);
+  EXPECT_NEAR(run.position("/World/Carrier")[0], 3, 0.01);
+  EXPECT_NEAR(run.position("/World/Carrier/Part")[0], 8, 0.01);
+}
+
 TEST(OwnScenes, TippingCubeComesToRestOnItsCorner) {
   SceneRun run(own_scene("tipping_cube.usda"));
   ASSERT_TRUE(run.ready());

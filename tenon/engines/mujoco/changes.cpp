@@ -27,7 +27,7 @@ bool can_break(const physics::Joint& joint) {
 bool changes(const PhysicsScene& scene) {
   return !scene.switch_tracks.empty() || !scene.bounds_tracks.empty() ||
          !scene.gravity_tracks.empty() || !scene.shapes_tracks.empty() ||
-         !scene.group_states.empty() ||
+         !scene.group_states.empty() || !scene.nesting_states.empty() ||
          std::any_of(scene.joints.begin(), scene.joints.end(), can_break) ||
          std::any_of(scene.pose_tracks.begin(), scene.pose_tracks.end(),
                      [](const physics::PoseTrack& track) { return track.joint.has_value(); });
@@ -118,9 +118,10 @@ Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::make(const PhysicsSc
                                                                  const SimulationOptions& options,
                                                                  Diagnostics& diagnostics) {
   std::unique_ptr<PhysicsScene> own = changing_copy(scene);
+  BodyNesting nesting = own == nullptr ? BodyNesting() : BodyNesting(*own);
   TENON_TRY(Model model, build_model(own == nullptr ? scene : *own, options, diagnostics));
   return std::unique_ptr<MujocoSimulation>(
-      new MujocoSimulation(scene, std::move(own), std::move(model)));
+      new MujocoSimulation(scene, std::move(own), std::move(nesting), std::move(model)));
 }
 
 void MujocoSimulation::collect_changes() {
@@ -157,7 +158,8 @@ Result<void> MujocoSimulation::follow_changes() {
   const bool regrouped = follow_groups();
   const bool reshaped = follow_bounds();
   const bool moved = follow_shapes();
-  return switched || regrouped || reshaped || moved ? rebuild() : Result<void>();
+  const bool nested = nesting_.apply(*own_, model_.data->time + kSameTime);
+  return switched || regrouped || reshaped || moved || nested ? rebuild() : Result<void>();
 }
 
 void MujocoSimulation::set_switch(const physics::SwitchTrack& track, bool on) {
@@ -347,6 +349,7 @@ void MujocoSimulation::restore_joints(Model& next) const {
 
 Result<void> MujocoSimulation::rebuild() {
   keep_state();
+  const std::vector<physics::CarriedBody> joined = nesting_.attach(*own_);
   own_->update_joint_pairs();
   Diagnostics silent;  // what there is to say was said at the start
   TENON_TRY(Model next, build_model(*own_, {.time_step = time_step()}, silent, Begin::Middle));
@@ -355,7 +358,17 @@ Result<void> MujocoSimulation::rebuild() {
   model_ = std::move(next);
   connect();
   const FilterScope filter(model_.filter);
-  return guarded([this] { mj_forward(model_.model.get(), model_.data.get()); });
+  return guarded([&] {
+    mj_forward(model_.model.get(), model_.data.get());
+    for (const physics::CarriedBody& part : joined) {
+      const physics::Body& body = own_->bodies[part.body];
+      join_momentum(body, model_.bodies[part.body], body.linear_velocity, body.angular_velocity,
+                    *model_.model, *model_.data);
+    }
+    if (!joined.empty()) {
+      mj_forward(model_.model.get(), model_.data.get());
+    }
+  });
 }
 
 }  // namespace tenon::engines::mujoco

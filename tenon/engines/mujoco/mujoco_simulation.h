@@ -8,6 +8,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/engines/mujoco/model.h"
+#include "tenon/engines/mujoco/nesting.h"
 #include "tenon/engines/simulation.h"
 
 namespace tenon::engines::mujoco {
@@ -82,7 +83,7 @@ class MujocoSimulation final : public Simulation {
   };
 
   MujocoSimulation(const physics::PhysicsScene& scene, std::unique_ptr<physics::PhysicsScene> own,
-                   Model model);
+                   BodyNesting nesting, Model model);
   void connect();
   void collect_tracks();
   void collect_damped_bodies();
@@ -124,6 +125,7 @@ class MujocoSimulation final : public Simulation {
 
   const physics::PhysicsScene* scene_;          ///< as it is now: `own_`, or what was given
   std::unique_ptr<physics::PhysicsScene> own_;  ///< where something may change, else null
+  BodyNesting nesting_;
   Model model_;
   std::vector<NotMapped> not_mapped_;  ///< of the first model
   std::vector<Event> events_;

@@ -11,9 +11,11 @@
 namespace tenon::engines::mujoco {
 
 MujocoSimulation::MujocoSimulation(const physics::PhysicsScene& scene,
-                                   std::unique_ptr<physics::PhysicsScene> own, Model model)
+                                   std::unique_ptr<physics::PhysicsScene> own, BodyNesting nesting,
+                                   Model model)
     : scene_(own == nullptr ? &scene : own.get()),
       own_(std::move(own)),
+      nesting_(std::move(nesting)),
       model_(std::move(model)),
       not_mapped_(model_.not_mapped),
       broken_(scene.joints.size(), 0) {
