@@ -119,9 +119,6 @@ std::vector<double> Attribute::time_samples() const {
   std::vector<double> result;
   if (prim_ != nullptr) {
     const ResolvedValue resolved = resolve_value(*prim_, name_, Asked::AnyTime);
-    if (resolved.clips != nullptr) {
-      return resolved.clips->time_samples(resolved.opinion.path);
-    }
     if (may_edit(resolved)) {
       return edited_times(*stage_, *prim_, value_sources(*prim_, name_, Asked::AnyTime));
     }

@@ -252,7 +252,10 @@ Value ClipSet::resolve(const Query& query, double time) const {
       query.interpolation == Interpolation::Held || !is_interpolated(lower)) {
     return lower;
   }
-  const Value upper = sample(query, bracket.upper);
+  Value upper = sample(query, bracket.upper);
+  if (upper.holds<layer::ArrayEdit>()) {
+    return upper;
+  }
   return upper.is_block()
              ? lower
              : interpolate(lower, upper, (time - bracket.lower) / (bracket.upper - bracket.lower));

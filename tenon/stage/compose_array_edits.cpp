@@ -20,22 +20,13 @@ struct Question {
   AssetForm form;
 };
 
-/// What one source says at a time: an array, an edit, a block, or nothing.
+/// What one source says at a time without interpolation: an array, an edit, a block, or nothing.
 Value said_at(const Question& question, const ResolvedValue& source, Time time) {
-  const auto localized = [&](const Value& value) {
-    return localize(question.stage, question.prim, source.opinion, value, question.form);
-  };
-  switch (source.source) {
-    case ValueSource::Default:
-      return localized(*source.value);
-    case ValueSource::TimeSamples:
-      return localized(
-          value_at(*source.samples, source.opinion.offset, time.code(), Interpolation::Held));
-    default:
-      return read_one_value(question.stage, question.prim, question.name, source, time,
-                            question.form);
-  }
+  return read_one_value(question.stage, question.prim, question.name, source, time, question.form,
+                        Interpolation::Held);
 }
+
+bool is_none(const Value& value) { return value.empty() || value.is_block(); }
 
 /// The elements under the edits: what the weakest source gives, or the fallback.
 Value fallback_of(const Question& question) {
@@ -53,32 +44,6 @@ Value applied(const std::vector<Value>& edits, const Value& weaker) {
   return layer::apply_array_edits(strongest_first, fits ? weaker : Value()).value_or(Value());
 }
 
-/// The value at a time without interpolation.
-Value composed_at(const Question& question, const ValueSources& sources, Time time) {
-  std::vector<Value> edits;
-  for (const ResolvedValue& source : sources) {
-    if (source.source == ValueSource::None || source.source == ValueSource::Fallback) {
-      if (source.blocked && time.is_default()) {
-        return {};
-      }
-      break;  // a block of the default lets the fallback through at other times
-    }
-    Value value = said_at(question, source, time);
-    const auto* edit = value.get<ArrayEdit>();
-    if (edit == nullptr) {
-      const bool none = value.empty() || value.is_block();
-      return edits.empty() ? (none ? Value() : value) : applied(edits, none ? Value() : value);
-    }
-    if (!edits.empty() &&
-        edit->literals.type() != edits.front().get<ArrayEdit>()->literals.type()) {
-      break;
-    }
-    edits.push_back(std::move(value));
-  }
-  const Value fallback = fallback_of(question);
-  return edits.empty() ? fallback : applied(edits, fallback);
-}
-
 /// The samples of a source in stage time.
 std::vector<double> times_of(const ResolvedValue& source) {
   std::vector<double> times;
@@ -94,6 +59,58 @@ std::vector<double> times_of(const ResolvedValue& source) {
   return times;
 }
 
+/// The strongest source, or one without another below it.
+bool is_outermost(const ValueSources& sources, std::size_t at) {
+  const auto is_nothing = [](const ResolvedValue& source) {
+    return source.source == ValueSource::None || source.source == ValueSource::Fallback;
+  };
+  return at == 0 || at + 1 == sources.size() || is_nothing(sources[at + 1]);
+}
+
+/// What a source gives on the way from one time to another: up to its first sample on the way, or
+/// to none where it is blocked. Blocks to come count for the outermost sources only.
+Value said_on_the_way(const Question& question, const ValueSources& sources, std::size_t at,
+                      double from, double to) {
+  const ResolvedValue& source = sources[at];
+  const std::vector<double> times = times_of(source);
+  const auto next = std::lower_bound(times.begin(), times.end(), from);
+  Value here = said_at(question, source, Time(from));
+  if (is_none(here)) {
+    return here;
+  }
+  Value there = said_at(question, source, Time(next == times.end() ? to : std::min(*next, to)));
+  return is_none(there) && !is_outermost(sources, at) ? here : there;
+}
+
+/// The value at a time without interpolation; with `from` the one that is gone towards from there.
+Value composed_at(const Question& question, const ValueSources& sources, Time time,
+                  std::optional<double> from = std::nullopt) {
+  std::vector<Value> edits;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const ResolvedValue& source = sources[i];
+    if (source.source == ValueSource::None || source.source == ValueSource::Fallback) {
+      if (source.blocked && time.is_default()) {
+        return {};
+      }
+      break;  // a block of the default lets the fallback through at other times
+    }
+    Value value = from ? said_on_the_way(question, sources, i, *from, time.code())
+                       : said_at(question, source, time);
+    const auto* edit = value.get<ArrayEdit>();
+    if (edit == nullptr) {
+      const Value weaker = is_none(value) ? Value() : std::move(value);
+      return edits.empty() ? weaker : applied(edits, weaker);
+    }
+    if (!edits.empty() &&
+        edit->literals.type() != edits.front().get<ArrayEdit>()->literals.type()) {
+      break;
+    }
+    edits.push_back(std::move(value));
+  }
+  const Value fallback = fallback_of(question);
+  return edits.empty() ? fallback : applied(edits, fallback);
+}
+
 bool edits_at(const Question& question, const ResolvedValue& source, double time) {
   return said_at(question, source, Time(time)).holds<ArrayEdit>();
 }
@@ -107,15 +124,21 @@ struct Around {
 Around samples_around(const Question& question, const ValueSources& sources, double time) {
   Around around;
   for (const ResolvedValue& source : sources) {
+    const Value here = said_at(question, source, Time(time));
+    if (is_none(here)) {
+      break;
+    }
     const std::vector<double> times = times_of(source);
     const auto next = std::upper_bound(times.begin(), times.end(), time);
     if (next != times.begin() && (!around.before || *around.before < *std::prev(next))) {
       around.before = *std::prev(next);
     }
-    if (next != times.end() && (!around.after || *next < *around.after)) {
+    // Nothing goes on towards a block.
+    if (next != times.end() && (!around.after || *next < *around.after) &&
+        !is_none(said_at(question, source, Time(*next)))) {
       around.after = *next;
     }
-    if (!edits_at(question, source, time)) {
+    if (!here.holds<ArrayEdit>()) {
       break;
     }
   }
@@ -146,16 +169,13 @@ Value compose_array_edits(const StageData& stage, const PrimData& prim, Token na
   if (time.is_default()) {
     return composed_at(question, sources, time);
   }
+  Value before = composed_at(question, sources, time);
   const Around around = samples_around(question, sources, time.code());
-  if (!around.before) {
-    return composed_at(question, sources, time);
-  }
-  Value before = composed_at(question, sources, Time(*around.before));
-  if (!around.after || before.empty() || stage.options.interpolation == Interpolation::Held ||
+  if (!around.before || !around.after || stage.options.interpolation == Interpolation::Held ||
       *around.after - *around.before < kSameTime) {
     return before;
   }
-  const Value after = composed_at(question, sources, Time(*around.after));
+  const Value after = composed_at(question, sources, Time(*around.after), time.code());
   const double span = *around.after - *around.before;
   return interpolate(before, after, (time.code() - *around.before) / span);
 }

@@ -8,8 +8,8 @@
 
 /// Edits of arrays as values: a stronger edit is applied to what weaker opinions give. Internal to
 /// tenon/stage. As OpenUSD 26.11, with these differences: before the first sample the first value
-/// holds (OpenUSD extrapolates and gives nan), and arrays of assets and of path expressions are
-/// edited, too.
+/// holds and blocks hold until the next sample (OpenUSD extrapolates and gives nan, or passes over
+/// the block), and arrays of assets and of path expressions are edited, too.
 namespace tenon::stage {
 
 /// The opinions of an attribute that its value may be made of, strongest first: each but the last
@@ -21,7 +21,7 @@ ValueSources value_sources(const PrimData& prim, Token name, Asked asked);
 bool may_edit(const ResolvedValue& source);
 
 /// The value at `time`. Each source holds until its next sample; what they make together is
-/// interpolated between the samples of all of them.
+/// interpolated between the samples of all of them that are no blocks.
 layer::Value compose_array_edits(const StageData& stage, const PrimData& prim, Token name,
                                  Time time, AssetForm form);
 

@@ -160,19 +160,21 @@ ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
 
 Value read_value(const StageData& stage, const PrimData& prim, Token name,
                  const ResolvedValue& resolved, Time time, AssetForm form) {
-  Value value = read_one_value(stage, prim, name, resolved, time, form);
+  Value value =
+      read_one_value(stage, prim, name, resolved, time, form, stage.options.interpolation);
   return value.holds<layer::ArrayEdit>() ? compose_array_edits(stage, prim, name, time, form)
                                          : value;
 }
 
 Value read_one_value(const StageData& stage, const PrimData& prim, Token name,
-                     const ResolvedValue& resolved, Time time, AssetForm form) {
+                     const ResolvedValue& resolved, Time time, AssetForm form,
+                     Interpolation interpolation) {
   switch (resolved.source) {
     case ValueSource::Default:
       return localize(stage, prim, resolved.opinion, *resolved.value, form);
     case ValueSource::TimeSamples: {
-      const Value value = value_at(*resolved.samples, resolved.opinion.offset, time.code(),
-                                   stage.options.interpolation);
+      const Value value =
+          value_at(*resolved.samples, resolved.opinion.offset, time.code(), interpolation);
       return value.is_block() ? Value() : localize(stage, prim, resolved.opinion, value, form);
     }
     case ValueSource::Spline: {
@@ -181,7 +183,7 @@ Value read_one_value(const StageData& stage, const PrimData& prim, Token name,
     }
     case ValueSource::ValueClips: {
       const ClipSet::Found found =
-          resolved.clips->value_at(resolved.opinion.path, time.code(), stage.options.interpolation);
+          resolved.clips->value_at(resolved.opinion.path, time.code(), interpolation);
       compose::Opinion opinion = resolved.opinion;
       opinion.layer = found.anchor == nullptr ? &no_layer() : found.anchor;
       opinion.offset = resolved.clips->offset();

@@ -34,6 +34,7 @@ layer::Value read_value(const StageData& stage, const PrimData& prim, Token name
 
 /// The same without weaker opinions: an edit of an array comes back as it is.
 layer::Value read_one_value(const StageData& stage, const PrimData& prim, Token name,
-                            const ResolvedValue& resolved, Time time, AssetForm form);
+                            const ResolvedValue& resolved, Time time, AssetForm form,
+                            Interpolation interpolation);
 
 }  // namespace tenon::stage

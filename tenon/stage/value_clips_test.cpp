@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tenon/formats/text/reader.h"
+#include "tenon/formats/text/value_text.h"
 #include "tenon/stage/clip_times.h"
 #include "tenon/stage/stage.h"
 
@@ -136,6 +137,26 @@ TEST(ValueClips, ClipsAreStrongerThanWeakerLayersAndMoveWithTheirOffset) {
   EXPECT_EQ(attribute(stage, "x").value_source(100), ValueSource::ValueClips);
   // Without `times` a clip's time is that of the layer that names it.
   EXPECT_EQ(attribute(stage, "x").time_samples(), (std::vector<double>{100, 105, 110}));
+}
+
+TEST(ValueClips, EditsOfArraysChangeWhatWeakerLayersSay) {
+  std::string clips = root_with(kTwoClips);
+  clips.replace(clips.find("double x"), 8, "float[] x");
+  const Stage stage = open_layers(
+      {{"root", "(\n subLayers = [@s@, @w@]\n)\n"},
+       {"s", clips},
+       {"w", "def \"M\"\n{\n float[] x = [50, 60]\n}\n"},
+       {"a", clip_of("float[] x.timeSamples = { 0: edit [write 1 to [0]], 2: edit [write 3 to [0]],"
+                     " 4: [4, 4] }")},
+       {"b", clip_of("float[] x.timeSamples = { 10: edit [append 1] }")}});
+  const auto text = [&](double time) {
+    return formats::value_text(attribute(stage, "x").get(time));
+  };
+  EXPECT_EQ(text(0), "[1, 60]");
+  EXPECT_EQ(text(1), "[2, 60]");
+  EXPECT_EQ(text(3), "[3.5, 32]");
+  EXPECT_EQ(text(4), "[4, 4]");
+  EXPECT_EQ(text(10), "[50, 60, 1]");
 }
 
 TEST(ValueClips, AClipWithoutSamplesGivesTheManifestsDefault) {

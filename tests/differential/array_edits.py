@@ -2,18 +2,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compares edits of arrays (`int[] x = edit [append 1]`) with OpenUSD, on random layers.
 
-usage: array_edits.py RETEXT RECRATE VALUE_AT [--scenes N] [--seed N] [--keep FOLDER]
+usage: array_edits.py RETEXT RECRATE VALUE_AT FLATTEN [--scenes N] [--seed N] [--keep FOLDER]
 
 text     both write the same text of a layer
 binary   OpenUSD reads our binary layer, and we read OpenUSD's, as the text layer
 values   edits over weaker edits, arrays, samples, blocks and fallbacks, at the default time, at
-         samples and between them. OpenUSD's nan before the first sample counts as equal to what we
-         hold there, the first value; arrays of assets and path expressions, which OpenUSD does not
-         edit, are compared as layers only.
-         Samples of weaker layers are no blocks: OpenUSD ends at them when it is asked at their time
-         and passes over them at other times, here they hold like other samples.
+         samples and between them. OpenUSD's nan where it extrapolates, before the first sample that
+         is no block, counts as equal to what we hold there; arrays of assets and path expressions,
+         which OpenUSD does not edit, are compared as layers only.
+         A block under edits holds until the next sample of its layer. So it does in OpenUSD at the
+         time of the block; behind it OpenUSD passes over it (before an edit), or extrapolates what
+         is left. There OpenUSD is asked again, with the block written at that time as well.
          A block alone, without an edit, is no matter of this test.
-RETEXT, RECRATE and VALUE_AT are built from tests/tools. Exit 77: no OpenUSD modules.
+flat     what we flatten a scene to gives, in OpenUSD, the values of the scene: at the default time
+         and at each sample. (OpenUSD's own flattening drops edits that meet a block.)
+RETEXT, RECRATE, VALUE_AT and FLATTEN are built from tests/tools. Exit 77: no OpenUSD modules.
 """
 
 import argparse
@@ -86,10 +89,10 @@ def array(rng, kind):
     return "[" + ", ".join(literal(rng, kind) for _ in range(rng.randint(0, 5))) + "]"
 
 
-def opinion(rng, kind, strength, may_block):
+def opinion(rng, kind, strength):
     """A value; stronger layers rather edit."""
     chance = rng.random()
-    if chance < 0.06 and may_block:
+    if chance < 0.06:
         return "None"
     return edit(rng, kind) if chance < 0.35 + 0.55 * strength else array(rng, kind)
 
@@ -98,11 +101,10 @@ def attribute(rng, name, kind, strength):
     lines = []
     head = f"    {kind}[] {name}"
     if rng.random() < 0.6:
-        lines.append(f"{head} = {opinion(rng, kind, strength, True)}\n")
+        lines.append(f"{head} = {opinion(rng, kind, strength)}\n")
     if rng.random() < 0.5:
         times = sorted(rng.sample((0, 1, 2, 2.5, 3, 4, 6, 7.5), rng.randint(1, 4)))
-        samples = "".join(f"        {t}: {opinion(rng, kind, strength, strength == 1)},\n"
-                          for t in times)
+        samples = "".join(f"        {t}: {opinion(rng, kind, strength)},\n" for t in times)
         lines.append(f"{head}.timeSamples = {{\n{samples}    }}\n")
     return "".join(lines)
 
@@ -171,7 +173,7 @@ def run(program, *arguments):
 
 def layer_differences(scenes, programs, folder):
     """[what differs of the layers of a scene, as text and as binary ones] for each of `scenes`."""
-    retext, recrate, _ = programs
+    retext, recrate, *_ = programs
     files, crates, expected, owners = [], [], [], []
     for owner, scene in enumerate(scenes):
         for path in scene.layers:
@@ -234,16 +236,74 @@ def value_differences(scenes, value_at):
             for attributes in asked]
 
 
+def blocks_in_force(attribute_object, time):
+    """[(layer, path, time of the layer)] of the layers where a block holds at a time."""
+    blocks = []
+    if time is None:
+        return blocks
+    for spec, offset in attribute_object.GetPropertyStackWithLayerOffsets(time):
+        samples = spec.layer.ListTimeSamplesForPath(spec.path)
+        inner = offset.GetInverse() * time
+        earlier = [sample for sample in samples if sample <= inner]
+        held = max(earlier, default=min(samples, default=0))
+        if isinstance(spec.layer.QueryTimeSample(spec.path, held), Sdf.ValueBlock):
+            blocks.append((spec.layer, spec.path, inner))
+    return blocks
+
+
+def value_over(blocks, attribute_object, time):
+    """What OpenUSD gives when the blocks stand at the time itself; None: the default time."""
+    added = [(layer, path, inner) for layer, path, inner in blocks
+             if inner not in layer.ListTimeSamplesForPath(path)]
+    for layer, path, inner in added:
+        layer.SetTimeSample(path, inner, Sdf.ValueBlock())
+    value = attribute_object.Get() if time is None else attribute_object.Get(time)
+    for layer, path, inner in added:
+        layer.EraseTimeSample(path, inner)
+    return value
+
+
 def wrong_answers(attribute_object, kind, times, answers):
     first = min(attribute_object.GetTimeSamples(), default=None)
     for time in times:
         answer = next(answers, "").strip()
-        value = attribute_object.Get() if time is None else attribute_object.Get(time)
-        expected = text_of(value, attribute_object.GetTypeName())
-        early = time is not None and first is not None and time < first
-        if not (same_text(expected, answer) or early and "nan" in expected):
+        blocks = blocks_in_force(attribute_object, time)
+        expected = text_of(value_over(blocks, attribute_object, time),
+                           attribute_object.GetTypeName())
+        extrapolated = "nan" in expected and (blocks or time < first)
+        if not (same_text(expected, answer) or extrapolated):
             name = attribute_object.GetName()
             yield f"{kind}[] {name} at {time}: expected {expected}, actual {answer}"
+
+
+def flat_differences(scenes, flatten, folder):
+    """[what differs of the flattened scenes] for each of `scenes`."""
+    into = tempfile.mkdtemp(dir=folder)
+    run(flatten, "stage", into, *[scene.root for scene in scenes])
+    found = []
+    for i, scene in enumerate(scenes):
+        stage = Usd.Stage.Open(scene.root)
+        attributes = list(asked_values(scene, stage))
+        flat_stage = Usd.Stage.Open(os.path.join(into, f"{i}.usda"))
+        flat = flat_stage.GetPrimAtPath("/A")
+        found.append([text for attribute_object, kind, _ in attributes for text in
+                      wrong_when_flat(attribute_object, kind, flat)])
+    return found
+
+
+def wrong_when_flat(attribute_object, kind, flat):
+    name, type_name = attribute_object.GetName(), attribute_object.GetTypeName()
+    actual = flat.GetAttribute(name)
+    expected = attribute_object.GetTimeSamples()
+    if actual.GetTimeSamples() != expected:
+        yield f"{kind}[] {name}: samples {expected}, flattened {actual.GetTimeSamples()}"
+        return
+    for time in (None, *expected):
+        blocks = blocks_in_force(attribute_object, time)
+        want = text_of(value_over(blocks, attribute_object, time), type_name)
+        have = text_of(value_over([], actual, time), type_name)
+        if not same_text(want, have) and "nan" not in want:
+            yield f"{kind}[] {name} at {time}: expected {want}, flattened {have}"
 
 
 def judge(seeds, arguments, results):
@@ -252,8 +312,9 @@ def judge(seeds, arguments, results):
         scenes = [Scene(seed, os.path.join(folder, str(seed))) for seed in seeds]
         layers = layer_differences(scenes, arguments.programs, folder)
         values = value_differences(scenes, arguments.programs[2])
-        for seed, scene, *found in zip(seeds, scenes, layers, values):
-            for what, texts in zip(("layers", "values"), found):
+        flat = flat_differences(scenes, arguments.programs[3], folder)
+        for seed, scene, *found in zip(seeds, scenes, layers, values, flat):
+            for what, texts in zip(("layers", "values", "flattened"), found):
                 results.add(f"edits of arrays: {what}, against OpenUSD", f"{what} of seed {seed}",
                             texts[0] if texts else None)
             if arguments.keep and any(found):
@@ -263,7 +324,7 @@ def judge(seeds, arguments, results):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("programs", nargs=3)
+    parser.add_argument("programs", nargs=4)
     parser.add_argument("--scenes", type=int, default=SCENES)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--keep")
