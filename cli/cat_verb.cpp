@@ -20,8 +20,7 @@ struct Options {
 };
 
 Result<layer::Layer> read_input(const Options& options, Diagnostics& diagnostics) {
-  const bool compose = options.flatten || options.flatten_layer_stack ||
-                       !options.asset.mask.empty() || !options.asset.physics.empty();
+  const bool compose = options.flatten || options.flatten_layer_stack || options.asset.selects();
   if (!compose) {
     TENON_TRY(const layer::LayerPtr layer,
               open_layer(options.asset.asset, options.asset.open_options(), diagnostics));
@@ -80,7 +79,7 @@ void add_cat(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.footer(
       "Examples:\n  tenon cat geometry.usdc\n  tenon cat hand.usda --flatten -o flat.usdc\n"
       "A package (-o hand.usdz) takes in all layers and textures that it needs.\n"
-      "Selecting with --mask or --physics composes, too.");
+      "Selecting with --mask, --load, --mute-layer or --physics composes, too.");
   choose(verb, chosen, [&globals, options] { return run_cat(globals, *options); });
 }
 

@@ -36,6 +36,14 @@ void AssetArguments::add_options_to(const Command& verb) {
   verb.add_option("--mask", mask, "Only these prims, with what is above and below them")
       .split_at_commas();
   verb.add_flag("--unloaded", unloaded, "Leave payloads out");
+  verb.add_option("--load", load,
+                  "Payloads to include: all, none, or only those of these prims with what is above "
+                  "and below them")
+      .split_at_commas();
+  verb.add_option("--mute-layer", muted,
+                  "Compose as if these layers were not there: files, or asset paths as layers name "
+                  "them; the asset itself cannot be muted")
+      .split_at_commas();
   verb.add_option("--search-path", search_paths,
                   "Look up asset paths without ./ in these folders, too, before those of the "
                   "environment variable PXR_AR_DEFAULT_SEARCH_PATH")
@@ -45,11 +53,21 @@ void AssetArguments::add_options_to(const Command& verb) {
       .split_at_commas();
 }
 
+bool AssetArguments::selects() const {
+  return !physics.empty() || !mask.empty() || !load.empty() || !muted.empty();
+}
+
 OpenOptions AssetArguments::open_options() const {
   OpenOptions options;
   options.physics_variant = physics;
   options.overrides = overrides;
-  options.load_payloads = !unloaded;
+  const bool none = load == std::vector<std::string>{"none"};
+  const bool all = load.empty() || load == std::vector<std::string>{"all"};
+  options.load_payloads = !unloaded && !none;
+  if (!none && !all) {
+    options.load = load;
+  }
+  options.muted = muted;
   options.mask = mask;
   options.search_paths = search_paths;
   for (const std::string& folder : environment_search_paths()) {

@@ -34,6 +34,8 @@ struct AssetArguments {
   std::vector<std::string> overrides;  ///< --set PATH.attr=value
   std::vector<std::string> mask;
   bool unloaded = false;
+  std::vector<std::string> load;          ///< --load none, all or prim paths
+  std::vector<std::string> muted;         ///< --mute-layer LAYER
   std::vector<std::string> search_paths;  ///< --search-path
   std::vector<std::string> sandbox;       ///< --sandbox
 
@@ -42,6 +44,8 @@ struct AssetArguments {
   /// The options alone.
   void add_options_to(const Command& verb);
   OpenOptions open_options() const;
+  /// Something is chosen that only a composed scene has.
+  bool selects() const;
 };
 
 /// Lets `verb` run `run` when it is chosen.

@@ -9,9 +9,7 @@ Result<std::unique_ptr<compose::IndexCache>> open_indices(const std::string& pat
                                                           const OpenOptions& options,
                                                           Diagnostics& diagnostics) {
   TENON_TRY(const StageSources sources, open_sources(path, options));
-  compose::ComposeOptions compose;
-  compose.load_payloads = options.load_payloads;
-  compose.variant_fallbacks = options.variant_fallbacks;
+  TENON_TRY(auto compose, compose_options(options, *sources.root));
   diagnostics.append(sources.registry->diagnostics());
   return std::make_unique<compose::IndexCache>(sources.root, sources.session, sources.opener(),
                                                std::move(compose));

@@ -18,28 +18,22 @@
 namespace tenon {
 namespace {
 
-using Registry = std::shared_ptr<formats::LayerRegistry>;
-
-Result<stage::StageOptions> stage_options(const OpenOptions& options, const Registry& registry) {
+Result<stage::StageOptions> stage_options(const OpenOptions& options, const StageSources& sources) {
   stage::StageOptions result;
-  result.compose.load_payloads = options.load_payloads;
-  result.compose.variant_fallbacks = options.variant_fallbacks;
+  TENON_TRY(result.compose, compose_options(options, *sources.root));
   for (const std::string& text : options.mask) {
-    TENON_TRY(const Path path, Path::parse(text));
-    if (!path.is_absolute() || !path.is_prim_or_root()) {
-      return Error(ErrorCode::Invalid, "the mask `" + text + "` is not the path of a prim")
-          .with_fix("write it from the root, as in /World/Robot");
-    }
+    TENON_TRY(const Path path, parse_prim_path(text, "the mask"));
     result.mask.insert(path);
   }
-  result.resolve_asset = [registry](const std::string& asset, const layer::Layer& anchor) {
+  result.resolve_asset = [registry = sources.registry](const std::string& asset,
+                                                       const layer::Layer& anchor) {
     return registry->resolver().resolve(asset, anchor.identifier()).value_or(std::string());
   };
   return result;
 }
 
 Result<stage::Stage> compose_stage(const StageSources& sources, const OpenOptions& options) {
-  TENON_TRY(auto composed, stage_options(options, sources.registry));
+  TENON_TRY(auto composed, stage_options(options, sources));
   return stage::Stage::open(sources.root, sources.session, sources.opener(), std::move(composed));
 }
 
@@ -50,7 +44,7 @@ Result<void> convert_layers(const StageSources& sources, const OpenOptions& opti
   if (converted.empty()) {
     return {};
   }
-  TENON_TRY(auto composed, stage_options(options, sources.registry));
+  TENON_TRY(auto composed, stage_options(options, sources));
   const auto opener = [open = sources.opener(), converted](
                           const std::string& asset,
                           const layer::Layer& anchor) -> Result<layer::LayerPtr> {

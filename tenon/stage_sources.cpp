@@ -16,6 +16,35 @@ bytes::ResolverOptions resolver_options(const OpenOptions& options) {
   return {options.search_paths, options.sandbox_roots};
 }
 
+Result<Path> parse_prim_path(const std::string& text, const std::string& what) {
+  TENON_TRY(const Path path, Path::parse(text));
+  if (!path.is_absolute() || !path.is_prim_or_root()) {
+    return Error(ErrorCode::Invalid, what + " `" + text + "` is not the path of a prim")
+        .with_fix("write it from the root, as in /World/Robot");
+  }
+  return path;
+}
+
+Result<compose::ComposeOptions> compose_options(const OpenOptions& options,
+                                                const layer::Layer& root) {
+  compose::ComposeOptions result;
+  result.load_payloads = options.load_payloads && options.load.empty();
+  result.variant_fallbacks = options.variant_fallbacks;
+  for (const std::string& text : options.load) {
+    TENON_TRY(const Path path, parse_prim_path(text, "what to load,"));
+    result.loaded.insert(path);
+  }
+  const std::string& file = root.identifier();
+  const std::string folder = file.substr(0, file.rfind('/') + 1);
+  for (const std::string& name : options.muted) {
+    result.muted.insert({name, bytes::absolute_file_path(name)});
+    if (!name.starts_with('/')) {
+      result.muted.insert(bytes::absolute_file_path(folder + name));
+    }
+  }
+  return result;
+}
+
 Result<StageSources> open_sources(const std::string& path, const OpenOptions& options) {
   StageSources sources;
   sources.registry =

@@ -7,6 +7,7 @@
 
 #include "tenon/base/result.h"
 #include "tenon/bytes/asset_resolver.h"
+#include "tenon/compose/index_cache.h"
 #include "tenon/compose/layer_opener.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/layer/layer.h"
@@ -26,6 +27,14 @@ struct StageSources {
 
 /// Search paths and sandbox of the options.
 bytes::ResolverOptions resolver_options(const OpenOptions& options);
+
+/// What the options say about payloads, muted layers and variants; `root` is the root layer. Fails
+/// on a path that is not one of a prim.
+Result<compose::ComposeOptions> compose_options(const OpenOptions& options,
+                                                const layer::Layer& root);
+
+/// `text` as the absolute path of a prim; `what` names it in the message of failure.
+Result<Path> parse_prim_path(const std::string& text, const std::string& what);
 
 /// Opens the root layer of `path` and the session layer that the options ask for, with the variant
 /// of "Physics" selected in it.

@@ -27,7 +27,13 @@ struct OpenOptions {
   /// A session layer file; the two options above are written over its opinions, in memory.
   std::string session_path;
   bool load_payloads = true;
+  /// Prim paths; when not empty, payloads are left out but for those of these prims, of what is
+  /// above and of what is below them.
+  std::vector<std::string> load;
   std::vector<std::string> mask;  ///< prim paths; empty: everything
+  /// Layers that count as absent, the root layer cannot: files, relative to the working directory
+  /// or to the asset, or asset paths as layers name them.
+  std::vector<std::string> muted;
   std::map<std::string, std::vector<std::string>> variant_fallbacks;
   /// When not empty, no file outside these folders is opened.
   std::vector<std::string> sandbox_roots;
