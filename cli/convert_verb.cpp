@@ -12,6 +12,7 @@
 #include "tenon/export_urdf.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/physics_options.h"
 #include "tenon/structure_asset.h"
 #include "tenon/tenon.h"
 
@@ -162,7 +163,8 @@ int run_export(Report& report, const Options& options) {
   if (!stage) {
     return report.fail(stage.error());
   }
-  const physics::PhysicsScene scene = physics::read_physics(*stage, {}, report.diagnostics);
+  const physics::PhysicsScene scene =
+      physics::read_physics(*stage, read_options(), report.diagnostics);
   const auto text = export_mjcf(scene, report.diagnostics);
   if (!text) {
     return report.fail(text.error());

@@ -14,6 +14,7 @@
 #include "tenon/diff/physics_difference.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/physics_options.h"
 #include "tenon/stage/flatten.h"
 #include "tenon/tenon.h"
 
@@ -100,8 +101,8 @@ Result<void> compare_stages(const Sides& sides, const Options& options, Diagnost
   TENON_TRY(const stage::Stage before, open_side(sides.before, options, diagnostics));
   TENON_TRY(const stage::Stage after, open_side(sides.after, options, diagnostics));
   if (options.physics) {
-    const auto a = physics::read_physics(before, {}, diagnostics);
-    const auto b = physics::read_physics(after, {}, diagnostics);
+    const auto a = physics::read_physics(before, read_options(), diagnostics);
+    const auto b = physics::read_physics(after, read_options(), diagnostics);
     for (const auto& difference : diff::physics_differences(a, b, {options.tolerance})) {
       found.add("", difference);
     }

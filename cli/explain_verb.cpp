@@ -7,6 +7,7 @@
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/physics_options.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -64,7 +65,9 @@ int run_explain(const Globals& globals, const Options& options) {
   if (!readings) {
     return report.fail(readings.error());
   }
-  auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
+  auto stage =
+      open_stage(options.asset.asset, with_readings(options.asset.open_options(), *readings),
+                 report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }
@@ -72,10 +75,9 @@ int run_explain(const Globals& globals, const Options& options) {
   if (!object) {
     return report.fail(object.error());
   }
-  physics::ReadOptions read;
-  read.readings = *readings;
   Explained explained{*stage, {}, {}};
-  explained.scene = physics::read_physics(*stage, read, report.diagnostics, &explained.accounts);
+  explained.scene = physics::read_physics(*stage, read_options(*readings), report.diagnostics,
+                                          &explained.accounts);
   if (!options.other.empty()) {
     return explain_two(report, explained, *object, options);
   }

@@ -7,8 +7,8 @@
 #include "cli/reading_options.h"
 #include "cli/report.h"
 #include "cli/verb.h"
-#include "tenon/approximate/mesh_approximator.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/physics_options.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -26,18 +26,15 @@ int run_physics(const Globals& globals, const Options& options) {
   if (!readings) {
     return report.fail(readings.error());
   }
-  OpenOptions open = options.asset.open_options();
-  open.layer_units = readings->layer_units == physics::LayerUnits::Layer;
-  auto stage = open_stage(options.asset.asset, open, report.diagnostics);
+  auto stage =
+      open_stage(options.asset.asset, with_readings(options.asset.open_options(), *readings),
+                 report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }
-  physics::ReadOptions read;
-  read.readings = *readings;
-  read.mesh_tools = approximate::mesh_tools({approximate::default_cache_folder()});
   physics::Accounts accounts;
-  const physics::PhysicsScene scene =
-      physics::read_physics(*stage, read, report.diagnostics, options.mass ? &accounts : nullptr);
+  const physics::PhysicsScene scene = physics::read_physics(
+      *stage, read_options(*readings), report.diagnostics, options.mass ? &accounts : nullptr);
   if (options.mass) {
     const Json table = mass_table_json(*stage, scene, accounts);
     if (!globals.json) {

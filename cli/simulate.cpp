@@ -9,10 +9,10 @@
 #include <filesystem>
 
 #include "cli/reading_options.h"
-#include "tenon/approximate/mesh_approximator.h"
 #include "tenon/bake/write_time_samples.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/physics_options.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -103,15 +103,12 @@ int Simulated::exit_code() const {
 Result<Simulated> simulate(const SimulateArguments& arguments, Report& report) {
   TENON_CHECK(check_arguments(arguments));
   Simulated result;
-  physics::ReadOptions read;
-  TENON_TRY(read.readings, chosen_readings(arguments.readings));
-  OpenOptions open = arguments.asset.open_options();
-  open.layer_units = read.readings.layer_units == physics::LayerUnits::Layer;
+  TENON_TRY(const physics::Readings readings, chosen_readings(arguments.readings));
+  const OpenOptions open = with_readings(arguments.asset.open_options(), readings);
   TENON_TRY(stage::Stage stage, open_stage(arguments.asset.asset, open, report.diagnostics));
   result.stage = std::make_unique<stage::Stage>(std::move(stage));
-  read.mesh_tools = approximate::mesh_tools({approximate::default_cache_folder()});
   result.scene = std::make_unique<physics::PhysicsScene>(
-      physics::read_physics(*result.stage, read, report.diagnostics));
+      physics::read_physics(*result.stage, read_options(readings), report.diagnostics));
   engines::SimulationOptions options;
   options.time_step = arguments.time_step;
   TENON_TRY(result.simulation,

@@ -15,6 +15,7 @@
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/formats/text/layout_edit.h"
+#include "tenon/physics_options.h"
 
 namespace tenon {
 namespace {
@@ -43,9 +44,8 @@ void add_findings(const Diagnostics& diagnostics, const check::Selection& rules,
 
 Result<Run> run_once(const std::string& path, const CheckOptions& options,
                      const std::string& variant) {
-  OpenOptions open = options.open;
+  OpenOptions open = with_readings(options.open, options.readings);
   open.physics_variant = variant;
-  open.layer_units = options.readings.layer_units == physics::LayerUnits::Layer;
   Diagnostics opening;
   TENON_TRY(const stage::Stage stage, open_stage(path, open, opening));
   Run run;

@@ -27,6 +27,24 @@ try:
 except ImportError:
     Usd = None
 
+CORNER = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Mesh "L" (
+    prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"]
+)
+{
+    uniform token subdivisionScheme = "none"
+    int[] faceVertexCounts = [4, 4, 4, 4, 4, 4, 4, 4, 4, 4]
+    int[] faceVertexIndices = [3, 2, 1, 0, 5, 4, 3, 0, 6, 7, 8, 9, 6, 9, 10, 11,
+        0, 1, 7, 6, 1, 2, 8, 7, 2, 3, 9, 8, 3, 4, 10, 9, 4, 5, 11, 10, 5, 0, 6, 11]
+    point3f[] points = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0),
+        (0, 0, 1), (2, 0, 1), (2, 1, 1), (1, 1, 1), (1, 2, 1), (0, 2, 1)]
+    uniform token physics:approximation = "convexDecomposition"
+}
+"""
 STRONG = """#usda 1.0
 (
     defaultPrim = "World"
@@ -152,6 +170,21 @@ class Explain(Base):
                   if c["quantity"] == "mass"]
         self.assertEqual(masses, [("2 kg", True, "S-39"), ("1000 kg", False, "S-39")])
         self.assertEqual(account["colliders"][0]["candidates"][0]["value"], "1000 kg/m^3")
+
+    def test_meshes_are_taken_apart_as_for_the_other_verbs(self):
+        corner = self.folder / "corner.usda"
+        corner.write_text(CORNER)
+        listed = self.json("physics", corner)
+        explained = self.json("explain", corner, "/L")
+        body, = listed["bodies"]
+        self.assertEqual(explained["body"]["mass"], body["mass"])
+        pieces = listed["colliders"][0].get("pieces")
+        if not pieces:
+            self.skipTest("no CoACD: the hull counts")
+        self.assertAlmostEqual(body["mass"], 3000, delta=30)  # the hull has 3500 kg
+        model = self.folder / "corner.xml"
+        self.assertEqual(tenon("convert", corner, model).returncode, 0)
+        self.assertEqual(model.read_text().count("<geom "), pieces)
 
     def test_density_chain_is_listed_whole(self):
         scene = GOLDEN / "density_chain/input.usda"
