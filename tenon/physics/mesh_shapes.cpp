@@ -72,23 +72,27 @@ struct Faces {
 /// Fan triangles; false when counts and indices contradict each other or the points.
 bool triangulate(const Faces& faces, std::size_t point_count, bool turned, TriangleMesh& mesh) {
   const std::span<const std::int32_t> indices = faces.indices.span();
+  const std::size_t shared = 2 * faces.counts.size();  // corners that begin no triangle
+  mesh.triangles.reserve(indices.size() - std::min(indices.size(), shared));
   std::size_t first = 0;
   for (std::size_t face = 0; face < faces.counts.size(); ++face) {
     const std::int32_t count = faces.counts[face];
     if (count < 0 || indices.size() - first < static_cast<std::size_t>(count)) {
       return false;
     }
-    const bool hole = faces.is_hole(face);
-    for (std::int32_t k = 0; k < count; ++k) {
-      const std::int32_t index = indices[first + static_cast<std::size_t>(k)];
-      if (index < 0 || static_cast<std::size_t>(index) >= point_count) {
-        return false;
-      }
-      if (k >= 2 && !hole) {
-        const std::int32_t a = indices[first];
-        const std::int32_t b = indices[first + static_cast<std::size_t>(k) - 1];
-        mesh.triangles.push_back(turned ? Vec3i{{a, index, b}} : Vec3i{{a, b, index}});
-      }
+    const std::span<const std::int32_t> corners =
+        indices.subspan(first, static_cast<std::size_t>(count));
+    const bool sound = std::all_of(corners.begin(), corners.end(), [&](std::int32_t index) {
+      return index >= 0 && static_cast<std::size_t>(index) < point_count;
+    });
+    if (!sound) {
+      return false;
+    }
+    const bool hole = !faces.holes.empty() && faces.is_hole(face);
+    for (std::size_t k = 2; k < corners.size() && !hole; ++k) {
+      const std::int32_t b = corners[k - 1];
+      const std::int32_t c = corners[k];
+      mesh.triangles.push_back(turned ? Vec3i{{corners[0], c, b}} : Vec3i{{corners[0], b, c}});
     }
     first += static_cast<std::size_t>(count);
   }

@@ -42,12 +42,11 @@ class Numbers {
   }
   bool is_near(const Numbers& other) const {
     return values_.size() == other.values_.size() &&
-           std::equal(values_.begin(), values_.end(), other.values_.begin(),
-                      [](double a, double b) {
-                        const double size = std::max({1e-6, std::fabs(a), std::fabs(b)});
-                        return a == b || (std::isnan(a) && std::isnan(b)) ||
-                               std::fabs(a - b) <= kTolerance * size;
-                      });
+           std::equal(values_.begin(), values_.end(), other.values_.begin(), near);
+  }
+  static bool near(double a, double b) {
+    const double size = std::max({1e-6, std::fabs(a), std::fabs(b)});
+    return a == b || (std::isnan(a) && std::isnan(b)) || std::fabs(a - b) <= kTolerance * size;
   }
 
  private:
@@ -103,14 +102,23 @@ Numbers numbers_of(const PhysicsScene& scene, const physics::Collider& collider)
   n.add(collider.rest_offset);
   n.add(static_cast<double>(collider.max_hull_vertices.value_or(-1)));
   n.add(static_cast<double>(collider.face_materials.size()));
+  return n;
+}
+
+const std::vector<Vec3d>* points_of(const PhysicsScene& scene, const physics::Collider& collider) {
+  const physics::Shape& shape = collider.shape;
   const bool has_mesh =
       shape.kind == physics::ShapeKind::ConvexHull || shape.kind == physics::ShapeKind::Mesh;
-  if (has_mesh && shape.mesh < scene.meshes.size()) {
-    for (const Vec3d& point : scene.meshes[shape.mesh].points) {
-      n.add(point);
-    }
+  return has_mesh && shape.mesh < scene.meshes.size() ? &scene.meshes[shape.mesh].points : nullptr;
+}
+
+bool same_points(const std::vector<Vec3d>* a, const std::vector<Vec3d>* b) {
+  if (a == nullptr || b == nullptr) {
+    return a == b;
   }
-  return n;
+  return std::equal(a->begin(), a->end(), b->begin(), b->end(), [](const Vec3d& p, const Vec3d& q) {
+    return p == q || std::equal(p.v.begin(), p.v.end(), q.v.begin(), Numbers::near);
+  });
 }
 
 Numbers numbers_of(const physics::Joint& joint) {
@@ -223,7 +231,8 @@ class Comparison {
           [this](const physics::Collider& a, const physics::Collider& b) {
             if (body_path(expected_, a.body) != body_path(found_, b.body)) {
               report(a.path, "the collider belongs to another body");
-            } else if (!numbers_of(expected_, a).is_near(numbers_of(found_, b))) {
+            } else if (!numbers_of(expected_, a).is_near(numbers_of(found_, b)) ||
+                       !same_points(points_of(expected_, a), points_of(found_, b))) {
               report(a.path, "the collider has another shape, pose or material");
             }
           });

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "tenon/formats/save_layer.h"
 #include "tenon/layer/fields.h"
+#include "tenon/structure/geometry_keys.h"
 #include "tenon/structure/layout.h"
 
 namespace tenon::structure {
@@ -95,20 +95,14 @@ void copy_geometry(const Layer& content, Path mesh, Layer& target, Path to) {
   }
 }
 
-Result<std::string> geometry_key(const Layer& content, Path mesh) {
-  Layer alone("anon:geometry.usdc");
-  copy_geometry(content, mesh, alone, Path::from("/G"));
-  return formats::encode_layer(alone, formats::LayerFormat::Crate);
-}
-
 MeshMoves::MeshMoves(const Layer& united) {
+  GeometryKeys keys;
   std::map<std::string, std::string> names;  // of geometries
   for (const Path& prim : prims_below(united)) {
     if (type_of(united, prim) != "Mesh") {
       continue;
     }
-    const auto key = geometry_key(united, prim);  // what cannot be encoded is told when saving
-    const auto known = names.emplace(key ? *key : prim.str(), prim.name().str());
+    const auto known = names.emplace(keys.key(united, prim), prim.name().str());
     if (!is_wrapped(united, prim)) {
       add(united, prim, known.first->second);
     }

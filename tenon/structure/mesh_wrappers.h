@@ -49,10 +49,7 @@ bool is_wrapped(const layer::Layer& content, Path mesh);
 /// The scope or prim holds materials and nothing else.
 bool holds_materials(const layer::Layer& content, Path prim);
 
-/// What is geometry of the mesh and its subsets, as one text that differs where they do, to the
-/// last bit. The name of the mesh is no part of it.
-Result<std::string> geometry_key(const layer::Layer& content, Path mesh);
-/// The geometry alone, at `to`.
+/// The geometry of a mesh and its subsets alone, at `to`.
 void copy_geometry(const layer::Layer& content, Path mesh, layer::Layer& target, Path to);
 
 }  // namespace tenon::structure

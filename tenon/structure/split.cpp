@@ -8,6 +8,7 @@
 
 #include "tenon/formats/save_layer.h"
 #include "tenon/layer/fields.h"
+#include "tenon/structure/geometry_keys.h"
 #include "tenon/structure/layer_tree.h"
 #include "tenon/structure/mesh_wrappers.h"
 #include "tenon/structure/package.h"
@@ -180,7 +181,7 @@ class Splitter {
   }
 
   Result<Path> geometry_entry(Path mesh) {
-    TENON_TRY(const std::string key, geometry_key(content_, mesh));
+    const std::string key = keys_.key(content_, mesh);
     const std::string name = mesh.name().str();
     bool is_new = false;
     const Path place = geometries_.place(name + "\n" + key, name, is_new);
@@ -306,6 +307,7 @@ class Splitter {
   const SplitOptions& options_;
   BaseFiles files_;
   Entries instances_;
+  GeometryKeys keys_;
   Entries geometries_;
   Entries materials_;
 };
