@@ -4,6 +4,10 @@
 #include <cstdio>
 #include <optional>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "cli/command_line.h"
 #include "cli/exit_code.h"
 #include "cli/verb.h"
@@ -61,9 +65,20 @@ int run(int argc, char** argv) {
   return chosen.run ? chosen.run() : tenon::cli::kFailed;
 }
 
+/// A command lives for one answer: memory given back to the system only to be asked for again costs
+/// a page fault for each page.
+void keep_memory() {
+#ifdef __GLIBC__
+  constexpr int kMegabyte = 1 << 20;
+  ::mallopt(M_TRIM_THRESHOLD, 256 * kMegabyte);
+  ::mallopt(M_MMAP_THRESHOLD, 32 * kMegabyte);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_memory();
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

@@ -8,7 +8,6 @@
 #include <unordered_map>
 
 #include "tenon/base/limits.h"
-#include "tenon/bytes/byte_writer.h"
 #include "tenon/bytes/lz4_block.h"
 
 namespace tenon::bytes {
@@ -147,18 +146,24 @@ bool fits(Wide value) {
   return value >= std::numeric_limits<Narrow>::min() && value <= std::numeric_limits<Narrow>::max();
 }
 
-/// Appends `difference` in the narrowest width; its code.
+template <class Stored>
+void put(Stored value, char*& at) {
+  std::memcpy(at, &value, sizeof(value));
+  at += sizeof(value);
+}
+
+/// Writes `difference` in the narrowest width and moves `tail` behind it; its code.
 template <class W>
-unsigned append_difference(typename W::Signed difference, ByteWriter& tail) {
+unsigned put_difference(typename W::Signed difference, char*& tail) {
   if (fits<typename W::Short>(difference)) {
-    tail.write(static_cast<typename W::Short>(difference));
+    put(static_cast<typename W::Short>(difference), tail);
     return 1;
   }
   if (fits<typename W::Middle>(difference)) {
-    tail.write(static_cast<typename W::Middle>(difference));
+    put(static_cast<typename W::Middle>(difference), tail);
     return 2;
   }
-  tail.write(difference);
+  put(difference, tail);
   return 3;
 }
 
@@ -208,21 +213,22 @@ std::string encode_integers(std::span<const T> integers) {
     return lz4_compress({});
   }
   const Signed common = commonest_difference<W>(integers);
-  ByteWriter tail;
-  std::string codes(codes_size(integers.size()), '\0');
+  // The commonest difference, a code for each integer, the differences: no more than this.
+  const std::size_t code_bytes = codes_size(integers.size());
+  std::string out(sizeof(Signed) * (integers.size() + 1) + code_bytes, '\0');
+  char* codes = out.data();
+  put(common, codes);
+  char* tail = codes + code_bytes;
   Unsigned before = 0;
   for (std::size_t i = 0; i < integers.size(); ++i) {
     const auto difference = static_cast<Signed>(static_cast<Unsigned>(integers[i]) - before);
     before = static_cast<Unsigned>(integers[i]);
-    const unsigned code = difference == common ? 0 : append_difference<W>(difference, tail);
+    const unsigned code = difference == common ? 0 : put_difference<W>(difference, tail);
     codes[i / 4] =
         static_cast<char>(static_cast<unsigned char>(codes[i / 4]) | code << (2 * (i % 4)));
   }
-  ByteWriter out;
-  out.write(common);
-  out.write_text(codes);
-  out.write_text(tail.bytes());
-  return lz4_compress(std::as_bytes(std::span(out.bytes().data(), out.bytes().size())));
+  return lz4_compress(
+      std::as_bytes(std::span(out.data(), static_cast<std::size_t>(tail - out.data()))));
 }
 
 template Result<std::vector<std::int32_t>> decode_integers(std::span<const std::byte>,

@@ -100,6 +100,12 @@ Vec3f moved(const aiVector3D& v, const Mat4d& m) {
       Vec3d{{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}}, m));
 }
 
+Vec3f turned_normal(const aiVector3D& n, const Mat3d& turn) {
+  const Vec3d normal{
+      {static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z)}};
+  return to_float(normalized(normal * turn));
+}
+
 class SceneReader {
  public:
   SceneReader(const aiScene& scene, const std::string& path, Diagnostics& diagnostics)
@@ -181,6 +187,8 @@ class SceneReader {
     bool invertible = false;
     const Mat3d turned = transpose(inverse(upper_left(to_root), &invertible));
     PointWelder welder(from.mNumVertices);
+    std::vector<std::int32_t> numbers(from.mNumVertices, -1);  // of the vertices seen so far
+    std::vector<Vec3f> normals(from.mNormals != nullptr && invertible ? from.mNumVertices : 0);
     const bool uv = from.mTextureCoords[0] != nullptr;
     for (unsigned i = 0; i < from.mNumFaces; ++i) {
       const aiFace& face = from.mFaces[i];
@@ -197,13 +205,15 @@ class SceneReader {
       mesh.face_counts.push_back(static_cast<std::int32_t>(face.mNumIndices));
       for (unsigned corner = 0; corner < face.mNumIndices; ++corner) {
         const unsigned at = face.mIndices[corner];
-        mesh.face_points.push_back(welder.number(moved(from.mVertices[at], to_root)));
-        if (from.mNormals != nullptr && invertible) {
-          const aiVector3D& n = from.mNormals[at];
-          mesh.normals.push_back(
-              to_float(normalized(Vec3d{{static_cast<double>(n.x), static_cast<double>(n.y),
-                                         static_cast<double>(n.z)}} *
-                                  turned)));
+        if (numbers[at] < 0) {
+          numbers[at] = welder.number(moved(from.mVertices[at], to_root));
+          if (!normals.empty()) {
+            normals[at] = turned_normal(from.mNormals[at], turned);
+          }
+        }
+        mesh.face_points.push_back(numbers[at]);
+        if (!normals.empty()) {
+          mesh.normals.push_back(normals[at]);
         }
         if (uv) {
           const aiVector3D& t = from.mTextureCoords[0][at];

@@ -15,11 +15,10 @@ namespace tenon::mesh {
 class PointWelder {
  public:
   explicit PointWelder(std::size_t corner_count) {
-    std::size_t size = 64;
-    while (size < corner_count) {  // a closed mesh has one point for about six corners
-      size *= 2;
+    while (slot_count() < corner_count / 4) {  // a closed mesh has one point for about six corners
+      ++bits_;
     }
-    slots_.assign(size, -1);
+    slots_.assign(slot_count(), -1);
   }
 
   std::int32_t number(Vec3f point) {
@@ -40,13 +39,14 @@ class PointWelder {
   std::vector<Vec3f> take_points() { return std::move(points_); }
 
  private:
-  static std::uint64_t hash(const Vec3f& p) {
-    std::uint64_t h = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      h = (h ^ std::bit_cast<std::uint32_t>(p[i])) * 0x9E3779B97F4A7C15ull;
-      h ^= h >> 29u;
-    }
-    return h;
+  /// The high bits of the products are well mixed, the low ones are not.
+  std::size_t first_slot(const Vec3f& p) const {
+    const std::uint64_t x = std::bit_cast<std::uint32_t>(p[0]);
+    const std::uint64_t y = std::bit_cast<std::uint32_t>(p[1]);
+    const std::uint64_t z = std::bit_cast<std::uint32_t>(p[2]);
+    const std::uint64_t mixed = (x | y << 32u) * 0x9E3779B97F4A7C15ull;
+    return static_cast<std::size_t>(((mixed ^ mixed >> 32u ^ z) * 0xD6E8FEB86659FD93ull) >>
+                                    (64u - bits_));
   }
   static bool same(const Vec3f& a, const Vec3f& b) {
     return std::bit_cast<std::uint32_t>(a[0]) == std::bit_cast<std::uint32_t>(b[0]) &&
@@ -54,21 +54,25 @@ class PointWelder {
            std::bit_cast<std::uint32_t>(a[2]) == std::bit_cast<std::uint32_t>(b[2]);
   }
   std::size_t find(const Vec3f& point) const {
-    std::size_t at = hash(point) & (slots_.size() - 1);
+    std::size_t at = first_slot(point);
     while (slots_[at] >= 0 && !same(points_[static_cast<std::size_t>(slots_[at])], point)) {
       at = (at + 1) & (slots_.size() - 1);
     }
     return at;
   }
   void grow() {
-    slots_.assign(slots_.size() * 2, -1);
+    ++bits_;
+    slots_.assign(slot_count(), -1);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       slots_[find(points_[i])] = static_cast<std::int32_t>(i);
     }
   }
 
+  std::size_t slot_count() const { return std::size_t{1} << bits_; }
+
   std::vector<Vec3f> points_;
   std::vector<std::int32_t> slots_;
+  unsigned bits_ = 6;
 };
 
 }  // namespace tenon::mesh
