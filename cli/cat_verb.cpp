@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/formats/save_layer.h"
@@ -31,6 +35,13 @@ Result<layer::Layer> read_input(const Options& options, Diagnostics& diagnostics
   return options.flatten_layer_stack ? stage::flatten_layer_stack(stage) : stage::flatten(stage);
 }
 
+/// Gives what a composed scene took back to the system: writing then needs nothing on top of it.
+void return_free_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
+
 Result<formats::LayerFormat> output_format(const Options& options) {
   if (!options.format.empty()) {
     return formats::layer_format_named(options.format);
@@ -42,6 +53,7 @@ Result<formats::LayerFormat> output_format(const Options& options) {
 Result<void> write(const Options& options, Diagnostics& diagnostics) {
   TENON_TRY(const formats::LayerFormat format, output_format(options));
   TENON_TRY(layer::Layer layer, read_input(options, diagnostics));
+  return_free_memory();
   if (format == formats::LayerFormat::Package) {
     TENON_TRY(const std::string package, pack_layer(std::move(layer), options.asset.asset,
                                                     options.asset.open_options(), diagnostics));
