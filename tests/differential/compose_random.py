@@ -6,6 +6,7 @@ edits, time offsets, variants, relocates, instances, load rules, muting, session
 expressions. Needs Python with OpenUSD's modules.
 
 usage: compose_random.py DUMP [--scenes N] [--seed S] [--keep FOLDER] [--show N] [--measured]
+                         [--outcomes FILE] [--seconds N]
 
 DUMP is the program tests/tools/composition_dump.cpp. Per prim these must agree: contributing nodes
 in order of strength with arc, site and time offset; specs of all layers; selected variants; names
@@ -13,7 +14,8 @@ of children and properties; prohibited names; what it is an instance like; targe
 findings. A scene that differs is cut down while it still does and printed. Scenes
 that OpenUSD does not finish in time, or dies of, are counted and left out. --keep writes scenes
 that differ there; of more than --show (3) only the number is printed. --measured notes the figure
-for CONFORMANCE.md. Exit 77: no OpenUSD.
+for CONFORMANCE.md. --outcomes writes what became of each scene, for scene_outcomes.py. --seconds:
+of processor time that OpenUSD has for a scene. Exit 77: no OpenUSD.
 """
 
 import argparse
@@ -36,6 +38,7 @@ except ImportError:
 
 import pcp_oracle
 import random_scenes
+import scene_outcomes
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(os.path.dirname(HERE), "conformance"))
@@ -114,13 +117,13 @@ def in_order(lines):
     return others[:at] + findings + others[at:]
 
 
-def in_child(work):
+def in_child(work, seconds=SECONDS):
     """What `work` returns, made in a process of its own; (None, status) when that fails."""
     reader, writer = os.pipe()
     child = os.fork()
     if child == 0:
         os.close(reader)
-        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS + 1))
+        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
         silent = os.open(os.devnull, os.O_WRONLY)
         os.dup2(silent, 1)
         os.dup2(silent if not os.environ.get("COMPOSE_RANDOM_LOUD") else 2, 2)
@@ -172,6 +175,7 @@ class Judge:
         self.count = 0
         self.prims = 0
         self.faults = collections.Counter()
+        self.seconds = getattr(arguments, "seconds", SECONDS)
         self.only = None  # the path of the only prim to compare
 
     def judge(self, scene):
@@ -201,7 +205,7 @@ class Judge:
             oracle = pcp_oracle.Oracle(os.path.join(folder, "l0.usda"), options)
             one = self.only and oracle.composed_one(self.only)
             return one or oracle.composed(), oracle.faults
-        answer, status = in_child(work)
+        answer, status = in_child(work, self.seconds)
         if answer is None:
             return failed(status)
         want, faults = answer
@@ -248,6 +252,8 @@ def arguments_of(parser):
     parser.add_argument("--keep")
     parser.add_argument("--show", type=int, default=3)
     parser.add_argument("--measured", action="store_true")
+    parser.add_argument("--outcomes")
+    parser.add_argument("--seconds", type=int, default=SECONDS)
     return parser.parse_args()
 
 
@@ -255,11 +261,14 @@ def judge_all(judge, arguments, make_scene, name):
     """Judges scenes from arguments.seed on; the exit status."""
     if arguments.measured:
         suite.forget(f"{name}_scenes")
-    counts, different = collections.Counter(), 0
+    counts, different, outcomes = collections.Counter(), 0, {}
     for seed in range(arguments.seed, arguments.seed + arguments.scenes):
         scene = make_scene(seed)
         result = judge.judge(scene)
         counts[result.kind] += 1
+        outcomes[seed] = result.kind
+        if arguments.outcomes and (seed % 20 == 0 or len(outcomes) == arguments.scenes):
+            scene_outcomes.write(arguments.outcomes, outcomes)
         if seed % 500 == 0:
             print(f"seed {seed}: {dict(counts)}", flush=True)
         if result.kind != "differs":
