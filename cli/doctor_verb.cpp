@@ -5,10 +5,21 @@
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/approximate/mesh_approximator.h"
+#include "tenon/mesh/read_mesh.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
 namespace {
+
+/// Which reads meshes in .dae, .gltf and .glb.
+approximate::LibraryInfo mesh_library() {
+  approximate::LibraryInfo info;
+  info.name = "assimp";
+  info.available = mesh::has_assimp();
+  info.version = info.available ? mesh::assimp_version() : "";
+  info.how_to_get = info.available ? "" : "install libassimp5 to read meshes in Collada and glTF";
+  return info;
+}
 
 int run_doctor(const Globals& globals) {
   Report report(globals, "doctor", "");
@@ -26,16 +37,20 @@ int run_doctor(const Globals& globals) {
                   engine.available ? "" : engine.how_to_get.c_str());
     }
   }
-  const approximate::LibraryInfo pieces = approximate::decomposition_library();
-  if (!globals.json) {
-    std::printf("%-8s %-14s %s\n", pieces.name.c_str(),
-                pieces.available ? pieces.version.c_str() : "not available",
-                pieces.how_to_get.c_str());
+  Json libraries = Json::array();
+  for (const approximate::LibraryInfo& library :
+       {approximate::decomposition_library(), mesh_library()}) {
+    libraries.push_back(
+        {{"name", library.name},
+         {"available", library.available},
+         {"version", library.available ? Json(library.version) : Json(nullptr)},
+         {"howToGet", library.available ? Json(nullptr) : Json(library.how_to_get)}});
+    if (!globals.json) {
+      std::printf("%-8s %-14s %s\n", library.name.c_str(),
+                  library.available ? library.version.c_str() : "not available",
+                  library.how_to_get.c_str());
+    }
   }
-  const Json libraries{{{"name", pieces.name},
-                        {"available", pieces.available},
-                        {"version", pieces.available ? Json(pieces.version) : Json(nullptr)},
-                        {"howToGet", pieces.available ? Json(nullptr) : Json(pieces.how_to_get)}}};
   return report.finish(all ? kOk : kMissing, {{"engines", engines}, {"libraries", libraries}});
 }
 

@@ -57,6 +57,8 @@ Result<layer::Layer> Conversion::run() {
   write_excluded_pairs();
   joints_scope_ = builder_.define(robot_, "Physics", "Scope");
   write_joints();
+  write_loops();
+  write_mujoco_parts();
   write_robot_metadata();
   return builder_.take();
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -63,7 +64,7 @@ class Conversion {
   // links.cpp
   Result<void> place_links();
   LinkRole role_of(robot::Index link) const;
-  std::optional<robot::Index> carried_by_root() const;
+  void find_carried();
   Path parent_path(robot::Index link) const;
   void define_link(robot::Index link);
   void write_body(robot::Index link);
@@ -101,6 +102,14 @@ class Conversion {
   void write_dofs(Path path, const robot::Joint& joint);
   Pose joint_frame(const robot::Joint& joint) const;
 
+  // mujoco_parts.cpp
+  void write_loops();
+  void write_mujoco_parts();
+  Path write_tendon(const robot::MujocoTendon& tendon);
+  void write_motor(const robot::MujocoActuator& actuator, Path target);
+  void write_range(Path prim, const char* type, const std::string& name, const char* limited,
+                   const std::optional<std::array<double, 2>>& range);
+
   // robot_metadata.cpp
   void write_robot_metadata();
 
@@ -115,8 +124,9 @@ class Conversion {
   NameScope link_names_;
   NameScope joint_names_;
   NameScope material_names_;
-  std::vector<LinkPrim> links_;  // (link_count)
-  std::vector<Path> joints_;     // (joint_count), empty: no prim
+  std::optional<robot::Index> carried_;  // by a root without mass
+  std::vector<LinkPrim> links_;          // (link_count)
+  std::vector<Path> joints_;             // (joint_count), empty: no prim
   std::optional<Path> base_joint_;
   std::vector<robot::Material> materials_;  // those of the model, then those of meshes
   std::vector<Path> material_paths_;        // (material_count), empty: not yet written

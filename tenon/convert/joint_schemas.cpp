@@ -192,13 +192,18 @@ void JointPrinter::print_actuator(Path scope, Token name) {
   const Path prim = builder_.define(scope, name, type);
   const robot::Drive& drive = *joint_.drive;
   builder_.set_value(prim, type, "mjc:biasPrm",
-                     Value(std::vector<double>{0, -drive.stiffness, -drive.damping}));
+                     Value(std::vector<double>{0, 0 - drive.stiffness, 0 - drive.damping}));
   builder_.set_value(prim, type, "mjc:biasType", Value(Token("affine")));
+  if (drive.control_range) {
+    builder_.set_value(prim, type, "mjc:ctrlLimited", Value(Token("true")));
+    builder_.set_number(prim, type, "mjc:ctrlRange:max", (*drive.control_range)[1]);
+    builder_.set_number(prim, type, "mjc:ctrlRange:min", (*drive.control_range)[0]);
+  }
   if (std::isfinite(joint_.effort_limit)) {
     builder_.set_number(prim, type, "mjc:forceRange:max", joint_.effort_limit);
     builder_.set_number(prim, type, "mjc:forceRange:min", -joint_.effort_limit);
   }
-  builder_.set_value(prim, type, "mjc:gainPrm", Value(std::vector<double>{drive.stiffness}));
+  builder_.set_value(prim, type, "mjc:gainPrm", Value(std::vector<double>{drive.control_gain()}));
   builder_.set_value(prim, type, "mjc:gainType", Value(Token("fixed")));
   builder_.set_targets(prim, type, "mjc:target", {path_});
 }

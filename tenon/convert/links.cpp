@@ -28,9 +28,9 @@ bool has_mass(const robot::Link& link) { return link.inertial && link.inertial->
 
 /// Of a robot that is to float: the first link with mass that fixed joints hold to a root without.
 /// ROS's own reader takes no inertia at the root, so robots begin with an empty link.
-std::optional<Index> Conversion::carried_by_root() const {
+void Conversion::find_carried() {
   if (!options_.float_base) {
-    return std::nullopt;
+    return;
   }
   std::vector<bool> is_part(model_.links.size(), false);
   is_part[tree_.root] = true;
@@ -39,12 +39,12 @@ std::optional<Index> Conversion::carried_by_root() const {
     if (above && is_part[model_.joints[*above].parent] &&
         model_.joints[*above].kind == JointKind::Fixed) {
       if (has_mass(model_.links[link])) {
-        return link;
+        carried_ = link;
+        return;
       }
       is_part[link] = true;
     }
   }
-  return std::nullopt;
 }
 
 LinkRole Conversion::role_of(Index link) const {
@@ -53,7 +53,7 @@ LinkRole Conversion::role_of(Index link) const {
   }
   const std::optional<Index> above = tree_.joint_to_parent[link];
   if (!above) {
-    return carried_by_root() ? LinkRole::Body : LinkRole::Static;
+    return carried_ ? LinkRole::Body : LinkRole::Static;
   }
   return model_.joints[*above].kind == JointKind::Fixed ? LinkRole::Frame : LinkRole::Body;
 }
@@ -71,6 +71,7 @@ Result<void> Conversion::place_links() {
     builder_.define(robot_, "Geometry", "Scope");
   }
   links_.resize(model_.links.size());
+  find_carried();
   for (const Index link : tree_.order) {
     LinkPrim& prim = links_[link];
     prim.role = role_of(link);
@@ -140,7 +141,7 @@ void Conversion::write_mass(Path path, const robot::Inertial& inertial) {
 }
 
 void Conversion::write_root_share(Path path, const robot::Link& root) {
-  const robot::Link& carried = model_.links[*carried_by_root()];
+  const robot::Link& carried = model_.links[*carried_];
   robot::Inertial share = *carried.inertial;
   share.mass *= kRootShare;
   for (auto& row : share.inertia.m) {

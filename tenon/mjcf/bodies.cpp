@@ -13,8 +13,9 @@ using engines::mujoco::read_quaternion;
 using engines::mujoco::read_vector;
 using robot::Index;
 
-void MjcfReader::report(const char* rule, std::string message, Severity severity) {
-  diagnostics_.add(file_finding(severity, rule, std::move(message), file_));
+void MjcfReader::report(const char* rule, std::string message, Severity severity,
+                        std::uint32_t line) {
+  diagnostics_.add(file_finding(severity, rule, std::move(message), file_, line));
 }
 
 std::string MjcfReader::name_of(mjtObj kind, int id) const {
@@ -39,8 +40,10 @@ robot::RobotModel MjcfReader::run(std::string name) {
   read_geoms();
   read_sites();
   read_excluded_pairs();
+  read_tendons();
   read_actuators();
   read_equalities();
+  read_keyframes();
   report_left_out();
   return std::move(robot_);
 }

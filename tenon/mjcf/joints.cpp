@@ -128,24 +128,36 @@ void MjcfReader::read_actuator(int number) {
                       model_.actuator_biastype[at] == mjBIAS_AFFINE &&
                       model_.actuator_dyntype[at] == mjDYN_NONE;
   if (!on_joint || !spring) {
-    report("mjcf.left-out", "the actuator \"" + name + "\" is " +
-                                (on_joint ? "no spring and damper" : "not about a joint") +
-                                "; it is left out");
+    if (!read_motor(number)) {
+      report("mjcf.left-out",
+             "the actuator \"" + name +
+                 "\" is about no joint of one axis and no fixed tendon, or of a kind of its own; "
+                 "it is left out",
+             Severity::Warning, line_of(mjOBJ_ACTUATOR, number));
+    }
     return;
   }
   const auto target = static_cast<std::size_t>(model_.actuator_trnid[2 * at]);
   robot::Joint& joint = robot_.joints[joint_of_joint_[target]];
   if (!joint.has_one_axis() || joint.drive) {
-    report("mjcf.left-out", "the actuator \"" + name + "\" is " +
-                                (joint.drive ? "the second one of its joint" : "about a ball") +
-                                "; it is left out");
+    report("mjcf.left-out",
+           "the actuator \"" + name + "\" is " +
+               (joint.drive ? "the second one of its joint" : "about a ball") + "; it is left out",
+           Severity::Warning, line_of(mjOBJ_ACTUATOR, number));
     return;
   }
   const double* bias = model_.actuator_biasprm + mjNBIAS * at;
   const double gear = model_.actuator_gear[6 * at];
   robot::Drive& drive = joint.drive.emplace();
-  drive.stiffness = -bias[1] * gear * gear;
-  drive.damping = -bias[2] * gear * gear;
+  drive.stiffness = 0 - bias[1] * gear * gear;
+  drive.damping = 0 - bias[2] * gear * gear;
+  drive_of_actuator_[at] = joint_of_joint_[target];
+  if (model_.actuator_ctrllimited[at] != 0) {
+    const double* range = model_.actuator_ctrlrange + 2 * at;
+    const double a = control_of(number, range[0]);
+    const double b = control_of(number, range[1]);
+    drive.control_range = {std::min(a, b), std::max(a, b)};
+  }
   if (bias[1] != 0 && gear != 0) {
     const auto coordinate = static_cast<std::size_t>(model_.jnt_qposadr[target]);
     drive.target = -bias[0] / (bias[1] * gear) - model_.qpos0[coordinate];
@@ -157,7 +169,17 @@ void MjcfReader::read_actuator(int number) {
   }
 }
 
+/// What is to be asked of a drive for the effort that `control` makes of its actuator.
+double MjcfReader::control_of(int actuator, double control) const {
+  const auto at = static_cast<std::size_t>(actuator);
+  const double gain = robot_.joints[*drive_of_actuator_[at]].drive->control_gain();
+  const double effort =
+      model_.actuator_gear[6 * at] * model_.actuator_gainprm[mjNGAIN * at] * control;
+  return gain == 0 ? 0 : effort / gain;
+}
+
 void MjcfReader::read_actuators() {
+  drive_of_actuator_.resize(static_cast<std::size_t>(model_.nu));
   for (int i = 0; i < model_.nu; ++i) {
     read_actuator(i);
   }
@@ -169,13 +191,18 @@ void MjcfReader::read_equalities() {
     const auto at = static_cast<std::size_t>(i);
     const std::string name = unique_name(mjOBJ_EQUALITY, i, "equality");
     if (model_.eq_active0[at] == 0) {
-      report("mjcf.left-out", "the equality \"" + name + "\" is off; it is left out");
+      report("mjcf.left-out", "the equality \"" + name + "\" is off; it is left out",
+             Severity::Warning, line_of(mjOBJ_EQUALITY, i));
+      continue;
+    }
+    if (read_loop(i)) {
       continue;
     }
     if (model_.eq_type[at] != mjEQ_JOINT || model_.eq_obj2id[at] < 0) {
       report("mjcf.left-out",
-             "the equality \"" + name + "\" is no law of two joints; it is left out",
-             Severity::Error);
+             "the equality \"" + name +
+                 "\" is neither a law of two joints nor holds two bodies; it is left out",
+             Severity::Error, line_of(mjOBJ_EQUALITY, i));
       continue;
     }
     const auto follower = static_cast<std::size_t>(model_.eq_obj1id[at]);
@@ -184,27 +211,6 @@ void MjcfReader::read_equalities() {
     robot::Joint& joint = robot_.joints[joint_of_joint_[follower]];
     joint.mimic =
         robot::Mimic{joint_of_joint_[leader], data[1], data[0], {data[2], data[3], data[4]}, 0};
-  }
-}
-
-/// What a RobotModel has no word for, by kind and number.
-void MjcfReader::report_left_out() {
-  struct Row {
-    mjtSize count;
-    const char* what;
-  };
-  const Row rows[] = {
-      {model_.ntendon, "tendons"}, {model_.nsensor, "sensors"},     {model_.nkey, "keyframes"},
-      {model_.ncam, "cameras"},    {model_.nlight, "lights"},       {model_.nflex, "deformables"},
-      {model_.nskin, "skins"},     {model_.npair, "contact pairs"}, {model_.nplugin, "plugins"}};
-  for (const Row& row : rows) {
-    if (row.count > 0) {
-      report("mjcf.left-out", std::to_string(row.count) + " " + row.what + " are left out");
-    }
-  }
-  const double* gravity = model_.opt.gravity;
-  if (gravity[0] != 0 || gravity[1] != 0 || gravity[2] != -9.81) {
-    report("mjcf.left-out", "gravity is not that of the earth along -z; it is left out");
   }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,13 +17,14 @@ namespace tenon::mjcf {
 /// From a compiled model to a robot: passes over its tables.
 class MjcfReader {
  public:
-  MjcfReader(const mjModel& model, std::string file, Diagnostics& diagnostics)
-      : model_(model), file_(std::move(file)), diagnostics_(diagnostics) {}
+  MjcfReader(mjSpec& spec, const mjModel& model, std::string file, Diagnostics& diagnostics)
+      : spec_(spec), model_(model), file_(std::move(file)), diagnostics_(diagnostics) {}
 
   robot::RobotModel run(std::string name);
 
  private:
-  void report(const char* rule, std::string message, Severity severity = Severity::Warning);
+  void report(const char* rule, std::string message, Severity severity = Severity::Warning,
+              std::uint32_t line = 0);
   std::string name_of(mjtObj kind, int id) const;
   std::string unique_name(mjtObj kind, int id, const std::string& fallback);
 
@@ -46,15 +48,34 @@ class MjcfReader {
   robot::Joint joint_of(int joint);
   void read_actuators();
   void read_actuator(int actuator);
+  double control_of(int actuator, double control) const;
   void read_equalities();
+
+  // loops.cpp
+  bool read_loop(int equality);
+
+  // mujoco_parts.cpp
+  void read_tendons();
+  bool read_tendon(int tendon);
+  bool read_motor(int actuator);
+  std::vector<double> controls_of(int key) const;
+  void read_keyframes();
+
+  // left_out.cpp
+  std::vector<std::uint32_t> lines_of(mjtObj kind) const;
+  std::uint32_t line_of(mjtObj kind, int id) const;
   void report_left_out();
 
+  mjSpec& spec_;
   const mjModel& model_;
   std::string file_;
   Diagnostics& diagnostics_;
   robot::RobotModel robot_;
-  std::vector<robot::Index> link_of_body_;    // (nbody)
-  std::vector<robot::Index> joint_of_joint_;  // (njnt), by MuJoCo's number
+  std::vector<robot::Index> link_of_body_;                      // (nbody)
+  std::vector<robot::Index> joint_of_joint_;                    // (njnt), by MuJoCo's number
+  std::vector<std::optional<robot::Index>> tendon_of_tendon_;   // (ntendon), by MuJoCo's number
+  std::vector<std::optional<robot::Index>> drive_of_actuator_;  // (nu), the joint that has it
+  std::vector<int> motors_;  // MuJoCo's numbers of robot_.mujoco.actuators
   std::vector<std::string> link_names_;
 };
 

@@ -66,7 +66,7 @@ Result<robot::RobotModel> read_mjcf(const std::string& path, Diagnostics& diagno
   if (name.empty() || name == "MuJoCo Model") {
     name = std::filesystem::path(path).stem().string();
   }
-  return MjcfReader(*model, path, diagnostics).run(std::move(name));
+  return MjcfReader(*spec, *model, path, diagnostics).run(std::move(name));
 }
 
 }  // namespace tenon::mjcf

@@ -110,12 +110,49 @@ TEST_F(ReadMjcf, TakesActuatorsThatAreSpringsAndListsTheRest) {
   EXPECT_EQ(j.drive->stiffness, 80);  // kp gear^2
   EXPECT_EQ(j.drive->damping, 8);
   EXPECT_EQ(j.effort_limit, 6);
-  EXPECT_EQ(found(), "mjcf.left-out;mjcf.left-out;");
+  EXPECT_EQ(found(), "");
+  ASSERT_EQ(model->mujoco.actuators.size(), 1u);
+  EXPECT_EQ(model->mujoco.actuators[0].name, "m");
+  EXPECT_EQ(model->mujoco.actuators[0].target, 1u);
+  EXPECT_EQ(model->mujoco.keyframes.size(), 1u);
   EXPECT_EQ(model->links[1].sites.at(0).name, "tip");
   EXPECT_EQ(*model->links[1].colliders.at(0).surface.torsional_friction, 0.01);
   EXPECT_EQ(model->links[2].visuals.size(), 1u);
   EXPECT_TRUE(model->links[2].colliders.empty());
   ASSERT_EQ(model->excluded_pairs.size(), 1u);
+}
+
+TEST_F(ReadMjcf, TakesLoopsTendonsAndKeyframesAndNamesLinesOfTheRest) {
+  const auto model = read(
+      "<worldbody><body name='a' pos='0 0 1'><joint name='j' axis='0 1 0' ref='30'/><geom "
+      "size='0.1'/><site name='s' pos='0 0 0.5'/></body><body name='b'><joint name='k' axis='1 0 "
+      "0'/><geom size='0.1'/><site name='t'/></body></worldbody>\n"
+      "<tendon><fixed name='f'><joint joint='j' coef='2'/></fixed>\n<spatial><site site='s'/><site "
+      "site='t'/></spatial></tendon>"
+      "<equality><connect body1='a' body2='b' anchor='0 0 0.25'/><weld body1='b' "
+      "relpose='0 0 2 1 0 0 0'/></equality>"
+      "<actuator><velocity joint='k' kv='3' gear='2' ctrlrange='-1 1'/><position tendon='f'/>"
+      "</actuator>\n<sensor><jointpos joint='j'/></sensor><keyframe><key qpos='0.5 1' "
+      "ctrl='0.5 2'/></keyframe>");
+  ASSERT_TRUE(model) << model.error().to_string();
+  ASSERT_EQ(model->loops.size(), 2u);
+  EXPECT_EQ(model->loops[0].kind, JointKind::Ball);
+  EXPECT_EQ(model->loops[0].frames[0].position, (Vec3d{{0, 0, 0.25}}));
+  EXPECT_EQ(model->loops[0].frames[1].position, (Vec3d{{0, 0, 1.25}}));
+  EXPECT_EQ(model->loops[1].kind, JointKind::Fixed);
+  EXPECT_EQ(model->loops[1].links[1], 0u);  // the world
+  ASSERT_EQ(model->mujoco.tendons.size(), 1u);
+  EXPECT_EQ(model->mujoco.tendons[0].coefficients, std::vector<double>{2});
+  ASSERT_EQ(model->mujoco.actuators.size(), 1u);
+  EXPECT_EQ(model->mujoco.actuators[0].kind, robot::MujocoActuator::Target::Tendon);
+  EXPECT_EQ(model->joints[1].drive->damping, 12);               // kv gear^2
+  EXPECT_EQ((*model->joints[1].drive->control_range)[1], 0.5);  // in the joint's own velocity
+  ASSERT_EQ(model->mujoco.keyframes.size(), 1u);
+  EXPECT_NEAR(model->mujoco.keyframes[0].positions[0], 0.5 - std::numbers::pi / 6, 1e-12);
+  EXPECT_EQ(model->mujoco.keyframes[0].controls, (std::vector<double>{0.25, 2}));
+  EXPECT_EQ(found(), "mjcf.reference;mjcf.left-out;mjcf.left-out;");
+  EXPECT_EQ(findings_.items()[1].line, 3u);  // the spatial tendon
+  EXPECT_EQ(findings_.items()[2].line, 4u);  // the sensor
 }
 
 TEST_F(ReadMjcf, SaysWhatMuJoCoRefuses) {

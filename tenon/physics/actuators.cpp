@@ -86,6 +86,10 @@ class ActuatorReader {
         return state_.joint_of_prim[found->second];
       }
     }
+    if (targets.size() == 1 && prim.prim_at(targets.front()).type_name() == "MjcTendon") {
+      state_.not_read(prim, "mjc:target", "only actuators of joints are read, not of tendons");
+      return std::nullopt;
+    }
     state_.report(prim, tokens_.target, Severity::Error, "actuator.target-missing",
                   targets.empty() ? "mjc:target names nothing; the actuator is left out"
                                   : "mjc:target names <" + targets.front().str() +

@@ -24,6 +24,35 @@ void take_shapes(const std::vector<Shape>& from, const Pose& pose, std::vector<S
   }
 }
 
+struct Host {
+  Index link = 0;  // in the result
+  Pose pose;       // of the merged link in it
+};
+
+void move_loops(const std::vector<Host>& hosts, RobotModel& result) {
+  for (LoopJoint& loop : result.loops) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Host& host = hosts[loop.links[side]];
+      loop.links[side] = host.link;
+      loop.frames[side] = host.pose * loop.frames[side];
+    }
+  }
+}
+
+/// `number`: of the joints. None of MuJoCo's parts is about a fixed one, which has no coordinate.
+void renumber(const std::vector<Index>& number, MujocoParts& parts) {
+  for (MujocoTendon& tendon : parts.tendons) {
+    for (Index& joint : tendon.joints) {
+      joint = number[joint];
+    }
+  }
+  for (MujocoActuator& actuator : parts.actuators) {
+    if (actuator.kind == MujocoActuator::Target::Joint) {
+      actuator.target = number[actuator.target];
+    }
+  }
+}
+
 }  // namespace
 
 Inertial placed(const Inertial& inertial, const Pose& pose) {
@@ -52,10 +81,6 @@ RobotModel merge_fixed(const RobotModel& model, const KinematicTree& tree) {
   RobotModel result = model;
   result.links.clear();
   result.joints.clear();
-  struct Host {
-    Index link = 0;  // in the result
-    Pose pose;       // of the merged link in it
-  };
   std::vector<Host> hosts(model.links.size());
   for (const Index link : tree.order) {
     const std::optional<Index> above = tree.joint_to_parent[link];
@@ -80,6 +105,7 @@ RobotModel merge_fixed(const RobotModel& model, const KinematicTree& tree) {
   for (std::array<Index, 2>& pair : result.excluded_pairs) {
     pair = {hosts[pair[0]].link, hosts[pair[1]].link};
   }
+  move_loops(hosts, result);
   std::vector<Index> number(model.joints.size(), 0);
   for (Index i = 0; i < model.joints.size(); ++i) {
     if (model.joints[i].kind != JointKind::Fixed) {
@@ -96,6 +122,7 @@ RobotModel merge_fixed(const RobotModel& model, const KinematicTree& tree) {
       joint.mimic->leader = number[joint.mimic->leader];
     }
   }
+  renumber(number, result.mujoco);
   return result;
 }
 

@@ -14,6 +14,7 @@
 #include "tenon/math/transform.h"
 #include "tenon/math/vector.h"
 #include "tenon/robot/joint_quantity.h"
+#include "tenon/robot/mujoco_parts.h"
 
 /// A robot as its description says, before it is a scene: what readers of robot formats make and
 /// writers take. Plain structs in metres, kilograms, seconds and radians; knows no format, no USD
@@ -161,6 +162,11 @@ struct Drive {
   double stiffness = 0;  ///< [N m/rad or N/m]
   double damping = 0;    ///< [N m s/rad or N s/m]
   double target = 0;     ///< [rad or m]
+  /// What a controller may ask for [rad or m; rad/s or m/s without stiffness].
+  std::optional<std::array<double, 2>> control_range{};
+
+  /// Effort for one unit of what a controller asks for.
+  double control_gain() const { return stiffness != 0 ? stiffness : damping; }
 };
 
 struct Joint {
@@ -193,6 +199,17 @@ struct Joint {
   Motion motion() const { return kind == JointKind::Prismatic ? Motion::Linear : Motion::Angular; }
 };
 
+/// What holds two links together beside the tree, and so closes a loop.
+struct LoopJoint {
+  std::string name;
+  JointKind kind = JointKind::Ball;  ///< Ball: one point of each coincides; Fixed
+  std::array<Index, 2> links{};      ///< into RobotModel::links
+  std::array<Pose, 2> frames;        ///< of the joint in the links
+  double torque_scale = 1;           ///< of Fixed, as MuJoCo weighs rotation [m]
+  std::vector<double> solref;        ///< MuJoCo's softness; empty: its default
+  std::vector<double> solimp;
+};
+
 struct RobotModel {
   std::string name;
   std::string file;  ///< the description; lines are lines of it, 0 where unknown
@@ -202,6 +219,8 @@ struct RobotModel {
   std::vector<MeshFile> meshes;  ///< each file once
   /// Pairs of links whose colliders do not touch each other.
   std::vector<std::array<Index, 2>> excluded_pairs;
+  std::vector<LoopJoint> loops;
+  MujocoParts mujoco;
 };
 
 }  // namespace tenon::robot

@@ -138,6 +138,30 @@ def check_mjcf(work):
                   if isinstance(joint["upper"], float)), limits)
 
 
+def check_mujoco_parts(work):
+    """Loops are joints beside the tree; motors, tendons and keyframes prims of MuJoCo's schemas."""
+    target, package = work / "loop.usda", work / "loop"
+    code, rules, _ = convert(ROOT / "tests/convert/mjcf/loop.xml", target)
+    expect("loop: findings", (code, rules), (0, ["convert.floating", "mjcf.left-out",
+                                                   "mjcf.reference"]))
+    scene = physics(target)
+    joints, bodies = by_name(scene["joints"]), {b["path"]: b for b in scene["bodies"]}
+    expect("loop: excluded", sorted(n for n, j in joints.items() if j["excludeFromArticulation"]),
+           ["glue", "pin"])
+    for x, end in zip((0.2, 0), ("0", "1")):
+        near("loop: anchor", joints["pin"]["frame" + end]["position"][0], x, FLOAT)
+    near("loop: weld", bodies[joints["glue"]["body1"]]["position"][2] -
+         bodies[joints["glue"]["body0"]]["position"][2],
+         joints["glue"]["frame0"]["position"][2] - joints["glue"]["frame1"]["position"][2], FLOAT)
+    expect("loop: structure", tenon("structure", target, "-o", package)[0], 0)
+    text = (package / "payloads/Physics/mujoco.usda").read_text()
+    for wanted in ('def MjcTendon "rope"', "mjc:path:coef = [2, -1]", 'def MjcActuator "push"',
+                   "mjc:gear = [4, 0, 0, 0, 0, 0]", "mjc:ctrl = [0, 0.5, 0]",
+                   "mjc:qpos = [0.25, 0.1, 0, 0.4, 0, 1.5, 1, 0, 0, 0]", "mjc:torqueScale = 2",
+                   "mjc:solref = [0.01, 1]"):
+        expect(f"loop: {wanted}", wanted in text, True)
+
+
 def numbers(element, attribute, count=3):
     text = element.get(attribute) if element is not None else None
     return [float(word) for word in text.split()] if text else [0.0] * count
@@ -212,6 +236,7 @@ def main():
         check_shapes(work)
         check_bad_input(work)
         check_mjcf(work)
+        check_mujoco_parts(work)
         check_hand(work)
     for fault in faults:
         print(fault)

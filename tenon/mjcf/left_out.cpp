@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+#include <string_view>
+
+#include "tenon/mjcf/mjcf_reader.h"
+
+namespace tenon::mjcf {
+namespace {
+
+/// MuJoCo keeps "line N" with each element that it has read from a file.
+const mjString* info_of(mjsElement* element, mjtObj kind) {
+  switch (kind) {
+    case mjOBJ_ACTUATOR:
+      return mjs_asActuator(element)->info;
+    case mjOBJ_EQUALITY:
+      return mjs_asEquality(element)->info;
+    case mjOBJ_TENDON:
+      return mjs_asTendon(element)->info;
+    case mjOBJ_SENSOR:
+      return mjs_asSensor(element)->info;
+    case mjOBJ_KEY:
+      return mjs_asKey(element)->info;
+    case mjOBJ_CAMERA:
+      return mjs_asCamera(element)->info;
+    case mjOBJ_LIGHT:
+      return mjs_asLight(element)->info;
+    case mjOBJ_PAIR:
+      return mjs_asPair(element)->info;
+    default:
+      return nullptr;
+  }
+}
+
+std::uint32_t line_in(const mjString* info) {
+  const std::string_view text = info == nullptr ? "" : mjs_getString(info);
+  const std::size_t at = text.find("line ");
+  return at == std::string_view::npos
+             ? 0
+             : static_cast<std::uint32_t>(std::strtoul(text.data() + at + 5, nullptr, 10));
+}
+
+}  // namespace
+
+/// Of all elements of a kind, in the order of their numbers; 0 where it is not known.
+std::vector<std::uint32_t> MjcfReader::lines_of(mjtObj kind) const {
+  std::vector<std::uint32_t> lines;
+  for (mjsElement* at = mjs_firstElement(&spec_, kind); at != nullptr;
+       at = mjs_nextElement(&spec_, at)) {
+    lines.push_back(line_in(info_of(at, kind)));
+  }
+  return lines;
+}
+
+std::uint32_t MjcfReader::line_of(mjtObj kind, int id) const {
+  const std::vector<std::uint32_t> lines = lines_of(kind);
+  const auto at = static_cast<std::size_t>(id);
+  return at < lines.size() ? lines[at] : 0;
+}
+
+/// What a RobotModel has no word for, by kind and number, with its lines.
+void MjcfReader::report_left_out() {
+  struct Row {
+    mjtSize count;
+    const char* what;
+    mjtObj kind;
+  };
+  const Row rows[] = {
+      {model_.nsensor, "sensors", mjOBJ_SENSOR}, {model_.ncam, "cameras", mjOBJ_CAMERA},
+      {model_.nlight, "lights", mjOBJ_LIGHT},    {model_.nflex, "deformables", mjOBJ_UNKNOWN},
+      {model_.nskin, "skins", mjOBJ_UNKNOWN},    {model_.npair, "contact pairs", mjOBJ_PAIR},
+      {model_.nplugin, "plugins", mjOBJ_UNKNOWN}};
+  for (const Row& row : rows) {
+    if (row.count <= 0) {
+      continue;
+    }
+    std::string text = std::to_string(row.count) + " " + row.what + " are left out";
+    const std::vector<std::uint32_t> lines =
+        row.kind == mjOBJ_UNKNOWN ? std::vector<std::uint32_t>() : lines_of(row.kind);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      text += (i == 0 ? ": lines " : ", ") + std::to_string(lines[i]);
+    }
+    report("mjcf.left-out", std::move(text), Severity::Warning, lines.empty() ? 0 : lines.front());
+  }
+  const double* gravity = model_.opt.gravity;
+  if (gravity[0] != 0 || gravity[1] != 0 || gravity[2] != -9.81) {
+    report("mjcf.left-out", "gravity is not that of the earth along -z; it is left out");
+  }
+}
+
+}  // namespace tenon::mjcf

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "tenon/mjcf/mjcf_reader.h"
+
+namespace tenon::mjcf {
+
+using robot::Index;
+using robot::MujocoActuator;
+
+namespace {
+
+using Range = std::array<double, 2>;
+
+std::optional<Range> range_of(bool limited, const double* range) {
+  return limited ? std::optional<Range>({range[0], range[1]}) : std::nullopt;
+}
+
+/// The schema's token; empty for kinds that it does not have.
+std::string token_of(std::span<const char* const> tokens, int kind) {
+  const auto at = static_cast<std::size_t>(kind);
+  return kind >= 0 && at < tokens.size() ? tokens[at] : "";
+}
+
+constexpr const char* kGains[] = {"fixed", "affine", "muscle"};
+constexpr const char* kBiases[] = {"none", "affine", "muscle"};
+constexpr const char* kDynamics[] = {"none", "integrator", "filter", "filterexact", "muscle"};
+static_assert(mjGAIN_MUSCLE == 2 && mjBIAS_MUSCLE == 2 && mjDYN_MUSCLE == 4);
+
+}  // namespace
+
+/// A sum of joint coordinates; false for a tendon that goes from place to place.
+bool MjcfReader::read_tendon(int number) {
+  const auto at = static_cast<std::size_t>(number);
+  robot::MujocoTendon tendon;
+  tendon.name = unique_name(mjOBJ_TENDON, number, "tendon");
+  for (int i = 0; i < model_.tendon_num[at]; ++i) {
+    const auto wrap = static_cast<std::size_t>(model_.tendon_adr[at] + i);
+    if (model_.wrap_type[wrap] != mjWRAP_JOINT) {
+      return false;
+    }
+    const auto joint = static_cast<std::size_t>(model_.wrap_objid[wrap]);
+    tendon.joints.push_back(joint_of_joint_[joint]);
+    tendon.coefficients.push_back(model_.wrap_prm[wrap]);
+  }
+  tendon.stiffness = model_.tendon_stiffness[at];
+  tendon.damping = model_.tendon_damping[at];
+  tendon.friction = model_.tendon_frictionloss[at];
+  tendon.armature = model_.tendon_armature[at];
+  tendon.spring_length = {model_.tendon_lengthspring[2 * at],
+                          model_.tendon_lengthspring[2 * at + 1]};
+  tendon.range = range_of(model_.tendon_limited[at] != 0, model_.tendon_range + 2 * at);
+  robot_.mujoco.tendons.push_back(std::move(tendon));
+  return true;
+}
+
+void MjcfReader::read_tendons() {
+  tendon_of_tendon_.resize(static_cast<std::size_t>(model_.ntendon));
+  for (int i = 0; i < model_.ntendon; ++i) {
+    const auto index = static_cast<Index>(robot_.mujoco.tendons.size());
+    if (read_tendon(i)) {
+      tendon_of_tendon_[static_cast<std::size_t>(i)] = index;
+    } else {
+      report("mjcf.left-out",
+             "the tendon \"" + unique_name(mjOBJ_TENDON, i, "tendon") +
+                 "\" goes from place to place; it is left out",
+             Severity::Warning, line_of(mjOBJ_TENDON, i));
+    }
+  }
+}
+
+/// False for what is about other things than a joint of one axis or a fixed tendon, or of a kind
+/// that the schema does not have.
+bool MjcfReader::read_motor(int number) {
+  const auto at = static_cast<std::size_t>(number);
+  const auto target = static_cast<std::size_t>(std::max(0, model_.actuator_trnid[2 * at]));
+  MujocoActuator actuator;
+  if (model_.actuator_trntype[at] == mjTRN_JOINT) {
+    actuator.target = joint_of_joint_[target];
+    if (!robot_.joints[actuator.target].has_one_axis()) {
+      return false;
+    }
+  } else if (model_.actuator_trntype[at] == mjTRN_TENDON && tendon_of_tendon_[target]) {
+    actuator.kind = MujocoActuator::Target::Tendon;
+    actuator.target = *tendon_of_tendon_[target];
+  } else {
+    return false;
+  }
+  actuator.name = unique_name(mjOBJ_ACTUATOR, number, "actuator");
+  actuator.gain_type = token_of(kGains, model_.actuator_gaintype[at]);
+  actuator.bias_type = token_of(kBiases, model_.actuator_biastype[at]);
+  actuator.dyn_type = token_of(kDynamics, model_.actuator_dyntype[at]);
+  if (actuator.gain_type.empty() || actuator.bias_type.empty() || actuator.dyn_type.empty()) {
+    return false;
+  }
+  const auto numbers = [at](const double* table, std::size_t count) {
+    return std::vector<double>(table + count * at, table + count * (at + 1));
+  };
+  actuator.gain = numbers(model_.actuator_gainprm, mjNGAIN);
+  actuator.bias = numbers(model_.actuator_biasprm, mjNBIAS);
+  actuator.dynamics = numbers(model_.actuator_dynprm, mjNDYN);
+  std::copy_n(model_.actuator_gear + 6 * at, 6, actuator.gear.begin());
+  actuator.force_range =
+      range_of(model_.actuator_forcelimited[at] != 0, model_.actuator_forcerange + 2 * at);
+  actuator.activation_range =
+      range_of(model_.actuator_actlimited[at] != 0, model_.actuator_actrange + 2 * at);
+  actuator.control_range =
+      range_of(model_.actuator_ctrllimited[at] != 0, model_.actuator_ctrlrange + 2 * at);
+  robot_.mujoco.actuators.push_back(std::move(actuator));
+  motors_.push_back(number);
+  return true;
+}
+
+/// In the order of the actuators' prims: those of drives by joint, then the others.
+std::vector<double> MjcfReader::controls_of(int key) const {
+  const double* controls =
+      model_.key_ctrl + static_cast<std::size_t>(key) * static_cast<std::size_t>(model_.nu);
+  std::vector<std::pair<Index, double>> of_drives;
+  for (int i = 0; i < model_.nu; ++i) {
+    const std::optional<Index> joint = drive_of_actuator_[static_cast<std::size_t>(i)];
+    if (joint && !robot_.joints[*joint].mimic) {
+      of_drives.emplace_back(*joint, control_of(i, controls[i]));
+    }
+  }
+  std::sort(of_drives.begin(), of_drives.end());
+  std::vector<double> ordered;
+  for (const auto& [joint, control] : of_drives) {
+    ordered.push_back(control);
+  }
+  for (const int motor : motors_) {
+    ordered.push_back(controls[motor]);
+  }
+  return ordered;
+}
+
+/// Hinges and slides count from where the bodies stand as written.
+void MjcfReader::read_keyframes() {
+  for (int key = 0; key < model_.nkey; ++key) {
+    const auto at = static_cast<std::size_t>(key);
+    const auto row = [at](const double* table, auto count) {
+      const auto size = static_cast<std::size_t>(count);
+      return std::vector<double>(table + size * at, table + size * (at + 1));
+    };
+    robot::MujocoKeyframe frame;
+    frame.name = unique_name(mjOBJ_KEY, key, "keyframe");
+    frame.positions = row(model_.key_qpos, model_.nq);
+    frame.velocities = row(model_.key_qvel, model_.nv);
+    frame.activations = row(model_.key_act, model_.na);
+    frame.controls = controls_of(key);
+    for (int joint = 0; joint < model_.njnt; ++joint) {
+      const int type = model_.jnt_type[joint];
+      const auto coordinate = static_cast<std::size_t>(model_.jnt_qposadr[joint]);
+      if (type == mjJNT_HINGE || type == mjJNT_SLIDE) {
+        frame.positions[coordinate] -= model_.qpos0[coordinate];
+      }
+    }
+    robot_.mujoco.keyframes.push_back(std::move(frame));
+  }
+}
+
+}  // namespace tenon::mjcf
