@@ -13,8 +13,8 @@
 #include "cli/sarif.h"
 #include "cli/unified_diff.h"
 #include "cli/verb.h"
+#include "tenon/asset/check_asset.h"
 #include "tenon/check/rule.h"
-#include "tenon/check_asset.h"
 
 namespace tenon::cli {
 namespace {

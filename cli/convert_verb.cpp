@@ -6,14 +6,14 @@
 
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/asset/convert_file.h"
+#include "tenon/asset/export_mjcf.h"
+#include "tenon/asset/export_urdf.h"
+#include "tenon/asset/physics_options.h"
+#include "tenon/asset/structure_asset.h"
 #include "tenon/base/text_number.h"
-#include "tenon/convert_file.h"
-#include "tenon/export_mjcf.h"
-#include "tenon/export_urdf.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/physics_options.h"
-#include "tenon/structure_asset.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {

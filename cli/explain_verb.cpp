@@ -6,8 +6,8 @@
 #include "cli/reading_options.h"
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/asset/physics_options.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/physics_options.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {

@@ -8,7 +8,7 @@
 #include "cli/typed_edits.h"
 #include "cli/unified_diff.h"
 #include "cli/verb.h"
-#include "tenon/edit_asset.h"
+#include "tenon/asset/edit_asset.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {

@@ -9,10 +9,10 @@
 #include <filesystem>
 
 #include "cli/reading_options.h"
+#include "tenon/asset/physics_options.h"
 #include "tenon/bake/write_time_samples.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/physics_options.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {

@@ -4,7 +4,7 @@
 
 #include "cli/report.h"
 #include "cli/verb.h"
-#include "tenon/structure_asset.h"
+#include "tenon/asset/structure_asset.h"
 
 namespace tenon::cli {
 namespace {

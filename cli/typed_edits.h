@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tenon/asset/edit_asset.h"
 #include "tenon/base/result.h"
-#include "tenon/edit_asset.h"
 #include "tenon/stage/stage.h"
 
 /// What people want of physics, as edits of properties and API schemas. `text` is "PRIM=...".

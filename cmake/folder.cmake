@@ -64,10 +64,11 @@ function(tenon_folder_line key out)
   set(${out} ${found} PARENT_SCOPE)
 endfunction()
 
-# Folder names -> library targets.
+# Folder names -> library targets; `tenon` is the wiring.
 function(tenon_folder_libraries folders out)
   list(TRANSFORM folders REPLACE "/" "_")
   list(TRANSFORM folders PREPEND tenon_)
+  list(TRANSFORM folders REPLACE "^tenon_tenon$" "tenon")
   set(${out} ${folders} PARENT_SCOPE)
 endfunction()
 

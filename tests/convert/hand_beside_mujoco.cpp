@@ -14,7 +14,7 @@
 #include <map>
 #include <numbers>
 
-#include "tenon/convert_file.h"
+#include "tenon/asset/convert_file.h"
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/tenon.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/edit_value.h"
+#include "tenon/asset/edit_value.h"
 
 #include <algorithm>
 

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/edit_asset.h"
+#include "tenon/asset/edit_asset.h"
 
 #include <algorithm>
 #include <map>
 #include <memory>
 
+#include "tenon/asset/edit_file_choice.h"
+#include "tenon/asset/edit_value.h"
 #include "tenon/bytes/replace_files.h"
 #include "tenon/edit/edit_target.h"
 #include "tenon/edit/layer_editor.h"
-#include "tenon/edit_file_choice.h"
-#include "tenon/edit_value.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/formats/text/layout_edit.h"

@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/check_asset.h"
+#include "tenon/asset/check_asset.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
 
+#include "tenon/asset/check_profile.h"
+#include "tenon/asset/physics_options.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/check/apply_edits.h"
 #include "tenon/check/rule.h"
-#include "tenon/check_profile.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/formats/text/layout_edit.h"
-#include "tenon/physics_options.h"
 
 namespace tenon {
 namespace {

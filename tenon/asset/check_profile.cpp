@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/check_profile.h"
+#include "tenon/asset/check_profile.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tenon/asset/edit_asset.h"
 #include "tenon/base/result.h"
-#include "tenon/edit_asset.h"
 #include "tenon/stage/stage.h"
 #include "tenon/structure/layout.h"
 

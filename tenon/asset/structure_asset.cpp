@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/structure_asset.h"
+#include "tenon/asset/structure_asset.h"
 
 #include <filesystem>
 

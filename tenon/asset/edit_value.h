@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "tenon/asset/edit_asset.h"
 #include "tenon/base/result.h"
-#include "tenon/edit_asset.h"
 #include "tenon/layer/layer.h"
 #include "tenon/stage/stage.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/export_mjcf.h"
+#include "tenon/asset/export_mjcf.h"
 
 #if TENON_WITH_MUJOCO
 #include "tenon/engines/mujoco/write_mjcf.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/edit_file_choice.h"
+#include "tenon/asset/edit_file_choice.h"
 
 #include <algorithm>
 

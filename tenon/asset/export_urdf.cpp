@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/export_urdf.h"
+#include "tenon/asset/export_urdf.h"
 
+#include "tenon/asset/physics_options.h"
 #include "tenon/base/text_number.h"
 #include "tenon/describe/describe_robot.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/physics_options.h"
 #include "tenon/urdf/write_urdf.h"
 
 namespace tenon {

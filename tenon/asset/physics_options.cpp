@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/physics_options.h"
+#include "tenon/asset/physics_options.h"
 
 #include "tenon/approximate/mesh_approximator.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/convert_file.h"
+#include "tenon/asset/convert_file.h"
 
 #include <string_view>
 
