@@ -6,12 +6,12 @@
 # once with pip into build/_deps/mujoco-<version> (shared by all presets), 10 MB.
 # Own MuJoCo: -DTENON_MUJOCO_DIR=<dir> with include/mujoco/mujoco.h and lib/libmujoco.so* (the
 # layout of MuJoCo's release archives and of an installed source build).
+include(cmake/wheel.cmake)
 set(TENON_MUJOCO_VERSION 4.0.1)
 set(TENON_MUJOCO_DIR "" CACHE PATH "Own MuJoCo (include/ and lib/); empty: fetch the pinned wheel")
 
 # Puts include/, lib/ and licences of the pinned wheel into <destination>.
 function(tenon_fetch_mujoco destination)
-  set(requirements ${PROJECT_SOURCE_DIR}/thirdparty/mujoco-requirements.txt)
   find_program(TENON_PYTHON python3)
   set(advice "Install pip (apt-get install python3-pip), or give your own MuJoCo with "
              "-DTENON_MUJOCO_DIR=<dir>, or build without it: -DTENON_WITH_MUJOCO=OFF.")
@@ -26,27 +26,15 @@ function(tenon_fetch_mujoco destination)
   endif()
   message(STATUS "Fetching MuJoCo ${TENON_MUJOCO_VERSION} (10 MB, once)")
   set(work ${destination}.part)
-  file(REMOVE_RECURSE ${work})
-  file(MAKE_DIRECTORY ${work})
-  execute_process(
-    COMMAND
-      ${TENON_PYTHON} -m pip download --quiet --disable-pip-version-check --no-deps
-      --only-binary=:all: --require-hashes --implementation cp --python-version 311 --abi cp311
-      --platform manylinux_2_28_${CMAKE_SYSTEM_PROCESSOR} --dest ${work}/wheel -r ${requirements}
-    RESULT_VARIABLE status
-    ERROR_VARIABLE reason)
-  file(GLOB wheel ${work}/wheel/*.whl)
-  if(NOT status EQUAL 0 OR NOT wheel)
-    message(FATAL_ERROR "Could not fetch MuJoCo ${TENON_MUJOCO_VERSION} with pip:\n${reason}\n"
-                        ${advice})
+  tenon_unpack_wheel(${PROJECT_SOURCE_DIR}/thirdparty/mujoco-requirements.txt cp311
+                     manylinux_2_28_${CMAKE_SYSTEM_PROCESSOR} ${work} fault)
+  if(fault)
+    message(FATAL_ERROR "Could not fetch MuJoCo ${TENON_MUJOCO_VERSION}: ${fault}\n" ${advice})
   endif()
-  file(ARCHIVE_EXTRACT INPUT ${wheel} DESTINATION ${work}/unpacked)
   file(GLOB libraries ${work}/unpacked/mujoco/libmujoco.so*)
-  file(GLOB licences ${work}/unpacked/mujoco_core-*.dist-info/LICENSE*
-       ${work}/unpacked/mujoco_core-*.dist-info/licenses/LICENSE*)
   file(COPY ${work}/unpacked/mujoco/include DESTINATION ${work}/ready)
   file(COPY ${libraries} DESTINATION ${work}/ready/lib)
-  file(COPY ${licences} DESTINATION ${work}/ready/licences)
+  tenon_copy_licences(${work} mujoco_core ${work}/ready/licences)
   file(RENAME ${work}/ready ${destination})
   file(REMOVE_RECURSE ${work})
 endfunction()
@@ -55,14 +43,7 @@ if(TENON_MUJOCO_DIR)
   set(tenon_mujoco_root ${TENON_MUJOCO_DIR})
 else()
   set(tenon_mujoco_root ${PROJECT_SOURCE_DIR}/build/_deps/mujoco-${TENON_MUJOCO_VERSION})
-  if(NOT EXISTS ${tenon_mujoco_root}/lib)
-    file(MAKE_DIRECTORY ${PROJECT_SOURCE_DIR}/build/_deps)
-    file(LOCK ${PROJECT_SOURCE_DIR}/build/_deps/mujoco.lock GUARD FILE TIMEOUT 300)
-    if(NOT EXISTS ${tenon_mujoco_root}/lib) # a configure running beside this one may have made it
-      tenon_fetch_mujoco(${tenon_mujoco_root})
-    endif()
-    file(LOCK ${PROJECT_SOURCE_DIR}/build/_deps/mujoco.lock RELEASE)
-  endif()
+  tenon_fetch_once(tenon_fetch_mujoco ${tenon_mujoco_root} ${tenon_mujoco_root}/lib)
 endif()
 
 # The wheel holds libmujoco.so.<version> without the unversioned link: take the one real file.
