@@ -59,17 +59,6 @@ std::map<Path, Instancer> instancers_of(const stage::Stage& stage,
   return found;
 }
 
-/// Prim of the body to what stands in place of the prototype's parent.
-Mat4d body_to_instance(const stage::Stage& stage, const physics::InstanceSource& source,
-                       double code) {
-  Mat4d result = Mat4d::identity();
-  const Path top = source.prototype.parent();
-  for (stage::Prim at = stage.prim(source.prim); at && !(at.path() == top); at = at.parent()) {
-    result = result * stage::local_transform(at, code).matrix;
-  }
-  return result;
-}
-
 /// The arrays of all instances, where they are drawn or not, at the start.
 struct Frame {
   std::vector<Vec3f> positions;
@@ -146,9 +135,11 @@ class ArrayWriter {
         continue;
       }
       const physics::InstanceSource& source = *scene_.bodies[body->second].instance;
-      const Pose pose = placement_of(body_to_instance(stage_, source, code),
-                                     transforms_.world_of_body(body->second, recording_, at), world,
-                                     instance.scale);
+      const Mat4d in_instance =
+          stage::local_to_ancestor(stage_.prim(source.prim), source.prototype.parent(), code);
+      const Pose pose =
+          placement_of(in_instance, transforms_.world_of_body(body->second, recording_, at), world,
+                       instance.scale);
       put(pose, instance.index, frame);
     }
   }

@@ -304,11 +304,7 @@ Mat4d Walk::world_near(const PhysicsPrim& from, const stage::Prim& prim, stage::
     if (!prim.path().has_prefix(instance.prototype.path()) && !(prim.path() == top)) {
       continue;
     }
-    Mat4d world = Mat4d::identity();
-    for (stage::Prim at = prim; at.is_valid() && !(at.path() == top); at = at.parent()) {
-      world = world * stage::local_transform(at, time).matrix;
-    }
-    return world * instance.placement();
+    return stage::local_to_ancestor(prim, top, time) * instance.placement();
   }
   return stage::local_to_world(prim, time);
 }

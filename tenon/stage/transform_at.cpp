@@ -68,6 +68,14 @@ Mat4d local_to_world(const Prim& prim, Time time) {
   return result;
 }
 
+Mat4d local_to_ancestor(const Prim& prim, Path ancestor, Time time) {
+  Mat4d result = Mat4d::identity();
+  for (Prim at = prim; at && !(at.path() == ancestor); at = at.parent()) {
+    result = result * local_transform(at, time).matrix;
+  }
+  return result;
+}
+
 std::vector<double> transform_samples(const Prim& prim) {
   std::set<double> times;
   for (Prim at = prim; at && !at.is_pseudo_root(); at = at.parent()) {

@@ -24,6 +24,9 @@ LocalTransform local_transform(const Prim& prim, Time time, Diagnostics* diagnos
 /// From the prim's space to the stage's.
 Mat4d local_to_world(const Prim& prim, Time time);
 
+/// From the prim's space to that of a prim above it, as if no prim between them reset the stack.
+Mat4d local_to_ancestor(const Prim& prim, Path ancestor, Time time);
+
 /// Times at which any op of the prim or its ancestors has a sample, ascending.
 std::vector<double> transform_samples(const Prim& prim);
 
