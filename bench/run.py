@@ -18,6 +18,7 @@ import sys
 import tempfile
 import time
 
+import converters
 import inputs
 import machine
 
@@ -338,6 +339,7 @@ def tasks(bench):
         if os.path.exists(ISAAC_HAND):
             yield "step_isaac_hand", bench.measure_steps, ISAAC_HAND
     yield from process_tasks(bench)
+    yield from converters.tasks(bench, ROOT, SHARED)
 
 
 def number(value, form="10.3f"):

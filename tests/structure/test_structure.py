@@ -111,7 +111,19 @@ class Hands:
 
 
 class Example(Hands, unittest.TestCase):
-    pass
+    def test_the_order_of_files_in_the_folder_is_nothing(self):
+        """Folders list their files in the order in which they came, or by hashes of names."""
+        source = self.asset.parent
+        names = sorted(path.relative_to(source) for path in source.rglob("*") if path.is_file())
+        copies = []
+        for order in (names, names[::-1]):
+            home = pathlib.Path(tempfile.mkdtemp(dir=FOLDER.name)) / source.name
+            for name in order:
+                (home / name).parent.mkdir(parents=True, exist_ok=True)
+                (home / name).write_bytes((source / name).read_bytes())
+            interface = structure(home / self.asset.name, home.parent / "made")
+            copies.append(files_of(interface.parent))
+        self.assertEqual(copies[0], copies[1])
 
 
 class VendorsHand(Hands, unittest.TestCase):
