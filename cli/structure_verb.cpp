@@ -15,6 +15,7 @@ struct Options {
   std::string output;
   std::string names = "current";
   std::string schema = "as-authored";
+  std::string links = "as-authored";
   bool dry_run = false;
 };
 
@@ -57,6 +58,13 @@ structure::SchemaGeneration generation_of(const std::string& name) {
                             : SchemaGeneration::AsAuthored;
 }
 
+structure::LinkNesting nesting_of(const std::string& name) {
+  using structure::LinkNesting;
+  return name == "flat"     ? LinkNesting::Flat
+         : name == "nested" ? LinkNesting::Nested
+                            : LinkNesting::AsAuthored;
+}
+
 int run_structure(Report& report, const Options& options) {
   const auto asset = structure_asset(options.asset.asset, options.asset.open_options(),
                                      options.structure, report.diagnostics);
@@ -80,7 +88,7 @@ int run_structure(Report& report, const Options& options) {
   }
   report.note((options.dry_run ? "would write " : "wrote ") + std::to_string(files.size()) +
               " files; " + std::to_string(asset->moved.size()) +
-              " meshes came into wrappers; Physics=" + asset->selection + " is selected");
+              " prims are elsewhere; Physics=" + asset->selection + " is selected");
   return report.finish(kOk, json_of(*asset, files));
 }
 
@@ -103,6 +111,10 @@ void add_structure(const Command& parent, const Globals& globals, Chosen& chosen
                   "Vendors' schemas for joints: as-authored, current (Newton mimics, PhysX joint "
                   "axes), legacy (PhysX mimics and joints of Isaac Sim 5) or both")
       .one_of({"as-authored", "current", "legacy", "both"});
+  verb.add_option("--links", options->links,
+                  "Rigid bodies of a robot: as-authored, flat (side by side) or nested (each below "
+                  "the one that carries it by a joint)")
+      .one_of({"as-authored", "flat", "nested"});
   verb.add_flag("--overridable-colliders", options->structure.overridable_colliders,
                 "Meshes that collide are no instances: each engine's layer may tune them");
   verb.add_flag("--dry-run", options->dry_run, "List the files and write nothing");
@@ -121,6 +133,7 @@ void add_structure(const Command& parent, const Globals& globals, Chosen& chosen
     options->structure.names =
         options->names == "tutorial" ? structure::Names::Tutorial : structure::Names::Current;
     options->structure.schema = generation_of(options->schema);
+    options->structure.links = nesting_of(options->links);
     return run_structure(report, *options);
   });
 }

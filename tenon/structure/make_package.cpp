@@ -7,10 +7,12 @@
 
 #include "tenon/physics/read_physics.h"
 #include "tenon/stage/stage.h"
+#include "tenon/structure/child_order.h"
 #include "tenon/structure/collect_assets.h"
 #include "tenon/structure/content.h"
 #include "tenon/structure/interface_layer.h"
 #include "tenon/structure/layer_tree.h"
+#include "tenon/structure/link_nesting.h"
 #include "tenon/structure/local_materials.h"
 #include "tenon/structure/mesh_wrappers.h"
 #include "tenon/structure/proof.h"
@@ -54,6 +56,7 @@ class Maker {
   Result<StructuredAsset> run() {
     TENON_TRY(sources_, read_views(source_, diagnostics_));
     TENON_CHECK(change_generation());
+    TENON_CHECK(move_links());
     make_views();
     give_wrappers();
     make_base();
@@ -138,9 +141,46 @@ class Maker {
     return {};
   }
 
+  // Links.
+
+  Result<void> move_links() {
+    std::vector<const Layer*> contents;
+    for (const SourceView& view : sources_.physics) {
+      contents.push_back(&view.content);
+    }
+    const LinkMoves moves(unite(contents), options_.links, diagnostics_);
+    if (moves.empty()) {
+      return {};
+    }
+    for (SourceView& view : sources_.physics) {
+      TENON_CHECK(move_links(moves, "Physics=" + view.variant, view.content));
+    }
+    for (OtherVariant& other : sources_.others) {
+      TENON_CHECK(move_links(moves, other.set + "=" + other.variant, other.content));
+    }
+    asset_.moved = moves.all();
+    return {};
+  }
+
+  /// Proven as well: nothing stands elsewhere or moves otherwise.
+  Result<void> move_links(const LinkMoves& moves, const std::string& variant,
+                          Layer& content) const {
+    TENON_TRY(const stage::Stage before, stage_of(content));
+    Layer result = moves.apply(content, before);
+    TENON_TRY(const stage::Stage after, stage_of(result));
+    if (const auto where = moves.compare(content, before, after)) {
+      return differs(variant, *where, "the scene with its links moved");
+    }
+    content = std::move(result);
+    return {};
+  }
+
+  Result<stage::Stage> stage_of(const Layer& content) const {
+    return stage::Stage::open(std::make_shared<Layer>(content), nullptr, source_.open_layer);
+  }
+
   Result<physics::PhysicsScene> physics_of(const Layer& content) const {
-    TENON_TRY(const stage::Stage stage,
-              stage::Stage::open(std::make_shared<Layer>(content), nullptr, source_.open_layer));
+    TENON_TRY(const stage::Stage stage, stage_of(content));
     Diagnostics ignored;
     return physics::read_physics(stage, {}, ignored);
   }
@@ -188,6 +228,10 @@ class Maker {
     for (const View& view : views_) {
       fill_sleeping(base_, view.content, colliders_);
     }
+    put_robot_order_first(base_);
+    for (View& view : views_) {
+      order_like(view.content, base_);
+    }
   }
 
   void make_overs() {
@@ -225,6 +269,7 @@ class Maker {
     for (const OtherVariant& other : sources_.others) {
       Layer strong = other.content;
       prepare(strong);
+      order_like(strong, base_);
       const std::string name = file_of_variant(other.set, other.variant);
       Layer over = difference(weak, strong, identifier_in_package(name));
       note_touched(over);

@@ -39,6 +39,13 @@ enum class SchemaGeneration : std::uint8_t {
   Both,        ///< side by side
 };
 
+/// Where the links of a robot stand (link_nesting.h).
+enum class LinkNesting : std::uint8_t {
+  AsAuthored,
+  Flat,    ///< side by side
+  Nested,  ///< each below the link that carries it by a joint
+};
+
 struct StructureOptions {
   Names names = Names::Current;
   /// Name of the interface without ending; empty: that of the default prim.
@@ -46,13 +53,15 @@ struct StructureOptions {
   /// Meshes that collide are no instances, so that every engine's layer may tune them.
   bool overridable_colliders = false;
   SchemaGeneration schema = SchemaGeneration::AsAuthored;
+  LinkNesting links = LinkNesting::AsAuthored;
 };
 
 struct StructuredAsset {
   Package package;
   std::vector<std::string> physics_variants;  ///< in the order of the interface; "none" first
   std::string selection;                      ///< of the set "Physics"
-  /// Old path -> new path of prims that are not where they were: meshes, which got a wrapper.
+  /// Old path -> new path of prims that are not where they were: links that were to be moved, and
+  /// meshes, which got a wrapper.
   std::map<Path, Path> moved;
 };
 

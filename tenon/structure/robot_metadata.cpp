@@ -15,12 +15,6 @@ namespace {
 
 using layer::Layer;
 
-struct JointEnds {
-  Path joint;
-  Path from;  ///< body0; empty for the world
-  Path to;
-};
-
 Path first_target(const Layer& content, Path prim, const char* name) {
   const layer::Spec* spec = content.find(prim.property(Token(name)));
   const std::vector<Path> targets = spec == nullptr ? std::vector<Path>() : targets_of(*spec);
@@ -42,15 +36,10 @@ void add_list(Layer& content, Path property, const std::vector<Path>& all) {
 
 class Orderer {
  public:
-  explicit Orderer(const Layer& content) {
-    const auto& registry = schema::Registry::instance();
+  explicit Orderer(const Layer& content) : joints_(joint_ends(content)) {
     for (const Path& prim : prims_below(content)) {
       if (has_api(content, prim, "PhysicsRigidBodyAPI")) {
         bodies_.push_back(prim);
-      }
-      if (registry.is_a(type_of(content, prim), "PhysicsJoint")) {
-        joints_.push_back({prim, first_target(content, prim, "physics:body0"),
-                           first_target(content, prim, "physics:body1")});
       }
     }
     is_body_.insert(bodies_.begin(), bodies_.end());
@@ -118,6 +107,18 @@ class Orderer {
 };
 
 }  // namespace
+
+std::vector<JointEnds> joint_ends(const Layer& content) {
+  const auto& registry = schema::Registry::instance();
+  std::vector<JointEnds> joints;
+  for (const Path& prim : prims_below(content)) {
+    if (registry.is_a(type_of(content, prim), "PhysicsJoint")) {
+      joints.push_back({prim, first_target(content, prim, "physics:body0"),
+                        first_target(content, prim, "physics:body1")});
+    }
+  }
+  return joints;
+}
 
 KinematicOrder kinematic_order(const Layer& content) { return Orderer(content).run(); }
 

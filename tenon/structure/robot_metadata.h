@@ -8,6 +8,15 @@
 
 namespace tenon::structure {
 
+/// A joint and the prims that it names.
+struct JointEnds {
+  Path joint;
+  Path from;  ///< body0; empty for the world
+  Path to;    ///< body1
+};
+/// Of all joints, as they stand in the content.
+std::vector<JointEnds> joint_ends(const layer::Layer& content);
+
 /// The bodies and joints of a robot in the order of its kinematic tree: each link before those that
 /// its joints carry; joints and links that nothing orders as they stand in the content.
 struct KinematicOrder {

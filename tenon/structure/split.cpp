@@ -92,28 +92,10 @@ class Splitter {
         pending.insert(pending.end(), children.rbegin(), children.rend());
       }
     }
-    put_robot_order_first();
     return std::move(files_);
   }
 
  private:
-  /// Children that robot.usda names come first when the two are composed, because it is the weaker
-  /// one. Written in that order, they stay in it.
-  void put_robot_order_first() {
-    for (const Path& prim : prims_below(files_.robot)) {
-      std::vector<Token> names = files_.robot.children(prim, fields::primChildren);
-      const std::vector<Token> first = names;
-      for (const Token name : files_.base.children(prim, fields::primChildren)) {
-        if (std::find(first.begin(), first.end(), name) == first.end()) {
-          names.push_back(name);
-        }
-      }
-      if (!first.empty()) {
-        files_.base.find(prim)->set(fields::primChildren, std::move(names));
-      }
-    }
-  }
-
   /// True when all below it is written as well.
   Result<bool> put_prim(Path path) {
     if (type_of(content_, path) == "Material" && is_self_contained(path)) {

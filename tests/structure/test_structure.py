@@ -10,6 +10,7 @@ Tests of the vendor's hand skip, with the reason, where ../shared is absent.
 """
 
 import functools
+import json
 import math
 import pathlib
 import re
@@ -313,6 +314,113 @@ class Generations(unittest.TestCase):  # 2
                 self.assertEqual(files_of(again.parent), files_of(interface.parent))
                 for variant in VARIANTS[1:]:
                     self.assertEqual(joints_of(interface, variant), joints_of(EXAMPLE, variant))
+
+
+def plain_arm(inner="", outer=""):
+    """Two links, the second one below the first; `inner` and `outer` are properties of theirs."""
+    return HEAD + f'''
+def Xform "r" {{
+    def Xform "base" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) {{
+        {outer}
+        double3 xformOp:translate = (1, 2, 3)
+        float xformOp:rotateX = 30
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]
+        def Cube "c" (prepend apiSchemas = ["PhysicsCollisionAPI"]) {{ }}
+        def Xform "tip" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) {{
+            {inner}
+            double3 xformOp:translate = (5, 0, 0)
+            uniform token[] xformOpOrder = ["xformOp:translate"]
+            def Cube "c" (prepend apiSchemas = ["PhysicsCollisionAPI"]) {{ }}
+            def Mesh "m" {{
+                int[] faceVertexCounts = [3]
+                int[] faceVertexIndices = [0, 1, 2]
+                point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 2, 0)]
+            }}
+        }}
+    }}
+    def PhysicsRevoluteJoint "j" {{
+        rel physics:body0 = </r/base>
+        rel physics:body1 = </r/base/tip>
+        point3f physics:localPos0 = (5, 0, 0)
+        quatf physics:localRot0 = (1, 0, 0, 0)
+        quatf physics:localRot1 = (1, 0, 0, 0)
+    }}
+}}
+'''
+
+
+class Links(unittest.TestCase):
+    """Links side by side, and each below the one that carries it."""
+
+    @staticmethod
+    @functools.cache
+    def scene(interface):
+        return physics_of(interface, "physics")
+
+    def by_name(self, interface):
+        """-> bodies and joints by their own names, numbers rounded."""
+        scene = self.scene(interface)
+        rounded = json.loads(json.dumps([scene["bodies"], scene["joints"]]),
+                             parse_float=lambda text: round(float(text), 9) + 0.0)
+        for row in rounded[0] + rounded[1]:
+            for key, value in row.items():
+                if isinstance(value, str) and value.startswith("/"):
+                    row[key] = value.rsplit("/", 1)[1]
+        return sorted(map(str, rounded[0])), sorted(map(str, rounded[1]))
+
+    def body_paths(self, interface):
+        return [body["path"] for body in self.scene(interface)["bodies"]]
+
+    def test_there_and_back(self):
+        for asset in (EXAMPLE, INCUMBENT):
+            if not asset.exists():
+                continue
+            with self.subTest(asset.parent.name):
+                flat = made(asset, "--links", "flat")
+                nested = made(flat, "--links", "nested")
+                for interface, option in ((flat, "flat"), (nested, "nested")):
+                    again = made(interface, "--links", option)
+                    self.assertEqual(files_of(again.parent), files_of(interface.parent))
+                    self.assertEqual(self.by_name(interface), self.by_name(asset))
+                    found = [d for d in breaches(interface) if d["severity"] != "info"]
+                    self.assertEqual(found, [])
+                side_by_side = self.body_paths(flat)
+                self.assertEqual(len({path.rsplit("/", 1)[0] for path in side_by_side}), 1)
+                below = self.body_paths(nested)
+                self.assertEqual(len([p for p in below
+                                      if not any(p.startswith(q + "/") for q in below)]), 1)
+
+    def test_places_and_targets_follow(self):
+        arm = write("arm.usda", plain_arm())
+        flat = made(arm, "--links", "flat")
+        self.assertEqual(self.body_paths(flat), ["/r/base", "/r/tip"])
+        base, tip = self.scene(flat)["bodies"]
+        self.assertEqual(base["position"], [1, 2, 3])
+        for found, wanted in zip(tip["position"], (6, 2, 3)):
+            self.assertAlmostEqual(found, wanted, places=12)
+        joint, = self.scene(flat)["joints"]
+        self.assertEqual((joint["body0"], joint["body1"]), ("/r/base", "/r/tip"))
+        nested = made(flat, "--links", "nested")
+        self.assertEqual(self.body_paths(nested), ["/r/base", "/r/base/tip"])
+        self.assertEqual(self.scene(nested)["bodies"][0]["position"], [1, 2, 3])
+
+    def test_links_stay_where_moving_them_would_change_them(self):
+        cases = {"physics:velocity": plain_arm(inner="vector3f physics:velocity = (1, 0, 0)"),
+                 "visibility": plain_arm(outer='token visibility = "invisible"'),
+                 "is animated": plain_arm().replace("xformOp:rotateX = 30",
+                                                    "xformOp:rotateX.timeSamples = { 0: 30 }")}
+        for reason, text in cases.items():
+            with self.subTest(reason):
+                arm = write("kept.usda", text)
+                answer = tenon("structure", arm, "--dry-run", "--links", "flat")
+                finding, = [d for d in answer["diagnostics"]
+                            if d["rule"] == "structure.links-kept"]
+                self.assertIn(reason, finding["message"])
+                self.assertNotIn("/r/base/tip", [m["from"] for m in answer["moved"]])
+
+    def test_links_behind_other_children_give_the_same_bytes_again(self):
+        first = made(write("order.usda", plain_arm()))
+        self.assertEqual(files_of(made(first).parent), files_of(first.parent))
 
 
 class Writing(unittest.TestCase):

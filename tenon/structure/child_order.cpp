@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/structure/child_order.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "tenon/layer/fields.h"
+#include "tenon/structure/layer_tree.h"
+#include "tenon/structure/layout.h"
+
+namespace tenon::structure {
+namespace {
+
+namespace fields = layer::fields;
+using layer::Layer;
+
+bool is_of_robot(const Layer& content, Path prim) {
+  const std::vector<Token> apis = apis_of(content, prim);
+  const bool api = std::any_of(apis.begin(), apis.end(),
+                               [](Token name) { return owner_of_api(name).owner == Role::Robot; });
+  if (api) {
+    return true;
+  }
+  const Token type = type_of(content, prim);
+  const std::vector<Path> properties = properties_of(content, prim);
+  return std::any_of(properties.begin(), properties.end(), [&](Path property) {
+    return owner_of_property(property.name(), type, apis).owner == Role::Robot;
+  });
+}
+
+}  // namespace
+
+void put_robot_order_first(Layer& content) {
+  std::set<Path> named;
+  for (const Path& prim : prims_below(content)) {
+    if (is_of_robot(content, prim)) {
+      for (Path at = prim; at.is_prim() && named.insert(at).second; at = at.parent()) {
+      }
+    }
+  }
+  for (const Path& prim : named) {
+    std::vector<Token> names = content.children(prim, fields::primChildren);
+    if (!names.empty()) {
+      std::stable_partition(names.begin(), names.end(),
+                            [&](Token name) { return named.contains(prim.child(name)); });
+      content.find(prim)->set(fields::primChildren, std::move(names));
+    }
+  }
+}
+
+void order_like(Layer& content, const Layer& like) {
+  for (const Path& prim : prims_below(content)) {
+    const std::vector<Token> old = content.children(prim, fields::primChildren);
+    if (old.size() < 2 || !like.has(prim)) {
+      continue;
+    }
+    const std::vector<Token>& order = like.children(prim, fields::primChildren);
+    const std::set<Token> leading(order.begin(), order.end());
+    std::map<Token, std::vector<Token>> behind;  // of each that leads; of none: those in front
+    Token leader;
+    for (const Token name : old) {
+      if (leading.contains(name)) {
+        leader = name;
+        behind[leader];
+      } else {
+        behind[leader].push_back(name);
+      }
+    }
+    std::vector<Token> names = behind[Token()];
+    for (const Token name : order) {
+      if (const auto found = behind.find(name); found != behind.end()) {
+        names.push_back(name);
+        names.insert(names.end(), found->second.begin(), found->second.end());
+      }
+    }
+    if (names != old) {
+      content.find(prim)->set(fields::primChildren, std::move(names));
+    }
+  }
+}
+
+}  // namespace tenon::structure

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tenon/layer/layer.h"
+
+namespace tenon::structure {
+
+/// The order of children that the structure composes to, whichever it was before, so that making
+/// it again changes no byte: those that robot.usda names come first, because it is weaker than the
+/// base, in which all of them stand.
+void put_robot_order_first(layer::Layer& content);
+
+/// Children that `like` has as well come in its order; each other one stays behind the one that it
+/// was behind.
+void order_like(layer::Layer& content, const layer::Layer& like);
+
+}  // namespace tenon::structure
