@@ -3,7 +3,7 @@
 #include "tenon/structure/child_order.h"
 
 #include <algorithm>
-#include <map>
+#include <iterator>
 #include <set>
 #include <vector>
 
@@ -57,25 +57,16 @@ void order_like(Layer& content, const Layer& like) {
     if (old.size() < 2 || !like.has(prim)) {
       continue;
     }
-    const std::vector<Token>& order = like.children(prim, fields::primChildren);
-    const std::set<Token> leading(order.begin(), order.end());
-    std::map<Token, std::vector<Token>> behind;  // of each that leads; of none: those in front
-    Token leader;
-    for (const Token name : old) {
-      if (leading.contains(name)) {
-        leader = name;
-        behind[leader];
-      } else {
-        behind[leader].push_back(name);
-      }
-    }
-    std::vector<Token> names = behind[Token()];
-    for (const Token name : order) {
-      if (const auto found = behind.find(name); found != behind.end()) {
+    std::vector<Token> names;
+    const std::set<Token> there(old.begin(), old.end());
+    for (const Token name : like.children(prim, fields::primChildren)) {
+      if (there.contains(name)) {
         names.push_back(name);
-        names.insert(names.end(), found->second.begin(), found->second.end());
       }
     }
+    const std::set<Token> first(names.begin(), names.end());
+    std::copy_if(old.begin(), old.end(), std::back_inserter(names),
+                 [&](Token name) { return !first.contains(name); });
     if (names != old) {
       content.find(prim)->set(fields::primChildren, std::move(names));
     }

@@ -11,8 +11,8 @@ namespace tenon::structure {
 /// base, in which all of them stand.
 void put_robot_order_first(layer::Layer& content);
 
-/// Children that `like` has as well come in its order; each other one stays behind the one that it
-/// was behind.
+/// Children that `like` has as well come first, in its order; then the others as they stand.
+/// Layers that only add come behind what they are put over when they are composed.
 void order_like(layer::Layer& content, const layer::Layer& like);
 
 }  // namespace tenon::structure

@@ -6,6 +6,7 @@
 
 #include "tenon/base/limits.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/type_names.h"
 #include "tenon/schema/registry.h"
 #include "tenon/stage/flatten.h"
 #include "tenon/structure/layer_tree.h"
@@ -98,6 +99,19 @@ bool is_material_binding(std::string_view name) {
   return name == "material:binding" || name.starts_with("material:binding:");
 }
 
+/// A value of another type than the schema's keeps the type that it was authored with: as text it
+/// could not be read again otherwise.
+void keep_type_of_value(Spec& property) {
+  const layer::Value* value = property.find(fields::default_value);
+  const layer::TypeName* named = layer::find_type_name(property.get_or(fields::typeName, Token()));
+  const layer::TypeName* own =
+      value == nullptr ? nullptr : layer::type_name_of(value->type(), value->is_array());
+  if (named != nullptr && own != nullptr &&
+      (named->type != own->type || named->is_array != own->is_array)) {
+    property.set(fields::typeName, own->name);
+  }
+}
+
 /// As the schemas of vendors declare it, which stock OpenUSD does not know.
 void tidy_property(Spec& property, const schema::PropertyDefinition* declared) {
   if (declared == nullptr) {
@@ -112,10 +126,17 @@ void tidy_property(Spec& property, const schema::PropertyDefinition* declared) {
 void tidy(Layer& content) {
   for (const Path& prim : prims_below(content)) {
     tidy_prim(*content.find(prim));
+    if (content.find(prim)->has(fields::apiSchemas)) {
+      set_apis(*content.find(prim), apis_of(content, prim));  // one form of several
+    }
     const schema::PrimDefinition definition(type_of(content, prim), apis_of(content, prim));
     for (const Path& property : properties_of(content, prim)) {
       Spec& spec = *content.find(property);
       tidy_property(spec, definition.find(property.name()));
+      keep_type_of_value(spec);
+      if (spec.kind == layer::SpecKind::Relationship && targets_of(spec).empty()) {
+        spec.erase(fields::targetPaths);  // arcs do not tell an empty list from none
+      }
       if (is_material_binding(property.name().view())) {
         spec.set(fields::custom, false);
       }

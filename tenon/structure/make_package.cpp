@@ -229,7 +229,11 @@ class Maker {
       fill_sleeping(base_, view.content, colliders_);
     }
     put_robot_order_first(base_);
+    const View* physics = find(role_name(Role::Physics));
     for (View& view : views_) {
+      if (physics != nullptr && view.role != Role::Physics) {
+        order_like(view.content, physics->content);  // what the engine's layer is put over
+      }
       order_like(view.content, base_);
     }
   }
@@ -349,7 +353,12 @@ class Maker {
       asset_.physics_variants.push_back(view.variant);
     }
     asset_.selection = selection();
-    interface_.selections = sources_.other_selections;
+    for (const OtherVariant& other : sources_.others) {  // sets of no variant have no place
+      const auto selected = sources_.other_selections.find(other.set);
+      if (selected != sources_.other_selections.end()) {
+        interface_.selections.insert(*selected);
+      }
+    }
     interface_.selections[std::string(kPhysicsSet)] = asset_.selection;
     const std::string name = options_.name.empty() ? sources_.robot.str() : options_.name;
     asset_.package.interface = name + ".usda";

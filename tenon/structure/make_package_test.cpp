@@ -343,6 +343,45 @@ TEST(MakePackage, NeedsADefaultPrim) {
       make_package(source_of("#usda 1.0\ndef Xform \"robot\" { }\n"), {}, diagnostics);
   ASSERT_FALSE(asset.has_value());
   EXPECT_EQ(asset.error().code(), ErrorCode::NotFound);
+  // A name alone is no prim, even where selections are written to it.
+  const auto named =
+      make_package(source_of("#usda 1.0\n(defaultPrim = \"robot\")\ndef Xform \"other\" { }\n"), {},
+                   diagnostics);
+  ASSERT_FALSE(named.has_value());
+  EXPECT_EQ(named.error().code(), ErrorCode::NotFound);
+}
+
+TEST(MakePackage, OrderOfChildrenIsThatOfTheResult) {
+  const std::string text = R"(#usda 1.0
+(
+    defaultPrim = "robot"
+)
+def Xform "robot" (
+    variants = { string Look = "plain" }
+    prepend variantSets = "Look"
+)
+{
+    def PhysicsScene "scene" { }
+    def Cube "box" (prepend apiSchemas = ["PhysicsCollisionAPI"]) { }
+    def Xform "link" (prepend apiSchemas = ["PhysicsRigidBodyAPI"])
+    {
+        def Xform "m"
+        {
+            def Mesh "m"
+            {)" + kTriangle +
+                           R"(
+            }
+        }
+        def Xform "tip" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) { }
+    }
+}
+)";
+  const StructuredAsset asset = made(source_of(text));
+  expect_idempotent(asset);
+  // A set without variants is none.
+  EXPECT_FALSE(has(*formats::encode_layer(*asset.package.files.at("robot.usda").layer,
+                                          formats::LayerFormat::Text),
+                   "Look"));
 }
 
 }  // namespace

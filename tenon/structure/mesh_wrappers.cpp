@@ -118,7 +118,8 @@ void MeshMoves::add(const Layer& united, Path mesh, const std::string& name) {
     }
   }
   const bool alone = has_only_subsets(united, mesh) && !is_simulated(united, mesh);
-  const bool bare = alone || (has_only_subsets(united, mesh) && !move.body);
+  const bool top = mesh.parent().is_absolute_root();  // an asset is no instance of its own
+  const bool bare = !top && (alone || (has_only_subsets(united, mesh) && !move.body));
   // A wrapper takes part in nothing else: not in being a body, nor a parent of other prims.
   move.wrapper = bare ? mesh : free_child(united, mesh, name);
   move.mesh = move.wrapper == mesh ? mesh.child(Token(name)) : move.wrapper.child(Token(name));

@@ -3,9 +3,12 @@
 #include "tenon/structure/source_views.h"
 
 #include <algorithm>
+#include <set>
 
+#include "tenon/layer/fields.h"
 #include "tenon/stage/stage.h"
 #include "tenon/structure/content.h"
+#include "tenon/structure/layer_tree.h"
 
 namespace tenon::structure {
 namespace {
@@ -62,10 +65,44 @@ void report_lost_variants(const stage::Stage& stage, Diagnostics& diagnostics) {
 }
 
 Error no_default_prim(const layer::Layer& root) {
-  return Error(ErrorCode::NotFound, "the asset has no default prim, which is to become the robot")
+  return Error(ErrorCode::NotFound,
+               "the asset defines no default prim, which is to become the robot")
       .in_file(root.identifier())
       .with_rule("stage.default-prim-missing")
       .with_fix("author defaultPrim with the name of the root prim");
+}
+
+Token field_of_targets(const layer::Spec& spec) {
+  return spec.kind == layer::SpecKind::Relationship ? layer::fields::targetPaths
+                                                    : layer::fields::connectionPaths;
+}
+
+/// Nothing outside the default prim is left that a target could name, and references to an asset
+/// drop such targets. The root stands for all that there is.
+void drop_targets_outside(layer::Layer& content, Path robot, std::set<Path>& said,
+                          Diagnostics& diagnostics) {
+  for (const Path& prim : prims_below(content)) {
+    for (const Path& property : properties_of(content, prim)) {
+      layer::Spec& spec = *content.find(property);
+      std::vector<Path> targets = targets_of(spec);
+      const std::size_t count = targets.size();
+      std::replace(targets.begin(), targets.end(), Path::absolute_root(), robot);
+      std::string dropped;
+      std::erase_if(targets, [&](Path target) {
+        const bool outside = !target.has_prefix(robot);
+        dropped = outside ? target.str() : dropped;
+        return outside;
+      });
+      if (targets != targets_of(spec)) {
+        targets.empty() ? spec.erase(field_of_targets(spec)) : set_targets(spec, targets);
+      }
+      if (targets.size() != count && said.insert(property).second) {
+        diagnostics.add({Severity::Warning, "structure.target-outside",
+                         "a target names <" + dropped + ">, which is not there; it is left out", "",
+                         0, 0, prim.str(), property.name().str(), "name a prim of the asset"});
+      }
+    }
+  }
 }
 
 struct Variants {
@@ -78,7 +115,7 @@ Result<Variants> read_variants(const AssetSource& source, SourceViews& views,
                                Diagnostics& diagnostics) {
   TENON_TRY(const stage::Stage stage, open_view(source, {}));
   const stage::Prim robot = stage.default_prim();
-  if (!robot) {
+  if (!robot || !robot.is_defined()) {  // the selections above name it, too
     return no_default_prim(*source.root);
   }
   report_lost_variants(stage, diagnostics);
@@ -112,6 +149,8 @@ Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnosti
   SourceViews views;
   TENON_TRY(const Variants variants, read_variants(source, views, diagnostics));
   const bool plain = variants.physics.empty();
+  const Path robot = Path::absolute_root().child(views.robot);
+  std::set<Path> said;
   for (const std::string& variant :
        plain ? std::vector<std::string>{std::string()} : variants.physics) {
     Selections selections = variants.none;
@@ -119,6 +158,7 @@ Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnosti
       selections[std::string(kPhysicsSet)] = variant;
     }
     TENON_TRY(layer::Layer content, view_content(source, selections));
+    drop_targets_outside(content, robot, said, diagnostics);
     views.physics.push_back({variant, std::move(content)});
   }
   views.chosen = choose(views);
@@ -129,6 +169,7 @@ Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnosti
       selections[std::string(kPhysicsSet)] = views.physics[views.chosen].variant;
     }
     TENON_TRY(layer::Layer content, view_content(source, selections));
+    drop_targets_outside(content, robot, said, diagnostics);
     views.others.push_back({set, variant, std::move(content)});
   }
   return views;

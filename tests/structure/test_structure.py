@@ -18,7 +18,8 @@ import sys
 import tempfile
 import unittest
 
-from program import EXAMPLE, INCUMBENT, breaches, files_of, run, structure, tenon
+from program import (EXAMPLE, INCUMBENT, ROOT, SHARED, breaches, files_of, run, structure,
+                     tenon)
 
 FOLDER = tempfile.TemporaryDirectory()
 VARIANTS = ("none", "physics", "physx", "mujoco")
@@ -421,6 +422,55 @@ class Links(unittest.TestCase):
     def test_links_behind_other_children_give_the_same_bytes_again(self):
         first = made(write("order.usda", plain_arm()))
         self.assertEqual(files_of(made(first).parent), files_of(first.parent))
+
+
+ODD = HEAD.replace('"r"', '"m"') + '''
+def Mesh "m" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) {
+    int[] faceVertexCounts = [3]
+    int[] faceVertexIndices = [0, 1, 2]
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 2, 0)]
+}
+def TetMesh "soft" {
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    int[] tetVertexIndices = [0, 1, 2, 3]
+}
+def PhysicsCollisionGroup "group" {
+    rel collection:colliders:includes = [</m>, </gone>]
+    rel physics:filteredGroups = </elsewhere>
+}
+'''
+
+
+class AnyScene(unittest.TestCase):
+    """Assets that are no robots."""
+
+    def test_scenes_give_the_same_bytes_again(self):
+        scenes = sorted((ROOT / "tests/physics/scenes").glob("*.usda"))
+        scenes += sorted((SHARED / "scenes").glob("*.usda"))
+        tried = 0
+        for scene in scenes:
+            with self.subTest(scene.name):
+                if run("structure", scene, "--dry-run").returncode != 0:
+                    continue  # broken, or without a default prim
+                tried += 1
+                first = made(scene)
+                self.assertEqual(files_of(made(first).parent), files_of(first.parent))
+        self.assertGreater(tried, 4)
+
+    def test_odd_ones_too(self):
+        path = write("odd.usda", ODD)
+        answer = tenon("structure", path, "--dry-run")
+        outside = [d["property"] for d in answer["diagnostics"]
+                   if d["rule"] == "structure.target-outside"]
+        self.assertEqual(sorted(outside), ["collection:colliders:includes",
+                                           "physics:filteredGroups"])
+        first = made(path)
+        self.assertEqual(files_of(made(first).parent), files_of(first.parent))
+        # Of another type than the schema's, and still there.
+        self.assertIn("int[] tetVertexIndices = [0, 1, 2, 3]", file_of(first, "base.usda"))
+        # An asset is no instance of its own.
+        self.assertNotIn("instanceable", first.read_text(encoding="utf-8"))
+        self.assertEqual([b["path"] for b in physics_of(first, "physics")["bodies"]], ["/m"])
 
 
 class Writing(unittest.TestCase):
