@@ -21,35 +21,32 @@ approximate::LibraryInfo mesh_library() {
   return info;
 }
 
+/// One part, an engine or a library: its row, printed as text where that is asked for.
+template <class Info>
+Json listed(const Info& part, const Globals& globals) {
+  const std::string how_to_get = part.available ? "" : part.how_to_get;
+  if (!globals.json) {
+    std::printf("%-8s %-14s %s\n", part.name.c_str(),
+                part.available ? part.version.c_str() : "not available", how_to_get.c_str());
+  }
+  return {{"name", part.name},
+          {"available", part.available},
+          {"version", part.available ? Json(part.version) : Json(nullptr)},
+          {"howToGet", part.available ? Json(nullptr) : Json(how_to_get)}};
+}
+
 int run_doctor(const Globals& globals) {
   Report report(globals, "doctor", "");
   Json engines = Json::array();
   bool all = true;
   for (const engines::EngineInfo& engine : list_engines()) {
     all = all && engine.available;
-    engines.push_back({{"name", engine.name},
-                       {"available", engine.available},
-                       {"version", engine.available ? Json(engine.version) : Json(nullptr)},
-                       {"howToGet", engine.available ? Json(nullptr) : Json(engine.how_to_get)}});
-    if (!globals.json) {
-      std::printf("%-8s %-14s %s\n", engine.name.c_str(),
-                  engine.available ? engine.version.c_str() : "not available",
-                  engine.available ? "" : engine.how_to_get.c_str());
-    }
+    engines.push_back(listed(engine, globals));
   }
   Json libraries = Json::array();
   for (const approximate::LibraryInfo& library :
        {approximate::decomposition_library(), mesh_library()}) {
-    libraries.push_back(
-        {{"name", library.name},
-         {"available", library.available},
-         {"version", library.available ? Json(library.version) : Json(nullptr)},
-         {"howToGet", library.available ? Json(nullptr) : Json(library.how_to_get)}});
-    if (!globals.json) {
-      std::printf("%-8s %-14s %s\n", library.name.c_str(),
-                  library.available ? library.version.c_str() : "not available",
-                  library.how_to_get.c_str());
-    }
+    libraries.push_back(listed(library, globals));
   }
   return report.finish(all ? kOk : kMissing, {{"engines", engines}, {"libraries", libraries}});
 }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "tenon/layer/fields.h"
+#include "tenon/structure/content.h"
 #include "tenon/structure/layer_tree.h"
-#include "tenon/structure/layout.h"
 
 namespace tenon::structure {
 namespace {
@@ -17,26 +17,12 @@ namespace {
 namespace fields = layer::fields;
 using layer::Layer;
 
-bool is_of_robot(const Layer& content, Path prim) {
-  const std::vector<Token> apis = apis_of(content, prim);
-  const bool api = std::any_of(apis.begin(), apis.end(),
-                               [](Token name) { return owner_of_api(name).owner == Role::Robot; });
-  if (api) {
-    return true;
-  }
-  const Token type = type_of(content, prim);
-  const std::vector<Path> properties = properties_of(content, prim);
-  return std::any_of(properties.begin(), properties.end(), [&](Path property) {
-    return owner_of_property(property.name(), type, apis).owner == Role::Robot;
-  });
-}
-
 }  // namespace
 
 void put_robot_order_first(Layer& content) {
   std::set<Path> named;
   for (const Path& prim : prims_below(content)) {
-    if (is_of_robot(content, prim)) {
+    if (has_opinion_of(content, prim, Role::Robot)) {
       for (Path at = prim; at.is_prim() && named.insert(at).second; at = at.parent()) {
       }
     }

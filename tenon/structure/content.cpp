@@ -204,12 +204,8 @@ Layer below_default_prim(const Layer& flat, Token robot) {
     }
     return path;
   };
-  Layer content(flat.identifier());
-  for (const layer::Field& field : flat.root().fields()) {
-    if (field.name != fields::primChildren && field.name != fields::subLayers) {
-      content.root().set(field.name, field.value);
-    }
-  }
+  Layer content = without_prims(flat, flat.identifier());
+  content.root().erase(fields::subLayers);
   content.root().set(fields::defaultPrim, robot);
   copy_tree(flat, top, content, top, map);
   for (const auto& [from, to] : places) {
@@ -220,13 +216,18 @@ Layer below_default_prim(const Layer& flat, Token robot) {
 
 }  // namespace
 
+Error no_default_prim(const Layer& root) {
+  return Error(ErrorCode::NotFound,
+               "the asset defines no default prim, which is to become the robot")
+      .in_file(root.identifier())
+      .with_rule("stage.default-prim-missing")
+      .with_fix("author defaultPrim with the name of the root prim");
+}
+
 Result<Layer> content_of(const stage::Stage& stage) {
   const stage::Prim robot = stage.default_prim();
   if (!robot) {
-    return Error(ErrorCode::NotFound, "the asset has no default prim, which is to become the robot")
-        .in_file(stage.root_layer().identifier())
-        .with_rule("stage.default-prim-missing")
-        .with_fix("author defaultPrim with the name of the root prim");
+    return no_default_prim(stage.root_layer());
   }
   Layer flat = stage::flatten(stage);
   TENON_CHECK(unfold_instances(flat));

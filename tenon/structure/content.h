@@ -9,6 +9,9 @@
 
 namespace tenon::structure {
 
+/// ErrorCode::NotFound "stage.default-prim-missing".
+Error no_default_prim(const layer::Layer& root);
+
 /// What a stage composes to as one layer without arcs: instances unfolded, asset paths absolute
 /// where the asset exists, properties of vendor schemas not custom and as uniform as their schemas
 /// say. A prim that is switched off stands there with its type alone. All is below the default
@@ -20,6 +23,9 @@ Result<layer::Layer> content_of(const stage::Stage& stage);
 /// makes things move and collide: typed prims with all below, API schemas, properties; then scopes
 /// that are empty through it, and targets of the robot's lists that went.
 void keep_roles(layer::Layer& content, RoleSet present);
+
+/// Some API schema or property of the prim has this owner.
+bool has_opinion_of(const layer::Layer& content, Path prim, Role owner);
 
 /// Some prim, API schema or property of the content has this owner.
 bool has_content_of(const layer::Layer& content, Role owner);

@@ -90,22 +90,23 @@ class RoleFilter {
 
 void keep_roles(Layer& content, RoleSet present) { RoleFilter(content, present).run(); }
 
+bool has_opinion_of(const Layer& content, Path prim, Role owner) {
+  const Token type = type_of(content, prim);
+  const std::vector<Token> apis = apis_of(content, prim);
+  const std::vector<Path> properties = properties_of(content, prim);
+  return std::any_of(apis.begin(), apis.end(),
+                     [&](Token api) { return owner_of_api(api).owner == owner; }) ||
+         std::any_of(properties.begin(), properties.end(), [&](Path property) {
+           return owner_of_property(property.name(), type, apis).owner == owner;
+         });
+}
+
 bool has_content_of(const Layer& content, Role owner) {
-  for (const Path& prim : prims_below(content)) {
-    const Token type = type_of(content, prim);
-    const std::vector<Token> apis = apis_of(content, prim);
-    if (owner_of_type(type).owner == owner || std::any_of(apis.begin(), apis.end(), [&](Token api) {
-          return owner_of_api(api).owner == owner;
-        })) {
-      return true;
-    }
-    for (const Path& property : properties_of(content, prim)) {
-      if (owner_of_property(property.name(), type, apis).owner == owner) {
-        return true;
-      }
-    }
-  }
-  return false;
+  const std::vector<Path> prims = prims_below(content);
+  return std::any_of(prims.begin(), prims.end(), [&](Path prim) {
+    return owner_of_type(type_of(content, prim)).owner == owner ||
+           has_opinion_of(content, prim, owner);
+  });
 }
 
 }  // namespace tenon::structure

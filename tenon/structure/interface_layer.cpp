@@ -43,12 +43,7 @@ void add_variant(Layer& layer, Path robot, const InterfaceVariant& variant) {
 }  // namespace
 
 Layer interface_layer(const Layer& content, const InterfaceParts& parts, std::string identifier) {
-  Layer layer(std::move(identifier));
-  for (const layer::Field& field : content.root().fields()) {
-    if (field.name != fields::primChildren) {
-      layer.root().set(field.name, field.value);
-    }
-  }
+  Layer layer = without_prims(content, std::move(identifier));
   const Path robot = Path::absolute_root().child(parts.robot);
   Spec& prim = define_prim(layer, robot, type_of(content, robot));
   layer::Reference base;

@@ -3,6 +3,7 @@
 #include "tenon/structure/layer_tree.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "tenon/layer/child_lists.h"
 #include "tenon/layer/fields.h"
@@ -90,6 +91,18 @@ Spec& define_prim(Layer& layer, Path path, Token type) {
   spec.set(fields::typeName, type);
   return spec;
 }
+
+Layer without_prims(const Layer& layer, std::string identifier) {
+  Layer result(std::move(identifier));
+  for (const layer::Field& field : layer.root().fields()) {
+    if (field.name != fields::primChildren) {
+      result.root().set(field.name, field.value);
+    }
+  }
+  return result;
+}
+
+bool is_transform(Token property) { return property.view().starts_with("xformOp"); }
 
 Spec& put_property(Layer& layer, Path path, const Spec& from, const PathMap& map) {
   if (!layer.has(path)) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "tenon/base/path.h"
@@ -22,6 +23,11 @@ std::vector<Path> prims_below(const layer::Layer& layer, Path root = Path::absol
 std::vector<Path> child_prims(const layer::Layer& layer, Path prim);
 /// Properties of a prim that are in the layer.
 std::vector<Path> properties_of(const layer::Layer& layer, Path prim);
+
+/// A layer with the fields of another one's root, and no prims.
+layer::Layer without_prims(const layer::Layer& layer, std::string identifier);
+/// "xformOpOrder", or one of the ops.
+bool is_transform(Token property);
 
 /// The prim at `path`, made with those above it, as overs, where it is missing.
 layer::Spec& make_prim(layer::Layer& layer, Path path);

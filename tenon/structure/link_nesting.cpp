@@ -29,10 +29,6 @@ using layer::Value;
 constexpr double kSameRotation = 1e-12;  // of a matrix that is a rotation but for rounding
 constexpr double kSamePlace = 1e-9;      // [stage units], and relative
 
-bool is_transform(Token property) {
-  return property == "xformOpOrder" || property.view().starts_with("xformOp:");
-}
-
 /// The prims above one, nearest first, without the root.
 std::vector<Path> above(Path prim) {
   std::vector<Path> paths;
@@ -128,8 +124,7 @@ class Planner {
       const Path to = link_of(joint.to);
       const Spec* excluded = content_.find(joint.joint.property("physics:excludeFromArticulation"));
       const bool loop = excluded != nullptr && excluded->get_or(fields::default_value, false);
-      if (!loop && !from.empty() && !to.empty() && !carriers_.contains(to) &&
-          !carries(to, from)) {
+      if (!loop && !from.empty() && !to.empty() && !carriers_.contains(to) && !carries(to, from)) {
         carriers_.emplace(to, from);
       }
     }
@@ -240,6 +235,18 @@ class Planner {
   std::set<Path> taken_;
 };
 
+bool near(const Mat4d& a, const Mat4d& b, double tolerance) {
+  for (std::size_t row = 0; row < 4; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) {
+      const double size = std::max(1.0, std::fabs(a[row][column]));
+      if (!(std::fabs(a[row][column] - b[row][column]) <= tolerance * size)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 Spec uniform_or_varying(const char* type, Value value, bool uniform) {
   Spec spec;
   spec.kind = layer::SpecKind::Attribute;
@@ -260,14 +267,7 @@ void set_transform(Layer& content, Path prim, const Mat4d& local) {
     order.push_back(Token(name));
   };
   const Pose pose = rigid_part(local);
-  const Mat4d rigid = pose_matrix(pose);
-  bool same = true;
-  for (std::size_t row = 0; row < 4; ++row) {
-    for (std::size_t column = 0; column < 4; ++column) {
-      same = same && std::fabs(rigid[row][column] - local[row][column]) <= kSameRotation;
-    }
-  }
-  if (same) {
+  if (near(pose_matrix(pose), local, kSameRotation)) {
     add("xformOp:translate", "double3", Value(pose.position));
     add("xformOp:orient", "quatd", Value(pose.orientation));
   } else {
@@ -295,24 +295,9 @@ physics::PhysicsScene renamed(physics::PhysicsScene scene, const LinkMoves& move
   return scene;
 }
 
-bool same_place(const Mat4d& a, const Mat4d& b) {
-  for (std::size_t row = 0; row < 4; ++row) {
-    for (std::size_t column = 0; column < 4; ++column) {
-      const double size = std::max(1.0, std::fabs(a[row][column]));
-      if (!(std::fabs(a[row][column] - b[row][column]) <= kSamePlace * size)) {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 LinkMoves::LinkMoves(const Layer& united, LinkNesting wanted, Diagnostics& diagnostics) {
-  if (wanted == LinkNesting::AsAuthored) {
-    return;
-  }
   Planner planner(united, wanted);
   if (const std::string why = planner.run(); !why.empty()) {
     diagnostics.add({Severity::Warning, "structure.links-kept",
@@ -334,12 +319,7 @@ Path LinkMoves::moved(Path path) const {
 }
 
 Layer LinkMoves::apply(const Layer& content, const stage::Stage& stage) const {
-  Layer result(content.identifier());
-  for (const layer::Field& field : content.root().fields()) {
-    if (field.name != fields::primChildren) {
-      result.root().set(field.name, field.value);
-    }
-  }
+  Layer result = without_prims(content, content.identifier());
   const PathMap map = [this](Path path) { return moved(path); };
   stage::TransformCache worlds{stage::Time::default_time()};
   for (const Path& prim : prims_below(content)) {
@@ -374,7 +354,7 @@ std::optional<Disagreement> LinkMoves::compare(const Layer& content, const stage
     if (!was || !was.is_active()) {
       continue;
     }
-    if (!is || !same_place(were.local_to_world(was), are.local_to_world(is))) {
+    if (!is || !near(were.local_to_world(was), are.local_to_world(is), kSamePlace)) {
       return Disagreement{prim.str(), "", "the prim stands elsewhere in the world"};
     }
   }

@@ -144,6 +144,9 @@ class Maker {
   // Links.
 
   Result<void> move_links() {
+    if (options_.links == LinkNesting::AsAuthored) {
+      return {};
+    }
     std::vector<const Layer*> contents;
     for (const SourceView& view : sources_.physics) {
       contents.push_back(&view.content);

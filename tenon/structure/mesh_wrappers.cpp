@@ -15,8 +15,6 @@ namespace fields = layer::fields;
 using layer::Layer;
 using layer::Spec;
 
-bool is_transform(Token property) { return property.view().starts_with("xformOp"); }
-
 /// Of a body that is a mesh: what stays with the shape.
 bool is_of_shape(const Ownership& owner) {
   return owner.owner == Role::Geometries || owner.may_be_in(Role::Instances);
@@ -190,12 +188,7 @@ Layer MeshMoves::apply(const Layer& content) const {
   if (moves_.empty()) {
     return content;
   }
-  Layer result(content.identifier());
-  for (const layer::Field& field : content.root().fields()) {
-    if (field.name != fields::primChildren) {
-      result.root().set(field.name, field.value);
-    }
-  }
+  Layer result = without_prims(content, content.identifier());
   const PathMap map = [this](Path path) { return moved_target(path); };
   for (const Path& prim : prims_below(content)) {
     const auto move = moves_.find(prim);

@@ -64,14 +64,6 @@ void report_lost_variants(const stage::Stage& stage, Diagnostics& diagnostics) {
   }
 }
 
-Error no_default_prim(const layer::Layer& root) {
-  return Error(ErrorCode::NotFound,
-               "the asset defines no default prim, which is to become the robot")
-      .in_file(root.identifier())
-      .with_rule("stage.default-prim-missing")
-      .with_fix("author defaultPrim with the name of the root prim");
-}
-
 Token field_of_targets(const layer::Spec& spec) {
   return spec.kind == layer::SpecKind::Relationship ? layer::fields::targetPaths
                                                     : layer::fields::connectionPaths;
