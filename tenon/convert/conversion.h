@@ -89,9 +89,10 @@ class Conversion {
   Path material_path(robot::Index material);
   Path surface_path(const robot::Surface& surface);
   Path materials_scope();
-  void write_preview(Path material, const robot::Material& look, bool linear);
-  void write_texture(Path material, Path surface, const std::string& file);
   void bind(Path prim, const char* relationship, Path material);
+
+  // surface_network.cpp
+  void write_preview(Path material, const robot::Material& look, bool linear);
 
   // joints.cpp
   void write_joints();

@@ -1,29 +1,14 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Materials are written when the first shape shows them: a UsdPreviewSurface each. Colours of robot
-// formats are as displayed (sRGB, IEC 61966-2-1), those of UsdPreviewSurface linear.
-#include <cmath>
-
+// Materials are written when the first shape shows them (surface_network.cpp says how).
 #include "tenon/base/text_number.h"
 #include "tenon/convert/conversion.h"
 
 namespace tenon::convert {
 
 using layer::Value;
-using layer::Variability;
 using robot::Index;
-
-namespace {
-
-double linear_of_srgb(double value) {
-  if (value <= 0.04045) {
-    return value / 12.92;
-  }
-  return value >= 1 ? value : std::pow((value + 0.055) / 1.055, 2.4);
-}
-
-}  // namespace
 
 Index Conversion::add_material(const mesh::Appearance& appearance) {
   std::string key = appearance.name + "\n" + appearance.texture + (appearance.linear ? "\nl" : "");
@@ -56,48 +41,6 @@ Path Conversion::materials_scope() {
     materials_scope_ = builder_.define(robot_, "Materials", "Scope");
   }
   return materials_scope_;
-}
-
-void Conversion::write_texture(Path material, Path surface, const std::string& file) {
-  const Path reader = builder_.define(material, "TextureCoordinates", "Shader");
-  builder_.set_attribute(reader, "info:id", "token", Value(Token("UsdPrimvarReader_float2")),
-                         Variability::Uniform);
-  builder_.set_attribute(reader, "inputs:varname", "string", Value(std::string("st")));
-  builder_.declare(reader, "outputs:result", "float2");
-  const Path texture = builder_.define(material, "ColorTexture", "Shader");
-  builder_.set_attribute(texture, "info:id", "token", Value(Token("UsdUVTexture")),
-                         Variability::Uniform);
-  builder_.set_attribute(texture, "inputs:file", "asset", Value(layer::AssetPath{file, "", ""}));
-  builder_.set_attribute(texture, "inputs:sourceColorSpace", "token", Value(Token("sRGB")));
-  builder_.set_connection(texture, "inputs:st", "float2", reader.property("outputs:result"));
-  builder_.set_attribute(texture, "inputs:wrapS", "token", Value(Token("repeat")));
-  builder_.set_attribute(texture, "inputs:wrapT", "token", Value(Token("repeat")));
-  builder_.declare(texture, "outputs:rgb", "float3");
-  builder_.set_connection(surface, "inputs:diffuseColor", "color3f",
-                          texture.property("outputs:rgb"));
-}
-
-void Conversion::write_preview(Path material, const robot::Material& look, bool linear) {
-  const Path surface = builder_.define(material, "PreviewSurface", "Shader");
-  builder_.set_attribute(surface, "info:id", "token", Value(Token("UsdPreviewSurface")),
-                         Variability::Uniform);
-  if (look.color) {
-    Vec3f color;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double value = (*look.color)[i];
-      color[i] = static_cast<float>(linear ? value : linear_of_srgb(value));
-    }
-    builder_.set_attribute(surface, "inputs:diffuseColor", "color3f", Value(color));
-    builder_.set_attribute(surface, "inputs:opacity", "float",
-                           Value(static_cast<float>((*look.color)[3])));
-  }
-  builder_.set_attribute(surface, "inputs:roughness", "float", Value(0.5f));
-  builder_.declare(surface, "outputs:surface", "token");
-  if (!look.texture.empty()) {
-    write_texture(material, surface, look.texture);
-  }
-  builder_.set_connection(material, "outputs:surface", "token",
-                          surface.property("outputs:surface"));
 }
 
 Path Conversion::material_path(Index material) {

@@ -39,6 +39,7 @@ mesh::PolygonMesh polygons_of(const robot::MeshFile& file) {
   for (const Vec3i& triangle : file.triangles) {
     mesh.face_points.insert(mesh.face_points.end(), triangle.v.begin(), triangle.v.end());
   }
+  mesh.texture_coordinates = file.texture_coordinates;
   return mesh;
 }
 

@@ -38,6 +38,7 @@ robot::RobotModel MjcfReader::run(std::string name) {
   read_materials();
   read_bodies();
   read_geoms();
+  report_materials();
   read_sites();
   read_excluded_pairs();
   read_tendons();

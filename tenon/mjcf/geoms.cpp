@@ -19,6 +19,21 @@ const double kDefaultFriction[3] = {1, 0.005, 0.0001};
 
 }  // namespace
 
+/// MuJoCo counts v from the upper edge of an image.
+void MjcfReader::read_texture_coordinates(int mesh, robot::MeshFile& file) const {
+  const int start = model_.mesh_texcoordadr[mesh];
+  if (start < 0) {
+    return;
+  }
+  const float* places = model_.mesh_texcoord + 2 * static_cast<std::size_t>(start);
+  const int* corners =
+      model_.mesh_facetexcoord + 3 * static_cast<std::size_t>(model_.mesh_faceadr[mesh]);
+  for (std::size_t i = 0; i < 3 * file.triangles.size(); ++i) {
+    const float* place = places + 2 * static_cast<std::size_t>(corners[i]);
+    file.texture_coordinates.push_back({{place[0], 1 - place[1]}});
+  }
+}
+
 /// Vertices as MuJoCo has them: about the centre and in the principal axes of the mesh, which is
 /// where its geoms stand.
 void MjcfReader::read_meshes() {
@@ -36,45 +51,8 @@ void MjcfReader::read_meshes() {
       const int* f = faces + 3 * static_cast<std::size_t>(i);
       file.triangles.push_back({{f[0], f[1], f[2]}});
     }
+    read_texture_coordinates(mesh, file);
   }
-}
-
-void MjcfReader::read_materials() {
-  for (int i = 0; i < model_.nmat; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    robot::Material& material = robot_.materials.emplace_back();
-    material.name = unique_name(mjOBJ_MATERIAL, i, "material");
-    Vec4d color;
-    for (std::size_t k = 0; k < 4; ++k) {
-      color[k] = static_cast<double>(model_.mat_rgba[4 * at + k]);
-    }
-    material.color = color;
-    const int* textures = model_.mat_texid + mjNTEXROLE * at;
-    if (std::any_of(textures, textures + mjNTEXROLE, [](int id) { return id >= 0; })) {
-      report("mjcf.left-out", "the textures of material \"" + material.name + "\" are left out");
-    }
-  }
-}
-
-/// The geom's material, or one of its own colour.
-std::optional<Index> MjcfReader::material_of(int geom) {
-  const auto at = static_cast<std::size_t>(geom);
-  if (model_.geom_matid[at] >= 0) {
-    return static_cast<Index>(model_.geom_matid[at]);
-  }
-  Vec4d color;
-  for (std::size_t k = 0; k < 4; ++k) {
-    color[k] = static_cast<double>(model_.geom_rgba[4 * at + k]);
-  }
-  for (std::size_t i = static_cast<std::size_t>(model_.nmat); i < robot_.materials.size(); ++i) {
-    if (robot_.materials[i].color == color) {
-      return static_cast<Index>(i);
-    }
-  }
-  robot::Material& material = robot_.materials.emplace_back();
-  material.name = "color";
-  material.color = color;
-  return static_cast<Index>(robot_.materials.size() - 1);
 }
 
 bool MjcfReader::read_shape(int geom, robot::Geometry& geometry) {
@@ -130,7 +108,7 @@ void MjcfReader::read_geom(int geom) {
   const int affinity = model_.geom_conaffinity[at];
   const bool collides = type != 0 || affinity != 0;
   if (!collides || model_.geom_group[at] <= kLastVisibleGroup) {
-    link.visuals.push_back({name, pose, geometry, material_of(geom), 0});
+    link.visuals.push_back({name, pose, geometry, material_of(geom, geometry), 0});
   }
   if (!collides) {
     return;

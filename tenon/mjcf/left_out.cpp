@@ -27,6 +27,10 @@ const mjString* info_of(mjsElement* element, mjtObj kind) {
       return mjs_asLight(element)->info;
     case mjOBJ_PAIR:
       return mjs_asPair(element)->info;
+    case mjOBJ_MATERIAL:
+      return mjs_asMaterial(element)->info;
+    case mjOBJ_GEOM:
+      return mjs_asGeom(element)->info;
     default:
       return nullptr;
   }
@@ -52,10 +56,16 @@ std::vector<std::uint32_t> MjcfReader::lines_of(mjtObj kind) const {
   return lines;
 }
 
-std::uint32_t MjcfReader::line_of(mjtObj kind, int id) const {
-  const std::vector<std::uint32_t> lines = lines_of(kind);
-  const auto at = static_cast<std::size_t>(id);
-  return at < lines.size() ? lines[at] : 0;
+std::uint32_t MjcfReader::line_of(mjtObj kind, int id) {
+  const auto [at, is_new] = lines_.try_emplace(kind);
+  if (is_new) {
+    for (mjsElement* element = mjs_firstElement(&spec_, kind); element != nullptr;
+         element = mjs_nextElement(&spec_, element)) {
+      at->second.emplace(mjs_getId(element), line_in(info_of(element, kind)));
+    }
+  }
+  const auto line = at->second.find(id);
+  return line == at->second.end() ? 0 : line->second;
 }
 
 /// What a RobotModel has no word for, by kind and number, with its lines.

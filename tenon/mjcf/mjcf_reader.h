@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,11 +39,20 @@ class MjcfReader {
 
   // geoms.cpp
   void read_meshes();
-  void read_materials();
+  void read_texture_coordinates(int mesh, robot::MeshFile& file) const;
   void read_geoms();
   void read_geom(int geom);
   bool read_shape(int geom, robot::Geometry& geometry);
-  std::optional<robot::Index> material_of(int geom);
+
+  // materials.cpp
+  void read_materials();
+  void read_images(int number, robot::Material& material);
+  std::string image_of(int texture, std::string& why) const;
+  void read_mapping(const mjsTexture* texture, int number, robot::Material& material) const;
+  robot::Index own_color(int geom);
+  std::optional<robot::Index> material_of(int geom, const robot::Geometry& geometry);
+  robot::Index without_images(robot::Index material);
+  void report_materials();
 
   // joints.cpp
   void add_joints(int body, robot::Index parent, robot::Index link, const Pose& origin);
@@ -63,7 +74,7 @@ class MjcfReader {
 
   // left_out.cpp
   std::vector<std::uint32_t> lines_of(mjtObj kind) const;
-  std::uint32_t line_of(mjtObj kind, int id) const;
+  std::uint32_t line_of(mjtObj kind, int id);
   void report_left_out();
 
   mjSpec& spec_;
@@ -77,6 +88,11 @@ class MjcfReader {
   std::vector<std::optional<robot::Index>> drive_of_actuator_;  // (nu), the joint that has it
   std::vector<int> motors_;  // MuJoCo's numbers of robot_.mujoco.actuators
   std::vector<std::string> link_names_;
+  std::map<mjtObj, std::map<int, std::uint32_t>> lines_;    // by kind and number, as asked for
+  std::map<std::array<double, 4>, robot::Index> color_of_;  // materials of plain colours
+  std::map<robot::Index, int> texture_of_material_;         // of the colour, where it is a file
+  std::map<robot::Index, robot::Index> plain_;     // materials without their images, by material
+  std::map<robot::Index, std::vector<int>> bare_;  // geoms that have no place for those images
 };
 
 }  // namespace tenon::mjcf

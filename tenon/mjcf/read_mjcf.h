@@ -15,10 +15,11 @@ namespace tenon::mjcf {
 /// model's root is a link without mass that stands for the world.
 ///
 /// Coordinates count from where the model stands (MuJoCo's `ref` becomes 0). A body with several
-/// joints becomes a chain of links, those between with a millionth of its mass. Motors and other
-/// actuators that are no spring and damper about a joint, tendons, sensors, keyframes, loops and
-/// what else a RobotModel cannot hold goes to `diagnostics` by name. Lines are not known. Errors:
-/// NotFound, Parse and Invalid with MuJoCo's words.
+/// joints becomes a chain of links, those between with a millionth of its mass. Materials have
+/// their images where these are files laid out by texture coordinates; wrapped cubes, patterns that
+/// MuJoCo paints and images on shapes without such coordinates are their mean colour. These,
+/// sensors and what else a RobotModel cannot hold go to `diagnostics` by name, with lines where
+/// MuJoCo keeps them. Errors: NotFound, Parse and Invalid with MuJoCo's words.
 Result<robot::RobotModel> read_mjcf(const std::string& path, Diagnostics& diagnostics);
 
 }  // namespace tenon::mjcf

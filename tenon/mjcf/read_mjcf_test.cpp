@@ -155,6 +155,66 @@ TEST_F(ReadMjcf, TakesLoopsTendonsAndKeyframesAndNamesLinesOfTheRest) {
   EXPECT_EQ(findings_.items()[2].line, 4u);  // the sensor
 }
 
+/// A picture of one green pixel.
+std::string green_png() {
+  const unsigned char bytes[] = {
+      0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
+      0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00,
+      0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78,
+      0xda, 0x63, 0x60, 0xf8, 0xcf, 0x00, 0x00, 0x02, 0x02, 0x01, 0x00, 0x45, 0xf4, 0x52,
+      0xd4, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+  return {reinterpret_cast<const char*>(bytes), sizeof(bytes)};
+}
+
+TEST_F(ReadMjcf, TakesImagesOfMaterialsAndNamesLinesOfTheRest) {
+  const std::string image = path_ + ".png";
+  std::ofstream(image, std::ios::binary) << green_png();
+  const std::string folder = std::filesystem::temp_directory_path().string();
+  const std::string name = std::filesystem::path(image).filename().string();
+  const auto model =
+      read("<compiler texturedir='" + folder +
+           "' strippath='true'/><asset>"
+           "<mesh name='sheet' vertex='0 0 0 1 0 0 0 1 0 0 0 1' face='0 2 1 0 3 2 0 1 3 1 2 3' "
+           "texcoord='0 1 1 1 0 0.25 0 0'/>"
+           "<texture name='t' type='2d' file='lost/" +
+           name +
+           "' vflip='true'/>"
+           "<texture name='c' type='cube' file='" +
+           name +
+           "'/>"
+           "<texture name='b' type='2d' builtin='flat' rgb1='1 0 0' width='4' height='4'/>"
+           "<material name='flat' texture='t' texrepeat='2 3.5' rgba='1 0.5 1 1' emission='0.5'/>\n"
+           "<material name='wrapped' texture='c'/>\n<material name='painted' texture='b'/>\n"
+           "<material name='layered' roughness='0.25' metallic='1' shininess='0.9'>"
+           "<layer role='roughness' texture='t'/></material></asset>"
+           "<worldbody><geom type='mesh' mesh='sheet' material='flat'/>\n<geom size='1' "
+           "material='flat'/></worldbody>");
+  std::filesystem::remove(image);
+  ASSERT_TRUE(model) << model.error().to_string();
+  const robot::Material& flat = model->materials[0];
+  EXPECT_EQ(flat.texture, std::filesystem::absolute(image).string());
+  EXPECT_TRUE(flat.tinted);
+  EXPECT_EQ(flat.texture_scale, (Vec2d{{2, -3.5}}));
+  EXPECT_EQ(flat.texture_offset, (Vec2d{{0, 0.5}}));
+  EXPECT_EQ(flat.emission, 0.5);
+  EXPECT_EQ(*model->materials[1].color, (Vec4d{{0, 1, 0, 1}}));  // of the picture
+  EXPECT_EQ(*model->materials[2].color, (Vec4d{{1, 0, 0, 1}}));
+  ASSERT_EQ(model->materials[3].images.size(), 1u);
+  EXPECT_EQ(model->materials[3].images[0].use, robot::ImageUse::Roughness);
+  EXPECT_EQ(model->materials[3].roughness, 0.25);
+  ASSERT_EQ(model->meshes[0].texture_coordinates.size(), 12u);
+  const std::vector<robot::Visual>& seen = model->links[0].visuals;
+  EXPECT_EQ(seen.at(0).material, 0u);
+  EXPECT_EQ(model->materials.at(*seen.at(1).material).name, "flat_plain");
+  EXPECT_EQ(*model->materials.at(*seen.at(1).material).color, (Vec4d{{0, 0.5, 0, 1}}));
+  std::vector<std::uint32_t> lines;
+  for (const Diagnostic& finding : findings_) {
+    EXPECT_EQ(finding.rule, "mjcf.left-out");
+    lines.push_back(finding.line);
+  }
+  EXPECT_EQ(lines, (std::vector<std::uint32_t>{2, 3, 5, 4}));
+}
+
 TEST_F(ReadMjcf, SaysWhatMuJoCoRefuses) {
   const auto bad = read("<worldbody>\n<geom type='blob'/></worldbody>");
   ASSERT_FALSE(bad);

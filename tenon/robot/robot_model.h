@@ -84,10 +84,36 @@ struct Collider {
   std::uint32_t line = 0;
 };
 
+/// What an image says of a material, beside its colour.
+enum class ImageUse : std::uint8_t {
+  Occlusion,
+  Roughness,
+  Metallic,
+  Normal,  ///< tangent space, 0 to 1 for -1 to 1
+  Opacity,
+  Emission,                    ///< light that it gives off, a colour
+  OcclusionRoughnessMetallic,  ///< in red, green and blue
+};
+
+struct MaterialImage {
+  ImageUse use = ImageUse::Normal;
+  std::string file;
+};
+
 struct Material {
   std::string name;
   std::optional<Vec4d> color;  ///< red, green, blue, opacity as displayed (sRGB), 0 to 1
-  std::string texture;         ///< file; empty: none
+  std::string texture;         ///< image of the colour, a file; empty: none
+  bool tinted = false;  ///< `texture` is multiplied with `color`, else it stands in its place
+  bool texture_opacity = false;       ///< the opacity is that of `texture`
+  bool texture_linear = false;        ///< the numbers in `texture` are linear, not as displayed
+  std::vector<MaterialImage> images;  ///< each use once; roughness and metallic are their factors
+  // Images are read at scale * (u, v) + offset, where (0, 0) is the corner at the lower left.
+  Vec2d texture_scale{{1, 1}};
+  Vec2d texture_offset;
+  std::optional<double> roughness;  ///< 0 to 1
+  std::optional<double> metallic;   ///< 0 to 1
+  double emission = 0;              ///< share of its colour that it gives off as light
   std::uint32_t line = 0;
 };
 
@@ -98,6 +124,8 @@ struct MeshFile {
   std::uint32_t line = 0;
   std::vector<Vec3f> points;     ///< (point_count) [m], without a file
   std::vector<Vec3i> triangles;  ///< (triangle_count), indices into points
+  /// (3 triangle_count), a corner's place in images from the lower left; or empty
+  std::vector<Vec2f> texture_coordinates{};
 };
 
 /// A named frame on a link.

@@ -12,10 +12,13 @@ import json
 import math
 import os
 import pathlib
+import shutil
+import struct
 import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree
+import zlib
 
 ROOT, TENON = pathlib.Path(sys.argv[1]), sys.argv[2]
 URDF = ROOT / "tests/convert/urdf"
@@ -162,6 +165,46 @@ def check_mujoco_parts(work):
         expect(f"loop: {wanted}", wanted in text, True)
 
 
+def png(path, size):
+    """A picture, red above and blue below."""
+    def chunk(kind, data):
+        return (struct.pack(">I", len(data)) + kind + data +
+                struct.pack(">I", zlib.crc32(kind + data)))
+    rows = b"".join(b"\0" + (b"\xff\0\0" if y < size // 2 else b"\0\0\xff") * size
+                    for y in range(size))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" +
+                     chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 2, 0, 0, 0)) +
+                     chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def check_mjcf_images(work):
+    """Images of materials come along into the package; it is the same after `structure`."""
+    source, package, again = work / "images", work / "images_package", work / "images_again"
+    (source / "pictures").mkdir(parents=True)
+    shutil.copy(ROOT / "tests/convert/mjcf/textured.xml", source)
+    for name in ("paint", "rough", "wrapped"):
+        png(source / "pictures" / f"{name}.png", 4)
+    code, rules, answer = convert(source / "textured.xml", f"{package}/")
+    expect("images: findings", (code, rules), (0, ["mjcf.left-out"] * 3))
+    expect("images: lines", [finding["line"] for finding in answer["diagnostics"]], [12, 13, 20])
+    expect("images: files", sorted(path.name for path in (package / "Textures").iterdir()),
+           ["paint.png", "rough.png"])
+    text = (package / "payloads/materials.usda").read_text()
+    for wanted in ("inputs:file = @../Textures/paint.png@", "inputs:scale = (2, 3)",
+                   "ColorTexture.outputs:rgb>", "RoughnessTexture.outputs:r>",
+                   "inputs:metallic = 0.25", 'def Material "painted"'):
+        expect(f"images: {wanted}", wanted in text, True)
+    interface = package / "textured.usda"
+    expect("images: profile", tenon("check", interface, "--profile", "isaac-3.0")[0], 0)
+    expect("images: structure", tenon("structure", interface, "-o", again)[0], 0)
+    expect("images: same bytes", tree(again), tree(package))
+
+
+def tree(folder):
+    return {path.relative_to(folder).as_posix(): path.read_bytes()
+            for path in folder.rglob("*") if path.is_file()}
+
+
 def numbers(element, attribute, count=3):
     text = element.get(attribute) if element is not None else None
     return [float(word) for word in text.split()] if text else [0.0] * count
@@ -236,6 +279,7 @@ def main():
         check_shapes(work)
         check_bad_input(work)
         check_mjcf(work)
+        check_mjcf_images(work)
         check_mujoco_parts(work)
         check_hand(work)
     for fault in faults:
