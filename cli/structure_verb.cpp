@@ -25,11 +25,11 @@ struct ListedFile {
   std::size_t size = 0;
 };
 
-std::vector<ListedFile> list_files(const std::map<std::string, std::string>& files) {
+std::vector<ListedFile> list_files(const structure::Package& package) {
   std::vector<ListedFile> list;
-  for (const auto& [name, contents] : files) {
+  for (const auto& [name, file] : package.files) {
     const structure::Role role = structure::role_of_file_name(name);
-    list.push_back({name, std::string(structure::role_name(role)), contents.size()});
+    list.push_back({name, std::string(structure::role_name(role)), file.bytes->size()});
   }
   return list;
 }
@@ -71,13 +71,9 @@ int run_structure(Report& report, const Options& options) {
   if (!asset) {
     return report.fail(asset.error());
   }
-  const auto encoded = structure::encode_package(asset->package);
-  if (!encoded) {
-    return report.fail(encoded.error());
-  }
-  const std::vector<ListedFile> files = list_files(*encoded);
+  const std::vector<ListedFile> files = list_files(asset->package);
   if (!options.dry_run) {
-    if (auto written = structure::write_folder(*encoded, options.output); !written) {
+    if (auto written = structure::write_package(asset->package, options.output); !written) {
       return report.fail(written.error());
     }
   }

@@ -21,7 +21,15 @@ bool is_passed_over(Token field) {
          field == fields::connectionPaths || field == fields::custom;
 }
 
-bool is_nothing(const layer::Value& value) { return value.is_block() || value.empty(); }
+/// Blocked, empty, or what holds where nothing is authored: relationships are uniform.
+bool is_nothing(const Spec& spec, Token field, const layer::Value& value) {
+  if (field == fields::variability) {
+    const bool uniform = spec.kind == layer::SpecKind::Relationship;
+    const auto fallback = uniform ? layer::Variability::Uniform : layer::Variability::Varying;
+    return value.get_or(fallback) == fallback;
+  }
+  return value.is_block() || value.empty();
+}
 
 bool is_there(const Layer& content, Path prim) {
   return content.has(prim) && is_active(content, prim);
@@ -93,7 +101,7 @@ class Comparison {
   void compare_fields(Path prim, Token property, const Spec& expected, const Spec& found) {
     for (const layer::Field& field : expected.fields()) {
       const layer::Value* other = found.find(field.name);
-      if (is_passed_over(field.name) || is_nothing(field.value)) {
+      if (is_passed_over(field.name) || is_nothing(expected, field.name, field.value)) {
         continue;
       }
       const bool same =
@@ -103,7 +111,11 @@ class Comparison {
       }
     }
     for (const layer::Field& field : found.fields()) {
-      if (!is_passed_over(field.name) && !is_nothing(field.value) && !expected.has(field.name)) {
+      if (is_passed_over(field.name) || is_nothing(found, field.name, field.value)) {
+        continue;
+      }
+      const layer::Value* other = expected.find(field.name);
+      if (other == nullptr || is_nothing(expected, field.name, *other)) {
         report(prim, property, "\"" + field.name.str() + "\" is new");
       }
     }
@@ -118,7 +130,7 @@ class Comparison {
     for (const layer::Field& field : property.fields()) {
       const bool value = field.name == fields::default_value || field.name == fields::timeSamples ||
                          field.name == fields::spline;
-      if (value && !is_nothing(field.value)) {
+      if (value && !is_nothing(property, field.name, field.value)) {
         return true;
       }
     }

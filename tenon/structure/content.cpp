@@ -6,6 +6,7 @@
 
 #include "tenon/base/limits.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/time_samples.h"
 #include "tenon/layer/type_names.h"
 #include "tenon/schema/registry.h"
 #include "tenon/stage/flatten.h"
@@ -99,10 +100,24 @@ bool is_material_binding(std::string_view name) {
   return name == "material:binding" || name.starts_with("material:binding:");
 }
 
+/// The default, else the first sample that is no block; null for none.
+const layer::Value* some_value(const Spec& property) {
+  if (const layer::Value* value = property.find(fields::default_value)) {
+    return value;
+  }
+  const auto* samples = property.get<layer::TimeSamples>(fields::timeSamples);
+  if (samples == nullptr) {
+    return nullptr;
+  }
+  const auto found = std::find_if(samples->values.begin(), samples->values.end(),
+                                  [](const layer::Value& value) { return !value.is_block(); });
+  return found == samples->values.end() ? nullptr : &*found;
+}
+
 /// A value of another type than the schema's keeps the type that it was authored with: as text it
 /// could not be read again otherwise.
 void keep_type_of_value(Spec& property) {
-  const layer::Value* value = property.find(fields::default_value);
+  const layer::Value* value = some_value(property);
   const layer::TypeName* named = layer::find_type_name(property.get_or(fields::typeName, Token()));
   const layer::TypeName* own =
       value == nullptr ? nullptr : layer::type_name_of(value->type(), value->is_array());

@@ -65,6 +65,7 @@ class Maker {
     TENON_CHECK(make_files());
     make_interface();
     assets_ = collect_assets(source_, options_.names, asset_.package, diagnostics_);
+    TENON_CHECK(store_layers(asset_.package));
     TENON_CHECK(prove());
     return std::move(asset_);
   }

@@ -65,8 +65,9 @@ struct StructuredAsset {
   std::map<Path, Path> moved;
 };
 
-/// Any USD asset in Asset Structure 3.0, proven: each variant of the result composes to what the
-/// source composes to, as far as it belongs into that variant, and its neutral physics is the same.
+/// Any USD asset in Asset Structure 3.0, stored and proven: each variant of what its bytes say
+/// composes to what the source composes to, as far as it belongs into that variant, and has the
+/// same neutral physics.
 /// The result depends on what the source composes to alone, so that making it again from the result
 /// changes no byte.
 ///
@@ -76,7 +77,8 @@ struct StructuredAsset {
 /// IsaacRobotAPI with links and joints in kinematic order where they have none.
 ///
 /// Errors: ErrorCode::NotFound without a default prim; Invalid "structure.differs" when the proof
-/// fails, with the prim where it does; those of opening. Diagnostics: "structure.asset-missing".
+/// fails, with the prim or the file where it does; those of opening. Diagnostics:
+/// "structure.asset-missing".
 Result<StructuredAsset> make_package(const AssetSource& source, const StructureOptions& options,
                                      Diagnostics& diagnostics);
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tenon/formats/save_layer.h"
+#include "tenon/layer/time_samples.h"
 #include "tenon/physics/read_physics.h"
 
 namespace tenon::structure {
@@ -70,7 +71,13 @@ StructuredAsset made(const AssetSource& source, const StructureOptions& options 
   return asset ? *std::move(asset) : StructuredAsset();
 }
 
-Files encoded(const StructuredAsset& asset) { return *encode_package(asset.package); }
+Files encoded(const StructuredAsset& asset) {
+  Files files;
+  for (const auto& [name, file] : asset.package.files) {
+    files[name] = file.bytes->text();
+  }
+  return files;
+}
 
 std::string text_of(const StructuredAsset& asset, Role role) {
   const auto file = asset.package.files.find(file_name(role));
@@ -335,6 +342,29 @@ def Xform "robot" (
 }
 )";
   EXPECT_EQ(made(source_of(text)).selection, "physics");
+}
+
+/// A source with an attribute </robot.x> of type float and these samples, of whatever type.
+AssetSource source_with_samples(layer::TimeSamples samples) {
+  AssetSource source = source_of(kHead + "def Xform \"robot\" { custom float x }\n");
+  layer::Layer layer = *source.root;
+  layer.find(Path::from("/robot.x"))->set(layer::fields::timeSamples, std::move(samples));
+  source.root = std::make_shared<layer::Layer>(std::move(layer));
+  return source;
+}
+
+TEST(MakePackage, SamplesOfAnotherTypeThanDeclaredStayWhatTheyAre) {
+  const StructuredAsset asset = made(source_with_samples({{0, 1}, {0.1, 0.2}}));
+  EXPECT_TRUE(has(text_of(asset, Role::Base), "double x.timeSamples"));
+  expect_idempotent(asset);
+}
+
+TEST(MakePackage, WhatNoTextHoldsIsFoundInTheBytes) {
+  Diagnostics diagnostics;
+  const auto asset = make_package(source_with_samples({{0, 1}, {0.1F, 0.1}}), {}, diagnostics);
+  ASSERT_FALSE(asset.has_value());
+  EXPECT_EQ(asset.error().diagnostic().rule, "structure.differs");
+  EXPECT_EQ(asset.error().diagnostic().property, "x");
 }
 
 TEST(MakePackage, NeedsADefaultPrim) {

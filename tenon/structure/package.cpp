@@ -14,6 +14,14 @@ namespace fields = layer::fields;
 
 constexpr std::string_view kRoot = "/package/";
 
+/// A fault of the writers, for the layer comes from no file.
+Error unreadable(Error cause, const std::string& name) {
+  return Error(ErrorCode::Invalid, "the structured asset could not be read: " + cause.to_string())
+      .in_file(name)
+      .with_rule("structure.differs")
+      .with_fix("nothing was written; please report the asset");
+}
+
 }  // namespace
 
 layer::LayerPtr selections_layer(Token prim, const std::map<std::string, std::string>& selections) {
@@ -57,20 +65,31 @@ Result<stage::Stage> open_package(const Package& package,
                             opener_of(package), options);
 }
 
-Result<std::map<std::string, std::string>> encode_package(const Package& package) {
-  std::map<std::string, std::string> files;
-  for (const auto& [name, file] : package.files) {
+Result<void> store_layers(Package& package) {
+  for (auto& [name, file] : package.files) {
     if (file.layer == nullptr) {
-      files[name] = file.bytes->text();
       continue;
     }
-    TENON_TRY(files[name], formats::encode_layer(*file.layer, file.format));
+    auto contents = formats::encode_layer(*file.layer, file.format);
+    if (!contents) {
+      return unreadable(std::move(contents).error(), name);
+    }
+    file.bytes = bytes::FileBytes::own(*std::move(contents));
+    Diagnostics ignored;  // what is not as it was is found by comparing
+    auto layer = formats::read_layer(file.bytes, file.layer->identifier(), ignored);
+    if (!layer) {
+      return unreadable(std::move(layer).error(), name);
+    }
+    file.layer = std::make_shared<layer::Layer>(*std::move(layer));
   }
-  return files;
+  return {};
 }
 
 Result<void> write_package(const Package& package, const std::string& folder) {
-  TENON_TRY(const auto files, encode_package(package));
+  std::map<std::string, std::string_view> files;
+  for (const auto& [name, file] : package.files) {
+    files[name] = file.bytes->text();
+  }
   return write_folder(files, folder);
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tenon/base/result.h"
@@ -17,11 +18,11 @@
 
 namespace tenon::structure {
 
-/// One file of a package: a layer, or the bytes of anything else.
+/// One file of a package: a layer, or anything else.
 struct PackageFile {
-  layer::LayerPtr layer;  ///< its identifier is identifier_in_package of its name
+  layer::LayerPtr layer;  ///< its identifier is identifier_in_package of its name; null: no layer
   formats::LayerFormat format = formats::LayerFormat::Text;
-  std::shared_ptr<const bytes::FileBytes> bytes;  ///< where `layer` is null
+  std::shared_ptr<const bytes::FileBytes> bytes;  ///< of a layer from store_layers on
 };
 
 /// An asset of several files as a value, in no folder yet.
@@ -42,18 +43,21 @@ compose::LayerOpener opener_of(const Package& package);
 Result<stage::Stage> open_package(const Package& package,
                                   const std::map<std::string, std::string>& selections);
 
-/// Name in the folder -> what is to stand in that file.
-Result<std::map<std::string, std::string>> encode_package(const Package& package);
+/// Makes the bytes of the files of all layers, and each layer what a reader has of them: from then
+/// on the package is what will stand in its folder. Each layer is written and read once.
+/// Errors: Invalid "structure.differs" with the file, where a layer cannot be written or its bytes
+/// cannot be read.
+Result<void> store_layers(Package& package);
 
-/// Puts the package into `folder` in one step: other programs see what was there before or the
-/// whole package, also when the process is killed or the disk is full. Written to a hidden folder
-/// beside it, synced, then exchanged with it by name. What was there before goes. A kill may leave
-/// the hidden folder behind.
-/// Errors: ErrorCode::Invalid when the folder holds files that are no part of such an asset;
-/// Unsupported where the file system cannot exchange folders; Io. All leave the folder as it was.
+/// Puts the package, with its layers stored, into `folder` in one step: other programs see what was
+/// there before or the whole package, also when the process is killed or the disk is full. Written
+/// to a hidden folder beside it, synced, then exchanged with it by name. What was there before
+/// goes. A kill may leave the hidden folder behind. Errors: ErrorCode::Invalid when the folder
+/// holds files that are no part of such an asset; Unsupported where the file system cannot exchange
+/// folders; Io. All leave the folder as it was.
 Result<void> write_package(const Package& package, const std::string& folder);
 /// The same for contents at hand.
-Result<void> write_folder(const std::map<std::string, std::string>& files,
+Result<void> write_folder(const std::map<std::string, std::string_view>& files,
                           const std::string& folder);
 
 /// Files below `folder` that no such asset has, by name, sorted; empty for a folder that does not

@@ -59,7 +59,7 @@ std::vector<std::string> foreign_files(const std::string& folder) {
   return found;
 }
 
-Result<void> write_folder(const std::map<std::string, std::string>& files,
+Result<void> write_folder(const std::map<std::string, std::string_view>& files,
                           const std::string& folder) {
   for (const auto& [name, contents] : files) {
     if (!is_usable_name(name)) {

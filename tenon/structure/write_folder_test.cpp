@@ -57,25 +57,30 @@ class WriteFolder : public testing::Test {
   std::string folder_;
 };
 
+/// write_folder of files at hand.
+Result<void> write(const Files& files, const std::string& folder) {
+  return write_folder({files.begin(), files.end()}, folder);
+}
+
 const Files kOld{{"hand.usda", "old"}, {"payloads/base.usda", "old base"}};
 const Files kNew{{"hand.usda", "new"},
                  {"payloads/base.usda", "new base"},
                  {"payloads/Physics/physics.usda", std::string(10000, 'p')}};
 
 TEST_F(WriteFolder, ReplacesTheWholeFolder) {
-  ASSERT_TRUE(write_folder(kOld, folder_).has_value());
+  ASSERT_TRUE(write(kOld, folder_).has_value());
   EXPECT_EQ(read(), kOld);
-  ASSERT_TRUE(write_folder(kNew, folder_ + "/").has_value());
+  ASSERT_TRUE(write(kNew, folder_ + "/").has_value());
   EXPECT_EQ(read(), kNew);
-  ASSERT_TRUE(write_folder(kOld, folder_).has_value());
+  ASSERT_TRUE(write(kOld, folder_).has_value());
   EXPECT_EQ(read(), kOld);
   EXPECT_EQ(std::distance(fs::directory_iterator(parent_), fs::directory_iterator()), 1);
 }
 
 TEST_F(WriteFolder, RefusesAFolderWithFilesOfSomebodyElse) {
-  ASSERT_TRUE(write_folder(kOld, folder_).has_value());
+  ASSERT_TRUE(write(kOld, folder_).has_value());
   std::ofstream(folder_ + "/thesis.txt") << "years of work";
-  const auto written = write_folder(kNew, folder_);
+  const auto written = write(kNew, folder_);
   ASSERT_FALSE(written.has_value());
   EXPECT_EQ(written.error().code(), ErrorCode::Invalid);
   EXPECT_NE(written.error().message().find("thesis.txt"), std::string::npos);
@@ -84,7 +89,7 @@ TEST_F(WriteFolder, RefusesAFolderWithFilesOfSomebodyElse) {
 
 TEST_F(WriteFolder, RefusesNamesThatLeadElsewhere) {
   for (const char* name : {"../x.usda", "/x.usda", "a/../../x", "", "a/"}) {
-    EXPECT_FALSE(write_folder({{name, "x"}}, folder_).has_value()) << name;
+    EXPECT_FALSE(write({{name, "x"}}, folder_).has_value()) << name;
   }
   EXPECT_FALSE(fs::exists(folder_));
 }
@@ -98,7 +103,7 @@ TEST_F(WriteFolder, AKillAtAnySystemCallLeavesTheOldOrTheNew) {
       fs::create_directory(parent_);
       put(before);
       const std::optional<bool> killed =
-          bytes::killed_at(call, [&] { return write_folder(kNew, folder_).has_value(); });
+          bytes::killed_at(call, [&] { return write(kNew, folder_).has_value(); });
       if (!killed) {
         GTEST_SKIP() << "processes may not be traced here";
       }
