@@ -38,7 +38,9 @@ class Flattener {
     const StageData& data = stage_.data();
     visit_metadata(data, *data.root, root_opinions(data), AssetForm::Anchored,
                    [&](Token name, Value value) { copy_field(name, value, layer_.root()); });
-    layer_.root().erase(fields::subLayers);
+    for (const Token arc : {fields::subLayers, fields::layerRelocates}) {
+      layer_.root().erase(arc);
+    }
     copy_below(stage_.pseudo_root(), Path::absolute_root());
     for (const Prim& prototype : stage_.prototypes()) {
       copy_prototype(prototype);

@@ -213,6 +213,13 @@ TEST(MakePackage, CollectsTexturesByRelativePaths) {
   EXPECT_TRUE(has(text_of(asset, Role::Materials), "@../Textures/red.png@"));
 }
 
+TEST(MakePackage, CollectsFilesOutOfPackagesInPackages) {
+  const std::string text = kHead + "def Xform \"robot\" { asset x = @/a.usdz[b.usdz[c/red.png]]@ }";
+  const StructuredAsset asset = made(source_of(text, {{"/a.usdz[b.usdz[c/red.png]]", "pixels"}}));
+  EXPECT_EQ(encoded(asset).at("Textures/red.png"), "pixels");
+  expect_idempotent(asset);
+}
+
 TEST(MakePackage, MissingTexturesAreTold) {
   Diagnostics diagnostics;
   const auto asset = make_package(source_of(monolith()), {}, diagnostics);
@@ -365,6 +372,20 @@ TEST(MakePackage, WhatNoTextHoldsIsFoundInTheBytes) {
   ASSERT_FALSE(asset.has_value());
   EXPECT_EQ(asset.error().diagnostic().rule, "structure.differs");
   EXPECT_EQ(asset.error().diagnostic().property, "x");
+}
+
+TEST(MakePackage, PrimsStayWhereRelocatesPutThem) {
+  const StructuredAsset asset = made(source_of(R"(#usda 1.0
+(
+    defaultPrim = "robot"
+    relocates = { </robot/old>: </robot/new> }
+)
+class "part" { def Xform "old" { } }
+def Xform "robot" ( inherits = </part> ) { }
+)"));
+  EXPECT_TRUE(has(text_of(asset, Role::Base), "\"new\""));
+  EXPECT_FALSE(has(text_of(asset, Role::Base), "elocates"));
+  expect_idempotent(asset);
 }
 
 TEST(MakePackage, NeedsADefaultPrim) {

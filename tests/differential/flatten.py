@@ -8,7 +8,7 @@ usage: flatten.py FLATTEN [--suite NAME]... [--layer-stack] [--keep FOLDER] [--s
 
 FLATTEN is the program tests/tools/flatten_files.cpp.
 Suites are those of dump_stage.py; without --suite the three that hold most rules, noted for
-CONFORMANCE.md. Known misses of whole stages are named in flatten_misses.txt: one more or one less
+CONFORMANCE.md. Known misses of whole stages would be named in flatten_misses.txt: one more or less
 fails. Exit 77: the material or OpenUSD is absent.
 """
 
