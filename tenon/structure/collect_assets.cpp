@@ -21,6 +21,15 @@ constexpr int kLastTile = 1100;
 /// A file, or the tiles of a pattern: what replaces the pattern -> bytes.
 using Files = std::map<std::string, std::shared_ptr<const bytes::FileBytes>>;
 
+/// Without folders; of a file in packages within packages, `a.usdz[b.usdz[c/d.png]]`, its own.
+std::string file_name_of(const std::string& asset) {
+  bytes::PackagePath path = bytes::split_package_path(asset);
+  while (!path.inner.empty()) {
+    path = bytes::split_package_path(path.inner);
+  }
+  return fs::path(path.package).filename().string();
+}
+
 class Collector {
  public:
   Collector(const AssetSource& source, Names names, Package& package, Diagnostics& diagnostics)
@@ -75,9 +84,7 @@ class Collector {
       diagnostics_.add(std::move(missing));
       return {};
     }
-    const fs::path inner = bytes::split_package_path(asset).inner;
-    const std::string name = (inner.empty() ? fs::path(asset) : inner).filename().string();
-    const std::string place = free_place(name, files);
+    const std::string place = free_place(file_name_of(asset), files);
     for (const auto& [tile, bytes] : files) {
       package_.files[with_tile(place, tile)].bytes = bytes;
     }
