@@ -135,17 +135,37 @@ class FileChecker {
   void check_owner(const Layer& layer, Role role, Path path, const Ownership& owner,
                    const std::string& what) {
     // Whatever belongs to an engine nobody knows, or to a set of its own, stands with it.
-    if (role != Role::Variant && role != Role::Engine && !owner.may_be_in(role)) {
+    if (role != Role::Variant && role != Role::Engine && !owner.may_be_in(role) &&
+        !is_at_home(layer, role, path.prim(), owner.owner)) {
       add(Severity::Error, "structure.wrong-layer", layer, path,
           what + " does not belong into " + named(role), "move it to " + named(owner.owner));
     }
   }
 
+  /// What a prim that the file defines, or one below it, says of itself: what is written on a
+  /// scene, a joint, a material. Neutral physics does nothing on materials, which may keep it.
+  bool is_at_home(const Layer& layer, Role role, Path prim, Role owner) const {
+    if (owner == Role::Physics) {
+      return known_type(layer, prim) == "Material" &&
+             RoleSet(Role::Base, Role::Materials, Role::Instances).contains(role);
+    }
+    if (owner != Role::Base || role == Role::Geometries) {
+      return false;
+    }
+    for (Path at = prim; at.is_prim(); at = at.parent()) {
+      const Token type = type_of(layer, at);
+      if (!type.empty() && owner_of_type(type).owner == role) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   void check_prim(const Layer& layer, Role role, const Layer::Entry& entry) {
     const Path path = entry.path;
     if (const auto* type = entry.spec.get<Token>(fields::typeName)) {
-      const Path top = path.prefixes().front();
-      if (path != top) {
+      const bool is_asset = path.parent().is_absolute_root() && root_scope(role).empty();
+      if (!is_asset) {
         check_owner(layer, role, path, owner_of_type(*type), "a prim of type " + type->str());
       }
     }
@@ -277,11 +297,12 @@ void each_prim(const stage::Stage& stage, Visit visit) {
   }
 }
 
-bool exists(const stage::Stage& stage, Path target) {
+bool exists(const stage::Stage& stage, Token property, Path target) {
   const stage::Prim prim = stage.prim(target.prim());
   if (prim) {
-    // What is overridden and defined nowhere is not there for anybody who follows the target.
-    return prim.is_defined() || prim.is_pseudo_root();
+    // What is overridden and defined nowhere is not there for anybody who follows the target, but
+    // for point instancers.
+    return prim.is_defined() || prim.is_pseudo_root() || property == "prototypes";
   }
   for (Path at = target.prim(); !at.empty() && !at.is_absolute_root(); at = at.parent()) {
     if (const stage::Prim above = stage.prim(at)) {
@@ -302,7 +323,7 @@ Diagnostics check_variant(const stage::Stage& stage, const std::string& variant)
       const bool relationship = prim.is_relationship(name);
       for (const Path& target :
            relationship ? prim.relationship(name).targets() : prim.attribute(name).connections()) {
-        if (!exists(stage, target)) {
+        if (!exists(stage, name, target)) {
           Diagnostic dangling =
               relationship
                   ? prim.relationship(name).located(Severity::Error, "structure.dangling-target",

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/structure/collect_assets.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "tenon/base/file_finding.h"
@@ -53,7 +55,6 @@ class Collector {
         package_.files.at(name).layer = std::make_shared<layer::Layer>(std::move(layer));
       }
     }
-    std::erase_if(places_, [](const auto& place) { return place.second.empty(); });
     return std::move(places_);
   }
 
@@ -65,26 +66,24 @@ class Collector {
     const auto known = places_.find(asset);
     std::string place = known == places_.end() ? collect(asset, at) : known->second;
     places_[asset] = place;
-    if (place.empty()) {
-      return asset;
-    }
     place = fs::path(place).lexically_relative(folder).generic_string();
     return place.starts_with("../") ? place : "./" + place;
   }
 
   std::string collect(const std::string& asset, Path at) {
     const Files files = read(asset);
+    const std::string place = free_place(file_name_of(asset), files);
     if (files.empty()) {
       Diagnostic missing =
           file_finding(Severity::Warning, "structure.asset-missing",
                        "the asset @" + asset + "@ cannot be read and is not collected", "", 0,
-                       "put the file there, or correct the path");
+                       "put the file to " + place + " in the new folder, or correct the path");
       missing.prim = at.prim().str();
       missing.property = at.name().str();
       diagnostics_.add(std::move(missing));
-      return {};
+      missing_.insert(place);
+      return place;
     }
-    const std::string place = free_place(file_name_of(asset), files);
     for (const auto& [tile, bytes] : files) {
       package_.files[with_tile(place, tile)].bytes = bytes;
     }
@@ -120,6 +119,9 @@ class Collector {
   }
 
   bool is_free(const std::string& place, const Files& files) const {
+    if (missing_.contains(place) || (files.empty() && is_taken(place))) {
+      return false;
+    }
     for (const auto& [tile, bytes] : files) {
       const auto there = package_.files.find(with_tile(place, tile));
       if (there != package_.files.end() && there->second.bytes->text() != bytes->text()) {
@@ -127,6 +129,11 @@ class Collector {
       }
     }
     return true;
+  }
+
+  bool is_taken(const std::string& place) const {
+    return std::any_of(places_.begin(), places_.end(),
+                       [&](const auto& known) { return known.second == place; });
   }
 
   static std::string with_tile(std::string path, const std::string& tile) {
@@ -141,7 +148,8 @@ class Collector {
   Names names_;
   Package& package_;
   Diagnostics& diagnostics_;
-  CollectedAssets places_;  // empty places of what cannot be read
+  CollectedAssets places_;
+  std::set<std::string> missing_;  // places that are kept for what cannot be read
 };
 
 }  // namespace

@@ -15,8 +15,8 @@ using CollectedAssets = std::map<std::string, std::string>;
 
 /// Puts the files that attributes of the package's layers name into its folder "Textures" (modules
 /// of materials into "Materials" with Names::Tutorial), each content once, and makes the paths to
-/// them relative. `<UDIM>` patterns bring all their tiles. What cannot be read stays as it is
-/// named, with the diagnostic "structure.asset-missing".
+/// them relative. `<UDIM>` patterns bring all their tiles. What cannot be read is named where it
+/// would be, with the diagnostic "structure.asset-missing": the asset can be moved all the same.
 CollectedAssets collect_assets(const AssetSource& source, Names names, Package& package,
                                Diagnostics& diagnostics);
 

@@ -115,7 +115,7 @@ const layer::Value* some_value(const Spec& property) {
 }
 
 /// A value of another type than the schema's keeps the type that it was authored with: as text it
-/// could not be read again otherwise.
+/// could not be read again otherwise. Names of types are the current ones: "float3" for "Vec3f".
 void keep_type_of_value(Spec& property) {
   const layer::Value* value = some_value(property);
   const layer::TypeName* named = layer::find_type_name(property.get_or(fields::typeName, Token()));
@@ -124,6 +124,8 @@ void keep_type_of_value(Spec& property) {
   if (named != nullptr && own != nullptr &&
       (named->type != own->type || named->is_array != own->is_array)) {
     property.set(fields::typeName, own->name);
+  } else if (named != nullptr && named->name != property.get_or(fields::typeName, Token())) {
+    property.set(fields::typeName, named->name);
   }
 }
 
@@ -178,11 +180,29 @@ void order_fields(Layer& content) {
   }
 }
 
-/// Prims that are overridden and defined nowhere act on nothing.
+/// Prims that point instancers repeat: often overs, so that they are drawn there alone.
+std::vector<Path> prototypes_of_points(const Layer& content) {
+  std::vector<Path> all;
+  for (const Path& prim : prims_below(content)) {
+    if (const Spec* prototypes = content.find(prim.property(Token("prototypes")))) {
+      const std::vector<Path> targets = targets_of(*prototypes);
+      all.insert(all.end(), targets.begin(), targets.end());
+    }
+  }
+  return all;
+}
+
+/// Other prims that are overridden and defined nowhere act on nothing.
 void drop_undefined(Layer& content, Path robot) {
+  const std::vector<Path> prototypes = prototypes_of_points(content);
+  const auto is_used = [&](Path prim) {
+    return std::any_of(prototypes.begin(), prototypes.end(), [&](Path prototype) {
+      return prototype.has_prefix(prim) || prim.has_prefix(prototype);
+    });
+  };
   for (const Path& prim : prims_below(content)) {
     const Spec* spec = content.find(prim);
-    if (spec != nullptr && prim != robot &&
+    if (spec != nullptr && prim != robot && !is_used(prim) &&
         spec->get_or(fields::specifier, layer::Specifier::Over) == layer::Specifier::Over) {
       remove_tree(content, prim);
     }

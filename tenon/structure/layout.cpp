@@ -257,8 +257,11 @@ std::string_view instance_material_scope(Names names) {
 }
 
 Ownership owner_of_type(Token type) {
-  if (type == "Mesh" || type == "GeomSubset") {
+  if (type == "Mesh") {
     return kGeometry;
+  }
+  if (type == "GeomSubset") {  // where what it is a part of stands: points, for one
+    return {Role::Geometries, RoleSet(Role::Base, Role::Variant)};
   }
   if (type == "Material" || type == "Shader" || type == "NodeGraph") {
     return kMaterial;

@@ -59,7 +59,11 @@ AssetSource source_of(const Package& package) {
   };
   source.open_asset =
       [&package](const std::string& path) -> Result<std::shared_ptr<const bytes::FileBytes>> {
-    return package.files.at(path.substr(identifier_in_package("").size())).bytes;
+    const auto found = package.files.find(path.substr(identifier_in_package("").size()));
+    if (found == package.files.end()) {
+      return Error(ErrorCode::NotFound, path);
+    }
+    return found->second.bytes;
   };
   return source;
 }
@@ -213,6 +217,19 @@ TEST(MakePackage, CollectsTexturesByRelativePaths) {
   EXPECT_TRUE(has(text_of(asset, Role::Materials), "@../Textures/red.png@"));
 }
 
+TEST(MakePackage, WhatIsMissingIsNamedLikeNothingElse) {
+  for (const char* attributes : {"asset a = @/gone/red.png@\nasset b = @/in/red.png@\n",
+                                 "asset b = @/in/red.png@\nasset a = @/gone/red.png@\n"}) {
+    const std::string text = kHead + "def Xform \"robot\" {" + attributes + "}";
+    const StructuredAsset asset = made(source_of(text, {{"/in/red.png", "pixels"}}));
+    const std::string base = text_of(asset, Role::Base);
+    const bool first = has(base, "asset a = @../Textures/red.png@");
+    EXPECT_EQ(encoded(asset).at(first ? "Textures/red_2.png" : "Textures/red.png"), "pixels");
+    EXPECT_TRUE(has(base, first ? "asset b = @../Textures/red_2.png@" : "a = @../Textures/red_2"));
+    expect_idempotent(asset);
+  }
+}
+
 TEST(MakePackage, CollectsFilesOutOfPackagesInPackages) {
   const std::string text = kHead + "def Xform \"robot\" { asset x = @/a.usdz[b.usdz[c/red.png]]@ }";
   const StructuredAsset asset = made(source_of(text, {{"/a.usdz[b.usdz[c/red.png]]", "pixels"}}));
@@ -224,7 +241,8 @@ TEST(MakePackage, MissingTexturesAreTold) {
   Diagnostics diagnostics;
   const auto asset = make_package(source_of(monolith()), {}, diagnostics);
   ASSERT_TRUE(asset.has_value());
-  EXPECT_TRUE(has(text_of(*asset, Role::Materials), "red.png@"));
+  // Where it would be, so that the asset can be moved all the same.
+  EXPECT_TRUE(has(text_of(*asset, Role::Materials), "@../Textures/red.png@"));
   ASSERT_EQ(diagnostics.size(), 1u);
   EXPECT_EQ(diagnostics.items()[0].rule, "structure.asset-missing");
 }
