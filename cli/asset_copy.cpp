@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/asset_copy.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
+#include "cli/output_place.h"
 #include "cli/report.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/formats/open_layer.h"
@@ -102,8 +104,9 @@ std::map<std::string, std::string> AssetLayers::new_places(const std::string& ou
       moves[i] = needed ? 1 : 0;
     }
   }
-  const fs::path target = fs::absolute(output).lexically_normal();
-  const fs::path folder = target.parent_path() / (target.stem().string() + "_layers");
+  const fs::path target = fs::absolute(root_output(output, *layers_[0].layer)).lexically_normal();
+  const fs::path beside = target.parent_path();
+  const fs::path folder = names_folder(output) ? beside : beside / (target.stem() += "_layers");
   const fs::path home = fs::path(layers_[0].layer->identifier()).parent_path();
   std::map<std::string, std::string> places;
   for (std::size_t i = 0; i < layers_.size(); ++i) {
@@ -118,6 +121,22 @@ std::map<std::string, std::string> AssetLayers::new_places(const std::string& ou
     places[identifier] = i == 0 ? target.string() : (folder / name).lexically_normal().string();
   }
   return places;
+}
+
+/// A folder may hold the asset itself, whose layers nobody wanted to be replaced.
+Result<void> AssetLayers::check_apart(const std::map<std::string, std::string>& places) const {
+  for (const auto& [from, to] : places) {
+    const bool is_own = std::any_of(layers_.begin(), layers_.end(), [&](const AssetLayer& part) {
+      std::error_code ignored;
+      return fs::equivalent(part.layer->identifier(), to, ignored);
+    });
+    if (is_own) {
+      return Error(ErrorCode::Invalid, "the result would replace a layer of the asset itself")
+          .in_file(to)
+          .with_fix("name another place, or give --in-place");
+    }
+  }
+  return {};
 }
 
 /// Asset paths of a layer that moves: to copies where there are some, else to the old files.
@@ -162,6 +181,9 @@ Result<std::vector<std::string>> AssetLayers::write_to(const std::string& output
     return std::vector<std::string>{"-"};
   }
   const std::map<std::string, std::string> places = new_places(output);
+  if (names_folder(output)) {
+    TENON_CHECK(check_apart(places));
+  }
   std::vector<std::string> written;
   for (const AssetLayer& part : layers_) {
     const auto place = places.find(part.layer->identifier());
@@ -179,6 +201,18 @@ Result<std::vector<std::string>> AssetLayers::write_to(const std::string& output
     written.push_back(place->second);
   }
   return written;
+}
+
+std::string root_output(const std::string& output, const layer::Layer& root) {
+  if (output == "-" || !names_folder(output)) {
+    return output;
+  }
+  fs::path name = fs::path(root.identifier()).filename();
+  if (bytes::is_in_package(root.identifier())) {
+    const std::string package = bytes::split_package_path(root.identifier()).package;
+    name = fs::path(package).stem() += ".usda";
+  }
+  return (fs::path(output) / name).string();
 }
 
 Result<bool> save_edited(const layer::Layer& layer, const std::string& file) {

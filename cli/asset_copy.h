@@ -33,14 +33,17 @@ class AssetLayers {
   Result<std::vector<std::string>> write_in_place();
   /// Writes the root layer to `output` and, into the folder "<output without its ending>_layers",
   /// every layer that is edited or leads to an edited one; asset paths follow. The files written.
-  /// "-" is standard output, for the root layer as text. Errors: Unsupported for "-" where another
-  /// layer is edited.
+  /// A folder (names_folder) takes them all, each under its own name, where it stands beside the
+  /// root layer. "-" is standard output, for the root layer as text.
+  /// Errors: Unsupported for "-" where another layer is edited; Invalid for a folder where a layer
+  /// of the asset itself would be written over.
   Result<std::vector<std::string>> write_to(const std::string& output);
   /// Files whose comments and layout could not be kept.
   const std::vector<std::string>& without_layout() const { return without_layout_; }
 
  private:
   std::map<std::string, std::string> new_places(const std::string& output) const;
+  Result<void> check_apart(const std::map<std::string, std::string>& places) const;
   void rename(layer::Layer& layer, const std::string& from, const std::string& to,
               const std::map<std::string, std::string>& places) const;
 
@@ -49,6 +52,9 @@ class AssetLayers {
   std::vector<std::vector<std::size_t>> leads_to_;  // (layer_count)
   std::vector<std::string> without_layout_;
 };
+
+/// The file that an output means for the asset: a folder takes it under its own name.
+std::string root_output(const std::string& output, const layer::Layer& root);
 
 /// Writes `layer` to `file`. Where the layer's own file is text and the new one is to be text, its
 /// comments and layout stay but for what changed: the answer is whether they did.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cli/output_place.h"
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/asset/convert_file.h"
@@ -130,13 +131,6 @@ Result<void> write(layer::Layer& layer, const Options& options, Diagnostics& dia
   return formats::save_layer(layer, options.output);
 }
 
-/// The output is a folder: the asset goes straight into Asset Structure 3.0.
-bool wants_structure(const std::string& output) {
-  std::error_code error;
-  return output.ends_with('/') || fs::path(output).extension().empty() ||
-         fs::is_directory(output, error);
-}
-
 /// As `tenon structure` would make of the same asset in a file, proven in the same way.
 Result<void> write_structure(layer::Layer layer, const std::string& folder,
                              Diagnostics& diagnostics) {
@@ -149,7 +143,7 @@ Result<void> write_structure(layer::Layer layer, const std::string& folder,
 Result<ConvertedFile> convert_and_write(const Options& options, Diagnostics& diagnostics) {
   TENON_TRY(const ConvertFileOptions wanted, convert_options(options));
   TENON_TRY(ConvertedFile converted, convert_file(options.input, wanted, diagnostics));
-  if (wants_structure(options.output)) {
+  if (names_folder(options.output)) {  // straight into Asset Structure 3.0
     TENON_CHECK(write_structure(converted.layer, options.output, diagnostics));
   } else {
     TENON_CHECK(write(converted.layer, options, diagnostics));

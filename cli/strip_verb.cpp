@@ -90,16 +90,18 @@ layer::Layer overlay(const layer::Layer& asset, const std::string& output) {
   return over;
 }
 
-Result<void> write_muted(layer::LayerPtr layer, const Options& options) {
-  if (options.in_place) {
+Result<void> write_muted(layer::LayerPtr layer, bool in_place, const std::string& output) {
+  if (in_place) {
     TENON_CHECK(save_edited(*layer, layer->identifier()));
     return {};
   }
-  if (options.output == "-") {
+  if (output == "-") {
     TENON_TRY(const std::string text, formats::encode_layer(*layer, formats::LayerFormat::Text));
     return write_output("-", text);
   }
-  return formats::save_layer(*layer, options.output);
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::absolute(output).parent_path(), error);
+  return formats::save_layer(*layer, output);
 }
 
 int run_mute(Report& report, const Options& options) {
@@ -107,10 +109,18 @@ int run_mute(Report& report, const Options& options) {
   if (!stage) {
     return report.fail(stage.error());
   }
+  const std::string output = root_output(options.output, stage->root_layer());
+  std::error_code ignored;
+  if (std::filesystem::equivalent(stage->root_layer().identifier(), output, ignored)) {
+    return report.fail(Error(ErrorCode::Invalid, "the layer over the asset would replace the asset")
+                           .in_file(output)
+                           .with_fix("name another place, or give --in-place"));
+  }
   layer::Layer layer =
-      options.in_place ? stage->root_layer() : overlay(stage->root_layer(), options.output);
+      options.in_place ? stage->root_layer() : overlay(stage->root_layer(), output);
   const bake::MuteCounts counts = bake::mute_physics(*stage, layer, report.diagnostics);
-  const auto written = write_muted(std::make_shared<layer::Layer>(std::move(layer)), options);
+  const auto written =
+      write_muted(std::make_shared<layer::Layer>(std::move(layer)), options.in_place, output);
   if (!written) {
     return report.fail(written.error());
   }
@@ -133,7 +143,7 @@ void add_strip(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option(
       "-o,--output", options->output,
       "Write the asset without physics here, \"-\" for standard output; layers below it "
-      "that hold physics come into a folder beside it");
+      "that hold physics come into a folder beside it. A folder takes all of them");
   verb.add_flag("--in-place", options->in_place,
                 "Change the asset's own layers; comments and layout of text stay");
   verb.add_flag("--mute", options->mute,
@@ -141,13 +151,14 @@ void add_strip(const Command& parent, const Globals& globals, Chosen& chosen) {
                 "in a layer over the asset (-o) or in its root layer (--in-place)");
   verb.footer(
       "Examples:\n  tenon strip hand.usda -o visual.usda\n"
+      "  tenon strip hand.usda -o bare                   bare/hand.usda and its layers\n"
       "  tenon strip hand.usda --in-place\n"
       "  tenon strip hand.usda --mute -o muted.usda");
   choose(verb, chosen, [&globals, options] {
     Report report(globals, "strip", options->asset.asset);
     if (options->output.empty() != options->in_place) {
       return report.fail(Error(ErrorCode::Invalid, "the result needs a place to be written to")
-                             .with_fix("give either -o FILE or --in-place"));
+                             .with_fix("give either -o FILE, -o FOLDER or --in-place"));
     }
     if (options->output == "-") {
       report.speak_as_text();  // standard output is the layer's

@@ -271,6 +271,21 @@ class Strip(Base):
         self.assertIn('"keep"', flat)
         self.assertIn("displayColor", flat)
 
+    def test_a_folder_takes_the_asset_with_its_layers(self):
+        asset = self.layered()
+        before = {p: p.read_bytes() for p in self.folder.iterdir()}
+        other = self.folder / "bare"
+        self.json("strip", asset, "-o", other)
+        self.assertEqual({p.name for p in other.iterdir()}, {asset.name, "weak.usda"})
+        self.assertEqual(before, {p: p.read_bytes() for p in before})
+        counts = self.json("info", other / asset.name)["physics"]
+        self.assertEqual((counts["bodies"], counts["colliders"], counts["scenes"]), (0, 0, 0))
+        for options in ([], ["--mute"]):
+            own = tenon("strip", asset, "-o", self.folder, *options)
+            self.assertEqual(own.returncode, 2)
+            self.assertIn("--in-place", own.stderr)
+        self.assertEqual(before, {p: p.read_bytes() for p in before})
+
     def test_standard_output_takes_one_layer(self):
         asset = self.layered()
         process = tenon("strip", asset, "-o", "-")
@@ -338,6 +353,12 @@ class Mute(Base):
         self.assertFalse(any(c["enabled"] for c in muted["colliders"]))
         # Back: without the overlay the asset says what it said.
         self.assertEqual(len(self.json("physics", asset)["bodies"]), 1)
+
+    def test_a_folder_takes_the_overlay_by_the_name_of_the_asset(self):
+        asset = self.layered()
+        self.json("strip", asset, "--mute", "-o", f"{self.folder}/muted/")
+        muted = self.json("physics", self.folder / "muted" / asset.name)
+        self.assertEqual(muted["bodies"], [])
 
     def test_in_place_adds_flags_only(self):
         asset = self.layered()

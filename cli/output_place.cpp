@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/output_place.h"
+
+#include <filesystem>
+
+namespace tenon::cli {
+
+bool names_folder(const std::string& output) {
+  std::error_code error;
+  return output.ends_with('/') || std::filesystem::path(output).extension().empty() ||
+         std::filesystem::is_directory(output, error);
+}
+
+}  // namespace tenon::cli
