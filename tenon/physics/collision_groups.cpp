@@ -4,6 +4,7 @@
 
 #include "tenon/physics/filters.h"
 #include "tenon/physics/read_state.h"
+#include "tenon/physics/sample_codes.h"
 #include "tenon/stage/collection.h"
 
 namespace tenon::physics {
@@ -34,15 +35,13 @@ AuthoredGroup read_group(const ReadState& state, const PhysicsPrim& found,
 
 /// S-116: tables of later times where what groups say is animated; relationships cannot be.
 void read_group_states(ReadState& state, const std::vector<std::uint32_t>& prims) {
-  std::vector<double> codes;
+  std::vector<stage::Attribute> flags;
   for (const std::uint32_t i : prims) {
     for (const Token name : {state.tokens.invert_groups, state.tokens.merge_group}) {
-      const std::vector<double> samples = state.walk.prims[i].prim.attribute(name).time_samples();
-      codes.insert(codes.end(), samples.begin(), samples.end());
+      flags.push_back(state.walk.prims[i].prim.attribute(name));
     }
   }
-  std::sort(codes.begin(), codes.end());
-  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  const std::vector<double> codes = sample_codes(flags);
   for (const double code : codes.size() > 1 ? codes : std::vector<double>()) {
     Diagnostics silent;  // what there is to say was said at the start
     const ReadState later = state.at(code, silent);

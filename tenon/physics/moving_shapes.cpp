@@ -11,6 +11,7 @@
 
 #include "tenon/base/physics_limits.h"
 #include "tenon/physics/read_state.h"
+#include "tenon/physics/sample_codes.h"
 #include "tenon/stage/transform_at.h"
 
 namespace tenon::physics {
@@ -70,9 +71,7 @@ class MovingShapes {
     if (track.colliders.empty()) {
       return;
     }
-    std::sort(codes.begin(), codes.end());
-    codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-    read_samples(dense(std::move(codes)), track);
+    read_samples(dense(ascending_codes(std::move(codes))), track);
     state_.scene.shapes_tracks.push_back(std::move(track));
   }
 
@@ -101,9 +100,7 @@ class MovingShapes {
     for (double code = first + step; code < last; code += step) {
       codes.push_back(code);
     }
-    std::sort(codes.begin(), codes.end());
-    codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-    return codes;
+    return ascending_codes(std::move(codes));
   }
 
   /// Reads the colliders and weighs the body at each time, then puts everything back.

@@ -13,6 +13,8 @@
 #include "tenon/physics/accounts.h"
 #include "tenon/physics/mass_properties.h"
 #include "tenon/physics/read_state.h"
+#include "tenon/physics/sample_codes.h"
+#include "tenon/physics/weighed_bodies.h"
 
 namespace tenon::physics {
 namespace {
@@ -68,15 +70,11 @@ class NestingReader {
   }
 
   std::vector<double> codes() const {
-    std::vector<double> codes;
+    std::vector<stage::Attribute> switches;
     for (const std::uint32_t at : switched_) {
-      const std::vector<double> own =
-          state_.walk.prims[at].prim.attribute(state_.tokens.body_enabled).time_samples();
-      codes.insert(codes.end(), own.begin(), own.end());
+      switches.push_back(state_.walk.prims[at].prim.attribute(state_.tokens.body_enabled));
     }
-    std::sort(codes.begin(), codes.end());
-    codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-    return codes;
+    return sample_codes(switches);
   }
 
   std::vector<char> flags(double code) const {
@@ -103,12 +101,7 @@ class NestingReader {
     then.integrals = state_.integrals;
     then.accounts = &accounts;
     then.walk = walk_stage(state_.stage, then.values, state_.readings, stage::Time(code));
-    read_scenes(then);
-    read_bodies(then);
-    read_materials(then);
-    read_colliders(then);
-    bind_materials(then);
-    read_masses(then);
+    read_weighed_bodies(then);
 
     NestingState found;
     found.time = state_.seconds(code);

@@ -12,6 +12,7 @@
 #include <unordered_set>
 
 #include "tenon/physics/read_state.h"
+#include "tenon/physics/weighed_bodies.h"
 
 namespace tenon::physics {
 namespace {
@@ -58,12 +59,7 @@ void append_once(const Diagnostics& found, Diagnostics& diagnostics) {
 }
 
 PhysicsScene read_walked(ReadState& state) {
-  read_scenes(state);
-  read_bodies(state);
-  read_materials(state);
-  read_colliders(state);
-  bind_materials(state);
-  read_masses(state);
+  read_weighed_bodies(state);
   read_joints(state);
   read_drives(state);
   read_actuators(state);
@@ -80,6 +76,15 @@ PhysicsScene read_walked(ReadState& state) {
 }
 
 }  // namespace
+
+void read_weighed_bodies(ReadState& state) {
+  read_scenes(state);
+  read_bodies(state);
+  read_materials(state);
+  read_colliders(state);
+  bind_materials(state);
+  read_masses(state);
+}
 
 PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
                           Diagnostics& diagnostics, Accounts* accounts) {

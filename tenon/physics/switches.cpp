@@ -5,9 +5,9 @@
 // what there is to say about it was said at the start.
 #include "tenon/physics/switches.h"
 
-#include <algorithm>
 
 #include "tenon/physics/joint_limits.h"
+#include "tenon/physics/sample_codes.h"
 #include "tenon/physics/scenes.h"
 
 namespace tenon::physics {
@@ -71,17 +71,12 @@ class SwitchReader {
 
   /// Times of samples of any of these attributes; none when they do not vary.
   static std::vector<double> codes_of(const stage::Prim& prim, const std::vector<Token>& names) {
-    std::vector<double> codes;
+    std::vector<stage::Attribute> animated;
     for (const Token name : names) {
-      const stage::Attribute attribute = prim.attribute(name);
-      if (attribute.is_animated()) {
-        const std::vector<double> samples = attribute.time_samples();
-        codes.insert(codes.end(), samples.begin(), samples.end());
-      }
+      animated.push_back(prim.attribute(name));
     }
-    std::sort(codes.begin(), codes.end());
-    codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-    return codes;
+    std::erase_if(animated, [](const stage::Attribute& at) { return !at.is_animated(); });
+    return sample_codes(animated);
   }
 
   void add_bounds(Index i) {
