@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tenon/engines/mujoco/build.h"
+#include "tenon/engines/mujoco/least_inertia.h"
 #include "tenon/math/inertia.h"
 
 // A free body's MuJoCo frame is its principal inertia frame: the free joint then moves the centre
@@ -12,9 +13,7 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-constexpr double kSmallestMass = 1e-9;     // [kg]; MuJoCo refuses smaller moving bodies at 1e-15
-constexpr double kSmallestMoment = 1e-13;  // [kg m^2]
-constexpr double kDrivenMassRatio = 1e6;   // of a driven body to all others together
+constexpr double kDrivenMassRatio = 1e6;  // of a driven body to all others together
 
 struct Inertial {
   double mass = 1;
@@ -25,14 +24,14 @@ struct Inertial {
 Inertial inertial_of(Build& build, const physics::Body& body) {
   const PrincipalInertia principal = principal_inertia(body.inertia);
   Inertial result{body.mass, {body.center_of_mass, principal.axes}, principal.moments};
-  if (!(result.mass >= kSmallestMass)) {
+  if (!(result.mass >= kLeastMass)) {
     build.report(body.path, "physics:mass", "MuJoCo cannot move a massless body; 1e-9 kg is used");
-    result.mass = kSmallestMass;
+    result.mass = kLeastMass;
   }
   bool raised = false;
   for (double& moment : result.moments.v) {
-    raised = raised || !(moment >= kSmallestMoment);
-    moment = std::isfinite(moment) ? std::max(moment, kSmallestMoment) : kSmallestMoment;
+    raised = raised || !(moment >= kLeastMoment);
+    moment = std::isfinite(moment) ? std::max(moment, kLeastMoment) : kLeastMoment;
   }
   if (raised) {
     build.report(

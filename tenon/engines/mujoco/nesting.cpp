@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "tenon/engines/mujoco/least_inertia.h"
 #include "tenon/math/inertia.h"
 
 namespace tenon::engines::mujoco {
@@ -15,9 +16,6 @@ using physics::CarriedBody;
 using physics::Index;
 using physics::NestingState;
 using physics::PhysicsScene;
-
-constexpr double kNegligibleMass = 1e-9;     // [kg] of a part whose carrier has all the mass
-constexpr double kNegligibleMoment = 1e-13;  // [kg m^2]
 
 std::size_t state_at(const std::vector<NestingState>& states, double time) {
   std::size_t at = 0;
@@ -32,10 +30,10 @@ void set_mass(physics::Body& body, const BodyMass& mass) {
   body.center_of_mass = mass.center_of_mass;
   body.inertia = mass.inertia;
   if (!(mass.mass > 0)) {
-    body.mass = kNegligibleMass;
+    body.mass = kLeastMass;
     body.inertia = {};
     for (std::size_t i = 0; i < 3; ++i) {
-      body.inertia[i][i] = kNegligibleMoment;
+      body.inertia[i][i] = kLeastMoment;
     }
   }
 }
