@@ -217,10 +217,9 @@ std::vector<std::pair<Path, Path>> places_below(const Layer& flat, Path top) {
     if (other == top) {
       continue;
     }
-    Path to = top.child(other.name());
-    for (int i = 1; std::find(taken.begin(), taken.end(), to) != taken.end(); ++i) {
-      to = top.child(Token(other.name().str() + "_" + std::to_string(i)));
-    }
+    const Path to = free_child(top, other.name().str(), [&](Path path) {
+      return std::find(taken.begin(), taken.end(), path) != taken.end();
+    });
     taken.push_back(to);
     places.emplace_back(other, to);
   }

@@ -49,6 +49,14 @@ std::vector<Path> child_prims(const Layer& layer, Path prim) {
   return found;
 }
 
+Path free_child(Path parent, const std::string& name, const std::function<bool(Path)>& is_taken) {
+  Path path = parent.child(Token(name));
+  for (int i = 1; is_taken(path); ++i) {
+    path = parent.child(Token(name + "_" + std::to_string(i)));
+  }
+  return path;
+}
+
 std::vector<Path> properties_of(const Layer& layer, Path prim) {
   std::vector<Path> found;
   for (const Token name : layer.children(prim, fields::properties)) {

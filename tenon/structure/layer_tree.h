@@ -21,6 +21,8 @@ using PathMap = std::function<Path(Path)>;
 std::vector<Path> prims_below(const layer::Layer& layer, Path root = Path::absolute_root());
 /// Child prims of a prim that are in the layer.
 std::vector<Path> child_prims(const layer::Layer& layer, Path prim);
+/// A child of `parent` that nobody is: of that name, or else with a number, `name_1`.
+Path free_child(Path parent, const std::string& name, const std::function<bool(Path)>& is_taken);
 /// Properties of a prim that are in the layer.
 std::vector<Path> properties_of(const layer::Layer& layer, Path prim);
 

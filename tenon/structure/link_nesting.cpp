@@ -219,10 +219,9 @@ class Planner {
   }
 
   Path free_place(Path parent, Token name) {
-    Path place = parent.child(name);
-    for (int i = 1; content_.has(place) || taken_.contains(place); ++i) {
-      place = parent.child(Token(name.str() + "_" + std::to_string(i)));
-    }
+    const Path place = free_child(parent, name.str(), [this](Path path) {
+      return content_.has(path) || taken_.contains(path);
+    });
     taken_.insert(place);
     return place;
   }

@@ -48,6 +48,20 @@ RoleSet roles_in(Role role) {
   }
 }
 
+/// Where a prim stood before the link that it belongs to moved.
+Path first_place(Path prim, const std::map<Path, Path>& links) {
+  Path first = prim;
+  std::size_t depth = 0;
+  for (const auto& [from, to] : links) {
+    const std::size_t depth_of_link = to.prefixes().size();
+    if (prim.has_prefix(to) && depth_of_link > depth) {
+      first = prim.replace_prefix(to, from);
+      depth = depth_of_link;
+    }
+  }
+  return first;
+}
+
 class Maker {
  public:
   Maker(const AssetSource& source, const StructureOptions& options, Diagnostics& diagnostics)
@@ -370,8 +384,9 @@ class Maker {
     PackageFile file;
     file.layer = std::make_shared<Layer>(std::move(layer));
     asset_.package.files[asset_.package.interface] = std::move(file);
+    const std::map<Path, Path> links = asset_.moved;
     for (const auto& [from, to] : moves_->all()) {
-      asset_.moved.emplace(from, to);
+      asset_.moved.emplace(first_place(from, links), to);
     }
   }
 

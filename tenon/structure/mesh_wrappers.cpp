@@ -40,14 +40,6 @@ bool has_only_subsets(const Layer& content, Path mesh) {
                      [&](Path child) { return type_of(content, child) == "GeomSubset"; });
 }
 
-Path free_child(const Layer& content, Path parent, const std::string& name) {
-  Path path = parent.child(Token(name));
-  for (int i = 1; content.has(path); ++i) {
-    path = parent.child(Token(name + "_" + std::to_string(i)));
-  }
-  return path;
-}
-
 }  // namespace
 
 bool holds_materials(const Layer& content, Path prim) {
@@ -119,7 +111,8 @@ void MeshMoves::add(const Layer& united, Path mesh, const std::string& name) {
   const bool top = mesh.parent().is_absolute_root();  // an asset is no instance of its own
   const bool bare = !top && (alone || (has_only_subsets(united, mesh) && !move.body));
   // A wrapper takes part in nothing else: not in being a body, nor a parent of other prims.
-  move.wrapper = bare ? mesh : free_child(united, mesh, name);
+  const auto is_taken = [&](Path path) { return united.has(path); };
+  move.wrapper = bare ? mesh : free_child(mesh, name, is_taken);
   move.mesh = move.wrapper == mesh ? mesh.child(Token(name)) : move.wrapper.child(Token(name));
   moves_.emplace(mesh, std::move(move));
 }

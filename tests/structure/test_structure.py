@@ -401,6 +401,9 @@ class Links(unittest.TestCase):
             self.assertAlmostEqual(found, wanted, places=12)
         joint, = self.scene(flat)["joints"]
         self.assertEqual((joint["body0"], joint["body1"]), ("/r/base", "/r/tip"))
+        moved = tenon("structure", arm, "--dry-run", "--links", "flat")["moved"]
+        self.assertEqual(moved, [{"from": "/r/base/tip", "to": "/r/tip"},
+                                 {"from": "/r/base/tip/m", "to": "/r/tip/m/m"}])
         nested = made(flat, "--links", "nested")
         self.assertEqual(self.body_paths(nested), ["/r/base", "/r/base/tip"])
         self.assertEqual(self.scene(nested)["bodies"][0]["position"], [1, 2, 3])
