@@ -227,9 +227,12 @@ std::vector<std::pair<Path, Path>> places_below(const Layer& flat, Path top) {
 }
 
 /// The content with everything below the default prim.
-Layer below_default_prim(const Layer& flat, Token robot) {
+Layer below_default_prim(const Layer& flat, Token robot, std::map<Path, Path>* moved) {
   const Path top = Path::absolute_root().child(robot);
   const std::vector<std::pair<Path, Path>> places = places_below(flat, top);
+  if (moved != nullptr) {
+    moved->insert(places.begin(), places.end());
+  }
   const PathMap map = [&](Path path) {
     for (const auto& [from, to] : places) {
       if (path.has_prefix(from)) {
@@ -258,7 +261,7 @@ Error no_default_prim(const Layer& root) {
       .with_fix("author defaultPrim with the name of the root prim");
 }
 
-Result<Layer> content_of(const stage::Stage& stage) {
+Result<Layer> content_of(const stage::Stage& stage, std::map<Path, Path>* moved) {
   const stage::Prim robot = stage.default_prim();
   if (!robot) {
     return no_default_prim(stage.root_layer());
@@ -267,7 +270,7 @@ Result<Layer> content_of(const stage::Stage& stage) {
   TENON_CHECK(unfold_instances(flat));
   add_inactive(stage, flat);
   drop_undefined(flat, robot.path());
-  Layer content = below_default_prim(flat, robot.name());
+  Layer content = below_default_prim(flat, robot.name(), moved);
   tidy(content);
   order_fields(content);
   return content;

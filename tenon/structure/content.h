@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+
 #include "tenon/base/result.h"
 #include "tenon/layer/layer.h"
 #include "tenon/stage/stage.h"
@@ -15,9 +17,10 @@ Error no_default_prim(const layer::Layer& root);
 /// What a stage composes to as one layer without arcs: instances unfolded, asset paths absolute
 /// where the asset exists, properties of vendor schemas not custom and as uniform as their schemas
 /// say. A prim that is switched off stands there with its type alone. All is below the default
-/// prim: other prims of the root come below it, and paths follow.
+/// prim: other prims of the root come below it, and paths follow; `moved` gets their old and new
+/// places.
 /// Errors: ErrorCode::NotFound without a default prim; Limit.
-Result<layer::Layer> content_of(const stage::Stage& stage);
+Result<layer::Layer> content_of(const stage::Stage& stage, std::map<Path, Path>* moved = nullptr);
 
 /// Takes out what belongs to engines that are not in `present`, and without Role::Physics what
 /// makes things move and collide: typed prims with all below, API schemas, properties; then scopes

@@ -48,15 +48,15 @@ RoleSet roles_in(Role role) {
   }
 }
 
-/// Where a prim stood before the link that it belongs to moved.
-Path first_place(Path prim, const std::map<Path, Path>& links) {
+/// Where a prim stood before it, or the closest one above it that did, moved.
+Path first_place(Path prim, const std::map<Path, Path>& moves) {
   Path first = prim;
-  std::size_t depth = 0;
-  for (const auto& [from, to] : links) {
-    const std::size_t depth_of_link = to.prefixes().size();
-    if (prim.has_prefix(to) && depth_of_link > depth) {
+  std::size_t closest = 0;
+  for (const auto& [from, to] : moves) {
+    const std::size_t depth = to.prefixes().size();
+    if (prim.has_prefix(to) && depth > closest) {
       first = prim.replace_prefix(to, from);
-      depth = depth_of_link;
+      closest = depth;
     }
   }
   return first;
@@ -78,6 +78,7 @@ class Maker {
     make_other_variants();
     TENON_CHECK(make_files());
     make_interface();
+    list_moves();
     assets_ = collect_assets(source_, options_.names, asset_.package, diagnostics_);
     TENON_CHECK(store_layers(asset_.package));
     TENON_CHECK(prove());
@@ -166,7 +167,7 @@ class Maker {
     for (const SourceView& view : sources_.physics) {
       contents.push_back(&view.content);
     }
-    const LinkMoves moves(unite(contents), options_.links, diagnostics_);
+    const LinkMoves& moves = links_.emplace(unite(contents), options_.links, diagnostics_);
     if (moves.empty()) {
       return {};
     }
@@ -176,7 +177,6 @@ class Maker {
     for (OtherVariant& other : sources_.others) {
       TENON_CHECK(move_links(moves, other.set + "=" + other.variant, other.content));
     }
-    asset_.moved = moves.all();
     return {};
   }
 
@@ -384,9 +384,19 @@ class Maker {
     PackageFile file;
     file.layer = std::make_shared<Layer>(std::move(layer));
     asset_.package.files[asset_.package.interface] = std::move(file);
-    const std::map<Path, Path> links = asset_.moved;
+  }
+
+  /// Below the default prim came what was beside it, then links moved, then meshes got wrappers.
+  void list_moves() {
+    const std::map<Path, Path> links = links_ ? links_->all() : std::map<Path, Path>();
+    for (const auto& [from, to] : links) {
+      asset_.moved.emplace(first_place(from, sources_.moved), to);
+    }
     for (const auto& [from, to] : moves_->all()) {
-      asset_.moved.emplace(first_place(from, links), to);
+      asset_.moved.emplace(first_place(first_place(from, links), sources_.moved), to);
+    }
+    for (const auto& [from, to] : sources_.moved) {
+      asset_.moved.emplace(from, links_ ? links_->moved(to) : to);
     }
   }
 
@@ -482,6 +492,7 @@ class Maker {
   Diagnostics& diagnostics_;
   SourceViews sources_;
   std::vector<View> views_;  // "none" first, then "physics" where it is
+  std::optional<LinkMoves> links_;
   std::optional<MeshMoves> moves_;
   std::set<Path> colliders_;
   KinematicOrder order_;

@@ -60,8 +60,9 @@ struct StructuredAsset {
   Package package;
   std::vector<std::string> physics_variants;  ///< in the order of the interface; "none" first
   std::string selection;                      ///< of the set "Physics"
-  /// Old path -> new path of prims that are not where they were: links that were to be moved, and
-  /// meshes, which got a wrapper. What goes along with a prim above it is not named.
+  /// Old path -> new path of prims that are not where they were: what was beside the default prim,
+  /// links that were to be moved, meshes, which got a wrapper. What goes along with a prim above it
+  /// is not named.
   std::map<Path, Path> moved;
 };
 

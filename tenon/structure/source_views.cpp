@@ -20,9 +20,10 @@ Result<stage::Stage> open_view(const AssetSource& source, const Selections& sele
                             source.open_layer, options);
 }
 
-Result<layer::Layer> view_content(const AssetSource& source, const Selections& selections) {
+Result<layer::Layer> view_content(const AssetSource& source, const Selections& selections,
+                                  std::map<Path, Path>& moved) {
   TENON_TRY(const stage::Stage stage, open_view(source, selections));
-  return content_of(stage);
+  return content_of(stage, &moved);
 }
 
 /// The selected view, else that of the strongest engine.
@@ -149,7 +150,7 @@ Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnosti
     if (!plain) {
       selections[std::string(kPhysicsSet)] = variant;
     }
-    TENON_TRY(layer::Layer content, view_content(source, selections));
+    TENON_TRY(layer::Layer content, view_content(source, selections, views.moved));
     drop_targets_outside(content, robot, said, diagnostics);
     views.physics.push_back({variant, std::move(content)});
   }
@@ -160,7 +161,7 @@ Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnosti
     if (!plain) {
       selections[std::string(kPhysicsSet)] = views.physics[views.chosen].variant;
     }
-    TENON_TRY(layer::Layer content, view_content(source, selections));
+    TENON_TRY(layer::Layer content, view_content(source, selections, views.moved));
     drop_targets_outside(content, robot, said, diagnostics);
     views.others.push_back({set, variant, std::move(content)});
   }

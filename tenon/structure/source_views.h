@@ -35,6 +35,7 @@ struct SourceViews {
   std::vector<std::string> set_order;  ///< names of the other sets
   std::vector<OtherVariant> others;
   Selections other_selections;
+  std::map<Path, Path> moved;  ///< old and new places of what was beside the default prim
 
   const SourceView* find(std::string_view variant) const;
 };

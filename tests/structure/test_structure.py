@@ -220,6 +220,8 @@ def Xform "r" { def Cube "c" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) { } 
 ''')
         self.assertEqual([s["path"] for s in physics_of(made(path), "physics")["scenes"]],
                          ["/r/Scene"])
+        self.assertEqual(tenon("structure", path, "--dry-run")["moved"],
+                         [{"from": "/Scene", "to": "/r/Scene"}])
 
     def test_schemas_that_nobody_knows_go_to_their_vendor(self):  # 10
         path = write("vendor.usda", HEAD + '''
