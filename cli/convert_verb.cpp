@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "cli/output_place.h"
 #include "cli/report.h"
@@ -13,6 +14,9 @@
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset/structure_asset.h"
 #include "tenon/base/text_number.h"
+#include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/file_bytes.h"
+#include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/tenon.h"
@@ -28,9 +32,11 @@ struct Options {
   std::vector<std::string> packages;
   std::string gains;
   std::string schema = "current";
+  std::string physics;
   bool fix_base = false;
   bool float_base = false;
   bool merge_fixed = false;
+  bool scene = false;
   bool flat = false;
 };
 
@@ -86,6 +92,7 @@ Result<ConvertFileOptions> convert_options(const Options& options) {
   result.robot.fix_base = options.fix_base;
   result.robot.float_base = options.float_base;
   result.robot.merge_fixed = options.merge_fixed;
+  result.robot.scene = options.scene;
   result.robot.schema = options.schema == "legacy" ? convert::SchemaGeneration::Legacy
                         : options.schema == "both" ? convert::SchemaGeneration::Both
                                                    : convert::SchemaGeneration::Current;
@@ -120,6 +127,40 @@ void make_relative(layer::Layer& layer, const std::string& output) {
   }
 }
 
+std::string name_of_image(const std::string& identifier) {
+  return bytes::split_package_path(identifier).inner;
+}
+
+/// Images that lie inside mesh files as files of a folder of their own beside the output; asset
+/// paths follow.
+Result<void> write_images(const convert::InnerImages& images, const Options& options,
+                          layer::Layer& layer) {
+  if (images.empty()) {
+    return {};
+  }
+  const fs::path output = fs::absolute(options.output).lexically_normal();
+  const fs::path folder = output.parent_path() / (output.stem().string() + "_images");
+  std::error_code error;
+  fs::create_directories(folder, error);
+  std::map<std::string, std::string> place_of;
+  std::set<std::string> taken;
+  for (const auto& [identifier, contents] : images) {
+    const fs::path name(name_of_image(identifier));
+    std::string free = name.string();
+    for (int i = 2; !taken.insert(free).second; ++i) {
+      free = name.stem().string() + "_" + std::to_string(i) + name.extension().string();
+    }
+    const std::string place = (folder / free).generic_string();
+    TENON_CHECK(write_output(place, contents));
+    place_of.emplace(identifier, place);
+  }
+  formats::rename_assets(layer, [&](const std::string& asset, formats::AssetUse, Path) {
+    const auto place = place_of.find(asset);
+    return place == place_of.end() ? asset : place->second;
+  });
+  return {};
+}
+
 Result<void> write(layer::Layer& layer, const Options& options, Diagnostics& diagnostics) {
   TENON_TRY(const formats::LayerFormat format, formats::layer_format_for(options.output));
   if (format == formats::LayerFormat::Package) {
@@ -132,9 +173,22 @@ Result<void> write(layer::Layer& layer, const Options& options, Diagnostics& dia
 }
 
 /// As `tenon structure` would make of the same asset in a file, proven in the same way.
-Result<void> write_structure(layer::Layer layer, const std::string& folder,
-                             Diagnostics& diagnostics) {
-  const structure::AssetSource source = asset_source(std::move(layer));
+Result<void> write_structure(layer::Layer layer, const convert::InnerImages& images,
+                             const std::string& folder, Diagnostics& diagnostics) {
+  structure::AssetSource source = asset_source(std::move(layer));
+  const auto resolve = source.resolve_asset;
+  source.resolve_asset = [&images, resolve](const std::string& asset, const layer::Layer& anchor) {
+    return images.contains(asset) ? asset : resolve(asset, anchor);
+  };
+  const auto open = source.open_asset;
+  source.open_asset = [&images,
+                       open](const std::string& asset) -> decltype(source.open_asset(asset)) {
+    const auto image = images.find(asset);
+    if (image == images.end()) {
+      return open(asset);
+    }
+    return bytes::FileBytes::own(image->second);
+  };
   TENON_TRY(const structure::StructuredAsset asset,
             structure::make_package(source, {}, diagnostics));
   return structure::write_package(asset.package, folder);
@@ -144,26 +198,48 @@ Result<ConvertedFile> convert_and_write(const Options& options, Diagnostics& dia
   TENON_TRY(const ConvertFileOptions wanted, convert_options(options));
   TENON_TRY(ConvertedFile converted, convert_file(options.input, wanted, diagnostics));
   if (names_folder(options.output)) {  // straight into Asset Structure 3.0
-    TENON_CHECK(write_structure(converted.layer, options.output, diagnostics));
+    TENON_CHECK(write_structure(converted.layer, converted.images, options.output, diagnostics));
   } else {
+    TENON_CHECK(write_images(converted.images, options, converted.layer));
     TENON_CHECK(write(converted.layer, options, diagnostics));
   }
   return converted;
 }
 
+/// The files beside it come first, so that a description never names what is not there.
+Result<void> write_description(const std::string& text,
+                               const std::map<std::string, std::string>& files,
+                               const std::string& output) {
+  const fs::path folder = fs::path(output).parent_path();
+  for (const auto& [name, contents] : files) {
+    std::error_code error;
+    fs::create_directories((folder / name).parent_path(), error);
+    TENON_CHECK(write_output((folder / name).string(), contents));
+  }
+  return write_output(output, text);
+}
+
+OpenOptions open_options(const Options& options) {
+  OpenOptions open;
+  open.physics_variant = options.physics;
+  return open;
+}
+
 /// The other way: an asset's physics as a model of MuJoCo.
 int run_export(Report& report, const Options& options) {
-  auto stage = open_stage(options.input, {}, report.diagnostics);
+  auto stage = open_stage(options.input, open_options(options), report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }
   const physics::PhysicsScene scene =
       physics::read_physics(*stage, read_options(), report.diagnostics);
-  const auto text = export_mjcf(scene, report.diagnostics);
-  if (!text) {
-    return report.fail(text.error());
+  const std::string folder = fs::path(options.output).stem().string() + "_images";
+  const auto model = export_mjcf(*stage, scene, folder, report.diagnostics);
+  if (!model) {
+    return report.fail(model.error());
   }
-  if (const auto written = write_output(options.output, *text); !written) {
+  const auto written = write_description(model->text, model->images, options.output);
+  if (!written) {
     return report.fail(written.error());
   }
   return report.finish(kOk, {{"output", options.output},
@@ -171,19 +247,8 @@ int run_export(Report& report, const Options& options) {
                              {"joints", scene.joints.size()}});
 }
 
-/// The meshes come first, so that a description never names files that are not there.
-Result<void> write_urdf_files(const ExportedUrdf& urdf, const std::string& output) {
-  const fs::path folder = fs::path(output).parent_path();
-  for (const auto& [name, text] : urdf.meshes) {
-    std::error_code error;
-    fs::create_directories((folder / name).parent_path(), error);
-    TENON_CHECK(write_output((folder / name).string(), text));
-  }
-  return write_output(output, urdf.text);
-}
-
 int run_export_urdf(Report& report, const Options& options) {
-  auto stage = open_stage(options.input, {}, report.diagnostics);
+  auto stage = open_stage(options.input, open_options(options), report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }
@@ -192,7 +257,8 @@ int run_export_urdf(Report& report, const Options& options) {
   if (!urdf) {
     return report.fail(urdf.error());
   }
-  if (const auto written = write_urdf_files(*urdf, options.output); !written) {
+  const auto written = write_description(urdf->text, urdf->meshes, options.output);
+  if (!written) {
     return report.fail(written.error());
   }
   report.note("wrote " + shown_path(options.output) + ": " + std::to_string(urdf->links) +
@@ -259,6 +325,10 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
                 "stands still");
   verb.add_flag("--merge-fixed", options->merge_fixed,
                 "Make links on fixed joints parts of the links that hold them");
+  verb.add_option("--physics", options->physics,
+                  "Of an asset: the variant of its set \"Physics\" to make a description of");
+  verb.add_flag("--scene", options->scene,
+                "Keep a MJCF model's world as a PhysicsScene: gravity, time step, options");
   verb.add_flag("--flat", options->flat, "Links side by side, not nested");
   verb.add_option("--gains", options->gains,
                   "K,D: a drive for each joint that follows no other, in N m/rad and N m s/rad "

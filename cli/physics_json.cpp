@@ -49,11 +49,22 @@ Json paths_of(const std::vector<T>& list, const std::vector<Index>& indices) {
   return result;
 }
 
+Json settings_json(const std::vector<physics::MujocoSetting>& settings) {
+  Json rows = Json::object();
+  for (const physics::MujocoSetting& setting : settings) {
+    rows[setting.name] = setting.token.empty() ? Json(setting.numbers) : Json(setting.token);
+  }
+  return rows;
+}
+
 Json scenes_json(const PhysicsScene& scene) {
   Json list = Json::array();
   for (const physics::Scene& s : scene.scenes) {
     Json row{{"path", path_or_null(s.path)}, {"gravity", vector(s.gravity)}};
     row["timeStep"] = s.time_step ? number(*s.time_step) : Json(nullptr);
+    if (s.mujoco) {
+      row["mujoco"] = settings_json(*s.mujoco);
+    }
     list.push_back(std::move(row));
   }
   return list;
@@ -402,6 +413,43 @@ Json tracks_json(const PhysicsScene& scene) {
   return list;
 }
 
+Json place_json(const PhysicsScene& scene, const physics::TendonStop::Place& place) {
+  return {{"path", place.path.str()},
+          {"body", path_of(scene.bodies, place.body)},
+          {"position", vector(place.pose.position)}};
+}
+
+Json tendons_json(const PhysicsScene& scene) {
+  constexpr const char* kKinds[] = {"site", "sphere", "cylinder", "pulley"};
+  Json list = Json::array();
+  for (const physics::Tendon& tendon : scene.tendons) {
+    Json row{{"path", tendon.path.str()},
+             {"joints", paths_of(scene.joints, tendon.joints)},
+             {"coefficients", tendon.coefficients},
+             {"stiffness", number(tendon.stiffness)},
+             {"damping", number(tendon.damping)},
+             {"friction", number(tendon.friction)},
+             {"armature", number(tendon.armature)},
+             {"springLength", tendon.spring_length},
+             {"settings", settings_json(tendon.settings)}};
+    row["range"] = tendon.range ? Json(*tendon.range) : Json(nullptr);
+    row["stops"] = Json::array();
+    for (const physics::TendonStop& stop : tendon.stops) {
+      Json at{{"kind", kKinds[static_cast<std::size_t>(stop.kind)]}};
+      if (stop.kind == physics::TendonStop::Kind::Pulley) {
+        at["divisor"] = stop.divisor;
+      } else {
+        at["place"] = place_json(scene, stop.place);
+        at["radius"] = stop.radius;
+        at["side"] = stop.side ? place_json(scene, *stop.side) : Json(nullptr);
+      }
+      row["stops"].push_back(std::move(at));
+    }
+    list.push_back(std::move(row));
+  }
+  return list;
+}
+
 }  // namespace
 
 Json physics_json(const PhysicsScene& scene) {
@@ -412,6 +460,7 @@ Json physics_json(const PhysicsScene& scene) {
   body["materials"] = materials_json(scene);
   body["joints"] = joints_json(scene);
   body["articulations"] = articulations_json(scene);
+  body["tendons"] = tendons_json(scene);
   body["disabledPairs"] = pairs_json(scene);
   body["animated"] = tracks_json(scene);
   body["notRead"] = Json::array();

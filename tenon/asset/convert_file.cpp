@@ -41,9 +41,10 @@ Result<ConvertedFile> convert_file(const std::string& path, const ConvertFileOpt
   const std::size_t links = model.links.size();
   const std::size_t joints = model.joints.size();
   const std::size_t meshes = model.meshes.size();
+  convert::InnerImages images;
   TENON_TRY(layer::Layer layer,
-            convert::convert_robot(std::move(model), options.robot, diagnostics));
-  return ConvertedFile{std::move(layer), links, joints, meshes};
+            convert::convert_robot(std::move(model), options.robot, diagnostics, &images));
+  return ConvertedFile{std::move(layer), std::move(images), links, joints, meshes};
 }
 
 }  // namespace tenon

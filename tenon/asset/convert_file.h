@@ -20,7 +20,8 @@ struct ConvertFileOptions {
 
 struct ConvertedFile {
   layer::Layer layer;
-  std::size_t links = 0;  ///< of the description
+  convert::InnerImages images;  ///< that asset paths of the layer name, and that are no files
+  std::size_t links = 0;        ///< of the description
   std::size_t joints = 0;
   std::size_t meshes = 0;  ///< files
 };

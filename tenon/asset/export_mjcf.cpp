@@ -3,17 +3,91 @@
 #include "tenon/asset/export_mjcf.h"
 
 #if TENON_WITH_MUJOCO
-#include "tenon/engines/mujoco/write_mjcf.h"
+#include <filesystem>
+#include <set>
+#include <string_view>
+
+#include "tenon/base/file_finding.h"
+#include "tenon/bytes/asset_resolver.h"
+#include "tenon/describe/describe_visuals.h"
+#include "tenon/mjcf/write_model.h"
 #endif
 
 namespace tenon {
 
 #if TENON_WITH_MUJOCO
-Result<std::string> export_mjcf(const physics::PhysicsScene& scene, Diagnostics& diagnostics) {
-  return engines::mujoco::write_mjcf(scene, {}, diagnostics);
+namespace {
+
+/// Copies images, each once.
+class ImageCopier {
+ public:
+  ImageCopier(std::string folder, Diagnostics& diagnostics)
+      : folder_(std::move(folder)), diagnostics_(diagnostics) {}
+
+  /// The name of the copy; empty where there is none.
+  std::string copy(const std::string& file) {
+    const auto [at, is_new] = copies_.try_emplace(file);
+    if (is_new) {
+      at->second = read(file);
+    }
+    return at->second;
+  }
+  std::map<std::string, std::string> take() { return std::move(images_); }
+
+ private:
+  std::string read(const std::string& file) {
+    constexpr std::string_view kPng = "\x89PNG";
+    const auto bytes = resolver_.open(file);
+    if (!bytes || !(*bytes)->text().starts_with(kPng)) {
+      diagnostics_.add(file_finding(Severity::Warning, "mjcf.left-out",
+                                    "the image is no PNG, which is all that MuJoCo reads; it is "
+                                    "left out",
+                                    file, 0, "save the image as PNG"));
+      return {};
+    }
+    const std::string inner = bytes::split_package_path(file).inner;
+    const std::filesystem::path name =
+        std::filesystem::path(inner.empty() ? file : inner).filename();
+    std::string place = folder_ + "/" + name.string();
+    for (int i = 2; images_.contains(place); ++i) {
+      place = folder_ + "/" + name.stem().string() + "_" + std::to_string(i) +
+              name.extension().string();
+    }
+    images_.emplace(place, std::string((*bytes)->text()));
+    return place;
+  }
+
+  bytes::AssetResolver resolver_;
+  std::string folder_;
+  Diagnostics& diagnostics_;
+  std::map<std::string, std::string> copies_;
+  std::map<std::string, std::string> images_;
+};
+
+}  // namespace
+
+Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const physics::PhysicsScene& scene,
+                                 const std::string& folder, Diagnostics& diagnostics) {
+  robot::RobotModel visuals = describe::describe_visuals(stage, scene, diagnostics);
+  ImageCopier copier(folder, diagnostics);
+  for (robot::Material& material : visuals.materials) {
+    if (!material.texture.empty()) {
+      material.texture = copier.copy(material.texture);
+    }
+    for (robot::MaterialImage& image : material.images) {
+      image.file = copier.copy(image.file);
+    }
+    std::erase_if(material.images,
+                  [](const robot::MaterialImage& image) { return image.file.empty(); });
+  }
+  ExportedMjcf result;
+  result.images = copier.take();
+  TENON_TRY(result.text, mjcf::write_model(scene, visuals, result.images, diagnostics));
+  return result;
 }
 #else
-Result<std::string> export_mjcf(const physics::PhysicsScene&, Diagnostics&) {
+Result<ExportedMjcf> export_mjcf(const stage::Stage&, const physics::PhysicsScene&,
+                                 const std::string&, Diagnostics&) {
   return Error(ErrorCode::Missing, "MJCF is written by MuJoCo, which this build is without")
       .with_fix("build with -DTENON_WITH_MUJOCO=ON");
 }

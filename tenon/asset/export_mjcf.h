@@ -2,16 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/physics/physics_scene.h"
+#include "tenon/stage/stage.h"
 
 namespace tenon {
 
-/// A physics scene as text of MuJoCo's own format (engines/mujoco/write_mjcf.h). ErrorCode::Missing
-/// in a build without MuJoCo.
-Result<std::string> export_mjcf(const physics::PhysicsScene& scene, Diagnostics& diagnostics);
+struct ExportedMjcf {
+  std::string text;
+  std::map<std::string, std::string> images;  ///< name as the text has it -> bytes
+};
+
+/// A physics scene, read from `stage`, in MuJoCo's own format, with what is seen of it
+/// (mjcf/write_model.h): images are copied into `folder`, a name relative to the text. What MJCF
+/// has no word for goes to `diagnostics`. ErrorCode::Missing in a build without MuJoCo.
+Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const physics::PhysicsScene& scene,
+                                 const std::string& folder, Diagnostics& diagnostics);
 
 }  // namespace tenon

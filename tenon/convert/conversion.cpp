@@ -59,6 +59,7 @@ Result<layer::Layer> Conversion::run() {
   write_joints();
   write_loops();
   write_mujoco_parts();
+  write_scene();
   write_robot_metadata();
   return builder_.take();
 }
@@ -130,7 +131,7 @@ void follow_leaders(robot::RobotModel& model) {
 }  // namespace
 
 Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions& options,
-                                   Diagnostics& diagnostics) {
+                                   Diagnostics& diagnostics, InnerImages* images) {
   TENON_TRY(robot::KinematicTree tree, robot::kinematic_tree(model));
   robot::mend_model(model, diagnostics);
   if (options.merge_fixed) {
@@ -140,7 +141,12 @@ Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions
   report_unknown_gains(model, options, diagnostics);
   add_drives(model, options);
   follow_leaders(model);
-  return Conversion(model, tree, options, diagnostics).run();
+  Conversion conversion(model, tree, options, diagnostics);
+  TENON_TRY(layer::Layer layer, conversion.run());
+  if (images != nullptr) {
+    *images = conversion.take_images();
+  }
+  return layer;
 }
 
 }  // namespace tenon::convert

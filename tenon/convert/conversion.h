@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <unordered_map>
@@ -53,6 +54,7 @@ class Conversion {
              const ConvertOptions& options, Diagnostics& diagnostics);
 
   Result<layer::Layer> run();
+  InnerImages take_images() { return std::move(images_); }
 
  private:
   // conversion.cpp
@@ -75,7 +77,7 @@ class Conversion {
 
   // shapes.cpp
   void write_shapes(robot::Index link);
-  void write_shape(Path link, const std::string& name, const Pose& pose,
+  Path write_shape(Path link, const std::string& name, const Pose& pose,
                    const robot::Geometry& geometry, std::optional<robot::Index> material,
                    const robot::Collider* collider, NameScope& names);
   Path write_gprim(Path link, Token name, const Pose& pose, const robot::Geometry& geometry);
@@ -106,10 +108,20 @@ class Conversion {
   // mujoco_parts.cpp
   void write_loops();
   void write_mujoco_parts();
-  Path write_tendon(const robot::MujocoTendon& tendon);
   void write_motor(const robot::MujocoActuator& actuator, Path target);
   void write_range(Path prim, const char* type, const std::string& name, const char* limited,
                    const std::optional<std::array<double, 2>>& range);
+
+  // tendons.cpp
+  Path write_tendon(const robot::MujocoTendon& tendon);
+  void write_terms(Path prim, const robot::MujocoTendon& tendon);
+  void write_path(Path prim, const robot::MujocoTendon& tendon);
+  Path site_path(const std::string& name);
+  void write_settings(Path prim, const char* schema,
+                      const std::vector<robot::MujocoSetting>& settings);
+
+  // physics_scene.cpp
+  void write_scene();
 
   // robot_metadata.cpp
   void write_robot_metadata();
@@ -135,6 +147,10 @@ class Conversion {
   std::unordered_map<std::string, robot::Index> mesh_materials_;
   std::vector<std::pair<robot::Surface, Path>> surfaces_;
   std::map<robot::Index, std::vector<MeshValues>> meshes_;
+  InnerImages images_;                       // of the mesh files that were read
+  std::map<std::string, Path> site_paths_;   // by name; the first of that name
+  std::map<std::string, Path> shape_paths_;  // visuals and colliders that have names
+  std::set<Path> mujoco_sites_;
 };
 
 /// The turn from the joint frame of UsdPhysics, whose axis is X, Y or Z, to that of `axis`, and the

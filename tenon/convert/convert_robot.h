@@ -31,11 +31,16 @@ struct ConvertOptions {
   bool flat = false;         ///< links side by side below the robot, not nested
   bool float_base = false;   ///< a root without mass moves too, with a millionth of what it carries
   bool fix_base = false;     ///< the root is held by the world
+  bool scene = false;        ///< the model's world too: gravity, time step, options of MuJoCo
   bool merge_fixed = false;  ///< links on fixed joints become parts of their parents
   SchemaGeneration schema = SchemaGeneration::Current;
   std::optional<Gains> gains;                ///< a drive for each joint that leads
   std::map<std::string, Gains> joint_gains;  ///< by joint, before `gains`
 };
+
+/// Bytes of images that lie inside mesh files (.glb), by the asset path that names them: "<mesh
+/// file>[<name>]", where `name` is a good one for a file.
+using InnerImages = std::map<std::string, std::string>;
 
 /// One layer that holds the robot as a plain asset: metres, kilograms, Z up.
 ///   /<robot>                   Xform, default prim, IsaacRobotAPI, PhysicsArticulationRootAPI
@@ -43,11 +48,14 @@ struct ConvertOptions {
 ///                              visuals and colliders (purpose guide) below
 ///   /<robot>/Physics/<joint>   joints, and actuators where there are gains
 ///   /<robot>/Materials/<name>  materials, visual and physical
+/// With `scene` a PhysicsScene stands among the joints; else what is not usual of the model's world
+/// is listed ("convert.scene").
 /// A link without inertial is no body: at the root it stands still, on a fixed joint it is a frame
 /// (IsaacSiteAPI) of the link that holds it. Mesh files are read; texture paths are those of the
-/// model. Faults that leave something out go to `diagnostics`. Errors: what is no tree (Invalid), a
-/// chain too long to be nested (Limit).
+/// model; those inside of mesh files are in `images` and are no files yet. Faults that leave
+/// something out go to `diagnostics`. Errors: what is no tree (Invalid), a chain too long to be
+/// nested (Limit).
 Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions& options,
-                                   Diagnostics& diagnostics);
+                                   Diagnostics& diagnostics, InnerImages* images = nullptr);
 
 }  // namespace tenon::convert

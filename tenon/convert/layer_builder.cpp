@@ -108,6 +108,35 @@ void LayerBuilder::set_number(Path prim, Token schema, std::string_view property
   set_value(prim, schema, property, std::move(typed));
 }
 
+void LayerBuilder::set_numbers(Path prim, Token schema, std::string_view property,
+                               const std::vector<double>& numbers) {
+  const Token type = declared(schema, property).type_name;
+  if (numbers.empty()) {
+    return;
+  }
+  if (type == "double[]") {
+    set_value(prim, schema, property, Value(numbers));
+  } else if (type == "int[]") {
+    std::vector<std::int32_t> whole;
+    for (const double number : numbers) {
+      whole.push_back(static_cast<std::int32_t>(number));
+    }
+    set_value(prim, schema, property, Value(std::move(whole)));
+  } else if (type == "double3" && numbers.size() == 3) {
+    set_value(prim, schema, property, Value(Vec3d{{numbers[0], numbers[1], numbers[2]}}));
+  } else if (type == "color4f" && numbers.size() == 4) {
+    Vec4f color;
+    for (std::size_t i = 0; i < 4; ++i) {
+      color[i] = static_cast<float>(numbers[i]);
+    }
+    set_value(prim, schema, property, Value(color));
+  } else if (type == "bool") {
+    set_value(prim, schema, property, Value(numbers[0] != 0));
+  } else {
+    set_number(prim, schema, property, numbers[0]);
+  }
+}
+
 void LayerBuilder::set_vector(Path prim, Token schema, std::string_view property,
                               const Vec3d& value) {
   set_value(prim, schema, property, Value(to_float(value)));

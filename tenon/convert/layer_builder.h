@@ -28,6 +28,9 @@ class LayerBuilder {
   // pattern: "drive:angular:physics:stiffness".
   /// A number as a float, a double or an int, as declared.
   void set_number(Path prim, Token schema, std::string_view property, double value);
+  /// The same of arrays, vectors, colours and flags; no value without numbers.
+  void set_numbers(Path prim, Token schema, std::string_view property,
+                   const std::vector<double>& numbers);
   void set_vector(Path prim, Token schema, std::string_view property, const Vec3d& value);
   void set_rotation(Path prim, Token schema, std::string_view property, const Quatd& value);
   void set_value(Path prim, Token schema, std::string_view property, layer::Value value);

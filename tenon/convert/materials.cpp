@@ -15,6 +15,20 @@ Index Conversion::add_material(const mesh::Appearance& appearance) {
   robot::Material material;
   material.name = appearance.name.empty() ? "material" : appearance.name;
   material.texture = appearance.texture;
+  material.tinted = appearance.tinted;
+  material.texture_opacity = appearance.texture_opacity;
+  material.roughness = appearance.roughness;
+  material.metallic = appearance.metallic;
+  for (const mesh::AppearanceImage& image : appearance.images) {
+    constexpr robot::ImageUse kUses[] = {robot::ImageUse::Normal, robot::ImageUse::Occlusion,
+                                         robot::ImageUse::RoughnessMetallic,
+                                         robot::ImageUse::Emission};
+    material.images.push_back({kUses[static_cast<std::size_t>(image.use)], image.file});
+    key += "\n" + std::to_string(static_cast<int>(image.use)) + image.file;
+  }
+  for (const std::optional<float>& factor : {appearance.roughness, appearance.metallic}) {
+    key += "\n" + (factor ? shortest(*factor) : "");
+  }
   if (appearance.color) {
     material.color = to_double(*appearance.color);
     for (std::size_t i = 0; i < 4; ++i) {

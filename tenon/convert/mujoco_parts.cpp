@@ -1,32 +1,16 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-
 #include "tenon/convert/conversion.h"
 
 namespace tenon::convert {
 
 using layer::Value;
-using robot::Index;
 using robot::JointKind;
 using robot::MujocoActuator;
 
 namespace {
 
 using Range = std::optional<std::array<double, 2>>;
-
-/// A relationship names each prim once; numbers say which one stands where.
-std::vector<Path> numbered(const std::vector<Path>& path, std::vector<std::int32_t>& numbers) {
-  std::vector<Path> targets;
-  for (const Path& prim : path) {
-    const auto found = std::find(targets.begin(), targets.end(), prim);
-    numbers.push_back(static_cast<std::int32_t>(found - targets.begin()));
-    if (found == targets.end()) {
-      targets.push_back(prim);
-    }
-  }
-  return targets;
-}
 
 }  // namespace
 
@@ -62,43 +46,6 @@ void Conversion::write_range(Path prim, const char* type, const std::string& nam
     builder_.set_number(prim, type, name + ":max", (*range)[1]);
     builder_.set_number(prim, type, name + ":min", (*range)[0]);
   }
-}
-
-Path Conversion::write_tendon(const robot::MujocoTendon& tendon) {
-  constexpr const char* kType = "MjcTendon";
-  std::vector<Path> joints;
-  for (const Index joint : tendon.joints) {
-    joints.push_back(joints_[joint]);
-  }
-  if (std::any_of(joints.begin(), joints.end(), [](Path joint) { return joint.empty(); })) {
-    report(0, Severity::Warning, "convert.left-out",
-           "the tendon \"" + tendon.name + "\" is about a joint that is no prim; it is left out",
-           "");
-    return {};
-  }
-  const Path path = define_joint(tendon.name, kType);
-  std::vector<std::int32_t> indices;
-  const std::vector<Path> targets = numbered(joints, indices);
-  builder_.set_value(path, kType, "mjc:type", Value(Token("fixed")));
-  builder_.set_targets(path, kType, "mjc:path", targets);
-  builder_.set_value(path, kType, "mjc:path:coef", Value(tendon.coefficients));
-  builder_.set_value(path, kType, "mjc:path:indices", Value(indices));
-  const auto set = [&](const char* name, double value) {
-    if (value != 0) {
-      builder_.set_number(path, kType, name, value);
-    }
-  };
-  set("mjc:armature", tendon.armature);
-  set("mjc:damping", tendon.damping);
-  set("mjc:frictionloss", tendon.friction);
-  set("mjc:stiffness", tendon.stiffness);
-  if (tendon.stiffness != 0) {
-    builder_.set_value(
-        path, kType, "mjc:springlength",
-        Value(std::vector<double>(tendon.spring_length.begin(), tendon.spring_length.end())));
-  }
-  write_range(path, kType, "mjc:range", "mjc:limited", tendon.range);
-  return path;
 }
 
 void Conversion::write_motor(const MujocoActuator& actuator, Path target) {

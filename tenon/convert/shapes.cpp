@@ -86,6 +86,7 @@ const std::vector<MeshValues>& Conversion::mesh_values(Index mesh) {
            scene.error().diagnostic().fix);
     return at->second;
   }
+  images_.merge(scene->images);
   std::vector<Index> materials;
   for (const mesh::Appearance& appearance : scene->appearances) {
     materials.push_back(add_material(appearance));
@@ -178,7 +179,7 @@ void Conversion::write_collider(Path prim, const robot::Collider& collider, bool
   }
 }
 
-void Conversion::write_shape(Path link, const std::string& name, const Pose& pose,
+Path Conversion::write_shape(Path link, const std::string& name, const Pose& pose,
                              const robot::Geometry& geometry, std::optional<Index> material,
                              const robot::Collider* collider, NameScope& names) {
   const auto finish = [&](Path prim, std::optional<Index> own, bool is_mesh) {
@@ -193,11 +194,11 @@ void Conversion::write_shape(Path link, const std::string& name, const Pose& pos
     const Path prim = write_gprim(link, legal, pose, geometry);
     name_prim(prim, legal, name);
     finish(prim, material, false);
-    return;
+    return prim;
   }
   const std::vector<MeshValues>& parts = mesh_values(geometry.mesh);
   if (parts.empty()) {
-    return;
+    return {};
   }
   const bool single = parts.size() == 1;
   const Token legal = names.make(name);
@@ -216,6 +217,7 @@ void Conversion::write_shape(Path link, const std::string& name, const Pose& pos
     write_mesh(prim, part);
     finish(prim, material ? material : part.material, true);
   }
+  return top;
 }
 
 namespace {
@@ -242,12 +244,14 @@ void Conversion::write_shapes(Index link) {
     names.make(links_[model_.joints[joint].child].path.name().view());
   }
   for (const robot::Visual& visual : source.visuals) {
-    write_shape(prim, shape_name(visual.name, visual.geometry, model_), visual.pose,
-                visual.geometry, visual.material, nullptr, names);
+    const Path path = write_shape(prim, shape_name(visual.name, visual.geometry, model_),
+                                  visual.pose, visual.geometry, visual.material, nullptr, names);
+    shape_paths_.emplace(visual.name, path);
   }
   for (const robot::Collider& collider : source.colliders) {
-    write_shape(prim, shape_name(collider.name, collider.geometry, model_), collider.pose,
-                collider.geometry, std::nullopt, &collider, names);
+    const Path path = write_shape(prim, shape_name(collider.name, collider.geometry, model_),
+                                  collider.pose, collider.geometry, std::nullopt, &collider, names);
+    shape_paths_.emplace(collider.name, path);
   }
   for (const robot::Site& site : source.sites) {
     const Token name = names.make(site.name.empty() ? "site" : site.name);
@@ -255,6 +259,7 @@ void Conversion::write_shapes(Index link) {
     name_prim(path, name, site.name);
     write_pose(path, site.pose, {{1, 1, 1}});
     builder_.apply(path, "IsaacSiteAPI");
+    site_paths_.emplace(site.name, path);
   }
 }
 

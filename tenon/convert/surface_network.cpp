@@ -181,6 +181,13 @@ class SurfaceNetwork {
         connect(texture("EmissiveTexture", image.file, true),
                 {"outputs:rgb", "float3", "inputs:emissiveColor", "color3f"});
         break;
+      case ImageUse::RoughnessMetallic: {
+        const Path path = texture("RoughnessMetallicTexture", image.file, false);
+        scale(path, {{1, rough, metal, 1}});
+        connect(path, {"outputs:g", "float", "inputs:roughness", "float"});
+        connect(path, {"outputs:b", "float", "inputs:metallic", "float"});
+        break;
+      }
       case ImageUse::OcclusionRoughnessMetallic: {
         const Path path = texture("OcclusionRoughnessMetallicTexture", image.file, false);
         scale(path, {{1, rough, metal, 1}});

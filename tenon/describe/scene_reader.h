@@ -26,6 +26,7 @@ class SceneReader {
               Diagnostics& diagnostics);
 
   robot::RobotModel run();
+  robot::RobotModel run_visuals();
 
  private:
   /// Where a prim on the walk over the stage belongs.
@@ -75,10 +76,23 @@ class SceneReader {
   void add_site(Place& place);
   void add_visual(const stage::Prim& prim, std::optional<robot::Index> link);
   bool take_mesh(const stage::Prim& prim, robot::Index link, robot::Visual& visual);
+  void take_texture_coordinates(const stage::Prim& prim, bool turned, robot::MeshFile& file);
   bool take_gprim(const stage::Prim& prim, robot::Index link, robot::Visual& visual);
   std::optional<robot::Index> material_of(const stage::Prim& prim);
   void take_color(const stage::Prim& shader, Path material, std::optional<robot::Index>& index);
 
+  // images.cpp
+  std::optional<robot::Index> surface_of(const stage::Prim& material);
+  void take_color_image(const stage::Prim& surface, robot::Material& look);
+  void take_images(const stage::Prim& surface, robot::Material& look);
+  void take_image(const stage::Prim& texture, const std::string& file, bool channel,
+                  robot::ImageUse use, robot::Material& look);
+  void take_emission(const stage::Prim& surface, robot::Material& look);
+  bool take_mapping(const stage::Prim& texture, robot::Material& look);
+
+  bool is_mjcf() const { return format_ == "mjcf"; }
+
+  std::string format_ = "urdf";  // that is to be written
   const stage::Stage& stage_;
   const physics::PhysicsScene& scene_;
   Diagnostics& diagnostics_;

@@ -36,8 +36,9 @@ robot::RobotModel SceneReader::run() {
 void SceneReader::left_out(Path prim, const std::string& why) {
   Diagnostic finding;
   finding.severity = Severity::Warning;
-  finding.rule = "urdf.left-out";
-  finding.message = why + ", which URDF has no word for; it is left out";
+  finding.rule = format_ + ".left-out";
+  finding.message =
+      why + ", which " + (is_mjcf() ? "MJCF" : "URDF") + " has no word for; it is left out";
   finding.prim = prim.str();
   diagnostics_.add(std::move(finding));
 }

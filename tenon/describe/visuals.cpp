@@ -87,7 +87,7 @@ void SceneReader::walk() {
 void SceneReader::enter(Place& place) {
   if (const auto at = links_.find(place.prim.path()); at != links_.end()) {
     place.link = at->second;
-  } else if (place.prim.has_api("IsaacSiteAPI")) {
+  } else if (!is_mjcf() && place.prim.has_api("IsaacSiteAPI")) {
     add_site(place);
   }
   place.seen = place.seen && (place.prim.is_pseudo_root() || !is_unseen(place.prim));
@@ -150,11 +150,52 @@ bool SceneReader::take_mesh(const stage::Prim& prim, Index link, robot::Visual& 
   if (!triangulate(*counts, *indices, points->size(), turned, file.triangles)) {
     return false;
   }
+  if (is_mjcf()) {
+    take_texture_coordinates(prim, turned, file);
+  }
   visual.pose = inverse(poses_[link]) * pose;
   visual.geometry.kind = GeometryKind::Mesh;
   visual.geometry.mesh = static_cast<Index>(robot_.meshes.size());
   robot_.meshes.push_back(std::move(file));
   return true;
+}
+
+/// Of the corners of the triangles, as they were fanned.
+void SceneReader::take_texture_coordinates(const stage::Prim& prim, bool turned,
+                                           robot::MeshFile& file) {
+  const auto st = prim.attribute("primvars:st").get_as<layer::Array<Vec2f>>();
+  const auto counts = prim.attribute("faceVertexCounts").get_as<layer::Array<int>>();
+  const auto points = prim.attribute("faceVertexIndices").get_as<layer::Array<int>>();
+  if (!st) {
+    return;
+  }
+  const auto indices = prim.attribute("primvars:st:indices").get_as<layer::Array<int>>();
+  const Token kind =
+      prim.attribute("primvars:st").metadata("interpolation").get_or<Token>(Token("constant"));
+  const bool by_point = kind == "vertex" || kind == "varying";
+  if (!by_point && !(kind == "faceVarying")) {
+    left_out(prim.path(), "texture coordinates are neither of points nor of corners");
+    return;
+  }
+  std::vector<Vec2f> places;
+  const auto add = [&](std::size_t corner) {
+    auto at = by_point ? static_cast<std::size_t>((*points)[corner]) : corner;
+    if (indices) {
+      at = at < indices->size() && (*indices)[at] >= 0 ? static_cast<std::size_t>((*indices)[at])
+                                                       : st->size();
+    }
+    places.push_back(at < st->size() ? (*st)[at] : Vec2f{});
+  };
+  std::size_t start = 0;
+  for (const int count : *counts) {
+    for (std::size_t k = 2; k < static_cast<std::size_t>(count); ++k) {
+      add(start);
+      add(start + (turned ? k : k - 1));
+      add(start + (turned ? k - 1 : k));
+    }
+    start += static_cast<std::size_t>(count);
+  }
+  file.texture_coordinates = std::move(places);
 }
 
 bool SceneReader::take_gprim(const stage::Prim& prim, Index link, robot::Visual& visual) {
@@ -166,6 +207,13 @@ bool SceneReader::take_gprim(const stage::Prim& prim, Index link, robot::Visual&
     g.kind = GeometryKind::Box;
     for (std::size_t i = 0; i < 3; ++i) {
       g.half_extents[i] = std::fabs(scale[i]) * number(prim, "size") / 2;
+    }
+    return true;
+  }
+  if (is_mjcf() && prim.is_a("Sphere")) {
+    g.kind = GeometryKind::Ellipsoid;
+    for (std::size_t i = 0; i < 3; ++i) {
+      g.half_extents[i] = std::fabs(scale[i]) * number(prim, "radius");
     }
     return true;
   }
@@ -200,6 +248,10 @@ std::optional<Index> SceneReader::material_of(const stage::Prim& prim) {
   const auto [at, is_new] = materials_.emplace(path, std::nullopt);
   const stage::Prim material = prim.prim_at(path);
   if (!is_new || !material) {
+    return at->second;
+  }
+  if (is_mjcf()) {
+    at->second = surface_of(material);
     return at->second;
   }
   const std::size_t said = diagnostics_.size();

@@ -5,6 +5,7 @@
 // programs that read none neither need nor wait for it.
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include <dlfcn.h>
 
@@ -163,17 +164,83 @@ class SceneReader {
         (*look.color)[3] = opacity;
       }
     }
-    if (assimp().material_string(&material, AI_MATKEY_TEXTURE(aiTextureType_DIFFUSE, 0), &text) ==
-        AI_SUCCESS) {
-      const std::string name = text.C_Str();
-      if (name.starts_with('*')) {
-        report("a texture lies inside the mesh file; it is left out",
-               "save the textures as files beside the mesh");
-      } else {
-        look.texture = (std::filesystem::path(path_).parent_path() / name).generic_string();
-      }
+    look.texture = image(material, aiTextureType_BASE_COLOR);
+    if (look.texture.empty()) {
+      look.texture = image(material, aiTextureType_DIFFUSE);
+    }
+    if (look.linear) {
+      take_gltf(material, look);
     }
     return look;
+  }
+
+  /// What glTF 2.0 (3.9) says beside a colour: factors, and images that they multiply.
+  void take_gltf(const aiMaterial& material, Appearance& look) {
+    const Vec4f white{{1, 1, 1, 1}};
+    look.tinted = look.color && !(*look.color == white);
+    aiString text;
+    look.texture_opacity =
+        !look.texture.empty() &&
+        assimp().material_string(&material, "$mat.gltf.alphaMode", 0, 0, &text) == AI_SUCCESS &&
+        std::string_view(text.C_Str()) != "OPAQUE";
+    look.roughness = factor(material, "$mat.roughnessFactor");
+    look.metallic = factor(material, "$mat.metallicFactor");
+    const auto take = [&](aiTextureType type, ImageUse use) {
+      if (std::string file = image(material, type); !file.empty()) {
+        look.images.push_back({use, std::move(file)});
+      }
+    };
+    take(aiTextureType_NORMALS, ImageUse::Normal);
+    take(aiTextureType_LIGHTMAP, ImageUse::Occlusion);
+    take(aiTextureType_UNKNOWN, ImageUse::RoughnessMetallic);
+    take(aiTextureType_EMISSIVE, ImageUse::Emission);
+  }
+
+  static std::optional<float> factor(const aiMaterial& material, const char* key) {
+    float value = 0;
+    unsigned count = 1;
+    const bool found =
+        assimp().material_floats(&material, key, 0, 0, &value, &count) == AI_SUCCESS && count == 1;
+    return found && value >= 0 && value <= 1 ? std::optional(value) : std::nullopt;
+  }
+
+  /// The file of a material's first image of a kind; empty: none.
+  std::string image(const aiMaterial& material, aiTextureType type) {
+    aiString text;
+    if (assimp().material_string(&material, AI_MATKEY_TEXTURE(type, 0), &text) != AI_SUCCESS ||
+        text.length == 0) {
+      return {};
+    }
+    const std::string name = text.C_Str();
+    for (unsigned i = 0; i < scene_.mNumTextures; ++i) {
+      const aiTexture& inside = *scene_.mTextures[i];
+      if (name == "*" + std::to_string(i) || name == inside.mFilename.C_Str()) {
+        return inner_image(inside, i);
+      }
+    }
+    if (name.starts_with('*')) {
+      report("a texture names no image of the file; it is left out", "export the mesh again");
+      return {};
+    }
+    return (std::filesystem::path(path_).parent_path() / name).generic_string();
+  }
+
+  /// An image that lies inside the file, under a name of its own.
+  std::string inner_image(const aiTexture& inside, unsigned number) {
+    const std::string_view hint(inside.achFormatHint);
+    const bool known = hint == "png" || hint == "jpg" || hint == "jpeg";
+    if (inside.mHeight != 0 || inside.pcData == nullptr || !known) {
+      report("the image " + std::to_string(number) + " of the file is no PNG and no JPEG",
+             "export the mesh with such images");
+      return {};
+    }
+    const std::string name = std::filesystem::path(path_).stem().string() + "_" +
+                             std::to_string(number) + "." + std::string(hint);
+    const auto [at, is_new] = result_.images.try_emplace(path_ + "[" + name + "]");
+    if (is_new) {
+      at->second.assign(reinterpret_cast<const char*>(inside.pcData), inside.mWidth);
+    }
+    return at->first;
   }
 
   Result<void> add(const aiMesh& from, const Mat4d& to_root, const aiNode& node) {

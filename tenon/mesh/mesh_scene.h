@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,11 +14,30 @@
 /// its unit of length, unless the format says metres.
 namespace tenon::mesh {
 
+/// What an image says of an appearance, beside its colour.
+enum class ImageUse : std::uint8_t {
+  Normal,             ///< tangent space
+  Occlusion,          ///< in red
+  RoughnessMetallic,  ///< in green and blue
+  Emission,           ///< a colour
+};
+
+struct AppearanceImage {
+  ImageUse use = ImageUse::Normal;
+  std::string file;  ///< as Appearance::texture
+};
+
 struct Appearance {
   std::string name;
   std::optional<Vec4f> color;  ///< red, green, blue, opacity, 0 to 1
   bool linear = false;         ///< the colour is linear (glTF), not as displayed
-  std::string texture;         ///< of the colour: a file, joined to the mesh's folder; empty: none
+  /// Of the colour: a file, joined to the mesh's folder, or one of MeshScene::images; empty: none.
+  std::string texture;
+  bool tinted = false;                  ///< the texture is multiplied with the colour
+  bool texture_opacity = false;         ///< the opacity is that of the texture
+  std::vector<AppearanceImage> images;  ///< each use once
+  std::optional<float> roughness;       ///< 0 to 1, a factor where there is an image
+  std::optional<float> metallic;        ///< 0 to 1, a factor where there is an image
 };
 
 struct PolygonMesh {
@@ -33,6 +53,8 @@ struct PolygonMesh {
 struct MeshScene {
   std::vector<PolygonMesh> meshes;
   std::vector<Appearance> appearances;
+  /// Bytes of images that lie inside the mesh file, as files of theirs, by "<mesh file>[<name>]".
+  std::map<std::string, std::string> images;
 };
 
 }  // namespace tenon::mesh

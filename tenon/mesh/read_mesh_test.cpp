@@ -171,6 +171,37 @@ TEST_F(ReadMesh, ReadsGltfToTheBit) {
   EXPECT_EQ(scene->appearances.at(*scene->meshes[0].appearance).color, (Vec4f{{0, 0, 1, 1}}));
 }
 
+TEST_F(ReadMesh, TakesImagesOfGltfFromInsideAndBeside) {
+  if (!has_assimp()) {
+    GTEST_SKIP() << "assimp is not installed";
+  }
+  // The bytes after "base64," are those of "picture"; nobody looks into them here.
+  std::string text = kGltf;
+  const std::string color = R"("pbrMetallicRoughness":{"baseColorFactor":[0,0,1,1]})";
+  text.replace(text.find(color), color.size(),
+               R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,1,1,1],"roughnessFactor":0.25,
+"baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":1}},
+"normalTexture":{"index":1},"alphaMode":"BLEND")");
+  text.insert(text.rfind('}'), R"(,"textures":[{"source":0},{"source":1}],"images":[
+{"uri":"data:image/png;base64,cGljdHVyZQ=="},{"uri":"rough.png"}])");
+  std::erase(text, '\n');
+  const std::string file = write("t.gltf", text);
+  const auto scene = read_mesh(file, findings_);
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  const Appearance& look = scene->appearances.at(*scene->meshes.at(0).appearance);
+  EXPECT_EQ(look.texture, file + "[t_0.png]");
+  ASSERT_EQ(scene->images.size(), 1u);
+  EXPECT_EQ(scene->images.at(look.texture), "picture");
+  EXPECT_TRUE(look.tinted);
+  EXPECT_TRUE(look.texture_opacity);
+  EXPECT_EQ(look.roughness, 0.25f);
+  ASSERT_EQ(look.images.size(), 2u);
+  EXPECT_EQ(look.images[0].use, ImageUse::Normal);
+  EXPECT_EQ(look.images[1].use, ImageUse::RoughnessMetallic);
+  EXPECT_TRUE(look.images[1].file.ends_with("/rough.png"));
+  EXPECT_TRUE(findings_.empty());
+}
+
 TEST_F(ReadMesh, SaysWhyAMeshCannotBeRead) {
   EXPECT_EQ(read_mesh("/nowhere/x.stl", findings_).error().code(), ErrorCode::NotFound);
   EXPECT_EQ(read_mesh("x.step", findings_).error().code(), ErrorCode::Unsupported);

@@ -45,6 +45,7 @@ robot::RobotModel MjcfReader::run(std::string name) {
   read_actuators();
   read_equalities();
   read_keyframes();
+  read_scene();
   report_left_out();
   return std::move(robot_);
 }

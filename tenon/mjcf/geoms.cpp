@@ -90,8 +90,8 @@ bool MjcfReader::read_shape(int geom, robot::Geometry& geometry) {
 
 void MjcfReader::read_geom(int geom) {
   const auto at = static_cast<std::size_t>(geom);
-  const std::string name = name_of(mjOBJ_GEOM, geom);
   const std::string shown = unique_name(mjOBJ_GEOM, geom, "geom");
+  const std::string name = wrapped_[at] != 0 ? shown : name_of(mjOBJ_GEOM, geom);
   robot::Geometry geometry;
   if (!read_shape(geom, geometry)) {
     report("mjcf.left-out",
@@ -136,6 +136,7 @@ void MjcfReader::read_geom(int geom) {
 }
 
 void MjcfReader::read_geoms() {
+  find_wrapped_geoms();
   for (int geom = 0; geom < model_.ngeom; ++geom) {
     read_geom(geom);
   }

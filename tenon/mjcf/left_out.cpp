@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdlib>
 #include <string_view>
 
+#include "tenon/engines/mujoco/option_fields.h"
 #include "tenon/mjcf/mjcf_reader.h"
 
 namespace tenon::mjcf {
@@ -92,9 +94,19 @@ void MjcfReader::report_left_out() {
     }
     report("mjcf.left-out", std::move(text), Severity::Warning, lines.empty() ? 0 : lines.front());
   }
-  const double* gravity = model_.opt.gravity;
-  if (gravity[0] != 0 || gravity[1] != 0 || gravity[2] != -9.81) {
-    report("mjcf.left-out", "gravity is not that of the earth along -z; it is left out");
+}
+
+/// Gravity, time step and options; the converter decides what becomes of them.
+void MjcfReader::read_scene() {
+  robot::MujocoScene& scene = robot_.mujoco.scene.emplace();
+  std::copy_n(model_.opt.gravity, 3, scene.gravity.begin());
+  scene.time_step = model_.opt.timestep;
+  std::vector<std::string> unnamed;
+  for (const auto& setting : engines::mujoco::settings_of(model_.opt, unnamed)) {
+    scene.settings.push_back({setting.name, setting.numbers, setting.token});
+  }
+  for (const std::string& option : unnamed) {
+    report("mjcf.left-out", "of the options, " + option + " has no name in MuJoCo's schema");
   }
 }
 

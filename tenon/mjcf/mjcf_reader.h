@@ -66,13 +66,20 @@ class MjcfReader {
   bool read_loop(int equality);
 
   // mujoco_parts.cpp
-  void read_tendons();
-  bool read_tendon(int tendon);
   bool read_motor(int actuator);
   std::vector<double> controls_of(int key) const;
   void read_keyframes();
 
+  // tendons.cpp
+  void find_wrapped_geoms();
+  void read_tendons();
+  bool read_tendon(int number);
+  void add_term(int wrap, robot::MujocoTendon& tendon, double& start) const;
+  bool add_stop(int wrap, bool first, robot::MujocoTendon& tendon);
+  void read_tendon_settings(int number, robot::MujocoTendon& tendon) const;
+
   // left_out.cpp
+  void read_scene();
   std::vector<std::uint32_t> lines_of(mjtObj kind) const;
   std::uint32_t line_of(mjtObj kind, int id);
   void report_left_out();
@@ -88,6 +95,7 @@ class MjcfReader {
   std::vector<std::optional<robot::Index>> drive_of_actuator_;  // (nu), the joint that has it
   std::vector<int> motors_;  // MuJoCo's numbers of robot_.mujoco.actuators
   std::vector<std::string> link_names_;
+  std::vector<char> wrapped_;                               // (ngeom), 1 where a tendon goes around
   std::map<mjtObj, std::map<int, std::uint32_t>> lines_;    // by kind and number, as asked for
   std::map<std::array<double, 4>, robot::Index> color_of_;  // materials of plain colours
   std::map<robot::Index, int> texture_of_material_;         // of the colour, where it is a file

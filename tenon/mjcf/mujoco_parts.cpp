@@ -33,46 +33,6 @@ static_assert(mjGAIN_MUSCLE == 2 && mjBIAS_MUSCLE == 2 && mjDYN_MUSCLE == 4);
 
 }  // namespace
 
-/// A sum of joint coordinates; false for a tendon that goes from place to place.
-bool MjcfReader::read_tendon(int number) {
-  const auto at = static_cast<std::size_t>(number);
-  robot::MujocoTendon tendon;
-  tendon.name = unique_name(mjOBJ_TENDON, number, "tendon");
-  for (int i = 0; i < model_.tendon_num[at]; ++i) {
-    const auto wrap = static_cast<std::size_t>(model_.tendon_adr[at] + i);
-    if (model_.wrap_type[wrap] != mjWRAP_JOINT) {
-      return false;
-    }
-    const auto joint = static_cast<std::size_t>(model_.wrap_objid[wrap]);
-    tendon.joints.push_back(joint_of_joint_[joint]);
-    tendon.coefficients.push_back(model_.wrap_prm[wrap]);
-  }
-  tendon.stiffness = model_.tendon_stiffness[at];
-  tendon.damping = model_.tendon_damping[at];
-  tendon.friction = model_.tendon_frictionloss[at];
-  tendon.armature = model_.tendon_armature[at];
-  tendon.spring_length = {model_.tendon_lengthspring[2 * at],
-                          model_.tendon_lengthspring[2 * at + 1]};
-  tendon.range = range_of(model_.tendon_limited[at] != 0, model_.tendon_range + 2 * at);
-  robot_.mujoco.tendons.push_back(std::move(tendon));
-  return true;
-}
-
-void MjcfReader::read_tendons() {
-  tendon_of_tendon_.resize(static_cast<std::size_t>(model_.ntendon));
-  for (int i = 0; i < model_.ntendon; ++i) {
-    const auto index = static_cast<Index>(robot_.mujoco.tendons.size());
-    if (read_tendon(i)) {
-      tendon_of_tendon_[static_cast<std::size_t>(i)] = index;
-    } else {
-      report("mjcf.left-out",
-             "the tendon \"" + unique_name(mjOBJ_TENDON, i, "tendon") +
-                 "\" goes from place to place; it is left out",
-             Severity::Warning, line_of(mjOBJ_TENDON, i));
-    }
-  }
-}
-
 /// False for what is about other things than a joint of one axis or a fixed tendon, or of a kind
 /// that the schema does not have.
 bool MjcfReader::read_motor(int number) {

@@ -126,9 +126,12 @@ TEST_F(ReadMjcf, TakesLoopsTendonsAndKeyframesAndNamesLinesOfTheRest) {
   const auto model = read(
       "<worldbody><body name='a' pos='0 0 1'><joint name='j' axis='0 1 0' ref='30'/><geom "
       "size='0.1'/><site name='s' pos='0 0 0.5'/></body><body name='b'><joint name='k' axis='1 0 "
-      "0'/><geom size='0.1'/><site name='t'/></body></worldbody>\n"
-      "<tendon><fixed name='f'><joint joint='j' coef='2'/></fixed>\n<spatial><site site='s'/><site "
-      "site='t'/></spatial></tendon>"
+      "0'/><geom name='g' size='0.1'/><site name='t' pos='0.3 0 0'/></body></worldbody>\n"
+      "<tendon><fixed name='f' range='0 3' limited='true'><joint joint='j' coef='2'/></fixed>"
+      "<spatial margin='0.1'><site site='s'/><geom geom='g' sidesite='t'/><site site='t'/><pulley "
+      "divisor='3'/>"
+      "<site site='s'/><site site='t'/></spatial>\n"
+      "<spatial name='p'><pulley divisor='2'/><site site='s'/><site site='t'/></spatial></tendon>"
       "<equality><connect body1='a' body2='b' anchor='0 0 0.25'/><weld body1='b' "
       "relpose='0 0 2 1 0 0 0'/></equality>"
       "<actuator><velocity joint='k' kv='3' gear='2' ctrlrange='-1 1'/><position tendon='f'/>"
@@ -141,8 +144,16 @@ TEST_F(ReadMjcf, TakesLoopsTendonsAndKeyframesAndNamesLinesOfTheRest) {
   EXPECT_EQ(model->loops[0].frames[1].position, (Vec3d{{0, 0, 1.25}}));
   EXPECT_EQ(model->loops[1].kind, JointKind::Fixed);
   EXPECT_EQ(model->loops[1].links[1], 0u);  // the world
-  ASSERT_EQ(model->mujoco.tendons.size(), 1u);
+  ASSERT_EQ(model->mujoco.tendons.size(), 2u);
   EXPECT_EQ(model->mujoco.tendons[0].coefficients, std::vector<double>{2});
+  // Coordinates count from where the model stands: 2 x 30 degrees less.
+  EXPECT_NEAR((*model->mujoco.tendons[0].range)[1], 3 - std::numbers::pi / 3, 1e-12);
+  const robot::MujocoTendon& rope = model->mujoco.tendons[1];
+  ASSERT_EQ(rope.stops.size(), 6u);
+  EXPECT_EQ(rope.stops[1].name, "g_collider");
+  EXPECT_EQ(rope.stops[1].side_site, "t");
+  EXPECT_EQ(rope.stops[3].divisor, 3);
+  EXPECT_EQ(rope.settings.at(0).name, "margin");
   ASSERT_EQ(model->mujoco.actuators.size(), 1u);
   EXPECT_EQ(model->mujoco.actuators[0].kind, robot::MujocoActuator::Target::Tendon);
   EXPECT_EQ(model->joints[1].drive->damping, 12);               // kv gear^2
@@ -151,7 +162,7 @@ TEST_F(ReadMjcf, TakesLoopsTendonsAndKeyframesAndNamesLinesOfTheRest) {
   EXPECT_NEAR(model->mujoco.keyframes[0].positions[0], 0.5 - std::numbers::pi / 6, 1e-12);
   EXPECT_EQ(model->mujoco.keyframes[0].controls, (std::vector<double>{0.25, 2}));
   EXPECT_EQ(found(), "mjcf.reference;mjcf.left-out;mjcf.left-out;");
-  EXPECT_EQ(findings_.items()[1].line, 3u);  // the spatial tendon
+  EXPECT_EQ(findings_.items()[1].line, 3u);  // the tendon that begins with a pulley
   EXPECT_EQ(findings_.items()[2].line, 4u);  // the sensor
 }
 
@@ -213,6 +224,22 @@ TEST_F(ReadMjcf, TakesImagesOfMaterialsAndNamesLinesOfTheRest) {
     lines.push_back(finding.line);
   }
   EXPECT_EQ(lines, (std::vector<std::uint32_t>{2, 3, 5, 4}));
+}
+
+TEST_F(ReadMjcf, TakesTheWorldThatTheModelBrings) {
+  const auto model = read(
+      "<option gravity='1 2 3' timestep='0.01' integrator='implicit' iterations='9'>"
+      "<flag contact='disable'/></option><worldbody/>");
+  ASSERT_TRUE(model) << model.error().to_string();
+  const robot::MujocoScene& scene = *model->mujoco.scene;
+  EXPECT_EQ(scene.gravity, (std::array<double, 3>{1, 2, 3}));
+  EXPECT_EQ(scene.time_step, 0.01);
+  ASSERT_EQ(scene.settings.size(), 3u);
+  EXPECT_EQ(scene.settings[0].name, "flag:contact");
+  EXPECT_EQ(scene.settings[0].numbers, std::vector<double>{0});
+  EXPECT_EQ(scene.settings[1].token, "implicit");
+  EXPECT_EQ(scene.settings[2].numbers, std::vector<double>{9});
+  EXPECT_EQ(found(), "");
 }
 
 TEST_F(ReadMjcf, SaysWhatMuJoCoRefuses) {

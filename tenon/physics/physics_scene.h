@@ -14,6 +14,7 @@
 #include "tenon/math/matrix.h"
 #include "tenon/math/transform.h"
 #include "tenon/math/vector.h"
+#include "tenon/physics/mujoco_parts.h"
 
 /// The neutral description of a physics scene: what every engine receives. Plain structs; metres,
 /// kilograms, seconds, radians; world axes as the stage has them. Knows neither USD composition nor
@@ -28,6 +29,8 @@ struct Scene {
   Vec3d gravity;  ///< [m/s^2]
   std::optional<double>
       time_step;  ///< [s] asked for by the asset (Newton, PhysX or MuJoCo scene API)
+  /// What MjcSceneAPI authors, but for the time step; none without that API.
+  std::optional<std::vector<MujocoSetting>> mujoco{};
 };
 
 enum class MassSource : std::uint8_t { Authored, Density, Default };
@@ -422,6 +425,7 @@ struct PhysicsScene {
   Material unbound{{}, 0.5, 0.5, 0, 0};  ///< of colliders without a material (S-71)
   std::vector<Joint> joints;
   std::vector<Articulation> articulations;
+  std::vector<Tendon> tendons;
   CollisionFilter filter;
   std::vector<ScalarTrack> scalar_tracks;
   std::vector<PoseTrack> pose_tracks;

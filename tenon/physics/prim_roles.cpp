@@ -37,6 +37,7 @@ constexpr KindOfType kKinds[] = {
     {"Gprim", PrimKind::OtherGprim},
     {"PointInstancer", PrimKind::PointInstancer},
     {"MjcActuator", PrimKind::Actuator},
+    {"MjcTendon", PrimKind::Tendon},
 };
 
 PrimKind kind_of(const stage::Prim& prim) {

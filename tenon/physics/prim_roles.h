@@ -44,6 +44,7 @@ enum class PrimKind : std::uint8_t {
   OtherGprim,
   PointInstancer,
   Actuator,
+  Tendon,
 };
 
 inline bool is_joint(PrimKind kind) {

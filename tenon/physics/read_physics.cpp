@@ -63,6 +63,7 @@ PhysicsScene read_walked(ReadState& state) {
   read_joints(state);
   read_drives(state);
   read_actuators(state);
+  read_tendons(state);
   read_joint_settings(state);
   read_mimics(state);
   read_articulations(state);

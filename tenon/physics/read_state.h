@@ -124,6 +124,7 @@ void read_masses(ReadState& state);
 void read_joints(ReadState& state);
 void read_drives(ReadState& state);
 void read_actuators(ReadState& state);
+void read_tendons(ReadState& state);
 void read_joint_settings(ReadState& state);
 void read_mimics(ReadState& state);
 void read_articulations(ReadState& state);

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/physics/scenes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "tenon/base/text_number.h"
+#include "tenon/physics/mujoco_settings.h"
 #include "tenon/physics/read_state.h"
 
 namespace tenon::physics {
@@ -84,6 +86,26 @@ std::optional<double> read_time_step(const ReadState& state, const stage::Prim& 
   return std::nullopt;
 }
 
+/// Options and flags of MuJoCo's solver, in the order of their names.
+std::optional<std::vector<MujocoSetting>> read_mujoco(const stage::Prim& prim, const Roles& roles) {
+  if (!roles.has(Api::MjcScene)) {
+    return std::nullopt;
+  }
+  std::vector<MujocoSetting> settings;
+  for (const Token& name : prim.authored_property_names()) {
+    const std::string_view text = name.view();
+    if (!text.starts_with("mjc:option:") && !text.starts_with("mjc:flag:")) {
+      continue;
+    }
+    if (auto setting = read_mujoco_setting(prim, name); setting && text != "mjc:option:timestep") {
+      settings.push_back(*std::move(setting));
+    }
+  }
+  std::sort(settings.begin(), settings.end(),
+            [](const MujocoSetting& a, const MujocoSetting& b) { return a.name < b.name; });
+  return settings;
+}
+
 /// A stage with physics but without a scene gets one with earth's gravity (S-18).
 void add_implicit_scene(ReadState& state) {
   Scene made_up;
@@ -111,6 +133,7 @@ void read_scenes(ReadState& state) {
     scene.path = found.path;
     scene.gravity = read_gravity(state, found.prim, found.roles);
     scene.time_step = read_time_step(state, found.prim, found.roles);
+    scene.mujoco = read_mujoco(found.prim, found.roles);
     state.scene.scenes.push_back(std::move(scene));
   }
   if (prims.empty()) {

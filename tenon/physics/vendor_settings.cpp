@@ -31,7 +31,6 @@ constexpr std::string_view kRead[] = {"mjc:armature",
                                       "mjc:gainType",
                                       "mjc:gear",
                                       "mjc:maxhullvert",
-                                      "mjc:option:timestep",
                                       "mjc:ref",
                                       "mjc:solimp",
                                       "mjc:solref",
@@ -97,7 +96,8 @@ std::string without_instance(std::string_view name) {
 }
 
 bool is_read(std::string_view name) {
-  return std::binary_search(std::begin(kRead), std::end(kRead), without_instance(name));
+  return name.starts_with("mjc:option:") || name.starts_with("mjc:flag:") ||
+         std::binary_search(std::begin(kRead), std::end(kRead), without_instance(name));
 }
 
 bool has_vendor_role(const Roles& roles) {

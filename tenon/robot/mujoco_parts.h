@@ -11,6 +11,13 @@
 /// What MuJoCo's models have beside the tree, in MuJoCo's words and units (SI, radians).
 namespace tenon::robot {
 
+/// A value that MuJoCo's schema has a name for: what stands after "mjc:" ("option:iterations").
+struct MujocoSetting {
+  std::string name;
+  std::vector<double> numbers;  ///< one for each component; flags 0 or 1
+  std::string token;            ///< of settings that are words
+};
+
 /// An actuator that is no spring and damper about a joint.
 struct MujocoActuator {
   enum class Target : std::uint8_t { Joint, Tendon };
@@ -30,17 +37,40 @@ struct MujocoActuator {
   std::optional<std::array<double, 2>> activation_range;
 };
 
-/// A fixed tendon: its length is a sum of joint coordinates.
+/// What the path of a spatial tendon meets.
+struct MujocoTendonStop {
+  enum class Kind : std::uint8_t {
+    Site,    ///< goes through a site
+    Shape,   ///< goes around a sphere or a cylinder
+    Pulley,  ///< ends; what follows is another branch
+  };
+
+  Kind kind = Kind::Site;
+  std::string name;       ///< of the site, or of the visual or collider
+  std::string side_site;  ///< of Shape: where the path goes past; empty: on the shorter way
+  double divisor = 1;     ///< of Pulley: of the length of what follows
+};
+
+/// A tendon: its length is a sum of joint coordinates, or that of a path.
 struct MujocoTendon {
   std::string name;
-  std::vector<std::uint32_t> joints;  ///< (term_count), into RobotModel::joints
-  std::vector<double> coefficients;   ///< (term_count)
+  std::vector<MujocoTendonStop> stops;  ///< of a spatial tendon, which has no joints
+  std::vector<std::uint32_t> joints;    ///< (term_count), into RobotModel::joints
+  std::vector<double> coefficients;     ///< (term_count)
   double stiffness = 0;
   double damping = 0;
   double friction = 0;
   double armature = 0;
   std::array<double, 2> spring_length{-1, -1};  ///< rest; between the two no force
   std::optional<std::array<double, 2>> range;
+  std::vector<MujocoSetting> settings;  ///< others that are not MuJoCo's defaults
+};
+
+/// The world that a model brings along, apart from its bodies.
+struct MujocoScene {
+  std::array<double, 3> gravity{0, 0, -9.81};  ///< [m/s^2]
+  double time_step = 0.002;                    ///< [s]
+  std::vector<MujocoSetting> settings;         ///< options and flags that are not MuJoCo's defaults
 };
 
 /// A state of the whole model. Positions of hinges and slides count from where the bodies stand as
@@ -57,6 +87,7 @@ struct MujocoParts {
   std::vector<MujocoActuator> actuators;
   std::vector<MujocoTendon> tendons;
   std::vector<MujocoKeyframe> keyframes;
+  std::optional<MujocoScene> scene;
 };
 
 }  // namespace tenon::robot

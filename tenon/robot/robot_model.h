@@ -92,6 +92,7 @@ enum class ImageUse : std::uint8_t {
   Normal,  ///< tangent space, 0 to 1 for -1 to 1
   Opacity,
   Emission,                    ///< light that it gives off, a colour
+  RoughnessMetallic,           ///< in green and blue
   OcclusionRoughnessMetallic,  ///< in red, green and blue
 };
 

@@ -8,6 +8,7 @@
 The hand, where ../shared has it, is held to the numbers of its URDF as Python reads them.
 """
 
+import base64
 import json
 import math
 import os
@@ -18,7 +19,8 @@ import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree
-import zlib
+
+import picture
 
 ROOT, TENON = pathlib.Path(sys.argv[1]), sys.argv[2]
 URDF = ROOT / "tests/convert/urdf"
@@ -165,25 +167,13 @@ def check_mujoco_parts(work):
         expect(f"loop: {wanted}", wanted in text, True)
 
 
-def png(path, size):
-    """A picture, red above and blue below."""
-    def chunk(kind, data):
-        return (struct.pack(">I", len(data)) + kind + data +
-                struct.pack(">I", zlib.crc32(kind + data)))
-    rows = b"".join(b"\0" + (b"\xff\0\0" if y < size // 2 else b"\0\0\xff") * size
-                    for y in range(size))
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" +
-                     chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 2, 0, 0, 0)) +
-                     chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
-
-
 def check_mjcf_images(work):
     """Images of materials come along into the package; it is the same after `structure`."""
     source, package, again = work / "images", work / "images_package", work / "images_again"
     (source / "pictures").mkdir(parents=True)
     shutil.copy(ROOT / "tests/convert/mjcf/textured.xml", source)
     for name in ("paint", "rough", "wrapped"):
-        png(source / "pictures" / f"{name}.png", 4)
+        picture.png(source / "pictures" / f"{name}.png", 4)
     code, rules, answer = convert(source / "textured.xml", f"{package}/")
     expect("images: findings", (code, rules), (0, ["mjcf.left-out"] * 3))
     expect("images: lines", [finding["line"] for finding in answer["diagnostics"]], [12, 13, 20])
@@ -198,6 +188,88 @@ def check_mjcf_images(work):
     expect("images: profile", tenon("check", interface, "--profile", "isaac-3.0")[0], 0)
     expect("images: structure", tenon("structure", interface, "-o", again)[0], 0)
     expect("images: same bytes", tree(again), tree(package))
+
+
+def check_mjcf_world(work):
+    """A model's world comes along when asked for; tendons go through, around and over pulleys."""
+    source, package, again = ROOT / "tests/convert/mjcf/world.xml", work / "world", work / "world2"
+    code, rules, answer = convert(source, f"{package}/")
+    expect("world: findings", (code, rules), (0, ["convert.floating", "convert.scene",
+                                                   "mjcf.reference"]))
+    expect("world: listed", any("gravity, timestep, energy, warmstart" in finding["message"]
+                                for finding in answer["diagnostics"]), True)
+    expect("world: no scene", "PhysicsScene" in str(tree(package)), False)
+    code, rules, _ = convert(source, f"{package}/", "--scene")
+    expect("world: findings with it", (code, rules), (0, ["convert.floating", "mjcf.reference"]))
+    interface = package / "world.usda"
+    scene = json.loads(tenon("physics", interface, "--physics", "mujoco", "--json")[1])
+    world = scene["scenes"][0]
+    both, rope = sorted(scene["tendons"], key=lambda tendon: tendon["path"])
+    near("world: step", world["timeStep"], 0.005, 0)
+    for found, wanted in zip(world["gravity"], (0, 1.5, -3.7)):
+        near("world: gravity", found, wanted, 1e-6)
+    expect("world: solver", (world["mujoco"]["option:solver"], world["mujoco"]["flag:warmstart"],
+                             world["mujoco"]["option:wind"]), ("cg", [0], [1, 0, 0.5]))
+    expect("world: path", [stop["kind"] for stop in rope["stops"]],
+           ["site", "cylinder", "site", "sphere", "site", "pulley", "site", "site", "pulley",
+            "site", "site"])
+    expect("world: peg", (rope["stops"][1]["place"]["body"], rope["stops"][1]["radius"]),
+           (None, 0.05))
+    expect("world: side", rope["stops"][3]["side"]["path"].endswith("/upper/beside"), True)
+    expect("world: sum", (both["coefficients"], [j.rsplit("/")[-1] for j in both["joints"]]),
+           ([0.5, -2], ["shoulder", "elbow"]))
+    neutral = json.loads(tenon("physics", interface, "--physics", "physics", "--json")[1])
+    expect("world: neutral", (len(neutral["tendons"]), neutral["scenes"][0].get("mujoco"),
+                              neutral["scenes"][0]["timeStep"]), (0, None, 0.005))
+    expect("world: profile", tenon("check", interface, "--profile", "isaac-3.0")[0], 0)
+    expect("world: structure", tenon("structure", interface, "-o", again)[0], 0)
+    expect("world: same bytes", tree(again), tree(package))
+
+
+def check_gltf_images(work):
+    """Images inside of a mesh file become files of the asset; those beside it come along."""
+    source, package, flat = work / "gltf", work / "gltf_package", work / "gltf_flat.usda"
+    source.mkdir()
+    picture.png(source / "rough.png", 2)
+    picture.png(source / "inner.png", 4)
+    inner = base64.b64encode((source / "inner.png").read_bytes()).decode()
+    points = struct.pack("<15f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1)
+    (source / "part.gltf").write_text(json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1},
+                                    "material": 0}]}],
+        "materials": [{"name": "paint", "pbrMetallicRoughness": {
+            "baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}}}],
+        "textures": [{"source": 0}, {"source": 1}],
+        "images": [{"uri": f"data:image/png;base64,{inner}"}, {"uri": "rough.png"}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                       "min": [0, 0, 0], "max": [1, 1, 0]},
+                      {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36},
+                        {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+        "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64," +
+                     base64.b64encode(points).decode()}]}))
+    (source / "robot.urdf").write_text(
+        '<robot name="r"><link name="a"><inertial><mass value="1"/><inertia ixx="1" ixy="0" '
+        'ixz="0" iyy="1" iyz="0" izz="1"/></inertial><visual><geometry><mesh '
+        'filename="part.gltf"/></geometry></visual></link></robot>')
+    code, rules, _ = convert(source / "robot.urdf", f"{package}/")
+    if rules == ["convert.mesh-unreadable"]:
+        print("without assimp")
+        return
+    expect("gltf: findings", (code, rules), (0, []))
+    files = tree(package)
+    expect("gltf: inner", files.get("Textures/part_0.png"), (source / "inner.png").read_bytes())
+    expect("gltf: beside", files.get("Textures/rough.png"), (source / "rough.png").read_bytes())
+    text = files["payloads/materials.usda"].decode()
+    for wanted in ("inputs:file = @../Textures/part_0.png@", "outputs:g>", "outputs:b>"):
+        expect(f"gltf: {wanted}", wanted in text, True)
+    expect("gltf: as a layer", convert(source / "robot.urdf", flat)[0], 0)
+    expect("gltf: its image", (work / "gltf_flat_images/part_0.png").read_bytes(),
+           (source / "inner.png").read_bytes())
+    expect("gltf: its path", "@./gltf_flat_images/part_0.png@" in flat.read_text(), True)
+    expect("gltf: structure", tenon("structure", flat, "-o", work / "gltf_again")[0], 0)
 
 
 def tree(folder):
@@ -280,6 +352,8 @@ def main():
         check_bad_input(work)
         check_mjcf(work)
         check_mjcf_images(work)
+        check_gltf_images(work)
+        check_mjcf_world(work)
         check_mujoco_parts(work)
         check_hand(work)
     for fault in faults:

@@ -61,6 +61,8 @@ void add_bodies(Build& build);
 void add_joints(Build& build);
 /// Loop joints, distance bounds, cones and mimics.
 void add_equalities(Build& build);
+/// Tendons that the asset has. After add_geoms.
+void add_tendons(Build& build);
 /// Colliders.
 void add_geoms(Build& build);
 /// Drives.

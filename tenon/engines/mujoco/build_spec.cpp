@@ -91,6 +91,7 @@ Result<Model> build_once(Build& build, Begin begin) {
   add_equalities(build);
   add_actuators(build);
   add_geoms(build);
+  add_tendons(build);
   ContactFilter filter = add_filters(build);
   Surfaces surfaces = add_surfaces(build);
   report_unmapped(build);

@@ -175,6 +175,12 @@ void stiffen_ghosts(const Build& build, Model& result) {
 // step that is implicit in position too.
 void choose_integrator(const Build& build, Model& result) {
   mjModel& m = *result.model;
+  const auto& settings = build.scene.scenes.front().mujoco;
+  if (settings && std::any_of(settings->begin(), settings->end(), [](const auto& setting) {
+        return setting.name == "option:integrator";
+      })) {
+    return;  // as the asset asks
+  }
   const double squared_step = build.time_step * build.time_step;
   for (const DriveMap& map : result.drives) {
     if (map.actuator < 0) {

@@ -22,6 +22,9 @@ int filter_pair(const mjModel* m, mjData* d, int a, int b) {
   if (current_filter == nullptr) {
     return previous_filter != nullptr ? previous_filter(m, d, a, b) : (bits_off(m, a, b) ? 1 : 0);
   }
+  if (bits_off(m, a, b)) {
+    return 1;  // what only tendons go around
+  }
   const ContactFilter& filter = *current_filter;
   const auto class_a = static_cast<std::size_t>(filter.geom_class[static_cast<std::size_t>(a)]);
   const auto class_b = static_cast<std::size_t>(filter.geom_class[static_cast<std::size_t>(b)]);

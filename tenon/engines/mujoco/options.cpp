@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "tenon/engines/mujoco/build.h"
+#include "tenon/engines/mujoco/option_fields.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -47,6 +48,23 @@ bool names_own_dof(const physics::Joint& joint, const physics::Limit& limit) {
 
 }  // namespace
 
+namespace {
+
+/// What the asset asks for counts before what is good for robots in general.
+void apply_settings(Build& build) {
+  const physics::Scene& scene = build.scene.scenes.front();
+  if (!scene.mujoco) {
+    return;
+  }
+  for (const physics::MujocoSetting& setting : *scene.mujoco) {
+    if (!apply_setting(setting, build.spec->option)) {
+      build.report(scene.path, "mjc:" + setting.name, "MuJoCo has no such setting or value");
+    }
+  }
+}
+
+}  // namespace
+
 void add_options(Build& build) {
   mjSpec& spec = *build.spec;
   spec.compiler.degree = 0;
@@ -67,6 +85,7 @@ void add_options(Build& build) {
   option.integrator = mjINT_IMPLICITFAST;
   option.cone = mjCONE_ELLIPTIC;
   option.impratio = kFrictionToNormal;
+  apply_settings(build);
   option.disableflags |= mjDSBL_AUTORESET;  // an unstable step is an error, not a silent restart
 }
 

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/engines/mujoco/write_mjcf.h"
 
+#include <algorithm>
+
 #include "tenon/engines/mujoco/build.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/mujoco/option_fields.h"
+#include "tenon/engines/mujoco/writable_model.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -21,6 +25,28 @@ void report_not_mapped(const Model& model, Diagnostics& diagnostics) {
     diagnostics.add(std::move(finding));
   }
 }
+
+/// Where the asset speaks of MuJoCo's options, what it does not say is MuJoCo's default, not that
+/// of simulations.
+Result<void> restore_options(const physics::PhysicsScene& scene, mjSpec& spec) {
+  if (!scene.scenes.front().mujoco) {
+    return {};
+  }
+  mjOption option;
+  mj_defaultOption(&option);
+  option.timestep = spec.option.timestep;
+  std::copy_n(spec.option.gravity, 3, option.gravity);
+  for (const physics::MujocoSetting& setting : *scene.scenes.front().mujoco) {
+    apply_setting(setting, option);  // what it does not take is reported by now
+  }
+  spec.option = option;
+  mjModel* model = nullptr;  // text is made of what was compiled
+  TENON_CHECK(guarded([&] { model = mj_compile(&spec, nullptr); }));
+  mj_deleteModel(model);
+  return {};
+}
+
+}  // namespace
 
 /// MuJoCo answers how much room the text needs where it is given too little.
 Result<std::string> text_of(const mjSpec& spec) {
@@ -44,12 +70,21 @@ Result<std::string> text_of(const mjSpec& spec) {
   return text;
 }
 
-}  // namespace
+Result<SpecAndModel> writable_model(const physics::PhysicsScene& scene,
+                                    const SimulationOptions& options, Diagnostics& diagnostics) {
+  SimulationOptions exact = options;
+  if (exact.time_step <= 0 && !scene.scenes.empty()) {
+    exact.time_step = scene.scenes.front().time_step.value_or(0);
+  }
+  TENON_TRY(SpecAndModel built, build_spec(scene, exact, diagnostics));
+  report_not_mapped(built.model, diagnostics);
+  TENON_CHECK(restore_options(scene, *built.spec));
+  return built;
+}
 
 Result<std::string> write_mjcf(const physics::PhysicsScene& scene, const SimulationOptions& options,
                                Diagnostics& diagnostics) {
-  TENON_TRY(const SpecAndModel built, build_spec(scene, options, diagnostics));
-  report_not_mapped(built.model, diagnostics);
+  TENON_TRY(const SpecAndModel built, writable_model(scene, options, diagnostics));
   return text_of(*built.spec);
 }
 

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The world that a model brings along. A robot is put into scenes that have gravity and a solver of
+// their own, and a second PhysicsScene would be one more world: so none is written unless asked
+// for, and what that leaves out is said.
+#include <cmath>
+
+#include "tenon/convert/conversion.h"
+
+namespace tenon::convert {
+
+using layer::Value;
+
+namespace {
+
+bool is_usual(const robot::MujocoScene& scene) {
+  const robot::MujocoScene usual;
+  return scene.gravity == usual.gravity && scene.time_step == usual.time_step &&
+         scene.settings.empty();
+}
+
+std::string words_of(const robot::MujocoScene& scene) {
+  const robot::MujocoScene usual;
+  std::string words;
+  const auto add = [&](const std::string& word) { words += (words.empty() ? "" : ", ") + word; };
+  if (scene.gravity != usual.gravity) {
+    add("gravity");
+  }
+  if (scene.time_step != usual.time_step) {
+    add("timestep");
+  }
+  for (const robot::MujocoSetting& setting : scene.settings) {
+    add(setting.name.substr(setting.name.find(':') + 1));
+  }
+  return words;
+}
+
+}  // namespace
+
+void Conversion::write_scene() {
+  if (!model_.mujoco.scene) {
+    return;
+  }
+  const robot::MujocoScene& scene = *model_.mujoco.scene;
+  if (!options_.scene) {
+    if (!is_usual(scene)) {
+      report(0, Severity::Warning, "convert.scene",
+             "the model's world is left out, for robots get that of the scene they are put into: " +
+                 words_of(scene),
+             "--scene keeps it as a PhysicsScene");
+    }
+    return;
+  }
+  const Path path = define_joint("PhysicsScene", "PhysicsScene");
+  const Vec3d gravity{{scene.gravity[0], scene.gravity[1], scene.gravity[2]}};
+  const double magnitude = length(gravity);
+  const Vec3d down{{0, 0, -1}};
+  builder_.set_vector(path, "PhysicsScene", "physics:gravityDirection",
+                      magnitude > 0 ? gravity * (1 / magnitude) : down);
+  builder_.set_number(path, "PhysicsScene", "physics:gravityMagnitude", magnitude);
+  builder_.apply(path, "NewtonSceneAPI");
+  const double rate = scene.time_step > 0 ? 1 / scene.time_step : 0;
+  if (rate >= 1 && rate < 1e9 && 1 / std::round(rate) == scene.time_step) {
+    builder_.set_number(path, "NewtonSceneAPI", "newton:timeStepsPerSecond", std::round(rate));
+  }
+  builder_.apply(path, "MjcSceneAPI");
+  builder_.set_number(path, "MjcSceneAPI", "mjc:option:timestep", scene.time_step);
+  write_settings(path, "MjcSceneAPI", scene.settings);
+}
+
+}  // namespace tenon::convert

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "tenon/engines/mujoco/build.h"
+
+/// For those who add to a model before it becomes text (write_mjcf.h).
+namespace tenon::engines::mujoco {
+
+/// The model with the options that text has: those of the asset, not of simulations.
+Result<SpecAndModel> writable_model(const physics::PhysicsScene& scene,
+                                    const SimulationOptions& options, Diagnostics& diagnostics);
+
+/// A compiled model as text.
+Result<std::string> text_of(const mjSpec& spec);
+
+}  // namespace tenon::engines::mujoco

@@ -1,0 +1,293 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/mjcf/write_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include <mujoco/mujoco.h>
+
+#include "tenon/base/file_finding.h"
+#include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/mujoco/model.h"
+#include "tenon/engines/mujoco/writable_model.h"
+#include "tenon/engines/mujoco/write_mjcf.h"
+
+namespace tenon::mjcf {
+namespace {
+
+using engines::mujoco::guarded;
+using engines::mujoco::write_quaternion;
+using engines::mujoco::write_vector;
+using robot::GeometryKind;
+using robot::ImageUse;
+
+constexpr int kVisualGroup = 2;
+constexpr int kColliderGroup = 3;         // hidden by viewers unless asked for
+constexpr std::size_t kFewestPoints = 4;  // of a mesh
+
+/// Files for MuJoCo's compiler that need not be on the disk.
+class Files {
+ public:
+  explicit Files(const std::map<std::string, std::string>& images) {
+    mj_defaultVFS(&files_);
+    for (const auto& [name, bytes] : images) {
+      mj_addBufferVFS(&files_, name.c_str(), bytes.data(), static_cast<int>(bytes.size()));
+    }
+  }
+  Files(const Files&) = delete;
+  Files& operator=(const Files&) = delete;
+  ~Files() { mj_deleteVFS(&files_); }
+  mjVFS* get() { return &files_; }
+
+ private:
+  mjVFS files_;
+};
+
+mjtTextureRole role_of(ImageUse use) {
+  switch (use) {
+    case ImageUse::Occlusion:
+      return mjTEXROLE_OCCLUSION;
+    case ImageUse::Roughness:
+      return mjTEXROLE_ROUGHNESS;
+    case ImageUse::Metallic:
+      return mjTEXROLE_METALLIC;
+    case ImageUse::Normal:
+      return mjTEXROLE_NORMAL;
+    case ImageUse::Opacity:
+      return mjTEXROLE_OPACITY;
+    case ImageUse::Emission:
+      return mjTEXROLE_EMISSIVE;
+    case ImageUse::RoughnessMetallic:
+    case ImageUse::OcclusionRoughnessMetallic:
+      return mjTEXROLE_ORM;
+  }
+  return mjTEXROLE_USER;
+}
+
+class VisualWriter {
+ public:
+  VisualWriter(const robot::RobotModel& visuals, const engines::mujoco::Model& model, mjSpec& spec,
+               Diagnostics& diagnostics)
+      : visuals_(visuals), model_(model), spec_(spec), diagnostics_(diagnostics) {}
+
+  void run(const physics::PhysicsScene& scene) {
+    for (mjsElement* at = mjs_firstElement(&spec_, mjOBJ_GEOM); at != nullptr;
+         at = mjs_nextElement(&spec_, at)) {
+      mjs_asGeom(at)->group = kColliderGroup;
+    }
+    for (const robot::Material& material : visuals_.materials) {
+      add_material(material);
+    }
+    for (std::size_t i = 0; i < visuals_.links.size(); ++i) {
+      const bool is_body = i < scene.bodies.size();
+      mjsBody* body = mjs_findBody(&spec_, is_body ? scene.bodies[i].path.str().c_str() : "world");
+      const Pose frame = is_body ? inverse(model_.bodies[i].engine_frame) : Pose{};
+      for (const robot::Visual& visual : visuals_.links[i].visuals) {
+        add_visual(body, frame, visual);
+      }
+    }
+  }
+
+ private:
+  void report(const std::string& message) {
+    diagnostics_.add(file_finding(Severity::Warning, "mjcf.left-out", message, "", 0));
+  }
+
+  std::string texture_of(const robot::Material& material, const std::string& file, bool color) {
+    const bool mirrored_u = material.texture_scale[0] < 0;
+    const bool mirrored_v = material.texture_scale[1] < 0;
+    const std::string name =
+        file + (mirrored_u ? ".u" : "") + (mirrored_v ? ".v" : "") + (color ? "" : ".data");
+    if (mjs_findElement(&spec_, mjOBJ_TEXTURE, name.c_str()) == nullptr) {
+      mjsTexture* texture = mjs_addTexture(&spec_, nullptr);
+      mjs_setName(texture->element, name.c_str());
+      texture->type = mjTEXTURE_2D;
+      mjs_setString(texture->file, file.c_str());
+      texture->hflip = mirrored_u;
+      texture->vflip = mirrored_v;
+      texture->colorspace =
+          color && !material.texture_linear ? mjCOLORSPACE_SRGB : mjCOLORSPACE_LINEAR;
+      if (color && material.texture_opacity) {
+        texture->nchannel = 4;
+      }
+    }
+    return name;
+  }
+
+  /// Rows of images are counted from the top, so that repetitions begin there.
+  void check_offset(const robot::Material& material) {
+    const double scale = material.texture_scale[1];
+    const double usual = scale < 0 ? -scale : 1 - scale;
+    const auto off = [](double a) { return std::fabs(a - std::round(a)) > 1e-5; };
+    if (off(material.texture_offset[1] - usual) || off(material.texture_offset[0])) {
+      report("the images of material \"" + material.name + "\" are moved, which is left out");
+    }
+  }
+
+  void add_material(const robot::Material& material) {
+    mjsMaterial* result = mjs_addMaterial(&spec_, nullptr);
+    mjs_setName(result->element, material.name.c_str());
+    const Vec4d color = material.color.value_or(Vec4d{{1, 1, 1, 1}});
+    for (std::size_t k = 0; k < 4; ++k) {
+      result->rgba[k] = static_cast<float>(color[k]);
+    }
+    result->emission = static_cast<float>(material.emission);
+    result->roughness = static_cast<float>(material.roughness.value_or(-1));
+    result->metallic = static_cast<float>(material.metallic.value_or(-1));
+    if (material.texture.empty() && material.images.empty()) {
+      return;
+    }
+    check_offset(material);
+    for (std::size_t k = 0; k < 2; ++k) {
+      result->texrepeat[k] = static_cast<float>(std::fabs(material.texture_scale[k]));
+    }
+    if (!material.texture.empty()) {
+      mjs_setInStringVec(result->textures,
+                         material.texture_opacity ? mjTEXROLE_RGBA : mjTEXROLE_RGB,
+                         texture_of(material, material.texture, true).c_str());
+    }
+    for (const robot::MaterialImage& image : material.images) {
+      const bool is_color = image.use == ImageUse::Emission;
+      mjs_setInStringVec(result->textures, role_of(image.use),
+                         texture_of(material, image.file, is_color).c_str());
+    }
+  }
+
+  bool set_shape(const robot::Geometry& from, mjsGeom& geom) {
+    const double h = from.half_height;
+    switch (from.kind) {
+      case GeometryKind::Box:
+        geom.type = mjGEOM_BOX;
+        write_vector(geom.size, from.half_extents);
+        return true;
+      case GeometryKind::Sphere:
+        geom.type = mjGEOM_SPHERE;
+        write_vector(geom.size, {{from.radius, 0, 0}});
+        return true;
+      case GeometryKind::Ellipsoid:
+        geom.type = mjGEOM_ELLIPSOID;
+        write_vector(geom.size, from.half_extents);
+        return true;
+      case GeometryKind::Cylinder:
+        geom.type = mjGEOM_CYLINDER;
+        write_vector(geom.size, {{from.radius, h, 0}});
+        return true;
+      case GeometryKind::Capsule:
+        geom.type = mjGEOM_CAPSULE;
+        write_vector(geom.size, {{from.radius, h, 0}});
+        return true;
+      case GeometryKind::Mesh:
+        geom.type = mjGEOM_MESH;
+        mjs_setString(geom.meshname, mesh_of(from.mesh).c_str());
+        return true;
+      case GeometryKind::Plane:
+        break;
+    }
+    return false;
+  }
+
+  /// Meshes that are alike are one.
+  std::string mesh_of(robot::Index number) {
+    const robot::MeshFile& mesh = visuals_.meshes[number];
+    for (std::size_t i = 0; i < made_.size(); ++i) {
+      const robot::MeshFile& other = visuals_.meshes[made_[i]];
+      if (mesh.points == other.points && mesh.triangles == other.triangles &&
+          mesh.texture_coordinates == other.texture_coordinates) {
+        return "visual_" + std::to_string(i);
+      }
+    }
+    const std::string name = "visual_" + std::to_string(made_.size());
+    made_.push_back(number);
+    mjsMesh* result = mjs_addMesh(&spec_, nullptr);
+    mjs_setName(result->element, name.c_str());
+    result->inertia = mjMESH_INERTIA_SHELL;  // it may be open or flat
+    set_faces(mesh, *result);
+    return name;
+  }
+
+  /// MuJoCo's text has one place in images for each point, so points stand for each of theirs.
+  static void set_faces(const robot::MeshFile& mesh, mjsMesh& result) {
+    std::vector<float> points;
+    std::vector<float> places;
+    std::vector<int> faces;
+    std::map<std::tuple<int, float, float>, int> known;  // the point, then its place
+    for (std::size_t corner = 0; corner < 3 * mesh.triangles.size(); ++corner) {
+      const int point = mesh.triangles[corner / 3][corner % 3];
+      const bool has_place = !mesh.texture_coordinates.empty();
+      const Vec2f st = has_place ? mesh.texture_coordinates[corner] : Vec2f{};
+      const auto [at, is_new] =
+          known.try_emplace({point, st[0], st[1]}, static_cast<int>(points.size() / 3));
+      faces.push_back(at->second);
+      if (is_new) {
+        const Vec3f& p = mesh.points[static_cast<std::size_t>(point)];
+        points.insert(points.end(), p.v.begin(), p.v.end());
+        places.insert(places.end(), {st[0], 1 - st[1]});
+      }
+    }
+    mjs_setFloat(result.uservert, points.data(), static_cast<int>(points.size()));
+    mjs_setInt(result.userface, faces.data(), static_cast<int>(faces.size()));
+    if (!mesh.texture_coordinates.empty()) {
+      mjs_setFloat(result.usertexcoord, places.data(), static_cast<int>(places.size()));
+    }
+  }
+
+  void add_visual(mjsBody* body, const Pose& frame, const robot::Visual& visual) {
+    const robot::Geometry& geometry = visual.geometry;
+    const bool is_mesh = geometry.kind == GeometryKind::Mesh;
+    const bool small = is_mesh && (visuals_.meshes[geometry.mesh].points.size() < kFewestPoints ||
+                                   visuals_.meshes[geometry.mesh].triangles.empty());
+    if (body == nullptr || small || geometry.kind == GeometryKind::Plane) {
+      report("the shape \"" + visual.name + "\" has too few points or is a plane; it is left out");
+      return;
+    }
+    mjsGeom* geom = mjs_addGeom(body, nullptr);
+    set_shape(geometry, *geom);
+    const Pose pose = frame * visual.pose;
+    write_vector(geom->pos, pose.position);
+    write_quaternion(geom->quat, normalized(pose.orientation));
+    geom->contype = 0;
+    geom->conaffinity = 0;
+    geom->group = kVisualGroup;
+    geom->mass = 0;
+    if (visual.material) {
+      mjs_setString(geom->material, visuals_.materials[*visual.material].name.c_str());
+    }
+  }
+
+  const robot::RobotModel& visuals_;
+  const engines::mujoco::Model& model_;
+  mjSpec& spec_;
+  Diagnostics& diagnostics_;
+  std::vector<robot::Index> made_;  // meshes, by the number in their names
+};
+
+}  // namespace
+
+Result<std::string> write_model(const physics::PhysicsScene& scene,
+                                const robot::RobotModel& visuals,
+                                const std::map<std::string, std::string>& images,
+                                Diagnostics& diagnostics) {
+  TENON_TRY(engines::mujoco::SpecAndModel built,
+            engines::mujoco::writable_model(scene, {}, diagnostics));
+  Diagnostics seen;
+  VisualWriter(visuals, built.model, *built.spec, seen).run(scene);
+  Files files(images);
+  mjModel* compiled = nullptr;
+  TENON_CHECK(guarded([&] { compiled = mj_compile(built.spec.get(), files.get()); }));
+  if (compiled != nullptr) {
+    mj_deleteModel(compiled);
+    diagnostics.append(seen);
+    return engines::mujoco::text_of(*built.spec);
+  }
+  diagnostics.add(file_finding(
+      Severity::Warning, "mjcf.left-out",
+      std::string("what is seen is left out, MuJoCo refuses it: ") + mjs_getError(built.spec.get()),
+      "", 0));
+  Diagnostics again;
+  return engines::mujoco::write_mjcf(scene, {}, again);
+}
+
+}  // namespace tenon::mjcf

@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""A model's world and tendons through USD and back: the same for MuJoCo.
+
+    mjcf_round_trip.py ROOT TENON
+
+MuJoCo's reader is that of tests/robot_requirements.txt; without it the test skips.
+"""
+
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import picture
+
+ROOT, TENON = pathlib.Path(sys.argv[1]), sys.argv[2]
+ROUNDING = 5e-6  # relative, of the six digits of MuJoCo's text
+
+OPTIONS = ("timestep", "impratio", "tolerance", "ls_tolerance", "noslip_tolerance", "gravity",
+           "wind", "magnetic", "density", "viscosity", "o_margin", "o_solref", "o_solimp",
+           "o_friction", "integrator", "cone", "jacobian", "solver", "iterations",
+           "ls_iterations", "noslip_iterations", "ccd_iterations", "disableflags",
+           "enableflags", "disableactuator")
+TENDON = ("stiffness", "damping", "frictionloss", "armature", "margin", "width", "limited",
+          "lengthspring", "solref_lim", "solimp_lim", "solref_fri", "solimp_fri")
+
+faults = []
+
+
+def run(*arguments):
+    process = subprocess.run([TENON, *map(str, arguments), "--json"], capture_output=True,
+                             text=True, check=False)
+    if process.returncode != 0:
+        faults.append(f"{arguments[0]}: {process.returncode} {process.stdout} {process.stderr}")
+    return json.loads(process.stdout)
+
+
+def near(what, found, wanted):
+    found, wanted = (numpy.ravel(values).astype(float) for values in (found, wanted))
+    scale = max(1, float(numpy.max(numpy.abs(wanted), initial=0)))
+    if found.shape != wanted.shape or not (numpy.abs(found - wanted) <= ROUNDING * scale).all():
+        faults.append(f"{what}: {found.tolist()}, before {wanted.tolist()}")
+
+
+def tendon_name(model, number, prefix=""):
+    return prefix + mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_TENDON, number)
+
+
+def lengths(model, shoulder, elbow, names):
+    """Of the tendons, with the hinges turned by these angles from where the model stands."""
+    data = mujoco.MjData(model)
+    for name, angle in zip(names, (shoulder, elbow)):
+        data.qpos[model.joint(name).qposadr[0]] += angle
+    mujoco.mj_fwdPosition(model, data)
+    return data.ten_length.copy()
+
+
+def compare(before, after, scope):
+    for field in OPTIONS:
+        near(field, getattr(after.opt, field), getattr(before.opt, field))
+    order = [mujoco.mj_name2id(after, mujoco.mjtObj.mjOBJ_TENDON,
+                               tendon_name(before, i, f"{scope}/Physics/"))
+             for i in range(before.ntendon)]
+    if sorted(order) != list(range(before.ntendon)) or after.ntendon != before.ntendon:
+        faults.append(f"tendons: {after.ntendon} of {before.ntendon}: {order}")
+        return
+    hinges = [f"{scope}/Physics/{name}.rotY" for name in ("shoulder", "elbow")]
+    # A sum of coordinates counts from where the model stands.
+    start = lengths(before, 0, 0, ("shoulder", "elbow")) - lengths(
+        after, 0, 0, hinges)[order]
+    near("length of the path", start[0], 0)
+    for field in TENDON:
+        wanted = getattr(before, f"tendon_{field}")
+        wanted = wanted - start[:, None] if field == "lengthspring" else wanted
+        found = getattr(after, f"tendon_{field}")[order]
+        if field == "lengthspring":  # without a spring it does not matter
+            found, wanted = found[:1], wanted[:1]
+        near(field, found, wanted)
+    near("range", after.tendon_range[order], before.tendon_range - start[:, None])
+    for angles in ((0.4, -0.3), (-0.9, 1.1), (1.4, 0.2)):
+        near(f"lengths at {angles}",
+             lengths(after, *angles, hinges)[order] + start,
+             lengths(before, *angles, ("shoulder", "elbow")))
+
+
+def check_world(work):
+    source = ROOT / "tests/convert/mjcf/world.xml"
+    package, back = work / "package", work / "back.xml"
+    answer = run("convert", source, f"{package}/", "--scene")
+    rules = sorted(finding["rule"] for finding in answer["diagnostics"])
+    if rules != ["convert.floating", "mjcf.reference"]:
+        faults.append(f"findings {rules}: {answer['diagnostics']}")
+    run("convert", package / "world.usda", back, "--physics", "mujoco")
+    before = mujoco.MjModel.from_xml_path(str(source))
+    compare(before, mujoco.MjModel.from_xml_path(str(back)), "/world")
+    return before
+
+
+def check_images(work):
+    """Images of materials come back as files, laid out and repeated as before."""
+    source, first, back = work / "images", work / "images.usda", work / "back" / "images.xml"
+    (source / "pictures").mkdir(parents=True)
+    back.parent.mkdir()
+    shutil.copy(ROOT / "tests/convert/mjcf/textured.xml", source)
+    for name in ("paint", "rough", "wrapped"):
+        picture.png(source / "pictures" / f"{name}.png", 4)
+    run("convert", source / "textured.xml", first)
+    run("convert", first, back)
+    after = mujoco.MjModel.from_xml_path(str(back))
+    before = mujoco.MjModel.from_xml_path(str(source / "textured.xml"))
+    named = {after.material(i).name: after.material(i) for i in range(after.nmat)}
+    roles = {mujoco.mjtTextureRole.mjTEXROLE_RGB: "paint",
+             mujoco.mjtTextureRole.mjTEXROLE_ROUGHNESS: "rough"}
+    for material, wanted in (("sheet", [0]), ("painted", [0, 1])):
+        found = named[material].texid.ravel()
+        for number, (role, name) in enumerate(roles.items()):
+            texture = int(found[int(role)])
+            has = texture >= 0 and name in after.texture(texture).name
+            if has != (number in wanted):
+                faults.append(f"images: {material} {name}: {texture}")
+    near("texrepeat", named["sheet"].texrepeat, [2, 3])
+    near("metallic", after.mat_metallic[named["painted"].id], [0.25])
+    near("wood", named["wood"].rgba, before.material("wood").rgba * [0.5, 0, 0.5, 1])
+    seen = sum(int(group) == 2 for group in after.geom_group)
+    if seen != 4 or sorted(path.name for path in (
+            back.parent / "images_images").iterdir()) != ["paint.png", "rough.png"]:
+        faults.append(f"images: {seen} visuals, {list(back.parent.rglob('*'))}")
+    # The same corners have the same places in the image.
+    near("places", corners(after, named["sheet"]), corners(before, before.material("sheet")))
+    near("mass", sum(after.body_mass), sum(before.body_mass))
+
+
+def corners(model, material):
+    """Sorted rows of a point and its place in the image, of the mesh that has the material."""
+    geom = next(i for i in range(model.ngeom) if model.geom_matid[i] == material.id and
+                model.geom_type[i] == mujoco.mjtGeom.mjGEOM_MESH)
+    mesh = model.geom_dataid[geom]
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    faces = slice(model.mesh_faceadr[mesh], model.mesh_faceadr[mesh] + model.mesh_facenum[mesh])
+    points = model.mesh_vert[model.mesh_vertadr[mesh]:][model.mesh_face[faces].ravel()]
+    places = model.mesh_texcoord[model.mesh_texcoordadr[mesh]:][
+        model.mesh_facetexcoord[faces].ravel()]
+    world = points @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
+    rows = numpy.round(numpy.hstack([world, places]), 5) + 0.0
+    return rows[numpy.lexsort(rows.T)]
+
+
+def check_left_out(work):
+    """Unless asked for, the world stays out, and that is said."""
+    answer = run("convert", ROOT / "tests/convert/mjcf/world.xml", work / "robot.usda")
+    said = [finding for finding in answer["diagnostics"] if finding["rule"] == "convert.scene"]
+    if len(said) != 1 or "gravity, timestep" not in said[0]["message"]:
+        faults.append(f"the world: {said}")
+    if "PhysicsScene" in (work / "robot.usda").read_text():
+        faults.append("there is a PhysicsScene that nobody asked for")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        check_world(pathlib.Path(folder))
+        check_left_out(pathlib.Path(folder))
+        check_images(pathlib.Path(folder))
+    for fault in faults:
+        print(fault)
+    print(f"{len(faults)} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(ROOT / "build/robots"))
+    try:
+        import mujoco
+        import numpy
+    except ImportError as error:
+        print(f"skipped: MuJoCo's reader is not there: {error}")
+        sys.exit(77)
+    sys.exit(main())
