@@ -18,7 +18,8 @@ Conversion::Conversion(const robot::RobotModel& model, const robot::KinematicTre
       builder_(legal_name(model.name) + ".usda"),
       materials_(model.materials),
       material_paths_(model.materials.size()),
-      linear_color_(model.materials.size(), false) {}
+      linear_color_(model.materials.size(), false),
+      contact_members_(model.contact_classes.size()) {}
 
 void Conversion::report(std::uint32_t line, Severity severity, const char* rule,
                         std::string message, std::string fix) {
@@ -57,6 +58,7 @@ Result<layer::Layer> Conversion::run() {
   write_excluded_pairs();
   joints_scope_ = builder_.define(robot_, "Physics", "Scope");
   write_joints();
+  write_contact_classes();
   write_loops();
   write_mujoco_parts();
   write_scene();

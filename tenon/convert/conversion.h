@@ -105,6 +105,9 @@ class Conversion {
   void write_dofs(Path path, const robot::Joint& joint);
   Pose joint_frame(const robot::Joint& joint) const;
 
+  // contacts.cpp
+  void write_contact_classes();
+
   // mujoco_parts.cpp
   void write_loops();
   void write_mujoco_parts();
@@ -151,6 +154,7 @@ class Conversion {
   std::map<std::string, Path> site_paths_;   // by name; the first of that name
   std::map<std::string, Path> shape_paths_;  // visuals and colliders that have names
   std::set<Path> mujoco_sites_;
+  std::vector<std::vector<Path>> contact_members_;  // (contact_class_count), colliders
 };
 
 /// The turn from the joint frame of UsdPhysics, whose axis is X, Y or Z, to that of `axis`, and the

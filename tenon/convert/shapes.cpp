@@ -173,6 +173,9 @@ void Conversion::write_collider(Path prim, const robot::Collider& collider, bool
     builder_.set_value(prim, "PhysicsMeshCollisionAPI", "physics:approximation",
                        Value(Token("convexHull")));
   }
+  if (collider.contact_class) {
+    contact_members_[*collider.contact_class].push_back(prim);
+  }
   builder_.set_attribute(prim, "purpose", "token", Value(Token("guide")), Variability::Uniform);
   if (!collider.surface.is_default()) {
     bind(prim, "material:binding:physics", surface_path(collider.surface));

@@ -104,21 +104,14 @@ void MjcfReader::read_geom(int geom) {
   robot::Link& link = robot_.links[link_of_body_[static_cast<std::size_t>(model_.geom_bodyid[at])]];
   const Pose pose{read_vector(model_.geom_pos + 3 * at),
                   read_quaternion(model_.geom_quat + 4 * at)};
-  const int type = model_.geom_contype[at];
-  const int affinity = model_.geom_conaffinity[at];
-  const bool collides = type != 0 || affinity != 0;
-  if (!collides || model_.geom_group[at] <= kLastVisibleGroup) {
+  if (!collides(geom) || model_.geom_group[at] <= kLastVisibleGroup) {
     link.visuals.push_back({name, pose, geometry, material_of(geom, geometry), 0});
   }
-  if (!collides) {
+  if (!collides(geom)) {
     return;
   }
-  if (type != 1 || affinity != 1) {
-    report("mjcf.left-out", "contype " + std::to_string(type) + " and conaffinity " +
-                                std::to_string(affinity) + " of geom \"" + shown +
-                                "\" are left out: it touches everything");
-  }
   robot::Collider collider;
+  collider.contact_class = class_of_geom_[at];
   collider.name = name.empty() ? "" : name + "_collider";
   collider.pose = pose;
   collider.geometry = geometry;
@@ -137,6 +130,7 @@ void MjcfReader::read_geom(int geom) {
 
 void MjcfReader::read_geoms() {
   find_wrapped_geoms();
+  find_contact_classes();
   for (int geom = 0; geom < model_.ngeom; ++geom) {
     read_geom(geom);
   }

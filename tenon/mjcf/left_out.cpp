@@ -70,6 +70,17 @@ std::uint32_t MjcfReader::line_of(mjtObj kind, int id) {
   return line == at->second.end() ? 0 : line->second;
 }
 
+/// ": lines 3, 5", or nothing where no line is known.
+std::string MjcfReader::lines_text(const std::vector<std::uint32_t>& lines) {
+  std::string text;
+  for (const std::uint32_t line : lines) {
+    if (line != 0) {
+      text += (text.empty() ? ": lines " : ", ") + std::to_string(line);
+    }
+  }
+  return text;
+}
+
 /// What a RobotModel has no word for, by kind and number, with its lines.
 void MjcfReader::report_left_out() {
   struct Row {
@@ -80,8 +91,7 @@ void MjcfReader::report_left_out() {
   const Row rows[] = {
       {model_.nsensor, "sensors", mjOBJ_SENSOR}, {model_.ncam, "cameras", mjOBJ_CAMERA},
       {model_.nlight, "lights", mjOBJ_LIGHT},    {model_.nflex, "deformables", mjOBJ_UNKNOWN},
-      {model_.nskin, "skins", mjOBJ_UNKNOWN},    {model_.npair, "contact pairs", mjOBJ_PAIR},
-      {model_.nplugin, "plugins", mjOBJ_UNKNOWN}};
+      {model_.nskin, "skins", mjOBJ_UNKNOWN},    {model_.nplugin, "plugins", mjOBJ_UNKNOWN}};
   for (const Row& row : rows) {
     if (row.count <= 0) {
       continue;
@@ -89,9 +99,7 @@ void MjcfReader::report_left_out() {
     std::string text = std::to_string(row.count) + " " + row.what + " are left out";
     const std::vector<std::uint32_t> lines =
         row.kind == mjOBJ_UNKNOWN ? std::vector<std::uint32_t>() : lines_of(row.kind);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      text += (i == 0 ? ": lines " : ", ") + std::to_string(lines[i]);
-    }
+    text += lines_text(lines);
     report("mjcf.left-out", std::move(text), Severity::Warning, lines.empty() ? 0 : lines.front());
   }
 }

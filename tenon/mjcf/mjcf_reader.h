@@ -54,6 +54,11 @@ class MjcfReader {
   robot::Index without_images(robot::Index material);
   void report_materials();
 
+  // contacts.cpp
+  bool collides(int geom) const;
+  void find_contact_classes();
+  void report_pairs();
+
   // joints.cpp
   void add_joints(int body, robot::Index parent, robot::Index link, const Pose& origin);
   robot::Joint joint_of(int joint);
@@ -82,6 +87,7 @@ class MjcfReader {
   void read_scene();
   std::vector<std::uint32_t> lines_of(mjtObj kind) const;
   std::uint32_t line_of(mjtObj kind, int id);
+  static std::string lines_text(const std::vector<std::uint32_t>& lines);
   void report_left_out();
 
   mjSpec& spec_;
@@ -101,6 +107,8 @@ class MjcfReader {
   std::map<robot::Index, int> texture_of_material_;         // of the colour, where it is a file
   std::map<robot::Index, robot::Index> plain_;     // materials without their images, by material
   std::map<robot::Index, std::vector<int>> bare_;  // geoms that have no place for those images
+  std::vector<bool> is_paired_;                             // (ngeom), named by a contact pair
+  std::vector<std::optional<robot::Index>> class_of_geom_;  // (ngeom), into contact_classes
 };
 
 }  // namespace tenon::mjcf

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/mjcf/read_mjcf.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -120,6 +121,38 @@ TEST_F(ReadMjcf, TakesActuatorsThatAreSpringsAndListsTheRest) {
   EXPECT_EQ(model->links[2].visuals.size(), 1u);
   EXPECT_TRUE(model->links[2].colliders.empty());
   ASSERT_EQ(model->excluded_pairs.size(), 1u);
+}
+
+TEST_F(ReadMjcf, TellsApartWhatMayTouch) {
+  const auto model = read(
+      "<worldbody><geom name='floor' type='plane' size='5 5 0.1' contype='1' conaffinity='0'/>"
+      "<body name='a' pos='0 0 1'><freejoint/><geom size='0.1' contype='0' conaffinity='1'/>"
+      "<body name='b' pos='0.5 0 0'><joint name='j' axis='0 1 0'/>"
+      "<geom size='0.1' contype='2' conaffinity='3'/></body>"
+      "<body name='c' pos='-0.5 0 0'><joint name='k' axis='0 1 0'/>"
+      "<geom name='c' size='0.1' contype='0' conaffinity='0'/>"
+      "<geom size='0.2' contype='0' conaffinity='0'/></body></body></worldbody>\n"
+      "<contact><pair geom1='c' geom2='floor'/></contact>");
+  ASSERT_TRUE(model) << model.error().to_string();
+  const auto class_of = [&](std::size_t link) {
+    return model->links[link].colliders.at(0).contact_class;
+  };
+  const auto touch = [&](std::size_t a, std::size_t b) {
+    const std::vector<robot::Index>& off = model->contact_classes[*class_of(a)].untouched;
+    return std::find(off.begin(), off.end(), *class_of(b)) == off.end();
+  };
+  const bool expected[4][4] = {{false, true, true, true},
+                               {true, false, false, false},
+                               {true, false, true, false},
+                               {true, false, false, false}};  // floor, a, b, c
+  for (std::size_t a = 0; a < 4; ++a) {
+    for (std::size_t b = 0; b < 4; ++b) {
+      EXPECT_EQ(touch(a, b), expected[a][b]) << a << " and " << b;
+    }
+  }
+  EXPECT_EQ(model->links[3].colliders.size(), 1u);
+  EXPECT_EQ(model->links[3].visuals.size(), 2u);
+  EXPECT_EQ(found(), "mjcf.left-out;");  // the pair's own friction
 }
 
 TEST_F(ReadMjcf, TakesLoopsTendonsAndKeyframesAndNamesLinesOfTheRest) {

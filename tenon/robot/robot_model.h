@@ -80,7 +80,8 @@ struct Collider {
   Pose pose;  ///< in the link frame
   Geometry geometry;
   Surface surface;
-  std::optional<Index> material;  ///< how it looks, where the description says so
+  std::optional<Index> material;       ///< how it looks, where the description says so
+  std::optional<Index> contact_class;  ///< into RobotModel::contact_classes; none: touches all
   std::uint32_t line = 0;
 };
 
@@ -239,6 +240,13 @@ struct LoopJoint {
   std::vector<double> solimp;
 };
 
+/// Colliders that touch the same others.
+struct ContactClass {
+  /// Classes whose colliders do not touch those of this one, perhaps itself too: ascending, into
+  /// RobotModel::contact_classes, and the same seen from there.
+  std::vector<Index> untouched;
+};
+
 struct RobotModel {
   std::string name;
   std::string file;  ///< the description; lines are lines of it, 0 where unknown
@@ -248,6 +256,7 @@ struct RobotModel {
   std::vector<MeshFile> meshes;  ///< each file once
   /// Pairs of links whose colliders do not touch each other.
   std::vector<std::array<Index, 2>> excluded_pairs;
+  std::vector<ContactClass> contact_classes;
   std::vector<LoopJoint> loops;
   MujocoParts mujoco;
 };
