@@ -5,7 +5,36 @@
 namespace tenon::convert {
 
 using layer::Value;
-using layer::Variability;
+
+/// What MuJoCo's contacts of a collider are like, each number in the schema that holds it.
+void Conversion::write_mujoco_contact(Path prim, const robot::MujocoContact& contact) {
+  constexpr const char* kMujoco = "MjcCollisionAPI";
+  const auto number = [&](const char* api, const char* name, const auto& value) {
+    if (value) {
+      builder_.apply(prim, api);
+      builder_.set_number(prim, api, name, *value);
+    }
+  };
+  const auto list = [&](const char* name, const std::vector<double>& values) {
+    if (!values.empty()) {
+      builder_.apply(prim, kMujoco);
+      builder_.set_value(prim, kMujoco, name, Value(values));
+    }
+  };
+  number(kMujoco, "mjc:condim", contact.condim);
+  if (options_.schema != SchemaGeneration::Current) {
+    number(kMujoco, "mjc:gap", contact.gap);
+    number(kMujoco, "mjc:margin", contact.margin);
+  }
+  number(kMujoco, "mjc:priority", contact.priority);
+  list("mjc:solimp", contact.solimp);
+  number(kMujoco, "mjc:solmix", contact.solmix);
+  list("mjc:solref", contact.solref);
+  if (options_.schema != SchemaGeneration::Legacy) {
+    number("NewtonCollisionAPI", "newton:contactGap", contact.gap);
+    number("NewtonCollisionAPI", "newton:contactMargin", contact.margin);
+  }
+}
 
 /// A collision group for each class of colliders that does not touch all others.
 void Conversion::write_contact_classes() {

@@ -26,8 +26,9 @@ struct MeshValues {
   layer::Value points;
   layer::Value face_counts;
   layer::Value face_points;
-  layer::Value normals;              ///< empty: none
-  layer::Value texture_coordinates;  ///< empty: none
+  layer::Value normals;
+  const char* normals_interpolation = "faceVarying";  ///< or "uniform": one for each face
+  layer::Value texture_coordinates;                   ///< empty: none
   layer::Value extent;
   std::optional<robot::Index> material;  ///< into the materials of the conversion
 };
@@ -107,6 +108,7 @@ class Conversion {
 
   // contacts.cpp
   void write_contact_classes();
+  void write_mujoco_contact(Path prim, const robot::MujocoContact& contact);
 
   // mujoco_parts.cpp
   void write_loops();

@@ -23,6 +23,13 @@ void JointPrinter::print() {
   print_description();
 }
 
+void JointPrinter::print_passive() {
+  if (current()) {
+    print_newton();
+  }
+  print_mujoco();
+}
+
 void JointPrinter::print_limits() {
   if (!joint_.limit) {
     return;
@@ -117,6 +124,16 @@ void JointPrinter::print_mujoco() {
     set("mjc:damping", joint_.damping != 0, joint_.damping);
     set("mjc:frictionloss", joint_.friction != 0, joint_.friction);
   }
+  const auto list = [&](const char* name, const std::vector<double>& values) {
+    if (!values.empty()) {
+      builder_.apply(path_, "MjcJointAPI");
+      builder_.set_value(path_, "MjcJointAPI", name, Value(values));
+    }
+  };
+  list("mjc:solimpfriction", joint_.mujoco.solimp_friction);
+  list("mjc:solimplimit", joint_.mujoco.solimp_limit);
+  list("mjc:solreffriction", joint_.mujoco.solref_friction);
+  list("mjc:solreflimit", joint_.mujoco.solref_limit);
   set("mjc:springref", joint_.stiffness != 0 && joint_.spring_reference != 0,
       position(joint_.spring_reference));
   set("mjc:stiffness", joint_.stiffness != 0, joint_.stiffness);

@@ -24,6 +24,8 @@ class JointPrinter {
 
   /// Limits, drive, state and settings.
   void print();
+  /// What resists motion, also of a ball: armature, damping, friction, spring.
+  void print_passive();
   /// The mimic of `leader`, whose prim is `leader_path` and whose axis token `leader_axis`.
   void print_mimic(const robot::Joint& leader, Path leader_path, const std::string& leader_axis);
   /// MuJoCo's actuator of the joint's drive, below `scope`.

@@ -82,6 +82,8 @@ void Conversion::write_dofs(Path path, const robot::Joint& joint) {
   if (joint.has_one_axis()) {
     builder_.set_value(path, type_of(joint.kind), "physics:axis", Value(Token(axis)));
     JointPrinter(builder_, path, joint, axis, options_.schema).print();
+  } else if (joint.kind == JointKind::Ball) {
+    JointPrinter(builder_, path, joint, axis, options_.schema).print_passive();
   } else if (joint.kind == JointKind::Planar) {
     for (const std::string other : {"X", "Y", "Z"}) {
       // A lower limit above the upper one locks (UsdPhysics).

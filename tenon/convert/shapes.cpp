@@ -32,6 +32,28 @@ Value extent_of(const std::vector<Vec3f>& points) {
   return Value(std::vector<Vec3f>{low, high});
 }
 
+/// Of flat faces, for a mesh that brings none: polygons that no subdivision rounds are to have some
+/// (UsdGeomMesh). Along +Z where a face has no area.
+std::vector<Vec3f> face_normals(const mesh::PolygonMesh& mesh) {
+  std::vector<Vec3f> normals;
+  normals.reserve(mesh.face_counts.size());
+  std::size_t start = 0;
+  for (const std::int32_t corners : mesh.face_counts) {
+    const auto count = static_cast<std::size_t>(corners);
+    const auto point = [&](std::size_t corner) {
+      return to_double(mesh.points[static_cast<std::size_t>(mesh.face_points[start + corner])]);
+    };
+    Vec3d area;
+    for (std::size_t i = 1; i + 1 < count; ++i) {
+      area = area + cross(point(i) - point(0), point(i + 1) - point(0));
+    }
+    const double size = length(area);
+    normals.push_back(size > 0 ? to_float(area * (1 / size)) : Vec3f{{0, 0, 1}});
+    start += count;
+  }
+  return normals;
+}
+
 mesh::PolygonMesh polygons_of(const robot::MeshFile& file) {
   mesh::PolygonMesh mesh;
   mesh.points = file.points;
@@ -50,12 +72,11 @@ MeshValues Conversion::values_of(mesh::PolygonMesh mesh,
   MeshValues values;
   values.name = mesh.name;
   values.extent = extent_of(mesh.points);
+  values.normals_interpolation = mesh.normals.empty() ? "uniform" : "faceVarying";
+  values.normals = Value(mesh.normals.empty() ? face_normals(mesh) : std::move(mesh.normals));
   values.points = Value(std::move(mesh.points));
   values.face_counts = Value(std::move(mesh.face_counts));
   values.face_points = Value(std::move(mesh.face_points));
-  if (!mesh.normals.empty()) {
-    values.normals = Value(std::move(mesh.normals));
-  }
   if (!mesh.texture_coordinates.empty()) {
     values.texture_coordinates = Value(std::move(mesh.texture_coordinates));
   }
@@ -101,10 +122,9 @@ void Conversion::write_mesh(Path prim, const MeshValues& mesh) {
   builder_.set_value(prim, "Mesh", "extent", mesh.extent);
   builder_.set_value(prim, "Mesh", "faceVertexCounts", mesh.face_counts);
   builder_.set_value(prim, "Mesh", "faceVertexIndices", mesh.face_points);
-  if (!mesh.normals.empty()) {
-    builder_.set_value(prim, "Mesh", "normals", mesh.normals);
-    builder_.set_metadata(prim.property("normals"), "interpolation", Value(Token("faceVarying")));
-  }
+  builder_.set_value(prim, "Mesh", "normals", mesh.normals);
+  builder_.set_metadata(prim.property("normals"), "interpolation",
+                        Value(Token(mesh.normals_interpolation)));
   builder_.set_value(prim, "Mesh", "points", mesh.points);
   if (!mesh.texture_coordinates.empty()) {
     builder_.set_attribute(prim, "primvars:st", "texCoord2f[]", mesh.texture_coordinates);
@@ -173,6 +193,7 @@ void Conversion::write_collider(Path prim, const robot::Collider& collider, bool
     builder_.set_value(prim, "PhysicsMeshCollisionAPI", "physics:approximation",
                        Value(Token("convexHull")));
   }
+  write_mujoco_contact(prim, collider.mujoco);
   if (collider.contact_class) {
     contact_members_[*collider.contact_class].push_back(prim);
   }

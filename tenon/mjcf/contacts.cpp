@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include "tenon/mjcf/mjcf_reader.h"
 
@@ -42,7 +43,45 @@ bool are_near(const mjModel& model, int geom, int other) {
          (above(b) == part(a) && part(a) != 0);
 }
 
+constexpr std::array<double, mjNREF> kSolref{0.02, 1};
+constexpr std::array<double, mjNIMP> kSolimp{0.9, 0.95, 0.001, 0.5, 2};
+
+/// Numbers where they are not what MuJoCo takes by itself.
+template <std::size_t N>
+std::vector<double> unless(const mjtNum* numbers, const std::array<double, N>& usual) {
+  return std::equal(usual.begin(), usual.end(), numbers)
+             ? std::vector<double>()
+             : std::vector<double>(numbers, numbers + N);
+}
+
+template <typename T>
+std::optional<T> unless(T number, T usual) {
+  return number == usual ? std::nullopt : std::optional<T>(number);
+}
+
 }  // namespace
+
+robot::MujocoContact MjcfReader::contact_of(int geom) const {
+  const auto at = static_cast<std::size_t>(geom);
+  robot::MujocoContact contact;
+  contact.condim = unless(model_.geom_condim[at], 3);
+  contact.priority = unless(model_.geom_priority[at], 0);
+  contact.solmix = unless(model_.geom_solmix[at], 1.0);
+  contact.solref = unless(model_.geom_solref + mjNREF * at, kSolref);
+  contact.solimp = unless(model_.geom_solimp + mjNIMP * at, kSolimp);
+  contact.margin = unless(model_.geom_margin[at], 0.0);
+  contact.gap = unless(model_.geom_gap[at], 0.0);
+  return contact;
+}
+
+robot::MujocoSoftness MjcfReader::softness_of(int joint) const {
+  const auto at = static_cast<std::size_t>(joint);
+  const auto dof = static_cast<std::size_t>(model_.jnt_dofadr[at]);
+  return {unless(model_.jnt_solref + mjNREF * at, kSolref),
+          unless(model_.jnt_solimp + mjNIMP * at, kSolimp),
+          unless(model_.dof_solref + mjNREF * dof, kSolref),
+          unless(model_.dof_solimp + mjNIMP * dof, kSolimp)};
+}
 
 /// Whether a geom ever touches anything.
 bool MjcfReader::collides(int geom) const {

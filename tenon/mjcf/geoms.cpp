@@ -112,6 +112,7 @@ void MjcfReader::read_geom(int geom) {
   }
   robot::Collider collider;
   collider.contact_class = class_of_geom_[at];
+  collider.mujoco = contact_of(geom);
   collider.name = name.empty() ? "" : name + "_collider";
   collider.pose = pose;
   collider.geometry = geometry;

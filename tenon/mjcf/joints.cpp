@@ -48,10 +48,12 @@ robot::Joint MjcfReader::joint_of(int number) {
   joint.damping = model_.dof_damping[dof];
   joint.friction = model_.dof_frictionloss[dof];
   joint.armature = model_.dof_armature[dof];
+  joint.stiffness = model_.jnt_stiffness[at];
+  joint.mujoco = softness_of(number);
   if (joint.kind == JointKind::Ball) {
-    if (limited || joint.damping != 0 || joint.armature != 0 || model_.jnt_stiffness[at] != 0) {
-      report("mjcf.left-out", "limit, damping, armature and stiffness of the ball \"" + joint.name +
-                                  "\" are left out");
+    if (limited) {
+      report("mjcf.left-out",
+             "the limit of the ball \"" + joint.name + "\" is left out: it bounds the whole turn");
     }
     return joint;
   }
@@ -64,7 +66,6 @@ robot::Joint MjcfReader::joint_of(int number) {
   if (reference != 0) {
     report("mjcf.reference", "the coordinate of joint \"" + joint.name + "\" counts from its ref");
   }
-  joint.stiffness = model_.jnt_stiffness[at];
   joint.spring_reference = model_.qpos_spring[coordinate] - reference;
   if (model_.jnt_actfrclimited[at] != 0) {
     joint.effort_limit = std::max(std::fabs(model_.jnt_actfrcrange[2 * at]),

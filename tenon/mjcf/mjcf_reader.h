@@ -58,6 +58,8 @@ class MjcfReader {
   bool collides(int geom) const;
   void find_contact_classes();
   void report_pairs();
+  robot::MujocoContact contact_of(int geom) const;
+  robot::MujocoSoftness softness_of(int joint) const;
 
   // joints.cpp
   void add_joints(int body, robot::Index parent, robot::Index link, const Pose& origin);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/physics/mujoco_contacts.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/scenes.h"
 #include "tenon/physics/shapes.h"
@@ -11,31 +12,9 @@
 namespace tenon::physics {
 namespace {
 
-/// Distances and hull sizes that vendors' APIs ask for: Newton before PhysX before MuJoCo.
-void read_contact_settings(const ReadState& state, const PhysicsPrim& found, Collider& collider) {
+void read_hull_vertices(const ReadState& state, const PhysicsPrim& found, Collider& collider) {
   const AttributeValues& values = state.values;
   const Roles& roles = found.roles;
-  const auto distance = [&](Token name) -> std::optional<double> {
-    const std::optional<double> authored = values.authored_number(found.prim, name);
-    return authored && std::isfinite(*authored)
-               ? std::optional<double>(*authored * state.units.length)
-               : std::nullopt;
-  };
-  if (roles.has(Api::NewtonCollision) || roles.has(Api::MjcCollision)) {
-    collider.rest_offset = distance(state.tokens.newton_contact_margin);
-    const std::optional<double> gap = distance(state.tokens.newton_contact_gap);
-    if (gap) {
-      collider.contact_offset = *gap + collider.rest_offset.value_or(0);
-    }
-  }
-  if (roles.has(Api::PhysxCollision)) {
-    if (!collider.contact_offset) {
-      collider.contact_offset = distance(state.tokens.physx_contact_offset);
-    }
-    if (!collider.rest_offset) {
-      collider.rest_offset = distance(state.tokens.physx_rest_offset);
-    }
-  }
   std::optional<double> vertices;
   if (roles.has(Api::NewtonMeshCollision) || roles.has(Api::MjcMeshCollision)) {
     vertices = values.authored_number(found.prim, state.tokens.newton_hull_vertices);
@@ -49,6 +28,44 @@ void read_contact_settings(const ReadState& state, const PhysicsPrim& found, Col
   if (vertices && *vertices >= 4 && *vertices < 1e6) {
     collider.max_hull_vertices = static_cast<int>(*vertices);
   }
+}
+
+/// Distances and hull sizes that vendors' APIs ask for: Newton before PhysX before MuJoCo.
+void read_contact_settings(const ReadState& state, const PhysicsPrim& found, Collider& collider) {
+  const PhysicsTokens& tokens = state.tokens;
+  const Roles& roles = found.roles;
+  const auto distance = [&](Token name) -> std::optional<double> {
+    const std::optional<double> authored = state.values.authored_number(found.prim, name);
+    return authored && std::isfinite(*authored)
+               ? std::optional<double>(*authored * state.units.length)
+               : std::nullopt;
+  };
+  // Newton and MuJoCo count the gap from where the contact begins to push.
+  const auto take = [&](Token margin, Token gap) {
+    if (!collider.rest_offset) {
+      collider.rest_offset = distance(margin);
+    }
+    const std::optional<double> found_before = distance(gap);
+    if (found_before && !collider.contact_offset) {
+      collider.contact_offset = *found_before + collider.rest_offset.value_or(0);
+    }
+  };
+  if (roles.has(Api::NewtonCollision) || roles.has(Api::MjcCollision)) {
+    take(tokens.newton_contact_margin, tokens.newton_contact_gap);
+  }
+  if (roles.has(Api::PhysxCollision)) {
+    if (!collider.contact_offset) {
+      collider.contact_offset = distance(tokens.physx_contact_offset);
+    }
+    if (!collider.rest_offset) {
+      collider.rest_offset = distance(tokens.physx_rest_offset);
+    }
+  }
+  if (roles.has(Api::MjcCollision)) {
+    take(tokens.mjc_margin, tokens.mjc_gap);
+    collider.mujoco = read_mujoco_contact(state, found);
+  }
+  read_hull_vertices(state, found, collider);
 }
 
 bool has_zero_scale(const ReadState& state, const PhysicsPrim& found, const Factored& parts) {

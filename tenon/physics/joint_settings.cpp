@@ -7,6 +7,7 @@
 
 #include "tenon/physics/joint_checks.h"
 #include "tenon/physics/joint_limits.h"
+#include "tenon/physics/mujoco_contacts.h"
 #include "tenon/physics/read_state.h"
 
 namespace tenon::physics {
@@ -114,6 +115,7 @@ class SettingReader {
     take(t.mjc_armature, units_.armature, joint_.armature);
     take(t.mjc_friction, units_.force, joint_.friction);
     take(t.mjc_damping, units_.per_radian, joint_.damping);
+    joint_.mujoco = read_mujoco_softness(state_, found_);
     take(t.mjc_stiffness, units_.per_radian, joint_.stiffness);
     if (const std::optional<double> rest = number(t.mjc_spring_reference)) {
       joint_.spring_reference = *rest * (angular_ ? kRadians : state_.units.length);

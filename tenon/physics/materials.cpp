@@ -41,6 +41,31 @@ CombineMode combine_mode(const ReadState& state, const PhysicsPrim& found, Token
   return CombineMode::Average;
 }
 
+/// What resists spinning and rolling: lengths, of Newton's schema before MuJoCo's.
+void read_spin_friction(const ReadState& state, const PhysicsPrim& found, Material& material) {
+  const auto take = [&](Token name, std::optional<double>& value) {
+    const std::optional<double> authored = state.values.authored_number(found.prim, name);
+    if (value || !authored) {
+      return;
+    }
+    if (!(*authored >= 0) || !std::isfinite(*authored)) {
+      state.report(found.prim, name, Severity::Error, "material.negative",
+                   name.str() + " is " + shortest(*authored) + "; it is taken as unauthored",
+                   "author a value that is not negative");
+      return;
+    }
+    value = *authored * state.units.length;
+  };
+  if (found.roles.has(Api::NewtonMaterial) || found.roles.has(Api::MjcMaterial)) {
+    take(state.tokens.newton_torsional_friction, material.torsional_friction);
+    take(state.tokens.newton_rolling_friction, material.rolling_friction);
+  }
+  if (found.roles.has(Api::MjcMaterial)) {
+    take(state.tokens.mjc_torsional_friction, material.torsional_friction);
+    take(state.tokens.mjc_rolling_friction, material.rolling_friction);
+  }
+}
+
 Material read_material(const ReadState& state, const PhysicsPrim& found) {
   Material material;
   material.path = found.path;
@@ -51,6 +76,7 @@ Material read_material(const ReadState& state, const PhysicsPrim& found) {
   if (density > 0 && std::isfinite(density)) {
     material.density = density * state.units.density();
   }
+  read_spin_friction(state, found, material);
   material.friction_combine = combine_mode(state, found, state.tokens.physx_friction_combine);
   material.restitution_combine = combine_mode(state, found, state.tokens.physx_restitution_combine);
   // S-73

@@ -21,6 +21,23 @@ struct MujocoSetting {
   std::string token;            ///< of settings that are words
 };
 
+/// What MjcCollisionAPI says of a collider's contacts; none, empty: not authored.
+struct MujocoContact {
+  std::optional<int> condim;     ///< 1, 3, 4 or 6 directions that resist
+  std::optional<int> priority;   ///< the collider with the higher one decides about a contact
+  std::optional<double> solmix;  ///< weight where priorities are equal
+  std::vector<double> solref;    ///< (2)
+  std::vector<double> solimp;    ///< (5)
+};
+
+/// What MjcJointAPI says of the constraints of a joint; empty: not authored.
+struct MujocoSoftness {
+  std::vector<double> solref_limit;     ///< (2)
+  std::vector<double> solimp_limit;     ///< (5)
+  std::vector<double> solref_friction;  ///< (2)
+  std::vector<double> solimp_friction;  ///< (5)
+};
+
 /// What the path of a spatial tendon meets.
 struct TendonStop {
   enum class Kind : std::uint8_t {

@@ -11,18 +11,18 @@ namespace tenon::physics {
 
 /// How much of what would be simulated.
 struct PhysicsCounts {
-  std::size_t scenes = 0;            ///< authored ones
+  std::size_t scenes = 0;  ///< authored ones
   std::size_t bodies = 0;
   std::size_t kinematic_bodies = 0;
-  std::size_t colliders = 0;         ///< enabled, static ones included
+  std::size_t colliders = 0;  ///< enabled, static ones included
   std::size_t static_colliders = 0;
   std::size_t articulations = 0;
   std::size_t drives = 0;
-  std::size_t limits = 0;            ///< bounded degrees of freedom
+  std::size_t limits = 0;  ///< bounded degrees of freedom
   std::size_t mimics = 0;
   /// Coordinates of the joint graph: joints that span it, and six for each part that floats.
   std::size_t dofs = 0;
-  double mass = 0;                   ///< of bodies that move freely [kg]
+  double mass = 0;                      ///< of bodies that move freely [kg]
   std::array<std::size_t, 6> joints{};  ///< by JointKind, enabled ones
 };
 

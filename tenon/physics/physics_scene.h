@@ -141,6 +141,7 @@ struct Collider {
   std::optional<double> contact_offset;  ///< distance at which contacts begin to be made [m]
   std::optional<double> rest_offset;     ///< [m]
   std::optional<int> max_hull_vertices;
+  MujocoContact mujoco;
 };
 
 /// How the coefficients of two materials become that of a contact; of two modes the later one in
@@ -157,7 +158,9 @@ struct Material {
   double static_friction = 0;
   double dynamic_friction = 0;
   double restitution = 0;
-  double density = 0;  ///< [kg/m^3]; 0: none given
+  double density = 0;                          ///< [kg/m^3]; 0: none given
+  std::optional<double> torsional_friction{};  ///< about the normal of a contact [m]
+  std::optional<double> rolling_friction{};    ///< [m]
   CombineMode friction_combine = CombineMode::Average;
   CombineMode restitution_combine = CombineMode::Average;
 };
@@ -243,6 +246,7 @@ struct Joint {
   /// Initial coordinate and velocity from the joint state API [rad or m]; none: from the poses.
   std::optional<double> initial_position;
   std::optional<double> initial_velocity;
+  MujocoSoftness mujoco;
 
   /// The one degree of freedom of revolute and prismatic joints.
   Dof dof() const;

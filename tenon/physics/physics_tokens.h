@@ -41,7 +41,13 @@ struct PhysicsTokens {
   Token newton_contact_margin{"newton:contactMargin"};
   Token physx_hull_vertices{"physxConvexHullCollision:hullVertexLimit"};
   Token newton_hull_vertices{"newton:maxHullVertices"};
+  Token mjc_gap{"mjc:gap"};
+  Token mjc_margin{"mjc:margin"};
   Token mjc_hull_vertices{"mjc:maxhullvert"};
+  Token newton_torsional_friction{"newton:torsionalFriction"};
+  Token newton_rolling_friction{"newton:rollingFriction"};
+  Token mjc_torsional_friction{"mjc:torsionalfriction"};
+  Token mjc_rolling_friction{"mjc:rollingfriction"};
   // shapes
   Token size{"size"};
   Token radius{"radius"};

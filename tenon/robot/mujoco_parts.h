@@ -18,6 +18,25 @@ struct MujocoSetting {
   std::string token;            ///< of settings that are words
 };
 
+/// How contacts of a collider are made; none, empty: MuJoCo's default.
+struct MujocoContact {
+  std::optional<int> condim;     ///< 1, 3, 4 or 6 directions that resist
+  std::optional<int> priority;   ///< the collider with the higher one decides about a contact
+  std::optional<double> solmix;  ///< weight where priorities are equal
+  std::vector<double> solref;    ///< (2)
+  std::vector<double> solimp;    ///< (5)
+  std::optional<double> margin;  ///< distance at which a contact begins to push [m]
+  std::optional<double> gap;     ///< from there to where it is found [m]
+};
+
+/// How hard limits and friction of a joint are; empty: MuJoCo's default.
+struct MujocoSoftness {
+  std::vector<double> solref_limit;     ///< (2)
+  std::vector<double> solimp_limit;     ///< (5)
+  std::vector<double> solref_friction;  ///< (2)
+  std::vector<double> solimp_friction;  ///< (5)
+};
+
 /// An actuator that is no spring and damper about a joint.
 struct MujocoActuator {
   enum class Target : std::uint8_t { Joint, Tendon };

@@ -82,6 +82,7 @@ struct Collider {
   Surface surface;
   std::optional<Index> material;       ///< how it looks, where the description says so
   std::optional<Index> contact_class;  ///< into RobotModel::contact_classes; none: touches all
+  MujocoContact mujoco;
   std::uint32_t line = 0;
 };
 
@@ -219,6 +220,7 @@ struct Joint {
   std::optional<Calibration> calibration;
   std::optional<Mimic> mimic;
   std::optional<Drive> drive;
+  MujocoSoftness mujoco;
   std::uint32_t line = 0;
 
   /// One degree of freedom about or along `axis`.

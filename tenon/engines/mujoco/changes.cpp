@@ -101,11 +101,15 @@ void set_bounds_of(physics::Joint& joint, const physics::JointBounds& bounds) {
   joint.limits = bounds.limits;
 }
 
-void set_range(mjModel& m, int joint, const FreeDof& dof) {
+void set_range(mjModel& m, int joint, const FreeDof& dof, const physics::MujocoSoftness& softness) {
   constexpr double kOpenEnd = 1e10;
   const bool limited = dof.lower > -physics::kUnlimited || dof.upper < physics::kUnlimited;
   if (limited && m.jnt_limited[joint] == 0) {
-    make_hard(m.opt.timestep, m.jnt_solref + mjNREF * joint, m.jnt_solimp + mjNIMP * joint);
+    mjtNum* solref = m.jnt_solref + mjNREF * joint;
+    mjtNum* solimp = m.jnt_solimp + mjNIMP * joint;
+    make_hard(m.opt.timestep, solref, solimp);
+    std::copy(softness.solref_limit.begin(), softness.solref_limit.end(), solref);
+    std::copy(softness.solimp_limit.begin(), softness.solimp_limit.end(), solimp);
   }
   m.jnt_limited[joint] = limited ? 1 : 0;
   m.jnt_range[2 * joint] = std::max(dof.lower, -kOpenEnd);
@@ -233,7 +237,7 @@ bool MujocoSimulation::set_bounds(const TrackedBounds& tracked) {
     return false;
   }
   for (std::size_t i = 0; map.in_tree && i < dofs.free.size(); ++i) {
-    set_range(m, m.dof_jntid[map.dof[i]], dofs.free[i]);
+    set_range(m, m.dof_jntid[map.dof[i]], dofs.free[i], joint.mujoco);
   }
   const physics::Limit distance = distance_limit(joint);
   const double cone = circular_cone(joint);

@@ -238,6 +238,7 @@ void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces) {
   const std::size_t geom_count = model.collider_of_geom.size();
   std::vector<int> geom_class(geom_count, 0);
   std::vector<int> geom_surface(geom_count, -1);
+  std::vector<char> keeps_solref(geom_count, 0);
   for (std::size_t g = 0; g < geom_count; ++g) {
     const int collider = model.collider_of_geom[g];
     if (collider >= 0) {
@@ -248,6 +249,7 @@ void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces) {
     for (std::size_t g = 0; g < surfaces.of_collider[i].size(); ++g) {
       const int geom = model.geoms_of_collider[i][g];
       geom_surface[static_cast<std::size_t>(geom)] = surfaces.of_collider[i][g];
+      keeps_solref[static_cast<std::size_t>(geom)] = surfaces.keeps_solref[i];
     }
   }
   std::vector<std::uint64_t> pairs;
@@ -263,6 +265,7 @@ void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces) {
   filter.geom_class = std::move(geom_class);
   filter.pairs_off = std::move(pairs);
   surfaces.geom_surface = std::move(geom_surface);
+  surfaces.keeps_solref = std::move(keeps_solref);
   model.filter = std::move(filter);
   model.surfaces = std::move(surfaces);
 }

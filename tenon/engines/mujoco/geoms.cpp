@@ -87,6 +87,13 @@ std::vector<MaterialPart> parts_by_material(const Collider& collider,
   return parts;
 }
 
+void set_contact(mjsGeom& geom, const physics::MujocoContact& contact) {
+  geom.condim = contact.condim.value_or(geom.condim);
+  geom.priority = contact.priority.value_or(geom.priority);
+  geom.solmix = contact.solmix.value_or(geom.solmix);
+  std::copy(contact.solimp.begin(), contact.solimp.end(), geom.solimp);
+}
+
 class ColliderPass {
  public:
   ColliderPass(Build& build, physics::Index index)
@@ -110,6 +117,7 @@ class ColliderPass {
       if (collider_.rest_offset.has_value()) {
         geom->margin = *collider_.rest_offset;
       }
+      set_contact(*geom, collider_.mujoco);
       if (collider_.contact_offset.has_value()) {
         geom->gap = std::max(0.0, *collider_.contact_offset - geom->margin);
       }

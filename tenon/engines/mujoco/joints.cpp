@@ -15,7 +15,8 @@ using physics::kUnlimited;
 
 constexpr double kOpenEnd = 1e10;  // MuJoCo's largest number; "no bound" of a one-sided limit
 
-void set_limit(mjsJoint* joint, const FreeDof& dof, double time_step) {
+void set_limit(mjsJoint* joint, const FreeDof& dof, const physics::MujocoSoftness& softness,
+               double time_step) {
   const bool limited = dof.lower > -kUnlimited || dof.upper < kUnlimited;
   joint->limited = limited ? mjLIMITED_TRUE : mjLIMITED_FALSE;
   if (!limited) {
@@ -24,6 +25,8 @@ void set_limit(mjsJoint* joint, const FreeDof& dof, double time_step) {
   joint->range[0] = std::max(dof.lower, -kOpenEnd);
   joint->range[1] = std::min(dof.upper, kOpenEnd);
   make_hard(time_step, joint->solref_limit, joint->solimp_limit);
+  std::copy(softness.solref_limit.begin(), softness.solref_limit.end(), joint->solref_limit);
+  std::copy(softness.solimp_limit.begin(), softness.solimp_limit.end(), joint->solimp_limit);
 }
 
 void set_passive(mjsJoint* target, const physics::Joint& joint) {
@@ -32,6 +35,11 @@ void set_passive(mjsJoint* target, const physics::Joint& joint) {
   target->damping[0] = joint.damping;
   target->stiffness[0] = joint.stiffness;
   target->springref = joint.spring_reference;
+  const physics::MujocoSoftness& softness = joint.mujoco;
+  std::copy(softness.solref_friction.begin(), softness.solref_friction.end(),
+            target->solref_friction);
+  std::copy(softness.solimp_friction.begin(), softness.solimp_friction.end(),
+            target->solimp_friction);
 }
 
 }  // namespace
@@ -69,7 +77,7 @@ void add_chain(Build& build, physics::Index index, mjsBody* child, const Pose& j
     const bool refused = build.refused.contains(joint.path);
     refused ? build.report(joint.path, "limit:" + std::string(dof_name(dof.dof)),
                            "MuJoCo refuses the limits; left out")
-            : set_limit(target, dof, build.time_step);
+            : set_limit(target, dof, joint.mujoco, build.time_step);
     set_passive(target, joint);
     made[i] = target;
   }

@@ -94,6 +94,8 @@ struct Surfaces {
   std::vector<double> friction;               ///< (count x count)
   std::vector<std::array<double, 2>> solref;  ///< (count x count)
   bool differ = false;                        ///< contacts need the averages
+  /// (geom_count) the collider says how soft its contacts are; until then per collider.
+  std::vector<char> keeps_solref;
 };
 
 struct Model {

@@ -60,8 +60,19 @@ double mean_rebound(double stiffness, double damping, double time_step) {
   return sum / kPhases;
 }
 
+const physics::Material& material_of(const physics::PhysicsScene& scene,
+                                     const std::optional<physics::Index>& index) {
+  return index ? scene.materials[*index] : scene.unbound;
+}
+
+void set_friction(mjsGeom& geom, const physics::Material& material) {
+  geom.friction[0] = material.dynamic_friction;
+  geom.friction[1] = material.torsional_friction.value_or(geom.friction[1]);
+  geom.friction[2] = material.rolling_friction.value_or(geom.friction[2]);
+}
+
 Surface surface_of(const physics::PhysicsScene& scene, const std::optional<physics::Index>& index) {
-  const physics::Material& material = index ? scene.materials[*index] : scene.unbound;
+  const physics::Material& material = material_of(scene, index);
   return {material.dynamic_friction, std::clamp(material.restitution, 0.0, 1.0),
           material.friction_combine, material.restitution_combine};
 }
@@ -143,11 +154,18 @@ Surfaces add_surfaces(Build& build) {
   }
   tabulate(surfaces, kinds, build.time_step);
   for (std::size_t i = 0; i < build.geoms.size(); ++i) {
+    const physics::MujocoContact& contact = build.scene.colliders[i].mujoco;
+    surfaces.keeps_solref.push_back(contact.solref.empty() ? 0 : 1);
     for (std::size_t g = 0; g < build.geoms[i].size(); ++g) {
       const auto kind = static_cast<std::size_t>(surfaces.of_collider[i][g]);
-      build.geoms[i][g]->friction[0] = kinds[kind].friction;
+      mjsGeom& geom = *build.geoms[i][g];
+      set_friction(geom, material_of(build.scene, build.geom_materials[i][g]));
       const auto& solref = surfaces.solref[kind * surfaces.count + kind];
-      std::copy(solref.begin(), solref.end(), build.geoms[i][g]->solref);
+      std::copy(solref.begin(), solref.end(), geom.solref);
+      std::copy(contact.solref.begin(), contact.solref.end(), geom.solref);
+      if (contact.priority.value_or(0) != 0) {
+        surfaces.of_collider[i][g] = -1;  // MuJoCo does not mix where one has priority
+      }
     }
   }
   report_materials(build);
@@ -167,8 +185,11 @@ bool apply_surfaces(const Surfaces& surfaces, mjData* data) {
         static_cast<std::size_t>(a) * surfaces.count + static_cast<std::size_t>(b);
     contact.friction[0] = std::max(surfaces.friction[pair], mjMINMU);
     contact.friction[1] = contact.friction[0];
-    contact.solref[0] = surfaces.solref[pair][0];
-    contact.solref[1] = surfaces.solref[pair][1];
+    if (surfaces.keeps_solref[static_cast<std::size_t>(contact.geom[0])] == 0 &&
+        surfaces.keeps_solref[static_cast<std::size_t>(contact.geom[1])] == 0) {
+      contact.solref[0] = surfaces.solref[pair][0];
+      contact.solref[1] = surfaces.solref[pair][1];
+    }
     changed = true;
   }
   return changed;
