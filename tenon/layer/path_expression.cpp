@@ -127,6 +127,7 @@ std::optional<PathExpressionTree> PathExpressionTree::rebuilt(const Rebuild& ato
 }
 
 void PathExpressionTree::make_absolute(Path anchor) {
+  anchor = anchor.strip_variants();  // expressions are about composed prims and cannot name others
   for (ExpressionReference& found : references_) {
     if (!found.path.empty()) {
       found.path = found.path.absolute(anchor);

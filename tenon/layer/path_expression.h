@@ -60,7 +60,7 @@ class PathExpressionTree {
   }
   std::int32_t root() const { return root_; }
 
-  /// Relative paths taken from `anchor`, a prim.
+  /// Relative paths taken from `anchor`, a prim, or one inside a variant for the prim it makes.
   void make_absolute(Path anchor);
 
   using MapPath = std::function<Path(Path)>;  ///< an empty path: has no image

@@ -151,7 +151,7 @@ class PathTree {
     const std::string_view set = std::string_view(text).substr(1, equals - 1);
     const std::string_view name =
         std::string_view(text).substr(equals + 1, text.size() - equals - 2);
-    if (!is_identifier(set) || !(name.empty() || is_variant_name(name))) {
+    if (!is_variant_name(set) || !(name.empty() || is_variant_name(name))) {
       return std::nullopt;
     }
     return parent.variant_selection(Token(set), Token(name));

@@ -132,6 +132,19 @@ TEST(CrateWriter, StoresVariantsTargetsAndRelationalAttributes) {
   expect_equal(layer, *back);
 }
 
+TEST(CrateWriter, KeepsNamesOfVariantSetsThatPathsInTextCannotSay) {
+  Layer layer("made");
+  const Path prim = Path::from("/A");
+  layer.create(prim, SpecKind::Prim);
+  for (const char* set : {"0", "a-b"}) {
+    layer.create(prim.variant_selection(Token(set), Token("")), SpecKind::VariantSet);
+    layer.create(prim.variant_selection(Token(set), Token("x")), SpecKind::Variant);
+  }
+  const auto back = read_back(*write_crate(layer));
+  ASSERT_TRUE(back) << back.error().to_string();
+  expect_equal(layer, *back);
+}
+
 TEST(CrateWriter, RefusesRelativePaths) {
   const auto bytes = write_crate(
       layer_with(layer::ListOp<Path>::make_explicit({Path::from("B"), Path::from("../C")})));
