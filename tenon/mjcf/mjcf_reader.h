@@ -109,7 +109,7 @@ class MjcfReader {
   std::map<robot::Index, int> texture_of_material_;         // of the colour, where it is a file
   std::map<robot::Index, robot::Index> plain_;     // materials without their images, by material
   std::map<robot::Index, std::vector<int>> bare_;  // geoms that have no place for those images
-  std::vector<bool> is_paired_;                             // (ngeom), named by a contact pair
+  std::vector<bool> is_paired_;                    // (ngeom), named by a contact pair
   std::vector<std::optional<robot::Index>> class_of_geom_;  // (ngeom), into contact_classes
 };
 
