@@ -77,6 +77,7 @@ class SceneReader {
   void add_visual(const stage::Prim& prim, std::optional<robot::Index> link);
   bool take_mesh(const stage::Prim& prim, robot::Index link, robot::Visual& visual);
   void take_texture_coordinates(const stage::Prim& prim, bool turned, robot::MeshFile& file);
+  void take_plane(const stage::Prim& prim, const Vec3d& scale, robot::Visual& visual);
   bool take_gprim(const stage::Prim& prim, robot::Index link, robot::Visual& visual);
   std::optional<robot::Index> material_of(const stage::Prim& prim);
   void take_color(const stage::Prim& shader, Path material, std::optional<robot::Index>& index);

@@ -198,6 +198,22 @@ void SceneReader::take_texture_coordinates(const stage::Prim& prim, bool turned,
   file.texture_coordinates = std::move(places);
 }
 
+/// One without width or length has no end.
+void SceneReader::take_plane(const stage::Prim& prim, const Vec3d& scale, robot::Visual& visual) {
+  const Token axis = prim.attribute("axis").get_as<Token>().value_or(Token("Z"));
+  visual.geometry.kind = GeometryKind::Plane;
+  const bool ends =
+      prim.attribute("width").has_authored_value() && prim.attribute("length").has_authored_value();
+  if (ends && axis == "Z") {
+    visual.geometry.half_extents = {{std::fabs(scale[0]) * number(prim, "width") / 2,
+                                     std::fabs(scale[1]) * number(prim, "length") / 2, 0}};
+  }
+  visual.pose = visual.pose * Pose{{},
+                                   turn_from_z(axis == "X"   ? physics::Axis::X
+                                               : axis == "Y" ? physics::Axis::Y
+                                                             : physics::Axis::Z)};
+}
+
 bool SceneReader::take_gprim(const stage::Prim& prim, Index link, robot::Visual& visual) {
   const auto [pose, rest] = placed(prim);
   const Vec3d scale = row_scale(rest);
@@ -208,6 +224,10 @@ bool SceneReader::take_gprim(const stage::Prim& prim, Index link, robot::Visual&
     for (std::size_t i = 0; i < 3; ++i) {
       g.half_extents[i] = std::fabs(scale[i]) * number(prim, "size") / 2;
     }
+    return true;
+  }
+  if (is_mjcf() && prim.is_a("Plane")) {
+    take_plane(prim, scale, visual);
     return true;
   }
   if (is_mjcf() && prim.is_a("Sphere")) {

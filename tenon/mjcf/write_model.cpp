@@ -26,6 +26,7 @@ using robot::ImageUse;
 
 constexpr int kVisualGroup = 2;
 constexpr int kColliderGroup = 3;         // hidden by viewers unless asked for
+constexpr double kGrid = 0.1;             // spacing of the lines that viewers draw on planes [m]
 constexpr std::size_t kFewestPoints = 4;  // of a mesh
 
 /// Files for MuJoCo's compiler that need not be on the disk.
@@ -86,7 +87,7 @@ class VisualWriter {
       mjsBody* body = mjs_findBody(&spec_, is_body ? scene.bodies[i].path.str().c_str() : "world");
       const Pose frame = is_body ? inverse(model_.bodies[i].engine_frame) : Pose{};
       for (const robot::Visual& visual : visuals_.links[i].visuals) {
-        add_visual(body, frame, visual);
+        add_visual(body, !is_body, frame, visual);
       }
     }
   }
@@ -156,37 +157,38 @@ class VisualWriter {
     }
   }
 
-  bool set_shape(const robot::Geometry& from, mjsGeom& geom) {
+  void set_shape(const robot::Geometry& from, mjsGeom& geom) {
     const double h = from.half_height;
     switch (from.kind) {
       case GeometryKind::Box:
         geom.type = mjGEOM_BOX;
         write_vector(geom.size, from.half_extents);
-        return true;
+        break;
       case GeometryKind::Sphere:
         geom.type = mjGEOM_SPHERE;
         write_vector(geom.size, {{from.radius, 0, 0}});
-        return true;
+        break;
       case GeometryKind::Ellipsoid:
         geom.type = mjGEOM_ELLIPSOID;
         write_vector(geom.size, from.half_extents);
-        return true;
+        break;
       case GeometryKind::Cylinder:
         geom.type = mjGEOM_CYLINDER;
         write_vector(geom.size, {{from.radius, h, 0}});
-        return true;
+        break;
       case GeometryKind::Capsule:
         geom.type = mjGEOM_CAPSULE;
         write_vector(geom.size, {{from.radius, h, 0}});
-        return true;
+        break;
       case GeometryKind::Mesh:
         geom.type = mjGEOM_MESH;
         mjs_setString(geom.meshname, mesh_of(from.mesh).c_str());
-        return true;
+        break;
       case GeometryKind::Plane:
+        geom.type = mjGEOM_PLANE;
+        write_vector(geom.size, {{from.half_extents[0], from.half_extents[1], kGrid}});
         break;
     }
-    return false;
   }
 
   /// Meshes that are alike are one.
@@ -234,13 +236,15 @@ class VisualWriter {
     }
   }
 
-  void add_visual(mjsBody* body, const Pose& frame, const robot::Visual& visual) {
+  void add_visual(mjsBody* body, bool is_world, const Pose& frame, const robot::Visual& visual) {
     const robot::Geometry& geometry = visual.geometry;
     const bool is_mesh = geometry.kind == GeometryKind::Mesh;
     const bool small = is_mesh && (visuals_.meshes[geometry.mesh].points.size() < kFewestPoints ||
                                    visuals_.meshes[geometry.mesh].triangles.empty());
-    if (body == nullptr || small || geometry.kind == GeometryKind::Plane) {
-      report("the shape \"" + visual.name + "\" has too few points or is a plane; it is left out");
+    const bool moves = geometry.kind == GeometryKind::Plane && !is_world;
+    if (body == nullptr || small || moves) {
+      report("the shape \"" + visual.name +
+             "\" has too few points or is a plane that moves; it is left out");
       return;
     }
     mjsGeom* geom = mjs_addGeom(body, nullptr);

@@ -141,15 +141,13 @@ class TendonReader {
   }
 
   bool read_side(std::size_t at, TendonStop& stop) {
-    const std::vector<int> indices = whole(tokens_.side_indices);
-    const std::vector<Path> sites = found_.prim.relationship(tokens_.side_sites).targets();
-    if (at >= indices.size() || indices[at] < 0) {
+    if (at >= side_indices_.size() || side_indices_[at] < 0) {
       return true;
     }
     Mat4d world;
-    const auto index = static_cast<std::size_t>(indices[at]);
-    if (index < sites.size()) {
-      stop.side = place_of(sites[index], world);
+    const auto index = static_cast<std::size_t>(side_indices_[at]);
+    if (index < side_sites_.size()) {
+      stop.side = place_of(side_sites_[index], world);
     }
     return stop.side.has_value() || refuse(tokens_.side_sites, "a site at a side is not there");
   }
@@ -196,6 +194,8 @@ class TendonReader {
   }
 
   bool read_stops() {
+    side_indices_ = whole(tokens_.side_indices);
+    side_sites_ = found_.prim.relationship(tokens_.side_sites).targets();
     const std::vector<int> segments = whole(tokens_.segments);
     const std::vector<double> divisors = numbers_of(found_.prim, tokens_.divisors);
     if (!segments.empty() && segments.size() != order_.size()) {
@@ -257,6 +257,8 @@ class TendonReader {
   TendonTokens tokens_;
   Tendon tendon_;
   std::vector<Path> order_;
+  std::vector<int> side_indices_;
+  std::vector<Path> side_sites_;
   bool turns_ = true;  // all joints of a fixed tendon are revolute
 };
 

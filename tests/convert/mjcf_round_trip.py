@@ -126,7 +126,7 @@ def check_images(work):
     near("metallic", after.mat_metallic[named["painted"].id], [0.25])
     near("wood", named["wood"].rgba, before.material("wood").rgba * [0.5, 0, 0.5, 1])
     seen = sum(int(group) == 2 for group in after.geom_group)
-    if seen != 4 or sorted(path.name for path in (
+    if seen != 5 or sorted(path.name for path in (
             back.parent / "images_images").iterdir()) != ["paint.png", "rough.png"]:
         faults.append(f"images: {seen} visuals, {list(back.parent.rglob('*'))}")
     # The same corners have the same places in the image.
