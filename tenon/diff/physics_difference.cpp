@@ -139,6 +139,7 @@ std::vector<PhysicsDifference> physics_differences(const PhysicsScene& before,
   comparison.compare("joint", facts_in(before, before.joints), facts_in(after, after.joints));
   comparison.compare("articulation", facts_in(before, before.articulations),
                      facts_in(after, after.articulations));
+  comparison.compare("tendon", facts_in(before, before.tendons), facts_in(after, after.tendons));
   comparison.compare("pair", pairs_kept_apart(before), pairs_kept_apart(after));
   return comparison.take();
 }

@@ -67,5 +67,28 @@ TEST(PhysicsDifference, WhatCameAndWentIsNamed) {
   EXPECT_EQ(found.back().change, Change::Added);
 }
 
+TEST(PhysicsDifference, WhatIsForMujocoAloneIsNamedToo) {
+  physics::PhysicsScene before = one_joint();
+  before.colliders.emplace_back().path = Path::from("/r/c");
+  physics::Tendon& tendon = before.tendons.emplace_back();
+  tendon.path = Path::from("/r/t");
+  tendon.joints = {0};
+  tendon.coefficients = {1};
+  tendon.stops.emplace_back().place.body = 1;
+  EXPECT_TRUE(physics_differences(before, before).empty());
+  physics::PhysicsScene after = before;
+  after.colliders[0].mujoco.condim = 6;
+  after.joints[0].mujoco.solref_limit = {0.05, 0.8};
+  after.tendons[0].coefficients = {2};
+  after.tendons[0].stops[0].place.pose.position = {{0, 0, 1}};
+  const auto found = physics_differences(before, after);
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found[0].after.name, "MuJoCo condim");
+  EXPECT_EQ(found[1].after.name, "MuJoCo solref of the limit");
+  EXPECT_EQ(found[2].object, "tendon");
+  EXPECT_EQ(found[2].before.name, "coefficient of /r/j");
+  EXPECT_EQ(found[3].before.name, "stop 1 position");
+}
+
 }  // namespace
 }  // namespace tenon::diff

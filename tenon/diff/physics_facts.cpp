@@ -173,6 +173,9 @@ Facts facts_of(const physics::Scene& scene) {
   if (scene.time_step) {
     facts.number("time step", "s", *scene.time_step);
   }
+  if (scene.mujoco) {
+    add_mujoco(facts, *scene.mujoco);
+  }
   return facts.take();
 }
 
@@ -204,6 +207,12 @@ Facts facts_of(const physics::Material& material) {
       .number("dynamic friction", "", material.dynamic_friction)
       .number("restitution", "", material.restitution)
       .number("density", "kg/m^3", material.density);
+  if (material.torsional_friction) {
+    facts.number("torsional friction", "m", *material.torsional_friction);
+  }
+  if (material.rolling_friction) {
+    facts.number("rolling friction", "m", *material.rolling_friction);
+  }
   return facts.take();
 }
 
@@ -227,6 +236,7 @@ Facts facts_of(const PhysicsScene& scene, const physics::Collider& collider) {
   if (collider.max_hull_vertices) {
     facts.number("most vertices of the hull", "", *collider.max_hull_vertices);
   }
+  add_mujoco(facts, collider.mujoco);
   for (const physics::FaceMaterial& faces : collider.face_materials) {
     facts.word(("material of " + faces.subset.name().str()).c_str(),
                faces.material ? scene.materials[*faces.material].path.str() : "none");
@@ -265,6 +275,7 @@ Facts facts_of(const PhysicsScene& scene, const physics::Joint& joint) {
   if (joint.initial_velocity) {
     facts.number("initial velocity", units.velocity, *joint.initial_velocity);
   }
+  add_mujoco(facts, joint.mujoco);
   return facts.take();
 }
 

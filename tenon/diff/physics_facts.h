@@ -18,6 +18,7 @@ Facts facts_of(const physics::Material& material);
 Facts facts_of(const physics::PhysicsScene& scene, const physics::Collider& collider);
 Facts facts_of(const physics::PhysicsScene& scene, const physics::Joint& joint);
 Facts facts_of(const physics::PhysicsScene& scene, const physics::Articulation& articulation);
+Facts facts_of(const physics::PhysicsScene& scene, const physics::Tendon& tendon);
 
 /// Makes lists of facts.
 class FactList {
@@ -33,5 +34,10 @@ class FactList {
  private:
   Facts facts_;
 };
+
+// What is for MuJoCo alone, where it is authored.
+void add_mujoco(FactList& facts, const std::vector<physics::MujocoSetting>& settings);
+void add_mujoco(FactList& facts, const physics::MujocoContact& contact);
+void add_mujoco(FactList& facts, const physics::MujocoSoftness& softness);
 
 }  // namespace tenon::diff

@@ -40,6 +40,10 @@ class Numbers {
     add(value ? 1.0 : 0.0);
     add(value.value_or(0));
   }
+  void add(const std::vector<double>& numbers) {
+    add(static_cast<double>(numbers.size()));
+    values_.insert(values_.end(), numbers.begin(), numbers.end());
+  }
   bool is_near(const Numbers& other) const {
     return values_.size() == other.values_.size() &&
            std::equal(values_.begin(), values_.end(), other.values_.begin(), near);
@@ -101,6 +105,14 @@ Numbers numbers_of(const PhysicsScene& scene, const physics::Collider& collider)
   n.add(collider.contact_offset);
   n.add(collider.rest_offset);
   n.add(static_cast<double>(collider.max_hull_vertices.value_or(-1)));
+  const physics::MujocoContact& contact = collider.mujoco;
+  n.add(static_cast<double>(contact.condim.value_or(-1)));
+  n.add(static_cast<double>(contact.priority.value_or(0)));
+  n.add(contact.solmix);
+  n.add(contact.solref);
+  n.add(contact.solimp);
+  n.add(material.torsional_friction);
+  n.add(material.rolling_friction);
   n.add(static_cast<double>(collider.face_materials.size()));
   return n;
 }
@@ -153,8 +165,52 @@ Numbers numbers_of(const physics::Joint& joint) {
     n.add(mimic.offset);
     n.add(mimic.natural_frequency);
     n.add(mimic.damping_ratio);
+    n.add({mimic.higher.begin(), mimic.higher.end()});
+    n.add(mimic.mujoco_solref);
+    n.add(mimic.mujoco_solimp);
+  }
+  for (const std::vector<double>* softness :
+       {&joint.mujoco.solref_limit, &joint.mujoco.solimp_limit, &joint.mujoco.solref_friction,
+        &joint.mujoco.solimp_friction}) {
+    n.add(*softness);
   }
   return n;
+}
+
+Numbers numbers_of(const physics::Tendon& tendon) {
+  Numbers n;
+  for (const double x : {tendon.stiffness, tendon.damping, tendon.friction, tendon.armature}) {
+    n.add(x);
+  }
+  n.add(tendon.coefficients);
+  n.add({tendon.spring_length.begin(), tendon.spring_length.end()});
+  n.add(tendon.range ? std::vector<double>(tendon.range->begin(), tendon.range->end())
+                     : std::vector<double>());
+  for (const physics::TendonStop& stop : tendon.stops) {
+    n.add(static_cast<double>(stop.kind));
+    n.add(stop.place.pose);
+    n.add(stop.radius);
+    n.add(stop.divisor);
+    n.add(flag(stop.side.has_value()));
+    n.add(stop.side ? stop.side->pose : Pose{});
+  }
+  for (const physics::MujocoSetting& setting : tendon.settings) {
+    n.add(setting.numbers);
+  }
+  return n;
+}
+
+/// Joints that a fixed tendon is of, bodies that a spatial one meets.
+std::vector<Path> held_by(const PhysicsScene& scene, const physics::Tendon& tendon) {
+  std::vector<Path> paths;
+  for (const Index joint : tendon.joints) {
+    paths.push_back(scene.joints[joint].path);
+  }
+  for (const physics::TendonStop& stop : tendon.stops) {
+    paths.push_back(body_path(scene, stop.place.body));
+    paths.push_back(stop.side ? body_path(scene, stop.side->body) : Path());
+  }
+  return paths;
 }
 
 class Comparison {
@@ -168,6 +224,7 @@ class Comparison {
     colliders();
     joints();
     articulations();
+    tendons();
     pairs();
     return std::move(first_);
   }
@@ -273,6 +330,17 @@ class Comparison {
     if (expected_.articulations.size() != found_.articulations.size()) {
       report(Path(), "the source has another number of articulations");
     }
+  }
+
+  void tendons() {
+    match(expected_.tendons, found_.tendons, false, "the tendon is missing",
+          [this](const physics::Tendon& a, const physics::Tendon& b) {
+            if (held_by(expected_, a) != held_by(found_, b)) {
+              report(a.path, "the tendon is of other joints or bodies");
+            } else if (!numbers_of(a).is_near(numbers_of(b))) {
+              report(a.path, "the tendon has another path or other settings");
+            }
+          });
   }
 
   using PathPairs = std::set<std::pair<Path, Path>>;
