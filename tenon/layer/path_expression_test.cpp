@@ -101,9 +101,9 @@ TEST(PathExpression, PathsAreMadeAbsoluteAndMapped) {
   tree = tree_of("a {x} %../x:y + ../b//");
   tree.make_absolute(Path::from("/A"));
   EXPECT_EQ(tree.text(), "/A/a /A/{x} %/x:y + /b//");
-  tree = tree_of("b %../x:y");
-  tree.make_absolute(Path::from("/A{v=one}c"));
-  EXPECT_EQ(tree.text(), "/A/c/b %/A/x:y");
+  PathExpressionTree in_variant = tree_of("b %../x:y");
+  in_variant.make_absolute(Path::from("/A{v=one}c"));
+  EXPECT_EQ(in_variant.text(), "/A/c/b %/A/x:y");
   const auto map = [](Path path) {
     return path.has_prefix(Path::from("/A"))
                ? path.replace_prefix(Path::from("/A"), Path::from("/R"))
