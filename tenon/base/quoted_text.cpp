@@ -109,10 +109,12 @@ std::string unescaped(std::string_view raw) {
 }
 
 std::string quoted(std::string_view text) {
-  text = text.substr(0, text.find('\0'));
   const bool has_double = text.find('"') != std::string_view::npos;
   const char quote = has_double && text.find('\'') == std::string_view::npos ? '\'' : '"';
   const bool triple = text.find('\n') != std::string_view::npos;
+  // Written is what stands before a zero byte, in the quotes that all of it asks for, as OpenUSD
+  // does.
+  text = text.substr(0, text.find('\0'));
   std::string out(triple ? 3 : 1, quote);
   out.reserve(text.size() + 6);
   for (std::size_t at = 0; at < text.size();) {

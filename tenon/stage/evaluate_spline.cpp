@@ -12,7 +12,7 @@
 #include <numbers>
 #include <optional>
 
-#include "tenon/base/limits.h"
+#include "tenon/stage/spline_knots.h"
 
 namespace tenon::stage {
 namespace {
@@ -141,12 +141,12 @@ Number segment_value(const Spline& spline, const SplineKnot& a, const SplineKnot
 }
 
 // Slope that goes on linearly from the outermost segment.
-double end_slope(const std::vector<SplineKnot>& knots, bool before) {
+double end_slope(const SplineKnots& knots, bool before) {
   if (knots.size() < 2) {
     return 0;
   }
-  const SplineKnot& a = before ? knots[0] : knots[knots.size() - 2];
-  const SplineKnot& b = before ? knots[1] : knots.back();
+  const SplineKnot a = before ? knots[0] : knots[knots.size() - 2];
+  const SplineKnot b = before ? knots[1] : knots.back();
   const SplineKnot& end = before ? a : b;
   if (end.pre_value.has_value()) {
     return 0;
@@ -160,20 +160,18 @@ double end_slope(const std::vector<SplineKnot>& knots, bool before) {
   return 0;
 }
 
-Number inside_value(const Spline& spline, const std::vector<SplineKnot>& knots, double time) {
-  const auto after =
-      std::upper_bound(knots.begin(), knots.end(), time,
-                       [](double t, const SplineKnot& knot) { return t < knot.time; });
-  const SplineKnot& a = *std::prev(after);
+Number inside_value(const Spline& spline, const SplineKnots& knots, double time) {
+  const std::size_t after = knots.count_until(time);
+  const SplineKnot a = knots[std::max<std::size_t>(after, 1) - 1];
   // At a knot the side after it counts: of the last one that is the extrapolation.
   const SplineKnot& last = spline.knots.back();
   const bool is_last = a.time == last.time && a.value == last.value;
-  if (after == knots.end() || (is_last && a.time == time)) {
+  if (after == knots.size() || (is_last && a.time == time)) {
     return is_last && spline.post.mode == SplineExtrapolation::None ? Number() : Number(a.value);
   }
   return a.time == time && a.next != SplineInterpolation::None
              ? Number(a.value)
-             : segment_value(spline, a, *after, time);
+             : segment_value(spline, a, knots[after], time);
 }
 
 /// What the segment that ends at `b` comes to there.
@@ -184,7 +182,7 @@ Number value_before(const SplineKnot& a, const SplineKnot& b) {
   return a.next == SplineInterpolation::Held ? a.value : pre_value(b);
 }
 
-Number looped_value(const Spline& spline, const std::vector<SplineKnot>& knots, double time,
+Number looped_value(const Spline& spline, const SplineKnots& knots, double time,
                     SplineExtrapolation mode) {
   const double start = knots.front().time;
   const double span = knots.back().time - start;
@@ -206,7 +204,7 @@ Number looped_value(const Spline& spline, const std::vector<SplineKnot>& knots, 
     // What comes before goes on from the inward sides of the ends.
     const bool ends_as_written = spline.loop && spline.loop->post_loops == 0 &&
                                  spline.knots.back().time == knots.back().time;
-    const SplineKnot& last = ends_as_written ? spline.knots.back() : knots.back();
+    const SplineKnot last = ends_as_written ? spline.knots.back() : knots.back();
     const double rise =
         turns < 0 ? pre_value(last) - pre_value(knots.front()) : last.value - knots.front().value;
     *value += turns * rise;
@@ -214,10 +212,9 @@ Number looped_value(const Spline& spline, const std::vector<SplineKnot>& knots, 
   return value;
 }
 
-Number outside_value(const Spline& spline, const std::vector<SplineKnot>& knots, double time,
-                     bool before) {
+Number outside_value(const Spline& spline, const SplineKnots& knots, double time, bool before) {
   const SplineEnd& end = before ? spline.pre : spline.post;
-  const SplineKnot& knot = before ? knots.front() : knots.back();
+  const SplineKnot knot = before ? knots.front() : knots.back();
   const double value = before ? pre_value(knot) : knot.value;
   switch (end.mode) {
     case SplineExtrapolation::None:
@@ -231,53 +228,6 @@ Number outside_value(const Spline& spline, const std::vector<SplineKnot>& knots,
     default:
       return looped_value(spline, knots, time, end.mode);
   }
-}
-
-// Knots with the inner loop written out; knots that the copies cover are hidden by them.
-std::vector<SplineKnot> unrolled(const Spline& spline) {
-  const layer::SplineLoop& loop = *spline.loop;
-  const double span = loop.end - loop.start;
-  std::vector<SplineKnot> proto;
-  for (const SplineKnot& knot : spline.knots) {
-    if (knot.time >= loop.start && knot.time < loop.end) {
-      proto.push_back(knot);
-    }
-  }
-  const bool repeats = loop.pre_loops > 0 || loop.post_loops > 0;
-  if (!repeats || proto.empty() || proto.front().time != loop.start || !(span > 0)) {
-    return spline.knots;
-  }
-  const auto most = static_cast<std::int32_t>(limits::kSplineLoopKnots / proto.size());
-  const std::int32_t before = std::clamp(loop.pre_loops, 0, most);
-  const std::int32_t after = std::clamp(loop.post_loops, 0, most);
-  const double first = loop.start - before * span;
-  const double last = loop.end + after * span;
-  std::vector<SplineKnot> result;
-  for (const SplineKnot& knot : spline.knots) {
-    if (knot.time < first) {
-      result.push_back(knot);
-    }
-  }
-  for (int turn = -before; turn <= after + 1; ++turn) {
-    for (SplineKnot knot : proto) {
-      knot.time += turn * span;
-      knot.value += turn * loop.value_offset;
-      if (knot.pre_value) {
-        *knot.pre_value += turn * loop.value_offset;
-      }
-      result.push_back(knot);
-      if (turn > after) {
-        result.back().time = last;  // the first knot once more ends the loop
-        break;
-      }
-    }
-  }
-  for (const SplineKnot& knot : spline.knots) {
-    if (knot.time > last) {
-      result.push_back(knot);
-    }
-  }
-  return result;
 }
 
 void move_tangent(layer::SplineTangent& tangent, double scale) {
@@ -309,8 +259,7 @@ namespace {
 
 // Extrapolation goes on from the knots as they are written, where no copies of a loop stand beyond
 // them; repetition goes on from the copies.
-Number value_beyond(const Spline& spline, const std::vector<SplineKnot>& knots, double time,
-                    bool before) {
+Number value_beyond(const Spline& spline, const SplineKnots& knots, double time, bool before) {
   const SplineEnd& end = before ? spline.pre : spline.post;
   if (!spline.loop || end.mode > SplineExtrapolation::Sloped) {
     return outside_value(spline, knots, time, before);
@@ -320,11 +269,12 @@ Number value_beyond(const Spline& spline, const std::vector<SplineKnot>& knots, 
   const bool is_outermost = knot.time == (before ? knots.front() : knots.back()).time;
   const bool is_alone = before ? loop.pre_loops == 0 || knot.time < loop.start
                                : loop.post_loops == 0 || knot.time > loop.end;
-  return outside_value(spline, is_outermost && is_alone ? spline.knots : knots, time, before);
+  return outside_value(spline, is_outermost && is_alone ? SplineKnots::written(spline) : knots,
+                       time, before);
 }
 
 Number value_at_time(const Spline& spline, double time) {
-  const std::vector<SplineKnot> knots = spline.loop ? unrolled(spline) : spline.knots;
+  const SplineKnots knots = SplineKnots::looped(spline);
   const bool repeats_after = spline.post.mode > SplineExtrapolation::Sloped;
   if (time < knots.front().time) {
     return value_beyond(spline, knots, time, true);

@@ -236,6 +236,27 @@ Result<std::vector<double>> ValueReader::times(ValueWord word) {
   return times;
 }
 
+namespace {
+
+/// Samples whose values could not be read are left out, as the finding about them says.
+void drop_empty(layer::TimeSamples& samples) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < samples.values.size(); ++i) {
+    if (samples.values[i].empty()) {
+      continue;
+    }
+    if (kept != i) {
+      samples.times[kept] = samples.times[i];
+      samples.values[kept] = std::move(samples.values[i]);
+    }
+    ++kept;
+  }
+  samples.times.resize(kept);
+  samples.values.resize(kept);
+}
+
+}  // namespace
+
 Result<void> ValueReader::item(bytes::ByteReader& in, layer::TimeSamples& out) {
   TENON_CHECK(skip_distance(in));
   TENON_TRY(const ValueWord times_word, in.read<ValueWord>());
@@ -261,6 +282,7 @@ Result<void> ValueReader::item(bytes::ByteReader& in, layer::TimeSamples& out) {
     }
     out.values.push_back(*std::move(value));
   }
+  drop_empty(out);
   return {};
 }
 

@@ -87,6 +87,8 @@ Result<Value> ValueReader::inlined(std::uint32_t bits) {
     return Value(small_vector<T>(bits));
   } else if constexpr (MatrixTraits<T>::size != 0) {
     return Value(small_matrix<T>(bits));
+  } else if constexpr (std::is_same_v<T, layer::UnregisteredValue>) {
+    return corrupt("an unknown field holds no value");
   } else {
     return Value(T());  // only the empty one is its own word
   }
