@@ -50,10 +50,12 @@ robot::Joint MjcfReader::joint_of(int number) {
   joint.armature = model_.dof_armature[dof];
   joint.stiffness = model_.jnt_stiffness[at];
   joint.mujoco = softness_of(number);
-  if (model_.jnt_margin[at] != 0 || model_.jnt_actgravcomp[at] != 0) {
+  if (model_.jnt_margin[at] != 0) {
+    report("mjcf.left-out", "the margin of the limit of joint \"" + joint.name + "\" is left out");
+  }
+  if (model_.jnt_actgravcomp[at] != 0) {
     report("mjcf.left-out",
-           "the margin of the limit or the compensation of gravity by actuators of joint \"" +
-               joint.name + "\" is left out");
+           "the compensation of gravity by actuators of joint \"" + joint.name + "\" is left out");
   }
   if (joint.kind == JointKind::Ball) {
     if (limited) {

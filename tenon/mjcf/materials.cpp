@@ -240,18 +240,6 @@ std::optional<Index> MjcfReader::material_of(int geom, const robot::Geometry& ge
   return without_images(material);
 }
 
-namespace {
-
-std::string listed(const std::vector<std::uint32_t>& lines) {
-  std::string text;
-  for (const std::uint32_t line : lines) {
-    text += (text.empty() ? "line " : ", ") + std::to_string(line);
-  }
-  return text;
-}
-
-}  // namespace
-
 /// What surfaces of UsdPreviewSurface have no word for: gloss as OpenGL counts it, mirrors, images
 /// on shapes without texture coordinates.
 void MjcfReader::report_materials() {
@@ -265,7 +253,7 @@ void MjcfReader::report_materials() {
     report("mjcf.left-out",
            "the images of material \"" + robot_.materials[material].name + "\" are left out on " +
                std::to_string(geoms.size()) +
-               " geoms without texture coordinates, which have its mean colour: " + listed(lines),
+               " geoms without texture coordinates, which have its mean colour" + lines_text(lines),
            Severity::Warning, lines.front());
   }
   std::vector<std::uint32_t> glossy;
@@ -284,15 +272,15 @@ void MjcfReader::report_materials() {
   if (!glossy.empty()) {
     report("mjcf.left-out",
            "specular, shininess and reflectance of " + std::to_string(glossy.size()) +
-               " materials are left out: " + listed(glossy),
+               " materials are left out" + lines_text(glossy),
            Severity::Warning, glossy.front());
   }
   if (!uniform.empty()) {
-    report(
-        "mjcf.left-out",
-        "texuniform of " + std::to_string(uniform.size()) +
-            " materials is left out, their images are repeated over each shape: " + listed(uniform),
-        Severity::Warning, uniform.front());
+    report("mjcf.left-out",
+           "texuniform of " + std::to_string(uniform.size()) +
+               " materials is left out, their images are repeated over each shape" +
+               lines_text(uniform),
+           Severity::Warning, uniform.front());
   }
 }
 
