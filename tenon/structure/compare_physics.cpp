@@ -165,9 +165,6 @@ Numbers numbers_of(const physics::Joint& joint) {
     n.add(mimic.offset);
     n.add(mimic.natural_frequency);
     n.add(mimic.damping_ratio);
-    n.add({mimic.higher.begin(), mimic.higher.end()});
-    n.add(mimic.mujoco_solref);
-    n.add(mimic.mujoco_solimp);
   }
   for (const std::vector<double>* softness :
        {&joint.mujoco.solref_limit, &joint.mujoco.solimp_limit, &joint.mujoco.solref_friction,
@@ -175,6 +172,21 @@ Numbers numbers_of(const physics::Joint& joint) {
     n.add(*softness);
   }
   return n;
+}
+
+/// What only MuJoCo's schema says of a mimic. Where a view holds several schemas of one law, that
+/// of another one may be read.
+Numbers mujoco_numbers_of(const physics::Mimic& mimic) {
+  Numbers n;
+  n.add({mimic.higher.begin(), mimic.higher.end()});
+  n.add(mimic.mujoco_solref);
+  n.add(mimic.mujoco_solimp);
+  return n;
+}
+
+bool same_mimic(const physics::Joint& a, const physics::Joint& b) {
+  return !a.mimic || !b.mimic || a.mimic->schema != b.mimic->schema ||
+         mujoco_numbers_of(*a.mimic).is_near(mujoco_numbers_of(*b.mimic));
 }
 
 Numbers numbers_of(const physics::Tendon& tendon) {
@@ -303,7 +315,7 @@ class Comparison {
               report(a.path, "the joint connects other bodies");
             } else if (leader_of(expected_, a) != leader_of(found_, b)) {
               report(a.path, "the joint follows another joint");
-            } else if (!numbers_of(a).is_near(numbers_of(b))) {
+            } else if (!numbers_of(a).is_near(numbers_of(b)) || !same_mimic(a, b)) {
               report(a.path, "the joint has other frames, limits, drives or settings");
             }
           });
