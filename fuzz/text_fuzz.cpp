@@ -19,11 +19,11 @@ std::string written_again(const std::string& text, tenon::Diagnostics& diagnosti
   return layer ? tenon::formats::write_text(*layer) : std::string();
 }
 
-/// A zero byte, as such or as an escape: strings are written up to there, so a second writing may
-/// find them empty and leave them out.
+/// A zero byte, as such or perhaps as an escape: strings are written up to there, so a second
+/// writing may find them empty and leave them out.
 bool has_zero_byte(std::string_view text) {
   return text.find('\0') != std::string_view::npos || text.find("\\0") != std::string_view::npos ||
-         text.find("\\x0") != std::string_view::npos;
+         text.find("\\x") != std::string_view::npos;
 }
 
 }  // namespace

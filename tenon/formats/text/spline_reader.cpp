@@ -142,9 +142,10 @@ class SplineReader {
       return false;
     }
     cursor_.skip_inline();
-    constexpr double kLimit = 2147483647.0;
-    if (!(std::trunc(pre) == pre && std::trunc(post) == post && std::abs(pre) <= kLimit &&
-          std::abs(post) <= kLimit)) {
+    const auto is_count = [](double number) {
+      return std::trunc(number) == number && number >= -2147483648.0 && number <= 2147483647.0;
+    };
+    if (!is_count(pre) || !is_count(post)) {
       return cursor_.fail_at(start, ErrorCode::Parse, "text.value",
                              "the loop counts must be whole numbers");
     }
