@@ -10,15 +10,15 @@ namespace tenon {
 namespace {
 
 TEST(QuotedText, ChoosesQuotesThatNeedNoEscapes) {
-  EXPECT_EQ(quoted("a"), "\"a\"");
-  EXPECT_EQ(quoted("a\"b"), "'a\"b'");
-  EXPECT_EQ(quoted("a\"b'"), "\"a\\\"b'\"");
-  EXPECT_EQ(quoted("a\nb"), "\"\"\"a\nb\"\"\"");
+  EXPECT_EQ(tenon::quoted("a"), "\"a\"");
+  EXPECT_EQ(tenon::quoted("a\"b"), "'a\"b'");
+  EXPECT_EQ(tenon::quoted("a\"b'"), "\"a\\\"b'\"");
+  EXPECT_EQ(tenon::quoted("a\nb"), "\"\"\"a\nb\"\"\"");
 }
 
 TEST(QuotedText, EndsAtAZeroByteInTheQuotesOfTheWhole) {
-  EXPECT_EQ(quoted(std::string("a\0b\nc", 5)), "\"\"\"a\"\"\"");
-  EXPECT_EQ(quoted(std::string("a\0b\"c", 5)), "'a'");
+  EXPECT_EQ(tenon::quoted(std::string("a\0b\nc", 5)), "\"\"\"a\"\"\"");
+  EXPECT_EQ(tenon::quoted(std::string("a\0b\"c", 5)), "'a'");
 }
 
 TEST(QuotedText, ComesBackWithoutItsEscapes) {
