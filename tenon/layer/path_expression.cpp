@@ -188,7 +188,7 @@ std::string PathExpressionTree::text() const {
   const auto append_reference = [](std::string& out, const ExpressionReference& found) {
     out += '%';
     out += found.path.str();
-    out += found.name == "_" ? "_" : ':' + found.name;
+    out += found.is_weaker() ? "_" : ':' + found.name;
   };
   // Atoms are told apart by their node, which the callback does not get: number them anew.
   std::vector<ExpressionNode> nodes = nodes_;
