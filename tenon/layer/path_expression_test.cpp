@@ -101,6 +101,7 @@ TEST(PathExpression, PathsAreMadeAbsoluteAndMapped) {
   tree = tree_of("a {x} %../x:y + ../b//");
   tree.make_absolute(Path::from("/A"));
   EXPECT_EQ(tree.text(), "/A/a /A/{x} %/x:y + /b//");
+  EXPECT_EQ(tree_of("%/A:_ %:_").text(), "%/A:_ %_");
   PathExpressionTree in_variant = tree_of("b %../x:y");
   in_variant.make_absolute(Path::from("/A{v=one}c"));
   EXPECT_EQ(in_variant.text(), "/A/c/b %/A/x:y");
