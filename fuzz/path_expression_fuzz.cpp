@@ -31,6 +31,13 @@ PathExpressionTree read_again(const PathExpressionTree& tree) {
   return *std::move(again);
 }
 
+/// A tree whose paths have changed, read from its text: "//" may have come up, which takes in what
+/// stands beside it.
+PathExpressionTree simplified(const PathExpressionTree& tree) {
+  const auto again = PathExpressionTree::parse(tree.text());
+  return again ? *again : tree;
+}
+
 /// Paths of prims that expressions can name: as in OpenUSD, theirs are of ASCII alone.
 bool is_nameable(Path path) {
   const std::string text = path.str();
@@ -52,13 +59,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   PathExpressionTree tree = read_again(*parsed);
   if (is_nameable(anchor)) {
     tree.make_absolute(anchor);
-    tree = read_again(tree);
+    tree = read_again(simplified(tree));
   }
   if (is_nameable(prefix)) {
-    read_again(tree.mapped([&](Path path) { return path.has_prefix(prefix) ? prefix : Path(); }));
+    read_again(simplified(
+        tree.mapped([&](Path path) { return path.has_prefix(prefix) ? prefix : Path(); })));
   }
   if (const auto composed = tree.composed_over(*parsed)) {
-    read_again(*composed);
+    read_again(simplified(*composed));
   }
   return 0;
 }
