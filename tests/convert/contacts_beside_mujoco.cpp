@@ -13,6 +13,7 @@
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/tenon.h"
+#include "tests/convert/read_with_mujoco.h"
 
 namespace {
 
@@ -36,18 +37,6 @@ void expect_equal(const std::string& what, int found, int expected) {
   const double a = found;
   const double b = expected;
   expect_near(what, &a, &b, 1);
-}
-
-ModelPtr read_with_mujoco(const std::string& path) {
-  char error[1000] = "";
-  mjSpec* spec = mj_parseXML(path.c_str(), nullptr, error, sizeof(error));
-  if (spec == nullptr) {
-    std::printf("MuJoCo: %s\n", error);
-    return nullptr;
-  }
-  ModelPtr model(mj_compile(spec, nullptr));
-  mj_deleteSpec(spec);
-  return model;
 }
 
 /// By the name in the description: ours are prim paths, "/contacts/.../box_a_collider".
@@ -145,7 +134,7 @@ int compare(const std::string& path, convert::SchemaGeneration schema) {
       std::make_shared<const layer::Layer>(std::move(converted->layer)), nullptr, {});
   const physics::PhysicsScene scene = physics::read_physics(*stage, {}, findings);
   const auto simulation = MujocoSimulation::make(scene, {}, findings);
-  const ModelPtr theirs = read_with_mujoco(path);
+  const ModelPtr theirs = read_with_mujoco(path, [](mjSpec&) {});
   if (!simulation || theirs == nullptr) {
     return 1;
   }

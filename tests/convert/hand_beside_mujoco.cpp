@@ -18,6 +18,7 @@
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/tenon.h"
+#include "tests/convert/read_with_mujoco.h"
 
 namespace {
 
@@ -40,22 +41,10 @@ std::string hand() {
          "/assets/inspire_hand_urdf/inspire_hand.urdf";
 }
 
-/// MuJoCo's own reading.
-ModelPtr read_with_mujoco(const std::string& path) {
-  char error[1000] = "";
-  mjSpec* spec = mj_parseXML(path.c_str(), nullptr, error, sizeof(error));
-  if (spec == nullptr) {
-    std::printf("MuJoCo: %s\n", error);
-    return nullptr;
-  }
-  spec->compiler.fusestatic = 0;
-  mjs_setString(spec->compiler.meshdir, "");  // the file names of this hand hold their folder
-  ModelPtr model(mj_compile(spec, nullptr));
-  if (model == nullptr) {
-    std::printf("MuJoCo: %s\n", mjs_getError(spec));
-  }
-  mj_deleteSpec(spec);
-  return model;
+/// What this description needs to be read as written.
+void adjust(mjSpec& spec) {
+  spec.compiler.fusestatic = 0;
+  mjs_setString(spec.compiler.meshdir, "");  // the file names of this hand hold their folder
 }
 
 /// Ours are prim paths with the axis behind them: "/Lhand/Physics/joint.rotZ".
@@ -147,7 +136,7 @@ int compare(const std::string& path) {
   engines::SimulationOptions options;
   options.time_step = 0.001;
   auto simulation = MujocoSimulation::make(scene, options, findings);
-  ModelPtr theirs = read_with_mujoco(path);
+  ModelPtr theirs = read_with_mujoco(path, adjust);
   if (!simulation || theirs == nullptr) {
     return 1;
   }
