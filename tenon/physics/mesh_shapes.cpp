@@ -45,35 +45,43 @@ Approximation approximation_of(const ReadState& state, const ShapeSource& source
   return source.dynamic ? Approximation::ConvexHull : Approximation::None;
 }
 
-/// Points in the collider's rigid frame, exact under any matrix `world` of their prim [m].
-std::vector<Vec3d> placed_points(const ReadState& state, const ShapeSource& source,
-                                 const Mat4d& world, const layer::Array<Vec3f>& points) {
-  const Mat3d linear = upper_left(world);
-  const Quatd back = conjugate(source.frame.orientation);
-  const Vec3d offset = Vec3d{{world[3][0], world[3][1], world[3][2]}} - source.parts.translation;
+std::vector<std::int32_t> sorted(const layer::Array<std::int32_t>& array) {
+  std::vector<std::int32_t> numbers(array.begin(), array.end());
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+bool is_hole(const std::vector<std::int32_t>& holes, std::size_t face) {
+  return std::binary_search(holes.begin(), holes.end(), static_cast<std::int32_t>(face));
+}
+
+/// What a mesh prim under the matrix `world` is in the collider's rigid frame, but for its arrays.
+MeshSource placed(const ReadState& state, const ShapeSource& source, const Mat4d& world) {
+  MeshSource mesh;
+  mesh.linear = upper_left(world);
+  mesh.offset = Vec3d{{world[3][0], world[3][1], world[3][2]}} - source.parts.translation;
+  mesh.turn = conjugate(source.frame.orientation);
+  mesh.length = state.units.length;
+  return mesh;
+}
+
+/// Points in the collider's rigid frame, exact under any matrix of their prim [m].
+std::vector<Vec3d> placed_points(const MeshSource& mesh) {
   std::vector<Vec3d> placed;
-  placed.reserve(points.size());
-  for (const Vec3f& p : points) {
-    placed.push_back(rotate(back, to_double(p) * linear + offset) * state.units.length);
+  placed.reserve(mesh.points.size());
+  for (const Vec3f& p : mesh.points) {
+    placed.push_back(rotate(mesh.turn, to_double(p) * mesh.linear + mesh.offset) * mesh.length);
   }
   return placed;
 }
 
-struct Faces {
-  layer::Array<std::int32_t> counts;
-  layer::Array<std::int32_t> indices;
-  std::vector<std::int32_t> holes;  ///< ascending
-
-  bool is_hole(std::size_t face) const {
-    return std::binary_search(holes.begin(), holes.end(), static_cast<std::int32_t>(face));
-  }
-};
-
 /// Fan triangles; false when counts and indices contradict each other or the points.
-bool triangulate(const Faces& faces, std::size_t point_count, bool turned, TriangleMesh& mesh) {
+bool triangulate(const MeshSource& faces, TriangleMesh& mesh) {
   const std::span<const std::int32_t> indices = faces.indices.span();
   const std::size_t shared = 2 * faces.counts.size();  // corners that begin no triangle
   mesh.triangles.reserve(indices.size() - std::min(indices.size(), shared));
+  const std::vector<std::int32_t> holes = sorted(faces.holes);
+  const std::size_t point_count = faces.points.size();
   std::size_t first = 0;
   for (std::size_t face = 0; face < faces.counts.size(); ++face) {
     const std::int32_t count = faces.counts[face];
@@ -88,42 +96,50 @@ bool triangulate(const Faces& faces, std::size_t point_count, bool turned, Trian
     if (!sound) {
       return false;
     }
-    const bool hole = !faces.holes.empty() && faces.is_hole(face);
+    const bool hole = !holes.empty() && is_hole(holes, face);
     for (std::size_t k = 2; k < corners.size() && !hole; ++k) {
       const std::int32_t b = corners[k - 1];
       const std::int32_t c = corners[k];
-      mesh.triangles.push_back(turned ? Vec3i{{corners[0], c, b}} : Vec3i{{corners[0], b, c}});
+      mesh.triangles.push_back(faces.turned ? Vec3i{{corners[0], c, b}}
+                                            : Vec3i{{corners[0], b, c}});
     }
     first += static_cast<std::size_t>(count);
   }
   return true;
 }
 
-Faces read_faces(const ReadState& state, const stage::Prim& prim) {
-  const auto integers = [&](Token name) {
-    return state.values.get<layer::Array<std::int32_t>>(prim, name)
-        .value_or(layer::Array<std::int32_t>());
-  };
-  const layer::Array<std::int32_t> holes = integers(state.tokens.hole_indices);
-  Faces faces{integers(state.tokens.face_counts), integers(state.tokens.face_indices),
-              std::vector<std::int32_t>(holes.begin(), holes.end())};
-  std::sort(faces.holes.begin(), faces.holes.end());
-  return faces;
+layer::Array<std::int32_t> integers(const ReadState& state, const stage::Prim& prim, Token name) {
+  return state.values.get<layer::Array<std::int32_t>>(prim, name)
+      .value_or(layer::Array<std::int32_t>());
+}
+
+MeshSource read_source(const ReadState& state, const ShapeSource& source, const stage::Prim& prim,
+                       const Mat4d& world) {
+  MeshSource mesh = placed(state, source, world);
+  mesh.points = state.values.get<layer::Array<Vec3f>>(prim, state.tokens.points)
+                    .value_or(layer::Array<Vec3f>());
+  const bool left_handed =
+      state.values.get<Token>(prim, state.tokens.orientation) == Token("leftHanded");
+  const bool mirrored = determinant(mesh.linear) < 0;
+  mesh.turned = left_handed != mirrored;
+  mesh.holes = integers(state, prim, state.tokens.hole_indices);
+  mesh.counts = integers(state, prim, state.tokens.face_counts);
+  mesh.indices = integers(state, prim, state.tokens.face_indices);
+  return mesh;
 }
 
 /// S-59: a mesh without faces, or with broken ones, cannot collide.
 std::optional<TriangleMesh> read_triangles(const ReadState& state, const ShapeSource& source,
                                            const stage::Prim& prim, const Mat4d& world) {
-  const auto points = state.values.get<layer::Array<Vec3f>>(prim, state.tokens.points);
-  TriangleMesh mesh;
-  if (points) {
-    mesh.points = placed_points(state, source, world, *points);
+  const MeshSource made_from = read_source(state, source, prim, world);
+  if (state.mesh_cache != nullptr) {
+    if (const TriangleMesh* known = state.mesh_cache->find(made_from)) {
+      return *known;
+    }
   }
-  const bool left_handed =
-      state.values.get<Token>(prim, state.tokens.orientation) == Token("leftHanded");
-  const bool mirrored = determinant(upper_left(world)) < 0;
-  const bool whole =
-      triangulate(read_faces(state, prim), mesh.points.size(), left_handed != mirrored, mesh);
+  TriangleMesh mesh;
+  mesh.points = placed_points(made_from);
+  const bool whole = triangulate(made_from, mesh);
   if (!whole || mesh.triangles.empty()) {
     state.report(prim, Severity::Error, "collider.mesh-invalid",
                  whole
@@ -132,6 +148,10 @@ std::optional<TriangleMesh> read_triangles(const ReadState& state, const ShapeSo
                        "mesh does not collide",
                  "author points, faceVertexCounts and faceVertexIndices that fit");
     return std::nullopt;
+  }
+  mesh.flat = is_flat(mesh.points);
+  if (state.mesh_cache != nullptr) {
+    state.mesh_cache->add(made_from, mesh);
   }
   return mesh;
 }
@@ -173,6 +193,7 @@ void add_submeshes(const ReadState& state, const ShapeSource& source, TriangleMe
     }
   }
   if (!parts.empty()) {
+    mesh.flat = is_flat(mesh.points);
     state.report(source.found.prim, Severity::Warning, "collider.submeshes",
                  std::to_string(parts.size()) +
                      " meshes below this one are part of its collider, as the proposal says; no "
@@ -286,7 +307,6 @@ std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource&
     return std::nullopt;
   }
   add_submeshes(state, source, *mesh);
-  mesh->flat = is_flat(mesh->points);
   note_subdivision(state, source);
   const Approximation asked = approximation_of(state, source);
   const Approximation kind = settle(state, source, asked);
@@ -317,10 +337,12 @@ std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource&
 namespace {
 
 /// First triangle of each face, and one past the last: holes and degenerate faces have none.
-std::vector<Index> first_triangles(const Faces& faces) {
+std::vector<Index> first_triangles(const ReadState& state, const stage::Prim& prim) {
+  const layer::Array<std::int32_t> counts = integers(state, prim, state.tokens.face_counts);
+  const std::vector<std::int32_t> holes = sorted(integers(state, prim, state.tokens.hole_indices));
   std::vector<Index> first{0};
-  for (std::size_t face = 0; face < faces.counts.size(); ++face) {
-    const std::int32_t count = faces.is_hole(face) ? 0 : std::max(0, faces.counts[face] - 2);
+  for (std::size_t face = 0; face < counts.size(); ++face) {
+    const std::int32_t count = is_hole(holes, face) ? 0 : std::max(0, counts[face] - 2);
     first.push_back(first.back() + static_cast<Index>(count));
   }
   return first;
@@ -371,7 +393,7 @@ void read_face_materials(ReadState& state, Index index) {
     }
     const auto faces = state.values.get<layer::Array<std::int32_t>>(child, "indices");
     if (first.empty()) {
-      first = first_triangles(read_faces(state, prim));
+      first = first_triangles(state, prim);
     }
     collider.face_materials.push_back(
         {child.path(), material,
@@ -400,7 +422,9 @@ std::optional<ShapeReading> read_points_shape(ReadState& state, const ShapeSourc
       std::fmax(std::fabs(s[0]), std::fmax(std::fabs(s[1]), std::fabs(s[2]))) * state.units.length;
   ShapeReading reading;
   reading.shape.kind = ShapeKind::Spheres;
-  reading.shape.sphere_centers = placed_points(state, source, source.found.world, *points);
+  MeshSource centers = placed(state, source, source.found.world);
+  centers.points = *points;
+  reading.shape.sphere_centers = placed_points(centers);
   for (std::size_t i = 0; i < points->size(); ++i) {
     const float width = (*widths)[widths->size() == 1 ? 0 : i];
     reading.shape.sphere_radii.push_back(std::fabs(static_cast<double>(width)) / 2 * scale);

@@ -93,6 +93,7 @@ PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
   ReadState state = begin(stage, options, found);
   state.accounts = accounts;
   state.mesh_tools = &options.mesh_tools;
+  state.mesh_cache = options.mesh_cache;
   state.integrals = options.integrals ? &options.integrals : nullptr;
   state.walk = walk_stage(stage, state.values, options.readings);
   PhysicsScene scene = read_walked(state);

@@ -10,6 +10,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/physics/accounts.h"
+#include "tenon/physics/mesh_cache.h"
 #include "tenon/physics/mesh_inertia.h"
 #include "tenon/physics/mesh_tools.h"
 #include "tenon/physics/physics_scene.h"
@@ -25,6 +26,8 @@ struct ReadOptions {
   /// Which reading counts where the proposal, OpenUSD and engines disagree.
   Readings readings;
   MeshTools mesh_tools;
+  /// Where not null: meshes that were made in other readings with it are not made again.
+  MeshCache* mesh_cache = nullptr;
   /// Integrals of enabled colliders for those who know better (M-20): asked once per collider, in
   /// its rigid frame [m]. They replace what the shape weighs; a prim that is no shape known here
   /// weighs by them, too, and touches nothing. nullopt: the shape's own.

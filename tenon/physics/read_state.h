@@ -11,6 +11,7 @@
 
 #include "tenon/physics/accounts.h"
 #include "tenon/physics/attribute_values.h"
+#include "tenon/physics/mesh_cache.h"
 #include "tenon/physics/mesh_inertia.h"
 #include "tenon/physics/mesh_tools.h"
 #include "tenon/physics/physics_scene.h"
@@ -41,6 +42,7 @@ struct ReadState {
   const MeshTools* mesh_tools = nullptr;
   const std::function<std::optional<SolidIntegrals>(const stage::Prim&)>* integrals = nullptr;
   Accounts* accounts = nullptr;  ///< filled where not null
+  MeshCache* mesh_cache = nullptr;
   Walk walk{};
   PhysicsScene scene{};
 

@@ -199,8 +199,14 @@ class Maker {
 
   Result<physics::PhysicsScene> physics_of(const Layer& content) const {
     TENON_TRY(const stage::Stage stage, stage_of(content));
+    return physics_of(stage);
+  }
+
+  physics::PhysicsScene physics_of(const stage::Stage& stage) const {
+    physics::ReadOptions options;
+    options.mesh_cache = &meshes_;
     Diagnostics ignored;
-    return physics::read_physics(stage, {}, ignored);
+    return physics::read_physics(stage, options, ignored);
   }
 
   // Wrappers, local materials, metadata: the same for all.
@@ -462,8 +468,7 @@ class Maker {
       return {};  // has none
     }
     TENON_TRY(const physics::PhysicsScene before, physics_of(view.plain));
-    Diagnostics ignored;
-    const auto where = compare_physics(before, physics::read_physics(stage, {}, ignored),
+    const auto where = compare_physics(before, physics_of(stage),
                                        [this](Path path) { return moves_->moved(path); });
     return where ? Result<void>(differs("Physics=" + view.variant, *where, "the physics"))
                  : Result<void>();
@@ -502,6 +507,7 @@ class Maker {
   InterfaceParts interface_;
   CollectedAssets assets_;
   StructuredAsset asset_;
+  mutable physics::MeshCache meshes_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/structure/layout.h"
+#include "tenon/structure/shared_arrays.h"
 
 namespace tenon::structure {
 namespace {
@@ -79,6 +80,9 @@ Result<void> store_layers(Package& package) {
     auto layer = formats::read_layer(file.bytes, file.layer->identifier(), ignored);
     if (!layer) {
       return unreadable(std::move(layer).error(), name);
+    }
+    if (file.format == formats::LayerFormat::Crate) {
+      share_arrays(*file.layer, *layer);
     }
     file.layer = std::make_shared<layer::Layer>(*std::move(layer));
   }
