@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/bytes/integer_coding.h"
 
-#include <array>
+#include <algorithm>
+#include <bit>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <unordered_map>
 
 #include "tenon/base/limits.h"
@@ -103,42 +105,55 @@ class Decoder {
   const char* end_ = nullptr;
 };
 
-/// How often each difference occurs: the small ones, which are nearly all in meshes, by index.
+/// The commonest of many differences, the largest of several. The small ones, which are nearly all
+/// in meshes, are counted by index.
 template <class Signed>
 class DifferenceCounts {
  public:
-  std::size_t add(Signed difference) {
-    if (difference >= -kSmall && difference < kSmall) {
-      return ++small_[static_cast<std::size_t>(difference + kSmall)];
+  explicit DifferenceCounts(std::size_t count) : small_(count < kFew ? 0 : 2 * kSmall) {}
+
+  void add(Signed difference) {
+    const std::uint64_t index = static_cast<std::uint64_t>(difference) + kSmall;
+    if (index < small_.size()) {
+      ++small_[index];
+    } else {
+      note(difference, ++others_[difference]);
     }
-    return ++others_[difference];
+  }
+  Signed commonest() {
+    for (std::size_t i = 0; i < small_.size(); ++i) {
+      note(static_cast<Signed>(i) - static_cast<Signed>(kSmall), small_[i]);
+    }
+    return common_;
   }
 
  private:
-  static constexpr Signed kSmall = 2048;
-  std::vector<std::size_t> small_ = std::vector<std::size_t>(2 * kSmall);
+  void note(Signed difference, std::size_t count) {
+    if (count > common_count_ || (count == common_count_ && count > 0 && difference > common_)) {
+      common_ = difference;
+      common_count_ = count;
+    }
+  }
+
+  static constexpr std::uint64_t kSmall = 2048;
+  static constexpr std::size_t kFew = 512;
+  std::vector<std::size_t> small_;
   std::unordered_map<Signed, std::size_t> others_;
+  Signed common_ = 0;
+  std::size_t common_count_ = 0;
 };
 
-/// The commonest difference, the largest of several.
 template <class W, class T>
 typename W::Signed commonest_difference(std::span<const T> integers) {
   using Signed = typename W::Signed;
   using Unsigned = typename W::Unsigned;
-  DifferenceCounts<Signed> counts;
-  Signed common = 0;
-  std::size_t common_count = 0;
+  DifferenceCounts<Signed> counts(integers.size());
   Unsigned before = 0;
   for (const T integer : integers) {
-    const auto difference = static_cast<Signed>(static_cast<Unsigned>(integer) - before);
+    counts.add(static_cast<Signed>(static_cast<Unsigned>(integer) - before));
     before = static_cast<Unsigned>(integer);
-    const std::size_t count = counts.add(difference);
-    if (count > common_count || (count == common_count && difference > common)) {
-      common = difference;
-      common_count = count;
-    }
   }
-  return common;
+  return counts.commonest();
 }
 
 template <class Narrow, class Wide>
@@ -146,26 +161,28 @@ bool fits(Wide value) {
   return value >= std::numeric_limits<Narrow>::min() && value <= std::numeric_limits<Narrow>::max();
 }
 
-template <class Stored>
-void put(Stored value, char*& at) {
-  std::memcpy(at, &value, sizeof(value));
-  at += sizeof(value);
-}
-
-/// Writes `difference` in the narrowest width and moves `tail` behind it; its code.
+/// Writes differences in their narrowest width. Moves on by that width, but may write all of it.
 template <class W>
-unsigned put_difference(typename W::Signed difference, char*& tail) {
-  if (fits<typename W::Short>(difference)) {
-    put(static_cast<typename W::Short>(difference), tail);
-    return 1;
+class DifferenceWriter {
+ public:
+  DifferenceWriter(typename W::Signed common, char* tail) : common_(common), tail_(tail) {}
+
+  /// The code of the difference.
+  unsigned put(typename W::Signed difference) {
+    static_assert(std::endian::native == std::endian::little, "narrow numbers lie first");
+    std::memcpy(tail_, &difference, sizeof(difference));
+    const unsigned wider = (fits<typename W::Short>(difference) ? 0u : 1u) +
+                           (fits<typename W::Middle>(difference) ? 0u : 1u);
+    const bool is_common = difference == common_;
+    tail_ += is_common ? 0 : sizeof(typename W::Short) << wider;
+    return is_common ? 0 : wider + 1;
   }
-  if (fits<typename W::Middle>(difference)) {
-    put(static_cast<typename W::Middle>(difference), tail);
-    return 2;
-  }
-  put(difference, tail);
-  return 3;
-}
+  const char* end() const { return tail_; }
+
+ private:
+  typename W::Signed common_;
+  char* tail_;
+};
 
 }  // namespace
 
@@ -213,22 +230,27 @@ std::string encode_integers(std::span<const T> integers) {
     return lz4_compress({});
   }
   const Signed common = commonest_difference<W>(integers);
-  // The commonest difference, a code for each integer, the differences: no more than this.
+  // The commonest difference, a code for each integer, the differences: no more than this. Not
+  // cleared: most of the room is never touched.
   const std::size_t code_bytes = codes_size(integers.size());
-  std::string out(sizeof(Signed) * (integers.size() + 1) + code_bytes, '\0');
-  char* codes = out.data();
-  put(common, codes);
-  char* tail = codes + code_bytes;
+  const auto out =
+      std::make_unique_for_overwrite<char[]>(sizeof(Signed) * (integers.size() + 2) + code_bytes);
+  std::memcpy(out.get(), &common, sizeof(common));
+  char* codes = out.get() + sizeof(common);
+  DifferenceWriter<W> writer(common, codes + code_bytes);
   Unsigned before = 0;
-  for (std::size_t i = 0; i < integers.size(); ++i) {
-    const auto difference = static_cast<Signed>(static_cast<Unsigned>(integers[i]) - before);
-    before = static_cast<Unsigned>(integers[i]);
-    const unsigned code = difference == common ? 0 : put_difference<W>(difference, tail);
-    codes[i / 4] =
-        static_cast<char>(static_cast<unsigned char>(codes[i / 4]) | code << (2 * (i % 4)));
+  for (std::size_t i = 0; i < integers.size(); i += 4) {
+    const std::size_t count = std::min<std::size_t>(4, integers.size() - i);
+    unsigned code = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto integer = static_cast<Unsigned>(integers[i + k]);
+      code |= writer.put(static_cast<Signed>(integer - before)) << (2 * k);
+      before = integer;
+    }
+    *codes++ = static_cast<char>(static_cast<unsigned char>(code));
   }
-  return lz4_compress(
-      std::as_bytes(std::span(out.data(), static_cast<std::size_t>(tail - out.data()))));
+  return lz4_compress(std::as_bytes(
+      std::span<const char>(out.get(), static_cast<std::size_t>(writer.end() - out.get()))));
 }
 
 template Result<std::vector<std::int32_t>> decode_integers(std::span<const std::byte>,

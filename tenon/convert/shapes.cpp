@@ -37,19 +37,20 @@ Value extent_of(const std::vector<Vec3f>& points) {
 std::vector<Vec3f> face_normals(const mesh::PolygonMesh& mesh) {
   std::vector<Vec3f> normals;
   normals.reserve(mesh.face_counts.size());
-  std::size_t start = 0;
-  for (const std::int32_t corners : mesh.face_counts) {
-    const auto count = static_cast<std::size_t>(corners);
-    const auto point = [&](std::size_t corner) {
-      return to_double(mesh.points[static_cast<std::size_t>(mesh.face_points[start + corner])]);
-    };
+  const Vec3f* const points = mesh.points.data();
+  const std::int32_t* corner = mesh.face_points.data();
+  for (const std::int32_t count : mesh.face_counts) {
+    const Vec3d first = to_double(points[corner[0]]);
     Vec3d area;
-    for (std::size_t i = 1; i + 1 < count; ++i) {
-      area = area + cross(point(i) - point(0), point(i + 1) - point(0));
+    Vec3d before = to_double(points[corner[1]]) - first;
+    for (std::int32_t i = 2; i < count; ++i) {
+      const Vec3d next = to_double(points[corner[i]]) - first;
+      area = area + cross(before, next);
+      before = next;
     }
     const double size = length(area);
     normals.push_back(size > 0 ? to_float(area * (1 / size)) : Vec3f{{0, 0, 1}});
-    start += count;
+    corner += count;
   }
   return normals;
 }

@@ -96,15 +96,22 @@ Mat4d row_matrix(const aiMatrix4x4& m) {
   return result;
 }
 
+/// v M without translation. Here, not in a library: it is asked for each corner of large meshes.
+template <class Matrix>
+Vec3d turned(const aiVector3D& v, const Matrix& m) {
+  const auto x = static_cast<double>(v.x);
+  const auto y = static_cast<double>(v.y);
+  const auto z = static_cast<double>(v.z);
+  return {{x * m[0][0] + y * m[1][0] + z * m[2][0], x * m[0][1] + y * m[1][1] + z * m[2][1],
+           x * m[0][2] + y * m[1][2] + z * m[2][2]}};
+}
+
 Vec3f moved(const aiVector3D& v, const Mat4d& m) {
-  return to_float(transform_point(
-      Vec3d{{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}}, m));
+  return to_float(turned(v, m) + Vec3d{{m[3][0], m[3][1], m[3][2]}});
 }
 
 Vec3f turned_normal(const aiVector3D& n, const Mat3d& turn) {
-  const Vec3d normal{
-      {static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z)}};
-  return to_float(normalized(normal * turn));
+  return to_float(normalized(turned(n, turn)));
 }
 
 class SceneReader {
@@ -257,6 +264,10 @@ class SceneReader {
     std::vector<std::int32_t> numbers(from.mNumVertices, -1);  // of the vertices seen so far
     std::vector<Vec3f> normals(from.mNormals != nullptr && invertible ? from.mNumVertices : 0);
     const bool uv = from.mTextureCoords[0] != nullptr;
+    mesh.face_counts.reserve(from.mNumFaces);
+    mesh.face_points.reserve(from.mNumVertices);  // most files share none between corners
+    mesh.normals.reserve(normals.size());
+    mesh.texture_coordinates.reserve(uv ? from.mNumVertices : 0);
     for (unsigned i = 0; i < from.mNumFaces; ++i) {
       const aiFace& face = from.mFaces[i];
       if (face.mNumIndices < 3) {

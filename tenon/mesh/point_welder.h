@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "tenon/math/vector.h"
@@ -18,53 +18,59 @@ class PointWelder {
     while (slot_count() < corner_count / 4) {  // a closed mesh has one point for about six corners
       ++bits_;
     }
-    slots_.assign(slot_count(), -1);
+    clear_slots();
+    points_.reserve(corner_count / 6);
   }
 
-  std::int32_t number(Vec3f point) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      point[i] += 0.0f;  // -0 becomes 0
-    }
-    if (points_.size() * 4 >= slots_.size() * 3) {
+  std::int32_t number(const Vec3f& point) {
+    if (points_.size() >= most_points_) {
       grow();
     }
-    std::int32_t& slot = slots_[find(point)];
-    if (slot < 0) {
-      slot = static_cast<std::int32_t>(points_.size());
-      points_.push_back(point);
+    const Vec3f plain{{point[0] + 0.0f, point[1] + 0.0f, point[2] + 0.0f}};  // -0 becomes 0
+    const Bits bits(plain);
+    const std::size_t at = find(bits);
+    if (slots_[at] < 0) {
+      slots_[at] = static_cast<std::int32_t>(points_.size());
+      points_.push_back(plain);
     }
-    return slot;
+    return slots_[at];
   }
 
   std::vector<Vec3f> take_points() { return std::move(points_); }
 
  private:
+  struct Bits {
+    explicit Bits(const Vec3f& point) {
+      std::memcpy(&xy, point.v.data(), sizeof(xy));
+      std::memcpy(&z, point.v.data() + 2, sizeof(z));
+    }
+    bool operator==(const Bits&) const = default;
+    std::uint64_t xy = 0;
+    std::uint32_t z = 0;
+  };
+
   /// The high bits of the products are well mixed, the low ones are not.
-  std::size_t first_slot(const Vec3f& p) const {
-    const std::uint64_t x = std::bit_cast<std::uint32_t>(p[0]);
-    const std::uint64_t y = std::bit_cast<std::uint32_t>(p[1]);
-    const std::uint64_t z = std::bit_cast<std::uint32_t>(p[2]);
-    const std::uint64_t mixed = (x | y << 32u) * 0x9E3779B97F4A7C15ull;
-    return static_cast<std::size_t>(((mixed ^ mixed >> 32u ^ z) * 0xD6E8FEB86659FD93ull) >>
+  std::size_t first_slot(const Bits& bits) const {
+    const std::uint64_t mixed = bits.xy * 0x9E3779B97F4A7C15ull;
+    return static_cast<std::size_t>(((mixed ^ mixed >> 32u ^ bits.z) * 0xD6E8FEB86659FD93ull) >>
                                     (64u - bits_));
   }
-  static bool same(const Vec3f& a, const Vec3f& b) {
-    return std::bit_cast<std::uint32_t>(a[0]) == std::bit_cast<std::uint32_t>(b[0]) &&
-           std::bit_cast<std::uint32_t>(a[1]) == std::bit_cast<std::uint32_t>(b[1]) &&
-           std::bit_cast<std::uint32_t>(a[2]) == std::bit_cast<std::uint32_t>(b[2]);
-  }
-  std::size_t find(const Vec3f& point) const {
-    std::size_t at = first_slot(point);
-    while (slots_[at] >= 0 && !same(points_[static_cast<std::size_t>(slots_[at])], point)) {
+  std::size_t find(const Bits& bits) const {
+    std::size_t at = first_slot(bits);
+    while (slots_[at] >= 0 && !(Bits(points_[static_cast<std::size_t>(slots_[at])]) == bits)) {
       at = (at + 1) & (slots_.size() - 1);
     }
     return at;
   }
+  void clear_slots() {
+    slots_.assign(slot_count(), -1);
+    most_points_ = slot_count() / 4 * 3;
+  }
   void grow() {
     ++bits_;
-    slots_.assign(slot_count(), -1);
+    clear_slots();
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      slots_[find(points_[i])] = static_cast<std::int32_t>(i);
+      slots_[find(Bits(points_[i]))] = static_cast<std::int32_t>(i);
     }
   }
 
@@ -72,6 +78,7 @@ class PointWelder {
 
   std::vector<Vec3f> points_;
   std::vector<std::int32_t> slots_;
+  std::size_t most_points_ = 0;  // that the slots have room for
   unsigned bits_ = 6;
 };
 

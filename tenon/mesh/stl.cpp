@@ -44,13 +44,12 @@ MeshScene scene_of(PointWelder& welder, std::vector<std::int32_t> corners) {
 
 MeshScene read_binary(std::string_view bytes) {
   const std::size_t count = (bytes.size() - kHeader) / kTriangle;
-  PointWelder welder(count);
-  std::vector<std::int32_t> corners;
-  corners.reserve(count * 3);
+  PointWelder welder(count * 3);
+  std::vector<std::int32_t> corners(count * 3);
   for (std::size_t i = 0; i < count; ++i) {
     const char* triangle = bytes.data() + kHeader + i * kTriangle + 12;
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      corners.push_back(welder.number(read_point(triangle + 12 * corner)));
+      corners[3 * i + corner] = welder.number(read_point(triangle + 12 * corner));
     }
   }
   return scene_of(welder, std::move(corners));

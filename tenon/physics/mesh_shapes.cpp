@@ -75,35 +75,45 @@ std::vector<Vec3d> placed_points(const MeshSource& mesh) {
   return placed;
 }
 
+/// The corners of all faces, one face after the other; nothing when counts and indices contradict
+/// each other or the points.
+std::optional<std::span<const std::int32_t>> corners_of(const MeshSource& faces) {
+  const std::span<const std::int32_t> indices = faces.indices.span();
+  std::size_t count = 0;
+  for (const std::int32_t corners : faces.counts) {
+    if (corners < 0 || indices.size() - count < static_cast<std::size_t>(corners)) {
+      return std::nullopt;
+    }
+    count += static_cast<std::size_t>(corners);
+  }
+  const std::span<const std::int32_t> corners = indices.first(count);
+  std::uint32_t last = 0;  // as unsigned numbers, negative ones are the largest
+  for (const std::int32_t corner : corners) {
+    last = std::max(last, static_cast<std::uint32_t>(corner));
+  }
+  const bool sound = corners.empty() || last < faces.points.size();
+  return sound && last <= std::uint32_t{INT32_MAX} ? std::optional(corners) : std::nullopt;
+}
+
 /// Fan triangles; false when counts and indices contradict each other or the points.
 bool triangulate(const MeshSource& faces, TriangleMesh& mesh) {
-  const std::span<const std::int32_t> indices = faces.indices.span();
+  const auto corners = corners_of(faces);
+  if (!corners) {
+    return false;
+  }
   const std::size_t shared = 2 * faces.counts.size();  // corners that begin no triangle
-  mesh.triangles.reserve(indices.size() - std::min(indices.size(), shared));
+  mesh.triangles.reserve(corners->size() - std::min(corners->size(), shared));
   const std::vector<std::int32_t> holes = sorted(faces.holes);
-  const std::size_t point_count = faces.points.size();
-  std::size_t first = 0;
-  for (std::size_t face = 0; face < faces.counts.size(); ++face) {
-    const std::int32_t count = faces.counts[face];
-    if (count < 0 || indices.size() - first < static_cast<std::size_t>(count)) {
-      return false;
-    }
-    const std::span<const std::int32_t> corners =
-        indices.subspan(first, static_cast<std::size_t>(count));
-    const bool sound = std::all_of(corners.begin(), corners.end(), [&](std::int32_t index) {
-      return index >= 0 && static_cast<std::size_t>(index) < point_count;
-    });
-    if (!sound) {
-      return false;
-    }
+  const std::int32_t* first = corners->data();
+  const std::size_t second = faces.turned ? 1 : 0;
+  std::size_t face = 0;
+  for (const std::int32_t count : faces.counts) {
     const bool hole = !holes.empty() && is_hole(holes, face);
-    for (std::size_t k = 2; k < corners.size() && !hole; ++k) {
-      const std::int32_t b = corners[k - 1];
-      const std::int32_t c = corners[k];
-      mesh.triangles.push_back(faces.turned ? Vec3i{{corners[0], c, b}}
-                                            : Vec3i{{corners[0], b, c}});
+    for (std::int32_t k = 2; k < count && !hole; ++k) {
+      mesh.triangles.push_back({{first[0], first[k - 1 + second], first[k - second]}});
     }
-    first += static_cast<std::size_t>(count);
+    first += count;
+    ++face;
   }
   return true;
 }
