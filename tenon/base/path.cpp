@@ -131,7 +131,7 @@ class NodeTable {
 };
 
 constexpr std::size_t kShardCount = 16;
-constexpr std::size_t kRecentCount = 64;
+constexpr std::size_t kRecentCount = 512;
 constexpr std::uint32_t kDepthMask = (1u << 22u) - 1;
 
 /// Nodes below one parent are kept together.

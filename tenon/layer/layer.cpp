@@ -33,9 +33,20 @@ std::size_t Layer::slot_of(Path path) const {
   return at;
 }
 
+/// As slot_of, with one look at the entry.
 const Spec* Layer::find(Path path) const {
-  const std::uint32_t entry = slots_[slot_of(path)].entry;
-  return entry == 0 ? nullptr : &entries_[entry - 1].spec;
+  const std::uint32_t number = path.number();
+  const std::size_t mask = slots_.size() - 1;
+  for (std::size_t at = home_of(number, slots_.size()); slots_[at].entry != 0;
+       at = (at + 1) & mask) {
+    if (slots_[at].path == number) {
+      const Entry& entry = entries_[slots_[at].entry - 1];
+      if (entry.path == path) {
+        return &entry.spec;
+      }
+    }
+  }
+  return nullptr;
 }
 
 Spec* Layer::find(Path path) { return const_cast<Spec*>(std::as_const(*this).find(path)); }

@@ -15,11 +15,23 @@ namespace fields = layer::fields;
 using layer::Layer;
 using layer::Spec;
 
+/// Appends to the list where it is, which nobody else holds then.
 void add_name(Layer& layer, Path parent, Token field, Token name) {
   Spec& spec = *layer.find(parent);
-  std::vector<Token> names = Layer::children(spec, field);
-  names.push_back(name);
-  spec.set(field, std::move(names));
+  if (!spec.has(field)) {
+    spec.set(field, std::vector<Token>{name});
+    return;
+  }
+  layer::FieldList fields = spec.field_list();
+  spec.set_field_list({});
+  for (layer::Field& list : fields.own_items()) {
+    if (list.name == field && list.value.holds<std::vector<Token>>()) {
+      auto names = list.value.take<std::vector<Token>>();
+      names.push_back(name);
+      list.value = std::move(names);
+    }
+  }
+  spec.set_field_list(std::move(fields));
 }
 
 void remove_name(Layer& layer, Path parent, Token field, Token name) {
@@ -84,11 +96,14 @@ std::vector<Path> prims_below(const Layer& layer, Path root) {
 }
 
 Spec& make_prim(Layer& layer, Path path) {
-  for (const Path& at : path.prefixes()) {
-    if (!layer.has(at)) {
-      layer.create(at, layer::SpecKind::Prim).set(fields::specifier, layer::Specifier::Over);
-      add_name(layer, at.parent(), fields::primChildren, at.name());
-    }
+  std::vector<Path> missing;
+  for (Path at = path; !at.empty() && !layer.has(at); at = at.parent()) {
+    missing.push_back(at);
+  }
+  for (; !missing.empty(); missing.pop_back()) {
+    const Path at = missing.back();
+    layer.create(at, layer::SpecKind::Prim).set(fields::specifier, layer::Specifier::Over);
+    add_name(layer, at.parent(), fields::primChildren, at.name());
   }
   return *layer.find(path);
 }

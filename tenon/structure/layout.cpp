@@ -150,14 +150,19 @@ constexpr Ownership kBase{Role::Base, RoleSet(Role::Instances, Role::Variant)};
 
 template <std::size_t count>
 const OwnerRow* find_row(const OwnerRow (&rows)[count], std::string_view name) {
+  const char first = name.empty() ? '\0' : name.front();
   const auto* found = std::find_if(std::begin(rows), std::end(rows), [&](const OwnerRow& row) {
-    return name.starts_with(row.prefix);
+    return row.prefix.front() == first && name.starts_with(row.prefix);
   });
   return found == std::end(rows) ? nullptr : found;
 }
 
-bool is_a(Token type, const char* base) {
-  return schema::Registry::instance().is_a(type, Token(base));
+/// Prims that only hold others: what they own by their type is not their properties.
+bool is_holder(Token type) {
+  static const Token scope("Scope");
+  static const Token xform("Xform");
+  const schema::Registry& registry = schema::Registry::instance();
+  return registry.is_a(type, scope) || registry.is_a(type, xform);
 }
 
 /// The API schema of the list that declares the property; those of the base are not looked at.
@@ -292,7 +297,10 @@ Ownership owner_of_property(Token property, Token type, std::span<const Token> a
     }
   }
   const Ownership own = owner_of_type(type);
-  return type.empty() || is_a(type, "Scope") || is_a(type, "Xform") ? kBase : own;
+  if (own.owner == Role::Geometries || own.owner == Role::Materials) {
+    return own;  // no holders
+  }
+  return type.empty() || own.also == kBase.also || is_holder(type) ? kBase : own;
 }
 
 Ownership owner_of_metadata(Token field) {

@@ -3,6 +3,7 @@
 #include "tenon/structure/sleeping_colliders.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "tenon/layer/fields.h"
 #include "tenon/schema/registry.h"
@@ -110,8 +111,7 @@ void put_to_sleep(Layer& content, const std::set<Path>& prims) {
 }
 
 void fill_sleeping(Layer& base, const Layer& view, const std::set<Path>& colliders) {
-  Layer without_physics = view;
-  keep_roles(without_physics, RoleSet());
+  std::optional<Layer> without_physics;  // rarely needed
   for (const Path& prim : prims_below(view)) {
     if (!is_active(view, prim)) {
       continue;
@@ -124,7 +124,10 @@ void fill_sleeping(Layer& base, const Layer& view, const std::set<Path>& collide
     } else if (!base.has(prim.parent()) || !holds_mesh(view, prim)) {
       continue;
     }
-    const Layer& from = colliders.contains(prim) ? view : without_physics;
+    if (!without_physics && !colliders.contains(prim)) {
+      keep_roles(without_physics.emplace(view), RoleSet());
+    }
+    const Layer& from = colliders.contains(prim) ? view : *without_physics;
     if (from.has(prim)) {
       copy_tree(from, prim, base, prim);
       base.find(prim)->set(fields::active, false);
