@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <clocale>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+#include <span>
+#include <string_view>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -46,6 +49,43 @@ void add_global_options(const Command& root, Globals& globals) {
   root.add_version_flag("--version", "tenon " TENON_VERSION);
 }
 
+struct Verb {
+  std::string_view name;
+  void (*add)(const Command& parent, const Globals& globals, Chosen& chosen);
+};
+
+constexpr Verb kVerbs[] = {
+    {"bake", tenon::cli::add_bake},
+    {"cat", tenon::cli::add_cat},
+    {"check", tenon::cli::add_check},
+    {"convert", tenon::cli::add_convert},
+    {"diff", tenon::cli::add_diff},
+    {"doctor", tenon::cli::add_doctor},
+    {"dump", tenon::cli::add_dump},
+    {"dump-index", tenon::cli::add_dump_index},
+    {"explain", tenon::cli::add_explain},
+    {"info", tenon::cli::add_info},
+    {"physics", tenon::cli::add_physics},
+    {"set", tenon::cli::add_set},
+    {"sim", tenon::cli::add_sim},
+    {"strip", tenon::cli::add_strip},
+    {"structure", tenon::cli::add_structure},
+    {"test-runner", tenon::cli::add_test_runner},
+    {"tree", tenon::cli::add_tree},
+    {"variant", tenon::cli::add_variant},
+    {"where", tenon::cli::add_where},
+    {"zip", tenon::cli::add_zip},
+};
+
+/// The verb that the first argument names, else all: making all of them takes a millisecond.
+std::span<const Verb> verbs_for(int argc, char** argv) {
+  const std::span<const Verb> all(kVerbs);
+  const std::string_view first = argc > 1 ? argv[1] : "";
+  const auto named =
+      std::find_if(all.begin(), all.end(), [&](const Verb& verb) { return verb.name == first; });
+  return named == all.end() ? all : std::span<const Verb>(&*named, 1);
+}
+
 int run(int argc, char** argv) {
   const CommandLine line("tenon: open, explain and simulate physics-ready USD assets", "tenon");
   const Command root = line.root();
@@ -54,15 +94,8 @@ int run(int argc, char** argv) {
   root.footer(kExamples);
   root.require_subcommand();
   add_global_options(root, globals);
-  for (auto* add :
-       {tenon::cli::add_bake,        tenon::cli::add_cat,        tenon::cli::add_check,
-        tenon::cli::add_convert,     tenon::cli::add_diff,       tenon::cli::add_doctor,
-        tenon::cli::add_dump,        tenon::cli::add_dump_index, tenon::cli::add_explain,
-        tenon::cli::add_info,        tenon::cli::add_physics,    tenon::cli::add_set,
-        tenon::cli::add_sim,         tenon::cli::add_strip,      tenon::cli::add_structure,
-        tenon::cli::add_test_runner, tenon::cli::add_tree,       tenon::cli::add_variant,
-        tenon::cli::add_where,       tenon::cli::add_zip}) {
-    add(root, globals, chosen);
+  for (const Verb& verb : verbs_for(argc, argv)) {
+    verb.add(root, globals, chosen);
   }
   if (const std::optional<bool> is_error = line.parse(argc, argv)) {
     return *is_error ? tenon::cli::kFailed : tenon::cli::kOk;
