@@ -3,6 +3,8 @@
 //
 // The only file that knows assimp: its C interface, loaded when the first such mesh is met, so that
 // programs that read none neither need nor wait for it.
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -110,8 +112,19 @@ Vec3f moved(const aiVector3D& v, const Mat4d& m) {
   return to_float(turned(v, m) + Vec3d{{m[3][0], m[3][1], m[3][2]}});
 }
 
+/// The larger one that is a number, as std::fmax has it.
+double larger(double a, double b) { return a > b || std::isnan(b) ? a : b; }
+
+/// As normalized() of a vector.
 Vec3f turned_normal(const aiVector3D& n, const Mat3d& turn) {
-  return to_float(normalized(turned(n, turn)));
+  const Vec3d normal = turned(n, turn);
+  const double largest =
+      larger(std::fabs(normal[0]), larger(std::fabs(normal[1]), std::fabs(normal[2])));
+  if (!(largest > 0) || std::isinf(largest)) {
+    return {};
+  }
+  const Vec3d scaled = normal * (1 / largest);
+  return to_float(scaled * (1 / length(scaled)));
 }
 
 class SceneReader {
@@ -253,21 +266,37 @@ class SceneReader {
   Result<void> add(const aiMesh& from, const Mat4d& to_root, const aiNode& node) {
     PolygonMesh mesh;
     mesh.name = from.mName.length > 0 ? from.mName.C_Str() : node.mName.C_Str();
-    mesh.appearance = from.mMaterialIndex;
-    const bool ok = from.mMaterialIndex < result_.appearances.size();
-    if (!ok) {
-      mesh.appearance.reset();
+    if (from.mMaterialIndex < result_.appearances.size()) {
+      mesh.appearance = from.mMaterialIndex;
     }
+    TENON_CHECK(add_faces(from, mesh));
+    if (mesh.face_counts.empty()) {
+      return {};
+    }
+    const std::vector<std::int32_t>& vertices = mesh.face_points;  // so far
     bool invertible = false;
-    const Mat3d turned = transpose(inverse(upper_left(to_root), &invertible));
-    PointWelder welder(from.mNumVertices);
-    std::vector<std::int32_t> numbers(from.mNumVertices, -1);  // of the vertices seen so far
-    std::vector<Vec3f> normals(from.mNormals != nullptr && invertible ? from.mNumVertices : 0);
-    const bool uv = from.mTextureCoords[0] != nullptr;
+    const Mat3d turn = transpose(inverse(upper_left(to_root), &invertible));
+    if (from.mNormals != nullptr && invertible) {
+      std::vector<Vec3f> normals(from.mNumVertices);
+      std::transform(from.mNormals, from.mNormals + from.mNumVertices, normals.begin(),
+                     [&](const aiVector3D& n) { return turned_normal(n, turn); });
+      mesh.normals = at_corners(vertices, normals);
+    }
+    if (const aiVector3D* uv = from.mTextureCoords[0]) {
+      std::vector<Vec2f> places(from.mNumVertices);
+      std::transform(uv, uv + from.mNumVertices, places.begin(),
+                     [](const aiVector3D& t) { return Vec2f{{t.x, t.y}}; });
+      mesh.texture_coordinates = at_corners(vertices, places);
+    }
+    weld(from, to_root, mesh);
+    result_.meshes.push_back(std::move(mesh));
+    return {};
+  }
+
+  /// The faces, with numbers of vertices for those of points.
+  Result<void> add_faces(const aiMesh& from, PolygonMesh& mesh) {
     mesh.face_counts.reserve(from.mNumFaces);
     mesh.face_points.reserve(from.mNumVertices);  // most files share none between corners
-    mesh.normals.reserve(normals.size());
-    mesh.texture_coordinates.reserve(uv ? from.mNumVertices : 0);
     for (unsigned i = 0; i < from.mNumFaces; ++i) {
       const aiFace& face = from.mFaces[i];
       if (face.mNumIndices < 3) {
@@ -282,28 +311,33 @@ class SceneReader {
       }
       mesh.face_counts.push_back(static_cast<std::int32_t>(face.mNumIndices));
       for (unsigned corner = 0; corner < face.mNumIndices; ++corner) {
-        const unsigned at = face.mIndices[corner];
-        if (numbers[at] < 0) {
-          numbers[at] = welder.number(moved(from.mVertices[at], to_root));
-          if (!normals.empty()) {
-            normals[at] = turned_normal(from.mNormals[at], turned);
-          }
-        }
-        mesh.face_points.push_back(numbers[at]);
-        if (!normals.empty()) {
-          mesh.normals.push_back(normals[at]);
-        }
-        if (uv) {
-          const aiVector3D& t = from.mTextureCoords[0][at];
-          mesh.texture_coordinates.push_back({{t.x, t.y}});
-        }
+        mesh.face_points.push_back(static_cast<std::int32_t>(face.mIndices[corner]));
       }
     }
-    if (!mesh.face_counts.empty()) {
-      mesh.points = welder.take_points();
-      result_.meshes.push_back(std::move(mesh));
-    }
     return {};
+  }
+
+  template <class T>
+  static std::vector<T> at_corners(const std::vector<std::int32_t>& vertices,
+                                   const std::vector<T>& values) {
+    std::vector<T> found(vertices.size());
+    std::transform(vertices.begin(), vertices.end(), found.begin(),
+                   [&](std::int32_t vertex) { return values[static_cast<std::size_t>(vertex)]; });
+    return found;
+  }
+
+  /// Puts points in the place of vertices, each as soon as a face has it.
+  static void weld(const aiMesh& from, const Mat4d& to_root, PolygonMesh& mesh) {
+    PointWelder welder(from.mNumVertices);
+    std::vector<std::int32_t> numbers(from.mNumVertices, -1);  // of the vertices seen so far
+    for (std::int32_t& corner : mesh.face_points) {
+      const auto vertex = static_cast<std::size_t>(corner);
+      if (numbers[vertex] < 0) {
+        numbers[vertex] = welder.number(moved(from.mVertices[vertex], to_root));
+      }
+      corner = numbers[vertex];
+    }
+    mesh.points = welder.take_points();
   }
 
   const aiScene& scene_;

@@ -15,7 +15,8 @@ namespace tenon::mesh {
 class PointWelder {
  public:
   explicit PointWelder(std::size_t corner_count) {
-    while (slot_count() < corner_count / 4) {  // a closed mesh has one point for about six corners
+    // A closed mesh has one point for about six corners: most are found at the first look.
+    while (slot_count() < corner_count / 2) {
       ++bits_;
     }
     clear_slots();
