@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A layer that is read is written to text that reads again and gives the same text.
+// A layer that is read is written to text that reads again and gives the same text. Read in halves
+// it is the same layer.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -26,12 +27,26 @@ bool has_zero_byte(std::string_view text) {
          text.find("\\x") != std::string_view::npos;
 }
 
+/// Read in two halves the text gives the same layer or error.
+void check_halves(std::string_view text, const tenon::Result<tenon::layer::Layer>& layer) {
+  tenon::Diagnostics diagnostics;
+  const auto halves = tenon::formats::read_text_in_halves(text, "fuzz.usda", diagnostics);
+  const auto shown = [](const tenon::Result<tenon::layer::Layer>& result) {
+    return result ? tenon::formats::write_text(*result) : result.error().to_string();
+  };
+  if (shown(halves) != shown(layer)) {
+    std::fprintf(stderr, "%s\n--- in halves\n%s\n", shown(layer).c_str(), shown(halves).c_str());
+    std::abort();
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   tenon::Diagnostics diagnostics;
   const auto layer = tenon::formats::read_text(text, "fuzz.usda", diagnostics);
+  check_halves(text, layer);
   if (!layer) {
     return 0;
   }

@@ -84,6 +84,17 @@ void Layer::reserve(std::size_t spec_count) {
   }
 }
 
+void Layer::take_missing(Layer&& other) {
+  reserve(spec_count() + other.spec_count());
+  for (Entry& theirs : other.entries_) {
+    const std::size_t slot = theirs.path.empty() ? 0 : slot_of(theirs.path);
+    if (!theirs.path.empty() && slots_[slot].entry == 0) {
+      slots_[slot] = {theirs.path.number(), static_cast<std::uint32_t>(entries_.size() + 1)};
+      entries_.push_back(std::move(theirs));
+    }
+  }
+}
+
 void Layer::grow(std::size_t slot_count) {
   slots_.assign(slot_count, Slot());
   for (std::size_t i = 0; i < entries_.size(); ++i) {

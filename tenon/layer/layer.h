@@ -49,6 +49,8 @@ class Layer {
   /// Removes the spec at `path` alone.
   void erase(Path path);
   void reserve(std::size_t spec_count);
+  /// Moves the specs of `other` at paths where this layer has none behind its own, in their order.
+  void take_missing(Layer&& other);
 
   /// All specs in the order in which they were made.
   const std::deque<Entry>& entries() const { return entries_; }

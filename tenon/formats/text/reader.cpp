@@ -1,488 +1,57 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of a layer: prims, variant sets and variants. They are kept on a stack of our own, so
-// that deep nesting costs no call stack.
 #include "tenon/formats/text/reader.h"
 
-#include <vector>
+#include <atomic>
 
-#include "tenon/base/limits.h"
-#include "tenon/base/unicode.h"
-#include "tenon/formats/text/header.h"
-#include "tenon/formats/text/layer_state.h"
-#include "tenon/formats/text/literals.h"
-#include "tenon/formats/text/metadata_reader.h"
-#include "tenon/formats/text/property_reader.h"
-#include "tenon/formats/text/value_reader.h"
+#include "tenon/base/parallel.h"
+#include "tenon/formats/text/layer_reader.h"
+#include "tenon/formats/text/split_text.h"
 
 namespace tenon::formats {
-namespace text {
 namespace {
 
-using layer::SpecKind;
-using layer::Value;
-namespace fields = layer::fields;
-
-/// An open `{`, or the layer itself.
-struct Block {
-  enum class Kind : unsigned char { Layer, Prim, VariantSet, Variant };
-  Kind kind = Kind::Layer;
-  Path path;
-  std::size_t start = 0;          // offset of its statement
-  std::vector<Token> children{};  // prims; of a variant set its variants
-  std::vector<Token> properties{};
-  std::vector<Token> variant_sets{};  // all of them, once one has been opened
-};
-
-std::string block_name(const Block& block) {
-  return block.kind == Block::Kind::Prim ? "<" + block.path.str() + ">"
-                                         : "the variant (set) <" + block.path.str() + ">";
+Result<layer::Layer> read_whole(std::string_view source, std::string identifier,
+                                Diagnostics& diagnostics, text::SourceMap* sources) {
+  text::LayerReader reader(source, std::move(identifier), diagnostics, sources);
+  reader.read_from_front();
+  return reader.finish();
 }
 
-class LayerReader {
- public:
-  LayerReader(std::string_view text, std::string identifier, Diagnostics& diagnostics,
-              SourceMap* sources)
-      : state_(text, std::move(identifier), diagnostics), cursor_(state_.cursor) {
-    state_.sources = sources;
-    blocks_.push_back({Block::Kind::Layer, Path::absolute_root()});
-  }
-
-  Result<layer::Layer> read() {
-    if (read_header(state_) && note_header() && read_layer_metadata()) {
-      while (read_step()) {
-      }
-    }
-    if (cursor_.failed()) {
-      if (blocks_.size() > 1) {
-        cursor_.set_prim(blocks_.back().path.strip_variants().str());
-      }
-      return cursor_.take_error();
-    }
-    store_children(blocks_.front());
-    return std::move(state_.layer);
-  }
-
- private:
-  Block& top() { return blocks_.back(); }
-
-  // Where sources are wanted
-
-  bool note_header() {
-    if (state_.sources != nullptr) {
-      std::size_t end = cursor_.offset();
-      while (end > 0 && (cursor_.text()[end - 1] == '\n' || cursor_.text()[end - 1] == '\r')) {
-        --end;
-      }
-      state_.sources->header_end = end;
-    }
-    return true;
-  }
-
-  void note_open(Path path, SourceBlock block) {
-    if (state_.sources != nullptr) {
-      block.body.begin = cursor_.offset() - 1;
-      state_.sources->blocks.insert_or_assign(path, block);
-    }
-  }
-
-  void note_close(Path path) {
-    if (state_.sources != nullptr) {
-      SourceBlock& block = state_.sources->blocks[path];
-      block.body.end = block.range.end = cursor_.offset();
-    }
-  }
-
-  bool read_layer_metadata() {
-    cursor_.skip_multi_line();
-    if (!cursor_.failed() && cursor_.accept('(')) {
-      return read_metadata(state_, Path::absolute_root(), SpecKind::PseudoRoot);
-    }
-    return !cursor_.failed();
-  }
-
-  /// One statement of the innermost block; false at the end or after an error.
-  bool read_step() {
-    cursor_.skip_multi_line();
-    if (cursor_.failed()) {
-      return false;
-    }
-    switch (top().kind) {
-      case Block::Kind::Layer:
-        return !cursor_.at_end() && read_layer_statement();
-      case Block::Kind::VariantSet:
-        return cursor_.accept('}') ? close_block() : open_variant();
-      case Block::Kind::Prim:
-      case Block::Kind::Variant:
-        return cursor_.accept('}') ? close_block() : read_contents_statement();
-    }
-    return false;
-  }
-
-  bool read_layer_statement() {
-    const std::string_view word = cursor_.peek_identifier();
-    if (word == "def" || word == "over" || word == "class") {
-      return open_prim(word);
-    }
-    if (word != "reorder") {
-      return fail_layer_statement();
-    }
-    const std::size_t start = cursor_.offset();
-    cursor_.advance(word.size());
-    if (!cursor_.accept_separator() || !cursor_.accept_word("rootPrims")) {
-      return cursor_.fail_expected("`rootPrims`");
-    }
-    return read_order(fields::primOrder, start) && end_statement("after reorder rootPrims");
-  }
-
-  /// Something that is no prim between the prims of the layer: often a '}' stands too early.
-  bool fail_layer_statement() {
-    constexpr std::string_view kExpected =
-        "def, over, class, reorder rootPrims or the end of the file";
-    if (last_closed_.empty()) {
-      return cursor_.fail_expected(kExpected);
-    }
-    const std::string line = std::to_string(last_closed_line_);
-    const char c = cursor_.peek();
-    std::string fix = "remove this '" + std::string(1, c) + "', or the '}' at line " + line;
-    if (c == '{') {
-      fix = "write `def \"Name\"` before '{', or remove the '}' at line " + line;
-    } else if (c != '}' && c != ')' && c != ']') {
-      fix = "if this belongs to " + last_closed_ + ", remove the '}' at line " + line;
-    }
-    return cursor_.fail_at(cursor_.offset(), ErrorCode::Parse, "text.syntax",
-                           "expected " + std::string(kExpected) + ", found " + cursor_.found() +
-                               "; an earlier '}' closed " + last_closed_ + " at line " + line +
-                               default_prim_note(),
-                           fix);
-  }
-
-  /// Where the default prim was closed, when another prim was closed after it.
-  std::string default_prim_note() const {
-    return default_closed_line_ == 0 || default_closed_line_ == last_closed_line_
-               ? std::string()
-               : ", and another closed </" + state_.layer.default_prim().str() + "> at line " +
-                     std::to_string(default_closed_line_);
-  }
-
-  bool read_contents_statement() {
-    const std::string_view word = cursor_.peek_identifier();
-    if (word == "def" || word == "over" || word == "class") {
-      return open_prim(word);
-    }
-    if (word == "variantSet") {
-      return open_variant_set();
-    }
-    if (word.empty()) {
-      return fail_contents_statement();
-    }
-    if (word == "reorder") {
-      const std::size_t start = cursor_.offset();
-      cursor_.advance(word.size());
-      if (cursor_.accept_separator()) {
-        if (cursor_.accept_word("nameChildren")) {
-          return read_order(fields::primOrder, start) &&
-                 end_statement("after reorder nameChildren");
-        }
-        if (cursor_.accept_word("properties")) {
-          return read_order(fields::propertyOrder, start) &&
-                 end_statement("after reorder properties");
-        }
-      }
-      cursor_.seek(start);
-    }
-    return read_property(state_, top().path, top().properties) && end_statement("after a property");
-  }
-
-  bool fail_contents_statement() {
-    const std::string opened = std::to_string(cursor_.place_of(top().start).line);
-    std::string fix;
-    if (cursor_.at_end()) {
-      fix = "add '}' for " + block_name(top()) + ", opened at line " + opened;
-    } else if (cursor_.peek() == ')' || cursor_.peek() == ']') {
-      fix = "remove it; " + block_name(top()) + " was opened at line " + opened;
-    }
-    return cursor_.fail_expected(
-        "a property, def, over, class, variantSet, reorder, or the '}' of " + block_name(top()),
-        fix);
-  }
-
-  bool read_order(Token field, std::size_t start) {
-    cursor_.skip_inline();
-    if (!cursor_.expect('=', "before the names")) {
-      return false;
-    }
-    cursor_.skip_inline();
-    std::vector<std::string> names;
-    if (!read_name_list(cursor_, names)) {
-      return false;
-    }
-    state_.layer.find(top().path)
-        ->set(field, Value(std::vector<Token>(names.begin(), names.end())));
-    if (state_.sources != nullptr) {
-      state_.sources->orders[top().path].push_back({start, cursor_.offset()});
-    }
-    return true;
-  }
-
-  bool end_statement(std::string_view where) {
-    cursor_.skip_single_line();
-    const bool at_layer = top().kind == Block::Kind::Layer && cursor_.at_end();
-    return at_layer || cursor_.accept_statement_end() || cursor_.failed() == true
-               ? !cursor_.failed()
-               : cursor_.fail_expected("the end of the line or ';' " + std::string(where));
-  }
-
-  bool push(Block block) {
-    if (blocks_.size() > limits::kTextNestingDepth) {
-      return cursor_.fail_at(
-          block.start, ErrorCode::Limit, "text.depth",
-          "blocks are nested deeper than " + std::to_string(limits::kTextNestingDepth));
-    }
-    blocks_.push_back(std::move(block));
-    return true;
-  }
-
-  bool open_prim(std::string_view specifier_word) {
-    const std::size_t start = cursor_.offset();
-    cursor_.advance(specifier_word.size());
-    std::string type_name;
-    std::string name;
-    if (!cursor_.accept_separator()) {
-      return cursor_.fail_expected("a blank after `" + std::string(specifier_word) + "`");
-    }
-    if (!at_string(cursor_) && !read_prim_type(type_name)) {
-      return false;
-    }
-    const std::size_t name_start = cursor_.offset();
-    if (!at_string(cursor_)) {
-      return cursor_.fail_expected("the name of the prim in quotes");
-    }
-    if (!read_string(cursor_, name) || !check_prim_name(name, name_start)) {
-      return false;
-    }
-    const std::size_t name_end = cursor_.offset();
-    const Path path = top().path.child(Token(name));
-    if (const layer::Spec* old = state_.layer.find(path)) {
-      return cursor_.fail_at(
-          name_start, ErrorCode::Parse, "text.duplicate",
-          "prim <" + path.str() + "> was already given at line " + std::to_string(old->line),
-          "rename one of them or put both into one block");
-    }
-    top().children.push_back(path.name());
-    layer::Spec& spec = state_.make_spec(path, SpecKind::Prim, start);
-    spec.reserve_fields(4);
-    spec.append(fields::specifier, Value(specifier_word == "def"    ? layer::Specifier::Def
-                                         : specifier_word == "over" ? layer::Specifier::Over
-                                                                    : layer::Specifier::Class));
-    if (!type_name.empty()) {
-      spec.append(fields::typeName, Value(Token(type_name)));
-    }
-    if (!read_block_metadata(path, SpecKind::Prim) || !open_brace(path, start)) {
-      return false;
-    }
-    note_open(path, {{start, 0}, name_start, name_end, {}});
-    return push({Block::Kind::Prim, path, start});
-  }
-
-  /// `Name` or `Name.Name`, with the blank behind it.
-  bool read_prim_type(std::string& type_name) {
-    while (true) {
-      std::string_view word;
-      if (!read_name(cursor_, "the type of the prim or its name in quotes", word)) {
-        return false;
-      }
-      type_name += word;
-      const std::size_t after = cursor_.offset();
-      cursor_.skip_inline();
-      if (!cursor_.accept('.')) {
-        cursor_.seek(after);
-        return cursor_.accept_separator() ||
-               cursor_.fail_expected("a blank and the name of the prim in quotes");
-      }
-      cursor_.skip_inline();
-      type_name += '.';
-    }
-  }
-
-  bool check_prim_name(std::string_view name, std::size_t offset) {
-    return is_identifier(name) ||
-           cursor_.fail_at(offset, ErrorCode::Parse, "text.name",
-                           "\"" + std::string(name) + "\" cannot name a prim",
-                           "use letters, digits and '_', no digit in front");
-  }
-
-  bool read_block_metadata(Path path, SpecKind kind) {
-    cursor_.skip_multi_line();
-    if (!cursor_.failed() && cursor_.accept('(')) {
-      if (!read_metadata(state_, path, kind)) {
-        return false;
-      }
-      cursor_.skip_multi_line();
-    }
-    return !cursor_.failed();
-  }
-
-  bool open_brace(Path path, std::size_t start) {
-    if (cursor_.accept('{')) {
-      return true;
-    }
-    const std::string line = std::to_string(cursor_.place_of(start).line);
-    return cursor_.fail_expected(
-        "'{' before the contents of <" + path.str() + ">, declared at line " + line,
-        "add '{' and '}' for <" + path.str() + ">");
-  }
-
-  bool open_variant_set() {
-    const std::size_t start = cursor_.offset();
-    cursor_.accept_word("variantSet");
-    std::string name;
-    if (!cursor_.accept_separator() || !at_string(cursor_)) {
-      return cursor_.fail_expected("the name of the variant set in quotes");
-    }
-    if (!read_string(cursor_, name) || !check_variant_name(name, start)) {
-      return false;
-    }
-    cursor_.skip_inline();
-    if (!cursor_.expect('=', "after the name of the variant set")) {
-      return false;
-    }
-    cursor_.skip_multi_line();
-    const Path prim = top().path;
-    const Path path = prim.variant_selection(Token(name), Token());
-    if (!state_.layer.has(path)) {
-      state_.make_spec(path, SpecKind::VariantSet, start);
-      std::vector<Token>& sets = top().variant_sets;
-      if (sets.empty()) {
-        sets = state_.layer.children(prim, fields::variantSetChildren);
-      }
-      sets.emplace_back(name);
-    }
-    if (!open_brace(path, start) || !check_first_variant()) {
-      return false;
-    }
-    note_open(path, {{start, 0}, start, start, {}});
-    return push({Block::Kind::VariantSet, path, start});
-  }
-
-  /// A set without variants is written `{}`; OpenUSD takes no blanks inside.
-  bool check_first_variant() {
-    const std::size_t inside = cursor_.offset();
-    cursor_.skip_multi_line();
-    if (cursor_.peek() == '}' && cursor_.offset() != inside) {
-      return cursor_.fail_expected("a variant such as \"name\" { }");
-    }
-    cursor_.seek(inside);
-    return true;
-  }
-
-  bool check_variant_name(std::string_view name, std::size_t offset) {
-    return is_variant_name(name) ||
-           cursor_.fail_at(offset, ErrorCode::Parse, "text.name",
-                           "\"" + std::string(name) + "\" cannot name a variant or variant set",
-                           "use letters, digits, '_', '-' and '|'");
-  }
-
-  bool open_variant() {
-    const std::size_t start = cursor_.offset();
-    std::string name;
-    if (!at_string(cursor_)) {
-      return cursor_.fail_expected(
-          "the name of a variant in quotes, or the '}' of the variant "
-          "set opened at line " +
-          std::to_string(cursor_.place_of(top().start).line));
-    }
-    if (!read_string(cursor_, name) || !check_variant_name(name, start)) {
-      return false;
-    }
-    const std::size_t name_end = cursor_.offset();
-    const Token variant(name);
-    const Path path = top().path.parent().variant_selection(top().path.name(), variant);
-    if (state_.layer.has(path)) {
-      state_.warn(start, "text.duplicate",
-                  "variant \"" + name + "\" is given twice; both blocks are merged",
-                  "put both into one block");
-    } else {
-      top().children.push_back(variant);
-      state_.make_spec(path, SpecKind::Variant, start);
-    }
-    const layer::Spec& spec = *state_.layer.find(path);
-    Block block{Block::Kind::Variant, path, start};
-    block.children = layer::Layer::children(spec, fields::primChildren);
-    block.properties = layer::Layer::children(spec, fields::properties);
-    if (!read_block_metadata(path, SpecKind::Variant) || !open_brace(path, start)) {
-      return false;
-    }
-    note_open(path, {{start, 0}, start, name_end, {}});
-    return push(std::move(block));
-  }
-
-  void store_children(Block& block) {
-    layer::Spec& spec = *state_.layer.find(block.path);
-    if (block.kind == Block::Kind::VariantSet) {
-      spec.set(fields::variantChildren, Value(std::move(block.children)));
-      return;
-    }
-    if (!block.children.empty()) {
-      spec.set(fields::primChildren, Value(std::move(block.children)));
-    }
-    if (!block.properties.empty()) {
-      spec.set(fields::properties, Value(std::move(block.properties)));
-    }
-    if (!block.variant_sets.empty()) {
-      spec.set(fields::variantSetChildren, Value(std::move(block.variant_sets)));
-    }
-    if (block.kind == Block::Kind::Prim) {
-      state_.share_fields(spec.get_or(fields::typeName, Token()), spec);
-    }
-  }
-
-  bool close_block() {
-    const std::size_t brace = cursor_.offset() - 1;
-    Block block = std::move(top());
-    blocks_.pop_back();
-    note_close(block.path);
-    store_children(block);
-    if (top().kind == Block::Kind::Layer) {
-      last_closed_ = block_name(block);
-      last_closed_line_ = cursor_.place_of(brace).line;
-      if (block.path.name() == state_.layer.default_prim()) {
-        default_closed_line_ = last_closed_line_;
-      }
-    }
-    if (block.kind == Block::Kind::Variant) {
-      return true;
-    }
-    cursor_.skip_single_line();
-    if (cursor_.failed()) {
-      return false;
-    }
-    const char c = cursor_.peek();
-    if (c == '\n' || c == '\r' || (top().kind == Block::Kind::Layer && cursor_.at_end())) {
-      return true;
-    }
-    return cursor_.fail_expected("the end of the line after the '}' of " + block_name(block));
-  }
-
-  LayerState state_;
-  Cursor& cursor_;
-  std::vector<Block> blocks_;
-  std::string last_closed_;  // the last prim directly under the root
-  std::uint32_t last_closed_line_ = 0;
-  std::uint32_t default_closed_line_ = 0;  // 0 while the default prim is not closed
-};
-
 }  // namespace
-}  // namespace text
 
 Result<layer::Layer> read_text(std::string_view source, std::string identifier,
                                Diagnostics& diagnostics) {
-  return text::LayerReader(source, std::move(identifier), diagnostics, nullptr).read();
+  constexpr std::size_t kWorthHalving = std::size_t{1} << 18;  // bytes
+  return source.size() >= kWorthHalving && usable_processors() > 1
+             ? read_text_in_halves(source, std::move(identifier), diagnostics)
+             : read_whole(source, std::move(identifier), diagnostics, nullptr);
+}
+
+Result<layer::Layer> read_text_in_halves(std::string_view source, std::string identifier,
+                                         Diagnostics& diagnostics) {
+  const std::size_t split = text::find_split(source);
+  if (split == std::string_view::npos) {
+    return read_whole(source, std::move(identifier), diagnostics, nullptr);
+  }
+  Diagnostics ignored;
+  text::LayerReader second(source, identifier, ignored, nullptr);
+  text::LayerReader first(source, std::move(identifier), diagnostics, nullptr);
+  std::atomic<bool> wanted = true;
+  run_both([&] { second.read_from(split, wanted); },
+           [&] {
+             first.read_from_front(split);
+             wanted = first.stopped();
+           });
+  if (first.stopped() && !first.take_rest(second)) {
+    first.read_statements();
+  }
+  return first.finish();
 }
 
 Result<layer::Layer> read_text_with_sources(std::string_view source, std::string identifier,
                                             Diagnostics& diagnostics, text::SourceMap& sources) {
-  return text::LayerReader(source, std::move(identifier), diagnostics, &sources).read();
+  return read_whole(source, std::move(identifier), diagnostics, &sources);
 }
 
 }  // namespace tenon::formats

@@ -22,6 +22,11 @@ struct SourceMap;
 Result<layer::Layer> read_text(std::string_view text, std::string identifier,
                                Diagnostics& diagnostics);
 
+/// The same, with the second half read beside the first where the layout of the lines tells which
+/// prims it is in; `read_text` does so with long text. Equal results for every text.
+Result<layer::Layer> read_text_in_halves(std::string_view text, std::string identifier,
+                                         Diagnostics& diagnostics);
+
 /// The same; notes in `sources` (source_map.h) where all statements stand.
 Result<layer::Layer> read_text_with_sources(std::string_view text, std::string identifier,
                                             Diagnostics& diagnostics, text::SourceMap& sources);

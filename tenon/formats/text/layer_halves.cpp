@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+// What lets the second half of a layer be read while the first half is.
+#include <algorithm>
+
+#include "tenon/formats/text/layer_reader.h"
+#include "tenon/formats/text/split_text.h"
+
+namespace tenon::formats::text {
+namespace {
+
+namespace fields = layer::fields;
+
+void append(std::vector<Token>& names, const std::vector<Token>& more) {
+  names.insert(names.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+void LayerReader::read_from(std::size_t offset, const std::atomic<bool>& wanted) {
+  if (!enter_prims(prims_around(cursor_.text(), offset))) {
+    return;
+  }
+  cursor_.seek(offset);
+  while (wanted.load(std::memory_order_relaxed) && read_step()) {
+  }
+}
+
+bool LayerReader::take_rest(LayerReader& rest) {
+  if (!continues_here(rest)) {
+    return false;
+  }
+  for (Block& block : blocks_) {
+    const layer::Spec& more = *rest.state_.layer.find(block.path);
+    const bool is_layer = block.kind == Block::Kind::Layer;
+    append(block.children, is_layer ? rest.blocks_.front().children
+                                    : layer::Layer::children(more, fields::primChildren));
+    append(block.properties, layer::Layer::children(more, fields::properties));
+  }
+  state_.layer.take_missing(std::move(rest.state_.layer));
+  while (blocks_.size() > 1) {
+    store_children(blocks_.back());
+    blocks_.pop_back();
+  }
+  return true;
+}
+
+bool LayerReader::enter_prims(const std::vector<std::size_t>& offsets) {
+  for (const std::size_t offset : offsets) {
+    cursor_.seek(offset);
+    PrimHead head;
+    if (!read_prim_head(cursor_.peek_identifier(), head)) {
+      return false;
+    }
+    const Path path = top().path.child(Token(head.name));
+    state_.layer.create(path, layer::SpecKind::Prim);
+    if (!push({Block::Kind::Prim, path, offset})) {
+      return false;
+    }
+    around_.push_back(path);
+  }
+  return true;
+}
+
+bool LayerReader::continues_here(const LayerReader& rest) const {
+  const bool at_end = rest.cursor_.at_end() && !rest.cursor_.failed() && rest.blocks_.size() == 1 &&
+                      rest.state_.diagnostics.empty();
+  const auto same = [](const Block& block, Path path) {
+    return block.kind == Block::Kind::Prim && block.path == path;
+  };
+  return at_end &&
+         std::equal(blocks_.begin() + 1, blocks_.end(), rest.around_.begin(), rest.around_.end(),
+                    same) &&
+         std::all_of(blocks_.begin(), blocks_.end(),
+                     [&](const Block& block) { return only_adds(rest, block.path); }) &&
+         are_new(blocks_.front().path, rest.blocks_.front().children, {});
+}
+
+bool LayerReader::only_adds(const LayerReader& rest, Path path) const {
+  const layer::Spec& more = *rest.state_.layer.find(path);
+  const auto is_plain = [](const layer::Field& field) {
+    return field.name == fields::primChildren || field.name == fields::properties;
+  };
+  const auto items = more.fields();
+  return std::all_of(items.begin(), items.end(), is_plain) &&
+         are_new(path, layer::Layer::children(more, fields::primChildren),
+                 layer::Layer::children(more, fields::properties));
+}
+
+bool LayerReader::are_new(Path parent, const std::vector<Token>& children,
+                          const std::vector<Token>& properties) const {
+  const layer::Layer& layer = state_.layer;
+  return std::none_of(children.begin(), children.end(),
+                      [&](Token name) { return layer.has(parent.child(name)); }) &&
+         std::none_of(properties.begin(), properties.end(),
+                      [&](Token name) { return layer.has(parent.property(name)); });
+}
+
+}  // namespace tenon::formats::text

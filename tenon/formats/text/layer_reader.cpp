@@ -1,0 +1,456 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/formats/text/layer_reader.h"
+
+#include "tenon/base/limits.h"
+#include "tenon/base/unicode.h"
+#include "tenon/formats/text/header.h"
+#include "tenon/formats/text/literals.h"
+#include "tenon/formats/text/metadata_reader.h"
+#include "tenon/formats/text/property_reader.h"
+#include "tenon/formats/text/value_reader.h"
+
+namespace tenon::formats::text {
+namespace {
+
+using layer::SpecKind;
+using layer::Value;
+namespace fields = layer::fields;
+
+std::string block_name(const Block& block) {
+  return block.kind == Block::Kind::Prim ? "<" + block.path.str() + ">"
+                                         : "the variant (set) <" + block.path.str() + ">";
+}
+
+}  // namespace
+
+LayerReader::LayerReader(std::string_view text, std::string identifier, Diagnostics& diagnostics,
+                         SourceMap* sources)
+    : state_(text, std::move(identifier), diagnostics), cursor_(state_.cursor) {
+  state_.sources = sources;
+  blocks_.push_back({Block::Kind::Layer, Path::absolute_root()});
+}
+
+bool LayerReader::read_from_front(std::size_t stop) {
+  stop_ = stop;
+  return read_header(state_) && note_header() && read_layer_metadata() && read_statements();
+}
+
+bool LayerReader::read_statements() {
+  while (read_step()) {
+  }
+  return !cursor_.failed();
+}
+
+Result<layer::Layer> LayerReader::finish() {
+  if (cursor_.failed()) {
+    if (blocks_.size() > 1) {
+      cursor_.set_prim(blocks_.back().path.strip_variants().str());
+    }
+    return cursor_.take_error();
+  }
+  store_children(blocks_.front());
+  return std::move(state_.layer);
+}
+
+bool LayerReader::note_header() {
+  if (state_.sources != nullptr) {
+    std::size_t end = cursor_.offset();
+    while (end > 0 && (cursor_.text()[end - 1] == '\n' || cursor_.text()[end - 1] == '\r')) {
+      --end;
+    }
+    state_.sources->header_end = end;
+  }
+  return true;
+}
+
+void LayerReader::note_open(Path path, SourceBlock block) {
+  if (state_.sources != nullptr) {
+    block.body.begin = cursor_.offset() - 1;
+    state_.sources->blocks.insert_or_assign(path, block);
+  }
+}
+
+void LayerReader::note_close(Path path) {
+  if (state_.sources != nullptr) {
+    SourceBlock& block = state_.sources->blocks[path];
+    block.body.end = block.range.end = cursor_.offset();
+  }
+}
+
+bool LayerReader::read_layer_metadata() {
+  cursor_.skip_multi_line();
+  if (!cursor_.failed() && cursor_.accept('(')) {
+    return read_metadata(state_, Path::absolute_root(), SpecKind::PseudoRoot);
+  }
+  return !cursor_.failed();
+}
+
+bool LayerReader::read_step() {
+  cursor_.skip_multi_line();
+  if (cursor_.failed()) {
+    return false;
+  }
+  if (cursor_.offset() >= stop_) {
+    stopped_ = cursor_.offset() == stop_;
+    stop_ = std::string_view::npos;
+    if (stopped_) {
+      return false;
+    }
+  }
+  switch (top().kind) {
+    case Block::Kind::Layer:
+      return !cursor_.at_end() && read_layer_statement();
+    case Block::Kind::VariantSet:
+      return cursor_.accept('}') ? close_block() : open_variant();
+    case Block::Kind::Prim:
+    case Block::Kind::Variant:
+      return cursor_.accept('}') ? close_block() : read_contents_statement();
+  }
+  return false;
+}
+
+bool LayerReader::read_layer_statement() {
+  const std::string_view word = cursor_.peek_identifier();
+  if (word == "def" || word == "over" || word == "class") {
+    return open_prim(word);
+  }
+  if (word != "reorder") {
+    return fail_layer_statement();
+  }
+  const std::size_t start = cursor_.offset();
+  cursor_.advance(word.size());
+  if (!cursor_.accept_separator() || !cursor_.accept_word("rootPrims")) {
+    return cursor_.fail_expected("`rootPrims`");
+  }
+  return read_order(fields::primOrder, start) && end_statement("after reorder rootPrims");
+}
+
+bool LayerReader::fail_layer_statement() {
+  constexpr std::string_view kExpected =
+      "def, over, class, reorder rootPrims or the end of the file";
+  if (last_closed_.empty()) {
+    return cursor_.fail_expected(kExpected);
+  }
+  const std::string line = std::to_string(last_closed_line_);
+  const char c = cursor_.peek();
+  std::string fix = "remove this '" + std::string(1, c) + "', or the '}' at line " + line;
+  if (c == '{') {
+    fix = "write `def \"Name\"` before '{', or remove the '}' at line " + line;
+  } else if (c != '}' && c != ')' && c != ']') {
+    fix = "if this belongs to " + last_closed_ + ", remove the '}' at line " + line;
+  }
+  return cursor_.fail_at(cursor_.offset(), ErrorCode::Parse, "text.syntax",
+                         "expected " + std::string(kExpected) + ", found " + cursor_.found() +
+                             "; an earlier '}' closed " + last_closed_ + " at line " + line +
+                             default_prim_note(),
+                         fix);
+}
+
+std::string LayerReader::default_prim_note() const {
+  return default_closed_line_ == 0 || default_closed_line_ == last_closed_line_
+             ? std::string()
+             : ", and another closed </" + state_.layer.default_prim().str() + "> at line " +
+                   std::to_string(default_closed_line_);
+}
+
+bool LayerReader::read_contents_statement() {
+  const std::string_view word = cursor_.peek_identifier();
+  if (word == "def" || word == "over" || word == "class") {
+    return open_prim(word);
+  }
+  if (word == "variantSet") {
+    return open_variant_set();
+  }
+  if (word.empty()) {
+    return fail_contents_statement();
+  }
+  if (word == "reorder") {
+    const std::size_t start = cursor_.offset();
+    cursor_.advance(word.size());
+    if (cursor_.accept_separator()) {
+      if (cursor_.accept_word("nameChildren")) {
+        return read_order(fields::primOrder, start) && end_statement("after reorder nameChildren");
+      }
+      if (cursor_.accept_word("properties")) {
+        return read_order(fields::propertyOrder, start) &&
+               end_statement("after reorder properties");
+      }
+    }
+    cursor_.seek(start);
+  }
+  return read_property(state_, top().path, top().properties) && end_statement("after a property");
+}
+
+bool LayerReader::fail_contents_statement() {
+  const std::string opened = std::to_string(cursor_.place_of(top().start).line);
+  std::string fix;
+  if (cursor_.at_end()) {
+    fix = "add '}' for " + block_name(top()) + ", opened at line " + opened;
+  } else if (cursor_.peek() == ')' || cursor_.peek() == ']') {
+    fix = "remove it; " + block_name(top()) + " was opened at line " + opened;
+  }
+  return cursor_.fail_expected(
+      "a property, def, over, class, variantSet, reorder, or the '}' of " + block_name(top()), fix);
+}
+
+bool LayerReader::read_order(Token field, std::size_t start) {
+  cursor_.skip_inline();
+  if (!cursor_.expect('=', "before the names")) {
+    return false;
+  }
+  cursor_.skip_inline();
+  std::vector<std::string> names;
+  if (!read_name_list(cursor_, names)) {
+    return false;
+  }
+  state_.layer.find(top().path)->set(field, Value(std::vector<Token>(names.begin(), names.end())));
+  if (state_.sources != nullptr) {
+    state_.sources->orders[top().path].push_back({start, cursor_.offset()});
+  }
+  return true;
+}
+
+bool LayerReader::end_statement(std::string_view where) {
+  cursor_.skip_single_line();
+  const bool at_layer = top().kind == Block::Kind::Layer && cursor_.at_end();
+  return at_layer || cursor_.accept_statement_end() || cursor_.failed() == true
+             ? !cursor_.failed()
+             : cursor_.fail_expected("the end of the line or ';' " + std::string(where));
+}
+
+bool LayerReader::push(Block block) {
+  if (blocks_.size() > limits::kTextNestingDepth) {
+    return cursor_.fail_at(
+        block.start, ErrorCode::Limit, "text.depth",
+        "blocks are nested deeper than " + std::to_string(limits::kTextNestingDepth));
+  }
+  blocks_.push_back(std::move(block));
+  return true;
+}
+
+bool LayerReader::read_prim_head(std::string_view specifier_word, PrimHead& head) {
+  cursor_.advance(specifier_word.size());
+  if (!cursor_.accept_separator()) {
+    return cursor_.fail_expected("a blank after `" + std::string(specifier_word) + "`");
+  }
+  if (!at_string(cursor_) && !read_prim_type(head.type_name)) {
+    return false;
+  }
+  head.name_start = cursor_.offset();
+  if (!at_string(cursor_)) {
+    return cursor_.fail_expected("the name of the prim in quotes");
+  }
+  if (!read_string(cursor_, head.name) || !check_prim_name(head.name, head.name_start)) {
+    return false;
+  }
+  head.name_end = cursor_.offset();
+  return true;
+}
+
+bool LayerReader::open_prim(std::string_view specifier_word) {
+  const std::size_t start = cursor_.offset();
+  PrimHead head;
+  if (!read_prim_head(specifier_word, head)) {
+    return false;
+  }
+  const Path path = top().path.child(Token(head.name));
+  if (const layer::Spec* old = state_.layer.find(path)) {
+    return cursor_.fail_at(
+        head.name_start, ErrorCode::Parse, "text.duplicate",
+        "prim <" + path.str() + "> was already given at line " + std::to_string(old->line),
+        "rename one of them or put both into one block");
+  }
+  top().children.push_back(path.name());
+  layer::Spec& spec = state_.make_spec(path, SpecKind::Prim, start);
+  spec.reserve_fields(4);
+  spec.append(fields::specifier, Value(specifier_word == "def"    ? layer::Specifier::Def
+                                       : specifier_word == "over" ? layer::Specifier::Over
+                                                                  : layer::Specifier::Class));
+  if (!head.type_name.empty()) {
+    spec.append(fields::typeName, Value(Token(head.type_name)));
+  }
+  if (!read_block_metadata(path, SpecKind::Prim) || !open_brace(path, start)) {
+    return false;
+  }
+  note_open(path, {{start, 0}, head.name_start, head.name_end, {}});
+  return push({Block::Kind::Prim, path, start});
+}
+
+bool LayerReader::read_prim_type(std::string& type_name) {
+  while (true) {
+    std::string_view word;
+    if (!read_name(cursor_, "the type of the prim or its name in quotes", word)) {
+      return false;
+    }
+    type_name += word;
+    const std::size_t after = cursor_.offset();
+    cursor_.skip_inline();
+    if (!cursor_.accept('.')) {
+      cursor_.seek(after);
+      return cursor_.accept_separator() ||
+             cursor_.fail_expected("a blank and the name of the prim in quotes");
+    }
+    cursor_.skip_inline();
+    type_name += '.';
+  }
+}
+
+bool LayerReader::check_prim_name(std::string_view name, std::size_t offset) {
+  return is_identifier(name) || cursor_.fail_at(offset, ErrorCode::Parse, "text.name",
+                                                "\"" + std::string(name) + "\" cannot name a prim",
+                                                "use letters, digits and '_', no digit in front");
+}
+
+bool LayerReader::read_block_metadata(Path path, SpecKind kind) {
+  cursor_.skip_multi_line();
+  if (!cursor_.failed() && cursor_.accept('(')) {
+    if (!read_metadata(state_, path, kind)) {
+      return false;
+    }
+    cursor_.skip_multi_line();
+  }
+  return !cursor_.failed();
+}
+
+bool LayerReader::open_brace(Path path, std::size_t start) {
+  if (cursor_.accept('{')) {
+    return true;
+  }
+  const std::string line = std::to_string(cursor_.place_of(start).line);
+  return cursor_.fail_expected(
+      "'{' before the contents of <" + path.str() + ">, declared at line " + line,
+      "add '{' and '}' for <" + path.str() + ">");
+}
+
+bool LayerReader::open_variant_set() {
+  const std::size_t start = cursor_.offset();
+  cursor_.accept_word("variantSet");
+  std::string name;
+  if (!cursor_.accept_separator() || !at_string(cursor_)) {
+    return cursor_.fail_expected("the name of the variant set in quotes");
+  }
+  if (!read_string(cursor_, name) || !check_variant_name(name, start)) {
+    return false;
+  }
+  cursor_.skip_inline();
+  if (!cursor_.expect('=', "after the name of the variant set")) {
+    return false;
+  }
+  cursor_.skip_multi_line();
+  const Path prim = top().path;
+  const Path path = prim.variant_selection(Token(name), Token());
+  if (!state_.layer.has(path)) {
+    state_.make_spec(path, SpecKind::VariantSet, start);
+    std::vector<Token>& sets = top().variant_sets;
+    if (sets.empty()) {
+      sets = state_.layer.children(prim, fields::variantSetChildren);
+    }
+    sets.emplace_back(name);
+  }
+  if (!open_brace(path, start) || !check_first_variant()) {
+    return false;
+  }
+  note_open(path, {{start, 0}, start, start, {}});
+  return push({Block::Kind::VariantSet, path, start});
+}
+
+bool LayerReader::check_first_variant() {
+  const std::size_t inside = cursor_.offset();
+  cursor_.skip_multi_line();
+  if (cursor_.peek() == '}' && cursor_.offset() != inside) {
+    return cursor_.fail_expected("a variant such as \"name\" { }");
+  }
+  cursor_.seek(inside);
+  return true;
+}
+
+bool LayerReader::check_variant_name(std::string_view name, std::size_t offset) {
+  return is_variant_name(name) ||
+         cursor_.fail_at(offset, ErrorCode::Parse, "text.name",
+                         "\"" + std::string(name) + "\" cannot name a variant or variant set",
+                         "use letters, digits, '_', '-' and '|'");
+}
+
+bool LayerReader::open_variant() {
+  const std::size_t start = cursor_.offset();
+  std::string name;
+  if (!at_string(cursor_)) {
+    return cursor_.fail_expected(
+        "the name of a variant in quotes, or the '}' of the variant "
+        "set opened at line " +
+        std::to_string(cursor_.place_of(top().start).line));
+  }
+  if (!read_string(cursor_, name) || !check_variant_name(name, start)) {
+    return false;
+  }
+  const std::size_t name_end = cursor_.offset();
+  const Token variant(name);
+  const Path path = top().path.parent().variant_selection(top().path.name(), variant);
+  if (state_.layer.has(path)) {
+    state_.warn(start, "text.duplicate",
+                "variant \"" + name + "\" is given twice; both blocks are merged",
+                "put both into one block");
+  } else {
+    top().children.push_back(variant);
+    state_.make_spec(path, SpecKind::Variant, start);
+  }
+  const layer::Spec& spec = *state_.layer.find(path);
+  Block block{Block::Kind::Variant, path, start};
+  block.children = layer::Layer::children(spec, fields::primChildren);
+  block.properties = layer::Layer::children(spec, fields::properties);
+  if (!read_block_metadata(path, SpecKind::Variant) || !open_brace(path, start)) {
+    return false;
+  }
+  note_open(path, {{start, 0}, start, name_end, {}});
+  return push(std::move(block));
+}
+
+void LayerReader::store_children(Block& block) {
+  layer::Spec& spec = *state_.layer.find(block.path);
+  if (block.kind == Block::Kind::VariantSet) {
+    spec.set(fields::variantChildren, Value(std::move(block.children)));
+    return;
+  }
+  if (!block.children.empty()) {
+    spec.set(fields::primChildren, Value(std::move(block.children)));
+  }
+  if (!block.properties.empty()) {
+    spec.set(fields::properties, Value(std::move(block.properties)));
+  }
+  if (!block.variant_sets.empty()) {
+    spec.set(fields::variantSetChildren, Value(std::move(block.variant_sets)));
+  }
+  if (block.kind == Block::Kind::Prim) {
+    state_.share_fields(spec.get_or(fields::typeName, Token()), spec);
+  }
+}
+
+bool LayerReader::close_block() {
+  const std::size_t brace = cursor_.offset() - 1;
+  Block block = std::move(top());
+  blocks_.pop_back();
+  note_close(block.path);
+  store_children(block);
+  if (top().kind == Block::Kind::Layer) {
+    last_closed_ = block_name(block);
+    last_closed_line_ = cursor_.place_of(brace).line;
+    if (block.path.name() == state_.layer.default_prim()) {
+      default_closed_line_ = last_closed_line_;
+    }
+  }
+  if (block.kind == Block::Kind::Variant) {
+    return true;
+  }
+  cursor_.skip_single_line();
+  if (cursor_.failed()) {
+    return false;
+  }
+  const char c = cursor_.peek();
+  if (c == '\n' || c == '\r' || (top().kind == Block::Kind::Layer && cursor_.at_end())) {
+    return true;
+  }
+  return cursor_.fail_expected("the end of the line after the '}' of " + block_name(block));
+}
+
+}  // namespace tenon::formats::text
