@@ -7,36 +7,11 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "tenon/compose/indexer.h"
-#include "tenon/layer/field_values.h"
-#include "tenon/layer/fields.h"
+#include "tenon/compose/build_ahead.h"
+#include "tenon/compose/build_index.h"
 
 namespace tenon::compose {
 namespace {
-
-/// Specs of every contributing node, strongest first.
-void collect_opinions(PrimIndex& index) {
-  for (std::uint32_t id = 0; id < index.nodes.size(); ++id) {
-    const Node& node = index.nodes[id];
-    if (!node.can_contribute() || !node.has_specs) {
-      continue;
-    }
-    for (const StackedLayer& stacked : node.layer_stack->layers) {
-      if (const layer::Spec* spec = stacked.layer->find(node.path)) {
-        index.opinions.push_back({stacked.layer.get(), spec, node.path, id,
-                                  node.map_to_root->offset() * stacked.offset});
-      }
-    }
-  }
-}
-
-void collect_selections(PrimIndex& index) {
-  for (const Node& node : index.nodes) {
-    if (node.path.is_variant_selection()) {
-      index.variant_selections.emplace(node.path.name().str(), node.path.variant().str());
-    }
-  }
-}
 
 struct StackKey {
   const layer::Layer* root = nullptr;
@@ -60,10 +35,10 @@ struct IndexCache::State {
   LayerStackPtr root_stack;
   std::unordered_map<StackKey, LayerStackPtr, StackKeyHash> stacks;
   std::vector<LayerStackPtr> stacks_in_order;
-  std::unordered_map<const layer::Layer*,
-                     std::unordered_map<std::string, Result<layer::LayerPtr>>>
+  std::unordered_map<const layer::Layer*, std::unordered_map<std::string, Result<layer::LayerPtr>>>
       opened;
   std::deque<PrimIndex> indices;
+  std::deque<IndexBatch> batches;  // built ahead
   std::unordered_map<Path, const PrimIndex*> by_path;
   Diagnostics errors;
   std::vector<MissingArc> missing;
@@ -123,87 +98,64 @@ struct IndexCache::State {
     return indices.back();
   }
 
-  const PrimIndex& compute_root();
-  const PrimIndex& compute_child(const PrimIndex& parent, Path path);
-  bool compute_local_child(const PrimIndex& parent, PrimIndex& index);
-  void compute_with_arcs(PrimIndex& index);
-};
-
-/// The pseudo-root has no arcs.
-const PrimIndex& IndexCache::State::compute_root() {
-  PrimIndex& index = add_index(Path::absolute_root());
-  NodeGraph graph(maps);
-  graph.reset(Site{root_stack.get(), index.path});
-  graph[0].has_specs = true;
-  index.nodes = std::move(graph.nodes());
-  collect_opinions(index);
-  compose_child_names(index);
-  compose_property_names(index);
-  return index;
-}
-
-/// Most prims: all opinions are in the root layer stack and no arc starts here. False when one
-/// does.
-bool IndexCache::State::compute_local_child(const PrimIndex& parent, PrimIndex& index) {
-  if (parent.nodes.size() != 1 || root_stack->has_relocates()) {
-    return false;
+  const PrimIndex& compute_root() {
+    PrimIndex& index = add_index(Path::absolute_root());
+    build_root_index(services, index);
+    return index;
   }
-  AuthoredArcs arcs;
-  index.opinions.reserve(parent.opinions.size());
-  for (const Opinion& above : parent.opinions) {
-    if (const layer::Spec* spec = above.layer->find(index.path)) {
-      arcs.add(*spec);
-      index.opinions.push_back({above.layer, spec, index.path, 0, above.offset});
+
+  const PrimIndex& compute_child(const PrimIndex& parent, Path path) {
+    // The index is entered only when done: what it is built from never asks for it.
+    PrimIndex& index = add_index(path);
+    build_child_index(services, parent, index);
+    return index;
+  }
+
+  const PrimIndex* find_index(Path path) const {
+    const auto found = by_path.find(path);
+    return found == by_path.end() ? nullptr : found->second;
+  }
+
+  const Result<layer::LayerPtr>* find_layer(const std::string& asset_path,
+                                            const layer::Layer& anchor) const {
+    const auto of_layer = opened.find(&anchor);
+    if (of_layer == opened.end()) {
+      return nullptr;
     }
+    const auto found = of_layer->second.find(asset_path);
+    return found == of_layer->second.end() ? nullptr : &found->second;
   }
-  if (arcs.any()) {
-    index.opinions.clear();
-    return false;
-  }
-  index.nodes.push_back(parent.nodes.front());
-  index.nodes.front().path = index.path;
-  index.nodes.front().has_specs = !index.opinions.empty();
-  if (index.opinions.size() == 1 &&
-      !index.opinions.front().spec->has(layer::fields::primOrder)) {
-    const layer::Spec& spec = *index.opinions.front().spec;
-    index.child_names = layer::Layer::children(spec, layer::fields::primChildren);
-    index.property_names = layer::Layer::children(spec, layer::fields::properties);
-  } else if (!index.opinions.empty()) {
-    compose_child_names(index);
-    compose_property_names(index);
-  }
-  return true;
-}
 
-void IndexCache::State::compute_with_arcs(PrimIndex& index) {
-  NodeGraph graph(maps);
-  Indexer indexer(services, nullptr, graph, index.errors);
-  indexer.root_prim = index.path;
-  build_graph(indexer, {root_stack.get(), index.path}, true);
-  cull_without_opinions(graph);
-  index.instanceable = is_instanceable(graph);
-  index.has_payloads = indexer.has_payloads;
-  index.payload_loaded = indexer.payload_loaded;
-  graph.finalize();
-  if (index.instanceable) {
-    index.instance_key = instance_key(graph, index.has_payloads);
+  const LayerStack* find_stack(const layer::LayerPtr& root, const LayerStack* from) const {
+    const auto found = stacks.find({root.get(), from->expression_source});
+    return found == stacks.end() ? nullptr : found->second.get();
   }
-  index.nodes = std::move(graph.nodes());
-  node_count += index.nodes.size();
-  collect_opinions(index);
-  collect_selections(index);
-  compose_child_names(index);
-  compose_property_names(index);
-}
 
-const PrimIndex& IndexCache::State::compute_child(const PrimIndex& parent, Path path) {
-  // The index is entered only when done: what it is built from never asks for it.
-  PrimIndex& index = add_index(path);
-  if (!compute_local_child(parent, index)) {
-    compute_with_arcs(index);
+  /// Takes what was built ahead; not when there would be too many nodes, so that the arcs that are
+  /// left out are always the same.
+  bool take(std::vector<IndexBatch> built) {
+    std::size_t nodes = node_count;
+    std::size_t count = by_path.size();
+    bool complete = true;
+    for (const IndexBatch& batch : built) {
+      nodes += batch.node_count;
+      count += batch.indices.size();
+      complete = complete && batch.complete;
+    }
+    if (nodes >= options.most_nodes) {
+      return false;
+    }
+    node_count = nodes;
+    by_path.reserve(count);
+    for (IndexBatch& batch : built) {
+      for (const PrimIndex& index : batch.indices) {
+        by_path.emplace(index.path, &index);
+      }
+      batches.push_back(std::move(batch));
+    }
+    return complete;
   }
-  return index;
-}
+};
 
 IndexCache::IndexCache(layer::LayerPtr root, layer::LayerPtr session, LayerOpener opener,
                        ComposeOptions options)
@@ -256,6 +208,24 @@ const PrimIndex& IndexCache::child_index(const PrimIndex& parent, Token name) {
   const Path path = parent.path.child(name);
   const auto it = state_->by_path.find(path);
   return it != state_->by_path.end() ? *it->second : state_->compute_child(parent, path);
+}
+
+bool IndexCache::build_below(const std::vector<const PrimIndex*>& roots,
+                             const std::function<bool(const PrimIndex&)>& enters) {
+  const State& state = *state_;
+  KnownIndices known;
+  known.options = &state.options;
+  known.root_stack = state.root_stack.get();
+  known.node_count = state.node_count;
+  known.index = [&state](Path path) { return state.find_index(path); };
+  known.layer = [&state](const std::string& path, const layer::Layer& anchor) {
+    return state.find_layer(path, anchor);
+  };
+  known.stack = [&state](const layer::LayerPtr& layer, const LayerStack* from) {
+    return state.find_stack(layer, from);
+  };
+  known.enters = enters;
+  return state_->take(build_ahead(known, roots));
 }
 
 const Diagnostics& IndexCache::errors() const { return state_->errors; }

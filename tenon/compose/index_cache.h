@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -50,6 +51,11 @@ class IndexCache {
   const PrimIndex& index(Path prim_path);
   /// The same for a child of a prim whose index is at hand, which is cheaper.
   const PrimIndex& child_index(const PrimIndex& parent, Token name);
+  /// Builds the indices of what is below `roots` on two threads, as far as that takes no layer that
+  /// is not open yet; `enters` tells, on either thread, whether children of a prim are wanted.
+  /// Later answers are the same as without, only sooner. False when something was left out.
+  bool build_below(const std::vector<const PrimIndex*>& roots,
+                   const std::function<bool(const PrimIndex&)>& enters);
   /// Layers that could not be opened and other errors of layer stacks, in order of discovery.
   const Diagnostics& errors() const;
   /// Each missing layer once per opinion, in order of discovery (the stage and `info` report them).

@@ -4,6 +4,9 @@
 // From prim indexes to the tree of prims. Instances keep their own opinions; what is below them is
 // populated once per instance key, under /__Prototype_N, from the index of one of the instances.
 // Inactive prims end the walk. An explicit stack keeps deep trees off ours.
+#include <algorithm>
+
+#include "tenon/base/parallel.h"
 #include "tenon/schema/kinds.h"
 #include "tenon/stage/composed_type.h"
 #include "tenon/stage/prototype_sources.h"
@@ -35,6 +38,7 @@ class Populator {
     data_.diagnostics.append(data_.root->index->errors);
     pending_.push_back(data_.root);
     while (!pending_.empty()) {
+      build_ahead();
       PrimData* parent = pending_.back();
       pending_.pop_back();
       add_children(*parent);
@@ -42,6 +46,24 @@ class Populator {
   }
 
  private:
+  /// Has the indices of all that is still to be walked built on two threads, once it seems to be
+  /// worth it. What needed a layer that was not open is tried again when twice as much is there.
+  void build_ahead() {
+    constexpr std::size_t kWorthTwoThreads = 256;  // prims
+    if (data_.prims.size() < std::max(kWorthTwoThreads, next_ahead_) || pending_.size() < 2 ||
+        built_ahead_ || !data_.options.mask.empty() || usable_processors() < 2) {
+      return;
+    }
+    std::vector<const compose::PrimIndex*> roots;
+    for (auto walked = pending_.rbegin(); walked != pending_.rend(); ++walked) {
+      roots.push_back(&data_.cache->index((*walked)->source_path));
+    }
+    built_ahead_ = data_.cache->build_below(roots, [](const compose::PrimIndex& index) {
+      return !index.instanceable && is_active(index);
+    });
+    next_ahead_ = 2 * data_.prims.size();
+  }
+
   void add_children(PrimData& parent) {
     const compose::PrimIndex& index = data_.cache->index(parent.source_path);
     for (const Token name : index.child_names) {
@@ -104,6 +126,7 @@ class Populator {
       root.clips = add_clips(clips, nullptr, instance.path, known);
       data_.by_path.emplace(root.path, &root);
       data_.prototypes.push_back(&root);
+      built_ahead_ = false;
       it->second = &root;
     }
     instance.prototype = it->second;
@@ -145,10 +168,14 @@ class Populator {
     return sets.empty() ? nullptr : &data_.clip_sets.emplace_back(std::move(sets));
   }
 
+  static bool is_active(const compose::PrimIndex& index) {
+    const bool* active = strongest_opinion<bool>(index, fields::active);
+    return active == nullptr || *active;
+  }
+
   static void set_flags(PrimData& prim, const PrimData& parent) {
     const compose::PrimIndex& index = *prim.index;
-    const bool* active = strongest_opinion<bool>(index, fields::active);
-    prim.active = active == nullptr || *active;
+    prim.active = is_active(index);
     prim.loaded = prim.active && (index.has_payloads ? index.payload_loaded : parent.loaded);
     prim.specifier = composed_specifier(index);
     prim.abstract = parent.abstract || prim.specifier == Specifier::Class;
@@ -166,6 +193,8 @@ class Populator {
   std::unordered_map<std::string, Path> sources_;  // of prototypes; filled for the first instance
   bool too_many_reported_ = false;
   std::vector<PrimData*> pending_;
+  bool built_ahead_ = false;  // the indices of all that is below `pending_`
+  std::size_t next_ahead_ = 0;
 };
 
 }  // namespace

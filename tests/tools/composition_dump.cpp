@@ -126,12 +126,20 @@ std::string facts_of(compose::IndexCache& cache, const compose::PrimIndex& index
   return text + targets_of(cache, index);
 }
 
+/// Has all that is below these prims built ahead: what is printed must not change by it.
+void build_ahead(compose::IndexCache& cache, const std::vector<const compose::PrimIndex*>& roots) {
+  cache.build_below(roots, [](const compose::PrimIndex&) { return true; });
+}
+
 /// The layer stack, then all prims depth-first.
 std::string nodes_of_all(compose::IndexCache& cache, const compose::LayerLabel& label) {
   std::string text = layers_of(*cache.layer_stack(), label);
   std::map<std::string, Path> first_of_key;
   std::vector<const compose::PrimIndex*> open{&cache.index(Path::absolute_root())};
-  while (!open.empty()) {
+  for (std::size_t count = 0; !open.empty(); ++count) {
+    if (count % 8 == 0) {
+      build_ahead(cache, open);
+    }
     const compose::PrimIndex& index = *open.back();
     open.pop_back();
     text += "== " + index.path.str();
@@ -169,6 +177,7 @@ int dump(const Arguments& arguments) {
     const std::string& name = layer.identifier();
     return name.rfind(folder, 0) == 0 ? name.substr(folder.size()) : name;
   };
+  build_ahead(cache, {&cache.index(Path::absolute_root())});
   const std::string text = !arguments.nodes         ? compose::dump_indices(cache, label)
                            : arguments.prim.empty() ? nodes_of_all(cache, label)
                                                     : nodes_of_one(cache, arguments.prim, label);

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/compose/build_ahead.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "tenon/base/parallel.h"
+#include "tenon/compose/build_index.h"
+
+namespace tenon::compose {
+namespace {
+
+class BatchBuilder {
+ public:
+  BatchBuilder(const KnownIndices& known, IndexBatch& batch) : known_(known), batch_(batch) {
+    services_.maps = &batch_.maps;
+    services_.options = known_.options;
+    services_.root_stack = known_.root_stack;
+    services_.node_count = &node_count_;
+    services_.index = [this](Path path) -> const PrimIndex& { return index(path); };
+    services_.open = [this](const std::string& path, const layer::Layer& anchor) {
+      const Result<layer::LayerPtr>* const opened = known_.layer(path, anchor);
+      return opened != nullptr ? *opened : give_up();
+    };
+    services_.stack = [this](const layer::LayerPtr& layer, const LayerStack* from) {
+      const LayerStack* const stack = known_.stack(layer, from);
+      return stack != nullptr ? stack : (give_up(), from);
+    };
+    services_.missing = [this](const MissingArc&) { give_up(); };
+    node_count_ = known_.node_count;
+  }
+  BatchBuilder(const BatchBuilder&) = delete;
+  BatchBuilder& operator=(const BatchBuilder&) = delete;
+
+  void build_below(const PrimIndex& root) {
+    std::vector<Pending> pending{{&root, 0}};
+    above_.clear();
+    while (!pending.empty()) {
+      const Pending parent = pending.back();
+      pending.pop_back();
+      above_.resize(parent.depth);
+      above_.push_back(parent.index);
+      for (const Token name : parent.index->child_names) {
+        const PrimIndex* const child = child_of(*parent.index, name);
+        if (child != nullptr && !child->child_names.empty() && known_.enters(*child)) {
+          pending.push_back({child, parent.depth + 1});
+        }
+      }
+    }
+    batch_.node_count = node_count_ - known_.node_count;
+  }
+
+ private:
+  struct Pending {
+    const PrimIndex* index;
+    std::size_t depth;  // below the root
+  };
+
+  /// Known or built; nullptr where it cannot be built ahead.
+  const PrimIndex* child_of(const PrimIndex& parent, Token name) {
+    const Path path = parent.path.child(name);
+    if (const PrimIndex* const found = known_.index(path)) {
+      return found;
+    }
+    PrimIndex& index = batch_.indices.emplace_back();
+    index.path = path;
+    const std::size_t nodes_before = node_count_;
+    gave_up_ = false;
+    build_child_index(services_, parent, index);
+    if (!gave_up_) {
+      return &index;
+    }
+    batch_.complete = false;
+    batch_.indices.pop_back();
+    node_count_ = nodes_before;
+    return nullptr;
+  }
+
+  /// What is being built will not be used; no arc needs to be followed any more.
+  Error give_up() {
+    gave_up_ = true;
+    node_count_ = std::max(node_count_, known_.options->most_nodes);
+    return Error(ErrorCode::NotFound, "not known yet");
+  }
+
+  const PrimIndex& index(Path path) {
+    for (auto above = above_.rbegin(); above != above_.rend(); ++above) {
+      if ((*above)->path == path) {
+        return **above;
+      }
+    }
+    if (const PrimIndex* const found = known_.index(path)) {
+      return *found;
+    }
+    give_up();
+    return *above_.front();
+  }
+
+  const KnownIndices& known_;
+  IndexBatch& batch_;
+  IndexServices services_;
+  std::vector<const PrimIndex*> above_;  // the prims around the one that is built
+  std::size_t node_count_ = 0;
+  bool gave_up_ = false;
+};
+
+}  // namespace
+
+std::vector<IndexBatch> build_ahead(const KnownIndices& known,
+                                    const std::vector<const PrimIndex*>& roots) {
+  std::vector<IndexBatch> batches(2);
+  std::atomic<std::size_t> next = 0;
+  const auto build = [&](IndexBatch& batch) {
+    BatchBuilder builder(known, batch);
+    for (std::size_t i = next++; i < roots.size(); i = next++) {
+      builder.build_below(*roots[i]);
+    }
+  };
+  run_both([&] { build(batches[0]); }, [&] { build(batches[1]); });
+  return batches;
+}
+
+}  // namespace tenon::compose

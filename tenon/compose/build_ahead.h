@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "tenon/compose/indexer.h"
+#include "tenon/compose/node_graph.h"
+
+/// Internal: indices that are built side by side before they are asked for. They are those that
+/// would be built when they are: whatever opens a layer, or would leave a trace outside of the
+/// index, is left until then.
+namespace tenon::compose {
+
+/// Indices, each after that of its parent, and what they point into.
+struct IndexBatch {
+  std::deque<PrimIndex> indices;
+  MapPool maps;
+  std::size_t node_count = 0;
+  bool complete = true;  ///< nothing was left out
+};
+
+/// What is known already. Called from several threads at once.
+struct KnownIndices {
+  const ComposeOptions* options = nullptr;
+  const LayerStack* root_stack = nullptr;
+  std::size_t node_count = 0;  ///< nodes of all indices so far
+  /// nullptr where an index, a layer or a stack is not there yet.
+  std::function<const PrimIndex*(Path)> index;
+  std::function<const Result<layer::LayerPtr>*(const std::string&, const layer::Layer&)> layer;
+  std::function<const LayerStack*(const layer::LayerPtr&, const LayerStack* from)> stack;
+  /// Whether the children of a prim will be asked for.
+  std::function<bool(const PrimIndex&)> enters;
+};
+
+/// The indices of all prims below `roots` that are not known, in two batches.
+std::vector<IndexBatch> build_ahead(const KnownIndices& known,
+                                    const std::vector<const PrimIndex*>& roots);
+
+}  // namespace tenon::compose
