@@ -53,6 +53,31 @@ TEST(TextRoundTrip, CanonicalTextGivesItselfAgain) {
   EXPECT_GE(accepted, 3);
 }
 
+/// A prim with children p<first> to p2499, properties before and variants after them.
+std::string large_text(int first, const std::string& property) {
+  std::string text = "#usda 1.0\n\ndef \"World\"\n{\n" + property;
+  for (int i = first; i < 2500; ++i) {
+    text += i == first && property.empty() ? "" : "\n";
+    text += "    def \"p" + std::to_string(i) + "\"\n    {\n    }\n";
+  }
+  return text + "    variantSet \"v\" = {\n        \"a\" {\n\n        }\n    }\n}\n\n" +
+         "def \"Other\"\n{\n}\n\n";
+}
+
+TEST(TextRoundTrip, LargeLayersAreWrittenInHalves) {
+  for (const std::string property : {"", "    int before = 1\n"}) {
+    Diagnostics diagnostics;
+    auto layer = read_text(large_text(0, property), "t.usda", diagnostics);
+    ASSERT_TRUE(layer);
+    EXPECT_EQ(write_text(*layer), large_text(0, property));
+    // Listed, but not there: all of the first half.
+    for (int i = 0; i < 1250; ++i) {
+      layer->erase(Path::from("/World/p" + std::to_string(i)));
+    }
+    EXPECT_EQ(write_text(*layer), large_text(1250, property));
+  }
+}
+
 std::string repeated(const char* text, std::size_t count) {
   std::string all;
   for (std::size_t i = 0; i < count; ++i) {

@@ -3,8 +3,10 @@
 #include "tenon/formats/text/writer.h"
 
 #include <algorithm>
+#include <span>
 
 #include "tenon/base/limits.h"
+#include "tenon/base/parallel.h"
 #include "tenon/base/text_number.h"
 #include "tenon/formats/text/list_writer.h"
 #include "tenon/formats/text/metadata_writer.h"
@@ -36,20 +38,13 @@ class LayerWriter {
 
   std::string write() {
     constexpr std::string_view kHeader = "#usda 1.";
-    constexpr std::size_t kUsualBytes = 128;  // of a spec, at most
     out_.reserve(kUsualBytes * layer_.spec_count());
     out_ += kHeader;
     out_ += "0\n";
     const Spec& root = layer_.root();
     append_layer_metadata(out_, root);
     append_order(root, fields::primOrder, "\nreorder rootPrims = ");
-    for (const Token& name : Layer::children(root, fields::primChildren)) {
-      const Path path = Path::absolute_root().child(name);
-      if (const Spec* prim = layer_.find(path)) {
-        out_ += '\n';
-        append_prim(path, *prim, 0);
-      }
-    }
+    append_children(Path::absolute_root(), Layer::children(root, fields::primChildren), 0, false);
     out_ += '\n';
     out_.replace(kHeader.size(), 1, std::to_string(minor_version_));
     return std::move(out_);
@@ -133,17 +128,41 @@ class LayerWriter {
     append_order(spec, fields::propertyOrder, start + "reorder properties = ");
     append_order(spec, fields::primOrder, start + "reorder nameChildren = ");
     const bool has_properties = append_properties(path, spec, indent + 1);
-    const std::vector<Token>& children = Layer::children(spec, fields::primChildren);
-    bool first = !has_properties;
-    for (const Token& name : children) {
-      const Path child = path.child(name);
-      if (const Spec* child_spec = layer_.find(child)) {
+    append_children(path, Layer::children(spec, fields::primChildren), indent + 1, !has_properties);
+    append_variant_sets(path, spec, indent + 1);
+  }
+
+  /// Prims with an empty line before each, but for the first where it is the `first` of its block.
+  /// The children of one prim of a large layer are written in two halves side by side.
+  void append_children(Path parent, std::span<const Token> names, std::size_t indent, bool first) {
+    constexpr std::size_t kWorthHalving = 2000;  // specs
+    constexpr std::size_t kLikelyEven = 8;       // children
+    if (is_halved_ || names.size() < kLikelyEven || layer_.spec_count() < kWorthHalving ||
+        usable_processors() < 2) {
+      return append_each(parent, names, indent, first);
+    }
+    is_halved_ = true;
+    LayerWriter rest(layer_);
+    rest.is_halved_ = true;
+    rest.out_.reserve(kUsualBytes * layer_.spec_count() / 2);
+    const std::size_t before = out_.size();
+    const std::size_t middle = names.size() / 2;
+    run_both([&] { rest.append_each(parent, names.subspan(middle), indent, false); },
+             [&] { append_each(parent, names.first(middle), indent, first); });
+    const bool starts = first && out_.size() == before && !rest.out_.empty();
+    out_ += std::string_view(rest.out_).substr(starts ? 1 : 0);
+    need(rest.minor_version_);
+  }
+
+  void append_each(Path parent, std::span<const Token> names, std::size_t indent, bool first) {
+    for (const Token& name : names) {
+      const Path path = parent.child(name);
+      if (const Spec* prim = layer_.find(path)) {
         out_ += first ? "" : "\n";
         first = false;
-        append_prim(child, *child_spec, indent + 1);
+        append_prim(path, *prim, indent);
       }
     }
-    append_variant_sets(path, spec, indent + 1);
   }
 
   bool append_properties(Path path, const Spec& spec, std::size_t indent) {
@@ -318,8 +337,11 @@ class LayerWriter {
 
   void need(int minor_version) { minor_version_ = std::max(minor_version_, minor_version); }
 
+  static constexpr std::size_t kUsualBytes = 128;  // of a spec, at most
+
   const Layer& layer_;
   std::string out_;
+  bool is_halved_ = false;                // children of some prim are written side by side
   std::string declaration_;               // kept to spare allocations
   std::vector<Token> listed_properties_;  // of the last prim
   std::vector<Token> sorted_properties_;
