@@ -41,6 +41,7 @@ class Flattener {
     for (const Token arc : {fields::subLayers, fields::layerRelocates}) {
       layer_.root().erase(arc);
     }
+    reserve();
     copy_below(stage_.pseudo_root(), Path::absolute_root());
     for (const Prim& prototype : stage_.prototypes()) {
       copy_prototype(prototype);
@@ -54,6 +55,15 @@ class Flattener {
     Prim prim;
     Path path;
   };
+
+  /// Room for a spec of each prim and each authored property.
+  void reserve() {
+    std::size_t count = 1;
+    for (const PrimData& prim : stage_.data().prims) {
+      count += 1 + prim.index->property_names.size();
+    }
+    layer_.reserve(count);
+  }
 
   // Fields that no schema knows are left out, as OpenUSD does.
   static void copy_field(Token name, const Value& value, Spec& spec) {
@@ -162,7 +172,7 @@ class Flattener {
   // False for attributes of types that nobody knows: they are left out, as OpenUSD does.
   bool copy_property(const Prim& prim, const PrimData& data, Path owner, Token name) {
     if (const Spec* same = spec_to_share(data, name)) {
-      layer_.create(owner.property(name), SpecKind::Attribute).set_field_list(same->field_list());
+      layer_.create(owner.property(name), SpecKind::Attribute).set_field_list(complete(*same));
     } else if (prim.is_relationship(name)) {
       copy_relationship(data, prim.relationship(name), owner.property(name));
     } else if (const Attribute attribute = prim.attribute(name);
@@ -190,17 +200,36 @@ class Flattener {
                : nullptr;
   }
 
+  static bool is_custom(const Spec& spec) { return spec.get_or(fields::custom, false); }
+  static layer::Variability variability(const Spec& spec) {
+    return spec.get_or(fields::variability, layer::Variability::Varying);
+  }
+
+  /// The fields of an attribute with what binary layers leave out. Specs that share their fields
+  /// share these, too.
+  layer::FieldList complete(const Spec& spec) {
+    if (spec.has(fields::custom) && spec.has(fields::variability)) {
+      return spec.field_list();
+    }
+    layer::FieldList& completed = completed_[spec.fields().data()];
+    if (completed.items().empty()) {
+      Spec whole = spec;
+      whole.set(fields::custom, is_custom(spec));
+      whole.set(fields::variability, variability(spec));
+      completed = whole.field_list();
+    }
+    return completed;
+  }
+
   static bool agrees_with_schema(const Spec& spec, const schema::PropertyDefinition* declared) {
     const auto* type_name = spec.get<Token>(fields::typeName);
-    const auto* custom = spec.get<bool>(fields::custom);
-    const auto* variability = spec.get<layer::Variability>(fields::variability);
-    if (type_name == nullptr || custom == nullptr || variability == nullptr) {
+    if (type_name == nullptr) {
       return false;
     }
     return declared == nullptr
                ? layer::find_type_name(*type_name) != nullptr
-               : declared->type_name == *type_name && !*custom &&
-                     declared->variability == *variability && !declared->is_relationship;
+               : declared->type_name == *type_name && !is_custom(spec) &&
+                     declared->variability == variability(spec) && !declared->is_relationship;
   }
 
   static bool stays_the_same(const Spec& spec) {
@@ -313,6 +342,7 @@ class Flattener {
   const Stage& stage_;
   Layer layer_;
   std::unordered_map<Path, Path> prototype_paths_;
+  std::unordered_map<const layer::Field*, layer::FieldList> completed_;  // by authored fields
 };
 
 }  // namespace
