@@ -34,18 +34,21 @@ LayersOfInput::LayersOfInput(std::string_view text) {
   root_ = layers_["root.usda"];
 }
 
-Result<stage::Stage> LayersOfInput::open_stage(stage::StageOptions options) const {
-  const auto open = [layers = layers_](const std::string& asset_path,
-                                       const layer::Layer&) -> Result<layer::LayerPtr> {
+compose::LayerOpener LayersOfInput::opener() const {
+  return [layers = layers_](const std::string& asset_path,
+                            const layer::Layer&) -> Result<layer::LayerPtr> {
     const auto found = layers.find(asset_path);
     if (found == layers.end() || found->second == nullptr) {
       return Error(ErrorCode::NotFound, "no layer " + asset_path);
     }
     return found->second;
   };
+}
+
+Result<stage::Stage> LayersOfInput::open_stage(stage::StageOptions options) const {
   options.most_prims = 5000;
-  options.compose.most_nodes = 50'000;
-  return stage::Stage::open(root_, nullptr, open, std::move(options));
+  options.compose.most_nodes = kMostNodes;
+  return stage::Stage::open(root_, nullptr, opener(), std::move(options));
 }
 
 }  // namespace tenon::fuzz

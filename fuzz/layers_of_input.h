@@ -18,7 +18,10 @@ class LayersOfInput {
  public:
   explicit LayersOfInput(std::string_view text);
 
+  static constexpr std::size_t kMostNodes = 50'000;
+
   const layer::LayerPtr& root() const { return root_; }
+  compose::LayerOpener opener() const;
   Result<stage::Stage> open_stage(stage::StageOptions options = {}) const;
 
  private:

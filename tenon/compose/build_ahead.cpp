@@ -48,7 +48,6 @@ class BatchBuilder {
         }
       }
     }
-    batch_.node_count = node_count_ - known_.node_count;
   }
 
  private:
@@ -63,13 +62,18 @@ class BatchBuilder {
     if (const PrimIndex* const found = known_.index(path)) {
       return found;
     }
-    PrimIndex& index = batch_.indices.emplace_back();
-    index.path = path;
+    if (batch_.indices.size() >= known_.most_indices || node_count_ >= known_.options->most_nodes) {
+      batch_.complete = false;
+      return nullptr;
+    }
+    IndexAhead& ahead = batch_.indices.emplace_back();
+    ahead.index.path = path;
     const std::size_t nodes_before = node_count_;
     gave_up_ = false;
-    build_child_index(services_, parent, index);
-    if (!gave_up_) {
-      return &index;
+    build_child_index(services_, parent, ahead.index);
+    if (!gave_up_ && node_count_ < known_.options->most_nodes) {
+      ahead.node_count = node_count_ - nodes_before;
+      return &ahead.index;
     }
     batch_.complete = false;
     batch_.indices.pop_back();

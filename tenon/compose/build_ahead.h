@@ -15,11 +15,15 @@
 /// index, is left until then.
 namespace tenon::compose {
 
+struct IndexAhead {
+  PrimIndex index;
+  std::size_t node_count = 0;  ///< nodes that building it made
+};
+
 /// Indices, each after that of its parent, and what they point into.
 struct IndexBatch {
-  std::deque<PrimIndex> indices;
+  std::deque<IndexAhead> indices;
   MapPool maps;
-  std::size_t node_count = 0;
   bool complete = true;  ///< nothing was left out
 };
 
@@ -27,7 +31,8 @@ struct IndexBatch {
 struct KnownIndices {
   const ComposeOptions* options = nullptr;
   const LayerStack* root_stack = nullptr;
-  std::size_t node_count = 0;  ///< nodes of all indices so far
+  std::size_t node_count = 0;    ///< nodes of all indices so far
+  std::size_t most_indices = 0;  ///< of one batch
   /// nullptr where an index, a layer or a stack is not there yet.
   std::function<const PrimIndex*(Path)> index;
   std::function<const Result<layer::LayerPtr>*(const std::string&, const layer::Layer&)> layer;

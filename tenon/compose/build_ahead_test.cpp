@@ -115,12 +115,12 @@ class Scene {
     cache = std::make_unique<IndexCache>(layers_.at("root"), nullptr, opener, options);
   }
 
-  bool build_below(const std::vector<const char*>& paths) {
+  bool build_below(const std::vector<const char*>& paths, std::size_t most = 1000) {
     std::vector<const PrimIndex*> roots;
     for (const char* path : paths) {
       roots.push_back(&cache->index(Path::from(path)));
     }
-    return cache->build_below(roots, [](const PrimIndex&) { return true; });
+    return cache->build_below(roots, [](const PrimIndex&) { return true; }, most);
   }
 
   /// All that can be seen, everything asked for in the same order.
@@ -147,6 +147,12 @@ TEST(BuildAhead, BuildsWhatNeedsNoFurtherLayer) {
   EXPECT_EQ(scene.cache->index(Path::from("/World/Local/a/b")).opinions.size(), 1u);
   EXPECT_EQ(scene.cache->index(Path::from("/World/Local/a/inherited")).opinions.size(), 1u);
   EXPECT_EQ(scene.opened, opened);
+}
+
+TEST(BuildAhead, StopsAtTheLimit) {
+  Scene scene;
+  EXPECT_FALSE(scene.build_below({"/World/Local", "/World/_class"}, 1));
+  EXPECT_EQ(scene.dump(), Scene().dump());
 }
 
 TEST(BuildAhead, OpensNothing) {

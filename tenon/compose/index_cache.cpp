@@ -28,6 +28,11 @@ struct StackKeyHash {
 }  // namespace
 
 struct IndexCache::State {
+  struct Entry {
+    const PrimIndex* index = nullptr;
+    const IndexAhead* ahead = nullptr;  // where it was built ahead and not asked for yet
+  };
+
   LayerOpener opener;
   ComposeOptions options;
   MapPool maps;
@@ -39,7 +44,8 @@ struct IndexCache::State {
       opened;
   std::deque<PrimIndex> indices;
   std::deque<IndexBatch> batches;  // built ahead
-  std::unordered_map<Path, const PrimIndex*> by_path;
+  std::unordered_map<Path, Entry> by_path;
+  bool at_limit = false;  // what was built ahead is of no use any more
   Diagnostics errors;
   std::vector<MissingArc> missing;
   std::set<std::tuple<std::string, Path, std::string, std::string>> known_missing;
@@ -94,7 +100,7 @@ struct IndexCache::State {
   PrimIndex& add_index(Path path) {
     indices.emplace_back();
     indices.back().path = path;
-    by_path.emplace(path, &indices.back());
+    by_path.emplace(path, Entry{&indices.back()});
     return indices.back();
   }
 
@@ -113,7 +119,7 @@ struct IndexCache::State {
 
   const PrimIndex* find_index(Path path) const {
     const auto found = by_path.find(path);
-    return found == by_path.end() ? nullptr : found->second;
+    return found == by_path.end() ? nullptr : found->second.index;
   }
 
   const Result<layer::LayerPtr>* find_layer(const std::string& asset_path,
@@ -131,29 +137,43 @@ struct IndexCache::State {
     return found == stacks.end() ? nullptr : found->second.get();
   }
 
-  /// Takes what was built ahead; not when there would be too many nodes, so that the arcs that are
-  /// left out are always the same.
+  /// Keeps what was built ahead until it is asked for. True when nothing was left out.
   bool take(std::vector<IndexBatch> built) {
-    std::size_t nodes = node_count;
-    std::size_t count = by_path.size();
     bool complete = true;
+    std::size_t count = by_path.size();
     for (const IndexBatch& batch : built) {
-      nodes += batch.node_count;
-      count += batch.indices.size();
       complete = complete && batch.complete;
+      count += batch.indices.size();
     }
-    if (nodes >= options.most_nodes) {
-      return false;
-    }
-    node_count = nodes;
     by_path.reserve(count);
     for (IndexBatch& batch : built) {
-      for (const PrimIndex& index : batch.indices) {
-        by_path.emplace(index.path, &index);
+      for (const IndexAhead& ahead : batch.indices) {
+        by_path.emplace(ahead.index.path, Entry{&ahead.index, &ahead});
       }
       batches.push_back(std::move(batch));
     }
     return complete;
+  }
+
+  /// The index of a child of a prim that was asked for before. One that was built ahead counts from
+  /// now on; where the limit of nodes may be reached with it, it is built again, as are all after
+  /// it, so that the same arcs are left out as without building ahead.
+  const PrimIndex& ask_child(const PrimIndex& parent, Path path) {
+    const auto found = by_path.find(path);
+    if (found == by_path.end()) {
+      return compute_child(parent, path);
+    }
+    Entry& entry = found->second;
+    if (entry.ahead != nullptr) {
+      at_limit = at_limit || node_count + entry.ahead->node_count >= options.most_nodes;
+      if (at_limit) {
+        by_path.erase(found);
+        return compute_child(parent, path);
+      }
+      node_count += entry.ahead->node_count;
+      entry.ahead = nullptr;
+    }
+    return *entry.index;
   }
 };
 
@@ -190,8 +210,8 @@ const PrimIndex& IndexCache::index(Path prim_path) {
   const PrimIndex* found = nullptr;
   for (Path path = prim_path; found == nullptr; path = path.parent()) {
     const auto it = state_->by_path.find(path);
-    if (it != state_->by_path.end()) {
-      found = it->second;
+    if (it != state_->by_path.end() && it->second.ahead == nullptr) {
+      found = it->second.index;
     } else if (path.is_absolute_root()) {
       found = &state_->compute_root();
     } else {
@@ -199,24 +219,27 @@ const PrimIndex& IndexCache::index(Path prim_path) {
     }
   }
   for (auto it = missing.rbegin(); it != missing.rend(); ++it) {
-    found = &state_->compute_child(*found, *it);
+    found = &state_->ask_child(*found, *it);
   }
   return *found;
 }
 
 const PrimIndex& IndexCache::child_index(const PrimIndex& parent, Token name) {
-  const Path path = parent.path.child(name);
-  const auto it = state_->by_path.find(path);
-  return it != state_->by_path.end() ? *it->second : state_->compute_child(parent, path);
+  return state_->ask_child(parent, parent.path.child(name));
 }
 
 bool IndexCache::build_below(const std::vector<const PrimIndex*>& roots,
-                             const std::function<bool(const PrimIndex&)>& enters) {
+                             const std::function<bool(const PrimIndex&)>& enters,
+                             std::size_t most) {
   const State& state = *state_;
+  if (state.at_limit) {
+    return false;
+  }
   KnownIndices known;
   known.options = &state.options;
   known.root_stack = state.root_stack.get();
   known.node_count = state.node_count;
+  known.most_indices = most;
   known.index = [&state](Path path) { return state.find_index(path); };
   known.layer = [&state](const std::string& path, const layer::Layer& anchor) {
     return state.find_layer(path, anchor);

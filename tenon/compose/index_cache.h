@@ -52,10 +52,11 @@ class IndexCache {
   /// The same for a child of a prim whose index is at hand, which is cheaper.
   const PrimIndex& child_index(const PrimIndex& parent, Token name);
   /// Builds the indices of what is below `roots` on two threads, as far as that takes no layer that
-  /// is not open yet; `enters` tells, on either thread, whether children of a prim are wanted.
-  /// Later answers are the same as without, only sooner. False when something was left out.
+  /// is not open yet; `enters` tells, on either thread, whether children of a prim are wanted,
+  /// `most` how many indices each thread may make. Later answers are the same as without, only
+  /// sooner. False when something was left out.
   bool build_below(const std::vector<const PrimIndex*>& roots,
-                   const std::function<bool(const PrimIndex&)>& enters);
+                   const std::function<bool(const PrimIndex&)>& enters, std::size_t most);
   /// Layers that could not be opened and other errors of layer stacks, in order of discovery.
   const Diagnostics& errors() const;
   /// Each missing layer once per opinion, in order of discovery (the stage and `info` report them).

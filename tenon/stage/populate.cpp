@@ -50,18 +50,21 @@ class Populator {
   /// worth it. What needed a layer that was not open is tried again when twice as much is there.
   void build_ahead() {
     constexpr std::size_t kWorthTwoThreads = 256;  // prims
-    if (data_.prims.size() < std::max(kWorthTwoThreads, next_ahead_) || pending_.size() < 2 ||
-        built_ahead_ || !data_.options.mask.empty() || usable_processors() < 2) {
+    const std::size_t count = data_.prims.size();
+    if (count < std::max(kWorthTwoThreads, next_ahead_) || count >= data_.options.most_prims ||
+        pending_.size() < 2 || built_ahead_ || !data_.options.mask.empty() ||
+        usable_processors() < 2) {
       return;
     }
     std::vector<const compose::PrimIndex*> roots;
     for (auto walked = pending_.rbegin(); walked != pending_.rend(); ++walked) {
       roots.push_back(&data_.cache->index((*walked)->source_path));
     }
-    built_ahead_ = data_.cache->build_below(roots, [](const compose::PrimIndex& index) {
+    const auto enters = [](const compose::PrimIndex& index) {
       return !index.instanceable && is_active(index);
-    });
-    next_ahead_ = 2 * data_.prims.size();
+    };
+    built_ahead_ = data_.cache->build_below(roots, enters, data_.options.most_prims - count);
+    next_ahead_ = 2 * count;
   }
 
   void add_children(PrimData& parent) {

@@ -128,7 +128,7 @@ std::string facts_of(compose::IndexCache& cache, const compose::PrimIndex& index
 
 /// Has all that is below these prims built ahead: what is printed must not change by it.
 void build_ahead(compose::IndexCache& cache, const std::vector<const compose::PrimIndex*>& roots) {
-  cache.build_below(roots, [](const compose::PrimIndex&) { return true; });
+  cache.build_below(roots, [](const compose::PrimIndex&) { return true; }, 100000);
 }
 
 /// The layer stack, then all prims depth-first.
