@@ -184,6 +184,16 @@ class DifferenceWriter {
   char* tail_;
 };
 
+/// Four integers, each by `step` more than the one before.
+template <class T, class Unsigned>
+bool are_steps_of(const T* integers, Unsigned before, Unsigned step) {
+  Unsigned others = static_cast<Unsigned>(integers[0]) - before - step;
+  for (std::size_t i = 1; i < 4; ++i) {
+    others |= static_cast<Unsigned>(integers[i]) - static_cast<Unsigned>(integers[i - 1]) - step;
+  }
+  return others == 0;
+}
+
 }  // namespace
 
 std::uint64_t max_integer_count(std::uint64_t compressed_size) {
@@ -241,6 +251,11 @@ std::string encode_integers(std::span<const T> integers) {
   Unsigned before = 0;
   for (std::size_t i = 0; i < integers.size(); i += 4) {
     const std::size_t count = std::min<std::size_t>(4, integers.size() - i);
+    if (count == 4 && are_steps_of(integers.data() + i, before, static_cast<Unsigned>(common))) {
+      before = static_cast<Unsigned>(integers[i + 3]);
+      *codes++ = 0;
+      continue;
+    }
     unsigned code = 0;
     for (std::size_t k = 0; k < count; ++k) {
       const auto integer = static_cast<Unsigned>(integers[i + k]);

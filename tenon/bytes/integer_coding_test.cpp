@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/bytes/integer_coding.h"
 
+#include <cstring>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -49,6 +50,40 @@ TEST(IntegerCoding, PacksAsTheFormatSays) {
   ASSERT_TRUE(plain);
   const std::string expected("\x01\0\0\0\xC1\x11\x7B\xA0\x86\x01\0\0\0", 13);
   EXPECT_EQ(*plain, expected);
+}
+
+TEST(IntegerCoding, GivesBackLongListsOfAnyStep) {
+  for (const std::size_t count : {511u, 512u, 514u, 4099u}) {
+    for (const std::int64_t step : {0ll, 1ll, -3ll, 127ll, 40000ll, -70000ll, 1ll << 33}) {
+      std::vector<std::int64_t> wide;
+      std::vector<std::int32_t> narrow;
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::int64_t jump = i % 97 == 5 ? step * 11 - 2049 : 0;
+        wide.push_back(static_cast<std::int64_t>(i) * step + jump);
+        narrow.push_back(static_cast<std::int32_t>(wide.back() % 1000003));
+      }
+      expect_round_trip(wide);
+      expect_round_trip(narrow);
+    }
+  }
+}
+
+// Of differences that are equally common the largest counts, in short lists and in long ones.
+TEST(IntegerCoding, TheLargestOfTheCommonestDifferencesIsLeftOut) {
+  for (const std::size_t rounds : {5u, 500u}) {
+    std::vector<std::int32_t> integers{-7};
+    for (std::size_t i = 0; i < rounds; ++i) {
+      for (const std::int32_t difference : {-7, 5000, -5000, 4000, 1}) {
+        integers.push_back(integers.back() + difference);
+      }
+    }
+    integers.push_back(integers.back() + 5000);
+    const auto plain = lz4_decompress(bytes_of(encode_integers<std::int32_t>(integers)), 100000);
+    ASSERT_TRUE(plain);
+    std::int32_t common = 0;
+    std::memcpy(&common, plain->data(), sizeof(common));
+    EXPECT_EQ(common, 5000);
+  }
 }
 
 TEST(IntegerCoding, RefusesMoreThanTheDataHold) {

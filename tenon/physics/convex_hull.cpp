@@ -88,10 +88,19 @@ class Qhull {
   bool failed_ = false;
 };
 
+/// The first of those that are farthest.
 Vec3d farthest_from(const std::vector<Vec3d>& points, const Vec3d& from) {
-  return *std::max_element(points.begin(), points.end(), [&](const Vec3d& a, const Vec3d& b) {
-    return dot(a - from, a - from) < dot(b - from, b - from);
-  });
+  const Vec3d* farthest = points.data();
+  double largest = dot(*farthest - from, *farthest - from);
+  for (const Vec3d& point : points) {
+    const Vec3d off = point - from;
+    const double square = dot(off, off);
+    if (largest < square) {
+      largest = square;
+      farthest = &point;
+    }
+  }
+  return *farthest;
 }
 
 /// Unit vectors across `normal`, right-handed with it.

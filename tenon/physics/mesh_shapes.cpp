@@ -67,10 +67,16 @@ MeshSource placed(const ReadState& state, const ShapeSource& source, const Mat4d
 
 /// Points in the collider's rigid frame, exact under any matrix of their prim [m].
 std::vector<Vec3d> placed_points(const MeshSource& mesh) {
+  const Mat3d m = mesh.linear;
   std::vector<Vec3d> placed;
   placed.reserve(mesh.points.size());
-  for (const Vec3f& p : mesh.points) {
-    placed.push_back(rotate(mesh.turn, to_double(p) * mesh.linear + mesh.offset) * mesh.length);
+  for (const Vec3f& point : mesh.points) {
+    const Vec3d p = to_double(point);
+    Vec3d moved = mesh.offset;
+    for (std::size_t j = 0; j < 3; ++j) {
+      moved[j] = (p[0] * m[0][j] + p[1] * m[1][j] + p[2] * m[2][j]) + mesh.offset[j];
+    }
+    placed.push_back(rotate(mesh.turn, moved) * mesh.length);
   }
   return placed;
 }

@@ -227,9 +227,14 @@ std::vector<std::pair<Path, Path>> places_below(const Layer& flat, Path top) {
 }
 
 /// The content with everything below the default prim.
-Layer below_default_prim(const Layer& flat, Token robot, std::map<Path, Path>* moved) {
+Layer below_default_prim(Layer flat, Token robot, std::map<Path, Path>* moved) {
   const Path top = Path::absolute_root().child(robot);
   const std::vector<std::pair<Path, Path>> places = places_below(flat, top);
+  if (places.empty()) {  // as it is already
+    flat.root().erase(fields::subLayers);
+    flat.root().set(fields::defaultPrim, robot);
+    return flat;
+  }
   if (moved != nullptr) {
     moved->insert(places.begin(), places.end());
   }
@@ -270,7 +275,7 @@ Result<Layer> content_of(const stage::Stage& stage, std::map<Path, Path>* moved)
   TENON_CHECK(unfold_instances(flat));
   add_inactive(stage, flat);
   drop_undefined(flat, robot.path());
-  Layer content = below_default_prim(flat, robot.name(), moved);
+  Layer content = below_default_prim(std::move(flat), robot.name(), moved);
   tidy(content);
   order_fields(content);
   return content;
