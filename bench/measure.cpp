@@ -8,6 +8,8 @@
 
 #include <sys/resource.h>
 
+#include "tenon/base/heap.h"
+
 namespace tenon::bench {
 namespace {
 
@@ -78,6 +80,7 @@ void Report::print() const {
 }
 
 Arguments read_arguments(int count, char** values, std::size_t file_count) {
+  keep_heap_in_huge_pages();
   Arguments arguments;
   for (int i = 1; i < count; ++i) {
     if (std::strcmp(values[i], "--repeats") == 0 && i + 1 < count) {

@@ -2,23 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <clocale>
-#include <cstddef>
-#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <span>
 #include <string_view>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#include <sys/mman.h>
-#include <unistd.h>
-#endif
-
 #include "cli/command_line.h"
 #include "cli/exit_code.h"
 #include "cli/verb.h"
+#include "tenon/base/heap.h"
 
 namespace {
 
@@ -103,39 +95,10 @@ int run(int argc, char** argv) {
   return chosen.run ? chosen.run() : tenon::cli::kFailed;
 }
 
-#ifdef __GLIBC__
-constexpr std::size_t kMegabyte = std::size_t{1} << 20u;
-
-/// The heap grows by 64 MB at once, taken only where it is touched, in pages of 2 MB where the
-/// system has them to give: one page fault in place of 512.
-void grow_in_huge_pages() {
-  constexpr std::size_t kRoom = 64 * kMegabyte;
-  ::mallopt(M_TOP_PAD, static_cast<int>(kRoom));
-  void* const first = std::malloc(kMegabyte);  // more than is left: the heap grows
-  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
-  const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(first) / page + 1) * page;
-  std::free(first);
-  const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0));
-  if (begin < end && end - begin > kRoom - kMegabyte && end - begin < 2 * kRoom) {
-    ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-  }
-}
-#endif
-
-/// A command lives for one answer: memory given back to the system only to be asked for again costs
-/// a page fault for each page.
-void keep_memory() {
-#ifdef __GLIBC__
-  ::mallopt(M_TRIM_THRESHOLD, 256 * kMegabyte);
-  ::mallopt(M_MMAP_THRESHOLD, 32 * kMegabyte);
-  grow_in_huge_pages();
-#endif
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_memory();
+  tenon::keep_heap_in_huge_pages();
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

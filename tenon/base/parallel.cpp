@@ -5,10 +5,13 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include "tenon/base/heap.h"
+
 namespace tenon {
 namespace {
 
 void* run(void* call) {
+  prepare_thread_heap();
   (*static_cast<const std::function<void()>*>(call))();
   return nullptr;
 }
