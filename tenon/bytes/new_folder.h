@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tenon/base/result.h"
 
@@ -49,6 +50,7 @@ class NewFolder {
   std::string place_;
   std::string path_;  // while it has a hidden name
   std::set<std::string> folders_;
+  std::vector<std::string> files_;  // with contents of their own
 };
 
 }  // namespace tenon::bytes

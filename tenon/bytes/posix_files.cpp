@@ -36,8 +36,10 @@ int write_all(int descriptor, std::string_view contents) {
   return 0;
 }
 
-int sync_folder(const std::string& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+namespace {
+
+int sync(const std::string& path, int flags) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
   if (descriptor < 0) {
     return errno;
   }
@@ -45,6 +47,12 @@ int sync_folder(const std::string& folder) {
   ::close(descriptor);
   return error;
 }
+
+}  // namespace
+
+int sync_file(const std::string& file) { return sync(file, 0); }
+
+int sync_folder(const std::string& folder) { return sync(folder, O_DIRECTORY); }
 
 std::string next_hidden_name(const std::string& folder) {
   static std::atomic<unsigned> counter{0};

@@ -16,6 +16,8 @@ namespace tenon::bytes {
 Error unwritable(const std::string& path, const char* kind, int number);
 
 int write_all(int descriptor, std::string_view contents);
+/// Makes what was written to a file survive a power cut.
+int sync_file(const std::string& file);
 /// Makes the names in a folder survive a power cut.
 int sync_folder(const std::string& folder);
 
