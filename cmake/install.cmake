@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-# Installs the executable, the engine library it loads, and all licences.
-if(CMAKE_INSTALL_LIBDIR)
-  set_target_properties(tenon_cli PROPERTIES INSTALL_RPATH
-                                             "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/tenon")
-endif()
+# Installs the executable, the engine library it loads, and all licences. The build folder has the
+# same layout, so that the executable finds the library from either place.
+set_target_properties(tenon_cli PROPERTIES INSTALL_RPATH
+                                           "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/tenon")
 install(TARGETS tenon_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon)
@@ -15,6 +14,9 @@ if(tenon_coacd_library)
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon/coacd)
 endif()
 if(TENON_WITH_MUJOCO)
+  set(library_folder ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/tenon)
+  file(MAKE_DIRECTORY ${library_folder})
+  file(CREATE_LINK ${tenon_mujoco_library} ${library_folder}/${tenon_mujoco_soname} SYMBOLIC)
   install(FILES ${tenon_mujoco_library} DESTINATION ${CMAKE_INSTALL_LIBDIR}/tenon)
   install(FILES ${tenon_mujoco_licences}
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon/mujoco)

@@ -67,6 +67,12 @@ class Contract(unittest.TestCase):
     def test_version_and_quiet(self):
         self.assertRegex(tenon("--version").stdout, r"^tenon \d+\.\d+\.\d+\n$")
 
+    def test_no_library_is_taken_from_the_current_folder(self):
+        for name in ("libc.so.6", "libm.so.6", "liblz4.so.1"):
+            self.write(name, "no library")
+        process = tenon("--version", cwd=self.folder)
+        self.assertEqual(process.returncode, 0, process.stderr)
+
     def test_an_engine_that_is_not_built_is_4_and_an_unknown_one_2(self):
         for engine, code in (("physx", 4), ("no-such-engine", 2)):
             process = tenon("sim", HAND, "--engine", engine)
