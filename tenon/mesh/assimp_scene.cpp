@@ -4,6 +4,7 @@
 // The only file that knows assimp: its C interface, loaded when the first such mesh is met, so that
 // programs that read none neither need nor wait for it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -213,7 +214,28 @@ class SceneReader {
     take(aiTextureType_NORMALS, ImageUse::Normal);
     take(aiTextureType_LIGHTMAP, ImageUse::Occlusion);
     take(aiTextureType_UNKNOWN, ImageUse::RoughnessMetallic);
-    take(aiTextureType_EMISSIVE, ImageUse::Emission);
+    if (emits(material, look.name)) {
+      take(aiTextureType_EMISSIVE, ImageUse::Emission);
+    }
+  }
+
+  /// Whether the image of emission counts: glTF multiplies it with a colour, which is black where
+  /// the file says nothing. Other colours than white are left out.
+  bool emits(const aiMaterial& material, const std::string& name) {
+    aiColor4D color(0, 0, 0, 0);
+    assimp().material_color(&material, AI_MATKEY_COLOR_EMISSIVE, &color);
+    const bool black = color.r <= 0 && color.g <= 0 && color.b <= 0;
+    const bool white = color.r >= 1 && color.g >= 1 && color.b >= 1;
+    aiString image;
+    const bool has_image =
+        assimp().material_string(&material, AI_MATKEY_TEXTURE(aiTextureType_EMISSIVE, 0), &image) ==
+            AI_SUCCESS &&
+        image.length != 0;
+    if (!black && !(white && has_image)) {
+      report("the colour that the material \"" + name + "\" emits is left out",
+             "author inputs:emissiveColor of its surface");
+    }
+    return !black;
   }
 
   static std::optional<float> factor(const aiMaterial& material, const char* key) {
@@ -232,6 +254,7 @@ class SceneReader {
       return {};
     }
     const std::string name = text.C_Str();
+    report_transform(material, type, name);
     for (unsigned i = 0; i < scene_.mNumTextures; ++i) {
       const aiTexture& inside = *scene_.mTextures[i];
       if (name == "*" + std::to_string(i) || name == inside.mFilename.C_Str()) {
@@ -243,6 +266,17 @@ class SceneReader {
       return {};
     }
     return (std::filesystem::path(path_).parent_path() / name).generic_string();
+  }
+
+  void report_transform(const aiMaterial& material, aiTextureType type, const std::string& name) {
+    std::array<float, 5> transform{};  // translation, scaling, rotation
+    auto count = static_cast<unsigned>(transform.size());
+    if (assimp().material_floats(&material, AI_MATKEY_UVTRANSFORM(type, 0), transform.data(),
+                                 &count) == AI_SUCCESS &&
+        transform != std::array<float, 5>{0, 0, 1, 1, 0}) {
+      report("the transform of the texture " + name + " is left out",
+             "apply it to the texture coordinates of the mesh");
+    }
   }
 
   /// An image that lies inside the file, under a name of its own.

@@ -202,6 +202,44 @@ TEST_F(ReadMesh, TakesImagesOfGltfFromInsideAndBeside) {
   EXPECT_TRUE(findings_.empty());
 }
 
+TEST_F(ReadMesh, ListsWhatIsLeftOutOfTheLooksOfGltf) {
+  if (!has_assimp()) {
+    GTEST_SKIP() << "assimp is not installed";
+  }
+  struct Row {
+    const char* material;
+    std::size_t images;
+    const char* finding;
+  };
+  const Row rows[] = {
+      {R"("emissiveFactor":[0.5,0,0])", 0, "emits"},
+      {R"("emissiveTexture":{"index":0})", 0, ""},
+      {R"("emissiveFactor":[1,1,1],"emissiveTexture":{"index":0})", 1, ""},
+      {R"("emissiveFactor":[1,0,1],"emissiveTexture":{"index":0})", 1, "emits"},
+      {R"("normalTexture":{"index":0,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}})", 1,
+       "transform"},
+  };
+  for (const Row& row : rows) {
+    std::string text = kGltf;
+    const std::string color = R"("pbrMetallicRoughness":{"baseColorFactor":[0,0,1,1]})";
+    text.replace(text.find(color), color.size(), row.material);
+    text.insert(text.rfind('}'),
+                R"(,"extensionsUsed":["KHR_texture_transform"],"textures":[{"source":0}],)"
+                R"("images":[{"uri":"light.png"}])");
+    std::erase(text, '\n');
+    Diagnostics findings;
+    const auto scene = read_mesh(write("e.gltf", text), findings);
+    ASSERT_TRUE(scene) << scene.error().to_string();
+    const Appearance& look = scene->appearances.at(*scene->meshes.at(0).appearance);
+    EXPECT_EQ(look.images.size(), row.images) << row.material;
+    ASSERT_EQ(findings.size(), row.finding[0] == '\0' ? 0u : 1u) << row.material;
+    if (!findings.empty()) {
+      EXPECT_EQ(findings.items()[0].rule, "mesh.left-out");
+      EXPECT_NE(findings.items()[0].message.find(row.finding), std::string::npos);
+    }
+  }
+}
+
 TEST_F(ReadMesh, SaysWhyAMeshCannotBeRead) {
   EXPECT_EQ(read_mesh("/nowhere/x.stl", findings_).error().code(), ErrorCode::NotFound);
   EXPECT_EQ(read_mesh("x.step", findings_).error().code(), ErrorCode::Unsupported);
