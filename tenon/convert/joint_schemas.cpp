@@ -208,8 +208,9 @@ void JointPrinter::print_actuator(Path scope, Token name) {
   const Token type("MjcActuator");
   const Path prim = builder_.define(scope, name, type);
   const robot::Drive& drive = *joint_.drive;
+  const double at_zero = drive.target == 0 ? 0 : drive.stiffness * drive.target;
   builder_.set_value(prim, type, "mjc:biasPrm",
-                     Value(std::vector<double>{0, 0 - drive.stiffness, 0 - drive.damping}));
+                     Value(std::vector<double>{at_zero, 0 - drive.stiffness, 0 - drive.damping}));
   builder_.set_value(prim, type, "mjc:biasType", Value(Token("affine")));
   if (drive.control_range) {
     builder_.set_value(prim, type, "mjc:ctrlLimited", Value(Token("true")));

@@ -139,7 +139,7 @@ void MjcfReader::read_actuator(int number) {
     if (!read_motor(number)) {
       report("mjcf.left-out",
              "the actuator \"" + name +
-                 "\" is about no joint of one axis and no fixed tendon, or of a kind of its own; "
+                 "\" is about no joint of one axis, ball or tendon, or of a kind of its own; "
                  "it is left out",
              Severity::Warning, line_of(mjOBJ_ACTUATOR, number));
     }
@@ -160,8 +160,9 @@ void MjcfReader::read_actuator(int number) {
   drive.stiffness = 0 - bias[1] * gear * gear;
   drive.damping = 0 - bias[2] * gear * gear;
   drive_of_actuator_[at] = joint_of_joint_[target];
-  if (model_.actuator_ctrllimited[at] != 0) {
-    const double* range = model_.actuator_ctrlrange + 2 * at;
+  const auto input = static_cast<std::size_t>(model_.actuator_ctrladr[at]);
+  if (model_.actuator_ctrllimited[input] != 0) {
+    const double* range = model_.actuator_ctrlrange + 2 * input;
     const double a = control_of(number, range[0]);
     const double b = control_of(number, range[1]);
     drive.control_range = {std::min(a, b), std::max(a, b)};
@@ -187,8 +188,8 @@ double MjcfReader::control_of(int actuator, double control) const {
 }
 
 void MjcfReader::read_actuators() {
-  drive_of_actuator_.resize(static_cast<std::size_t>(model_.nu));
-  for (int i = 0; i < model_.nu; ++i) {
+  drive_of_actuator_.resize(static_cast<std::size_t>(model_.nactuator));
+  for (int i = 0; i < model_.nactuator; ++i) {
     read_actuator(i);
   }
 }

@@ -75,6 +75,7 @@ class MjcfReader {
   // mujoco_parts.cpp
   bool read_motor(int actuator);
   std::vector<double> controls_of(int key) const;
+  std::vector<double> activations_of(int key) const;
   void read_keyframes();
 
   // tendons.cpp
@@ -100,7 +101,7 @@ class MjcfReader {
   std::vector<robot::Index> link_of_body_;                      // (nbody)
   std::vector<robot::Index> joint_of_joint_;                    // (njnt), by MuJoCo's number
   std::vector<std::optional<robot::Index>> tendon_of_tendon_;   // (ntendon), by MuJoCo's number
-  std::vector<std::optional<robot::Index>> drive_of_actuator_;  // (nu), the joint that has it
+  std::vector<std::optional<robot::Index>> drive_of_actuator_;  // (nactuator), its joint
   std::vector<int> motors_;  // MuJoCo's numbers of robot_.mujoco.actuators
   std::vector<std::string> link_names_;
   std::vector<char> wrapped_;                               // (ngeom), 1 where a tendon goes around

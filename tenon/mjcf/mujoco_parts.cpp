@@ -33,7 +33,7 @@ static_assert(mjGAIN_MUSCLE == 2 && mjBIAS_MUSCLE == 2 && mjDYN_MUSCLE == 4);
 
 }  // namespace
 
-/// False for what is about other things than a joint of one axis or a fixed tendon, or of a kind
+/// False for what is about other things than a joint of one axis, a ball or a tendon, or of a kind
 /// that the schema does not have.
 bool MjcfReader::read_motor(int number) {
   const auto at = static_cast<std::size_t>(number);
@@ -41,7 +41,8 @@ bool MjcfReader::read_motor(int number) {
   MujocoActuator actuator;
   if (model_.actuator_trntype[at] == mjTRN_JOINT) {
     actuator.target = joint_of_joint_[target];
-    if (!robot_.joints[actuator.target].has_one_axis()) {
+    const robot::Joint& joint = robot_.joints[actuator.target];
+    if (!joint.has_one_axis() && joint.kind != robot::JointKind::Ball) {
       return false;
     }
   } else if (model_.actuator_trntype[at] == mjTRN_TENDON && tendon_of_tendon_[target]) {
@@ -68,8 +69,9 @@ bool MjcfReader::read_motor(int number) {
       range_of(model_.actuator_forcelimited[at] != 0, model_.actuator_forcerange + 2 * at);
   actuator.activation_range =
       range_of(model_.actuator_actlimited[at] != 0, model_.actuator_actrange + 2 * at);
+  const auto input = static_cast<std::size_t>(model_.actuator_ctrladr[at]);
   actuator.control_range =
-      range_of(model_.actuator_ctrllimited[at] != 0, model_.actuator_ctrlrange + 2 * at);
+      range_of(model_.actuator_ctrllimited[input] != 0, model_.actuator_ctrlrange + 2 * input);
   robot_.mujoco.actuators.push_back(std::move(actuator));
   motors_.push_back(number);
   return true;
@@ -80,10 +82,10 @@ std::vector<double> MjcfReader::controls_of(int key) const {
   const double* controls =
       model_.key_ctrl + static_cast<std::size_t>(key) * static_cast<std::size_t>(model_.nu);
   std::vector<std::pair<Index, double>> of_drives;
-  for (int i = 0; i < model_.nu; ++i) {
+  for (int i = 0; i < model_.nactuator; ++i) {
     const std::optional<Index> joint = drive_of_actuator_[static_cast<std::size_t>(i)];
     if (joint && !robot_.joints[*joint].mimic) {
-      of_drives.emplace_back(*joint, control_of(i, controls[i]));
+      of_drives.emplace_back(*joint, control_of(i, controls[model_.actuator_ctrladr[i]]));
     }
   }
   std::sort(of_drives.begin(), of_drives.end());
@@ -92,9 +94,23 @@ std::vector<double> MjcfReader::controls_of(int key) const {
     ordered.push_back(control);
   }
   for (const int motor : motors_) {
-    ordered.push_back(controls[motor]);
+    ordered.push_back(controls[model_.actuator_ctrladr[motor]]);
   }
   return ordered;
+}
+
+/// Of the actuators that are there.
+std::vector<double> MjcfReader::activations_of(int key) const {
+  const double* row =
+      model_.key_act + static_cast<std::size_t>(key) * static_cast<std::size_t>(model_.na);
+  std::vector<double> result;
+  for (const int motor : motors_) {
+    const int count = model_.actuator_actnum[motor];
+    for (int i = 0; i < count; ++i) {
+      result.push_back(row[model_.actuator_actadr[motor] + i]);
+    }
+  }
+  return result;
 }
 
 /// Hinges and slides count from where the bodies stand as written.
@@ -109,8 +125,11 @@ void MjcfReader::read_keyframes() {
     frame.name = unique_name(mjOBJ_KEY, key, "keyframe");
     frame.positions = row(model_.key_qpos, model_.nq);
     frame.velocities = row(model_.key_qvel, model_.nv);
-    frame.activations = row(model_.key_act, model_.na);
+    frame.activations = activations_of(key);
     frame.controls = controls_of(key);
+    if (model_.key_time[at] != 0) {
+      report("mjcf.left-out", "the time of keyframe \"" + frame.name + "\" is left out");
+    }
     for (int joint = 0; joint < model_.njnt; ++joint) {
       const int type = model_.jnt_type[joint];
       const auto coordinate = static_cast<std::size_t>(model_.jnt_qposadr[joint]);
