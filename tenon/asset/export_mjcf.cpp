@@ -11,6 +11,7 @@
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/describe/describe_visuals.h"
 #include "tenon/mjcf/write_model.h"
+#include "tenon/physics/read_mujoco_parts.h"
 #endif
 
 namespace tenon {
@@ -82,7 +83,8 @@ Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const physics::Physi
   }
   ExportedMjcf result;
   result.images = copier.take();
-  TENON_TRY(result.text, mjcf::write_model(scene, visuals, result.images, diagnostics));
+  TENON_TRY(result.text, mjcf::write_model(scene, visuals, result.images,
+                                           physics::read_mujoco_parts(stage, scene), diagnostics));
   return result;
 }
 #else

@@ -13,7 +13,8 @@
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/mujoco/writable_model.h"
-#include "tenon/engines/mujoco/write_mjcf.h"
+#include "tenon/mjcf/write_actuators.h"
+#include "tenon/mjcf/write_keyframes.h"
 
 namespace tenon::mjcf {
 namespace {
@@ -273,11 +274,17 @@ class VisualWriter {
 Result<std::string> write_model(const physics::PhysicsScene& scene,
                                 const robot::RobotModel& visuals,
                                 const std::map<std::string, std::string>& images,
-                                Diagnostics& diagnostics) {
+                                const physics::MujocoParts& parts, Diagnostics& diagnostics) {
   TENON_TRY(engines::mujoco::SpecAndModel built,
             engines::mujoco::writable_model(scene, {}, diagnostics));
+  TENON_TRY(const std::vector<mjsActuator*> made,
+            write_actuators(scene, parts.actuators, built.model, *built.spec, diagnostics));
+  TENON_CHECK(write_keyframes(scene, parts, made, built.model, *built.spec, diagnostics));
+  const bool sees = !visuals.links.empty();
   Diagnostics seen;
-  VisualWriter(visuals, built.model, *built.spec, seen).run(scene);
+  if (sees) {
+    VisualWriter(visuals, built.model, *built.spec, seen).run(scene);
+  }
   Files files(images);
   mjModel* compiled = nullptr;
   TENON_CHECK(guarded([&] { compiled = mj_compile(built.spec.get(), files.get()); }));
@@ -286,12 +293,15 @@ Result<std::string> write_model(const physics::PhysicsScene& scene,
     diagnostics.append(seen);
     return engines::mujoco::text_of(*built.spec);
   }
+  if (!sees) {
+    return Error(ErrorCode::Invalid, mjs_getError(built.spec.get())).with_rule("mujoco.write");
+  }
   diagnostics.add(file_finding(
       Severity::Warning, "mjcf.left-out",
       std::string("what is seen is left out, MuJoCo refuses it: ") + mjs_getError(built.spec.get()),
       "", 0));
   Diagnostics again;
-  return engines::mujoco::write_mjcf(scene, {}, again);
+  return write_model(scene, {}, {}, parts, again);
 }
 
 }  // namespace tenon::mjcf

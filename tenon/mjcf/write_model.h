@@ -7,6 +7,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/physics/mujoco_actuators.h"
 #include "tenon/physics/physics_scene.h"
 #include "tenon/robot/robot_model.h"
 
@@ -17,10 +18,13 @@ namespace tenon::mjcf {
 /// visuals, meshes and materials are looked at. They become geoms of group 2 that touch nothing and
 /// weigh nothing; colliders are in group 3. Files of images have the names that the text is to
 /// have, `images` their bytes. Shapes and materials that MuJoCo has no word for go to `diagnostics`
-/// as "mjcf.left-out", all that is seen where MuJoCo refuses it. Errors: those of making a model.
+/// as "mjcf.left-out", all that is seen where MuJoCo refuses it. Of
+/// `parts`, of the same stage, actuators that are no drives are added after the drives, and
+/// keyframes. Errors:
+/// those of making a model.
 Result<std::string> write_model(const physics::PhysicsScene& scene,
                                 const robot::RobotModel& visuals,
                                 const std::map<std::string, std::string>& images,
-                                Diagnostics& diagnostics);
+                                const physics::MujocoParts& parts, Diagnostics& diagnostics);
 
 }  // namespace tenon::mjcf

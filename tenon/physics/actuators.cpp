@@ -78,6 +78,11 @@ class ActuatorReader {
     return prim.attribute(name).get().get_or<Token>(Token(fallback));
   }
 
+  static bool is_other_target(const stage::Prim& prim) {
+    return prim.is_valid() && (prim.type_name() == "MjcTendon" || prim.has_api("IsaacSiteAPI") ||
+                               prim.has_api("MjcSiteAPI"));
+  }
+
   std::optional<Index> joint_of(const stage::Prim& prim) {
     const std::vector<Path> targets = prim.relationship(tokens_.target).targets();
     if (targets.size() == 1) {
@@ -86,8 +91,9 @@ class ActuatorReader {
         return state_.joint_of_prim[found->second];
       }
     }
-    if (targets.size() == 1 && prim.prim_at(targets.front()).type_name() == "MjcTendon") {
-      state_.not_read(prim, "mjc:target", "only actuators of joints are read, not of tendons");
+    if (targets.size() == 1 && is_other_target(prim.prim_at(targets.front()))) {
+      state_.not_read(prim, "mjc:target",
+                      "only actuators of joints are read, not of tendons and sites");
       return std::nullopt;
     }
     state_.report(prim, tokens_.target, Severity::Error, "actuator.target-missing",

@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/mjcf/write_actuators.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+#include "tenon/engines/mujoco/error_hook.h"
+
+namespace tenon::mjcf {
+namespace {
+
+using engines::mujoco::guarded;
+using physics::MujocoActuator;
+using Target = MujocoActuator::Target;
+using Place = physics::TendonStop::Place;
+using Range = std::array<double, 2>;
+
+struct Word {
+  std::string_view token;
+  int value;
+};
+constexpr Word kGains[] = {{"fixed", mjGAIN_FIXED},
+                           {"affine", mjGAIN_AFFINE},
+                           {"muscle", mjGAIN_MUSCLE},
+                           {"user", mjGAIN_USER}};
+constexpr Word kBiases[] = {{"none", mjBIAS_NONE},
+                            {"affine", mjBIAS_AFFINE},
+                            {"muscle", mjBIAS_MUSCLE},
+                            {"user", mjBIAS_USER}};
+constexpr Word kDynamics[] = {{"none", mjDYN_NONE},     {"integrator", mjDYN_INTEGRATOR},
+                              {"filter", mjDYN_FILTER}, {"filterexact", mjDYN_FILTEREXACT},
+                              {"muscle", mjDYN_MUSCLE}, {"user", mjDYN_USER}};
+
+template <std::size_t N, class Kind>
+bool read_word(const Word (&words)[N], const std::string& token, Kind& kind) {
+  const auto* word = std::find_if(std::begin(words), std::end(words),
+                                  [&](const Word& w) { return w.token == token; });
+  if (word == std::end(words)) {
+    return false;
+  }
+  kind = static_cast<Kind>(word->value);
+  return true;
+}
+
+void set_range(const std::optional<Range>& range, mjtLimited& limited, double* target) {
+  limited = range ? mjLIMITED_TRUE : mjLIMITED_FALSE;
+  if (range) {
+    std::copy(range->begin(), range->end(), target);
+  }
+}
+
+class ActuatorWriter {
+ public:
+  ActuatorWriter(const physics::PhysicsScene& scene, const engines::mujoco::Model& model,
+                 mjSpec& spec)
+      : scene_(scene), model_(model), spec_(spec) {}
+
+  /// Why the actuator cannot be said; empty: `made` is there.
+  std::string add(const MujocoActuator& from, mjsActuator*& made) {
+    made = mjs_addActuator(&spec_, nullptr);
+    std::string why = set_transmission(from, *made);
+    if (why.empty() && (!read_word(kGains, from.gain_type, made->gaintype) ||
+                        !read_word(kBiases, from.bias_type, made->biastype) ||
+                        !read_word(kDynamics, from.dyn_type, made->dyntype))) {
+      why = "MuJoCo has no such gain, bias or dynamics";
+    }
+    if (!why.empty()) {
+      mjs_delete(&spec_, made->element);
+      made = nullptr;
+      return why;
+    }
+    mjs_setName(made->element, from.path.str().c_str());
+    set_numbers(from, *made);
+    return {};
+  }
+
+ private:
+  std::string set_transmission(const MujocoActuator& from, mjsActuator& to) {
+    switch (from.kind) {
+      case Target::None:
+        return from.fault;
+      case Target::Joint:
+        return set_joint(from, to);
+      case Target::Tendon:
+        to.trntype = mjTRN_TENDON;
+        return set_target(mjOBJ_TENDON, scene_.tendons[from.target].path.str(), to);
+      case Target::Site:
+        to.trntype = mjTRN_SITE;
+        mjs_setString(to.target, site(from.site).c_str());
+        if (from.other_site) {
+          mjs_setString(to.refsite, site(*from.other_site).c_str());
+        }
+        return {};
+      case Target::Crank:
+        to.trntype = mjTRN_SLIDERCRANK;
+        to.cranklength = from.crank_length;
+        mjs_setString(to.target, site(from.site).c_str());
+        mjs_setString(to.slidersite, site(*from.other_site).c_str());
+        return {};
+    }
+    return from.fault;
+  }
+
+  std::string set_target(mjtObj kind, const std::string& name, mjsActuator& to) {
+    if (mjs_findElement(&spec_, kind, name.c_str()) == nullptr) {
+      return "what it acts on is not in the model";
+    }
+    mjs_setString(to.target, name.c_str());
+    return {};
+  }
+
+  std::string set_joint(const MujocoActuator& from, mjsActuator& to) {
+    const physics::Joint& joint = scene_.joints[from.target];
+    const bool ball = joint.kind == physics::JointKind::Spherical;
+    if (ball && model_.joints[from.target].reversed) {
+      return "its ball is reversed in the model";
+    }
+    to.trntype = from.in_parent ? mjTRN_JOINTINPARENT : mjTRN_JOINT;
+    const std::string dof = ball ? "ball" : std::string(dof_name(joint.dof()));
+    return set_target(mjOBJ_JOINT, joint.path.str() + "." + dof, to);
+  }
+
+  /// Named after its prim; tendons may have made it.
+  std::string site(const Place& place) {
+    std::string name = place.path.str();
+    if (mjs_findElement(&spec_, mjOBJ_SITE, name.c_str()) == nullptr) {
+      const std::string body = place.body ? scene_.bodies[*place.body].path.str() : "world";
+      mjsSite* made = mjs_addSite(mjs_findBody(&spec_, body.c_str()), nullptr);
+      mjs_setName(made->element, name.c_str());
+      const Pose frame = place.body ? inverse(model_.bodies[*place.body].engine_frame) : Pose{};
+      const Pose pose = frame * place.pose;
+      engines::mujoco::write_vector(made->pos, pose.position);
+      engines::mujoco::write_quaternion(made->quat, normalized(pose.orientation));
+    }
+    return name;
+  }
+
+  static void set_numbers(const MujocoActuator& from, mjsActuator& to) {
+    static_assert(mjNGAIN == 10 && mjNBIAS == 10 && mjNDYN == 10);
+    std::copy(from.gain.begin(), from.gain.end(), to.gainprm);
+    std::copy(from.bias.begin(), from.bias.end(), to.biasprm);
+    std::copy(from.dynamics.begin(), from.dynamics.end(), to.dynprm);
+    std::copy(from.gear.begin(), from.gear.end(), to.gear);
+    set_range(from.control_range, to.ctrllimited, to.ctrlrange);
+    set_range(from.force_range, to.forcelimited, to.forcerange);
+    set_range(from.activation_range, to.actlimited, to.actrange);
+    std::copy(from.length_range.begin(), from.length_range.end(), to.lengthrange);
+    to.inheritrange = from.inherit_range;
+    to.actdim = from.activation_count;
+    to.actearly = from.acts_early;
+    to.group = from.group;
+    const bool plain = from.gain == std::array<double, 10>{1} && from.gain_type == "fixed" &&
+                       from.bias_type == "none" && from.dyn_type == "none";
+    to.type = plain ? mjACTUATOR_MOTOR : mjACTUATOR_GENERAL;
+  }
+
+  const physics::PhysicsScene& scene_;
+  const engines::mujoco::Model& model_;
+  mjSpec& spec_;
+};
+
+/// False where MuJoCo refuses the model.
+Result<bool> compiles(mjSpec& spec) {
+  mjModel* model = nullptr;
+  TENON_CHECK(guarded([&] { model = mj_compile(&spec, nullptr); }));
+  mj_deleteModel(model);
+  return model != nullptr;
+}
+
+}  // namespace
+
+void report_left_out(Diagnostics& diagnostics, const Path& prim, const char* property,
+                     std::string message) {
+  Diagnostic finding;
+  finding.severity = Severity::Warning;
+  finding.rule = "mjcf.left-out";
+  finding.message = std::move(message);
+  finding.prim = prim.str();
+  finding.property = property;
+  diagnostics.add(std::move(finding));
+}
+
+Result<std::vector<mjsActuator*>> write_actuators(const physics::PhysicsScene& scene,
+                                                  const std::vector<MujocoActuator>& actuators,
+                                                  const engines::mujoco::Model& model, mjSpec& spec,
+                                                  Diagnostics& diagnostics) {
+  ActuatorWriter writer(scene, model, spec);
+  std::vector<mjsActuator*> made(actuators.size(), nullptr);
+  std::vector<std::size_t> added;
+  for (std::size_t i = 0; i < actuators.size(); ++i) {
+    if (actuators[i].drive) {
+      continue;
+    }
+    const std::string why = writer.add(actuators[i], made[i]);
+    if (!why.empty()) {
+      report_left_out(diagnostics, actuators[i].path, "mjc:target",
+                      why + "; the actuator is left out");
+      continue;
+    }
+    added.push_back(i);
+  }
+  TENON_TRY(const bool all, added.empty() ? Result<bool>(true) : compiles(spec));
+  if (all) {
+    return made;
+  }
+  // MuJoCo names only the first fault: each by itself.
+  for (const std::size_t i : added) {
+    mjs_delete(&spec, made[i]->element);
+    made[i] = nullptr;
+  }
+  for (const std::size_t i : added) {
+    if (!writer.add(actuators[i], made[i]).empty()) {
+      continue;
+    }
+    TENON_TRY(const bool fits, compiles(spec));
+    if (!fits) {
+      std::string words = mjs_getError(&spec);
+      std::replace(words.begin(), words.end(), '\n', ' ');
+      report_left_out(diagnostics, actuators[i].path, "", "MuJoCo refuses the actuator: " + words);
+      mjs_delete(&spec, made[i]->element);
+      made[i] = nullptr;
+    }
+  }
+  TENON_CHECK(compiles(spec));
+  return made;
+}
+
+}  // namespace tenon::mjcf

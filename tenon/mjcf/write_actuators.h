@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <mujoco/mujoco.h>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/engines/mujoco/model.h"
+#include "tenon/physics/mujoco_actuators.h"
+
+/// Internal to this folder.
+namespace tenon::mjcf {
+
+/// Adds to the spec of a scene's model the actuators that are no drives of it, named after their
+/// prims, and compiles it. Actuators without a target and those that MuJoCo refuses are left out
+/// and listed. -> the elements, nullptr for each that is not there (actuator_count). Errors: those
+/// of MuJoCo.
+Result<std::vector<mjsActuator*>> write_actuators(
+    const physics::PhysicsScene& scene, const std::vector<physics::MujocoActuator>& actuators,
+    const engines::mujoco::Model& model, mjSpec& spec, Diagnostics& diagnostics);
+
+/// One finding about a prim that is left out, or a part of it.
+void report_left_out(Diagnostics& diagnostics, const Path& prim, const char* property,
+                     std::string message);
+
+}  // namespace tenon::mjcf

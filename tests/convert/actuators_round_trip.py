@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""A model's actuators and keyframes through USD and back: the same forces in the same states.
+
+    actuators_round_trip.py ROOT TENON
+
+MuJoCo's reader is that of tests/robot_requirements.txt; without it the test skips.
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT, TENON = pathlib.Path(sys.argv[1]), sys.argv[2]
+ROUNDING = 2e-5  # relative, of the six digits of MuJoCo's text
+FIELDS = ("trntype", "gaintype", "biastype", "dyntype", "gear", "gainprm", "biasprm", "dynprm",
+          "forcelimited", "forcerange", "actlimited", "actrange")
+OF_CONTROLS = ("ctrllimited", "ctrlrange")
+
+faults = []
+
+
+def run(*arguments):
+    process = subprocess.run([TENON, *map(str, arguments), "--json"], capture_output=True,
+                             text=True, check=False)
+    if process.returncode != 0:
+        faults.append(f"{arguments[0]}: {process.returncode} {process.stdout} {process.stderr}")
+    return json.loads(process.stdout)
+
+
+def near(what, found, wanted):
+    found, wanted = (numpy.ravel(values).astype(float) for values in (found, wanted))
+    scale = max(1, float(numpy.max(numpy.abs(wanted), initial=0)))
+    if found.shape != wanted.shape or not (numpy.abs(found - wanted) <= ROUNDING * scale).all():
+        faults.append(f"{what}: {found.tolist()}, before {wanted.tolist()}")
+
+
+def by_name(model, kind, count):
+    """Numbers of things by the last part of their path, without what names the coordinate."""
+    names = [mujoco.mj_id2name(model, kind, i) or str(i) for i in range(count)]
+    return {name.split("/")[-1].split(".")[0]: i for i, name in enumerate(names)}
+
+
+def compare_actuators(before, after, drives):
+    """Those that are no drives have their numbers."""
+    kind = mujoco.mjtObj.mjOBJ_ACTUATOR
+    old, new = (by_name(model, kind, model.actuator_gear.shape[0]) for model in (before, after))
+    # A name that a joint has, too, got a number.
+    new = {name if name in old else name.removesuffix("_1"): i for name, i in new.items()}
+    motors = [name for name in old if name not in drives]
+    if set(new) != {*motors, *drives.values()}:
+        faults.append(f"actuators: {sorted(new)}")
+        return
+    for name in motors:
+        for field in FIELDS:
+            near(f"{name}.{field}", getattr(after, f"actuator_{field}")[new[name]],
+                 getattr(before, f"actuator_{field}")[old[name]])
+        for field in OF_CONTROLS:
+            found, wanted = (getattr(model, f"actuator_{field}")[model.actuator_ctrladr[i]]
+                             for model, i in ((after, new[name]), (before, old[name])))
+            near(f"{name}.{field}", found, wanted)
+
+
+def state(model, key):
+    """Centres of mass and their velocities by body, efforts by joint that is not free."""
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, key)
+    mujoco.mj_forward(model, data)
+    result = {}
+    for name, body in by_name(model, mujoco.mjtObj.mjOBJ_BODY, model.nbody).items():
+        velocity = numpy.zeros(6)
+        mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, body, velocity, 0)
+        result[f"body {name}"] = [*data.xipos[body], *velocity]
+    for name, joint in by_name(model, mujoco.mjtObj.mjOBJ_JOINT, model.njnt).items():
+        kind = model.jnt_type[joint]
+        if kind != mujoco.mjtJoint.mjJNT_FREE:
+            first = model.jnt_dofadr[joint]
+            count = 3 if kind == mujoco.mjtJoint.mjJNT_BALL else 1
+            result[f"joint {name}"] = data.qfrc_actuator[first:first + count]
+    return result
+
+
+def compare_keys(before, after):
+    old, new = (by_name(model, mujoco.mjtObj.mjOBJ_KEY, model.nkey) for model in (before, after))
+    if set(old) != set(new):
+        faults.append(f"keyframes: {sorted(new)}, before {sorted(old)}")
+        return
+    for name, key in old.items():
+        wanted, found = state(before, key), state(after, new[name])
+        for part, numbers in wanted.items():
+            if part in found:
+                near(f"{name}: {part}", found[part], numbers)
+            elif part.startswith("joint"):
+                faults.append(f"{name}: {part} is gone")
+
+
+def check_own(work):
+    source = ROOT / "tests/convert/mjcf/actuators.xml"
+    run("convert", source, f"{work}/package/")
+    run("convert", source, work / "plain.usda")
+    before = mujoco.MjModel.from_xml_path(str(source))
+    for name, asset in (("a", "package/crane.usda"), ("b", "plain.usda")):
+        back = work / f"{name}.xml"
+        answer = run("convert", work / asset, back, "--physics", "mujoco")
+        for finding in answer["diagnostics"]:
+            if finding["rule"] in ("mjcf.left-out", "actuator.target-missing"):
+                faults.append(f"{asset}: {finding}")
+        after = mujoco.MjModel.from_xml_path(str(back))
+        compare_actuators(before, after, {"aim": "turn", "lean_servo": "lean"})
+        compare_keys(before, after)
+
+
+def check_left_out(work):
+    """What cannot be said is listed with its prim."""
+    text = (work / "plain.usda").read_text()
+    broken = text.replace("mjc:qvel = [0.1, ", "mjc:qvel = [", 1)
+    broken = broken.replace("rel mjc:target = </crane/Physics/rope>",
+                            "rel mjc:target = </crane/Physics/nothing>", 1)
+    (work / "broken.usda").write_text(broken)
+    answer = run("convert", work / "broken.usda", work / "broken.xml")
+    said = sorted((finding["prim"], finding["property"]) for finding in answer["diagnostics"]
+                  if finding["rule"] == "mjcf.left-out")
+    if said != [("/crane/Physics/up", "mjc:qvel"), ("/crane/Physics/winch", "mjc:target")]:
+        faults.append(f"listed: {said}")
+
+
+def check_published(work):
+    source = ROOT / "build/robots/dm_control/suite/humanoid.xml"
+    if not source.exists():
+        print("no published model")
+        return
+    run("convert", source, work / "humanoid.usda")
+    run("convert", work / "humanoid.usda", work / "humanoid.xml")
+    before = mujoco.MjModel.from_xml_path(str(source))
+    after = mujoco.MjModel.from_xml_path(str(work / "humanoid.xml"))
+    compare_actuators(before, after, {})
+    compare_keys(before, after)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        check_own(pathlib.Path(folder))
+        check_left_out(pathlib.Path(folder))
+        check_published(pathlib.Path(folder))
+    for fault in faults:
+        print(fault)
+    print(f"{len(faults)} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(ROOT / "build/robots"))
+    try:
+        import mujoco
+        import numpy
+    except ImportError as error:
+        print(f"skipped: MuJoCo's reader is not there: {error}")
+        sys.exit(77)
+    sys.exit(main())
