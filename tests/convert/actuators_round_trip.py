@@ -8,34 +8,17 @@
 MuJoCo's reader is that of tests/robot_requirements.txt; without it the test skips.
 """
 
-import json
-import pathlib
-import subprocess
+import functools
 import sys
-import tempfile
 
-ROOT, TENON = pathlib.Path(sys.argv[1]), sys.argv[2]
+import round_trip
+from round_trip import ROOT, faults, mujoco, numpy, run
+
 ROUNDING = 2e-5  # relative, of the six digits of MuJoCo's text
 FIELDS = ("trntype", "gaintype", "biastype", "dyntype", "gear", "gainprm", "biasprm", "dynprm",
           "forcelimited", "forcerange", "actlimited", "actrange")
 OF_CONTROLS = ("ctrllimited", "ctrlrange")
-
-faults = []
-
-
-def run(*arguments):
-    process = subprocess.run([TENON, *map(str, arguments), "--json"], capture_output=True,
-                             text=True, check=False)
-    if process.returncode != 0:
-        faults.append(f"{arguments[0]}: {process.returncode} {process.stdout} {process.stderr}")
-    return json.loads(process.stdout)
-
-
-def near(what, found, wanted):
-    found, wanted = (numpy.ravel(values).astype(float) for values in (found, wanted))
-    scale = max(1, float(numpy.max(numpy.abs(wanted), initial=0)))
-    if found.shape != wanted.shape or not (numpy.abs(found - wanted) <= ROUNDING * scale).all():
-        faults.append(f"{what}: {found.tolist()}, before {wanted.tolist()}")
+near = functools.partial(round_trip.near, rounding=ROUNDING)
 
 
 def by_name(model, kind, count):
@@ -140,23 +123,5 @@ def check_published(work):
     compare_keys(before, after)
 
 
-def main():
-    with tempfile.TemporaryDirectory() as folder:
-        check_own(pathlib.Path(folder))
-        check_left_out(pathlib.Path(folder))
-        check_published(pathlib.Path(folder))
-    for fault in faults:
-        print(fault)
-    print(f"{len(faults)} faults")
-    return 1 if faults else 0
-
-
 if __name__ == "__main__":
-    sys.path.insert(0, str(ROOT / "build/robots"))
-    try:
-        import mujoco
-        import numpy
-    except ImportError as error:
-        print(f"skipped: MuJoCo's reader is not there: {error}")
-        sys.exit(77)
-    sys.exit(main())
+    sys.exit(round_trip.main(check_own, check_left_out, check_published))

@@ -8,16 +8,14 @@
 MuJoCo's reader is that of tests/robot_requirements.txt; without it the test skips.
 """
 
-import json
-import pathlib
+import functools
 import shutil
-import subprocess
 import sys
-import tempfile
 
 import picture
+import round_trip
+from round_trip import ROOT, faults, mujoco, numpy, run
 
-ROOT, TENON = pathlib.Path(sys.argv[1]), sys.argv[2]
 ROUNDING = 5e-6  # relative, of the six digits of MuJoCo's text
 
 OPTIONS = ("timestep", "impratio", "tolerance", "ls_tolerance", "noslip_tolerance", "gravity",
@@ -27,23 +25,7 @@ OPTIONS = ("timestep", "impratio", "tolerance", "ls_tolerance", "noslip_toleranc
            "enableflags", "disableactuator")
 TENDON = ("stiffness", "damping", "frictionloss", "armature", "margin", "width", "limited",
           "lengthspring", "solref_lim", "solimp_lim", "solref_fri", "solimp_fri")
-
-faults = []
-
-
-def run(*arguments):
-    process = subprocess.run([TENON, *map(str, arguments), "--json"], capture_output=True,
-                             text=True, check=False)
-    if process.returncode != 0:
-        faults.append(f"{arguments[0]}: {process.returncode} {process.stdout} {process.stderr}")
-    return json.loads(process.stdout)
-
-
-def near(what, found, wanted):
-    found, wanted = (numpy.ravel(values).astype(float) for values in (found, wanted))
-    scale = max(1, float(numpy.max(numpy.abs(wanted), initial=0)))
-    if found.shape != wanted.shape or not (numpy.abs(found - wanted) <= ROUNDING * scale).all():
-        faults.append(f"{what}: {found.tolist()}, before {wanted.tolist()}")
+near = functools.partial(round_trip.near, rounding=ROUNDING)
 
 
 def tendon_name(model, number, prefix=""):
@@ -160,23 +142,5 @@ def check_left_out(work):
         faults.append("there is a PhysicsScene that nobody asked for")
 
 
-def main():
-    with tempfile.TemporaryDirectory() as folder:
-        check_world(pathlib.Path(folder))
-        check_left_out(pathlib.Path(folder))
-        check_images(pathlib.Path(folder))
-    for fault in faults:
-        print(fault)
-    print(f"{len(faults)} faults")
-    return 1 if faults else 0
-
-
 if __name__ == "__main__":
-    sys.path.insert(0, str(ROOT / "build/robots"))
-    try:
-        import mujoco
-        import numpy
-    except ImportError as error:
-        print(f"skipped: MuJoCo's reader is not there: {error}")
-        sys.exit(77)
-    sys.exit(main())
+    sys.exit(round_trip.main(check_world, check_left_out, check_images))
