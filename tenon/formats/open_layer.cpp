@@ -32,10 +32,8 @@ LayerFormat format_of(const bytes::FileBytes& bytes) {
   return bytes::ZipArchive::is_zip(bytes.text()) ? LayerFormat::Package : LayerFormat::Text;
 }
 
-namespace {
-
-/// The root layer of a package: its first file, or that file's root layer where it is a package.
-Result<std::shared_ptr<const bytes::FileBytes>> root_of_package(
+/// The root layer of a package is its first file, or that file's root layer where it is a package.
+Result<std::shared_ptr<const bytes::FileBytes>> bytes_of_layer(
     std::shared_ptr<const bytes::FileBytes> bytes) {
   for (std::size_t depth = 0; format_of(*bytes) == LayerFormat::Package; ++depth) {
     if (depth == limits::kPackageNesting) {
@@ -50,12 +48,10 @@ Result<std::shared_ptr<const bytes::FileBytes>> root_of_package(
   return bytes;
 }
 
-}  // namespace
-
 Result<layer::Layer> read_layer(std::shared_ptr<const bytes::FileBytes> bytes,
                                 std::string identifier, Diagnostics& diagnostics) {
   if (format_of(*bytes) == LayerFormat::Package) {
-    auto root = root_of_package(std::move(bytes));
+    auto root = bytes_of_layer(std::move(bytes));
     if (!root) {
       return std::move(root).error().in_file(identifier);
     }
@@ -106,6 +102,17 @@ Result<layer::LayerPtr> LayerRegistry::open(const std::string& asset_path,
 void LayerRegistry::insert(layer::LayerPtr layer) {
   const std::lock_guard lock(mutex_);
   layers_.insert_or_assign(layer->identifier(), Result<layer::LayerPtr>(layer));
+}
+
+std::vector<std::string> LayerRegistry::opened() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> identifiers;
+  for (const auto& [identifier, layer] : layers_) {
+    if (layer) {
+      identifiers.push_back(identifier);
+    }
+  }
+  return identifiers;
 }
 
 Diagnostics LayerRegistry::diagnostics() const {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
@@ -21,6 +22,10 @@ enum class LayerFormat : unsigned char { Text, Crate, Package };
 
 /// Told by the first bytes, never by the name; what is neither crate nor zip is text.
 LayerFormat format_of(const bytes::FileBytes& bytes);
+
+/// What a layer is read from: the root layer of a package, else the bytes themselves.
+Result<std::shared_ptr<const bytes::FileBytes>> bytes_of_layer(
+    std::shared_ptr<const bytes::FileBytes> bytes);
 
 /// True for a name that ends as those of layers in one file do: .usd, .usda, .usdc.
 bool is_layer_name(std::string_view name);
@@ -54,6 +59,8 @@ class LayerRegistry {
   void insert(layer::LayerPtr layer);
 
   const bytes::AssetResolver& resolver() const { return resolver_; }
+  /// Identifiers of the layers that are open, sorted.
+  std::vector<std::string> opened() const;
   /// Findings in the layers opened so far, in the order of opening.
   Diagnostics diagnostics() const;
 

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/save_layer.h"
 
+#include <vector>
+
 #include "tenon/bytes/atomic_write.h"
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/package/writer.h"
 #include "tenon/formats/text/writer.h"
+#include "tenon/layer/dictionary.h"
+#include "tenon/layer/field_values.h"
 
 namespace tenon::formats {
 
@@ -22,7 +26,7 @@ Result<LayerFormat> layer_format_named(std::string_view name) {
   if (name == "usdz") {
     return LayerFormat::Package;
   }
-  return Error(ErrorCode::Invalid, "\"" + std::string(name) + "\" is no format of layers")
+  return Error(ErrorCode::Invalid, "\"" + std::string(name) + "\" is not a format of layers")
       .with_fix("use usda, usdc or usdz");
 }
 
@@ -32,9 +36,48 @@ Result<LayerFormat> layer_format_for(std::string_view path) {
                                                           : path.substr(dot + 1));
 }
 
+namespace {
+
+/// Arrays that still lie in a file can be damaged or too many: nothing is written without them.
+Result<void> decode_arrays(const layer::Value& value) {
+  std::vector<const layer::Value*> pending{&value};
+  while (!pending.empty()) {
+    const layer::Value& next = *pending.back();
+    pending.pop_back();
+    if (next.is_deferred()) {
+      TENON_CHECK(next.decoded());
+    } else if (const auto* samples = next.get<layer::TimeSamples>()) {
+      for (const layer::Value& sample : samples->values) {
+        pending.push_back(&sample);
+      }
+    } else if (const auto* dictionary = next.get<layer::Dictionary>()) {
+      for (const auto& [key, item] : dictionary->items) {
+        pending.push_back(&item);
+      }
+    }
+  }
+  return {};
+}
+
+Result<void> decode_arrays(const layer::Layer& layer) {
+  for (const layer::Layer::Entry& entry : layer.entries()) {
+    for (const layer::Field& field : entry.spec.fields()) {
+      const bool may_hold = field.value.is_deferred() || field.value.holds<layer::TimeSamples>() ||
+                            field.value.holds<layer::Dictionary>();
+      if (const auto decoded = may_hold ? decode_arrays(field.value) : Result<void>(); !decoded) {
+        return Error(decoded.error()).with_prim(entry.path.str());
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<std::string> encode_layer(const layer::Layer& layer, LayerFormat format) {
   switch (format) {
     case LayerFormat::Text:
+      TENON_CHECK(decode_arrays(layer));
       return write_text(layer);
     case LayerFormat::Crate:
       return write_crate(layer);

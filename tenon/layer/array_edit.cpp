@@ -122,8 +122,7 @@ class SourceList {
 /// Edits a list of sources, one edit after the other.
 class Application {
  public:
-  explicit Application(std::size_t weaker_size)
-      : list_(weaker_size), most_(weaker_size + limits::kArrayEditGrowth) {}
+  explicit Application(std::size_t weaker_size) : list_(weaker_size) {}
 
   /// False when the array gets too large.
   bool apply(const ArrayEdit& edit, std::uint32_t number) {
@@ -161,12 +160,14 @@ class Application {
       return true;
     }
     list_.insert(*place, source);
-    return list_.size() <= most_;
+    return ++added_ <= limits::kArrayEditGrowth;
   }
   bool resize(std::uint64_t size, Source fill) {
-    if (size > most_) {
+    const std::uint64_t more = size - std::min<std::uint64_t>(size, list_.size());
+    if (more > limits::kArrayEditGrowth - added_) {
       return false;
     }
+    added_ += static_cast<std::size_t>(more);
     list_.resize(static_cast<std::size_t>(size), fill);
     return true;
   }
@@ -212,7 +213,7 @@ class Application {
   }
 
   SourceList list_;
-  std::size_t most_;
+  std::size_t added_ = 0;  // also what was taken out again
   std::uint32_t number_ = 0;
 };
 

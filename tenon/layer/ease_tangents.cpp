@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/layer/spline_rules.h"
+
 namespace tenon::layer {
 namespace {
 
@@ -23,13 +25,6 @@ double eased_slope(const SplineKnot& before, const SplineKnot& knot, const Splin
   const double weight = 0.5 + offset * (0.5 + 2 * offset * offset);
   const double slope = (1 - weight) * in + weight * out;
   return out > 0 ? std::min({slope, 3 * out, 3 * in}) : std::max({slope, 3 * out, 3 * in});
-}
-
-double in_precision(ValueType type, double number) {
-  if (type == ValueType::Float) {
-    return static_cast<double>(static_cast<float>(number));
-  }
-  return type == ValueType::Half ? static_cast<double>(static_cast<float>(Half(number))) : number;
 }
 
 void set_tangent(SplineTangent& tangent, ValueType type, double span, double slope) {

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <new>
 #include <span>
 #include <utility>
@@ -100,14 +99,15 @@ class FieldList {
 /// Specs may share their fields; changing those of one does not change another.
 class Spec {
  public:
+  static constexpr std::uint32_t kLastColumn = (1U << 24U) - 1;
+
   SpecKind kind = SpecKind::None;
-  std::uint16_t column = 0;  ///< 1-based, in bytes; the largest number for all beyond
-  std::uint32_t line = 0;    ///< 1-based source line; 0 when unknown (binary layers)
+  std::uint32_t column : 24 = 0;  ///< 1-based, in bytes; kLastColumn for all beyond
+  std::uint32_t line = 0;         ///< 1-based source line; 0 when unknown (binary layers)
 
   void set_place(std::uint32_t source_line, std::uint32_t source_column) {
-    constexpr std::uint32_t kLast = std::numeric_limits<std::uint16_t>::max();
     line = source_line;
-    column = static_cast<std::uint16_t>(source_column < kLast ? source_column : kLast);
+    column = (source_column < kLastColumn ? source_column : kLastColumn) & kLastColumn;
   }
 
   std::span<const Field> fields() const { return fields_.items(); }
@@ -157,5 +157,7 @@ class Spec {
  private:
   FieldList fields_;
 };
+
+static_assert(sizeof(Spec) == 16, "many of them are in memory");
 
 }  // namespace tenon::layer

@@ -8,6 +8,7 @@
 #include <span>
 #include <type_traits>
 
+#include "tenon/base/crate_limits.h"
 #include "tenon/base/limits.h"
 #include "tenon/bytes/integer_coding.h"
 #include "tenon/formats/crate/storage_form.h"
@@ -81,37 +82,72 @@ Result<ArrayHeader> read_header(const CrateFile& file, ValueWord word) {
 }
 
 template <class T>
+Result<std::vector<T>> decode_integers(bytes::ByteReader& in, std::size_t count) {
+  TENON_TRY(auto integers, open_packed<T>(in, count));
+  std::vector<T> array(count);
+  integers.read(array);
+  return array;
+}
+
+/// Whole numbers that are kept as integers.
+template <class T>
+Result<std::vector<T>> decode_whole(bytes::ByteReader& in, std::size_t count) {
+  TENON_TRY(auto integers, open_packed<std::int32_t>(in, count));
+  std::vector<T> array;
+  array.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    array.push_back(static_cast<T>(static_cast<double>(integers.next())));
+  }
+  return array;
+}
+
+/// Indices into a table of those that differ.
+template <class T>
+Result<std::vector<T>> decode_by_table(bytes::ByteReader& in, std::size_t count) {
+  TENON_TRY(const std::uint32_t distinct, in.read<std::uint32_t>());
+  TENON_TRY(const std::vector<T> table, in.read_array<T>(distinct));
+  TENON_TRY(auto indices, open_packed<std::uint32_t>(in, count));
+  std::vector<T> array;
+  array.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t index = indices.next();
+    if (index >= table.size()) {
+      return corrupt("an array names an element that is not in its table");
+    }
+    array.push_back(table[index]);
+  }
+  return array;
+}
+
+template <class T>
 Result<std::vector<T>> decode_packed(bytes::ByteReader& in, std::uint64_t count) {
+  const auto size = static_cast<std::size_t>(count);
   if constexpr (kIsInteger<T>) {
-    return read_packed<T>(in, count);
+    return decode_integers<T>(in, size);
   } else {
     TENON_TRY(const char code, in.read<char>());
-    std::vector<T> array;
-    if (code == 'i') {
-      TENON_TRY(const std::vector<std::int32_t> integers, read_packed<std::int32_t>(in, count));
-      array.reserve(integers.size());
-      for (const std::int32_t integer : integers) {
-        array.push_back(static_cast<T>(static_cast<double>(integer)));
-      }
-      return array;
-    }
-    TENON_TRY(const std::uint32_t distinct, in.read<std::uint32_t>());
-    TENON_TRY(const std::vector<T> table, in.read_array<T>(distinct));
-    TENON_TRY(const std::vector<std::uint32_t> indices, read_packed<std::uint32_t>(in, count));
-    array.reserve(indices.size());
-    for (const std::uint32_t index : indices) {
-      if (index >= table.size()) {
-        return corrupt("an array names an element that is not in its table");
-      }
-      array.push_back(table[index]);
-    }
-    return array;
+    return code == 'i' ? decode_whole<T>(in, size) : decode_by_table<T>(in, size);
   }
+}
+
+/// Takes `size` bytes off what the arrays of the file may unpack to.
+Result<void> unpack(const CrateFile& file, std::uint64_t size) {
+  const std::uint64_t most =
+      limits::kCrateArrays + file.bytes->size() * limits::kCrateArraysPerByte;
+  const std::uint64_t before = file.unpacked.fetch_add(size, std::memory_order_relaxed);
+  if (before + size > most) {
+    file.unpacked.fetch_sub(size, std::memory_order_relaxed);
+    return Error(ErrorCode::Limit, "the arrays of the file unpack to more than " +
+                                       std::to_string(most >> 20) + " MB")
+        .with_rule("crate.too-much")
+        .with_fix("save the file as text, or in several files");
+  }
+  return {};
 }
 
 template <class T>
 Result<std::vector<T>> decode_texts(const CrateFile& file, bytes::ByteReader& in,
-                                    std::uint64_t count, WorkBudget& budget) {
+                                    std::uint64_t count) {
   TENON_TRY(const std::vector<std::uint32_t> indices, in.read_array<std::uint32_t>(count));
   std::vector<T> array;
   array.reserve(indices.size());
@@ -121,7 +157,7 @@ Result<std::vector<T>> decode_texts(const CrateFile& file, bytes::ByteReader& in
       array.push_back(token);
     } else {
       TENON_TRY(const std::string_view text, string_at(file, index));
-      TENON_CHECK(budget.spend_bytes(text.size()));
+      TENON_CHECK(unpack(file, text.size()));
       array.emplace_back();
       if constexpr (std::is_same_v<T, std::string>) {
         array.back() = text;
@@ -136,11 +172,11 @@ Result<std::vector<T>> decode_texts(const CrateFile& file, bytes::ByteReader& in
 }
 
 template <class T>
-Result<Value> decode(const CrateFile& file, const ArrayHeader& header, WorkBudget& budget) {
+Result<Value> decode(const CrateFile& file, const ArrayHeader& header) {
   bytes::ByteReader in = file.reader();
   TENON_CHECK(in.seek(header.offset));
   if constexpr (kIsText<T>) {
-    TENON_TRY(std::vector<T> array, decode_texts<T>(file, in, header.count, budget));
+    TENON_TRY(std::vector<T> array, decode_texts<T>(file, in, header.count));
     return Value(std::move(array));
   } else if constexpr (std::is_same_v<T, bool>) {
     TENON_TRY(std::vector<char> array, in.read_array<char>(header.count));
@@ -175,8 +211,8 @@ class CrateArray final : public layer::DeferredArray {
       : file_(std::move(file)), header_(header) {}
   std::size_t size() const override { return static_cast<std::size_t>(header_.count); }
   Result<Value> decode() const override {
-    WorkBudget budget(file_->bytes->size());
-    return crate::decode<T>(*file_, header_, budget);
+    TENON_CHECK(unpack(*file_, header_.count * sizeof(T)));
+    return crate::decode<T>(*file_, header_);
   }
 
  private:
@@ -193,7 +229,7 @@ Result<Value> read_array_of(const std::shared_ptr<const CrateFile>& file, ValueW
   TENON_TRY(const ArrayHeader header, read_header<T>(*file, word));
   TENON_CHECK(budget.spend(1));
   if (!header.packed && header.count <= kSmallArray / sizeof(T)) {
-    return decode<T>(*file, header, budget);
+    return decode<T>(*file, header);
   }
   if constexpr (layer::kIsNumberArray<T>) {
     if (const T* elements = in_place<T>(*file, header)) {
@@ -201,8 +237,6 @@ Result<Value> read_array_of(const std::shared_ptr<const CrateFile>& file, ValueW
       return Value(Array<T>::borrow(span, file->bytes));
     }
   }
-  const std::uint64_t size = header.count * sizeof(std::conditional_t<kIsText<T>, void*, T>);
-  TENON_CHECK(budget.spend_bytes(size));
   return Value::deferred(layer::ValueTraits<T>::type,
                          std::make_unique<CrateArray<T>>(file, header));
 }

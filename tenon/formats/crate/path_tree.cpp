@@ -3,9 +3,13 @@
 // The paths of a file lie as a tree, depth first, in three packed lists: which path a node is, the
 // token of its last element (negative: a property's name), and its jump: -2 a leaf, -1 a child
 // follows, 0 the next sibling follows, n a child follows and the next sibling stands n nodes on.
+#include <algorithm>
+#include <array>
 #include <optional>
+#include <span>
 #include <string>
 
+#include "tenon/base/crate_limits.h"
 #include "tenon/base/limits.h"
 #include "tenon/formats/crate/tables.h"
 
@@ -15,78 +19,178 @@ namespace {
 /// What a token may stand for as an element of a path; found once for each token.
 enum class TokenUse : std::uint8_t { Unknown, PrimName, PropertyName, Other };
 
-class PathTree {
+/// One row of the three lists.
+struct Node {
+  std::uint32_t path = 0;
+  std::int32_t token = 0;
+  std::int32_t jump = 0;
+};
+
+/// The rows in the order of the file.
+class NodeStream {
  public:
-  PathTree(const std::vector<Token>& tokens, std::size_t path_count)
-      : tokens_(tokens), uses_(tokens.size(), TokenUse::Unknown), paths_(path_count) {}
-
-  Result<void> read_columns(bytes::ByteReader& in, const CrateFile& file) {
-    TENON_TRY(const std::uint64_t count, read_row_count(in, file));
-    TENON_TRY(path_column_, read_packed<std::uint32_t>(in, count));
-    TENON_TRY(token_column_, read_packed<std::int32_t>(in, count));
-    TENON_TRY(jump_column_, read_packed<std::int32_t>(in, count));
-    seen_.assign(path_column_.size(), false);
-    return {};
+  static Result<NodeStream> open(bytes::ByteReader in, std::uint64_t count) {
+    NodeStream stream;
+    stream.left_ = static_cast<std::size_t>(count);
+    TENON_TRY(stream.paths_, open_packed<std::uint32_t>(in, count));
+    TENON_TRY(stream.tokens_, open_packed<std::int32_t>(in, count));
+    TENON_TRY(stream.jumps_, open_packed<std::int32_t>(in, count));
+    return stream;
   }
-
-  Result<void> build(Tables& tables) {
-    std::vector<Pending> pending;
-    if (!path_column_.empty()) {
-      pending.push_back({0, Path()});
+  Node next() {
+    if (left_in_block_ == 0) {
+      read_block();
     }
-    order_.reserve(path_column_.size());
-    while (!pending.empty()) {
-      const Pending start = pending.back();
-      pending.pop_back();
-      TENON_CHECK(walk(start, pending));
-    }
-    tables.paths = std::move(paths_);
-    tables.path_order = std::move(order_);
-    return {};
+    --left_in_block_;
+    const Node node{path_block_[at_], token_block_[at_], jump_block_[at_]};
+    ++at_;
+    return node;
   }
 
  private:
+  static constexpr std::size_t kBlock = 256;
+
+  void read_block() {
+    left_in_block_ = std::min(left_, kBlock);
+    left_ -= left_in_block_;
+    at_ = 0;
+    paths_.read(std::span(path_block_).first(left_in_block_));
+    tokens_.read(std::span(token_block_).first(left_in_block_));
+    jumps_.read(std::span(jump_block_).first(left_in_block_));
+  }
+
+  bytes::IntegerStream<std::uint32_t> paths_;
+  bytes::IntegerStream<std::int32_t> tokens_;
+  bytes::IntegerStream<std::int32_t> jumps_;
+  std::array<std::uint32_t, kBlock> path_block_{};
+  std::array<std::int32_t, kBlock> token_block_{};
+  std::array<std::int32_t, kBlock> jump_block_{};
+  std::size_t left_ = 0;
+  std::size_t left_in_block_ = 0;
+  std::size_t at_ = 0;
+};
+
+Error damaged() { return corrupt("the tree of paths is damaged"); }
+
+class PathTree {
+ public:
+  explicit PathTree(const std::vector<Token>& tokens)
+      : tokens_(tokens), uses_(tokens.size(), TokenUse::Unknown) {}
+
+  /// Every row stands where its parent or elder sibling says, as all writers have them: rows are
+  /// checked one by one and the first wrong one ends it. False: they stand in another order.
+  Result<bool> build_in_order(NodeStream nodes, std::size_t node_count, std::size_t path_count) {
+    TENON_CHECK(start(node_count, path_count));
+    std::vector<Pending> pending;  // the siblings that are still to come
+    Path parent;
+    for (std::size_t at = 0; at < node_count; ++at) {
+      const Node node = nodes.next();
+      TENON_TRY(const Path path, add(node, parent));
+      if (node.jump > 0) {
+        pending.push_back({at + static_cast<std::size_t>(node.jump), parent});
+      }
+      if (node.jump == kLeaf) {
+        if (pending.empty()) {
+          return at + 1 == node_count ? Result<bool>(true) : damaged();
+        }
+        if (pending.back().node != at + 1) {
+          return false;
+        }
+        parent = pending.back().parent;
+        pending.pop_back();
+      } else if (node.jump != 0) {
+        parent = path;
+      }
+    }
+    return node_count == 0 ? Result<bool>(true) : damaged();
+  }
+
+  /// The same for rows in any order.
+  Result<void> build(NodeStream stream, std::size_t node_count, std::size_t path_count) {
+    TENON_CHECK(start(node_count, path_count));
+    std::vector<Node> nodes(node_count);
+    for (Node& node : nodes) {
+      node = stream.next();
+    }
+    std::vector<bool> seen(node_count, false);
+    std::vector<Pending> pending;
+    if (!nodes.empty()) {
+      pending.push_back({0, Path()});
+    }
+    while (!pending.empty()) {
+      Pending at = pending.back();
+      pending.pop_back();
+      for (bool ends = false; !ends; ++at.node) {
+        if (at.node >= nodes.size() || seen[at.node]) {
+          return damaged();
+        }
+        seen[at.node] = true;
+        const Node& node = nodes[at.node];
+        TENON_TRY(const Path path, add(node, at.parent));
+        if (node.jump > 0) {
+          pending.push_back({at.node + static_cast<std::size_t>(node.jump), at.parent});
+        }
+        at.parent = node.jump != 0 ? path : at.parent;
+        ends = node.jump == kLeaf;
+      }
+    }
+    return {};
+  }
+
+  void give(Tables& tables) {
+    tables.paths = std::move(paths_);
+    tables.path_order = std::move(order_);
+  }
+
+ private:
+  static constexpr std::int32_t kLeaf = -2;
+  static constexpr std::size_t kBits = 64;
+
   struct Pending {
     std::size_t node = 0;
     Path parent;
   };
 
-  /// Follows children and siblings from `start`; siblings further on are left in `pending`.
-  Result<void> walk(Pending at, std::vector<Pending>& pending) {
-    while (true) {
-      TENON_TRY(const Path path, read_node(at.node, at.parent));
-      const std::int32_t jump = jump_column_[at.node];
-      if (jump > 0) {
-        pending.push_back({at.node + static_cast<std::size_t>(jump), at.parent});
-      }
-      if (jump == -2) {
-        return {};
-      }
-      if (jump != 0) {
-        at.parent = path;
-      } else if (at.parent.empty()) {
-        return corrupt("the root path has a sibling");
-      }
-      ++at.node;
-    }
+  Result<void> start(std::size_t node_count, std::size_t path_count) {
+    TENON_TRY(paths_, ZeroedArray<Path>::make(path_count));
+    order_.clear();
+    order_.reserve(node_count);
+    met_.clear();
+    return {};
   }
 
-  Result<Path> read_node(std::size_t node, Path parent) {
-    if (node >= seen_.size() || seen_[node] || jump_column_[node] < -2) {
-      return corrupt("the tree of paths is damaged");
+  Result<Path> add(const Node& node, Path parent) {
+    if (node.jump < kLeaf) {
+      return damaged();
     }
-    seen_[node] = true;
-    const std::uint32_t index = path_column_[node];
-    if (index >= paths_.size() || !paths_[index].empty()) {
+    if (node.path >= paths_.size() || !paths_[node.path].empty()) {
       return corrupt("the tree of paths names a path twice or one that is not there");
     }
     if (parent.empty()) {
-      order_.push_back(index);
-      return paths_[index] = Path::absolute_root();
+      if (node.jump == 0) {
+        return corrupt("the root path has a sibling");
+      }
+      order_.push_back(node.path);
+      return paths_[node.path] = Path::absolute_root();
     }
-    TENON_TRY(const Path path, append(parent, token_column_[node]));
-    order_.push_back(index);
-    return paths_[index] = path;
+    TENON_TRY(const Path path, append(parent, node.token));
+    if (!is_new(path)) {
+      return corrupt("the tree of paths has " + path.str() + " twice");
+    }
+    order_.push_back(node.path);
+    return paths_[node.path] = path;
+  }
+
+  bool is_new(Path path) {
+    const std::size_t number = path.number();
+    if (number / kBits >= met_.size()) {
+      met_.resize(2 * (number / kBits) + 1);
+    }
+    std::uint64_t& bits = met_[number / kBits];
+    const std::uint64_t bit = std::uint64_t{1} << (number % kBits);
+    const bool is_new = (bits & bit) == 0;
+    bits |= bit;
+    return is_new;
   }
 
   Result<Path> append(Path parent, std::int32_t column) {
@@ -159,12 +263,9 @@ class PathTree {
 
   const std::vector<Token>& tokens_;
   std::vector<TokenUse> uses_;
-  std::vector<Path> paths_;
+  ZeroedArray<Path> paths_;
   std::vector<std::uint32_t> order_;  // indices of paths_
-  std::vector<std::uint32_t> path_column_;
-  std::vector<std::int32_t> token_column_;
-  std::vector<std::int32_t> jump_column_;
-  std::vector<bool> seen_;
+  std::vector<std::uint64_t> met_;    // a bit for each path, by its number
 };
 
 }  // namespace
@@ -175,10 +276,22 @@ Result<void> read_paths(Tables& tables) {
     return {};
   }
   const CrateFile& file = *tables.file;
-  TENON_TRY(const std::uint64_t count, read_row_count(in, file));
-  PathTree tree(file.tokens, static_cast<std::size_t>(count));
-  TENON_CHECK(tree.read_columns(in, file));
-  return tree.build(tables);
+  TENON_TRY(const std::uint64_t path_count, read_row_count(in, file, limits::kCrateRows));
+  TENON_TRY(const std::uint64_t node_count, read_row_count(in, file, limits::kCrateRows));
+  const auto paths = static_cast<std::size_t>(path_count);
+  const auto nodes = static_cast<std::size_t>(node_count);
+  PathTree tree(file.tokens);
+  TENON_TRY(NodeStream stream, NodeStream::open(in, node_count));
+  TENON_TRY(const bool in_order, tree.build_in_order(std::move(stream), nodes, paths));
+  if (!in_order) {
+    if (node_count > most_rows(file, limits::kCrateTokens)) {
+      return damaged();
+    }
+    TENON_TRY(NodeStream again, NodeStream::open(in, node_count));
+    TENON_CHECK(tree.build(std::move(again), nodes, paths));
+  }
+  tree.give(tables);
+  return {};
 }
 
 }  // namespace tenon::formats::crate

@@ -77,7 +77,8 @@ class LayerBuilder {
     TENON_CHECK(plain);
     TENON_CHECK(read_values(true));
     report_findings();
-    shared_fields_.resize(tables_.field_sets.size());
+    TENON_TRY(list_of_set_,
+              crate::ZeroedArray<std::uint32_t>::make(tables_.field_sets.size()));
     for (std::size_t i = 0; i < specs_.size(); ++i) {
       TENON_CHECK(add_fields(tables_.specs[i].field_set, *specs_[i]));
     }
@@ -143,12 +144,13 @@ class LayerBuilder {
 
   /// Specs of one set of fields share them.
   Result<void> add_fields(std::uint32_t set, layer::Spec& spec) {
-    TENON_CHECK(budget_.spend(1));
-    layer::FieldList& fields = shared_fields_[set];
-    if (fields.items().empty()) {
-      TENON_TRY(fields, read_fields(set));
+    std::uint32_t& list = list_of_set_[set];
+    if (list == 0) {
+      TENON_TRY(layer::FieldList fields, read_fields(set));
+      field_lists_.push_back(std::move(fields));
+      list = static_cast<std::uint32_t>(field_lists_.size());
     }
-    spec.set_field_list(fields);
+    spec.set_field_list(field_lists_[list - 1]);
     return {};
   }
 
@@ -177,7 +179,8 @@ class LayerBuilder {
   layer::Layer layer_;
   std::vector<layer::Spec*> specs_;              // of tables_.specs
   std::vector<layer::Value> values_;             // by index of the field
-  std::vector<layer::FieldList> shared_fields_;  // by where their set starts
+  std::vector<layer::FieldList> field_lists_;    // of the sets that specs have
+  crate::ZeroedArray<std::uint32_t> list_of_set_;  // by where the set starts: 1 + its list
   bool root_seen_ = false;
 };
 

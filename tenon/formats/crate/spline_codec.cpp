@@ -10,6 +10,7 @@
 
 #include "tenon/bytes/byte_reader.h"
 #include "tenon/bytes/byte_writer.h"
+#include "tenon/layer/spline_rules.h"
 
 namespace tenon::formats::crate {
 namespace {
@@ -137,8 +138,12 @@ Result<Spline> decode_spline(std::span<const std::byte> bytes) {
   TENON_TRY(const std::uint32_t count, in.read<std::uint32_t>());
   for (std::uint32_t i = 0; i < count; ++i) {
     TENON_TRY(SplineKnot knot, read_knot(in, spline, form));
+    if (const char* fault = layer::fault_of(knot)) {
+      return corrupt(fault);
+    }
     spline.knots.push_back(std::move(knot));
   }
+  layer::shorten_tangents(spline);
   return spline;
 }
 

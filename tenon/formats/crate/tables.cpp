@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/crate/tables.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <span>
 #include <string_view>
 
+#include "tenon/base/crate_limits.h"
 #include "tenon/base/limits.h"
-#include "tenon/bytes/integer_coding.h"
 #include "tenon/bytes/lz4_block.h"
 
 namespace tenon::formats::crate {
@@ -47,7 +49,7 @@ class Contents {
       const auto size = static_cast<std::int64_t>(in.size());
       if (section.start < 0 || section.size < 0 || section.start > size ||
           section.size > size - section.start) {
-        return corrupt("section " + name_of(section) + " leaves the file");
+        return corrupt("section " + name_of(section) + " reaches beyond the end of the file");
       }
     }
     return contents;
@@ -72,7 +74,7 @@ class Contents {
   std::vector<Section> sections_;
 };
 
-Result<std::vector<Token>> read_tokens(bytes::ByteReader in, std::uint64_t file_size) {
+Result<std::vector<Token>> read_tokens(bytes::ByteReader in) {
   if (in.size() == 0) {
     return std::vector<Token>();
   }
@@ -80,8 +82,8 @@ Result<std::vector<Token>> read_tokens(bytes::ByteReader in, std::uint64_t file_
   TENON_TRY(const std::uint64_t plain_size, in.read<std::uint64_t>());
   TENON_TRY(const std::uint64_t packed_size, in.read<std::uint64_t>());
   TENON_TRY(const auto packed, in.take(packed_size));
-  if (plain_size > limits::kCrateTextBase + file_size * limits::kCrateTextPerByte ||
-      count > limits::kCrateRowsBase + file_size / limits::kCrateBytesPerRow ||
+  // Two tokens that differ need a byte between them that LZ4 does not copy, or the end of a copy.
+  if (count > limits::kCrateTokens + packed.size() * limits::kCrateTokensPerByte ||
       count > plain_size) {
     return corrupt("the table of tokens is larger than its data");
   }
@@ -122,21 +124,22 @@ Result<std::vector<FieldRow>> read_fields(bytes::ByteReader in, const CrateFile&
   if (in.size() == 0) {
     return std::vector<FieldRow>();
   }
-  TENON_TRY(const std::uint64_t count, read_row_count(in, file));
-  TENON_TRY(const std::vector<std::uint32_t> names, read_packed<std::uint32_t>(in, count));
+  TENON_TRY(const std::uint64_t count, read_row_count(in, file, limits::kCrateFields));
+  TENON_TRY(auto names, open_packed<std::uint32_t>(in, count));
   TENON_TRY(const std::uint64_t words_size, in.read<std::uint64_t>());
   TENON_TRY(const auto packed, in.take(words_size));
-  TENON_TRY(const std::string words,
-            bytes::lz4_decompress(packed, names.size() * sizeof(ValueWord)));
-  if (words.size() != names.size() * sizeof(ValueWord)) {
+  const auto size = static_cast<std::size_t>(count);
+  TENON_TRY(const std::string words, bytes::lz4_decompress(packed, size * sizeof(ValueWord)));
+  if (words.size() != size * sizeof(ValueWord)) {
     return corrupt("the table of fields ends too early");
   }
-  std::vector<FieldRow> fields(names.size());
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] >= file.tokens.size()) {
+  std::vector<FieldRow> fields(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint32_t name = names.next();
+    if (name >= file.tokens.size()) {
       return corrupt("a field's name is not there");
     }
-    fields[i].name = file.tokens[names[i]];
+    fields[i].name = file.tokens[name];
     std::memcpy(&fields[i].value, words.data() + i * sizeof(ValueWord), sizeof(ValueWord));
   }
   return fields;
@@ -147,10 +150,21 @@ Result<std::vector<std::uint32_t>> read_field_sets(bytes::ByteReader in, const C
   if (in.size() == 0) {
     return std::vector<std::uint32_t>();
   }
-  TENON_TRY(const std::uint64_t count, read_row_count(in, file));
-  TENON_TRY(std::vector<std::uint32_t> sets, read_packed<std::uint32_t>(in, count));
-  for (const std::uint32_t field : sets) {
-    if (field != kEndOfSet && field >= field_count) {
+  TENON_TRY(const std::uint64_t count, read_row_count(in, file, limits::kCrateFieldSetRows));
+  TENON_TRY(auto rows, open_packed<std::uint32_t>(in, count));
+  const std::uint64_t most_sets = most_rows(file, limits::kCrateFields);
+  std::vector<std::uint32_t> sets;
+  sets.reserve(static_cast<std::size_t>(count));
+  std::uint64_t ended = 0;
+  std::size_t start = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    sets.push_back(rows.next());
+    if (sets.back() == kEndOfSet) {
+      start = sets.size();
+      if (++ended > most_sets) {
+        return corrupt("there are more sets of fields than a file of its size can have");
+      }
+    } else if (sets.back() >= field_count || sets.size() - start > field_count) {
       return corrupt("a set of fields names a field that is not there");
     }
   }
@@ -160,23 +174,21 @@ Result<std::vector<std::uint32_t>> read_field_sets(bytes::ByteReader in, const C
   return sets;
 }
 
+/// What the file says about one path.
+struct SpecOfPath {
+  std::uint32_t field_set;
+  layer::SpecKind kind;  ///< None: nothing
+};
+
 /// The specs in the order of `path_order`: neighbours in the tree are neighbours in memory.
-/// ErrorCode::Corrupt when a path has two.
-Result<std::vector<SpecRow>> sorted_by_path(const std::vector<SpecRow>& specs,
-                                            const Tables& tables) {
-  constexpr std::uint32_t kNone = 0xffffffffu;
-  std::vector<std::uint32_t> spec_of_path(tables.paths.size(), kNone);
-  for (std::size_t i = 0; i < specs.size(); ++i) {
-    if (spec_of_path[specs[i].path] != kNone) {
-      return corrupt("there are two specs at " + tables.paths[specs[i].path].str());
-    }
-    spec_of_path[specs[i].path] = static_cast<std::uint32_t>(i);
-  }
+std::vector<SpecRow> in_path_order(const ZeroedArray<SpecOfPath>& specs, std::size_t count,
+                                   const Tables& tables) {
   std::vector<SpecRow> sorted;
-  sorted.reserve(specs.size());
+  sorted.reserve(count);
   for (const std::uint32_t path : tables.path_order) {
-    if (spec_of_path[path] != kNone) {
-      sorted.push_back(specs[spec_of_path[path]]);
+    const SpecOfPath& spec = specs[path];
+    if (spec.kind != layer::SpecKind::None) {
+      sorted.push_back({path, spec.field_set, spec.kind});
     }
   }
   return sorted;
@@ -185,7 +197,7 @@ Result<std::vector<SpecRow>> sorted_by_path(const std::vector<SpecRow>& specs,
 Result<Tables> read_sections(const Contents& contents, std::shared_ptr<CrateFile> file) {
   const bytes::FileBytes& bytes = *file->bytes;
   Tables tables;
-  TENON_TRY(file->tokens, read_tokens(contents.section("TOKENS", bytes), bytes.size()));
+  TENON_TRY(file->tokens, read_tokens(contents.section("TOKENS", bytes)));
   TENON_TRY(file->strings, read_strings(contents.section("STRINGS", bytes), file->tokens.size()));
   TENON_TRY(tables.fields, read_fields(contents.section("FIELDS", bytes), *file));
   TENON_TRY(tables.field_sets,
@@ -198,9 +210,14 @@ Result<Tables> read_sections(const Contents& contents, std::shared_ptr<CrateFile
 
 }  // namespace
 
-Result<std::uint64_t> read_row_count(bytes::ByteReader& in, const CrateFile& file) {
+std::uint64_t most_rows(const CrateFile& file, std::uint64_t base) {
+  return base + file.bytes->size() / limits::kCrateBytesPerRow;
+}
+
+Result<std::uint64_t> read_row_count(bytes::ByteReader& in, const CrateFile& file,
+                                     std::uint64_t base) {
   TENON_TRY(const std::uint64_t count, in.read<std::uint64_t>());
-  if (count > limits::kCrateRowsBase + file.bytes->size() / limits::kCrateBytesPerRow) {
+  if (count > most_rows(file, base)) {
     return corrupt("a table claims " + std::to_string(count) + " rows in a file of " +
                    std::to_string(file.bytes->size()) + " bytes");
   }
@@ -208,38 +225,61 @@ Result<std::uint64_t> read_row_count(bytes::ByteReader& in, const CrateFile& fil
 }
 
 template <class T>
-Result<std::vector<T>> read_packed(bytes::ByteReader& in, std::uint64_t count) {
+Result<bytes::IntegerStream<T>> open_packed(bytes::ByteReader& in, std::uint64_t count) {
   TENON_TRY(const std::uint64_t size, in.read<std::uint64_t>());
   TENON_TRY(const auto packed, in.take(size));
-  return bytes::decode_integers<T>(packed, count);
+  return bytes::IntegerStream<T>::open(packed, count);
 }
 
-template Result<std::vector<std::int32_t>> read_packed(bytes::ByteReader&, std::uint64_t);
-template Result<std::vector<std::uint32_t>> read_packed(bytes::ByteReader&, std::uint64_t);
-template Result<std::vector<std::int64_t>> read_packed(bytes::ByteReader&, std::uint64_t);
-template Result<std::vector<std::uint64_t>> read_packed(bytes::ByteReader&, std::uint64_t);
+template Result<bytes::IntegerStream<std::int32_t>> open_packed(bytes::ByteReader&, std::uint64_t);
+template Result<bytes::IntegerStream<std::uint32_t>> open_packed(bytes::ByteReader&, std::uint64_t);
+template Result<bytes::IntegerStream<std::int64_t>> open_packed(bytes::ByteReader&, std::uint64_t);
+template Result<bytes::IntegerStream<std::uint64_t>> open_packed(bytes::ByteReader&, std::uint64_t);
+
+namespace {
+
+/// What row `at` says, noted by its path.
+Result<void> note_spec(const Tables& tables, std::uint64_t at, std::uint32_t path,
+                       std::uint32_t set, std::uint32_t kind, ZeroedArray<SpecOfPath>& specs) {
+  const bool starts_run = set < tables.field_sets.size() &&
+                          (set == 0 || tables.field_sets[set - 1] == kEndOfSet);
+  if (path >= tables.paths.size() || tables.paths[path].empty() || !starts_run || kind == 0 ||
+      kind >= std::size(kSpecKinds)) {
+    return corrupt("spec " + std::to_string(at) + " has an impossible path, kind or set of fields");
+  }
+  if (specs[path].kind != layer::SpecKind::None) {
+    return corrupt("there are two specs at " + tables.paths[path].str());
+  }
+  specs[path] = {set, kSpecKinds[kind]};
+  return {};
+}
+
+}  // namespace
 
 Result<void> read_specs(Tables& tables) {
   bytes::ByteReader in = tables.spec_section;
   if (in.size() == 0) {
     return {};
   }
-  TENON_TRY(const std::uint64_t count, read_row_count(in, *tables.file));
-  TENON_TRY(const std::vector<std::uint32_t> paths, read_packed<std::uint32_t>(in, count));
-  TENON_TRY(const std::vector<std::uint32_t> sets, read_packed<std::uint32_t>(in, count));
-  TENON_TRY(const std::vector<std::uint32_t> kinds, read_packed<std::uint32_t>(in, count));
-  std::vector<SpecRow> specs(paths.size());
-  for (std::size_t i = 0; i < specs.size(); ++i) {
-    const bool starts_run = sets[i] < tables.field_sets.size() &&
-                            (sets[i] == 0 || tables.field_sets[sets[i] - 1] == kEndOfSet);
-    if (paths[i] >= tables.paths.size() || tables.paths[paths[i]].empty() || !starts_run ||
-        kinds[i] == 0 || kinds[i] >= std::size(kSpecKinds)) {
-      return corrupt("spec " + std::to_string(i) +
-                     " has an impossible path, kind or set of fields");
+  TENON_TRY(const std::uint64_t count, read_row_count(in, *tables.file, limits::kCrateRows));
+  TENON_TRY(auto path_rows, open_packed<std::uint32_t>(in, count));
+  TENON_TRY(auto set_rows, open_packed<std::uint32_t>(in, count));
+  TENON_TRY(auto kind_rows, open_packed<std::uint32_t>(in, count));
+  TENON_TRY(auto specs, ZeroedArray<SpecOfPath>::make(tables.paths.size()));
+  constexpr std::size_t kBlock = 256;
+  std::array<std::uint32_t, kBlock> paths;
+  std::array<std::uint32_t, kBlock> sets;
+  std::array<std::uint32_t, kBlock> kinds;
+  for (std::uint64_t start = 0; start < count; start += kBlock) {
+    const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, count - start));
+    path_rows.read(std::span(paths).first(size));
+    set_rows.read(std::span(sets).first(size));
+    kind_rows.read(std::span(kinds).first(size));
+    for (std::size_t i = 0; i < size; ++i) {
+      TENON_CHECK(note_spec(tables, start + i, paths[i], sets[i], kinds[i], specs));
     }
-    specs[i] = {paths[i], sets[i], kSpecKinds[kinds[i]]};
   }
-  TENON_TRY(tables.specs, sorted_by_path(specs, tables));
+  tables.specs = in_path_order(specs, static_cast<std::size_t>(count), tables);
   return {};
 }
 

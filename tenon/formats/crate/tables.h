@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -11,7 +12,9 @@
 #include "tenon/base/token.h"
 #include "tenon/bytes/byte_reader.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/integer_stream.h"
 #include "tenon/formats/crate/layout.h"
+#include "tenon/formats/crate/zeroed_array.h"
 #include "tenon/layer/spec.h"
 
 namespace tenon::formats::crate {
@@ -22,6 +25,7 @@ struct CrateFile {
   Version version;
   std::vector<Token> tokens;
   std::vector<std::uint32_t> strings;  ///< index of a token
+  mutable std::atomic<std::uint64_t> unpacked{0};  ///< bytes of arrays that were asked for
 
   bytes::ByteReader reader() const { return bytes::ByteReader(bytes->span()); }
 };
@@ -42,7 +46,7 @@ struct Tables {
   std::shared_ptr<const CrateFile> file;
   std::vector<FieldRow> fields;
   std::vector<std::uint32_t> field_sets;  ///< runs of field indices, each ended by kEndOfSet
-  std::vector<Path> paths;                ///< the empty path where the file gives none
+  ZeroedArray<Path> paths;                ///< the empty path where the file gives none
   std::vector<std::uint32_t> path_order;  ///< indices of `paths` as they were made, depth first
   std::vector<SpecRow> specs;             ///< sorted by `path_order`
   bytes::ByteReader path_section{{}};     ///< of the file; read by `read_paths`
@@ -57,10 +61,13 @@ Result<void> read_paths(Tables& tables);
 /// Fills `specs`, after the paths.
 Result<void> read_specs(Tables& tables);
 
-/// A count from the file, refused when no file of this size can have as many rows.
-Result<std::uint64_t> read_row_count(bytes::ByteReader& in, const CrateFile& file);
+/// The rows that a table of the file may have when any file may have `base`.
+std::uint64_t most_rows(const CrateFile& file, std::uint64_t base);
+/// A count from the file, refused when it is larger than `most_rows`.
+Result<std::uint64_t> read_row_count(bytes::ByteReader& in, const CrateFile& file,
+                                     std::uint64_t base);
 /// A packed list of `count` integers with its size in front.
 template <class T>
-Result<std::vector<T>> read_packed(bytes::ByteReader& in, std::uint64_t count);
+Result<bytes::IntegerStream<T>> open_packed(bytes::ByteReader& in, std::uint64_t count);
 
 }  // namespace tenon::formats::crate

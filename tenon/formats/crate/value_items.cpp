@@ -24,7 +24,7 @@ Result<void> skip_distance(bytes::ByteReader& in) {
   TENON_TRY(const std::int64_t distance, in.read<std::int64_t>());
   const auto size = static_cast<std::int64_t>(in.size());
   if (distance < -start || distance > size - start) {
-    return corrupt("a value within a value leaves the file");
+    return corrupt("a nested value reaches beyond the end of the file");
   }
   return in.seek(static_cast<std::uint64_t>(start + distance));
 }
@@ -54,7 +54,7 @@ Result<void> ValueReader::item(bytes::ByteReader& in, layer::Duration& out) {
 Result<void> ValueReader::item(bytes::ByteReader& in, std::string& out) {
   TENON_TRY(const std::uint32_t index, in.read<std::uint32_t>());
   TENON_TRY(const std::string_view text, string_at(file_, index));
-  TENON_CHECK(budget_.spend_bytes(text.size()));
+  TENON_CHECK(pay_for_text(file_.strings[index], text.size()));
   out = text;
   return {};
 }

@@ -51,6 +51,26 @@ Result<T> enumerator(std::uint32_t bits) {
 
 }  // namespace
 
+/// Values of one long text share it.
+Result<Value> ValueReader::text(std::uint32_t index) {
+  TENON_TRY(const std::string_view text, string_at(file_, index));
+  if (text.size() <= limits::kCrateBytesPerUnit) {
+    TENON_CHECK(budget_.spend(1));
+    return Value(std::string(text));
+  }
+  layer::Value& known = texts_[index];
+  if (known.empty()) {
+    known = Value(std::string(text));
+  }
+  return known;
+}
+
+/// Copies of one text cost its size, but for the first.
+Result<void> ValueReader::pay_for_text(std::uint32_t token, std::size_t size) {
+  const bool is_first = size > limits::kCrateBytesPerUnit && copied_.insert(token).second;
+  return is_first ? budget_.spend(1) : budget_.spend_bytes(size);
+}
+
 template <class T>
 Result<Value> ValueReader::inlined(std::uint32_t bits) {
   if constexpr (std::is_same_v<T, bool>) {
@@ -61,15 +81,13 @@ Result<Value> ValueReader::inlined(std::uint32_t bits) {
     TENON_TRY(const T value, enumerator<T>(bits));
     return Value(value);
   } else if constexpr (std::is_same_v<T, std::string>) {
-    TENON_TRY(const std::string_view text, string_at(file_, bits));
-    TENON_CHECK(budget_.spend_bytes(text.size()));
-    return Value(std::string(text));
+    return text(bits);
   } else if constexpr (std::is_same_v<T, Token>) {
     TENON_TRY(const Token token, token_at(file_, bits));
     return Value(token);
   } else if constexpr (std::is_same_v<T, layer::AssetPath>) {
     TENON_TRY(const Token token, token_at(file_, bits));
-    TENON_CHECK(budget_.spend_bytes(token.str().size()));
+    TENON_CHECK(pay_for_text(bits, token.str().size()));
     return Value(layer::AssetPath{token.str(), "", ""});
   } else if constexpr (sizeof(T) <= 4) {
     T value;

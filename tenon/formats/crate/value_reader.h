@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
@@ -64,6 +65,8 @@ class ValueReader {
   Result<layer::Value> stored(ValueWord word);
   template <class T>
   Result<layer::Value> inlined(std::uint32_t bits);
+  Result<layer::Value> text(std::uint32_t index);
+  Result<void> pay_for_text(std::uint32_t token, std::size_t size);
   Result<layer::Value> other(ValueWord word);
   Result<layer::Value> unsupported(ValueWord word, const char* what);
   Result<std::vector<double>> times(ValueWord word);
@@ -77,6 +80,8 @@ class ValueReader {
   std::size_t depth_ = 0;
   std::map<std::uint64_t, std::vector<double>> times_;      // by the word that names them
   std::unordered_map<std::uint64_t, layer::Value> arrays_;  // the same, deferred ones
+  std::unordered_map<std::uint32_t, layer::Value> texts_;   // long ones, by their string
+  std::unordered_set<std::uint32_t> copied_;                // tokens whose long text was copied
 };
 
 }  // namespace tenon::formats::crate

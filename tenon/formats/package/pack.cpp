@@ -12,6 +12,7 @@
 
 #include "tenon/base/file_finding.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/file_kind.h"
 #include "tenon/bytes/zip_archive.h"
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/open_layer.h"
@@ -79,8 +80,9 @@ bool fits_template(std::string_view name, std::string_view pattern) {
 
 class Packer {
  public:
-  Packer(const bytes::AssetResolver& resolver, Diagnostics& diagnostics)
-      : resolver_(resolver), diagnostics_(diagnostics) {}
+  Packer(const bytes::AssetResolver& resolver, const bytes::ReadPolicy& policy,
+         Diagnostics& diagnostics)
+      : resolver_(resolver), policy_(policy), diagnostics_(diagnostics) {}
 
   const std::vector<PackedFile>& packed() const { return packed_; }
 
@@ -92,17 +94,18 @@ class Packer {
       base_ = inside.package + "[";
     }
     std::string name = root.identifier() == base_package_ ? "" : name_below_base(root.identifier());
-    const bool is_file = is_layer_name(name) && resolver_.open(root.identifier());
+    auto contents = resolver_.open(root.identifier());
+    const bool is_file = is_layer_name(name) && contents;
     name = is_file ? name : "root.usdc";
     names_.emplace(root.identifier(), name);
     taken_.insert(name);
     if (is_file) {
-      pending_.push_back({root.identifier(), name});
+      pending_.push_back({root.identifier(), name, *std::move(contents)});
     } else {
       layer::Layer copy = root;
       rename_all(copy, name);
       TENON_TRY(std::string crate, write_crate(copy));
-      add({"", name}, bytes::FileBytes::own(std::move(crate)), true);
+      add({"", name, nullptr}, bytes::FileBytes::own(std::move(crate)), true);
     }
     while (!pending_.empty()) {
       const Pending next = pending_.front();
@@ -116,6 +119,7 @@ class Packer {
   struct Pending {
     std::string identifier;
     std::string name;  // in the package
+    std::shared_ptr<const bytes::FileBytes> contents;
   };
 
   void add(const Pending& file, std::shared_ptr<const bytes::FileBytes> contents, bool rewritten) {
@@ -158,7 +162,7 @@ class Packer {
   }
 
   Result<void> add_file(const Pending& file) {
-    TENON_TRY(const auto contents, resolver_.open(file.identifier));
+    const auto& contents = file.contents;
     if (!is_layer_name(file.name)) {
       add(file, contents, false);
       return {};
@@ -180,14 +184,17 @@ class Packer {
   bool rename_all(layer::Layer& layer, const std::string& own_name) {
     const std::string anchor = layer.identifier();
     return rename_assets(layer, [&](const std::string& path, AssetUse use, Path spec) {
-      std::string target = use == AssetUse::ClipTemplate   ? template_target(path, anchor)
-                           : path.find(kUdim) != path.npos ? udim_target(path, anchor)
-                                                           : target_of(path, anchor);
-      if (target.empty()) {
-        report_missing(path, anchor, spec);
-        return path;
+      refusals_.clear();
+      const std::string target = use == AssetUse::ClipTemplate   ? template_target(path, anchor)
+                                 : path.find(kUdim) != path.npos ? udim_target(path, anchor)
+                                                                 : target_of(path, anchor, use);
+      for (const Error& refusal : refusals_) {
+        report_refused(refusal, anchor, spec);
       }
-      return path_to(target, own_name, path);
+      if (target.empty() && refusals_.empty()) {
+        report_missing(path, anchor, spec);
+      }
+      return target.empty() ? path : path_to(target, own_name, path);
     });
   }
 
@@ -199,17 +206,62 @@ class Packer {
     diagnostics_.add(std::move(missing));
   }
 
+  void report_refused(const Error& refusal, const std::string& anchor, Path spec) {
+    Diagnostic finding = refusal.diagnostic();
+    finding.severity = Severity::Error;
+    finding.message += "; it is not in the package";
+    finding.file = anchor;
+    finding.prim = spec.prim().str();
+    finding.property = spec.is_property() ? spec.name().str() : std::string();
+    diagnostics_.add(std::move(finding));
+  }
+
   /// The name in the package of what an asset path means; empty for nothing.
-  std::string target_of(const std::string& path, const std::string& anchor) {
+  std::string target_of(const std::string& path, const std::string& anchor, AssetUse use) {
     if (path.starts_with('`')) {
       return {};  // an expression has no file of its own
     }
     const Result<std::string> found = resolver_.resolve(path, anchor);
-    return found ? name_of(*found) : std::string();
+    if (!found && found.error().diagnostic().rule == "layer.outside") {
+      refusals_.push_back(found.error());
+    }
+    return found ? name_of(*found, use) : std::string();
   }
 
-  /// The name for a file, which is queued when new. Files of other packages are named through them.
-  std::string name_of(const std::string& identifier) {
+  /// The contents of a file, where they may go into the package; else `refusals_` says why not.
+  std::shared_ptr<const bytes::FileBytes> admit(const std::string& identifier, AssetUse use) {
+    auto contents = policy_.open(identifier);
+    if (!contents) {
+      refusals_.push_back(bytes::not_read(identifier, std::move(contents).error()));
+      return nullptr;
+    }
+    if (!base_package_.empty() && identifier.starts_with(base_)) {
+      return *std::move(contents);  // in the asset's own package: nobody else's file
+    }
+    const bytes::FileKind kind = bytes::kind_of((*contents)->text());
+    const bool is_layer = kind == bytes::FileKind::Layer || kind == bytes::FileKind::Package;
+    if (use == AssetUse::Value ? kind != bytes::FileKind::Unknown : is_layer) {
+      return *std::move(contents);
+    }
+    refusals_.push_back(use == AssetUse::Value ? bytes::not_media(identifier)
+                                               : bytes::not_a_layer(identifier));
+    return nullptr;
+  }
+
+  bool queue(const std::string& identifier, const std::string& name, AssetUse use) {
+    auto contents = admit(identifier, use);
+    if (contents == nullptr) {
+      return false;
+    }
+    taken_.insert(name);
+    names_.emplace(identifier, name);
+    pending_.push_back({identifier, name, std::move(contents)});
+    return true;
+  }
+
+  /// The name for a file, which is queued when new; empty where it may not go in. Files of other
+  /// packages are named through them.
+  std::string name_of(const std::string& identifier, AssetUse use) {
     if (const auto known = names_.find(identifier); known != names_.end()) {
       return known->second;
     }
@@ -219,20 +271,19 @@ class Packer {
     if (!parts.inner.empty()) {  // of a package that goes in whole
       const std::string outer =
           in_base ? bytes::join_package_path(base_package_, parts.package) : parts.package;
-      return bytes::join_package_path(name_of(outer), parts.inner);
+      const std::string package = name_of(outer, AssetUse::Layer);
+      return package.empty() ? package : bytes::join_package_path(package, parts.inner);
     }
-    if (!identifier.starts_with(base_) || !taken_.insert(name).second) {
+    if (!identifier.starts_with(base_) || taken_.contains(name)) {
       name = numbered(name);
     }
-    names_.emplace(identifier, name);
-    pending_.push_back({identifier, name});
-    return name;
+    return queue(identifier, name, use) ? name : std::string();
   }
 
-  std::string numbered(const std::string& name) {
+  std::string numbered(const std::string& name) const {
     for (std::size_t number = 0;; ++number) {
       std::string candidate = std::to_string(number) + "/" + name;
-      if (taken_.insert(candidate).second) {
+      if (!taken_.contains(candidate)) {
         return candidate;
       }
     }
@@ -244,24 +295,22 @@ class Packer {
       const std::string number = std::to_string(tile);
       const auto found = resolver_.resolve(replaced(path, kUdim, number), anchor);
       if (found) {
-        const std::string name = place_beside(*found, pattern);
-        pattern = folder_of(name) + path.substr(path.rfind('/') + 1);
+        const std::string name = place_beside(*found, pattern, AssetUse::Value);
+        pattern = name.empty() ? pattern : folder_of(name) + path.substr(path.rfind('/') + 1);
       }
     }
     return pattern;
   }
 
   /// Files of one pattern stay in one folder.
-  std::string place_beside(const std::string& identifier, const std::string& pattern) {
+  std::string place_beside(const std::string& identifier, const std::string& pattern,
+                           AssetUse use) {
     const bool known = names_.contains(identifier);
     if (known || pattern.empty() || identifier.starts_with(base_)) {
-      return name_of(identifier);
+      return name_of(identifier, use);
     }
     std::string name = folder_of(pattern) + identifier.substr(identifier.rfind('/') + 1);
-    taken_.insert(name);
-    names_.emplace(identifier, name);
-    pending_.push_back({identifier, name});
-    return name;
+    return queue(identifier, name, use) ? name : std::string();
   }
 
   std::string template_target(const std::string& path, const std::string& anchor) {
@@ -280,7 +329,8 @@ class Packer {
     for (const std::string& name : names) {
       const auto found = resolver_.resolve(folder_of(path) + name, anchor);
       if (found) {
-        pattern = folder_of(place_beside(*found, pattern)) + file_pattern;
+        const std::string place = place_beside(*found, pattern, AssetUse::Layer);
+        pattern = place.empty() ? pattern : folder_of(place) + file_pattern;
       }
     }
     return pattern;
@@ -304,6 +354,7 @@ class Packer {
   }
 
   const bytes::AssetResolver& resolver_;
+  const bytes::ReadPolicy& policy_;
   Diagnostics& diagnostics_;
   std::string base_;          // what identifiers of files that keep their place begin with
   std::string base_package_;  // the package that the root layer is in
@@ -312,13 +363,15 @@ class Packer {
   std::deque<Pending> pending_;
   std::vector<std::pair<std::string, std::shared_ptr<const bytes::FileBytes>>> files_;
   std::vector<PackedFile> packed_;
+  std::vector<Error> refusals_;  // of the asset path at hand
 };
 
 }  // namespace
 
-Result<std::string> pack(const bytes::AssetResolver& resolver, const layer::Layer& root,
-                         Diagnostics& diagnostics, std::vector<PackedFile>* files) {
-  Packer packer(resolver, diagnostics);
+Result<std::string> pack(const bytes::AssetResolver& resolver, const bytes::ReadPolicy& policy,
+                         const layer::Layer& root, Diagnostics& diagnostics,
+                         std::vector<PackedFile>* files) {
+  Packer packer(resolver, policy, diagnostics);
   TENON_TRY(std::string package, packer.run(root));
   if (files != nullptr) {
     *files = packer.packed();

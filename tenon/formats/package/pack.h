@@ -9,6 +9,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/read_policy.h"
 #include "tenon/layer/layer.h"
 
 namespace tenon::formats {
@@ -31,8 +32,12 @@ struct PackedFile {
 /// "package.outside" (info) for files from outside of the layer's folder; "package.file-type" for
 /// files of a type that the specification of packages does not name.
 /// `files`, where given, receives what went in, in the order of the package.
+/// What lies outside of `policy`'s folders, and what is no layer where one is named or else nothing
+/// that a scene shows or plays, stays out and stays as it was named, with an error: "read.outside",
+/// "read.wrong-kind", "read.unreadable" (docs/reading.md).
 /// Errors: those of reading the layers, of write_crate and of bytes::write_zip.
-Result<std::string> pack(const bytes::AssetResolver& resolver, const layer::Layer& root,
-                         Diagnostics& diagnostics, std::vector<PackedFile>* files = nullptr);
+Result<std::string> pack(const bytes::AssetResolver& resolver, const bytes::ReadPolicy& policy,
+                         const layer::Layer& root, Diagnostics& diagnostics,
+                         std::vector<PackedFile>* files = nullptr);
 
 }  // namespace tenon::formats

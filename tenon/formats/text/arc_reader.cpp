@@ -78,13 +78,13 @@ bool read_arc_target(Cursor& cursor, Arc& arc) {
   }
   return cursor.fail_at(
       path_start, ErrorCode::Parse, "text.arc",
-      "<" + arc.prim_path.str() + "> is no absolute prim path without variant selections");
+      "<" + arc.prim_path.str() + "> is not an absolute prim path without variant selections");
 }
 
 bool check_relocate(Cursor& cursor, std::size_t start, Path path, bool may_be_empty) {
   const bool fits = path.empty() ? may_be_empty : path.is_prim() && !path.has_variants();
   return fits || cursor.fail_at(start, ErrorCode::Parse, "text.relocates",
-                                "<" + path.str() + "> is no prim path, as relocates need it");
+                                "<" + path.str() + "> is not a prim path, as relocates need it");
 }
 
 bool read_relocate(Cursor& cursor, layer::Relocates& relocates) {
@@ -183,8 +183,10 @@ bool read_prim_paths(LayerState& state, Path prim, Token field, ListEdit edit) {
   for (Path& item : items) {
     const Path path = item.absolute(prim.prim());
     if (path.empty() || !path.is_prim() || path.has_variants()) {
-      return cursor.fail_at(start, ErrorCode::Parse, "text.arc",
-                            "<" + item.str() + "> is no prim path without variant selections");
+      const auto number = static_cast<std::size_t>(&item - items.data());
+      return cursor.fail_at(offset_of_item(cursor.text(), start, number), ErrorCode::Parse,
+                            "text.arc",
+                            "<" + item.str() + "> is not a prim path without variant selections");
     }
     item = path;
   }

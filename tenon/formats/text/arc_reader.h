@@ -4,6 +4,7 @@
 
 #include "tenon/formats/text/layer_state.h"
 #include "tenon/formats/text/list_edit.h"
+#include "tenon/formats/text/statement_text.h"
 
 namespace tenon::formats::text {
 
@@ -29,7 +30,8 @@ bool check_items(Cursor& cursor, std::size_t start, ListEdit edit, const std::ve
                           "remove the statement, or the word in front of it to clear the list");
   }
   return !has_duplicates(items) ||
-         cursor.fail_at(start, ErrorCode::Parse, "text.list", "this list names one item twice",
+         cursor.fail_at(offset_of_item(cursor.text(), start, first_repeated(items)),
+                        ErrorCode::Parse, "text.list", "this list names one item twice",
                         "remove one of the equal items");
 }
 

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "tenon/base/unicode.h"
+#include "tenon/formats/text/fault_recovery.h"
 
 namespace tenon::formats::text {
 namespace {
@@ -225,8 +226,12 @@ bool Cursor::fail_at(std::size_t offset, ErrorCode code, std::string_view rule, 
     diagnostic.file = file_;
     diagnostic.line = place.line;
     diagnostic.column = place.column;
+    const SourcePlace end = place_of(end_of_fault(text_, offset));
+    diagnostic.end_line = end.line;
+    diagnostic.end_column = end.column;
     diagnostic.fix = fix;
     error_.emplace(code, std::move(diagnostic));
+    fault_ = offset;
   }
   return false;
 }

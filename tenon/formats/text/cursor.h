@@ -74,6 +74,9 @@ class Cursor {
   bool fail_at(std::size_t offset, ErrorCode code, std::string_view rule, std::string message,
                std::string_view fix = {});
   bool failed() const { return error_.has_value(); }
+  /// Of the error, where there is one.
+  std::size_t fault() const { return fault_; }
+  ErrorCode error_code() const { return error_->code(); }
   /// The prim that the error is about, filled in by the layer reader.
   void set_prim(std::string prim) { prim_ = std::move(prim); }
   Error take_error();
@@ -88,6 +91,7 @@ class Cursor {
   std::string_view file_;
   std::size_t at_ = 0;
   std::optional<Error> error_;
+  std::size_t fault_ = 0;
   std::string prim_;
   mutable std::size_t counted_ = 0;     // bytes whose line ends are counted
   mutable std::size_t line_start_ = 0;  // first byte of the line of `counted_`

@@ -162,7 +162,7 @@ bool read_entry(Cursor& cursor, Dictionary& dictionary, std::size_t depth) {
   if (type.type == nullptr) {
     return cursor.fail_at(
         start, ErrorCode::Parse, "text.type",
-        "`" + std::string(type.name) + "` is no type that a dictionary entry can have");
+        "`" + std::string(type.name) + "` is not a type that a dictionary entry can have");
   }
   Value value;
   if (!read_entry_start(cursor, key) ||

@@ -48,7 +48,7 @@ bool check_encoding(Cursor& cursor) {
   }
   const std::size_t bad = first_ill_formed(text);
   return bad == text.size() ||
-         cursor.fail_at(bad, ErrorCode::Parse, "text.encoding", "this byte is no UTF-8", kFix);
+         cursor.fail_at(bad, ErrorCode::Parse, "text.encoding", "this byte is not UTF-8", kFix);
 }
 
 /// Reads "1.0" or "1.0.32"; false when the text has another form.
@@ -87,7 +87,7 @@ bool read_header(LayerState& state) {
   const std::string_view text = cursor.text();
   if (!cursor.starts_with("#usda ")) {
     return cursor.fail_at(0, ErrorCode::Parse, "text.header",
-                          "this is no text layer: the first line must be `#usda 1.0`",
+                          "this is not a text layer: the first line must be `#usda 1.0`",
                           "add the line `#usda 1.0` at the top");
   }
   const std::string_view line = text.substr(0, text.find('\n'));
@@ -100,7 +100,7 @@ bool read_header(LayerState& state) {
   unsigned minor = 0;
   if (!parse_version(version, major, minor)) {
     return cursor.fail_at(start == std::string_view::npos ? 0 : start, ErrorCode::Parse,
-                          "text.header", "\"" + std::string(version) + "\" is no version",
+                          "text.header", "\"" + std::string(version) + "\" is not a version",
                           "write `#usda 1.0`");
   }
   if (major != kMajor || minor > kMaxMinor) {

@@ -37,17 +37,45 @@ bool LayerReader::read_from_front(std::size_t stop) {
 }
 
 bool LayerReader::read_statements() {
-  while (read_step()) {
+  while (read_step() || (cursor_.failed() && go_on_behind_fault())) {
   }
   return !cursor_.failed();
 }
 
+bool LayerReader::go_on_behind_fault() {
+  const std::string_view text = cursor_.text();
+  const std::size_t fault = cursor_.fault();
+  if (fault < statement_ || fault >= text.size() || !state_.finds_all_faults) {
+    return false;
+  }
+  cursor_.seek(statement_);
+  const std::string_view word = cursor_.peek_identifier();
+  const bool is_block = word == "def" || word == "over" || word == "class" ||
+                        word == "variantSet" || top().kind == Block::Kind::VariantSet;
+  if (!is_block && top().kind == Block::Kind::Layer) {
+    return false;  // most likely a '}' stands too early, and all that follows is out of place
+  }
+  if (!is_block && word.empty()) {
+    return false;
+  }
+  auto end = is_block ? end_of_faulty_block(text, statement_, fault)
+                      : end_of_faulty_statement(text, statement_, fault, '}');
+  if (end && *end < text.size() && text[*end] == ';') {
+    ++*end;
+  }
+  return state_.go_on_at(end);
+}
+
 Result<layer::Layer> LayerReader::finish() {
   if (cursor_.failed()) {
-    if (blocks_.size() > 1) {
-      cursor_.set_prim(blocks_.back().path.strip_variants().str());
+    state_.keep_fault();
+  }
+  if (has_faults()) {
+    std::vector<Diagnostic> further;
+    for (std::size_t i = 1; i < state_.faults.size(); ++i) {
+      further.push_back(state_.faults[i].diagnostic());
     }
-    return cursor_.take_error();
+    return std::move(state_.faults.front()).with_further(std::move(further));
   }
   store_children(blocks_.front());
   return std::move(state_.layer);
@@ -98,6 +126,7 @@ bool LayerReader::read_step() {
       return false;
     }
   }
+  statement_ = cursor_.offset();
   switch (top().kind) {
     case Block::Kind::Layer:
       return !cursor_.at_end() && read_layer_statement();
@@ -226,6 +255,7 @@ bool LayerReader::push(Block block) {
         "blocks are nested deeper than " + std::to_string(limits::kTextNestingDepth));
   }
   blocks_.push_back(std::move(block));
+  state_.open_block = blocks_.back().path;
   return true;
 }
 
@@ -430,6 +460,7 @@ bool LayerReader::close_block() {
   const std::size_t brace = cursor_.offset() - 1;
   Block block = std::move(top());
   blocks_.pop_back();
+  state_.open_block = top().path;
   note_close(block.path);
   store_children(block);
   if (top().kind == Block::Kind::Layer) {

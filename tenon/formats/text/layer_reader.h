@@ -34,6 +34,11 @@ class LayerReader {
   /// All statements, or those before the one at `stop`; false after an error.
   bool read_from_front(std::size_t stop = std::string_view::npos);
 
+  /// Goes on behind faults where that is safe. The layer is refused all the same: with the first
+  /// of them, which has the others with it.
+  void find_all_faults() { state_.finds_all_faults = true; }
+  bool has_faults() const { return !state_.faults.empty(); }
+
   /// The first part ended where it was to stop, between two statements.
   bool stopped() const { return stopped_; }
 
@@ -74,6 +79,9 @@ class LayerReader {
 
   /// One statement of the innermost block; false at the end or after an error.
   bool read_step();
+
+  /// Behind the statement that has the cursor's error; false where nothing safe follows.
+  bool go_on_behind_fault();
   bool read_layer_statement();
 
   /// Something that is no prim between the prims of the layer: often a '}' stands too early.
@@ -119,6 +127,7 @@ class LayerReader {
   std::uint32_t last_closed_line_ = 0;
   std::uint32_t default_closed_line_ = 0;      // 0 while the default prim is not closed
   std::size_t stop_ = std::string_view::npos;  // offset of the statement not to read
+  std::size_t statement_ = 0;                  // offset of the one that is read
   bool stopped_ = false;
   std::vector<Path> around_;  // prims that were open where reading began
 };

@@ -3,12 +3,16 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/base/fault_limits.h"
 #include "tenon/base/limits.h"
 #include "tenon/formats/text/cursor.h"
+#include "tenon/formats/text/fault_recovery.h"
 #include "tenon/formats/text/source_map.h"
 #include "tenon/layer/layer.h"
 
@@ -22,6 +26,9 @@ struct LayerState {
   std::size_t warnings = 0;
   layer::TimeSamples samples_buffer{};  ///< kept between attributes to spare allocations
   SourceMap* sources = nullptr;         ///< filled where somebody wants to know
+  Path open_block = Path::absolute_root();  ///< the innermost one, for errors
+  std::vector<Error> faults{};              ///< behind which reading went on, to find more
+  bool finds_all_faults = false;
 
   LayerState(std::string_view text, std::string identifier, Diagnostics& findings)
       : cursor(text, {}), layer(std::move(identifier)), diagnostics(findings) {
@@ -56,8 +63,29 @@ struct LayerState {
     diagnostic.file = layer.identifier();
     diagnostic.line = place.line;
     diagnostic.column = place.column;
+    const SourcePlace end = cursor.place_of(end_of_fault(cursor.text(), offset));
+    diagnostic.end_line = end.line;
+    diagnostic.end_column = end.column;
     diagnostic.fix = fix;
     diagnostics.add(std::move(diagnostic));
+  }
+
+  /// Keeps the cursor's error and lets reading go on at `offset`. False where it may not.
+  bool go_on_at(std::optional<std::size_t> offset) {
+    if (!finds_all_faults || !offset || cursor.error_code() != ErrorCode::Parse ||
+        faults.size() + 1 >= limits::kTextFaults) {
+      return false;
+    }
+    keep_fault();
+    cursor.seek(*offset);
+    return true;
+  }
+  void keep_fault() {
+    if (!open_block.is_absolute_root()) {
+      cursor.set_prim(open_block.strip_variants().str());
+    }
+    faults.push_back(cursor.take_error());
+    cursor.set_prim({});
   }
 
   /// The spec at `path`, made with its source place when absent.

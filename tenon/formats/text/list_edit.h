@@ -95,6 +95,24 @@ inline bool item_less(Token a, Token b) { return a.id() < b.id(); }
 inline bool item_less(const std::string& a, const std::string& b) { return a < b; }
 inline bool item_less(std::int64_t a, std::int64_t b) { return a < b; }
 
+/// The number of the first item that equals one before it; of all items when none does.
+template <class T>
+std::size_t first_repeated(const std::vector<T>& items) {
+  std::vector<std::size_t> order(items.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    order[i] = i;
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return item_less(items[a], items[b]); });
+  std::size_t first = items.size();
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (items[order[i - 1]] == items[order[i]]) {
+      first = std::min(first, order[i]);
+    }
+  }
+  return first;
+}
+
 /// True when two items are equal. Takes a copy to sort.
 template <class T>
 bool has_duplicates(std::vector<T> items) {

@@ -357,7 +357,7 @@ bool read_path(Cursor& cursor, Path& path) {
   if (close != 0) {
     const std::string_view text = rest.substr(0, close);
     if (text == ".") {  // a path elsewhere, but text layers have no way to write it
-      return cursor.fail_at(start, ErrorCode::Parse, "text.path", "\".\" is no path in a layer",
+      return cursor.fail_at(start, ErrorCode::Parse, "text.path", "\".\" is not a path in a layer",
                             "write the path of the prim");
     }
     auto parsed = Path::parse(text);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tenon/formats/text/layout_state.h"
+#include "tenon/formats/text/metadata_word.h"
 #include "tenon/formats/text/metadata_writer.h"
 #include "tenon/formats/text/text_scanner.h"
 #include "tenon/layer/field_values.h"
@@ -26,20 +27,10 @@ Token field_of(std::string_view statement, SpecKind kind) {
   if (word.starts_with('"') || word.starts_with('\'')) {
     return fields::comment;
   }
-  for (const char* edit : {"prepend", "append", "delete", "add", "reorder"}) {
-    if (word == edit) {
-      word = scanner.next();
-      break;
-    }
+  if (is_list_edit(word)) {
+    word = scanner.next();
   }
-  const std::map<std::string_view, Token> renamed = {
-      {"doc", fields::documentation},
-      {"inherits", fields::inheritPaths},
-      {"variants", fields::variantSelection},
-      {"variantSets", fields::variantSetNames},
-      {"relocates", kind == SpecKind::PseudoRoot ? fields::layerRelocates : fields::relocates}};
-  const auto it = renamed.find(word);
-  return it == renamed.end() ? Token(word) : it->second;
+  return field_of_word(word, kind == SpecKind::PseudoRoot);
 }
 
 bool same_field(const Spec& a, const Spec& b, Token field) {

@@ -176,7 +176,7 @@ class MetadataReader {
     }
     if (!is_unit_name(word)) {
       return cursor_.fail_at(start, ErrorCode::Parse, "text.value",
-                             "`" + std::string(word) + "` is no unit of measure",
+                             "`" + std::string(word) + "` is not a unit of measure",
                              "write mm, cm, dm, m, km, in, ft, yd, mi, deg or rad");
     }
     return set(fields::displayUnit, Value(Token(word)));
@@ -283,7 +283,7 @@ class MetadataReader {
     }
     if (layer::is_structural_field(name, kind_)) {
       return cursor_.fail_at(start, ErrorCode::Parse, "text.field",
-                             "`" + name.str() + "` is a field of its own and no metadata");
+                             "`" + name.str() + "` is a field of its own and not metadata");
     }
     return read_unregistered(name, edit);
   }
@@ -337,7 +337,7 @@ class MetadataReader {
       }
     }
     if (has_duplicates(items)) {
-      state_.warn(start, "text.list",
+      state_.warn(offset_of_item(cursor_.text(), start, first_repeated(items)), "text.list",
                   "`" + name.str() + "` names one item twice; the whole list is ignored",
                   "remove one of the equal items");
       return true;
@@ -401,7 +401,11 @@ bool read_metadata(LayerState& state, Path path, SpecKind kind) {
   MetadataReader reader(state, path, kind);
   Cursor& cursor = state.cursor;
   if (state.sources == nullptr) {
-    return read_statements(cursor, ')', "of the metadata", [&] { return reader.read_item(); });
+    return read_statements(cursor, ')', "of the metadata", [&] {
+      const std::size_t start = cursor.offset();
+      return reader.read_item() ||
+             state.go_on_at(end_of_faulty_statement(cursor.text(), start, cursor.fault(), ')'));
+    });
   }
   MetadataBlock block;
   block.range.begin = cursor.offset() - 1;

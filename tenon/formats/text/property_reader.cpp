@@ -231,7 +231,8 @@ class PropertyReader {
     }
     if (at_array_edit(cursor_)) {
       return type_ == nullptr || !is_array_
-                 ? cursor_.fail_expected("a value of the attribute's type, which is no known array")
+                 ? cursor_.fail_expected(
+                       "a value of the attribute's type, which is not a known array")
                  : read_array_edit(cursor_, type_->type, value);
     }
     if (type_ != nullptr) {
@@ -255,7 +256,7 @@ class PropertyReader {
     }
     if (value.type() == ValueType::PathExpression && !layer::make_canonical(value, anchor)) {
       state_.warn(start, "value.path-expression",
-                  "this is no path expression; it is read as an empty one", "");
+                  "this is not a path expression; it is read as an empty one", "");
     }
   }
 
@@ -305,7 +306,7 @@ class PropertyReader {
       return false;
     }
     if (std::isnan(time)) {
-      return cursor_.fail_at(start, ErrorCode::Parse, "text.value", "nan is no time");
+      return cursor_.fail_at(start, ErrorCode::Parse, "text.value", "nan is not a time");
     }
     cursor_.skip_inline();
     if (!cursor_.expect(':', "after the time of a sample")) {
@@ -359,9 +360,10 @@ class PropertyReader {
     }
     for (Path& path : paths) {
       // Unlike with relationships a variant that only the prim around names is left out.
-      const Path absolute = target_of(path).strip_variants();
+      const Path absolute = target_of(path, owner_).strip_variants();
       if (path.has_variants() || !is_target(absolute)) {
-        return fail_target(start, path, "connections lead to prims or properties");
+        return fail_target(item_at(start, path, paths), path,
+                           "connections lead to prims or properties");
       }
       path = absolute;
     }
@@ -372,22 +374,9 @@ class PropertyReader {
     return true;
   }
 
-  /// A relative target counts from the prim, in which variants count as levels; the variant that
-  /// the property stands in itself does not. OpenUSD 26.11.
-  Path target_of(Path path) const {
-    if (path.empty() || path.is_absolute()) {
-      return path;
-    }
-    Path from = owner_.prim();
-    std::string rest = path.str();
-    if (rest == ".") {
-      return {};
-    }
-    while (!from.empty() && rest.starts_with("..")) {
-      from = from.parent();
-      rest.erase(0, rest.starts_with("../") ? 3 : 2);
-    }
-    return rest.empty() || from.empty() ? from : Path::from(rest).absolute(from);
+  /// Where one of the items of the list at `start` stands.
+  std::size_t item_at(std::size_t start, const Path& item, const std::vector<Path>& items) const {
+    return offset_of_item(cursor_.text(), start, static_cast<std::size_t>(&item - items.data()));
   }
 
   bool fail_target(std::size_t start, Path path, std::string_view what) {
@@ -448,10 +437,11 @@ class PropertyReader {
       return false;
     }
     for (Path& path : paths) {
-      const Path absolute = target_of(path);
+      const Path absolute = target_of(path, owner_);
       const bool fits = is_target(absolute) || absolute.kind() == PathKind::Mapper;
       if (absolute.has_variants() || !fits) {
-        return fail_target(start, path, "relationships lead to prims or properties");
+        return fail_target(item_at(start, path, paths), path,
+                           "relationships lead to prims or properties");
       }
       path = absolute;
     }
@@ -499,6 +489,22 @@ class PropertyReader {
 };
 
 }  // namespace
+
+Path target_of(Path path, Path owner) {
+  if (path.empty() || path.is_absolute()) {
+    return path;
+  }
+  Path from = owner.prim();
+  std::string rest = path.str();
+  if (rest == ".") {
+    return {};
+  }
+  while (!from.empty() && rest.starts_with("..")) {
+    from = from.parent();
+    rest.erase(0, rest.starts_with("../") ? 3 : 2);
+  }
+  return rest.empty() || from.empty() ? from : Path::from(rest).absolute(from);
+}
 
 bool read_property(LayerState& state, Path owner, std::vector<Token>& properties) {
   return PropertyReader(state, owner, properties).read();

@@ -15,4 +15,9 @@ bool read_property(LayerState& state, Path owner, std::vector<Token>& properties
 /// Reads the `{ ... }` of `.spline`.
 bool read_spline(Cursor& cursor, layer::ValueType type, layer::Value& value);
 
+/// The target that `path` means in a property of `owner`, a prim or variant. A relative one counts
+/// from the prim, in which variants count as levels; the variant that the property stands in itself
+/// does not. OpenUSD 26.11.
+Path target_of(Path path, Path owner);
+
 }  // namespace tenon::formats::text

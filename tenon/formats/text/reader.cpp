@@ -14,6 +14,7 @@ namespace {
 Result<layer::Layer> read_whole(std::string_view source, std::string identifier,
                                 Diagnostics& diagnostics, text::SourceMap* sources) {
   text::LayerReader reader(source, std::move(identifier), diagnostics, sources);
+  reader.find_all_faults();
   reader.read_from_front();
   return reader.finish();
 }
@@ -37,13 +38,14 @@ Result<layer::Layer> read_text_in_halves(std::string_view source, std::string id
   Diagnostics ignored;
   text::LayerReader second(source, identifier, ignored, nullptr);
   text::LayerReader first(source, std::move(identifier), diagnostics, nullptr);
+  first.find_all_faults();
   std::atomic<bool> wanted = true;
   run_both([&] { second.read_from(split, wanted); },
            [&] {
              first.read_from_front(split);
              wanted = first.stopped();
            });
-  if (first.stopped() && !first.take_rest(second)) {
+  if (first.stopped() && (first.has_faults() || !first.take_rest(second))) {
     first.read_statements();
   }
   return first.finish();

@@ -65,7 +65,7 @@ TEST(TextReader, ErrorsSayWhereAndWhatWasExpected) {
       {"def \"A\" {\n rel a = </A{v=x}B>\n}\n", 3, 10, "have no variant selections"},
       {"def \"A\" {\nvariantSet \"v\" = {\n\"x\" {\ndef \"B\" {\n rel a = <../C>\n}\n}\n}\n}\n", 6,
        10, "have no variant selections"},
-      {"def \"A\" {\n rel a = [</A>, </A>]\n}\n", 3, 10, "this list names one item twice"},
+      {"def \"A\" {\n rel a = [</A>, </A>]\n}\n", 3, 17, "this list names one item twice"},
       {"def \"A\" {\n int a\n float a\n}\n", 4, 2, "already has type int, not float"},
       {"def \"A\" {\n}\ndef \"A\" {\n}\n", 4, 5, "was already given at line 2"},
       {"def \"1a\" {\n}\n", 2, 5, "\"1a\" cannot name a prim"},
@@ -75,7 +75,7 @@ TEST(TextReader, ErrorsSayWhereAndWhatWasExpected) {
       {"def \"A\" (\n add inherits = []\n) {\n}\n", 3, 17, "an empty list can only be set"},
       {"/* x\n", 2, 1, "this comment is never closed"},
       {"def \"A\" {\n varying int a\n}\n", 3, 10, "expected `rel`, found `int`"},
-      {"def \"A\" {\n string a = \"\xff\"\n}\n", 3, 14, "this byte is no UTF-8"},
+      {"def \"A\" {\n string a = \"\xff\"\n}\n", 3, 14, "this byte is not UTF-8"},
   };
   for (const ErrorRow& row : rows) {
     const auto layer = read(row.body);

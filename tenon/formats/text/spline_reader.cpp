@@ -8,6 +8,7 @@
 #include "tenon/formats/text/value_reader.h"
 #include "tenon/layer/ease_tangents.h"
 #include "tenon/layer/spline.h"
+#include "tenon/layer/spline_rules.h"
 
 namespace tenon::formats::text {
 namespace {
@@ -60,7 +61,7 @@ class SplineReader {
     if (!at_number(cursor_)) {
       return cursor_.fail_expected("bezier, hermite, pre, post, loop or the time of a knot");
     }
-    return read_knot(spline.knots.emplace_back());
+    return read_knot(spline.knots.emplace_back(), spline.value_type);
   }
 
   bool colon() {
@@ -149,19 +150,15 @@ class SplineReader {
       return cursor_.fail_at(start, ErrorCode::Parse, "text.value",
                              "the loop counts must be whole numbers");
     }
-    loop.pre_loops = static_cast<std::int32_t>(pre);
-    loop.post_loops = static_cast<std::int32_t>(post);
+    loop.pre_loops = static_cast<std::int32_t>(std::max(pre, 0.0));
+    loop.post_loops = static_cast<std::int32_t>(std::max(post, 0.0));
     return cursor_.expect(')', "after the loop");
   }
 
-  bool read_knot(SplineKnot& knot) {
+  bool read_knot(SplineKnot& knot, ValueType type) {
     const std::size_t start = cursor_.offset();
     if (!number(knot.time) || !colon() || !number(knot.value)) {
       return false;
-    }
-    if (!std::isfinite(knot.time)) {
-      return cursor_.fail_at(start, ErrorCode::Parse, "text.value",
-                             "the time of a knot must be finite");
     }
     const std::size_t before = cursor_.offset();
     cursor_.skip_inline();
@@ -174,7 +171,12 @@ class SplineReader {
     } else {
       cursor_.seek(before);
     }
-    return read_parameters(knot);
+    if (!read_parameters(knot)) {
+      return false;
+    }
+    layer::round_knot(knot, type);
+    const char* fault = layer::fault_of(knot);
+    return fault == nullptr || cursor_.fail_at(start, ErrorCode::Parse, "text.value", fault);
   }
 
   /// `; parameter; parameter`, also one per line after the first; a last ';' is allowed.
