@@ -14,6 +14,19 @@ enum class Severity : std::uint8_t { Info, Warning, Error };
 /// "info", "warning" or "error".
 std::string_view severity_name(Severity severity);
 
+/// The part of a statement of a layer that a finding is about, named by what it says. Where it
+/// stands in the text is looked up when the finding is shown (tenon/formats/find_places.h), so that
+/// layers keep one place for each spec and none for its parts.
+struct StatementPart {
+  std::string spec;   ///< path of the prim or property in its layer; empty: nothing to look up
+  std::string field;  ///< "references", "apiSchemas", as layers name it; empty: all of the spec
+  std::vector<std::string> keys{};  ///< into dictionaries within dictionaries, or a sample's time
+  std::string item{};  ///< in a list, or the value, without quotes: `@a.usda@</X>`, `</Y>`, `Name`
+  std::uint32_t index = 0;  ///< 1-based number of the item where its text does not tell; 0: unknown
+
+  bool operator==(const StatementPart&) const = default;
+};
+
 /// One finding about an input: what is wrong, where, and what to do about it.
 /// Empty strings and zero numbers mean "unknown".
 struct Diagnostic {
@@ -26,6 +39,9 @@ struct Diagnostic {
   std::string prim;      ///< prim path
   std::string property;  ///< property name without the prim path
   std::string fix;       ///< what the user can do, an imperative phrase
+  std::uint32_t end_line = 0;    ///< of the byte behind what the finding is about
+  std::uint32_t end_column = 0;  ///< of the same
+  StatementPart part{};  ///< what to look up a closer place for
 
   /// `FILE:LINE:COL: severity: message [rule]` followed by prim and fix, unknown parts left out.
   std::string to_string() const;
@@ -44,6 +60,8 @@ class Diagnostics {
   std::size_t size() const { return items_.size(); }
   bool has_errors() const;
 
+  auto begin() { return items_.begin(); }
+  auto end() { return items_.end(); }
   auto begin() const { return items_.begin(); }
   auto end() const { return items_.end(); }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tenon/base/diagnostics.h"
 
@@ -45,6 +46,8 @@ class Error {
   ErrorCode code() const { return body_->code; }
   const Diagnostic& diagnostic() const { return body_->diagnostic; }
   const std::string& message() const { return body_->diagnostic.message; }
+  /// What else is wrong with the same input, where its reader could go on to look.
+  const std::vector<Diagnostic>& further() const { return body_->further; }
   std::string to_string() const { return body_->diagnostic.to_string(); }
 
   /// Fills the file where none is known yet.
@@ -57,6 +60,16 @@ class Error {
   Error&& at(std::uint32_t line, std::uint32_t column) && {
     body_->diagnostic.line = line;
     body_->diagnostic.column = column;
+    return std::move(*this);
+  }
+  /// Where what the error is about ends: the place of the byte behind it.
+  Error&& until(std::uint32_t line, std::uint32_t column) && {
+    body_->diagnostic.end_line = line;
+    body_->diagnostic.end_column = column;
+    return std::move(*this);
+  }
+  Error&& with_further(std::vector<Diagnostic> further) && {
+    body_->further = std::move(further);
     return std::move(*this);
   }
   Error&& with_prim(std::string prim) && {
@@ -76,6 +89,7 @@ class Error {
   struct Body {
     ErrorCode code = ErrorCode::Invalid;
     Diagnostic diagnostic;
+    std::vector<Diagnostic> further;
   };
   std::unique_ptr<Body> body_;
 };

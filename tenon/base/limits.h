@@ -38,14 +38,11 @@ inline constexpr std::size_t kConvexityChecks = 100'000'000;  ///< point-plane t
 inline constexpr std::size_t kMeshCorners = 100'000'000;   ///< corners of the faces of a mesh file
 
 // Binary layers: what a file may ask for in proportion to its size.
-// Compressed tables hold up to 0.2 rows for each byte of files of regular scenes.
-inline constexpr std::uint64_t kCrateRowsBase = 1u << 17;   ///< rows of a table of any file
+// What any file may ask for beside that: crate_limits.h.
 inline constexpr std::uint64_t kCrateBytesPerRow = 2;       ///< bytes of the file for each row more
-inline constexpr std::uint64_t kCrateTextBase = 8u << 20;   ///< bytes of the table of tokens
-inline constexpr std::uint64_t kCrateTextPerByte = 10;      ///< the same, more per byte of the file
 inline constexpr std::uint64_t kCrateWorkBase = 1u << 20;   ///< units of work on values of any file
 inline constexpr std::uint64_t kCrateWorkPerByte = 2;       ///< units more per byte of the file
-inline constexpr std::uint64_t kCrateBytesPerUnit = 32;     ///< bytes of a decoded array in a unit
+inline constexpr std::uint64_t kCrateBytesPerUnit = 32;     ///< bytes of a copied text in a unit
 inline constexpr std::size_t kCrateValueDepth = 256;       ///< values within values
 inline constexpr std::size_t kArrayEditGrowth = 10'000'000;  ///< elements added by an array edit
 inline constexpr std::size_t kTrackSamples = 1'000'000;    ///< poses between authored samples

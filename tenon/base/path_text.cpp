@@ -278,7 +278,7 @@ void append_element(std::string& text, Path path) {
 
 Result<Path> Path::parse(std::string_view text) {
   if (text.empty()) {
-    return Error(ErrorCode::Parse, "the empty text is no path");
+    return Error(ErrorCode::Parse, "the empty text is not a path");
   }
   if (text.size() > limits::kPathTextLength) {
     return Error(ErrorCode::Limit,

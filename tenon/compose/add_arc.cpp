@@ -4,6 +4,7 @@
 // of its ancestors: an index of its own is built for it and moved in as a subtree. Such inner
 // indices leave variants to the outermost one, which sees the strongest selections.
 #include "tenon/base/limits.h"
+#include "tenon/compose/authored_arc.h"
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/indexer.h"
 
@@ -65,6 +66,7 @@ bool closes_cycle(const Indexer& indexer, const Arc& arc, Site site) {
   for (FrameCursor at{&indexer.graph, arc.parent, indexer.frame}; !at.at_end();
        at.to_outer_frame()) {
     for (NodeId id = at.node; id != kNoNode; id = (*at.graph)[id].parent) {
+      at.graph->count(1);
       if (nested(at.graph->site(id), site)) {
         return true;
       }
@@ -90,9 +92,11 @@ void report_cycle(Indexer& indexer, const Arc& arc, const Site& site) {
     }
   }
   const Node& parent = indexer.graph[arc.parent];
-  indexer.report(error_class::kArcCycle, parent.layer_stack->root.get(), parent.path,
-                 "the arcs close a cycle, the last one is left out: " + chain,
-                 "remove one arc of the cycle");
+  AuthoredArc item = authored_arc(*parent.layer_stack, parent.path, arc.kind, site.path);
+  indexer.report(error_class::kArcCycle,
+                 item.layer == nullptr ? parent.layer_stack->root.get() : item.layer, parent.path,
+                 "the arcs form a cycle; the last one is left out: " + chain,
+                 "remove one arc of the cycle", std::move(item.part));
 }
 
 bool is_duplicate(const Indexer& indexer, NodeId parent, Site site) {
@@ -109,14 +113,17 @@ bool is_duplicate(const Indexer& indexer, NodeId parent, Site site) {
 
 std::size_t arcs_above(const Indexer& indexer, NodeId parent) {
   std::size_t count = 0;
-  for (FrameCursor at{&indexer.graph, parent, indexer.frame}; !at.at_end(); at.to_parent()) {
-    ++count;
+  for (FrameCursor at{&indexer.graph, parent, indexer.frame}; !at.at_end(); at.to_outer_frame()) {
+    count += (*at.graph)[at.node].arcs_above + 1u;
   }
   return count;
 }
 
 /// Inputs that would never end, or not soon enough.
 bool is_over_limit(Indexer& indexer, NodeId parent) {
+  if (indexer.services.work->exhausted()) {
+    return true;  // which the cache reports
+  }
   const bool nested_too_deep =
       indexer.frame != nullptr && indexer.frame->depth >= limits::kNestedIndices;
   std::size_t size = indexer.graph.size();
@@ -149,6 +156,7 @@ NodeId add_single_node(Indexer& indexer, const Arc& arc, const Site& site, bool 
     graph.set_inert(id, true);
     graph[id].restriction_depth = 1;  // not by its ancestors either
   }
+  graph.count(site.layer_stack->layers.size());
   graph[id].has_specs = site.layer_stack->has_spec(site.path);
   return id;
 }
@@ -163,7 +171,7 @@ NodeId add_subgraph(Indexer& indexer, const Arc& arc, const Site& site, const Ar
   frame.skip_duplicates = options.skip_duplicates;
   frame.depth = indexer.frame == nullptr ? 1 : indexer.frame->depth + 1;
 
-  NodeGraph inner_graph(*indexer.services.maps);
+  NodeGraph inner_graph(*indexer.services.maps, *indexer.services.work);
   Indexer inner(indexer.services, &frame, inner_graph, indexer.errors);
   inner.root_prim = indexer.root_prim;
   build_graph(inner, site, options.contributes);
@@ -172,17 +180,19 @@ NodeId add_subgraph(Indexer& indexer, const Arc& arc, const Site& site, const Ar
   return indexer.graph.insert_subgraph(inner_graph, arc);
 }
 
-AuthoredArcs arcs_of(const Node& node) {
+AuthoredArcs arcs_of(const Node& node, WorkMeter& work) {
   if (!node.can_contribute() || !node.has_specs) {
     return {};
   }
+  work.count(node.layer_stack->layers.size());
   return authored_arcs(*node.layer_stack, node.path);
 }
 
 /// Some ancestor of the node's path that it may contribute to has variant sets.
-bool has_ancestral_variants(const Node& node) {
+bool has_ancestral_variants(const Node& node, WorkMeter& work) {
   for (Path path = node.path.parent(); !path.empty() && !path.is_absolute_root();
        path = path.parent()) {
+    work.count(node.layer_stack->layers.size());
     if (can_contribute_at(node, path) && authored_arcs(*node.layer_stack, path).variants) {
       return true;
     }
@@ -193,7 +203,7 @@ bool has_ancestral_variants(const Node& node) {
 void add_node_tasks(Indexer& indexer, NodeId id, bool skip_expressed, bool ancestral_variants,
                     bool check_prim_path) {
   const Node& node = indexer.graph[id];
-  const AuthoredArcs arcs = arcs_of(node);
+  const AuthoredArcs arcs = arcs_of(node, *indexer.services.work);
   TaskQueue& tasks = indexer.tasks;
   const auto push_if = [&](bool condition, TaskKind kind) {
     if (condition) {
@@ -203,7 +213,8 @@ void add_node_tasks(Indexer& indexer, NodeId id, bool skip_expressed, bool ances
   push_if(check_prim_path && (node.arc == ArcKind::Reference || node.arc == ArcKind::Payload),
           TaskKind::UnresolvedPrimPath);
   push_if(arcs.variants && indexer.is_outermost(), TaskKind::VariantSets);
-  push_if(ancestral_variants && has_ancestral_variants(node), TaskKind::AncestralVariantSets);
+  push_if(ancestral_variants && has_ancestral_variants(node, *indexer.services.work),
+          TaskKind::AncestralVariantSets);
   if (!skip_expressed) {
     push_if(arcs.specializes, TaskKind::Specializes);
     push_if(arcs.inherits, TaskKind::Inherits);
@@ -280,10 +291,14 @@ std::uint16_t introduction_depth(const Indexer& indexer, NodeId parent) {
 MapFunction arc_map(const Indexer& indexer, Path source, NodeId target, layer::LayerOffset offset) {
   const Node& node = indexer.graph[target];
   const Path target_path = node.path.strip_variants();
-  const MapFunction map = MapFunction::make({{source, target_path}}, offset);
-  return node.layer_stack->has_relocates()
-             ? relocates_map(*node.layer_stack, target_path).compose(map)
-             : map;
+  MapFunction map = MapFunction::make({{source, target_path}}, offset);
+  if (!node.layer_stack->has_relocates()) {
+    return map;
+  }
+  const MapFunction relocates = relocates_map(*node.layer_stack, target_path);
+  const std::size_t pairs = relocates.pairs().size();
+  indexer.graph.count(node.layer_stack->relocates.size() / 4 + pairs * pairs);
+  return relocates.compose(map);
 }
 
 void add_root_tasks(Indexer& indexer) {

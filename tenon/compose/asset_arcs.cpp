@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 // References and payloads: arcs to a prim of another layer stack, or of the same one.
+#include "tenon/compose/authored_arc.h"
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/indexer.h"
 #include "tenon/compose/muting.h"
@@ -53,7 +54,8 @@ class AssetArcAdder {
 
   void report(std::string_view error_class, const AssetArc& item, std::string message,
               std::string fix) {
-    indexer_.report(error_class, item.layer.get(), site(), std::move(message), std::move(fix));
+    indexer_.report(error_class, item.layer.get(), site(), std::move(message), std::move(fix),
+                    authored_item(item, site(), kind_));
   }
 
   bool check_prim_path(const AssetArc& item) {
@@ -63,7 +65,7 @@ class AssetArcAdder {
     }
     report(error_class::kInvalidPrimPath, item,
            "the " + std::string(noun(kind_)) + " leads to " + quoted(path) +
-               ", which is no absolute prim path without variants",
+               ", which is not an absolute prim path without variants",
            "name a prim by its absolute path");
     return false;
   }
@@ -154,14 +156,18 @@ bool has_specs_below(const NodeGraph& graph, NodeId node) {
   return false;
 }
 
-/// The layer that authors the item that became a node.
-const layer::Layer* introducing_layer(const Indexer& indexer, NodeId node, Path parent_path) {
+/// The item that became a node, and the layer that authors it.
+AuthoredArc introducing_item(const Indexer& indexer, NodeId node, Path parent_path) {
   const Node& at = indexer.graph[node];
   const LayerStack& stack = *indexer.graph[at.parent].layer_stack;
   const auto identity = [](const std::string& path, const layer::Layer&) { return path; };
   const auto composed = at.arc == ArcKind::Payload ? composed_payloads : composed_references;
   const std::vector<AssetArc> arcs = composed(stack, parent_path, identity, nullptr);
-  return at.sibling_number < arcs.size() ? arcs[at.sibling_number].layer.get() : stack.root.get();
+  if (at.sibling_number >= arcs.size()) {
+    return {stack.root.get(), {}};
+  }
+  const AssetArc& arc = arcs[at.sibling_number];
+  return {arc.layer.get(), authored_item(arc, parent_path, at.arc)};
 }
 
 }  // namespace
@@ -171,6 +177,9 @@ void add_asset_arcs(Indexer& indexer, NodeId node, ArcKind kind,
   AssetArcAdder adder(indexer, node, kind);
   std::uint16_t number = 0;
   for (const AssetArc& arc : arcs) {
+    if (indexer.services.work->exhausted()) {
+      return;
+    }
     adder.add(arc, number++);
   }
 }
@@ -189,11 +198,11 @@ void eval_unresolved_prim_path(Indexer& indexer, NodeId node) {
   }
   const Path parent_path = graph.introducing_path(node);
   const Path missing = graph.path_at_introduction(node);
-  const layer::Layer* layer = introducing_layer(indexer, node, parent_path);
-  indexer.report(error_class::kUnresolvedPrimPath, layer, parent_path,
+  AuthoredArc item = introducing_item(indexer, node, parent_path);
+  indexer.report(error_class::kUnresolvedPrimPath, item.layer, parent_path,
                  "the " + std::string(noun(graph[node].arc)) + " leads to " +
                      quoted(*graph[node].layer_stack->root, missing) + ", which does not exist",
-                 "correct the prim path");
+                 "correct the prim path", std::move(item.part));
 }
 
 }  // namespace tenon::compose

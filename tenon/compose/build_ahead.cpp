@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 
 #include "tenon/base/parallel.h"
 #include "tenon/compose/build_index.h"
@@ -18,6 +19,7 @@ class BatchBuilder {
     services_.options = known_.options;
     services_.root_stack = known_.root_stack;
     services_.node_count = &node_count_;
+    services_.work = &work_;
     services_.index = [this](Path path) -> const PrimIndex& { return index(path); };
     services_.open = [this](const std::string& path, const layer::Layer& anchor) {
       const Result<layer::LayerPtr>* const opened = known_.layer(path, anchor);
@@ -29,6 +31,8 @@ class BatchBuilder {
     };
     services_.missing = [this](const MissingArc&) { give_up(); };
     node_count_ = known_.node_count;
+    work_.set_most(known_.most_work);
+    work_.restart(known_.work_done);
   }
   BatchBuilder(const BatchBuilder&) = delete;
   BatchBuilder& operator=(const BatchBuilder&) = delete;
@@ -62,22 +66,31 @@ class BatchBuilder {
     if (const PrimIndex* const found = known_.index(path)) {
       return found;
     }
-    if (batch_.indices.size() >= known_.most_indices || node_count_ >= known_.options->most_nodes) {
+    if (batch_.indices.size() >= known_.most_indices ||
+        node_count_ >= known_.options->most_nodes || work_.exhausted()) {
       batch_.complete = false;
       return nullptr;
     }
     IndexAhead& ahead = batch_.indices.emplace_back();
     ahead.index.path = path;
     const std::size_t nodes_before = node_count_;
+    const std::size_t work_before = work_.done();
     gave_up_ = false;
     build_child_index(services_, parent, ahead.index);
-    if (!gave_up_ && node_count_ < known_.options->most_nodes) {
-      ahead.node_count = node_count_ - nodes_before;
+    const bool fits = work_.done() - work_before <= std::numeric_limits<std::uint32_t>::max();
+    std::vector<ArcCost> costs = work_.take_costs();
+    if (!gave_up_ && fits && node_count_ < known_.options->most_nodes && !work_.exhausted()) {
+      ahead.node_count = static_cast<std::uint32_t>(node_count_ - nodes_before);
+      ahead.work = static_cast<std::uint32_t>(work_.done() - work_before);
+      if (!costs.empty()) {
+        batch_.costs.emplace(&ahead, std::move(costs));
+      }
       return &ahead.index;
     }
     batch_.complete = false;
     batch_.indices.pop_back();
     node_count_ = nodes_before;
+    work_.restart(work_before);
     return nullptr;
   }
 
@@ -106,6 +119,7 @@ class BatchBuilder {
   IndexServices services_;
   std::vector<const PrimIndex*> above_;  // the prims around the one that is built
   std::size_t node_count_ = 0;
+  WorkMeter work_;
   bool gave_up_ = false;
 };
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
+#include <unordered_map>
 #include <vector>
 
 #include "tenon/compose/indexer.h"
@@ -17,13 +19,15 @@ namespace tenon::compose {
 
 struct IndexAhead {
   PrimIndex index;
-  std::size_t node_count = 0;  ///< nodes that building it made
+  std::uint32_t node_count = 0;  ///< nodes that building it made
+  std::uint32_t work = 0;        ///< units that building it took
 };
 
 /// Indices, each after that of its parent, and what they point into.
 struct IndexBatch {
   std::deque<IndexAhead> indices;
   MapPool maps;
+  std::unordered_map<const IndexAhead*, std::vector<ArcCost>> costs;  ///< of work for arcs, if any
   bool complete = true;  ///< nothing was left out
 };
 
@@ -32,6 +36,8 @@ struct KnownIndices {
   const ComposeOptions* options = nullptr;
   const LayerStack* root_stack = nullptr;
   std::size_t node_count = 0;    ///< nodes of all indices so far
+  std::size_t work_done = 0;     ///< units of all indices so far
+  std::size_t most_work = 0;     ///< units that all may take
   std::size_t most_indices = 0;  ///< of one batch
   /// nullptr where an index, a layer or a stack is not there yet.
   std::function<const PrimIndex*(Path)> index;

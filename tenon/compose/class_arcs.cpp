@@ -6,9 +6,12 @@
 #include "tenon/compose/indexer.h"
 #include "tenon/compose/strength_order.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/finding_place.h"
 
 namespace tenon::compose {
 namespace {
+
+constexpr std::size_t kLookedAtForUnit = 8;  // children compared by site
 
 Arc arc_of(Indexer& indexer, const ClassArcRequest& request) {
   Arc arc;
@@ -54,18 +57,20 @@ NodeId find_matching_child(const Indexer& indexer, NodeId parent, ArcKind parent
                            const Site& site, ArcKind kind, const MapFunction& map,
                            std::uint16_t depth_below_introduction) {
   const NodeGraph& graph = indexer.graph;
-  for (NodeId id = graph[parent].first_child; id != kNoNode; id = graph[id].next_sibling) {
+  std::size_t looked_at = 0;
+  NodeId found = kNoNode;
+  for (NodeId id = graph[parent].first_child; id != kNoNode && found == kNoNode;
+       id = graph[id].next_sibling, ++looked_at) {
     // Below a relocate sites mean little: what is implied there keeps the source's path.
     const bool matches =
         parent_arc == ArcKind::Relocate
             ? graph[id].arc == kind && *graph[id].map_to_parent == map &&
                   graph.depth_below_introduction(graph[id].origin) == depth_below_introduction
             : graph.site(id) == site;
-    if (matches) {
-      return id;
-    }
+    found = matches ? id : kNoNode;
   }
-  return kNoNode;
+  graph.count(looked_at / kLookedAtForUnit);
+  return found;
 }
 
 NodeId add_class_arc(Indexer& indexer, const ClassArcRequest& request) {
@@ -107,8 +112,8 @@ void add_class_arcs(Indexer& indexer, NodeId node, ArcKind kind, Token field) {
     if (!arc.path.is_prim() || arc.path.has_variants()) {
       indexer.report(
           error_class::kInvalidPrimPath, arc.layer, site.path,
-          "the class path " + quoted(arc.path) + " is no absolute prim path without variants",
-          "name a prim by its absolute path");
+          "the class path " + quoted(arc.path) + " is not an absolute prim path without variants",
+          "name a prim by its absolute path", layer::item_part(field, arc.path));
     } else {
       ClassArcRequest request;
       request.kind = kind;

@@ -9,6 +9,9 @@
 namespace tenon::compose {
 namespace {
 
+constexpr std::size_t kTaskUnits = 8;
+constexpr std::size_t kReportUnits = 400;  // a finding is kept as long as the index
+
 void run_task(Indexer& indexer, const Task& task) {
   switch (task.kind) {
     case TaskKind::NodeRelocates:
@@ -47,9 +50,42 @@ void run_task(Indexer& indexer, const Task& task) {
   }
 }
 
+/// The arcs that a task follows, where they are authored.
+ArcPlace place_of(const NodeGraph& graph, const Task& task) {
+  const Node& node = graph[task.node];
+  switch (task.kind) {
+    case TaskKind::References:
+      return {node.layer_stack, node.path, ArcKind::Reference};
+    case TaskKind::Payloads:
+      return {node.layer_stack, node.path, ArcKind::Payload};
+    case TaskKind::Inherits:
+      return {node.layer_stack, node.path, ArcKind::Inherit};
+    case TaskKind::Specializes:
+      return {node.layer_stack, node.path, ArcKind::Specialize};
+    case TaskKind::NodeRelocates:
+      return {node.layer_stack, node.path, ArcKind::Relocate};
+    case TaskKind::ImpliedRelocates:
+    case TaskKind::ImpliedSpecializes:
+    case TaskKind::ImpliedClasses:
+    case TaskKind::UnresolvedPrimPath: {
+      const NodeId authored = graph.origin_root(task.node).first;
+      const NodeId parent = graph[authored].parent;
+      return {graph[parent == kNoNode ? authored : parent].layer_stack,
+              graph.introducing_path(authored), graph[authored].arc};
+    }
+    default:
+      return {node.layer_stack, task.set_path.empty() ? node.path : task.set_path,
+              ArcKind::Variant};
+  }
+}
+
 void run_tasks(Indexer& indexer) {
-  while (!indexer.tasks.empty()) {
-    run_task(indexer, indexer.tasks.pop());
+  WorkMeter& work = *indexer.services.work;
+  while (!indexer.tasks.empty() && !work.exhausted()) {
+    const Task task = indexer.tasks.pop();
+    const TaskTally tally(work, place_of(indexer.graph, task));
+    work.count(kTaskUnits);
+    run_task(indexer, task);
   }
 }
 
@@ -64,6 +100,7 @@ void descend(Indexer& indexer, Path child_path, bool parent_is_instance) {
   indexer.payload_loaded = false;
   for (NodeId id = 0; id < graph.size(); ++id) {
     Node& node = graph[id];
+    graph.count(node.has_specs ? node.layer_stack->layers.size() : 0);
     node.has_specs = node.has_specs && node.layer_stack->has_spec(node.path);
     node.due_to_ancestor = id != 0;
     node.due_to_direct_arc = false;
@@ -124,9 +161,11 @@ void build_from_top(Indexer& indexer, const Site& site, bool root_contributes) {
 }  // namespace
 
 void Indexer::report(std::string_view error_class, const layer::Layer* layer, Path spec,
-                     std::string message, std::string fix) {
-  errors.add(composition_error(error_class, Severity::Error, {layer, spec, root_prim},
-                               std::move(message), std::move(fix)));
+                     std::string message, std::string fix, StatementPart part) {
+  services.work->count(kReportUnits);
+  errors.add(composition_error(error_class, Severity::Error,
+                               {layer, spec, root_prim, std::move(part)}, std::move(message),
+                               std::move(fix)));
 }
 
 void build_graph(Indexer& indexer, const Site& site, bool root_contributes) {

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "tenon/layer/finding_place.h"
+
 namespace tenon::compose {
 
 Diagnostic composition_error(std::string_view error_class, Severity severity, const AuthoredAt& at,
@@ -19,14 +21,10 @@ Diagnostic composition_error(std::string_view error_class, Severity severity, co
   if (at.layer == nullptr) {
     return found;
   }
-  found.file = at.layer->identifier();
   if (at.spec.is_property()) {
     found.property = at.spec.name().str();
   }
-  if (const layer::Spec* spec = at.spec.empty() ? nullptr : at.layer->find(at.spec)) {
-    found.line = spec->line;
-    found.column = spec->column;
-  }
+  layer::place_finding(found, *at.layer, at.spec, at.part);
   return found;
 }
 

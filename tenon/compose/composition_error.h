@@ -34,6 +34,8 @@ inline constexpr std::string_view kOpinionAtRelocationSource = "opinion-at-reloc
 inline constexpr std::string_view kSublayerCycle = "sublayer-cycle";
 inline constexpr std::string_view kUnresolvedPrimPath = "unresolved-prim-path";
 inline constexpr std::string_view kVariableExpressionError = "variable-expression-error";
+/// No class of OpenUSD's, which goes on until it has no memory.
+inline constexpr std::string_view kWorkExceeded = "work-exceeded";
 }  // namespace error_class
 
 /// Where something is authored: a spec of a layer, and the stage prim that it matters for.
@@ -41,6 +43,7 @@ struct AuthoredAt {
   const layer::Layer* layer = nullptr;  ///< may be null
   Path spec;                            ///< line and column are this spec's
   Path prim;                            ///< in the stage's namespace; may be empty
+  StatementPart part{};                 ///< what of the spec it is about; empty: all of it
 };
 
 /// A finding with the file and line of the spec where its cause is authored.

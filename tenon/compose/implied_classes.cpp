@@ -57,6 +57,8 @@ Path implied_path(const Node& dest, Path class_path, const MapFunction& transfer
   return path.replace_prefix(variant.strip_variants(), variant, false);
 }
 
+constexpr std::size_t kLookedAtForUnit = 8;  // children compared by origin
+
 /// One step: the classes below `source` are to be implied below `dest`.
 struct Step {
   NodeId dest;
@@ -72,7 +74,8 @@ class ClassTree {
   /// Depth-first: what a class leads to is there before its next sibling.
   void imply(const Step& first) {
     open(first);
-    while (!open_.empty()) {
+    while (!open_.empty() && !indexer_.services.work->exhausted()) {
+      graph_.count(1);
       Open& at = open_.back();
       if (at.next == at.children.size()) {
         open_.pop_back();
@@ -117,11 +120,14 @@ class ClassTree {
   }
 
   NodeId find_or_add(const Step& step, NodeId child) {
+    std::size_t looked_at = 0;
     for (NodeId id = graph_[step.dest].first_child; id != kNoNode; id = graph_[id].next_sibling) {
       if (graph_[id].origin == child && !graph_.is_propagated_specialize(id)) {
         return id;
       }
+      ++looked_at;
     }
+    graph_.count(looked_at / kLookedAtForUnit);
     ClassArcRequest request;
     request.kind = graph_[child].arc;
     request.parent = step.dest;

@@ -9,6 +9,7 @@
 
 #include "tenon/compose/build_ahead.h"
 #include "tenon/compose/build_index.h"
+#include "tenon/compose/composition_error.h"
 
 namespace tenon::compose {
 namespace {
@@ -37,6 +38,11 @@ struct IndexCache::State {
   ComposeOptions options;
   MapPool maps;
   std::size_t node_count = 0;
+  WorkMeter work;
+  ArcCosts arc_costs;
+  bool work_reported = false;
+  std::set<const layer::Layer*> measured;  // layers whose specs allow for work
+  std::size_t specs = 0;                   // of these
   LayerStackPtr root_stack;
   std::unordered_map<StackKey, LayerStackPtr, StackKeyHash> stacks;
   std::vector<LayerStackPtr> stacks_in_order;
@@ -65,7 +71,20 @@ struct IndexCache::State {
     }
     Result<layer::LayerPtr> result = opener(asset_path, anchor);
     of_layer.emplace(asset_path, result);
+    if (result && *result != nullptr) {
+      allow_for(**result);
+    }
     return result;
+  }
+
+  void allow_for(const layer::Layer& layer) {
+    if (measured.insert(&layer).second) {
+      specs += layer.spec_count();
+      const std::size_t most = WorkMeter::kUnlimited / 2;
+      const std::size_t per_spec = std::max<std::size_t>(options.most_work_per_spec, 1);
+      const std::size_t more = std::min(specs, most / per_spec) * options.most_work_per_spec;
+      work.set_most(std::min(options.most_work, most) + more);
+    }
   }
 
   LayerStackPtr build_stack(const layer::LayerPtr& root, const layer::LayerPtr& session,
@@ -114,7 +133,36 @@ struct IndexCache::State {
     // The index is entered only when done: what it is built from never asks for it.
     PrimIndex& index = add_index(path);
     build_child_index(services, parent, index);
+    if (work.has_costs()) {
+      arc_costs.add(work.take_costs());
+    }
+    if (work.exhausted() && !work_reported) {
+      work_reported = true;
+      report_work(index);
+    }
     return index;
+  }
+
+  void add_costs_ahead(const IndexAhead* ahead) {
+    for (const IndexBatch& batch : batches) {
+      const auto found = batch.costs.empty() ? batch.costs.end() : batch.costs.find(ahead);
+      if (found != batch.costs.end()) {
+        return arc_costs.add(found->second);
+      }
+    }
+  }
+
+  void report_work(PrimIndex& index) const {
+    const std::string costly = arc_costs.most_costly(work.done());
+    Diagnostic found = composition_error(
+        error_class::kWorkExceeded, Severity::Error,
+        {root_stack->root.get(), index.path, index.path},
+        "composition takes more than " + std::to_string(work.most()) +
+            " units of work (kComposeWork); arcs from here on are left out" +
+            (costly.empty() ? "" : "; " + costly),
+        "reduce the arcs that multiply with each other, make instances of what they bring in, or "
+        "allow more with --most-work");
+    index.errors.add(std::move(found));
   }
 
   const PrimIndex* find_index(Path path) const {
@@ -165,12 +213,15 @@ struct IndexCache::State {
     }
     Entry& entry = found->second;
     if (entry.ahead != nullptr) {
-      at_limit = at_limit || node_count + entry.ahead->node_count >= options.most_nodes;
+      at_limit = at_limit || node_count + entry.ahead->node_count >= options.most_nodes ||
+                 entry.ahead->work >= work.most() - std::min(work.done(), work.most());
       if (at_limit) {
         by_path.erase(found);
         return compute_child(parent, path);
       }
       node_count += entry.ahead->node_count;
+      work.count(entry.ahead->work);
+      add_costs_ahead(entry.ahead);
       entry.ahead = nullptr;
     }
     return *entry.index;
@@ -183,6 +234,10 @@ IndexCache::IndexCache(layer::LayerPtr root, layer::LayerPtr session, LayerOpene
   State& state = *state_;
   state.opener = std::move(opener);
   state.options = std::move(options);
+  state.allow_for(*root);
+  if (session != nullptr) {
+    state.allow_for(*session);
+  }
   state.root_stack = state.build_stack(root, session, nullptr);
   if (session == nullptr && state.options.shares_root_stack) {
     state.stacks.emplace(StackKey{root.get(), state.root_stack.get()}, state.root_stack);
@@ -191,6 +246,7 @@ IndexCache::IndexCache(layer::LayerPtr root, layer::LayerPtr session, LayerOpene
   state.services.options = &state.options;
   state.services.root_stack = state.root_stack.get();
   state.services.node_count = &state.node_count;
+  state.services.work = &state.work;
   state.services.index = [this](Path path) -> const PrimIndex& { return index(path); };
   state.services.open = [&state](const std::string& path, const layer::Layer& anchor) {
     return state.open(path, anchor);
@@ -239,6 +295,8 @@ bool IndexCache::build_below(const std::vector<const PrimIndex*>& roots,
   known.options = &state.options;
   known.root_stack = state.root_stack.get();
   known.node_count = state.node_count;
+  known.work_done = state.work.done();
+  known.most_work = state.work.most();
   known.most_indices = most;
   known.index = [&state](Path path) { return state.find_index(path); };
   known.layer = [&state](const std::string& path, const layer::Layer& anchor) {
@@ -252,6 +310,8 @@ bool IndexCache::build_below(const std::vector<const PrimIndex*>& roots,
 }
 
 const Diagnostics& IndexCache::errors() const { return state_->errors; }
+
+std::size_t IndexCache::work() const { return state_->work.done(); }
 
 const std::vector<MissingArc>& IndexCache::missing_arcs() const { return state_->missing; }
 

@@ -12,6 +12,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/limits.h"
+#include "tenon/base/work_limits.h"
 #include "tenon/compose/layer_opener.h"
 #include "tenon/compose/prim_index.h"
 
@@ -34,6 +35,10 @@ struct ComposeOptions {
   bool shares_root_stack = true;
   /// Nodes of all prim indices together; arcs beyond are left out with a diagnostic.
   std::size_t most_nodes = limits::kCacheNodes;
+  /// Units of work on all prim indices together, and more for each spec of the layers; what is
+  /// beyond is left out with a diagnostic that names the arc which took most.
+  std::size_t most_work = limits::kComposeWork;
+  std::size_t most_work_per_spec = limits::kComposeWorkPerSpec;
 };
 
 /// Path -> PrimIndex, computed on demand and kept; the only state of composition.
@@ -59,6 +64,8 @@ class IndexCache {
                    const std::function<bool(const PrimIndex&)>& enters, std::size_t most);
   /// Layers that could not be opened and other errors of layer stacks, in order of discovery.
   const Diagnostics& errors() const;
+  /// Units of work that what was asked for took: the same however it was built.
+  std::size_t work() const;
   /// Each missing layer once per opinion, in order of discovery (the stage and `info` report them).
   const std::vector<MissingArc>& missing_arcs() const;
   /// All layers opened so far, sorted by identifier.

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/compose/index_cache.h"
@@ -28,6 +30,7 @@ struct IndexServices {
   /// Takes note of a layer that cannot be opened.
   std::function<void(MissingArc)> missing;
   std::size_t* node_count = nullptr;  ///< nodes of all indices built so far
+  WorkMeter* work = nullptr;          ///< of all indices built so far
 };
 
 /// Links an index that is being built to the graph that it will become a part of.
@@ -59,11 +62,18 @@ struct Indexer {
   bool has_payloads = false;
   bool payload_loaded = false;
 
+  /// What the selection of a variant set at a path, seen from a node, was when it was looked for.
+  struct Selection {
+    std::size_t revision = 0;  ///< of the graph
+    std::string variant;       ///< empty: none
+  };
+  std::map<std::tuple<NodeId, Path, std::string>, Selection> selections;
+
   /// Variants wait until the whole index is there; so do specializes below its root.
   bool is_outermost() const { return frame == nullptr; }
 
   void report(std::string_view error_class, const layer::Layer* layer, Path spec,
-              std::string message, std::string fix);
+              std::string message, std::string fix, StatementPart part = {});
 };
 
 /// A node together with the frame it is in; steps across frames.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "tenon/base/limits.h"
 #include "tenon/compose/composition_error.h"
@@ -13,6 +14,7 @@
 #include "tenon/compose/relocations.h"
 #include "tenon/compose/variable_expression.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/finding_place.h"
 
 namespace tenon::compose {
 namespace {
@@ -67,7 +69,7 @@ class Builder {
       if (!limit_reported_) {
         limit_reported_ = true;
         report(error_class::kCapacityExceeded, *layer,
-               "there are too many sublayers; the rest is left out", "reduce the sublayers");
+               "there are too many sublayers; the rest is left out", "use fewer sublayers", {});
       }
       return;
     }
@@ -94,7 +96,7 @@ class Builder {
           (inputs_.muted != nullptr && compose::is_muted(*inputs_.muted, path, layer))) {
         continue;
       }
-      const layer::LayerPtr sublayer = open(path, layer);
+      const layer::LayerPtr sublayer = open(path, paths[i], layer);
       if (sublayer == nullptr) {
         continue;
       }
@@ -112,20 +114,21 @@ class Builder {
     ExpressionResult result = evaluate_text(path, stack_.expression_variables);
     if (!result.errors.empty()) {
       report(error_class::kVariableExpressionError, layer,
-             "sublayer expression " + path + ": " + result.errors, "correct the expression");
+             "sublayer expression " + path + ": " + result.errors, "correct the expression", path);
     }
     return result.text;
   }
 
   /// nullptr, with a finding, for a layer that is absent, muted or already open above.
-  layer::LayerPtr open(const std::string& path, const layer::Layer& layer) {
+  layer::LayerPtr open(const std::string& path, const std::string& authored,
+                       const layer::Layer& layer) {
     Result<layer::LayerPtr> opened = (*inputs_.opener)(path, layer);
     if (!opened || *opened == nullptr) {
       stack_.missing.push_back({layer.identifier(), Path::absolute_root(), "subLayer", path});
       report(error_class::kInvalidSublayerPath, layer,
              "sublayer @" + path + "@ cannot be opened" +
                  (opened ? std::string() : ": " + opened.error().message()),
-             "correct the path or remove the sublayer");
+             "correct the path or remove the sublayer", authored);
       return nullptr;
     }
     if (is_muted(**opened)) {
@@ -134,7 +137,7 @@ class Builder {
     if (std::find(open_.begin(), open_.end(), opened->get()) != open_.end()) {
       report(error_class::kSublayerCycle, layer,
              "sublayer @" + path + "@ contains this layer again and is left out",
-             "break the cycle of sublayers");
+             "break the cycle of sublayers", authored);
       return nullptr;
     }
     return *opened;
@@ -149,7 +152,7 @@ class Builder {
     report(error_class::kInvalidSublayerOffset, layer,
            "the offset of sublayer @" + sublayer.identifier() +
                "@ is not finite or its scale is not positive; none is used",
-           "author a finite offset and a positive scale");
+           "author a finite offset and a positive scale", layer.sublayers()[i]);
     return {};
   }
 
@@ -166,15 +169,18 @@ class Builder {
     if (end - sublayers.begin() > 1) {
       report(error_class::kInvalidSublayerOwnership, layer,
              "several sublayers have the owner '" + session_owner_ + "'",
-             "give each sublayer its own owner");
+             "give each sublayer its own owner", {});
     }
   }
 
+  /// `sublayer` as it is authored; empty where the finding is about all of them.
   void report(std::string_view error_class, const layer::Layer& layer, std::string message,
-              std::string fix) {
+              std::string fix, const std::string& sublayer) {
+    const StatementPart part =
+        layer::item_part(fields::subLayers, layer::item_text(sublayer, Path()));
     stack_.errors.add(composition_error(error_class, Severity::Error,
-                                        {&layer, Path::absolute_root(), {}}, std::move(message),
-                                        std::move(fix)));
+                                        {&layer, Path::absolute_root(), {}, part},
+                                        std::move(message), std::move(fix)));
   }
 
   const LayerStackInputs& inputs_;
@@ -222,7 +228,7 @@ bool is_usable(const layer::LayerOffset& offset) {
 
 double rate_ratio(double rate, double other) {
   const double ratio = rate / other;
-  return std::isfinite(ratio) && ratio > 0 ? ratio : 1;
+  return std::isfinite(ratio) && ratio != 0 ? ratio : 1;  // below zero, time runs backwards
 }
 
 bool session_sets_time_codes(const layer::Layer& session, const layer::Layer& root) {
@@ -256,15 +262,13 @@ std::shared_ptr<LayerStack> build_layer_stack(const LayerStackInputs& inputs) {
 
 MapFunction relocates_map(const LayerStack& stack, Path path) {
   MapFunction::Pairs pairs;
+  std::unordered_set<Path> sources;
+  std::unordered_set<Path> targets;
   const auto add = [&](const MapFunction::Pairs& relocates) {
     for (const auto& [source, target] : relocates) {
-      const bool target_is_new =
-          std::none_of(pairs.begin(), pairs.end(),
-                       [&, t = target](const auto& pair) { return pair.second == t; });
-      const bool source_is_new =
-          std::none_of(pairs.begin(), pairs.end(),
-                       [&, s = source](const auto& pair) { return pair.first == s; });
-      if (!target.empty() && source.has_prefix(path) && target_is_new && source_is_new) {
+      if (!target.empty() && source.has_prefix(path) && targets.count(target) == 0 &&
+          sources.insert(source).second) {
+        targets.insert(target);
         pairs.emplace_back(source, target);
       }
     }

@@ -10,6 +10,17 @@
 namespace tenon::compose {
 namespace {
 
+constexpr std::size_t kNodeUnits = 8;      // of work to make a node
+constexpr std::size_t kNodesLookedAt = 4;  // for a unit, where nothing else is done with them
+constexpr std::size_t kKeptUnits = 16;     // for a node of the finished index
+constexpr std::size_t kElementsForUnit = 16;  // of paths
+
+/// To make such a map: each of its pairs is compared with all others.
+std::size_t map_units(const MapFunction& map) {
+  const std::size_t pairs = map.pairs().size();
+  return pairs == 0 ? 0 : 6 + pairs * pairs;
+}
+
 std::uint16_t clamped(std::size_t value) {
   return static_cast<std::uint16_t>(
       std::min<std::size_t>(value, std::numeric_limits<std::uint16_t>::max()));
@@ -53,6 +64,8 @@ std::uint16_t namespace_depth_of(Path path) {
 
 void NodeGraph::reset(const Site& site) {
   nodes_.clear();
+  copies_known_ = false;
+  ++revision_;
   Node root;
   root.layer_stack = site.layer_stack;
   root.path = site.path;
@@ -65,10 +78,16 @@ void NodeGraph::set_arc(NodeId id, const Arc& arc) {
   node.arc = arc.kind;
   node.map_to_parent = arc.map_to_parent;
   node.map_to_root = maps_->compose(nodes_[arc.parent].map_to_root, arc.map_to_parent);
+  count(kNodeUnits + map_units(*node.map_to_root));
   node.parent = arc.parent;
   node.origin = arc.origin;
+  node.arcs_above = clamped(nodes_[arc.parent].arcs_above + 1u);
   node.namespace_depth = arc.namespace_depth;
   node.sibling_number = arc.sibling_number;
+  ++revision_;
+  if (copies_known_ && is_propagated_specialize(id)) {
+    copies_.insert_or_assign(node.origin, id);
+  }
 }
 
 NodeId NodeGraph::insert_child(const Site& site, const Arc& arc) {
@@ -98,6 +117,8 @@ NodeId NodeGraph::insert_subgraph(const NodeGraph& other, const Arc& arc) {
   set_arc(base, arc);
   for (NodeId id = base + 1; id < nodes_.size(); ++id) {
     nodes_[id].map_to_root = maps_->compose(nodes_[base].map_to_root, nodes_[id].map_to_root);
+    nodes_[id].arcs_above = clamped(nodes_[id].arcs_above + nodes_[base].arcs_above);
+    count(kNodeUnits + map_units(*nodes_[id].map_to_root));
   }
   link(arc.parent, base);
   return base;
@@ -131,6 +152,7 @@ std::vector<NodeId> NodeGraph::children(NodeId id) const {
        child = nodes_[child].next_sibling) {
     result.push_back(child);
   }
+  count(result.size());
   return result;
 }
 
@@ -146,6 +168,7 @@ std::vector<NodeId> NodeGraph::subtree(NodeId id) const {
       open.push_back(child);
     }
   }
+  count(result.size());
   return result;
 }
 
@@ -175,17 +198,24 @@ std::pair<NodeId, std::size_t> NodeGraph::origin_root(NodeId id) const {
     id = nodes_[id].origin;
     ++steps;
   }
+  count(steps / kNodesLookedAt);
   return {id, steps};
 }
 
 bool NodeGraph::is_ancestor(NodeId ancestor, NodeId id) const {
-  while (id != kNoNode && id != ancestor) {
+  const std::size_t depth = nodes_[ancestor].arcs_above;
+  if (nodes_[id].arcs_above < depth) {
+    return false;
+  }
+  count((nodes_[id].arcs_above - depth) / kNodesLookedAt);
+  while (nodes_[id].arcs_above > depth) {
     id = nodes_[id].parent;
   }
   return id == ancestor;
 }
 
 NodeId NodeGraph::find_site(const Site& site) const {
+  count(nodes_.size() / kNodesLookedAt + 1);
   for (NodeId id = 0; id < nodes_.size(); ++id) {
     const Node& node = nodes_[id];
     if (node.path == site.path && node.layer_stack == site.layer_stack && node.can_contribute()) {
@@ -198,6 +228,7 @@ NodeId NodeGraph::find_site(const Site& site) const {
 void NodeGraph::descend(Path child_path) {
   const Path parent = child_path.parent();
   const Token name = child_path.name();
+  count(nodes_.size() * (1 + child_path.depth() / kElementsForUnit));
   for (Node& node : nodes_) {
     node.path = node.path == parent ? child_path : node.path.child(name);
   }
@@ -211,6 +242,7 @@ void NodeGraph::restrict(NodeId id) {
 void NodeGraph::set_inert(NodeId id, bool inert) {
   if (nodes_[id].inert != inert) {
     nodes_[id].inert = inert;
+    ++revision_;
     restrict(id);
   }
 }
@@ -218,6 +250,7 @@ void NodeGraph::set_inert(NodeId id, bool inert) {
 void NodeGraph::set_culled(NodeId id) {
   if (!nodes_[id].culled) {
     nodes_[id].culled = true;
+    ++revision_;
     if (nodes_[id].restriction_depth == 0) {  // else its ancestors may be restricted already
       restrict(id);
     }
@@ -234,13 +267,24 @@ NodeId NodeGraph::propagated_specialize(NodeId id) const {
   if (nodes_[id].arc != ArcKind::Specialize) {
     return kNoNode;
   }
-  for (NodeId child = nodes_[0].last_child; child != kNoNode;
-       child = nodes_[child].previous_sibling) {
-    if (nodes_[child].origin == id && is_propagated_specialize(child)) {
-      return child;
-    }
+  if (!copies_known_) {
+    find_copies();
   }
-  return kNoNode;
+  const auto found = copies_.find(id);
+  return found == copies_.end() ? kNoNode : found->second;
+}
+
+void NodeGraph::find_copies() const {
+  copies_.clear();
+  copies_known_ = true;
+  std::size_t steps = 0;
+  for (NodeId child = nodes_[0].first_child; child != kNoNode; child = nodes_[child].next_sibling) {
+    if (is_propagated_specialize(child)) {
+      copies_.insert_or_assign(nodes_[child].origin, child);
+    }
+    ++steps;
+  }
+  count(steps / kNodesLookedAt);
 }
 
 NodeId NodeGraph::owner_of_children(NodeId id) const {
@@ -274,6 +318,7 @@ std::pair<NodeId, NodeId> NodeGraph::start_of_class_hierarchy(NodeId id) const {
   while (is_class_based(nodes_[instance].arc) && depth_below_introduction(instance) == depth) {
     the_class = instance;
     instance = authored(nodes_[instance].parent);
+    count(1);
   }
   return {instance, the_class};
 }
@@ -303,6 +348,7 @@ void NodeGraph::finalize() {
   if (nodes_.size() == 1) {
     return;
   }
+  count(2 * nodes_.size());
   const std::vector<bool> erased = erasable();
   std::vector<NodeId> order = subtree(0);
   std::erase_if(order, [&](NodeId id) { return erased[id]; });
@@ -330,7 +376,9 @@ void NodeGraph::finalize() {
     }
     parent.last_child = id;
   }
+  count(kKeptUnits * sorted.size());
   nodes_ = std::move(sorted);
+  copies_known_ = false;
 }
 
 }  // namespace tenon::compose

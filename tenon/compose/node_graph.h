@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <deque>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "tenon/compose/prim_index.h"
 #include "tenon/compose/site.h"
+#include "tenon/compose/work_meter.h"
 
 /// The graph of sites that a prim index grows in: a tree of arcs whose siblings are kept in order
 /// of strength, with an `origin` link from implied arcs to the arcs that imply them.
@@ -47,14 +49,25 @@ std::uint16_t namespace_depth_of(Path path);
 
 class NodeGraph {
  public:
-  explicit NodeGraph(MapPool& maps) : maps_(&maps) {}
+  NodeGraph(MapPool& maps, WorkMeter& work) : maps_(&maps), work_(&work) {}
 
   /// Starts over with a root node.
   void reset(const Site& site);
   /// Starts over with the nodes of the parent prim's index.
-  void reset(const std::vector<Node>& nodes) { nodes_ = nodes; }
+  void reset(const std::vector<Node>& nodes) {
+    nodes_ = nodes;
+    copies_known_ = false;
+    ++revision_;
+    count(nodes_.size());
+  }
+
+  /// Takes note of work on nodes.
+  void count(std::size_t units) const { work_->count(units); }
 
   std::size_t size() const { return nodes_.size(); }
+  /// Another number after each change of the nodes, or of what they may contribute.
+  std::size_t revision() const { return revision_; }
+  void touch() { ++revision_; }
   Node& operator[](NodeId id) { return nodes_[id]; }
   const Node& operator[](NodeId id) const { return nodes_[id]; }
   std::vector<Node>& nodes() { return nodes_; }
@@ -106,9 +119,14 @@ class NodeGraph {
   void set_arc(NodeId id, const Arc& arc);
   void restrict(NodeId id);
   std::vector<bool> erasable() const;
+  void find_copies() const;
 
   std::vector<Node> nodes_;
   MapPool* maps_;
+  WorkMeter* work_;
+  std::size_t revision_ = 0;
+  mutable std::unordered_map<NodeId, NodeId> copies_;  // below the root, by origin
+  mutable bool copies_known_ = false;
 };
 
 }  // namespace tenon::compose

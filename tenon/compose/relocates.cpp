@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A relocated prim gets a node for its source: the source's own site may not have opinions, but all
 // that applies to the source because of its ancestors does. The source itself is no prim any more.
+#include "tenon/compose/authored_arc.h"
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/indexer.h"
 
@@ -12,6 +13,7 @@ void elide_subtree(NodeGraph& graph, NodeId node) {
   for (const NodeId id : graph.subtree(node)) {
     graph.set_culled(id);
     graph[id].restriction_depth = 1;  // not by its ancestors either
+    graph.touch();
   }
 }
 
@@ -47,11 +49,14 @@ void report_opinions_at_source(Indexer& indexer, const Site& source) {
 void report_prohibited(Indexer& indexer, const Node& prohibited) {
   const Frame& frame = *indexer.frame;
   const Node& parent = (*frame.graph)[frame.parent];
-  indexer.report(error_class::kArcToProhibitedChild, parent.layer_stack->root.get(), parent.path,
+  AuthoredArc item =
+      authored_arc(*parent.layer_stack, parent.path, frame.arc->kind, frame.requested.path);
+  indexer.report(error_class::kArcToProhibitedChild,
+                 item.layer == nullptr ? parent.layer_stack->root.get() : item.layer, parent.path,
                  "the arc leads to " +
                      quoted(*frame.requested.layer_stack->root, frame.requested.path) +
                      ", which needs opinions of the relocated " + quoted(prohibited.path),
-                 "lead the arc to the target of the relocate");
+                 "point the arc at the target of the relocate", std::move(item.part));
 }
 
 /// A node that could contribute stands at the source of a relocate of its stack; kNoNode if none.

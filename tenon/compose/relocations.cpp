@@ -12,6 +12,7 @@
 
 #include "tenon/compose/composition_error.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/finding_place.h"
 
 namespace tenon::compose {
 namespace {
@@ -64,6 +65,10 @@ const char* why_invalid(Path source, Path target) {
   return source.depth() == 1 ? "a root prim cannot be relocated" : nullptr;
 }
 
+StatementPart relocate_part(Path source) {
+  return layer::item_part(layer::fields::layerRelocates, source);
+}
+
 RelocatesBySource authored_relocates(LayerStack& stack) {
   RelocatesBySource found;
   const Path root = Path::absolute_root();
@@ -79,7 +84,7 @@ RelocatesBySource authored_relocates(LayerStack& stack) {
       if (const char* reason = why_invalid(source, target)) {
         stack.errors.add(composition_error(
             error_class::kInvalidAuthoredRelocation, Severity::Error,
-            {stacked.layer.get(), root, {}},
+            {stacked.layer.get(), root, {}, relocate_part(authored_source)},
             describe(source, target) + " is ignored: " + reason, "correct or remove the relocate"));
       } else {
         found.try_emplace(source, Relocate{target, stacked.layer.get(), {}});
@@ -107,7 +112,10 @@ void drop_same_targets(RelocatesBySource& relocates, Diagnostics& errors) {
     }
     errors.add(composition_error(
         error_class::kInvalidSameTargetRelocations, Severity::Error,
-        {relocates.at(sources.front()).layer, Path::absolute_root(), {}},
+        {relocates.at(sources.front()).layer,
+         Path::absolute_root(),
+         {},
+         relocate_part(sources.front())},
         "several prims are relocated to " + quoted(target) + ": " + list + "; all are ignored",
         "keep one of the relocates"));
     for (const Path source : sources) {
@@ -178,7 +186,7 @@ void drop_conflicts(RelocatesBySource& relocates, const std::vector<ConflictFoun
     const Relocate& other = all.at(conflict.other_source);
     errors.add(composition_error(
         error_class::kInvalidConflictingRelocation, Severity::Error,
-        {relocate.layer, Path::absolute_root(), {}},
+        {relocate.layer, Path::absolute_root(), {}, relocate_part(conflict.source)},
         describe(conflict.source, relocate.target) + " is ignored, it contradicts the " +
             describe(conflict.other_source, other.target) + ": " + describe(conflict.kind),
         "change or remove one of the two relocates"));

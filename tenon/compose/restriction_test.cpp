@@ -13,7 +13,8 @@ namespace {
 TEST(Restriction, CullingDoesNotReleaseTheAncestorsOfANode) {
   LayerStack stack;
   MapPool maps;
-  NodeGraph graph(maps);
+  WorkMeter work;
+  NodeGraph graph(maps, work);
   graph.reset({&stack, Path::from("/A")});
   Arc arc;
   arc.kind = ArcKind::Specialize;

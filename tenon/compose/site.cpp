@@ -8,6 +8,7 @@
 #include "tenon/compose/variable_expression.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/finding_place.h"
 
 namespace tenon::compose {
 namespace {
@@ -114,7 +115,7 @@ class AssetArcList {
     EditedArc edited;
     edited.arc = {item.asset_path, item.prim_path, item.offset, stacked.layer, stacked.offset};
     if (is_variable_expression(item.asset_path)) {
-      edited.arc.asset_path = evaluated(item.asset_path, *stacked.layer);
+      edited.arc.asset_path = evaluated(item.asset_path, item.prim_path, *stacked.layer);
       if (edited.arc.asset_path.empty()) {
         return;
       }
@@ -126,13 +127,19 @@ class AssetArcList {
     to.push_back(std::move(edited));
   }
 
-  std::string evaluated(const std::string& expression, const layer::Layer& layer) {
+  StatementPart item_part_of(const std::string& expression, Path prim) const {
+    return layer::item_part(what_ == "payload" ? fields::payload : fields::references,
+                            layer::item_text(expression, prim));
+  }
+
+  std::string evaluated(const std::string& expression, Path prim, const layer::Layer& layer) {
     ExpressionResult result = evaluate_text(expression, stack_.expression_variables);
     if (!result.errors.empty() && errors_ != nullptr) {
-      errors_->add(composition_error(
-          error_class::kVariableExpressionError, Severity::Error, {&layer, path_, {}},
-          std::string(what_) + " expression " + expression + ": " + result.errors,
-          "correct the expression or define its variables"));
+      errors_->add(
+          composition_error(error_class::kVariableExpressionError, Severity::Error,
+                            {&layer, path_, {}, item_part_of(expression, prim)},
+                            std::string(what_) + " expression " + expression + ": " + result.errors,
+                            "correct the expression or define its variables"));
     }
     return result.text;
   }
@@ -147,21 +154,24 @@ class AssetArcList {
 };
 
 bool evaluate_selection(const LayerStack& stack, const layer::Layer& layer, Path path,
-                        const std::string& authored, std::string* selection, Diagnostics* errors) {
-  if (!is_variable_expression(authored)) {
-    *selection = authored;
+                        const std::pair<const std::string, std::string>& authored,
+                        std::string* selection, Diagnostics* errors) {
+  const auto& [set, text] = authored;
+  if (!is_variable_expression(text)) {
+    *selection = text;
     return true;
   }
-  ExpressionResult result = evaluate_text(authored, stack.expression_variables);
+  ExpressionResult result = evaluate_text(text, stack.expression_variables);
   *selection = result.text;
   if (result.errors.empty()) {
     return true;
   }
   if (errors != nullptr) {
-    errors->add(composition_error(error_class::kVariableExpressionError, Severity::Error,
-                                  {&layer, path, {}},
-                                  "variant selection expression " + authored + ": " + result.errors,
-                                  "correct the expression or define its variables"));
+    errors->add(composition_error(
+        error_class::kVariableExpressionError, Severity::Error,
+        {&layer, path, {}, layer::entry_part(fields::variantSelection, {set}, text)},
+        "variant selection expression " + text + ": " + result.errors,
+        "correct the expression or define its variables"));
   }
   return false;
 }
@@ -277,7 +287,7 @@ bool composed_variant_selection(const LayerStack& stack, Path path, const std::s
     }
     const auto found = selections->items.find(set);
     if (found != selections->items.end() &&
-        evaluate_selection(stack, *stacked.layer, path, found->second, selection, errors)) {
+        evaluate_selection(stack, *stacked.layer, path, *found, selection, errors)) {
       return true;
     }
   }
@@ -293,7 +303,7 @@ void add_variant_selections(const LayerStack& stack, Path path,
     }
     for (const auto& [set, authored] : found->items) {
       std::string selection;
-      if (evaluate_selection(stack, *stacked.layer, path, authored, &selection, nullptr)) {
+      if (evaluate_selection(stack, *stacked.layer, path, {set, authored}, &selection, nullptr)) {
         selections.emplace(set, std::move(selection));
       }
     }

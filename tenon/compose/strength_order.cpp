@@ -8,6 +8,8 @@
 namespace tenon::compose {
 namespace {
 
+constexpr std::size_t kStepsForUnit = 4;  // from node to node, where nothing else is done
+
 template <class T>
 int ascending(T a, T b) {
   return a < b ? -1 : a > b ? 1 : 0;
@@ -18,40 +20,51 @@ int descending(T a, T b) {
   return ascending(b, a);
 }
 
-std::vector<NodeId> chain_from_root(const NodeGraph& graph, NodeId id) {
-  std::vector<NodeId> chain;
-  for (; id != kNoNode; id = graph[id].parent) {
-    chain.push_back(id);
+/// Of two children of one node, the first or the second one is met first: -1 or 1.
+int sibling_order(const NodeGraph& graph, NodeId a, NodeId b) {
+  std::size_t steps = 0;
+  NodeId after_a = graph[a].next_sibling;
+  NodeId after_b = graph[b].next_sibling;
+  while (after_a != b && after_b != a && after_a != kNoNode && after_b != kNoNode) {
+    after_a = graph[after_a].next_sibling;
+    after_b = graph[after_b].next_sibling;
+    ++steps;
   }
-  std::reverse(chain.begin(), chain.end());
-  return chain;
+  graph.count(steps / kStepsForUnit);
+  return after_a == b || after_b == kNoNode ? -1 : 1;
 }
 
 /// Which of two linked nodes a walk in order of strength meets first.
 int tree_order(const NodeGraph& graph, NodeId a, NodeId b) {
-  const std::vector<NodeId> a_chain = chain_from_root(graph, a);
-  const std::vector<NodeId> b_chain = chain_from_root(graph, b);
-  const std::size_t common = std::min(a_chain.size(), b_chain.size());
-  std::size_t i = 0;
-  while (i < common && a_chain[i] == b_chain[i]) {
-    ++i;
+  const std::size_t a_depth = graph[a].arcs_above;
+  const std::size_t b_depth = graph[b].arcs_above;
+  std::size_t steps = a_depth > b_depth ? a_depth - b_depth : b_depth - a_depth;
+  while (graph[a].arcs_above > b_depth) {
+    a = graph[a].parent;
   }
-  if (i == common) {
-    return ascending(a_chain.size(), b_chain.size());
+  while (graph[b].arcs_above > a_depth) {
+    b = graph[b].parent;
   }
-  for (NodeId at = graph[a_chain[i]].next_sibling; at != kNoNode; at = graph[at].next_sibling) {
-    if (at == b_chain[i]) {
-      return -1;
-    }
+  if (a == b) {
+    graph.count(steps / kStepsForUnit);
+    return ascending(a_depth, b_depth);
   }
-  return 1;
+  for (; graph[a].parent != graph[b].parent; ++steps) {
+    a = graph[a].parent;
+    b = graph[b].parent;
+  }
+  graph.count(steps / kStepsForUnit);
+  return sibling_order(graph, a, b);
 }
 
 /// One lies below the other, going from a copied specialize to where it was authored.
 bool is_below(const NodeGraph& graph, NodeId id, NodeId above) {
+  std::size_t steps = 0;
   while (id != kNoNode && id != above) {
     id = graph.is_propagated_specialize(id) ? graph[id].origin : graph[id].parent;
+    ++steps;
   }
+  graph.count(steps / kStepsForUnit);
   return id == above;
 }
 
@@ -119,6 +132,7 @@ int compare_specializes(const NodeGraph& graph, NodeId a_id, NodeId b_id) {
 int compare_siblings(const NodeGraph& graph, NodeId a_id, NodeId b_id) {
   const Node& a = graph[a_id];
   const Node& b = graph[b_id];
+  graph.count(1);
   if (a_id == b_id) {
     return 0;
   }

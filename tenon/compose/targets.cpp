@@ -10,6 +10,7 @@
 #include "tenon/compose/node_graph.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/finding_place.h"
 
 namespace tenon::compose {
 namespace {
@@ -52,6 +53,10 @@ Path climb_to_introduction(const PrimIndex& index, std::uint32_t node, Path path
   return path;
 }
 
+Token targets_field(const layer::Spec& spec) {
+  return spec.kind == SpecKind::Attribute ? fields::connectionPaths : fields::targetPaths;
+}
+
 class TargetCombiner {
  public:
   /// Without a cache the rules are those of a stage.
@@ -60,9 +65,7 @@ class TargetCombiner {
 
   TargetList combine(const std::vector<PropertyOpinion>& opinions) {
     for (auto it = opinions.rbegin(); it != opinions.rend(); ++it) {
-      const bool attribute = it->spec->kind == SpecKind::Attribute;
-      const auto* op =
-          it->spec->get<ListOp<Path>>(attribute ? fields::connectionPaths : fields::targetPaths);
+      const auto* op = it->spec->get<ListOp<Path>>(targets_field(*it->spec));
       if (op == nullptr || op->empty()) {
         continue;
       }
@@ -127,14 +130,14 @@ class TargetCombiner {
       const std::uint32_t parent = index_.nodes[opinion.node].parent;
       const Path introduced = parent == kNoNode ? Path() : index_.nodes[parent].path;
       const Path introduced_at = climb_to_introduction(index_, opinion.node, introduced);
-      report(error_class::kInvalidExternalTargetPath, opinion, {},
+      report(error_class::kInvalidExternalTargetPath, opinion, path, {},
              quoted(in_node) + " is outside of what the " + std::string(arc_name(arc)) + " of " +
                  quoted(introduced_at) + " brings in; it is ignored",
              "target something below the prim that the arc leads to");
       return {};
     }
     if (cache_ != nullptr && targets_instance_of_class(in_node, target, opinion)) {
-      report(error_class::kInvalidInstanceTargetPath, opinion, target,
+      report(error_class::kInvalidInstanceTargetPath, opinion, path, target,
              quoted(in_node) + " is authored in a class but lies in what uses it; it is ignored",
              "target something within the class");
       return {};
@@ -174,12 +177,14 @@ class TargetCombiner {
     return false;
   }
 
-  void report(std::string_view error_class, const PropertyOpinion& opinion, Path target,
-              std::string message, std::string fix) {
+  void report(std::string_view error_class, const PropertyOpinion& opinion, Path authored,
+              Path target, std::string message, std::string fix) {
     const char* what = opinion.spec->kind == SpecKind::Attribute ? "connection " : "target ";
-    errors_.push_back({target, composition_error(error_class, Severity::Error,
-                                                 {opinion.layer, opinion.path, index_.path},
-                                                 what + message, std::move(fix))});
+    errors_.push_back(
+        {target, composition_error(error_class, Severity::Error,
+                                   {opinion.layer, opinion.path, index_.path,
+                                    layer::item_part(targets_field(*opinion.spec), authored)},
+                                   what + message, std::move(fix))});
   }
 
   IndexCache* cache_;
@@ -224,6 +229,24 @@ TargetList compose_targets(IndexCache& cache, const PrimIndex& index, Token prop
 TargetList compose_stage_targets(const PrimIndex& index, Token property) {
   return TargetCombiner(nullptr, index, property)
       .combine(property_opinions(index, property, nullptr));
+}
+
+TargetOrigin origin_of_target(const PrimIndex& index, Token property, Path target) {
+  for (const PropertyOpinion& opinion : property_opinions(index, property, nullptr)) {
+    const auto* op = opinion.spec->get<ListOp<Path>>(targets_field(*opinion.spec));
+    if (op == nullptr) {
+      continue;
+    }
+    const MapFunction& map = *index.nodes[opinion.node].map_to_root;
+    for (const auto* items : {&op->explicit_items, &op->prepended, &op->appended, &op->added}) {
+      for (const Path item : *items) {
+        if (map_with_targets(map, item.absolute(opinion.path.prim())) == target) {
+          return {opinion, layer::item_part(targets_field(*opinion.spec), item)};
+        }
+      }
+    }
+  }
+  return {};
 }
 
 }  // namespace tenon::compose

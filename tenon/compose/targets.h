@@ -41,4 +41,12 @@ TargetList compose_targets(IndexCache& cache, const PrimIndex& index, Token prop
 /// into the one that is composed does not. As OpenUSD's stages; safe to use from several threads.
 TargetList compose_stage_targets(const PrimIndex& index, Token property);
 
+/// The item of the strongest opinion that brings a target or connection in, `target` being in the
+/// stage's namespace; no layer when none does.
+struct TargetOrigin {
+  PropertyOpinion opinion;
+  StatementPart part;
+};
+TargetOrigin origin_of_target(const PrimIndex& index, Token property, Path target);
+
 }  // namespace tenon::compose

@@ -47,6 +47,7 @@ class TaskQueue {
   explicit TaskQueue(const NodeGraph& graph) : graph_(graph) {}
 
   bool empty() const { return tasks_.empty(); }
+  std::size_t size() const { return tasks_.size(); }
   void push(Task task);
   void push(TaskKind kind, NodeId node) { push(Task{kind, node}); }
   Task pop();

@@ -9,6 +9,10 @@
 namespace tenon::compose {
 namespace {
 
+constexpr std::size_t kVisitUnits = 4;   // for a node that a path is carried to
+constexpr std::size_t kMapUnits = 20;    // for each path that is carried across an arc
+constexpr std::size_t kFindingUnits = 400;
+
 struct TranslatedPath {
   NodeId node;
   Path path;
@@ -40,12 +44,15 @@ bool walk_down(const NodeGraph& graph, const TranslatedPath& from, const Visit& 
   while (!open.empty()) {
     const TranslatedPath at = open.back();
     open.pop_back();
+    graph.count(kVisitUnits + 2 * graph[at.node].layer_stack->layers.size());
     if (visit(at.node, at.path)) {
       return true;
     }
     for (NodeId child = graph[at.node].last_child; child != kNoNode;
          child = graph[child].previous_sibling) {
-      const Path down = graph[child].map_to_parent->map_target_to_source(at.path);
+      const MapFunction& map = *graph[child].map_to_parent;
+      graph.count(kMapUnits + map.pairs().size() + 2 * std::size_t{at.path.depth()});
+      const Path down = map.map_target_to_source(at.path);
       if (!down.empty()) {
         open.push_back({child, down});
       }
@@ -89,11 +96,23 @@ bool find_authored_selection(Indexer& indexer, const TranslatedPath& from, const
   });
 }
 
+/// Many tasks ask for the same set; as long as the graph stays as it is, so does the answer. One
+/// that comes with findings is found again, so that these are told each time.
 std::string selected_variant(Indexer& indexer, const Task& task) {
-  const TranslatedPath from = translate_to_root(indexer.graph, task.node, task.set_path);
+  const NodeGraph& graph = indexer.graph;
+  const TranslatedPath from = translate_to_root(graph, task.node, task.set_path);
+  Indexer::Selection& known = indexer.selections[{from.node, from.path, task.set_name}];
+  if (known.revision == graph.revision()) {
+    return known.variant;
+  }
   std::string selection;
-  if (!find_prior_selection(indexer.graph, from, task.set_name, &selection)) {
+  const std::size_t findings = indexer.errors.size();
+  if (!find_prior_selection(graph, from, task.set_name, &selection)) {
     find_authored_selection(indexer, from, task.set_name, &selection);
+  }
+  graph.count(kFindingUnits * (indexer.errors.size() - findings));
+  if (indexer.errors.size() == findings) {
+    known = {graph.revision(), selection};
   }
   return selection;
 }
@@ -149,6 +168,7 @@ void add_variant_arc(Indexer& indexer, const Task& task, const std::string& vari
   const Path path = site.path.replace_prefix(task.set_path, variant_path, false);
   if (add_arc(indexer, arc, {site.layer_stack, path}, options) != kNoNode &&
       may_select_variants(*site.layer_stack, variant_path)) {
+    indexer.graph.count(indexer.tasks.size() / 4);
     indexer.tasks.retry_variants();
   }
 }

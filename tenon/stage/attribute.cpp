@@ -199,12 +199,23 @@ std::vector<SpecSite> Attribute::spec_stack() const {
   return prim_ == nullptr ? std::vector<SpecSite>() : property_sites(*prim_, name_);
 }
 
-Diagnostic Attribute::located(Severity severity, std::string rule, std::string message) const {
+Diagnostic Attribute::located(Severity severity, std::string rule, std::string message,
+                              StatementPart part) const {
   Diagnostic diagnostic;
   diagnostic.severity = severity;
   diagnostic.rule = std::move(rule);
   diagnostic.message = std::move(message);
+  diagnostic.part = std::move(part);
   return located_property(prim_, path(), name_, std::move(diagnostic));
+}
+
+Diagnostic Attribute::located_target(Severity severity, std::string rule, std::string message,
+                                     Path target) const {
+  Diagnostic diagnostic = located(severity, std::move(rule), std::move(message));
+  if (prim_ != nullptr) {
+    place_target(*stage_, *prim_, path(), target, diagnostic);
+  }
+  return diagnostic;
 }
 
 }  // namespace tenon::stage

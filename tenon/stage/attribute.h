@@ -74,7 +74,11 @@ class Attribute {
   /// Layer, spec path and spec of every opinion, strongest first.
   std::vector<SpecSite> spec_stack() const;
   /// A diagnostic with the place of the strongest opinion (of the prim's when none is authored).
-  Diagnostic located(Severity severity, std::string rule, std::string message) const;
+  Diagnostic located(Severity severity, std::string rule, std::string message,
+                     StatementPart part = {}) const;
+  /// The same with the place of one of its connections, given in the stage's namespace.
+  Diagnostic located_target(Severity severity, std::string rule, std::string message,
+                            Path target) const;
 
  private:
   friend class Prim;

@@ -13,6 +13,8 @@
 
 #include "tenon/base/text_number.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/finding_place.h"
+#include "tenon/stage/clip_places.h"
 
 namespace tenon::stage {
 namespace {
@@ -60,16 +62,28 @@ std::optional<T> get_optional(const Dictionary& info, std::string_view key) {
 }
 
 void report(const compose::PrimIndex& index, const compose::Opinion& opinion, std::string message,
-            Diagnostics& diagnostics, std::string fix = {}) {
+            const std::string& set, Diagnostics& diagnostics) {
   Diagnostic diagnostic;
   diagnostic.severity = Severity::Warning;
   diagnostic.rule = "clips.invalid";
   diagnostic.message = std::move(message);
-  diagnostic.file = opinion.layer->identifier();
-  diagnostic.line = opinion.spec->line;
-  diagnostic.column = opinion.spec->column;
   diagnostic.prim = index.path.str();
-  diagnostic.fix = std::move(fix);
+  layer::place_finding(diagnostic, *opinion.layer, opinion.path, opinion.spec,
+                       layer::entry_part(fields::clips, {set}));
+  diagnostics.add(std::move(diagnostic));
+}
+
+void report(const compose::PrimIndex& index, const ComposedSet& set,
+            const ClipDefinition& definition, const Error& error, Diagnostics& diagnostics) {
+  Diagnostic diagnostic;
+  diagnostic.severity = Severity::Warning;
+  diagnostic.rule = "clips.invalid";
+  diagnostic.message = "the clip set `" + definition.name + "` is left out: " + error.message();
+  diagnostic.prim = index.path.str();
+  diagnostic.fix = error.diagnostic().fix;
+  layer::place_finding(diagnostic, *set.anchor->layer, set.anchor->path, set.anchor->spec);
+  place_clip_finding(diagnostic, *definition.layer_stack, definition.site, definition.name,
+                     error.message());
   diagnostics.add(std::move(diagnostic));
 }
 
@@ -102,7 +116,7 @@ std::vector<std::string> add_layer(const compose::PrimIndex& index, const compos
       report(index, opinion,
              name.empty() ? "a clip set has no name"
                           : "the clip set `" + name + "` is not a dictionary",
-             diagnostics);
+             name, diagnostics);
       continue;
     }
     add_layer_info(opinion, *info, sets[name]);
@@ -177,7 +191,7 @@ std::optional<std::vector<Vec2d>> anchor_times(const ComposedSet& set, std::stri
   return times;
 }
 
-Result<void> read_assets(const ComposedSet& set, const AssetExists& exists,
+Result<void> read_assets(const ComposedSet& set, const ClipFiles& files,
                          ClipDefinition& definition) {
   definition.asset_paths = get_optional<std::vector<layer::AssetPath>>(set.info, kAssetPaths);
   if (definition.asset_paths) {
@@ -194,7 +208,7 @@ Result<void> read_assets(const ComposedSet& set, const AssetExists& exists,
   }
   ClipTemplate clip_template{*asset, *stride, *start, *end, std::nullopt};
   clip_template.active_offset = get_optional<double>(set.info, "templateActiveOffset");
-  return expand_template(clip_template, exists, definition);
+  return expand_template(clip_template, files, definition);
 }
 
 template <class T, class Write>
@@ -229,7 +243,7 @@ bool has_clips(const compose::PrimIndex& index) {
 }
 
 std::vector<ClipDefinition> clip_definitions(const compose::PrimIndex& index,
-                                             const AssetExists& exists, Diagnostics& diagnostics) {
+                                             const ClipFiles& files, Diagnostics& diagnostics) {
   const ComposedSets composed = compose_sites(index, diagnostics);
   std::vector<const ComposedSets::value_type*> sorted;
   for (const auto& entry : composed) {
@@ -253,10 +267,8 @@ std::vector<ClipDefinition> clip_definitions(const compose::PrimIndex& index,
     definition.manifest = get_optional<layer::AssetPath>(set.info, "manifestAssetPath");
     const bool* interpolate = get<bool>(set.info, "interpolateMissingClipValues");
     definition.interpolate_missing = interpolate != nullptr && *interpolate;
-    if (const Result<void> read = read_assets(set, exists, definition); !read) {
-      report(index, *set.anchor,
-             "the clip set `" + definition.name + "` is left out: " + read.error().message(),
-             diagnostics, read.error().diagnostic().fix);
+    if (const Result<void> read = read_assets(set, files, definition); !read) {
+      report(index, set, definition, read.error(), diagnostics);
       result.pop_back();
     }
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -34,8 +35,12 @@ struct ClipDefinition {
   std::string key() const;
 };
 
-/// Whether the asset that a path, authored in a layer, means exists.
-using AssetExists = std::function<bool(const std::string& asset, const layer::Layer& anchor)>;
+/// How templates find out which of their clips exist.
+struct ClipFiles {
+  /// Whether the asset that a path, authored in a layer, means exists.
+  std::function<bool(const std::string& asset, const layer::Layer& anchor)> exists;
+  std::size_t* left = nullptr;  ///< files that the stage may still look for
+};
 
 /// Some opinion has clips.
 bool has_clips(const compose::PrimIndex& index);
@@ -43,7 +48,7 @@ bool has_clips(const compose::PrimIndex& index);
 /// The clip sets of a prim, without those of its ancestors; by the site where they come in, then as
 /// the list edits of `clipSets` order them. What cannot be understood is in `diagnostics`.
 std::vector<ClipDefinition> clip_definitions(const compose::PrimIndex& index,
-                                             const AssetExists& exists, Diagnostics& diagnostics);
+                                             const ClipFiles& files, Diagnostics& diagnostics);
 
 /// What a template is made of.
 struct ClipTemplate {
@@ -56,7 +61,7 @@ struct ClipTemplate {
 
 /// Fills in asset_paths, active and times with the assets of the pattern that exist. The error says
 /// what is wrong with the template.
-Result<void> expand_template(const ClipTemplate& pattern, const AssetExists& exists,
+Result<void> expand_template(const ClipTemplate& pattern, const ClipFiles& files,
                              ClipDefinition& definition);
 
 }  // namespace tenon::stage

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include "tenon/stage/clip_places.h"
 #include "tenon/stage/clip_set.h"
 
 namespace tenon::stage {
@@ -13,7 +14,7 @@ std::string without_arguments(const std::string& asset_path) {
 }  // namespace
 
 const layer::Layer* ClipLayers::open(const std::string& asset_path, const layer::Layer& anchor,
-                                     const std::string& prim) {
+                                     const ClipUser& user) {
   const std::lock_guard lock(mutex_);
   auto layer = opener_(without_arguments(asset_path), anchor);
   if (!layer || *layer == nullptr) {
@@ -22,8 +23,8 @@ const layer::Layer* ClipLayers::open(const std::string& asset_path, const layer:
     diagnostic.rule = "clips.layer";
     diagnostic.message = "the clip layer @" + asset_path + "@ cannot be opened" +
                          (layer ? "" : ": " + layer.error().message());
-    diagnostic.file = anchor.identifier();
-    diagnostic.prim = prim;
+    diagnostic.prim = user.prim;
+    place_clip_asset(diagnostic, anchor, user.site, asset_path);
     diagnostic.fix = "correct the path in the `clips` metadata, or add the file";
     diagnostics_.add(std::move(diagnostic));
     return nullptr;
@@ -47,7 +48,7 @@ Diagnostics ClipLayers::take_diagnostics() {
 
 const layer::Layer* ClipLayer::get() const {
   if (!known_.load(std::memory_order_acquire)) {
-    layer_.store(layers_.open(asset_path_, anchor_, prim_), std::memory_order_relaxed);
+    layer_.store(layers_.open(asset_path_, anchor_, user_), std::memory_order_relaxed);
     known_.store(true, std::memory_order_release);
   }
   return layer_.load(std::memory_order_relaxed);

@@ -12,6 +12,8 @@
 
 #include "tenon/base/text_number.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/finding_place.h"
+#include "tenon/stage/clip_places.h"
 
 namespace tenon::stage {
 namespace {
@@ -70,7 +72,7 @@ Result<void> check(const ClipDefinition& definition) {
   TENON_CHECK(check_prim_path(*definition.prim_path));
   if (!all_finite(*definition.active) ||
       !all_finite(definition.times.value_or(std::vector<Vec2d>()))) {
-    return Error(ErrorCode::Invalid, "active or times has an entry that is no number");
+    return Error(ErrorCode::Invalid, "active or times has an entry that is not a number");
   }
   TENON_CHECK(check_active(*definition.active, definition.asset_paths->size()));
   return definition.times ? check_times(*definition.times) : Result<void>();
@@ -89,8 +91,10 @@ std::shared_ptr<const ClipSet> ClipSet::make(const ClipDefinition& definition, C
     diagnostic.rule = "clips.invalid";
     diagnostic.message =
         "the clip set `" + definition.name + "` is left out: " + checked.error().message();
-    diagnostic.file = definition.layer->identifier();
     diagnostic.prim = prim;
+    layer::place_finding(diagnostic, *definition.layer, definition.site);
+    place_clip_finding(diagnostic, *definition.layer_stack, definition.site, definition.name,
+                       checked.error().message());
     diagnostics.add(std::move(diagnostic));
     return nullptr;
   }
@@ -107,8 +111,8 @@ std::shared_ptr<const ClipSet> ClipSet::make(const ClipDefinition& definition, C
   set->offset_ = definition.offset;
   set->add_clips(definition, layers, prim);
   if (definition.manifest) {
-    set->manifest_ =
-        &set->layers_.emplace_back(layers, definition.manifest->authored, *definition.layer, prim);
+    set->manifest_ = &set->layers_.emplace_back(layers, definition.manifest->authored,
+                                                *definition.layer, ClipUser{definition.site, prim});
   } else {
     set->generate_manifest();
   }
@@ -119,7 +123,8 @@ void ClipSet::add_clips(const ClipDefinition& definition, ClipLayers& layers,
                         const std::string& prim) {
   std::vector<const ClipLayer*> by_index;
   for (const layer::AssetPath& asset : *definition.asset_paths) {
-    by_index.push_back(&layers_.emplace_back(layers, asset.authored, *definition.layer, prim));
+    by_index.push_back(&layers_.emplace_back(layers, asset.authored, *definition.layer,
+                                             ClipUser{definition.site, prim}));
   }
   for (const Vec2d& entry : *definition.active) {
     clips_.push_back({by_index[static_cast<std::size_t>(entry[1])], entry[0], entry[0], kLatest});

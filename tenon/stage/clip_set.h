@@ -19,6 +19,12 @@
 /// Values that lie in other layers, one layer at a time. Internal to tenon/stage.
 namespace tenon::stage {
 
+/// For whom a clip is opened: for findings.
+struct ClipUser {
+  Path site;         ///< of the clip set in its layer
+  std::string prim;  ///< of the stage
+};
+
 /// Opens the layers of clips when they are first read, and keeps them. Safe to use from several
 /// threads.
 class ClipLayers {
@@ -27,7 +33,7 @@ class ClipLayers {
 
   /// nullptr, and a diagnostic, when the layer cannot be opened.
   const layer::Layer* open(const std::string& asset_path, const layer::Layer& anchor,
-                           const std::string& prim);
+                           const ClipUser& user);
   /// Those opened so far, by identifier.
   std::vector<layer::LayerPtr> opened() const;
   /// What was found since the last call.
@@ -43,12 +49,11 @@ class ClipLayers {
 /// A layer that a clip set names; opened on first use.
 class ClipLayer {
  public:
-  ClipLayer(ClipLayers& layers, std::string asset_path, const layer::Layer& anchor,
-            std::string prim)
+  ClipLayer(ClipLayers& layers, std::string asset_path, const layer::Layer& anchor, ClipUser user)
       : layers_(layers),
         asset_path_(std::move(asset_path)),
         anchor_(anchor),
-        prim_(std::move(prim)) {}
+        user_(std::move(user)) {}
   /// nullptr when there is none.
   const layer::Layer* get() const;
 
@@ -56,7 +61,7 @@ class ClipLayer {
   ClipLayers& layers_;
   std::string asset_path_;
   const layer::Layer& anchor_;
-  std::string prim_;
+  ClipUser user_;
   mutable std::atomic<bool> known_ = false;
   mutable std::atomic<const layer::Layer*> layer_ = nullptr;
 };

@@ -3,11 +3,14 @@
 //
 // Clips named by a pattern: each group of '#' in `name.###.ext` becomes a time, a second group
 // behind it the decimals. Missing files are left out.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
 #include "tenon/base/limits.h"
+#include "tenon/base/text_number.h"
+#include "tenon/base/work_limits.h"
 #include "tenon/stage/clip_definition.h"
 
 namespace tenon::stage {
@@ -99,6 +102,13 @@ std::string file_of(Pattern& pattern, double time) {
   return path;
 }
 
+/// A step leads to another time wherever it starts between the ends.
+bool advances(const ClipTemplate& pattern) {
+  const double largest = std::max(std::abs(pattern.start), std::abs(pattern.end)) * kSteps;
+  return largest + pattern.stride * kSteps != largest &&
+         largest - pattern.stride * kSteps != largest;
+}
+
 Result<void> check(const ClipTemplate& pattern) {
   const double offset = pattern.active_offset.value_or(0);
   if (!(pattern.stride > 0)) {
@@ -113,17 +123,37 @@ Result<void> check(const ClipTemplate& pattern) {
   if (!(std::abs(pattern.start) < 1e15 && std::abs(pattern.end) < 1e15) ||
       !((pattern.end - pattern.start) / pattern.stride < limits::kTemplateClips)) {
     return Error(ErrorCode::Limit, "the template asks for more than " +
-                                       std::to_string(limits::kTemplateClips) + " clips");
+                                       std::to_string(limits::kTemplateClips) +
+                                       " clips (kTemplateClips)");
+  }
+  if (pattern.start < pattern.end && !advances(pattern)) {
+    return Error(ErrorCode::Limit,
+                 "templateStride " + shortest(pattern.stride) +
+                     " is too small to tell times near " + shortest(pattern.end) + " apart");
   }
   return {};
 }
 
+/// More steps than a checked template makes, however its times are rounded.
+std::size_t most_steps(const ClipTemplate& pattern) {
+  return pattern.start == pattern.end
+             ? 1
+             : 2 * static_cast<std::size_t>((pattern.end - pattern.start) / pattern.stride) + 2;
+}
+
 }  // namespace
 
-Result<void> expand_template(const ClipTemplate& clip_template, const AssetExists& exists,
+Result<void> expand_template(const ClipTemplate& clip_template, const ClipFiles& files,
                              ClipDefinition& definition) {
   TENON_CHECK(check(clip_template));
   TENON_TRY(Pattern pattern, read_pattern(clip_template.asset_path));
+  std::size_t left = most_steps(clip_template);
+  if (left > *files.left) {
+    return Error(ErrorCode::Limit, "the templates of this stage ask for more than " +
+                                       std::to_string(limits::kTemplateFiles) +
+                                       " files (kTemplateFiles)");
+  }
+  *files.left -= left;
   definition.asset_paths.emplace();
   definition.active.emplace();
   definition.times.emplace();
@@ -132,11 +162,11 @@ Result<void> expand_template(const ClipTemplate& clip_template, const AssetExist
   if (clip_template.active_offset) {
     add_time((clip_template.start * kSteps - margin) / kSteps);
   }
-  for (double step = clip_template.start * kSteps; step <= clip_template.end * kSteps;
-       step += clip_template.stride * kSteps) {
+  for (double step = clip_template.start * kSteps; step <= clip_template.end * kSteps && left > 0;
+       step += clip_template.stride * kSteps, --left) {
     const double time = step / kSteps;
     const std::string file = file_of(pattern, time);
-    if (!exists(file, *definition.layer)) {
+    if (!files.exists(file, *definition.layer)) {
       continue;
     }
     const auto index = static_cast<double>(definition.asset_paths->size());

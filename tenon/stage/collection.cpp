@@ -3,10 +3,12 @@
 #include "tenon/stage/collection.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
 #include "tenon/base/limits.h"
+#include "tenon/base/work_limits.h"
 
 namespace tenon::stage {
 namespace {
@@ -73,6 +75,9 @@ class RuleReader {
     }
   }
 
+  /// A limit was met, and there are more rules than were read.
+  bool is_cut() const { return is_cut_ || items_ > limits::kCollectionItems; }
+
  private:
   struct Frame {
     Prim prim;
@@ -85,6 +90,10 @@ class RuleReader {
   };
 
   void open(const Prim& prim, Token name) {
+    if (items_ > limits::kCollectionItems) {
+      frames_.push_back({prim, name, collection_path(prim, name), Rule::ExplicitOnly, {}, 0, {}});
+      return;
+    }
     frames_.push_back({prim,
                        name,
                        collection_path(prim, name),
@@ -93,6 +102,7 @@ class RuleReader {
                        0,
                        {}});
     ++visits_;
+    items_ += frames_.back().includes.size();
   }
 
   void include(Path path) {
@@ -104,18 +114,25 @@ class RuleReader {
     const Prim prim = frames_.back().prim.prim_at(path.parent());
     const bool leads_back = std::any_of(frames_.begin(), frames_.end(),
                                         [&](const Frame& frame) { return frame.path == path; });
-    if (prim && !leads_back && visits_ < limits::kCollectionVisits) {
-      open(prim, *name);
+    if (prim && !leads_back) {
+      is_cut_ = is_cut_ || visits_ >= limits::kCollectionVisits;
+      if (visits_ < limits::kCollectionVisits) {
+        open(prim, *name);
+      }
     }
   }
 
-  static void finish(Frame& frame) {
+  void finish(Frame& frame) {
+    if (items_ > limits::kCollectionItems) {
+      return;
+    }
     if (frame.rule != Rule::ExplicitOnly &&
         frame.prim.attribute(property(frame.name, "includeRoot")).get().get_or(false)) {
       frame.rules[Path::absolute_root()] = frame.rule;
     }
     for (const Path path : frame.prim.relationship(property(frame.name, "excludes")).targets()) {
       frame.rules[path] = Rule::Exclude;
+      ++items_;
     }
   }
 
@@ -135,6 +152,8 @@ class RuleReader {
 
   std::vector<Frame> frames_;
   std::size_t visits_ = 0;
+  std::size_t items_ = 0;  // included and excluded
+  bool is_cut_ = false;
 };
 
 class ExpressionResolver {
@@ -217,7 +236,9 @@ Collection Collection::read(const Prim& prim, Token name) {
   if (!prim) {
     return result;
   }
-  result.rules_ = RuleReader().read(prim, name);
+  RuleReader reader;
+  result.rules_ = reader.read(prim, name);
+  result.is_cut_ = reader.is_cut();
   result.top_rule_ = expansion_rule(prim, name);
   // An expression that cannot be evaluated matches nothing.
   if (auto matcher = PathMatcher::make(complete_membership_expression(prim, name), prim)) {
@@ -253,9 +274,10 @@ bool Collection::included_by_rules(Path path) const {
 }
 
 void Collection::add_by_rule(const Stage& stage, Path path, Rule rule,
+                             std::unordered_set<Path>& visited,
                              std::vector<Path>& members) const {
   const Prim prim = stage.prim(path.is_property() ? path.parent() : path);
-  if (!prim || rule == Rule::Exclude) {
+  if (!prim) {
     return;
   }
   if (path.is_property()) {
@@ -269,7 +291,7 @@ void Collection::add_by_rule(const Stage& stage, Path path, Rule rule,
       members.push_back(at.path());
       return false;
     }
-    if (!included_by_rules(at.path())) {
+    if (!included_by_rules(at.path()) || !visited.insert(at.path()).second) {
       return false;
     }
     members.push_back(at.path());
@@ -303,8 +325,11 @@ void Collection::add_by_expression(const Stage& stage, std::vector<Path>& member
 
 std::vector<Path> Collection::members(const Stage& stage) const {
   std::vector<Path> result;
+  std::array<std::unordered_set<Path>, 4> visited;  // by rule: where one above led already
   for (const auto& [path, rule] : rules_) {
-    add_by_rule(stage, path, rule, result);
+    if (rule != Rule::Exclude) {
+      add_by_rule(stage, path, rule, visited[static_cast<std::size_t>(rule)], result);
+    }
   }
   if (rules_.empty() && !matcher_.is_empty() && top_rule_ != Rule::ExplicitOnly) {
     add_by_expression(stage, result);

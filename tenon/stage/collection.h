@@ -4,6 +4,7 @@
 
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "tenon/base/path.h"
@@ -33,13 +34,18 @@ class Collection {
 
   /// Rules of this and of included collections; the one of the nearest path at or above counts.
   const Rules& rules() const { return rules_; }
+  /// A limit was met (kCollectionVisits, kCollectionItems, kMatchWork): some of what belongs is not
+  /// found. Also true once a question to `contains` took too much.
+  bool is_cut() const { return is_cut_ || matcher_.is_exhausted(); }
 
  private:
   bool included_by_rules(Path path) const;
-  void add_by_rule(const Stage& stage, Path path, Rule rule, std::vector<Path>& members) const;
+  void add_by_rule(const Stage& stage, Path path, Rule rule, std::unordered_set<Path>& visited,
+                   std::vector<Path>& members) const;
   void add_by_expression(const Stage& stage, std::vector<Path>& members) const;
 
   Rules rules_;
+  bool is_cut_ = false;
   Rule top_rule_ = Rule::ExpandPrims;
   PathMatcher matcher_;
 };

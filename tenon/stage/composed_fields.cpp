@@ -25,14 +25,20 @@ struct Place {
 };
 
 // Relative paths start from the layer's folder; others do where the asset is there.
-std::string anchored_path(const layer::Layer& layer, const std::string& path,
-                          const std::string& resolved) {
+std::string anchored_path(const StageData& stage, const layer::Layer& layer,
+                          const std::string& path, std::string resolved) {
   const std::string& identifier = layer.identifier();
   if (identifier.find('[') != std::string::npos || identifier.ends_with(".usdz")) {
     return resolved.empty() ? path : resolved;
   }
   if (identifier.empty() || identifier.front() != '/' || path.empty() || path.front() == '/') {
     return path;
+  }
+  // What is in a package, a pattern of tiles for one, need not be there when the package is.
+  const std::size_t bracket = path.find('[');
+  if (resolved.empty() && bracket != std::string::npos && stage.options.resolve_asset) {
+    resolved = stage.options.resolve_asset(path.substr(0, bracket), layer);
+    resolved += resolved.empty() ? "" : path.substr(bracket);
   }
   const std::string folder = identifier.substr(0, identifier.rfind('/') + 1);
   std::string joined = std::filesystem::path(folder + path).lexically_normal().string();
@@ -46,7 +52,7 @@ std::string anchored_asset(const StageData& stage, const layer::Layer& layer,
                            const std::string& path) {
   const std::string resolved =
       stage.options.resolve_asset ? stage.options.resolve_asset(path, layer) : std::string();
-  return anchored_path(layer, path, resolved);
+  return anchored_path(stage, layer, path, resolved);
 }
 
 namespace {
@@ -63,7 +69,7 @@ layer::AssetPath resolved(const Place& place, const layer::AssetPath& asset) {
     result.resolved = place.stage.options.resolve_asset(path, *place.opinion.layer);
   }
   if (place.form == AssetForm::Anchored) {
-    return {anchored_path(*place.opinion.layer, path, result.resolved), {}, {}};
+    return {anchored_path(place.stage, *place.opinion.layer, path, result.resolved), {}, {}};
   }
   return result;
 }

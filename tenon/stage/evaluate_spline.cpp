@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <optional>
 
+#include "tenon/layer/spline_rules.h"
 #include "tenon/stage/spline_knots.h"
 
 namespace tenon::stage {
@@ -55,10 +57,15 @@ double cubic_zero(double b, double c, double d) {
   const double radius = std::sqrt(-p * p * p);
   const double angle = std::acos(std::clamp(-q / radius, -1.0, 1.0));
   double zero = 0;
+  double nearest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const double turned = (angle + 2 * i * std::numbers::pi) / 3;
     const double candidate = 2 * std::cbrt(radius) * std::cos(turned) - b / 3;
-    zero = candidate >= 0 && candidate <= 1 ? candidate : zero;
+    const double outside = std::fabs(candidate - std::clamp(candidate, 0.0, 1.0));
+    if (outside <= nearest) {  // rounding may put it a little outside
+      zero = candidate;
+      nearest = outside;
+    }
   }
   return zero;
 }
@@ -80,43 +87,12 @@ double cubic_parameter(double p0, double p1, double p2, double p3) {
   return std::clamp(std::isfinite(zero) ? zero : 0.0, 0.0, 1.0);
 }
 
-/// Widths of the two tangents of a segment, in parts of its length.
-struct Widths {
-  double first = 0;
-  double last = 0;
-};
-
-// Tangents so long that the curve would run back in time are shortened, their ratio kept, until it
-// just stands still: there (first, last) lies on the ellipse where the derivative of time has one
-// zero. The paddings are OpenUSD's (Ts regression prevention, "keep ratio").
-Widths without_regression(Widths widths) {
-  constexpr double kReadPadding = 1e-6;
-  constexpr double kWritePadding = 1e-5;
-  if (widths.first <= 1 && widths.last <= 1) {
-    return widths;
-  }
-  const double a = widths.first + kReadPadding;
-  const double b = widths.last + kReadPadding;
-  if (!(a * a + b * b - 2 * (a + b) + a * b + 1 > 0)) {
-    return widths;
-  }
-  if (widths.first < kReadPadding) {
-    return {widths.first, 1 - kWritePadding};
-  }
-  if (widths.last < kReadPadding) {
-    return {1 - kWritePadding, widths.last};
-  }
-  const double ratio = widths.first / widths.last;
-  const double last = (std::sqrt(ratio) + ratio + 1) / (ratio * ratio + ratio + 1);
-  return {ratio * last - kWritePadding, last - kWritePadding};
-}
-
 double curve_value(const Spline& spline, const SplineKnot& a, const SplineKnot& b, double time) {
   const double span = b.time - a.time;
   const bool hermite = spline.curve == layer::SplineCurve::Hermite;
-  const Widths widths =
-      hermite ? Widths{1.0 / 3, 1.0 / 3}
-              : without_regression({a.post_tangent.width / span, b.pre_tangent.width / span});
+  const layer::TangentWidths written{a.post_tangent.width / span, b.pre_tangent.width / span};
+  const layer::TangentWidths widths =
+      hermite ? layer::TangentWidths{1.0 / 3, 1.0 / 3} : layer::without_regression(written);
   const double first = widths.first * span;
   const double last = widths.last * span;
   const double u = hermite ? (time - a.time) / span
@@ -141,8 +117,8 @@ Number segment_value(const Spline& spline, const SplineKnot& a, const SplineKnot
 }
 
 // Slope that goes on linearly from the outermost segment.
-double end_slope(const SplineKnots& knots, bool before) {
-  if (knots.size() < 2) {
+double end_slope(const Spline& spline, const SplineKnots& knots, bool before) {
+  if (spline.knots.size() < 2) {  // copies of one knot do not count
     return 0;
   }
   const SplineKnot a = before ? knots[0] : knots[knots.size() - 2];
@@ -160,26 +136,90 @@ double end_slope(const SplineKnots& knots, bool before) {
   return 0;
 }
 
-Number inside_value(const Spline& spline, const SplineKnots& knots, double time) {
-  const std::size_t after = knots.count_until(time);
-  const SplineKnot a = knots[std::max<std::size_t>(after, 1) - 1];
-  // At a knot the side after it counts: of the last one that is the extrapolation.
-  const SplineKnot& last = spline.knots.back();
-  const bool is_last = a.time == last.time && a.value == last.value;
-  if (after == knots.size() || (is_last && a.time == time)) {
-    return is_last && spline.post.mode == SplineExtrapolation::None ? Number() : Number(a.value);
-  }
-  return a.time == time && a.next != SplineInterpolation::None
-             ? Number(a.value)
-             : segment_value(spline, a, knots[after], time);
+/// What a curve has at a knot: on the side after it, which for the last written knot and its copies
+/// is the extrapolation.
+Number value_at_knot(const Spline& spline, const SplineKnots& knots, std::size_t at) {
+  const SplineKnot knot = knots[at];
+  const bool is_last = knots.written_index(at) + 1 == spline.knots.size();
+  const bool is_none = is_last ? spline.post.mode == SplineExtrapolation::None
+                               : knot.next == SplineInterpolation::None;
+  return is_none ? Number() : Number(knot.value);
 }
 
-/// What the segment that ends at `b` comes to there.
-Number value_before(const SplineKnot& a, const SplineKnot& b) {
-  if (a.next == SplineInterpolation::None) {
+/// The same on the side before it, where the segment to its written neighbour ends: copies end as
+/// the knot does that they are copies of.
+Number value_before_knot(const Spline& spline, const SplineKnots& knots, std::size_t at) {
+  const SplineKnot knot = knots[at];
+  const std::size_t written = knots.written_index(at);
+  if (written == 0) {
+    return spline.pre.mode == SplineExtrapolation::None ? Number() : Number(pre_value(knot));
+  }
+  const SplineKnot& before = spline.knots[written - 1];
+  if (before.next == SplineInterpolation::None) {
     return std::nullopt;
   }
-  return a.next == SplineInterpolation::Held ? a.value : pre_value(b);
+  return before.next == SplineInterpolation::Held
+             ? before.value + (knot.value - spline.knots[written].value)
+             : pre_value(knot);
+}
+
+Number value_beyond(const Spline& spline, const SplineKnots& knots, double time, bool before);
+
+/// By how many copies OpenUSD goes back to reach the loop from `time`.
+double copies_back(const layer::SplineLoop& loop, double time) {
+  const double span = loop.end - loop.start;
+  return time < loop.start ? -std::ceil((loop.start - time) / span)
+                           : std::trunc((time - loop.end) / span) + 1;
+}
+
+/// OpenUSD takes the time of a copy back into the loop. Where rounding puts a copy of its first
+/// knot before the loop or at the end of the copy before, what counts is what stands there; nothing
+/// when that is not so.
+std::optional<Number> value_rounded_out(const Spline& spline, const SplineKnots& knots,
+                                        std::size_t at) {
+  const SplineKnot knot = knots[at];
+  const std::size_t written = knots.written_index(at);
+  const SplineKnot& first = spline.knots[written];
+  if (knots.turn(at) == 0 || first.time != spline.loop->start) {
+    return std::nullopt;
+  }
+  const double copies = copies_back(*spline.loop, knot.time);
+  if (copies < knots.turn(at) && at > 0) {
+    return segment_value(spline, knots[at - 1], knot, knot.time);
+  }
+  const double inside = knot.time - copies * (spline.loop->end - spline.loop->start);
+  if (inside >= first.time) {
+    return std::nullopt;
+  }
+  const bool loops = spline.pre.mode > SplineExtrapolation::Sloped;
+  Number value;
+  if (written > 0) {
+    value = segment_value(spline, spline.knots[written - 1], first, inside);
+  } else if (loops) {
+    value = pre_value(first);
+  } else {
+    value = value_beyond(spline, SplineKnots::written(spline), inside, true);
+  }
+  if (value) {
+    *value += knot.value - first.value;
+  }
+  return value;
+}
+
+/// Between the first knot and the last. `from_after`: at a knot, the side before it.
+Number inside_value(const Spline& spline, const SplineKnots& knots, double time,
+                    bool from_after = false) {
+  const std::size_t after = knots.count_until(time);
+  const std::size_t before = std::max<std::size_t>(after, 1) - 1;
+  const SplineKnot a = knots[before];
+  if (a.time == time || after == knots.size()) {
+    if (const auto rounded = value_rounded_out(spline, knots, before); rounded && !from_after) {
+      return *rounded;
+    }
+    return from_after ? value_before_knot(spline, knots, before)
+                      : value_at_knot(spline, knots, before);
+  }
+  return segment_value(spline, a, knots[after], time);
 }
 
 Number looped_value(const Spline& spline, const SplineKnots& knots, double time,
@@ -195,18 +235,21 @@ Number looped_value(const Spline& spline, const SplineKnots& knots, double time,
       mode == SplineExtrapolation::LoopOscillate && std::fmod(std::fabs(turns), 2.0) == 1.0;
   if (backwards) {
     inner = start + (start + span - inner);
-    if (inner >= start + span) {
-      return value_before(knots[knots.size() - 2], knots.back());
-    }
   }
-  Number value = inside_value(spline, knots, std::clamp(inner, start, start + span));
+  // Rounding may put it a little outside, where the other end counts unless that is a loop, too.
+  const double end = knots.back().time;
+  const bool is_before = inner < start && spline.pre.mode <= SplineExtrapolation::Sloped;
+  const bool is_beyond = inner > end && spline.post.mode <= SplineExtrapolation::Sloped;
+  Number value = is_before || is_beyond
+                     ? value_beyond(spline, knots, inner, is_before)
+                     : inside_value(spline, knots, std::clamp(inner, start, end), backwards);
   if (value && mode == SplineExtrapolation::LoopRepeat) {
     // What comes before goes on from the inward sides of the ends.
-    const bool ends_as_written = spline.loop && spline.loop->post_loops == 0 &&
-                                 spline.knots.back().time == knots.back().time;
+    const bool starts_as_written = spline.knots.front().time == start;
+    const bool ends_as_written = spline.knots.back().time == knots.back().time;
+    const SplineKnot first = starts_as_written ? spline.knots.front() : knots.front();
     const SplineKnot last = ends_as_written ? spline.knots.back() : knots.back();
-    const double rise =
-        turns < 0 ? pre_value(last) - pre_value(knots.front()) : last.value - knots.front().value;
+    const double rise = turns < 0 ? pre_value(last) - pre_value(first) : last.value - first.value;
     *value += turns * rise;
   }
   return value;
@@ -222,7 +265,7 @@ Number outside_value(const Spline& spline, const SplineKnots& knots, double time
     case SplineExtrapolation::Held:
       return value;
     case SplineExtrapolation::Linear:
-      return value + end_slope(knots, before) * (time - knot.time);
+      return value + end_slope(spline, knots, before) * (time - knot.time);
     case SplineExtrapolation::Sloped:
       return value + end.slope * (time - knot.time);
     default:

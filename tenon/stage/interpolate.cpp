@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/stage/interpolate.h"
 
+#include <cmath>
 #include <type_traits>
 
 #include "tenon/stage/clip_times.h"
@@ -17,11 +18,30 @@ template <class T>
 T mix(const T& a, const T& b, double t) {
   return T((1 - t) * static_cast<double>(a) + t * static_cast<double>(b));
 }
+/// What numbers of a type are multiplied and added in: each step is rounded to the type again, so
+/// that values are those of OpenUSD to the last bit.
+template <class T>
+using Wide = std::conditional_t<std::is_same_v<T, Half>, float, T>;
+
+template <class T>
+T sum(T a, T b) {
+  return T(static_cast<Wide<T>>(a) + static_cast<Wide<T>>(b));
+}
+/// A part of a vector: halves are multiplied as floats, floats as doubles.
+template <class T>
+T part(T number, double weight) {
+  if constexpr (std::is_same_v<T, Half>) {
+    return Half(static_cast<float>(number) * static_cast<float>(weight));
+  } else {
+    return static_cast<T>(static_cast<double>(number) * weight);
+  }
+}
+
 template <class T, std::size_t N>
 Vec<T, N> mix(const Vec<T, N>& a, const Vec<T, N>& b, double t) {
   Vec<T, N> result;
   for (std::size_t i = 0; i < N; ++i) {
-    result[i] = mix(a[i], b[i], t);
+    result[i] = sum(part(a[i], 1 - t), part(b[i], t));
   }
   return result;
 }
@@ -35,10 +55,26 @@ Matrix<N> mix(const Matrix<N>& a, const Matrix<N>& b, double t) {
   }
   return result;
 }
+/// The shorter way along the sphere, in the precision of the type throughout.
 template <class T>
 Quat<T> mix(const Quat<T>& a, const Quat<T>& b, double t) {
-  const Quatd q = slerp(to_double(a), to_double(b), t);
-  return {T(q.x), T(q.y), T(q.z), T(q.w)};
+  const auto wide = [](T number) { return static_cast<Wide<T>>(number); };
+  const T imaginary(wide(a.x) * wide(b.x) + wide(a.y) * wide(b.y) + wide(a.z) * wide(b.z));
+  const double cosine = static_cast<double>(wide(imaginary) + wide(a.w) * wide(b.w));
+  double from = 1 - t;
+  double to = t;
+  if (1 - std::fabs(cosine) > 1e-5) {
+    const auto angle = static_cast<double>(T(std::acos(std::fabs(cosine))));
+    const auto sine = static_cast<double>(T(std::sin(angle)));
+    from = std::sin((1 - t) * angle) / sine;
+    to = std::sin(t * angle) / sine;
+  }
+  const auto first = static_cast<T>(from);
+  const auto second = static_cast<T>(cosine < 0 ? -to : to);
+  const auto mixed = [&](T x, T y) {
+    return sum(T(wide(x) * wide(first)), T(wide(y) * wide(second)));
+  };
+  return {mixed(a.x, b.x), mixed(a.y, b.y), mixed(a.z, b.z), mixed(a.w, b.w)};
 }
 layer::TimeCode mix(layer::TimeCode a, layer::TimeCode b, double t) {
   return {mix(a.value, b.value, t)};

@@ -31,8 +31,9 @@ std::optional<Path> direct_material(const Prim& at, Token name) {
                                                             : std::nullopt;
 }
 
-// The material of a collection binding of `at` when its collection contains `path`.
-std::optional<Path> collection_material(const Prim& at, Token name, Path path) {
+// The material of a collection binding of `at` when its collection contains `path`; a collection
+// that is too large goes to `cut`.
+std::optional<Path> collection_material(const Prim& at, Token name, Path path, Path& cut) {
   const std::vector<Path> targets = at.relationship(name).targets();
   if (targets.size() != 2) {
     return std::nullopt;
@@ -47,7 +48,9 @@ std::optional<Path> collection_material(const Prim& at, Token name, Path path) {
   }
   const Prim owner = at.prim_at(collection.parent());
   const Collection members = Collection::read(owner, Token(full.substr(kPrefix.size())));
-  return members.contains(path) ? std::optional(material) : std::nullopt;
+  const bool contained = members.contains(path);
+  cut = members.is_cut() ? collection : cut;
+  return contained ? std::optional(material) : std::nullopt;
 }
 
 // "material:binding:collection:name" or, for a purpose, "...:collection:purpose:name".
@@ -92,7 +95,9 @@ struct Search {
       if (!found.material.empty() && !direct_here && !is_stronger(binding)) {
         continue;
       }
-      if (const auto material = collection_material(at, property, prim.path())) {
+      const auto material =
+          collection_material(at, property, prim.path(), found.cut_collection);
+      if (material) {
         take(at, binding, *material);
         return;
       }
@@ -111,7 +116,14 @@ struct Search {
 
 MaterialBinding find_material_binding(const Prim& prim, Token purpose) {
   MaterialBinding binding = Search{prim, purpose, {}}.run();
-  return binding.material.empty() && !purpose.empty() ? Search{prim, Token(), {}}.run() : binding;
+  if (!binding.material.empty() || purpose.empty()) {
+    return binding;
+  }
+  MaterialBinding general = Search{prim, Token(), {}}.run();
+  if (general.cut_collection.empty()) {
+    general.cut_collection = binding.cut_collection;
+  }
+  return general;
 }
 
 Path bound_material(const Prim& prim, Token purpose) {

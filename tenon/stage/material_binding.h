@@ -17,6 +17,8 @@ struct MaterialBinding {
   Path material;
   Path relationship;  ///< that binds it
   bool binding_api_missing = false;
+  /// A collection that was asked for and is too large (Collection::is_cut), with its property.
+  Path cut_collection;
 };
 MaterialBinding find_material_binding(const Prim& prim, Token purpose);
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "tenon/base/work_limits.h"
 #include "tenon/stage/name_pattern.h"
 
 namespace tenon::stage {
@@ -20,6 +21,12 @@ Result<PathMatcher> PathMatcher::make(const PathExpressionTree& expression, cons
       const PathPattern* pattern = expression.pattern(node);
       if (pattern == nullptr || !pattern->prefix.is_absolute()) {
         return Error(ErrorCode::Parse, "a path expression is not complete: " + expression.text())
+            .with_rule("stage.path-expression");
+      }
+      if (pattern->components.size() > limits::kPatternParts) {
+        return Error(ErrorCode::Limit, "a path pattern has more than " +
+                                           std::to_string(limits::kPatternParts) +
+                                           " parts (kPatternParts)")
             .with_rule("stage.path-expression");
       }
       Pattern compiled{*pattern, {}};
@@ -59,6 +66,7 @@ bool PathMatcher::matches(const Pattern& pattern, const std::vector<Path>& prefi
       (pattern.text.is_property ? !path.is_property() : path.is_property() && !any_kind)) {
     return false;
   }
+  work_ += prefixes.size() * (components.size() + 1);
   // reachable[i]: the names so far match the first i components.
   std::vector<bool> reachable(components.size() + 1, false);
   reachable[0] = true;
@@ -85,12 +93,16 @@ bool PathMatcher::matches(const Pattern& pattern, const std::vector<Path>& prefi
   return reachable[components.size()];
 }
 
+bool PathMatcher::is_exhausted() const { return work_ > limits::kMatchWork; }
+
 bool PathMatcher::matches(Path path) const {
   const Prim prim = stage_.prim_at(path.is_property() ? path.parent() : path);
-  if (is_empty() || !prim || (path.is_property() && !prim.has_property(path.name()))) {
+  if (is_empty() || !prim || is_exhausted() ||
+      (path.is_property() && !prim.has_property(path.name()))) {
     return false;
   }
   const std::vector<Path> prefixes = path.prefixes();
+  work_ += nodes_.size() + prefixes.size();
   std::vector<bool> values;
   values.reserve(nodes_.size());
   const auto at = [&values](std::int32_t node) { return values[static_cast<std::size_t>(node)]; };

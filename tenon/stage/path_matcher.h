@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "tenon/base/result.h"
@@ -21,7 +22,9 @@ class PathMatcher {
   static Result<PathMatcher> make(const layer::PathExpressionTree& expression, const Prim& stage);
 
   bool is_empty() const { return root_ == layer::kNoNode; }
-  /// `path` is a prim or property of the stage and is matched.
+  /// So much was asked (kMatchWork) that nothing matches any more.
+  bool is_exhausted() const;
+  /// `path` is a prim or property of the stage and is matched. Not to be called on two threads.
   bool matches(Path path) const;
 
  private:
@@ -37,6 +40,7 @@ class PathMatcher {
   std::vector<layer::ExpressionNode> nodes_;
   std::int32_t root_ = layer::kNoNode;
   std::vector<Pattern> patterns_;
+  mutable std::size_t work_ = 0;  // beyond kMatchWork nothing matches any more
 };
 
 }  // namespace tenon::stage

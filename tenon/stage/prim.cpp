@@ -90,8 +90,9 @@ Prim Prim::prim_in_prototype() const {
 Prim Prim::prim_at(Path path) const { return data_ == nullptr ? Prim() : stage_->find(path); }
 
 bool Prim::is_a(Token type) const {
-  if (data_ == nullptr || data_->definition->schema() == nullptr) {
-    return false;
+  if (data_ == nullptr || data_->definition->schema() == nullptr ||
+      data_->definition->schema()->kind != schema::SchemaKind::ConcreteTyped) {
+    return false;  // a prim of an abstract type is of no type at all, as in OpenUSD
   }
   const std::vector<Token>& chain = data_->definition->schema()->chain;
   return std::find(chain.begin(), chain.end(), type) != chain.end();

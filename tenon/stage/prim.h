@@ -95,8 +95,10 @@ class Prim {
 
   /// Specs strongest first: for "where does this come from".
   std::vector<SpecSite> spec_stack() const;
-  /// A diagnostic with file and line of the strongest spec.
-  Diagnostic located(Severity severity, std::string rule, std::string message) const;
+  /// A diagnostic with the place of the strongest spec, or of the strongest that says what `part`
+  /// names.
+  Diagnostic located(Severity severity, std::string rule, std::string message,
+                     StatementPart part = {}) const;
 
  private:
   friend class Stage;

@@ -6,9 +6,11 @@
 #include <set>
 
 #include "tenon/compose/site.h"
+#include "tenon/layer/finding_place.h"
 #include "tenon/layer/item_set.h"
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/prim.h"
+#include "tenon/stage/property_facts.h"
 #include "tenon/stage/stage_data.h"
 
 namespace tenon::stage {
@@ -183,17 +185,17 @@ std::vector<SpecSite> Prim::spec_stack() const {
   return result;
 }
 
-Diagnostic Prim::located(Severity severity, std::string rule, std::string message) const {
+Diagnostic Prim::located(Severity severity, std::string rule, std::string message,
+                         StatementPart part) const {
   Diagnostic diagnostic;
   diagnostic.severity = severity;
   diagnostic.rule = std::move(rule);
   diagnostic.message = std::move(message);
   diagnostic.prim = path().str();
   if (data_ != nullptr && !data_->index->opinions.empty()) {
-    const compose::Opinion& opinion = data_->index->opinions.front();
-    diagnostic.file = opinion.layer->identifier();
-    diagnostic.line = opinion.spec->line;
-    diagnostic.column = opinion.spec->column;
+    const std::vector<SpecSite> sites = spec_stack();
+    const SpecSite& site = site_that_says(sites, part);
+    layer::place_finding(diagnostic, *site.layer, site.path, site.spec, std::move(part));
   }
   return diagnostic;
 }

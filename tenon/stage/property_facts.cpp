@@ -5,11 +5,34 @@
 #include <algorithm>
 
 #include "tenon/compose/targets.h"
+#include "tenon/layer/finding_place.h"
 #include "tenon/stage/composed_fields.h"
 
 namespace tenon::stage {
 
 namespace fields = layer::fields;
+
+namespace {
+
+/// The value holds the item of the part, or what its keys lead to.
+bool names_item(const layer::Value& value, const StatementPart& part) {
+  if (!part.keys.empty()) {
+    if (const auto* selections = value.get<layer::VariantSelections>()) {
+      return selections->items.contains(part.keys.front());
+    }
+    const auto* dictionary = value.get<layer::Dictionary>();
+    return dictionary != nullptr && dictionary->find(part.keys.front()) != nullptr;
+  }
+  if (const auto* op = value.get<layer::ListOp<Token>>()) {
+    const auto lists = {&op->explicit_items, &op->prepended, &op->appended, &op->added};
+    return std::any_of(lists.begin(), lists.end(), [&](const auto* items) {
+      return std::find(items->begin(), items->end(), Token(part.item)) != items->end();
+    });
+  }
+  return true;
+}
+
+}  // namespace
 
 SourceMap source_map(const StageData& stage, const PrimData& prim, Path proxy_path) {
   SourceMap map;
@@ -105,13 +128,46 @@ Diagnostic located_property(const PrimData* prim, Path path, Token name, Diagnos
   if (sites.empty() && !prim->index->opinions.empty()) {
     const compose::Opinion& opinion = prim->index->opinions.front();
     sites.push_back({opinion.layer, opinion.path, opinion.spec});
+    diagnostic.part = {};
   }
   if (!sites.empty()) {
-    diagnostic.file = sites.front().layer->identifier();
-    diagnostic.line = sites.front().spec->line;
-    diagnostic.column = sites.front().spec->column;
+    const SpecSite& site = site_that_says(sites, diagnostic.part);
+    layer::place_finding(diagnostic, *site.layer, site.path, site.spec, diagnostic.part);
   }
   return diagnostic;
+}
+
+const SpecSite& site_that_says(const std::vector<SpecSite>& sites, const StatementPart& part) {
+  if (!part.field.empty()) {
+    const Token field(part.field);
+    for (const bool with_item : {true, false}) {
+      for (const SpecSite& site : sites) {
+        const layer::Value* value = site.spec->find(field);
+        if (value != nullptr && (!with_item || names_item(*value, part))) {
+          return site;
+        }
+      }
+    }
+  }
+  return sites.front();
+}
+
+void place_target(const StageData& stage, const PrimData& prim, Path path, Path target,
+                  Diagnostic& diagnostic) {
+  const Path proxy = path.parent() == prim.path ? Path() : path.parent();
+  const SourceMap map = prim.in_prototype ? source_map(stage, prim, proxy) : SourceMap();
+  for (const Path composed : compose::compose_stage_targets(*prim.index, path.name()).paths) {
+    if ((map.empty() ? composed : translated(map, composed)) != target) {
+      continue;
+    }
+    const compose::TargetOrigin origin =
+        compose::origin_of_target(*prim.index, path.name(), composed);
+    if (origin.opinion.layer != nullptr) {
+      layer::place_finding(diagnostic, *origin.opinion.layer, origin.opinion.path,
+                           origin.opinion.spec, origin.part);
+      return;
+    }
+  }
 }
 
 }  // namespace tenon::stage

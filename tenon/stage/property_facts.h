@@ -29,7 +29,15 @@ Path translated(const SourceMap& map, Path target);
 std::vector<Path> composed_targets(const StageData& stage, const PrimData& prim, Path proxy_path,
                                    Token name);
 
-/// `diagnostic` with the place of the property's strongest opinion, else of the prim's.
+/// `diagnostic` with the place of the property's strongest opinion on what its part is about, else
+/// of the prim's.
 Diagnostic located_property(const PrimData* prim, Path path, Token name, Diagnostic diagnostic);
+
+/// The strongest site that says what `part` names, else the strongest. `sites` is not empty.
+const SpecSite& site_that_says(const std::vector<SpecSite>& sites, const StatementPart& part);
+
+/// Places a finding at the target or connection of the property at `path`, as that prim sees it.
+void place_target(const StageData& stage, const PrimData& prim, Path path, Path target,
+                  Diagnostic& diagnostic);
 
 }  // namespace tenon::stage

@@ -49,7 +49,7 @@ std::vector<ClipDefinition> own_clip_definitions(const StageData& data,
   const auto exists = [&](const std::string& asset, const layer::Layer& anchor) {
     return !data.options.resolve_asset || !data.options.resolve_asset(asset, anchor).empty();
   };
-  return clip_definitions(index, exists, diagnostics);
+  return clip_definitions(index, {exists, &data.template_files_left}, diagnostics);
 }
 
 std::string prototype_key(const StageData& data, const compose::PrimIndex& instance,

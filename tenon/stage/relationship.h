@@ -37,7 +37,11 @@ class Relationship {
   layer::Value metadata(Token field) const;
   std::map<std::string, layer::Value> all_authored_metadata() const;
   std::vector<SpecSite> spec_stack() const;
-  Diagnostic located(Severity severity, std::string rule, std::string message) const;
+  Diagnostic located(Severity severity, std::string rule, std::string message,
+                     StatementPart part = {}) const;
+  /// The same with the place of one of its targets, given in the stage's namespace.
+  Diagnostic located_target(Severity severity, std::string rule, std::string message,
+                            Path target) const;
 
  private:
   friend class Prim;

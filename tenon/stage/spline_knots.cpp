@@ -70,6 +70,20 @@ SplineKnot SplineKnots::operator[](std::size_t at) const {
              : without_custom_data(spline_.knots[spline_.knots.size() - (size() - at)]);
 }
 
+std::size_t SplineKnots::written_index(std::size_t at) const {
+  if (at < head_) {
+    return at;
+  }
+  return at < head_ + copies_ ? proto_ + (at - head_) % proto_count_
+                              : spline_.knots.size() - (size() - at);
+}
+
+std::int32_t SplineKnots::turn(std::size_t at) const {
+  return at < head_ || at >= head_ + copies_
+             ? 0
+             : static_cast<std::int32_t>((at - head_) / proto_count_) - before_;
+}
+
 SplineKnot SplineKnots::copy(std::size_t at) const {
   const layer::SplineLoop& loop = *spline_.loop;
   const double span = loop.end - loop.start;

@@ -22,6 +22,10 @@ class SplineKnots {
 
   std::size_t size() const { return head_ + copies_ + tail_; }
   layer::SplineKnot operator[](std::size_t at) const;
+  /// The written knot that it is, or is a copy of.
+  std::size_t written_index(std::size_t at) const;
+  /// Which copy of the loop the knot is in: 0 the loop itself and knots outside of it.
+  std::int32_t turn(std::size_t at) const;
   layer::SplineKnot front() const { return (*this)[0]; }
   layer::SplineKnot back() const { return (*this)[size() - 1]; }
   /// The number of knots that are not later than `time`.

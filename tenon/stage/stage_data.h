@@ -73,6 +73,7 @@ struct StageData {
   DefinitionCache definitions;
   std::unique_ptr<ClipLayers> clip_layers;
   std::deque<ClipSets> clip_sets;
+  mutable std::size_t template_files_left = limits::kTemplateFiles;  ///< while it is populated
   Diagnostics diagnostics;
 
   /// The handle at an absolute prim path, proxies included; invalid when there is none.

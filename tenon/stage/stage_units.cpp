@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "tenon/base/text_number.h"
+#include "tenon/layer/finding_place.h"
 
 namespace tenon::stage {
 namespace {
@@ -21,7 +22,8 @@ Diagnostic diagnostic_at(const Stage& stage, Token field, std::string rule, std:
   diagnostic.severity = Severity::Error;
   diagnostic.rule = std::move(rule);
   diagnostic.message = std::move(message);
-  diagnostic.file = in_session ? session->identifier() : stage.root_layer().identifier();
+  layer::place_finding(diagnostic, in_session ? *session : stage.root_layer(),
+                       Path::absolute_root(), layer::field_part(field));
   diagnostic.fix = std::move(fix);
   return diagnostic;
 }

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+namespace tenon::limits {
+
+inline constexpr std::size_t kTextFaults = 20;  ///< faults told about a text layer
+
+/// Bytes that are looked at again, to find the items that findings of one text layer are about.
+inline constexpr std::size_t kPlaceWorkPerByte = 8;
+inline constexpr std::size_t kPlaceWork = 16'777'216;  ///< the least of the same
+
+}  // namespace tenon::limits

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// Limits on which files an asset may have read, and how much of them.
+namespace tenon::limits {
+
+inline constexpr std::uint64_t kCopiedFileBytes = 4'294'967'296;  ///< of a file that is copied
+inline constexpr std::uint64_t kCheckedEntryBytes = 1u << 20;     ///< whose check sum reading takes
+inline constexpr std::size_t kPartsFolderLevels = 4;  ///< above the folder of a description
+inline constexpr std::size_t kNamedFiles = 100'000;   ///< names that a model's files are tried by
+inline constexpr std::uint64_t kPackageXmlBytes = 1u << 20;  ///< of a ROS package's package.xml
+
+}  // namespace tenon::limits

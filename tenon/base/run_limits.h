@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+/// Limits on what a run may be asked for.
+namespace tenon::limits {
+
+/// States of bodies and joints that a run records, frames times bodies and joints: about 2 GB.
+inline constexpr std::size_t kRecordedStates = 20'000'000;
+inline constexpr std::size_t kStandardInput = 4'294'967'296;  ///< bytes of a layer from a pipe
+
+}  // namespace tenon::limits
