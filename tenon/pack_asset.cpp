@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "tenon/asset_policy.h"
 #include "tenon/stage_sources.h"
 
 namespace tenon {
@@ -15,8 +16,9 @@ Result<PackedAsset> pack_asset(const std::string& path, const OpenOptions& optio
   const std::string& file = root->identifier();
   resolver.search_paths.insert(resolver.search_paths.begin(), file.substr(0, file.rfind('/') + 1));
   PackedAsset packed;
-  TENON_TRY(packed.package, formats::pack(bytes::AssetResolver(std::move(resolver)), *root,
-                                          diagnostics, &packed.files));
+  TENON_TRY(packed.package,
+            formats::pack(bytes::AssetResolver(std::move(resolver)), policy_for(path, options),
+                          *root, diagnostics, &packed.files));
   return packed;
 }
 

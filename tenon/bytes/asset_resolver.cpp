@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "tenon/base/limits.h"
+#include "tenon/base/reading_limits.h"
 #include "tenon/bytes/zip_archive.h"
 
 namespace tenon::bytes {
@@ -223,34 +224,34 @@ Result<std::string> AssetResolver::resolve_in_package(const std::string& asset_p
 }
 
 Result<void> AssetResolver::check_sandbox(const std::string& file) const {
-  std::error_code error;
-  return options_.roots.empty() ? Result<void>()
-                                : check_real_path(std::filesystem::canonical(file, error).string());
+  return options_.roots.empty() ? Result<void>() : check_real_path(real_file_path(file));
 }
 
 Result<void> AssetResolver::check_real_path(const std::string& real) const {
-  std::error_code error;
-  for (const std::string& root : options_.roots) {
-    const std::string folder = std::filesystem::canonical(root, error).string();
-    if (!error && (real == folder || real.starts_with(folder == "/" ? folder : folder + "/"))) {
-      return {};
-    }
+  if (sandbox_.allows_real(real)) {
+    return {};
   }
-  return Error(ErrorCode::NotFound, "@" + real + "@ lies outside of the folders that may be read")
+  return Error(ErrorCode::NotFound, "@" + real + "@ is outside the folders that may be read")
       .with_rule("layer.outside")
       .with_fix("add its folder to the roots of the sandbox, if it may be read");
 }
 
 Result<std::shared_ptr<const FileBytes>> AssetResolver::open(const std::string& identifier) const {
-  PackagePath path = split_package_path(identifier);
-  TENON_CHECK(check_sandbox(path.package));
+  TENON_CHECK(check_sandbox(split_package_path(identifier).package));
   FileRules rules;
   if (!options_.roots.empty()) {
     // Once more when it is open: the path may name another file by then. Files of strangers, who
     // may shorten them, are not mapped.
     rules.check = [this](const std::string& real) { return check_real_path(real); };
     rules.may_map = false;
+    rules.most_bytes = limits::kCopiedFileBytes;
   }
+  return open_identifier(identifier, rules);
+}
+
+Result<std::shared_ptr<const FileBytes>> open_identifier(const std::string& identifier,
+                                                         const FileRules& rules) {
+  PackagePath path = split_package_path(identifier);
   TENON_TRY(std::shared_ptr<const FileBytes> bytes, FileBytes::open(path.package, rules));
   for (std::size_t depth = 0; !path.inner.empty(); ++depth) {
     if (depth == limits::kPackageNesting) {

@@ -9,6 +9,7 @@
 
 #include "tenon/base/result.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/read_policy.h"
 
 /// From asset paths as layers name them to files. The rules are those of OpenUSD's default
 /// resolver (26.11).
@@ -48,7 +49,8 @@ std::string plain_asset_path(const std::string& path);
 class AssetResolver {
  public:
   AssetResolver() = default;
-  explicit AssetResolver(ResolverOptions options) : options_(std::move(options)) {}
+  explicit AssetResolver(ResolverOptions options)
+      : options_(std::move(options)), sandbox_(options_.roots) {}
 
   const ResolverOptions& options() const { return options_; }
 
@@ -67,7 +69,12 @@ class AssetResolver {
   Result<void> check_real_path(const std::string& real) const;
 
   ResolverOptions options_;
+  ReadPolicy sandbox_;  // of options_.roots
 };
+
+/// The bytes of what `identifier` names, without a sandbox. `rules` are for the outer file.
+Result<std::shared_ptr<const FileBytes>> open_identifier(const std::string& identifier,
+                                                         const FileRules& rules = {});
 
 /// The absolute form of a path in the file system, "." and ".." removed, links kept.
 std::string absolute_file_path(std::string_view path);

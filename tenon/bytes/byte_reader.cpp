@@ -5,9 +5,9 @@
 namespace tenon::bytes {
 
 Error out_of_bounds(std::uint64_t offset, std::uint64_t wanted, std::uint64_t size) {
-  return Error(ErrorCode::Corrupt, "data of " + std::to_string(wanted) + " at offset " +
-                                       std::to_string(offset) + " leave the file of " +
-                                       std::to_string(size) + " bytes")
+  return Error(ErrorCode::Corrupt, "the file ends too early: it has " + std::to_string(size) +
+                                       " bytes, and " + std::to_string(wanted) +
+                                       " are expected at offset " + std::to_string(offset))
       .with_rule("file.truncated");
 }
 

@@ -12,17 +12,29 @@
 #include <unistd.h>
 
 #include "tenon/base/assert.h"
+#include "tenon/bytes/posix_files.h"
+#include "tenon/bytes/read_record.h"
 
 namespace tenon::bytes {
 namespace {
 
 constexpr std::size_t kMapFrom = 64u << 10;  // below this size reading is cheaper
 
+constexpr int kFlags = O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK;  // pipes do not hold us
+
+/// What does something when it is opened: a tape is wound, a watchdog started.
+bool is_device(const std::string& path) {
+  struct stat info = {};
+  const bool device =
+      ::stat(path.c_str(), &info) == 0 && (S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode));
+  errno = device ? ENXIO : errno;
+  return device;
+}
+
 /// Closes its file descriptor.
 struct OpenFile {
   explicit OpenFile(const std::string& path)
-      : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-  }  // pipes do not hold us
+      : descriptor(is_device(path) ? -1 : ::open(path.c_str(), kFlags)) {}
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
   ~OpenFile() {
@@ -52,22 +64,20 @@ std::string real_path_of(int descriptor, const std::string& path) {
 
 Result<std::string> read_all(int descriptor, std::size_t size, const std::string& path) {
   std::string contents(size, '\0');
-  std::size_t done = 0;
-  while (done < size) {
-    const ssize_t got = ::read(descriptor, contents.data() + done, size - done);
-    if (got < 0 && errno == EINTR) {
-      continue;
-    }
-    if (got < 0) {
-      return file_error(path, "cannot read the file", errno);
-    }
-    if (got == 0) {
-      break;  // shortened meanwhile
-    }
-    done += static_cast<std::size_t>(got);
+  if (const int error = read_up_to(descriptor, contents); error != 0) {
+    return file_error(path, "cannot read the file", error);
   }
-  contents.resize(done);
   return contents;
+}
+
+std::shared_ptr<const FileBytes> noted(std::shared_ptr<const FileBytes> bytes,
+                                       const std::string& path, const struct stat& info,
+                                       const FileRules& rules) {
+  ReadRecord* record = ReadRecord::current();
+  if (record != nullptr && rules.is_input) {
+    record->note(path, stamp_from(info), bytes->text());
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -95,9 +105,15 @@ Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path
     return Error(ErrorCode::Io, "not a regular file").in_file(path).with_rule("file.unreadable");
   }
   const auto size = static_cast<std::size_t>(info.st_size);
+  if (size > rules.most_bytes) {
+    return Error(ErrorCode::Limit, "the file has " + std::to_string(size) + " bytes, more than " +
+                                       std::to_string(rules.most_bytes))
+        .in_file(path)
+        .with_rule("file.too-large");
+  }
   if (size < kMapFrom || !rules.may_map) {
     TENON_TRY(std::string contents, read_all(file.descriptor, size, path));
-    return own(std::move(contents));
+    return noted(own(std::move(contents)), path, info, rules);
   }
   void* address = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.descriptor, 0);
   if (address == MAP_FAILED) {
@@ -106,7 +122,7 @@ Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path
   const std::shared_ptr<FileBytes> bytes(new FileBytes());
   bytes->mapping_ = address;
   bytes->span_ = {static_cast<const std::byte*>(address), size};
-  return std::shared_ptr<const FileBytes>(bytes);
+  return noted(bytes, path, info, rules);
 }
 
 std::shared_ptr<const FileBytes> FileBytes::own(std::string contents) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -18,6 +19,9 @@ struct FileRules {
   /// Asked about the file that is open, by its path without symbolic links, before it is read.
   std::function<Result<void>(const std::string& real_path)> check;
   bool may_map = true;  ///< false: large files are read, too
+  /// False for what is looked at because it is to be replaced: it is noted in no ReadRecord.
+  bool is_input = true;
+  std::uint64_t most_bytes = UINT64_MAX;  ///< of the file; for more ErrorCode::Limit
 };
 
 /// The bytes of a file or a part of one, read-only and shared by all who read from them.

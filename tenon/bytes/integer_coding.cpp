@@ -10,100 +10,16 @@
 #include <unordered_map>
 
 #include "tenon/base/limits.h"
+#include "tenon/bytes/integer_stream.h"
 #include "tenon/bytes/lz4_block.h"
 
 namespace tenon::bytes {
 namespace {
 
-template <std::size_t kWidth>
-struct Widths;
-template <>
-struct Widths<4> {
-  using Signed = std::int32_t;
-  using Unsigned = std::uint32_t;
-  using Short = std::int8_t;
-  using Middle = std::int16_t;
-};
-template <>
-struct Widths<8> {
-  using Signed = std::int64_t;
-  using Unsigned = std::uint64_t;
-  using Short = std::int16_t;
-  using Middle = std::int32_t;
-};
-
 Error too_short() {
   return Error(ErrorCode::Corrupt, "a packed list of integers ends too early")
       .with_rule("file.integers-damaged");
 }
-
-template <class T>
-std::size_t codes_size(T count) {
-  return static_cast<std::size_t>((count + 3) / 4);
-}
-
-/// Reads differences one by one from the code bytes and the tail. Sums wrap around.
-template <class W>
-class Decoder {
- public:
-  using Unsigned = typename W::Unsigned;
-
-  /// False when `data` are too short for the codes.
-  bool start(std::string_view data, std::size_t count) {
-    if (data.size() < sizeof(Unsigned) + codes_size(count)) {
-      return false;
-    }
-    std::memcpy(&common_, data.data(), sizeof(common_));
-    codes_ = data.data() + sizeof(Unsigned);
-    tail_ = codes_ + codes_size(count);
-    end_ = data.data() + data.size();
-    return true;
-  }
-
-  /// The next `count` (1 to 4) integers; false at the end of the tail.
-  template <class T>
-  bool next(std::size_t count, T* out) {
-    const auto codes = static_cast<unsigned char>(*codes_++);
-    if (codes == 0) {
-      for (std::size_t i = 0; i < count; ++i) {
-        out[i] = static_cast<T>(value_ += common_);
-      }
-      return true;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      Unsigned difference = common_;
-      const unsigned code = (codes >> (2 * i)) & 3u;
-      const bool found = code == 0   ? true
-                         : code == 1 ? take<typename W::Short>(difference)
-                         : code == 2 ? take<typename W::Middle>(difference)
-                                     : take<typename W::Signed>(difference);
-      if (!found) {
-        return false;
-      }
-      out[i] = static_cast<T>(value_ += difference);
-    }
-    return true;
-  }
-
- private:
-  template <class Stored>
-  bool take(Unsigned& difference) {
-    if (static_cast<std::size_t>(end_ - tail_) < sizeof(Stored)) {
-      return false;
-    }
-    Stored stored;
-    std::memcpy(&stored, tail_, sizeof(stored));
-    tail_ += sizeof(stored);
-    difference = static_cast<Unsigned>(static_cast<typename W::Signed>(stored));
-    return true;
-  }
-
-  Unsigned common_ = 0;
-  Unsigned value_ = 0;
-  const char* codes_ = nullptr;
-  const char* tail_ = nullptr;
-  const char* end_ = nullptr;
-};
 
 /// The commonest of many differences, the largest of several. The small ones, which are nearly all
 /// in meshes, are counted by index.
@@ -203,37 +119,68 @@ std::uint64_t max_integer_count(std::uint64_t compressed_size) {
 }
 
 template <class T>
-Result<std::vector<T>> decode_integers(std::span<const std::byte> compressed, std::uint64_t count) {
-  using W = Widths<sizeof(T)>;
+std::size_t IntegerStream<T>::tail_size(std::span<const char> codes) {
+  static constexpr auto kTails = [] {
+    std::array<std::uint8_t, 256> tails{};
+    for (unsigned code = 0; code < tails.size(); ++code) {
+      tails[code] = static_cast<std::uint8_t>(tail_of(code));
+    }
+    return tails;
+  }();
+  std::size_t size = 0;
+  for (const char code : codes) {
+    size += kTails[static_cast<unsigned char>(code)];
+  }
+  return size;
+}
+
+template <class T>
+Result<IntegerStream<T>> IntegerStream<T>::open(std::span<const std::byte> compressed,
+                                                std::uint64_t count) {
+  IntegerStream stream;
   if (count == 0) {
-    return std::vector<T>();
+    return stream;
   }
   if (count > max_integer_count(compressed.size())) {
     return too_short();
   }
   const auto size = static_cast<std::size_t>(count);
-  TENON_TRY(const std::string data,
-            lz4_decompress(compressed, sizeof(T) + codes_size(size) + size * sizeof(T)));
-  Decoder<W> decoder;
-  if (!decoder.start(data, size)) {
+  const std::size_t codes = integer_codes_size(size);
+  TENON_TRY(std::string data, lz4_decompress(compressed, sizeof(T) + codes + size * sizeof(T)));
+  if (data.size() < sizeof(T) + codes) {
     return too_short();
   }
-  std::vector<T> integers(size);
-  std::size_t at = 0;
-  for (; at + 4 <= size; at += 4) {
-    if (!decoder.next(4, integers.data() + at)) {
-      return too_short();
-    }
+  if (const std::size_t last = size % kGroup; last != 0) {
+    char& code = data[sizeof(T) + codes - 1];  // its upper bits stand for nothing
+    code = static_cast<char>(static_cast<unsigned char>(code) & ((1u << (2 * last)) - 1));
   }
-  if (at < size && !decoder.next(size - at, integers.data() + at)) {
+  if (data.size() - sizeof(T) - codes <
+      tail_size(std::span<const char>(data).subspan(sizeof(T), codes))) {
     return too_short();
   }
+  std::memcpy(&stream.common_, data.data(), sizeof(stream.common_));
+  stream.data_ = std::make_unique<const std::string>(std::move(data));
+  stream.codes_ = stream.data_->data() + sizeof(T);
+  stream.tail_ = stream.codes_ + codes;
+  return stream;
+}
+
+template class IntegerStream<std::int32_t>;
+template class IntegerStream<std::uint32_t>;
+template class IntegerStream<std::int64_t>;
+template class IntegerStream<std::uint64_t>;
+
+template <class T>
+Result<std::vector<T>> decode_integers(std::span<const std::byte> compressed, std::uint64_t count) {
+  TENON_TRY(auto stream, IntegerStream<T>::open(compressed, count));
+  std::vector<T> integers(static_cast<std::size_t>(count));
+  stream.read(integers);
   return integers;
 }
 
 template <class T>
 std::string encode_integers(std::span<const T> integers) {
-  using W = Widths<sizeof(T)>;
+  using W = IntegerWidths<sizeof(T)>;
   using Unsigned = typename W::Unsigned;
   using Signed = typename W::Signed;
   if (integers.empty()) {
@@ -242,7 +189,7 @@ std::string encode_integers(std::span<const T> integers) {
   const Signed common = commonest_difference<W>(integers);
   // The commonest difference, a code for each integer, the differences: no more than this. Not
   // cleared: most of the room is never touched.
-  const std::size_t code_bytes = codes_size(integers.size());
+  const std::size_t code_bytes = integer_codes_size(integers.size());
   const auto out =
       std::make_unique_for_overwrite<char[]>(sizeof(Signed) * (integers.size() + 2) + code_bytes);
   std::memcpy(out.get(), &common, sizeof(common));

@@ -7,16 +7,14 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "tenon/bytes/posix_files.h"
 
 namespace tenon::bytes {
 namespace {
-
-constexpr unsigned kExchange = 2;  // RENAME_EXCHANGE, which C libraries name in different headers
 
 /// Has the system begin to write a file to its disk, so that syncing many files one after another
 /// is done in little more than the time for one. That it cannot is no error: they are synced later.
@@ -37,23 +35,55 @@ int write_new_file(const std::string& path, std::string_view contents) {
   return ::close(descriptor) == 0 ? error : errno;
 }
 
-int exchange_names(const std::string& a, const std::string& b) {
-  const long done = ::syscall(SYS_renameat2, AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), kExchange);
-  return done == 0 ? 0 : errno;
+std::string parent_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
+
+/// The lock on a folder that nobody else has; -1 where somebody has, or where there are no locks.
+int lock_of(const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    ::close(descriptor);
+    return -1;
+  }
+  return descriptor;
 }
 
-std::string parent_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
+bool is_hidden_name(std::string_view name) {
+  constexpr std::string_view kStart = ".tenon-";
+  return name.starts_with(kStart) && name.size() > kStart.size() &&
+         name.find_first_not_of("0123456789-", kStart.size()) == std::string_view::npos;
+}
+
+/// Takes folders away that were in the making when their programs were killed.
+void sweep(const std::string& parent) {
+  std::error_code error;
+  std::filesystem::directory_iterator at(parent.empty() ? "." : parent, error);
+  for (; !error && at != std::filesystem::directory_iterator(); at.increment(error)) {
+    struct stat info = {};
+    if (!is_hidden_name(at->path().filename().native()) ||
+        ::lstat(at->path().c_str(), &info) != 0 || !S_ISDIR(info.st_mode) ||
+        info.st_uid != ::geteuid()) {
+      continue;
+    }
+    if (const int lock = lock_of(at->path().string()); lock >= 0) {
+      std::error_code ignored;
+      std::filesystem::remove_all(at->path(), ignored);
+      ::close(lock);
+    }
+  }
+}
 
 }  // namespace
 
 Result<NewFolder> NewFolder::beside(const std::string& place) {
   NewFolder made(place);
+  sweep(parent_of(place));
   const int error = with_free_name(parent_of(place), made.path_, [](const std::string& name) {
     return ::mkdir(name.c_str(), 0777) == 0;
   });
   if (error != 0) {
     return unwritable(place, "folder", error);
   }
+  made.lock_ = lock_of(made.path_);
   made.folders_.insert(made.path_);
   return made;
 }
@@ -61,10 +91,14 @@ Result<NewFolder> NewFolder::beside(const std::string& place) {
 NewFolder::NewFolder(NewFolder&& other) noexcept
     : place_(std::move(other.place_)),
       path_(std::exchange(other.path_, {})),
+      lock_(std::exchange(other.lock_, -1)),
       folders_(std::move(other.folders_)),
       files_(std::move(other.files_)) {}
 
 NewFolder::~NewFolder() {
+  if (lock_ >= 0) {
+    ::close(lock_);
+  }
   if (!path_.empty()) {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
@@ -96,32 +130,7 @@ Result<void> NewFolder::add_file(const std::string& name, std::string_view conte
   return error == 0 ? Result<void>() : unwritable(place_ + "/" + name, "file", error);
 }
 
-int NewFolder::add_link(const std::string& name, const std::string& target) {
-  const int error = make_folders(parent_of(name));
-  return error == 0 && ::symlink(target.c_str(), (path_ + "/" + name).c_str()) != 0 ? errno : error;
-}
-
-int NewFolder::add_hard_link(const std::string& name, const std::string& existing) {
-  const int error = make_folders(parent_of(name));
-  return error == 0 && ::link(existing.c_str(), (path_ + "/" + name).c_str()) != 0 ? errno : error;
-}
-
-/// That the owner may not be changed is no error.
-int NewFolder::take_mode(const std::string& name, const std::string& existing) {
-  const std::string path = name.empty() ? path_ : path_ + "/" + name;
-  struct stat old = {};
-  struct stat own = {};
-  if (::stat(existing.c_str(), &old) != 0 || ::stat(path.c_str(), &own) != 0) {
-    return errno;
-  }
-  if ((own.st_uid != old.st_uid || own.st_gid != old.st_gid) &&
-      ::chown(path.c_str(), old.st_uid, old.st_gid) != 0) {
-    errno = 0;
-  }
-  return ::chmod(path.c_str(), old.st_mode & 07777u) == 0 ? 0 : errno;
-}
-
-int NewFolder::sync_and_rename(Replace replace) {
+int NewFolder::sync_and_rename() {
   for (const std::string& file : files_) {
     if (const int error = sync_file(file); error != 0) {
       return error;
@@ -132,23 +141,20 @@ int NewFolder::sync_and_rename(Replace replace) {
       return error;
     }
   }
-  // An empty folder may be replaced by renaming, which all file systems can.
-  if (::rename(path_.c_str(), place_.c_str()) == 0) {
-    path_.clear();
-    return 0;
+  if (::rename(path_.c_str(), place_.c_str()) != 0) {
+    return errno;
   }
-  if (replace == Replace::Anything && (errno == ENOTEMPTY || errno == EEXIST)) {
-    return exchange_names(path_, place_);  // what stood there goes under the hidden name
-  }
-  return errno;
+  path_.clear();
+  return 0;
 }
 
-Result<void> NewFolder::take_place(Replace replace) {
-  const int error = sync_and_rename(replace);
-  if (error == EINVAL || error == ENOSYS || error == EXDEV) {
-    return Error(ErrorCode::Unsupported, "the file system cannot exchange folders in one step")
+Result<void> NewFolder::take_place() {
+  const int error = sync_and_rename();
+  if (error == ENOTEMPTY || error == EEXIST || error == ENOTDIR) {
+    return Error(ErrorCode::Io, "the folder holds something already")
         .in_file(place_)
-        .with_fix("write to a new folder, or remove this one first");
+        .with_rule("file.exists")
+        .with_fix("name a folder that does not exist yet");
   }
   if (error != 0) {
     return unwritable(place_, "folder", error);

@@ -13,7 +13,8 @@ namespace tenon::bytes {
 
 /// A folder in the making, under a hidden name beside its place: other programs see it whole or not
 /// at all, also when the process is killed or the disk is full. Without `take_place` it goes with
-/// the object; a kill may leave the hidden folder behind.
+/// the object; a kill may leave the hidden folder behind, which goes with the next one that is made
+/// there.
 class NewFolder {
  public:
   /// `place` is an absolute path without '/' at its end; its parent must exist. ErrorCode::Io.
@@ -29,26 +30,19 @@ class NewFolder {
   Result<void> add_folder(const std::string& name);
   Result<void> add_file(const std::string& name, std::string_view contents);
 
-  /// The same for a symbolic link with these contents, and for another name of the file `existing`;
-  /// the owner and permissions of `existing` for what has that name, "" for the folder itself.
-  /// Return 0 or an error number.
-  int add_link(const std::string& name, const std::string& target);
-  int add_hard_link(const std::string& name, const std::string& existing);
-  int take_mode(const std::string& name, const std::string& existing);
-
-  enum class Replace { Empty, Anything };
-  /// Syncs all of it and gives it its place in one step. What stood there before goes: an empty
-  /// folder, or any folder. Errors, which leave the place as it was: ErrorCode::Io, Unsupported
-  /// where the file system cannot exchange folders.
-  Result<void> take_place(Replace replace);
+  /// Syncs all of it and gives it its place in one step, where nothing may stand but an empty
+  /// folder. Errors, which leave the place as it was: ErrorCode::Io, with rule "file.exists" for
+  /// what is no empty folder.
+  Result<void> take_place();
 
  private:
   explicit NewFolder(std::string place) : place_(std::move(place)) {}
   int make_folders(const std::string& name);
-  int sync_and_rename(Replace replace);
+  int sync_and_rename();
 
   std::string place_;
   std::string path_;  // while it has a hidden name
+  int lock_ = -1;     // of the folder, which says that somebody is at work in it
   std::set<std::string> folders_;
   std::vector<std::string> files_;  // with contents of their own
 };

@@ -28,12 +28,41 @@ int write_all(int descriptor, std::string_view contents) {
     if (written < 0 && errno == EINTR) {
       continue;
     }
-    if (written < 0) {
-      return errno;
+    if (written <= 0) {
+      return written < 0 ? errno : ENOSPC;
     }
     contents.remove_prefix(static_cast<std::size_t>(written));
   }
   return 0;
+}
+
+int read_up_to(int descriptor, std::string& contents) {
+  std::size_t done = 0;
+  while (done < contents.size()) {
+    const ssize_t got = ::read(descriptor, contents.data() + done, contents.size() - done);
+    if (got < 0 && errno == EINTR) {
+      continue;
+    }
+    if (got < 0) {
+      return errno;
+    }
+    if (got == 0) {
+      break;  // shortened meanwhile
+    }
+    done += static_cast<std::size_t>(got);
+  }
+  contents.resize(done);
+  return 0;
+}
+
+FileStamp stamp_from(const struct stat& info) {
+  constexpr std::int64_t kNanoseconds = 1'000'000'000;
+  FileStamp stamp;
+  stamp.identity = {info.st_dev, info.st_ino};
+  stamp.size = info.st_size;
+  stamp.modified_ns = info.st_mtim.tv_sec * kNanoseconds + info.st_mtim.tv_nsec;
+  stamp.changed_ns = info.st_ctim.tv_sec * kNanoseconds + info.st_ctim.tv_nsec;
+  return stamp;
 }
 
 namespace {

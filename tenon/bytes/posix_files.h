@@ -6,7 +6,10 @@
 #include <string>
 #include <string_view>
 
+#include <sys/stat.h>
+
 #include "tenon/base/error.h"
+#include "tenon/bytes/read_record.h"
 
 /// What writing files and writing folders have in common. Functions return 0 or an error number.
 namespace tenon::bytes {
@@ -16,6 +19,9 @@ namespace tenon::bytes {
 Error unwritable(const std::string& path, const char* kind, int number);
 
 int write_all(int descriptor, std::string_view contents);
+/// Fills `contents` from the file, and shortens it to what there was.
+int read_up_to(int descriptor, std::string& contents);
+FileStamp stamp_from(const struct stat& info);
 /// Makes what was written to a file survive a power cut.
 int sync_file(const std::string& file);
 /// Makes the names in a folder survive a power cut.

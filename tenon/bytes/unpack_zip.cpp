@@ -3,10 +3,12 @@
 #include "tenon/bytes/unpack_zip.h"
 
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <vector>
 
 #include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/file_transaction.h"
 #include "tenon/bytes/new_folder.h"
 #include "tenon/bytes/posix_files.h"
 
@@ -63,8 +65,28 @@ Result<void> write_entries(const ZipArchive& archive, NewFolder& folder) {
     if (is_folder(entry)) {
       TENON_CHECK(folder.add_folder(entry.name));
     } else {
-      TENON_TRY(const auto contents, archive.read(entry));
+      TENON_TRY(const auto contents, archive.read_checked(entry));
       TENON_CHECK(folder.add_file(entry.name, contents->text()));
+    }
+  }
+  return {};
+}
+
+/// Into a folder that is there, which stays the folder that it is.
+Result<void> write_entries_into(const ZipArchive& archive, const std::string& folder) {
+  FileTransaction transaction;
+  std::vector<std::shared_ptr<const FileBytes>> kept;
+  for (const ZipEntry& entry : archive.entries()) {
+    if (!is_folder(entry)) {
+      TENON_TRY(kept.emplace_back(), archive.read(entry));
+      transaction.put(folder + "/" + entry.name, kept.back()->text());
+    }
+  }
+  TENON_CHECK(transaction.commit({.make_folders = true}));
+  for (const ZipEntry& entry : archive.entries()) {
+    std::error_code failed;
+    if (is_folder(entry) && (fs::create_directories(folder + "/" + entry.name, failed), failed)) {
+      return unwritable(folder + "/" + entry.name, "folder", failed.value());
     }
   }
   return {};
@@ -104,11 +126,15 @@ Result<void> unpack_zip(const ZipArchive& archive, const std::string& folder) {
   const fs::path target = absolute_file_path(folder);
   const fs::path place = target.has_filename() ? target : target.parent_path();
   std::error_code ignored;
-  if (fs::exists(fs::symlink_status(place, ignored)) && !fs::is_empty(place, ignored)) {
+  const bool exists = fs::exists(fs::symlink_status(place, ignored));
+  if (exists && !fs::is_empty(place, ignored)) {
     return Error(ErrorCode::Invalid, "the folder holds something already")
         .in_file(place.string())
         .with_rule("file.exists")
         .with_fix("name a folder that does not exist yet");
+  }
+  if (exists) {
+    return write_entries_into(archive, place.string());
   }
   std::error_code failed;
   fs::create_directories(place.parent_path(), failed);
@@ -117,7 +143,7 @@ Result<void> unpack_zip(const ZipArchive& archive, const std::string& folder) {
   }
   TENON_TRY(NewFolder made, NewFolder::beside(place.string()));
   TENON_CHECK(write_entries(archive, made));
-  return made.take_place(NewFolder::Replace::Empty);
+  return made.take_place();
 }
 
 }  // namespace tenon::bytes

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <set>
 
+#include "tenon/base/reading_limits.h"
 #include "tenon/bytes/byte_reader.h"
 #include "tenon/bytes/byte_writer.h"
 
@@ -168,6 +170,7 @@ Result<ZipEntry> read_central_header(ByteReader& in) {
   entry.name.assign(reinterpret_cast<const char*>(name.data()), name.size());
   entry.header = header.header;
   entry.size = header.compressed_size;
+  entry.crc = header.crc;
   entry.method = header.method;
   entry.encrypted = (header.flags & 1u) != 0;
   if (header.size == kIn64Bits || header.compressed_size == kIn64Bits ||
@@ -178,25 +181,45 @@ Result<ZipEntry> read_central_header(ByteReader& in) {
   return entry;
 }
 
-const std::array<std::uint32_t, 256>& crc_table() {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> made{};
+using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
+
+/// Table k takes a byte that k further bytes follow.
+const CrcTables& crc_tables() {
+  static const CrcTables tables = [] {
+    CrcTables made{};
     for (std::uint32_t i = 0; i < 256; ++i) {
       std::uint32_t value = i;
       for (int bit = 0; bit < 8; ++bit) {
         value = (value >> 1) ^ ((value & 1u) != 0 ? 0xedb88320u : 0u);
       }
-      made[i] = value;
+      made[0][i] = value;
+    }
+    for (std::size_t k = 1; k < made.size(); ++k) {
+      for (std::size_t i = 0; i < 256; ++i) {
+        const std::uint32_t before = made[k - 1][i];
+        made[k][i] = (before >> 8) ^ made[0][before & 0xffu];
+      }
     }
     return made;
   }();
-  return table;
+  return tables;
 }
 
+/// Eight bytes at a time, as their tables are independent of each other.
 std::uint32_t crc32(std::string_view data) {
+  const CrcTables& tables = crc_tables();
   std::uint32_t crc = 0xffffffffu;
+  for (; data.size() >= 8; data.remove_prefix(8)) {
+    std::array<std::uint32_t, 2> words;
+    std::memcpy(words.data(), data.data(), 8);
+    words[0] ^= crc;
+    crc = 0;
+    for (std::size_t k = 0; k < 8; ++k) {
+      crc ^= tables[7 - k][words[k / 4] >> (8 * (k % 4)) & 0xffu];
+    }
+  }
   for (const char c : data) {
-    crc = crc_table()[(crc ^ static_cast<unsigned char>(c)) & 0xffu] ^ (crc >> 8);
+    crc = tables[0][(crc ^ static_cast<unsigned char>(c)) & 0xffu] ^ (crc >> 8);
   }
   return ~crc;
 }
@@ -268,10 +291,31 @@ Result<ZipArchive> ZipArchive::open(std::shared_ptr<const FileBytes> bytes) {
     TENON_TRY(ZipEntry entry, read_central_header(in));
     archive.entries_.push_back(std::move(entry));
   }
-  std::stable_sort(archive.entries_.begin(), archive.entries_.end(),
-                   [](const ZipEntry& a, const ZipEntry& b) { return a.header < b.header; });
+  TENON_CHECK(archive.check_order(end.directory));
   archive.bytes_ = std::move(bytes);
   return archive;
+}
+
+/// Sorts the entries by place and sees that each has one, and a name, of its own. An entry that
+/// shares bytes with others would make a small file a large one.
+Result<void> ZipArchive::check_order(std::uint64_t directory) {
+  std::stable_sort(entries_.begin(), entries_.end(),
+                   [](const ZipEntry& a, const ZipEntry& b) { return a.header < b.header; });
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    ZipEntry& entry = entries_[i];
+    entry.end = i + 1 < entries_.size() ? entries_[i + 1].header : directory;
+    const std::uint64_t head = kLocalSize + entry.name.size();
+    if (entry.end < entry.header || entry.end - entry.header < head ||
+        entry.end - entry.header - head < entry.size) {
+      return damaged("\"" + entry.name + "\" lies over what comes after it in the zip file");
+    }
+    names.push_back(entry.name);
+  }
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  return twice == names.end() ? Result<void>()
+                              : damaged("the zip file has \"" + std::string(*twice) + "\" twice");
 }
 
 const ZipEntry* ZipArchive::find(std::string_view name) const {
@@ -280,7 +324,22 @@ const ZipEntry* ZipArchive::find(std::string_view name) const {
   return it == entries_.end() ? nullptr : &*it;
 }
 
-Result<std::shared_ptr<const FileBytes>> ZipArchive::read(const ZipEntry& entry) const {
+namespace {
+
+/// What an entry's own header says of it, where it says it: sizes and check sum may come later.
+bool agrees(const LocalHeader& header, std::string_view name, const ZipEntry& entry) {
+  constexpr std::uint16_t kComesLater = 8;
+  const bool later = (header.flags & kComesLater) != 0;
+  const bool long_size = header.compressed_size == kIn64Bits;
+  return name == entry.name && header.method == entry.method &&
+         ((header.flags & 1u) != 0) == entry.encrypted &&
+         (later ||
+          (header.crc == entry.crc && (long_size || header.compressed_size == entry.size)));
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const FileBytes>> ZipArchive::contents_of(const ZipEntry& entry) const {
   if (entry.encrypted || entry.method != 0) {
     return Error(ErrorCode::Unsupported, "\"" + entry.name + "\" is " +
                                              (entry.encrypted ? "encrypted" : "compressed") +
@@ -294,10 +353,30 @@ Result<std::shared_ptr<const FileBytes>> ZipArchive::read(const ZipEntry& entry)
   if (header.signature != kLocalSignature) {
     return damaged("\"" + entry.name + "\" is not where the table of contents says");
   }
-  TENON_CHECK(in.take(std::uint64_t{header.name_size} + header.extra_size));
+  TENON_TRY(const auto name, in.take(header.name_size));
+  const std::string_view own(reinterpret_cast<const char*>(name.data()), name.size());
+  if (!agrees(header, own, entry)) {
+    return damaged("\"" + entry.name + "\" is something else than the table of contents says");
+  }
+  TENON_CHECK(in.take(header.extra_size));
   const std::size_t start = in.offset();
+  if (start > entry.end || entry.end - start < entry.size) {
+    return damaged("\"" + entry.name + "\" lies over what comes after it in the zip file");
+  }
   TENON_CHECK(in.take(entry.size));
   return FileBytes::slice(bytes_, start, static_cast<std::size_t>(entry.size));
+}
+
+Result<std::shared_ptr<const FileBytes>> ZipArchive::read(const ZipEntry& entry) const {
+  return entry.size <= limits::kCheckedEntryBytes ? read_checked(entry) : contents_of(entry);
+}
+
+Result<std::shared_ptr<const FileBytes>> ZipArchive::read_checked(const ZipEntry& entry) const {
+  TENON_TRY(auto contents, contents_of(entry));
+  if (crc32(contents->text()) != entry.crc) {
+    return damaged("the contents of \"" + entry.name + "\" are not those of its check sum");
+  }
+  return contents;
 }
 
 Result<std::string> write_zip(const std::vector<ZipFile>& files) {

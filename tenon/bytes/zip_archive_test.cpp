@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/base/reading_limits.h"
+
 namespace tenon::bytes {
 namespace {
 
@@ -134,6 +136,63 @@ TEST(ZipArchive, RefusesATableOfContentsOf64BitsThatIsNotThere) {
     ASSERT_FALSE(archive);
     EXPECT_EQ(archive.error().code(), ErrorCode::Corrupt) << archive.error().to_string();
   }
+}
+
+/// Replaces the bytes at `at`.
+std::string with_bytes(std::string zip, std::size_t at, std::string_view bytes) {
+  return zip.replace(at, bytes.size(), bytes);
+}
+
+TEST(ZipArchive, RefusesEntriesThatLieOverOneAnother) {
+  const std::string zip = two_files();
+  const std::size_t first = zip.find("PK\x01\x02");
+  const std::size_t second = zip.find("PK\x01\x02", first + 4);
+  const std::string place = zip.substr(first + 42, 4);
+  const std::string longer("\xf0\0\0\0", 4);
+  for (const std::string& damaged :
+       {with_bytes(zip, second + 42, place),  // both at the same place
+        with_bytes(with_bytes(zip, first + 20, longer), first + 24, longer)}) {
+    const auto archive = open_zip(damaged);
+    ASSERT_FALSE(archive);
+    EXPECT_EQ(archive.error().diagnostic().rule, "package.damaged");
+    EXPECT_NE(archive.error().message().find("lies over"), std::string::npos);
+  }
+}
+
+TEST(ZipArchive, RefusesANameThatStandsTwice) {
+  std::string zip = *write_zip({{"a.usda", "1"}, {"b.usda", "2"}});
+  zip.replace(zip.find("b.usda", zip.find("PK\x01\x02")), 1, "a");
+  const auto archive = open_zip(zip);
+  ASSERT_FALSE(archive);
+  EXPECT_NE(archive.error().message().find("twice"), std::string::npos);
+}
+
+TEST(ZipArchive, RefusesHeadersThatContradictTheTableOfContents) {
+  const std::string zip = two_files();
+  const std::size_t directory = zip.find("PK\x01\x02");
+  for (const std::string& damaged :
+       {with_bytes(zip, 30, "other.usda"), with_bytes(zip, 8, "\x08"), with_bytes(zip, 14, "bad!"),
+        with_bytes(zip, 18, "\x01"), with_bytes(zip, directory + 16, "bad!")}) {
+    const auto archive = open_zip(damaged);
+    ASSERT_TRUE(archive) << archive.error().to_string();
+    const auto contents = archive->read(archive->entries()[0]);
+    ASSERT_FALSE(contents);
+    EXPECT_EQ(contents.error().code(), ErrorCode::Corrupt);
+  }
+}
+
+TEST(ZipArchive, RefusesContentsThatAreNotThoseOfTheCheckSum) {
+  std::string large(limits::kCheckedEntryBytes + 1, 'x');
+  std::string zip = *write_zip({{"a.png", "PNG"}, {"large", large}});
+  zip[zip.find("PNG")] = 'Q';
+  zip[zip.find("xxxx") + 7] = 'y';
+  const auto archive = open_zip(zip);
+  ASSERT_TRUE(archive);
+  EXPECT_FALSE(archive->read(archive->entries()[0]));
+  EXPECT_TRUE(archive->read(archive->entries()[1]));  // larger than what is checked on the way
+  const auto checked = archive->read_checked(archive->entries()[1]);
+  ASSERT_FALSE(checked);
+  EXPECT_NE(checked.error().message().find("check sum"), std::string::npos);
 }
 
 TEST(ZipArchive, RefusesBadNames) {

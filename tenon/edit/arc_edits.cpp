@@ -43,7 +43,7 @@ Result<void> check_offset(Path prim, const layer::LayerOffset& offset) {
   if (std::isfinite(offset.offset) && std::isfinite(offset.scale)) {
     return {};
   }
-  return bad_arc(prim, "the layer offset is no finite number", "give finite numbers");
+  return bad_arc(prim, "the layer offset is not a finite number", "give finite numbers");
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ Result<void> check_offset(Path prim, const layer::LayerOffset& offset) {
 /// like beside what an arc brings in and stay.
 Result<void> StageEditor::map_arc(Path prim, Path& path) const {
   if (!is_arc_target(path)) {
-    return bad_arc(prim, "<" + path.str() + "> is no absolute prim path",
+    return bad_arc(prim, "<" + path.str() + "> is not an absolute prim path",
                    "name a prim from the root, without variant selections");
   }
   if (path.parent().is_absolute_root()) {
@@ -73,7 +73,7 @@ Result<void> StageEditor::edit_arcs(Path prim, Token field, ListEdit<Arc> edit) 
     if (arc.asset_path.empty() && !arc.prim_path.empty()) {
       TENON_CHECK(map_arc(prim, arc.prim_path));
     } else if (!arc.prim_path.empty() && !is_arc_target(arc.prim_path)) {
-      return bad_arc(prim, "<" + arc.prim_path.str() + "> is no absolute prim path",
+      return bad_arc(prim, "<" + arc.prim_path.str() + "> is not an absolute prim path",
                      "name a prim from the root, without variant selections");
     }
   }
@@ -169,7 +169,7 @@ Result<void> StageEditor::set_relocates(layer::Relocates relocates) {
   const Path root = Path::absolute_root();
   for (const auto& [source, target] : relocates.pairs) {
     if (!is_arc_target(source) || (!target.empty() && !is_arc_target(target))) {
-      return bad_arc(root, "<" + source.str() + "> to <" + target.str() + "> is no relocate",
+      return bad_arc(root, "<" + source.str() + "> to <" + target.str() + "> is not a relocate",
                      "name two prims from the root, or no target to delete the source");
     }
   }

@@ -121,7 +121,7 @@ Result<void> LayerEditor::create_prim(Path path) {
   std::vector<Path> missing;
   for (Path at = path; !layer_->has(at); at = at.parent()) {
     if (!at.is_prim_or_variant() || !at.is_absolute()) {
-      return Error(ErrorCode::Invalid, "<" + path.str() + "> is no place for a prim")
+      return Error(ErrorCode::Invalid, "<" + path.str() + "> is not a place for a prim")
           .with_rule("edit.bad-path")
           .with_fix("write it from the root, as in /World/Robot");
     }

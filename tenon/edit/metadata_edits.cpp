@@ -34,7 +34,8 @@ Result<FieldType> field_type(Path object, Token field, SpecKind kind) {
   if (const layer::MetadataField* known = layer::find_metadata_field(field, kind)) {
     return FieldType{known->type, known->is_array};
   }
-  return Error(ErrorCode::Invalid, "`" + field.str() + "` is no metadata of <" + object.str() + ">")
+  return Error(ErrorCode::Invalid,
+               "`" + field.str() + "` is not metadata of <" + object.str() + ">")
       .with_prim(object.prim().str())
       .with_rule("edit.unknown-metadata")
       .with_fix("put values of your own into customData, or customLayerData of the stage");
@@ -99,7 +100,7 @@ Result<void> check_schema(Path prim, Token name) {
   const auto [schema_name, instance] = schema::split_api_name(name);
   const schema::Schema* found = schema::Registry::instance().find(schema_name);
   if (found == nullptr || !found->is_applied_api()) {
-    return unknown_schema(prim, name, "is no API schema that can be applied",
+    return unknown_schema(prim, name, "is not an API schema that can be applied",
                           "use the name of one, such as PhysicsRigidBodyAPI");
   }
   const bool multiple = found->kind == schema::SchemaKind::MultipleApplyApi;

@@ -138,7 +138,7 @@ Result<void> StageEditor::create_class(Path prim) {
   TENON_CHECK(check_editable(prim));
   const FoundPrim found = view().prim(prim);
   if (found && found.defined && stage::composed_specifier(*found.index) != Specifier::Class) {
-    return wrong_kind(prim, "a prim that is no class already");
+    return wrong_kind(prim, "a prim that is not a class already");
   }
   if (found && found.abstract) {
     return {};

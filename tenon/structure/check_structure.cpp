@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tenon/layer/fields.h"
+#include "tenon/layer/finding_place.h"
 #include "tenon/structure/layer_arcs.h"
 #include "tenon/structure/layer_tree.h"
 #include "tenon/structure/layout.h"
@@ -21,16 +22,14 @@ using layer::Spec;
 using layer::SpecKind;
 
 Diagnostic finding(Severity severity, const char* rule, const Layer& layer, Path path,
-                   std::string message, std::string fix) {
+                   std::string message, std::string fix, StatementPart part = {}) {
   Diagnostic found;
   found.severity = severity;
   found.rule = rule;
   found.message = std::move(message);
   found.fix = std::move(fix);
-  found.file = layer.identifier();
-  const Spec* spec = layer.find(path);
-  found.line = spec == nullptr || spec->line == 0 ? 1 : spec->line;
-  found.column = spec == nullptr ? 0 : spec->column;
+  layer::place_finding(found, layer, path, std::move(part));
+  found.line = std::max(found.line, 1U);
   if (!path.is_absolute_root()) {
     found.prim = path.prim_or_variant().strip_variants().str();
     found.property = path.is_property() ? path.name().str() : std::string();
@@ -72,8 +71,9 @@ class FileChecker {
 
  private:
   void add(Severity severity, const char* rule, const Layer& layer, Path path, std::string message,
-           std::string fix) {
-    found_.add(finding(severity, rule, layer, path, std::move(message), std::move(fix)));
+           std::string fix, StatementPart part = {}) {
+    found_.add(
+        finding(severity, rule, layer, path, std::move(message), std::move(fix), std::move(part)));
   }
 
   /// Types of prims, which overs do not repeat, instances, and which files arcs lead to.
@@ -133,12 +133,13 @@ class FileChecker {
   }
 
   void check_owner(const Layer& layer, Role role, Path path, const Ownership& owner,
-                   const std::string& what) {
+                   const std::string& what, StatementPart part = {}) {
     // Whatever belongs to an engine nobody knows, or to a set of its own, stands with it.
     if (role != Role::Variant && role != Role::Engine && !owner.may_be_in(role) &&
         !is_at_home(layer, role, path.prim(), owner.owner)) {
       add(Severity::Error, "structure.wrong-layer", layer, path,
-          what + " does not belong into " + named(role), "move it to " + named(owner.owner));
+          what + " does not belong in " + named(role), "move it to " + named(owner.owner),
+          std::move(part));
     }
   }
 
@@ -166,15 +167,17 @@ class FileChecker {
     if (const auto* type = entry.spec.get<Token>(fields::typeName)) {
       const bool is_asset = path.parent().is_absolute_root() && root_scope(role).empty();
       if (!is_asset) {
-        check_owner(layer, role, path, owner_of_type(*type), "a prim of type " + type->str());
+        check_owner(layer, role, path, owner_of_type(*type), "a prim of type " + type->str(),
+                    layer::field_part(fields::typeName));
       }
     }
     for (const Token api : apis_of(layer, path)) {
-      check_owner(layer, role, path, owner_of_api(api), api.str());
+      const StatementPart part = layer::item_part(fields::apiSchemas, api.str());
+      check_owner(layer, role, path, owner_of_api(api), api.str(), part);
       if (const Replacement* better = replacement_of(api.view())) {
         add(Severity::Info, "structure.legacy-schema", layer, path,
             api.str() + " is of an older generation, which newer engines do not read",
-            "author " + std::string(better->current));
+            "author " + std::string(better->current), part);
       }
     }
     check_empty(layer, entry);
@@ -218,7 +221,7 @@ class FileChecker {
       if (is_absolute(arc.asset_path)) {
         add(Severity::Error, "structure.absolute-path", layer, arc.spec,
             "@" + arc.asset_path + "@ is an absolute path: the asset cannot be moved",
-            "write it relative to this file, beginning with \"./\" or \"../\"");
+            "write it relative to this file, beginning with \"./\" or \"../\"", arc.part());
       }
       const std::string target = target_of(arc.asset_path, layer);
       const bool relative = arc.asset_path.starts_with("./") || arc.asset_path.starts_with("../") ||
@@ -226,7 +229,8 @@ class FileChecker {
       const bool pattern = arc.asset_path.find('<') != std::string::npos;
       if (relative && !pattern && !files_.exists(target)) {
         add(Severity::Error, "structure.missing-file", layer, arc.spec,
-            "@" + arc.asset_path + "@ is not there", "put the file there, or remove the arc");
+            "@" + arc.asset_path + "@ is not there", "put the file there, or remove the arc",
+            arc.part());
         continue;
       }
       const auto to = roles_.find(target);
@@ -234,7 +238,7 @@ class FileChecker {
         add(Severity::Error, "structure.wrong-arc", layer, arc.spec,
             "a " + std::string(arc_name(arc.kind)) + " to @" + arc.asset_path +
                 "@ has no place in " + named(role),
-            "let the files refer to each other as the structure has it");
+            "let the files refer to each other as the structure has it", arc.part());
       }
     }
   }
@@ -268,7 +272,7 @@ class FileChecker {
         add(Severity::Error, "structure.dangling-selection", interface, robot,
             "the variant set \"" + set + "\" has no variant \"" + variant +
                 "\": nothing of it is composed",
-            "select one that exists");
+            "select one that exists", layer::entry_part(fields::variantSelection, {set}, variant));
       }
     }
   }
@@ -324,11 +328,11 @@ Diagnostics check_variant(const stage::Stage& stage, const std::string& variant)
       for (const Path& target :
            relationship ? prim.relationship(name).targets() : prim.attribute(name).connections()) {
         if (!exists(stage, name, target)) {
-          Diagnostic dangling =
-              relationship
-                  ? prim.relationship(name).located(Severity::Error, "structure.dangling-target",
-                                                    "")
-                  : prim.attribute(name).located(Severity::Error, "structure.dangling-target", "");
+          Diagnostic dangling = relationship
+                                    ? prim.relationship(name).located_target(
+                                          Severity::Error, "structure.dangling-target", "", target)
+                                    : prim.attribute(name).located_target(
+                                          Severity::Error, "structure.dangling-target", "", target);
           dangling.message = name.str() + " names <" + target.str() + ">, which is not there";
           dangling.fix = "author the target in the file that defines what it names";
           found.add(std::move(dangling));

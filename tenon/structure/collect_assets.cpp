@@ -6,8 +6,12 @@
 #include <filesystem>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "tenon/base/file_finding.h"
+#include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/file_kind.h"
+#include "tenon/bytes/read_policy.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/structure/layout.h"
 
@@ -59,13 +63,16 @@ class Collector {
   }
 
  private:
-  std::string renamed(const std::string& asset, const fs::path& folder, Path at) {
+  std::string renamed(const std::string& authored, const fs::path& folder, Path at) {
+    const std::string asset =
+        authored.starts_with("file:") ? bytes::plain_asset_path(authored) : authored;
     if (!fs::path(asset).is_absolute()) {
       return asset;  // it was found nowhere: a module that comes with the renderer, or missing
     }
     const auto known = places_.find(asset);
     std::string place = known == places_.end() ? collect(asset, at) : known->second;
     places_[asset] = place;
+    places_[authored] = place;
     place = fs::path(place).lexically_relative(folder).generic_string();
     return place.starts_with("../") ? place : "./" + place;
   }
@@ -73,14 +80,16 @@ class Collector {
   std::string collect(const std::string& asset, Path at) {
     const Files files = read(asset);
     const std::string place = free_place(file_name_of(asset), files);
+    for (const Error& refusal : std::exchange(refusals_, {})) {
+      report(Severity::Error, refusal.diagnostic().rule.c_str(),
+             refusal.message() + "; it is not collected", refusal.diagnostic().fix, at);
+    }
     if (files.empty()) {
-      Diagnostic missing =
-          file_finding(Severity::Warning, "structure.asset-missing",
-                       "the asset @" + asset + "@ cannot be read and is not collected", "", 0,
-                       "put the file to " + place + " in the new folder, or correct the path");
-      missing.prim = at.prim().str();
-      missing.property = at.name().str();
-      diagnostics_.add(std::move(missing));
+      if (!is_refused_) {
+        report(Severity::Warning, "structure.asset-missing",
+               "the asset @" + asset + "@ cannot be read and is not collected",
+               "put the file at " + place + " in the new folder, or correct the path", at);
+      }
       missing_.insert(place);
       return place;
     }
@@ -90,22 +99,57 @@ class Collector {
     return place;
   }
 
-  Files read(const std::string& asset) const {
+  void report(Severity severity, const char* rule, std::string message, std::string fix, Path at) {
+    Diagnostic finding = file_finding(severity, rule, std::move(message), "", 0, std::move(fix));
+    finding.prim = at.prim().str();
+    finding.property = at.name().str();
+    diagnostics_.add(std::move(finding));
+  }
+
+  Files read(const std::string& asset) {
     Files files;
+    is_refused_ = false;
     if (asset.find(kTilePattern) == std::string::npos) {
-      if (auto bytes = source_.open_asset(asset)) {
-        files.emplace("", *std::move(bytes));
-      }
+      read(asset, "", files);
       return files;
     }
     for (int tile = kFirstTile; tile <= kLastTile; ++tile) {
-      if (auto bytes = source_.open_asset(with_tile(asset, std::to_string(tile)))) {
-        files.emplace(std::to_string(tile), *std::move(bytes));
-      }
+      read(with_tile(asset, std::to_string(tile)), std::to_string(tile), files);
     }
     return files;
   }
 
+  /// What may not be read, and what is no texture or the like, is remembered in `refusals_`.
+  void read(const std::string& file, const std::string& tile, Files& files) {
+    auto bytes = source_.open_asset(file);
+    if (bytes && (is_own(file) || bytes::kind_of((*bytes)->text()) != bytes::FileKind::Unknown)) {
+      files.emplace(tile, *std::move(bytes));
+      return;
+    }
+    if (bytes) {
+      is_refused_ = true;
+      refusals_.push_back(bytes::not_media(file));
+    } else if (is_there(file, bytes.error())) {
+      is_refused_ = true;
+      refusals_.push_back(bytes::not_read(file, std::move(bytes).error()));
+    }
+  }
+
+  /// In the asset's own package: nobody else's file, whatever it is.
+  bool is_own(const std::string& file) const {
+    const std::string& root = source_.root->identifier();
+    return bytes::is_in_package(root) &&
+           file.starts_with(bytes::split_package_path(root).package + "[");
+  }
+
+  /// Tiles of a pattern, for one, need not be there.
+  static bool is_there(const std::string& asset, const Error& error) {
+    if (error.diagnostic().rule != bytes::kOutsideRule) {
+      return error.code() != ErrorCode::NotFound;
+    }
+    std::error_code ignored;
+    return fs::exists(bytes::split_package_path(asset).package, ignored);
+  }
   /// The name in the folder, with a number where another file has it.
   std::string free_place(const std::string& name, const Files& files) const {
     const fs::path path(name);
@@ -149,6 +193,8 @@ class Collector {
   Package& package_;
   Diagnostics& diagnostics_;
   CollectedAssets places_;
+  std::vector<Error> refusals_;    // of the asset at hand, not yet reported
+  bool is_refused_ = false;        // something of the asset at hand was refused
   std::set<std::string> missing_;  // places that are kept for what cannot be read
 };
 

@@ -17,6 +17,8 @@ using CollectedAssets = std::map<std::string, std::string>;
 /// of materials into "Materials" with Names::Tutorial), each content once, and makes the paths to
 /// them relative. `<UDIM>` patterns bring all their tiles. What cannot be read is named where it
 /// would be, with the diagnostic "structure.asset-missing": the asset can be moved all the same.
+/// So is what lies outside of the asset's folders, or is nothing that a scene shows or plays, with
+/// an error: "read.outside", "read.wrong-kind" (docs/reading.md).
 CollectedAssets collect_assets(const AssetSource& source, Names names, Package& package,
                                Diagnostics& diagnostics);
 

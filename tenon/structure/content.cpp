@@ -11,6 +11,7 @@
 #include "tenon/schema/registry.h"
 #include "tenon/stage/flatten.h"
 #include "tenon/structure/layer_tree.h"
+#include "tenon/structure/written_note.h"
 
 namespace tenon::structure {
 namespace {
@@ -247,6 +248,7 @@ Layer below_default_prim(Layer flat, Token robot, std::map<Path, Path>* moved) {
     return path;
   };
   Layer content = without_prims(flat, flat.identifier());
+  remove_note(content);  // it speaks of the source's files
   content.root().erase(fields::subLayers);
   content.root().set(fields::defaultPrim, robot);
   copy_tree(flat, top, content, top, map);
@@ -254,6 +256,16 @@ Layer below_default_prim(Layer flat, Token robot, std::map<Path, Path>* moved) {
     copy_tree(flat, from, content, to, map);
   }
   return content;
+}
+
+/// A joint or a scene goes with the physics that it is a part of, and all below it would, too.
+Error not_a_robot(const stage::Prim& prim, const Layer& root) {
+  return Error(ErrorCode::Invalid, "the default prim is a " + prim.type_name().str() +
+                                       ", which is physics itself and cannot hold an asset")
+      .in_file(root.identifier())
+      .with_prim(prim.path().str())
+      .with_rule("stage.default-prim-missing")
+      .with_fix("put it below an Xform, and name that as defaultPrim");
 }
 
 }  // namespace
@@ -270,6 +282,10 @@ Result<Layer> content_of(const stage::Stage& stage, std::map<Path, Path>* moved)
   const stage::Prim robot = stage.default_prim();
   if (!robot) {
     return no_default_prim(stage.root_layer());
+  }
+  const Role owner = owner_of_type(robot.type_name()).owner;
+  if (owner == Role::Physics || is_engine(owner)) {
+    return not_a_robot(robot, stage.root_layer());
   }
   Layer flat = stage::flatten(stage);
   TENON_CHECK(unfold_instances(flat));

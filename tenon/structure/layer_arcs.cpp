@@ -3,6 +3,7 @@
 #include "tenon/structure/layer_arcs.h"
 
 #include "tenon/layer/fields.h"
+#include "tenon/layer/finding_place.h"
 
 namespace tenon::structure {
 namespace {
@@ -46,6 +47,20 @@ void add_assets(const layer::Spec& spec, Path path, std::vector<LayerArc>& out) 
 }
 
 }  // namespace
+
+StatementPart LayerArc::part() const {
+  const std::string item = layer::item_text(asset_path, kind == Arc::Asset ? Path() : target);
+  switch (kind) {
+    case Arc::SubLayer:
+      return layer::item_part(fields::subLayers, item);
+    case Arc::Payload:
+      return layer::item_part(fields::payload, item);
+    case Arc::Asset:
+      return layer::item_part(fields::default_value, item);
+    default:
+      return layer::item_part(fields::references, item);
+  }
+}
 
 std::vector<LayerArc> arcs_of(const layer::Layer& layer, bool assets) {
   std::vector<LayerArc> arcs;

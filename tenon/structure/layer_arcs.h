@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tenon/base/diagnostics.h"
 #include "tenon/base/path.h"
 #include "tenon/layer/layer.h"
 #include "tenon/structure/layout.h"
@@ -19,6 +20,9 @@ struct LayerArc {
   Path target;             ///< prim in the target layer; empty for its default prim
   Path spec;               ///< prim, variant or attribute that has it; the root for sublayers
   std::uint32_t line = 0;  ///< of that spec
+
+  /// What of the spec it is, for findings.
+  StatementPart part() const;
 };
 
 /// All sublayers, references and payloads of a layer, variants included, and with `assets` the

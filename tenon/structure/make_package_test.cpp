@@ -15,6 +15,8 @@ namespace {
 
 using Files = std::map<std::string, std::string>;
 
+const std::string kPixels = "\x89PNG\r\n\x1a\n";  // as much of an image as is looked at
+
 layer::LayerPtr layer_of(std::string text, const std::string& identifier) {
   for (std::size_t at = text.find('}'); at != std::string::npos; at = text.find('}', at + 3)) {
     text.replace(at, 1, "\n}\n");  // short sources on few lines
@@ -184,7 +186,7 @@ def Xform "robot" {
 }
 
 TEST(MakePackage, PutsEachConcernIntoItsFile) {
-  const StructuredAsset asset = made(source_of(monolith(), {{"/in/red.png", "pixels"}}));
+  const StructuredAsset asset = made(source_of(monolith(), {{"/in/red.png", kPixels}}));
   EXPECT_EQ(asset.package.interface, "robot.usda");
   EXPECT_EQ(asset.physics_variants,
             (std::vector<std::string>{"none", "physics", "mujoco", "physx"}));
@@ -212,8 +214,8 @@ TEST(MakePackage, TellsGeometriesApartToTheLastBit) {
 }
 
 TEST(MakePackage, CollectsTexturesByRelativePaths) {
-  const StructuredAsset asset = made(source_of(monolith(), {{"/in/red.png", "pixels"}}));
-  EXPECT_EQ(encoded(asset).at("Textures/red.png"), "pixels");
+  const StructuredAsset asset = made(source_of(monolith(), {{"/in/red.png", kPixels}}));
+  EXPECT_EQ(encoded(asset).at("Textures/red.png"), kPixels);
   EXPECT_TRUE(has(text_of(asset, Role::Materials), "@../Textures/red.png@"));
 }
 
@@ -221,10 +223,10 @@ TEST(MakePackage, WhatIsMissingIsNamedLikeNothingElse) {
   for (const char* attributes : {"asset a = @/gone/red.png@\nasset b = @/in/red.png@\n",
                                  "asset b = @/in/red.png@\nasset a = @/gone/red.png@\n"}) {
     const std::string text = kHead + "def Xform \"robot\" {" + attributes + "}";
-    const StructuredAsset asset = made(source_of(text, {{"/in/red.png", "pixels"}}));
+    const StructuredAsset asset = made(source_of(text, {{"/in/red.png", kPixels}}));
     const std::string base = text_of(asset, Role::Base);
     const bool first = has(base, "asset a = @../Textures/red.png@");
-    EXPECT_EQ(encoded(asset).at(first ? "Textures/red_2.png" : "Textures/red.png"), "pixels");
+    EXPECT_EQ(encoded(asset).at(first ? "Textures/red_2.png" : "Textures/red.png"), kPixels);
     EXPECT_TRUE(has(base, first ? "asset b = @../Textures/red_2.png@" : "a = @../Textures/red_2"));
     expect_idempotent(asset);
   }
@@ -232,8 +234,8 @@ TEST(MakePackage, WhatIsMissingIsNamedLikeNothingElse) {
 
 TEST(MakePackage, CollectsFilesOutOfPackagesInPackages) {
   const std::string text = kHead + "def Xform \"robot\" { asset x = @/a.usdz[b.usdz[c/red.png]]@ }";
-  const StructuredAsset asset = made(source_of(text, {{"/a.usdz[b.usdz[c/red.png]]", "pixels"}}));
-  EXPECT_EQ(encoded(asset).at("Textures/red.png"), "pixels");
+  const StructuredAsset asset = made(source_of(text, {{"/a.usdz[b.usdz[c/red.png]]", kPixels}}));
+  EXPECT_EQ(encoded(asset).at("Textures/red.png"), kPixels);
   expect_idempotent(asset);
 }
 

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/structure/package.h"
 
+#include "tenon/bytes/read_record.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/structure/layout.h"
 #include "tenon/structure/shared_arrays.h"
+#include "tenon/structure/written_note.h"
 
 namespace tenon::structure {
 namespace {
@@ -66,35 +68,58 @@ Result<stage::Stage> open_package(const Package& package,
                             opener_of(package), options);
 }
 
-Result<void> store_layers(Package& package) {
-  for (auto& [name, file] : package.files) {
-    if (file.layer == nullptr) {
-      continue;
-    }
-    auto contents = formats::encode_layer(*file.layer, file.format);
-    if (!contents) {
-      return unreadable(std::move(contents).error(), name);
-    }
-    file.bytes = bytes::FileBytes::own(*std::move(contents));
-    Diagnostics ignored;  // what is not as it was is found by comparing
-    auto layer = formats::read_layer(file.bytes, file.layer->identifier(), ignored);
-    if (!layer) {
-      return unreadable(std::move(layer).error(), name);
-    }
-    if (file.format == formats::LayerFormat::Crate) {
-      share_arrays(*file.layer, *layer);
-    }
-    file.layer = std::make_shared<layer::Layer>(*std::move(layer));
+namespace {
+
+Result<void> store_layer(const std::string& name, PackageFile& file, const Digests* others) {
+  layer::LayerPtr wanted = file.layer;
+  if (others != nullptr) {
+    auto noted = std::make_shared<layer::Layer>(*wanted);
+    add_note(*noted, name, *others, file.format);
+    wanted = std::move(noted);
   }
+  auto contents = formats::encode_layer(*wanted, file.format);
+  if (!contents) {
+    return unreadable(std::move(contents).error(), name);
+  }
+  if (others != nullptr) {
+    seal(*contents, name);
+  }
+  file.bytes = bytes::FileBytes::own(*std::move(contents));
+  Diagnostics ignored;  // what is not as it was is found by comparing
+  auto layer = formats::read_layer(file.bytes, file.layer->identifier(), ignored);
+  if (!layer) {
+    return unreadable(std::move(layer).error(), name);
+  }
+  if (file.format == formats::LayerFormat::Crate) {
+    share_arrays(*file.layer, *layer);
+  }
+  file.layer = std::make_shared<layer::Layer>(*std::move(layer));
   return {};
 }
 
-Result<void> write_package(const Package& package, const std::string& folder) {
+}  // namespace
+
+Result<void> store_layers(Package& package) {
+  Digests digests;
+  for (auto& [name, file] : package.files) {
+    if (name == package.interface) {
+      continue;
+    }
+    if (file.layer != nullptr) {
+      TENON_CHECK(store_layer(name, file, nullptr));
+    }
+    digests.emplace(name, bytes::content_digest(file.bytes->text()));
+  }
+  return store_layer(package.interface, package.files.at(package.interface), &digests);
+}
+
+Result<void> write_package(const Package& package, const std::string& folder,
+                           const WriteOptions& options) {
   std::map<std::string, std::string_view> files;
   for (const auto& [name, file] : package.files) {
     files[name] = file.bytes->text();
   }
-  return write_folder(files, folder);
+  return write_folder(files, folder, options);
 }
 
 }  // namespace tenon::structure

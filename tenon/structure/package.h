@@ -44,24 +44,34 @@ Result<stage::Stage> open_package(const Package& package,
                                   const std::map<std::string, std::string>& selections);
 
 /// Makes the bytes of the files of all layers, and each layer what a reader has of them: from then
-/// on the package is what will stand in its folder. Each layer is written and read once.
+/// on the package is what will stand in its folder. Each layer is written and read once. The
+/// interface says what was written (written_note.h).
 /// Errors: Invalid "structure.differs" with the file, where a layer cannot be written or its bytes
 /// cannot be read.
 Result<void> store_layers(Package& package);
 
-/// Puts the package, with its layers stored, into `folder` in one step: other programs see what was
-/// there before or the whole package, also when the process is killed or the disk is full. Written
-/// to a hidden folder beside it, synced, then exchanged with it by name. What was there before
-/// goes. A kill may leave the hidden folder behind. Errors: ErrorCode::Invalid when the folder
-/// holds files that are no part of such an asset; Unsupported where the file system cannot exchange
-/// folders; Io. All leave the folder as it was.
-Result<void> write_package(const Package& package, const std::string& folder);
+/// What may be done to a folder that holds something.
+struct WriteOptions {
+  /// Edits of what was written are overwritten. Files that were not written as part of an asset
+  /// stay, but for those that have the name of a new one or a place of the structure.
+  bool force = false;
+  bool in_place = false;  ///< the folder may be that of the asset that is read
+  bool can_be_in_place = false;  ///< messages may name --in-place
+};
+
+/// Puts the package, with its layers stored, into `folder`. A new folder is written under a hidden
+/// name beside it, synced, then renamed: other programs see the whole package or nothing. In one
+/// that exists the files change in one transaction (bytes/file_transaction.h); those of an earlier
+/// package go, all others stay. Errors, all of which leave the folder as it was: ErrorCode::Invalid
+/// with the rules "output.edited" (what an earlier package said about its files is not so any more,
+/// see written_note.h), "output.unknown" (there are other files), "output.is-input" (the run has
+/// read files of it); Io.
+Result<void> write_package(const Package& package, const std::string& folder,
+                           const WriteOptions& options = {});
 /// The same for contents at hand.
 Result<void> write_folder(const std::map<std::string, std::string_view>& files,
-                          const std::string& folder);
-
-/// Files below `folder` that no such asset has, by name, sorted; empty for a folder that does not
-/// exist.
-std::vector<std::string> foreign_files(const std::string& folder);
+                          const std::string& folder, const WriteOptions& options = {});
+/// Looks whether the folder may be written to, before there is something to write.
+Result<void> check_folder(const std::string& folder, const WriteOptions& options);
 
 }  // namespace tenon::structure

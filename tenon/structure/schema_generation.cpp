@@ -266,7 +266,7 @@ class Migration {
            "physxJointAxis:" + axis + ":" + name);
     }
     if (number(content, prim, "physxJoint:jointFriction", 0) != 0) {
-      note_kept(prim, "physxJoint:jointFriction", "a coefficient without unit is no effort");
+      note_kept(prim, "physxJoint:jointFriction", "a coefficient without unit is not an effort");
     } else if (!to_legacy()) {
       remove(content, prim, Token(kPhysxJoint));
     }

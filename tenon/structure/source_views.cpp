@@ -107,6 +107,7 @@ struct Variants {
 Result<Variants> read_variants(const AssetSource& source, SourceViews& views,
                                Diagnostics& diagnostics) {
   TENON_TRY(const stage::Stage stage, open_view(source, {}));
+  diagnostics.append(stage.diagnostics());  // what is not there is missing in every view
   const stage::Prim robot = stage.default_prim();
   if (!robot || !robot.is_defined()) {  // the selections above name it, too
     return no_default_prim(*source.root);

@@ -6,12 +6,15 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "tenon/bytes/folder_lock.h"
 #include "tenon/bytes/killed_child.h"
+#include "tenon/bytes/read_record.h"
 #include "tenon/structure/package.h"
 
 namespace tenon::structure {
@@ -36,7 +39,7 @@ class WriteFolder : public testing::Test {
       return files;
     }
     for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
-      if (entry.is_regular_file()) {
+      if (entry.is_regular_file() && !entry.path().filename().string().starts_with(".tenon")) {
         std::ifstream stream(entry.path(), std::ios::binary);
         files[entry.path().lexically_relative(folder_).generic_string()] =
             std::string(std::istreambuf_iterator<char>(stream), {});
@@ -53,13 +56,24 @@ class WriteFolder : public testing::Test {
     }
   }
 
+  /// Until nobody is at work in the folder any more.
+  void wait() const {
+    std::set<std::string> folders{parent_, folder_};
+    for (const auto& entry : fs::recursive_directory_iterator(parent_)) {
+      if (entry.is_directory()) {
+        folders.insert(entry.path().string());
+      }
+    }
+    ASSERT_TRUE(bytes::FolderLock::take(folders).has_value());
+  }
+
   std::string parent_;
   std::string folder_;
 };
 
 /// write_folder of files at hand.
-Result<void> write(const Files& files, const std::string& folder) {
-  return write_folder({files.begin(), files.end()}, folder);
+Result<void> write(const Files& files, const std::string& folder, bool force = false) {
+  return write_folder({files.begin(), files.end()}, folder, {.force = force});
 }
 
 const Files kOld{{"hand.usda", "old"}, {"payloads/base.usda", "old base"}};
@@ -70,9 +84,9 @@ const Files kNew{{"hand.usda", "new"},
 TEST_F(WriteFolder, ReplacesTheWholeFolder) {
   ASSERT_TRUE(write(kOld, folder_).has_value());
   EXPECT_EQ(read(), kOld);
-  ASSERT_TRUE(write(kNew, folder_ + "/").has_value());
+  ASSERT_TRUE(write(kNew, folder_ + "/", true).has_value());
   EXPECT_EQ(read(), kNew);
-  ASSERT_TRUE(write(kOld, folder_).has_value());
+  ASSERT_TRUE(write(kOld, folder_, true).has_value());
   EXPECT_EQ(read(), kOld);
   EXPECT_EQ(std::distance(fs::directory_iterator(parent_), fs::directory_iterator()), 1);
 }
@@ -85,6 +99,18 @@ TEST_F(WriteFolder, RefusesAFolderWithFilesOfSomebodyElse) {
   EXPECT_EQ(written.error().code(), ErrorCode::Invalid);
   EXPECT_NE(written.error().message().find("thesis.txt"), std::string::npos);
   EXPECT_EQ(read().size(), 3u);
+  ASSERT_TRUE(write(kNew, folder_, true).has_value());
+  Files wanted = kNew;
+  wanted["thesis.txt"] = "years of work";
+  EXPECT_EQ(read(), wanted);
+}
+
+TEST_F(WriteFolder, AFolderThatIsThereStaysTheSame) {
+  fs::create_directory(folder_);
+  const auto before = bytes::stamp_of(folder_);
+  ASSERT_TRUE(write(kNew, folder_).has_value());
+  EXPECT_EQ(bytes::stamp_of(folder_)->identity, before->identity);
+  EXPECT_EQ(read(), kNew);
 }
 
 TEST_F(WriteFolder, RefusesNamesThatLeadElsewhere) {
@@ -103,10 +129,11 @@ TEST_F(WriteFolder, AKillAtAnySystemCallLeavesTheOldOrTheNew) {
       fs::create_directory(parent_);
       put(before);
       const std::optional<bool> killed =
-          bytes::killed_at(call, [&] { return write(kNew, folder_).has_value(); });
+          bytes::killed_at(call, [&] { return write(kNew, folder_, true).has_value(); });
       if (!killed) {
         GTEST_SKIP() << "processes may not be traced here";
       }
+      wait();
       const Files after = read();
       ASSERT_TRUE(after == before || after == kNew) << "killed at call " << call;
       ++(after == kNew ? new_ones : old_ones);

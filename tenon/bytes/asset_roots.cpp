@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/bytes/asset_roots.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+
+#include "tenon/base/reading_limits.h"
+#include "tenon/bytes/read_policy.h"
+
+namespace tenon::bytes {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names of folders that descriptions of robots keep their parts in, in lower case.
+constexpr std::string_view kPartsNames[] = {
+    "asset", "assets",  "collision", "collisions", "common", "dae",  "media",
+    "mesh",  "meshes",  "material",  "materials",  "obj",    "objs", "stl",
+    "stls",  "texture", "textures",  "visual",     "visuals"};
+constexpr std::string_view kPartsEndings[] = {"_assets", "_description", "_materials", "_meshes",
+                                              "_textures"};
+
+bool is_parts_name(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return std::find(std::begin(kPartsNames), std::end(kPartsNames), name) != std::end(kPartsNames) ||
+         std::any_of(std::begin(kPartsEndings), std::end(kPartsEndings),
+                     [&](std::string_view ending) { return name.ends_with(ending); });
+}
+
+/// The first two folders below `above` on the way to `file`: the one that holds parts.
+std::optional<std::string> parts_folder_below(const fs::path& above, const fs::path& file) {
+  const fs::path way = file.lexically_relative(above);
+  if (way.empty() || *way.begin() == "..") {
+    return std::nullopt;
+  }
+  fs::path folder = above;
+  std::size_t depth = 0;
+  for (const fs::path& part : way) {
+    folder /= part;
+    if (++depth > 2 || folder == file) {
+      break;
+    }
+    if (is_parts_name(part.string())) {
+      return folder.string();
+    }
+  }
+  return std::nullopt;
+}
+
+/// The asset's folder for a file of its payloads, "payloads/base.usda" or
+/// "payloads/Physics/x.usda".
+std::optional<std::string> structured_asset_of(const fs::path& folder) {
+  for (const fs::path& at : {folder, folder.parent_path()}) {
+    if (at.filename() == "payloads") {
+      return at.parent_path().string();
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::shared_ptr<const FileBytes> package_xml_of(const std::string& folder) {
+  FileRules rules;
+  rules.most_bytes = limits::kPackageXmlBytes;
+  return FileBytes::open(folder + "/package.xml", rules).value_or(nullptr);
+}
+
+bool is_ros_package(const std::string& folder) {
+  const auto bytes = package_xml_of(folder);
+  return bytes != nullptr && bytes->text().find("<package") != std::string_view::npos;
+}
+
+std::optional<std::string> ros_package_of(const std::string& folder) {
+  for (fs::path at = real_file_path(folder); at != at.parent_path(); at = at.parent_path()) {
+    if (is_ros_package(at.string())) {
+      return at.string();
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> roots_of_asset(const std::string& path) {
+  std::error_code error;
+  std::vector<std::string> roots{
+      fs::absolute(path, error).lexically_normal().parent_path().string()};
+  const std::string real = fs::path(real_file_path(path)).parent_path().string();
+  if (real != real_file_path(roots.front())) {
+    roots.push_back(real);
+  }
+  const std::size_t folders = roots.size();
+  for (std::size_t i = 0; i < folders; ++i) {
+    if (const auto asset = structured_asset_of(roots[i])) {
+      roots.push_back(*asset);
+    }
+    if (const auto package = ros_package_of(roots[i])) {
+      roots.push_back(*package);
+    }
+  }
+  return roots;
+}
+
+std::optional<std::string> parts_folder(const std::string& path, const std::string& file) {
+  const fs::path real = real_file_path(file);
+  fs::path above = fs::path(real_file_path(path)).parent_path();
+  for (std::size_t i = 0; i < limits::kPartsFolderLevels; ++i) {
+    above = above.parent_path();
+    if (above == above.parent_path()) {
+      break;  // the root of all files is nobody's project
+    }
+    if (auto folder = parts_folder_below(above, real)) {
+      return folder;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace tenon::bytes

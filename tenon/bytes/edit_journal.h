@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tenon/base/result.h"
+
+namespace tenon::bytes {
+
+/// One system call of the last part of a transaction.
+struct CommitStep {
+  enum class Kind { Link, Rename, Remove };
+  Kind kind = Kind::Rename;
+  std::string from;  ///< Link, Rename: an open file, or a hidden name
+  std::string to;
+};
+
+/// What has come of the steps.
+struct StepsDone {
+  int error = 0;          ///< 0 or an error number
+  std::size_t count = 0;  ///< steps before the one that failed
+};
+
+/// Takes the steps. A file to be removed that is not there is no error. Calls the system and
+/// nothing else, so that a child may do it right after a fork.
+StepsDone take_steps(const std::vector<CommitStep>& steps);
+/// The same in a child, in a session of its own, that goes on when this process is killed.
+StepsDone take_steps_unkillably(const std::vector<CommitStep>& steps);
+
+/// The hidden file in which a transaction says what it is about to do.
+inline constexpr std::string_view kJournalName = ".tenon-journal";
+
+/// The folder that holds all these files; "" where that is "/" or right below it.
+std::string common_folder(const std::vector<std::string>& files);
+/// The text of the journal in `home` for those steps that rename and remove.
+std::string journal_text(const std::string& home, const std::vector<CommitStep>& steps);
+
+/// Finishes what a transaction has left when the machine failed, in these folders and in those that
+/// they lie in. Files outside of a journal's folder are not touched, whatever it says.
+Result<void> finish_journals(const std::set<std::string>& folders);
+
+}  // namespace tenon::bytes

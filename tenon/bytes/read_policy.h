@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tenon/base/result.h"
+#include "tenon/bytes/file_bytes.h"
+
+/// What an asset may have read on its behalf (docs/reading.md). An asset comes from somebody else
+/// and names files at will; what it names goes into an output only from folders that belong to it,
+/// or that a person named.
+namespace tenon::bytes {
+
+/// The rule of an error about a file outside of the folders.
+inline constexpr const char* kOutsideRule = "read.outside";
+
+/// Folders that may be read, judged by where symbolic links lead. Without folders nothing may be.
+class ReadPolicy {
+ public:
+  ReadPolicy() = default;
+  explicit ReadPolicy(const std::vector<std::string>& folders);
+  /// Every file there is.
+  static ReadPolicy unrestricted() { return ReadPolicy({"/"}); }
+
+  /// A folder, or a single file; relative ones are taken from the working directory. What does not
+  /// exist adds nothing.
+  void add(const std::string& folder);
+  /// From now on what is found on the way adds nothing: a person said which folders there are.
+  void close() { is_closed_ = true; }
+  bool is_closed() const { return is_closed_; }
+  /// A folder that was found to belong to the asset, while it reads.
+  void add_found(const std::string& folder);
+  /// Absolute, without symbolic links.
+  const std::vector<std::string>& roots() const { return roots_; }
+
+  /// `real` is absolute and without symbolic links.
+  bool allows_real(const std::string& real) const;
+  /// The file that `path` leads to. A file in a package is judged by the package:
+  /// `/a/b.usdz[c.png]`.
+  bool allows(const std::string& path) const;
+  /// NotFound, rule kOutsideRule, with the file that `path` leads to and what a person can do.
+  Result<void> check(const std::string& path) const;
+
+  /// The bytes of a file or of a file in a package, checked once more when it is open. Errors:
+  /// kOutsideRule; those of FileBytes::open; Limit for more than kCopiedFileBytes.
+  Result<std::shared_ptr<const FileBytes>> open(const std::string& identifier) const;
+
+ private:
+  Result<void> check_real(const std::string& real, const std::string& path) const;
+
+  std::vector<std::string> roots_;
+  bool is_closed_ = false;
+};
+
+/// The file or folder that `path` leads to; as far as there is one.
+std::string real_file_path(const std::string& path);
+
+}  // namespace tenon::bytes

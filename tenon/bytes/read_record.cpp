@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/bytes/read_record.h"
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstring>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "tenon/bytes/posix_files.h"
+
+namespace tenon::bytes {
+namespace {
+
+constexpr const char* kChanged = "file.changed";
+constexpr std::size_t kDigestBytes = 64u << 20;  // larger files are told apart by their times
+
+std::atomic<ReadRecord*> installed{nullptr};
+
+Error changed_error(const std::string& path) {
+  return Error(ErrorCode::Io, "the file was changed by another program since it was read")
+      .in_file(path)
+      .with_rule(kChanged)
+      .with_fix("nothing was written; run the command again");
+}
+
+/// The digest of what stands in the file now; nothing when it cannot be read.
+std::optional<std::uint64_t> digest_of_file(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) {
+    return std::nullopt;
+  }
+  struct stat info = {};
+  std::optional<std::uint64_t> digest;
+  if (::fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode)) {
+    std::string contents(static_cast<std::size_t>(info.st_size), '\0');
+    if (read_up_to(descriptor, contents) == 0) {
+      digest = content_digest(contents);
+    }
+  }
+  ::close(descriptor);
+  return digest;
+}
+
+bool is_unchanged(const std::string& path, const FileStamp& then, bool by_content) {
+  const std::optional<FileStamp> now = stamp_of(path);
+  if (!now) {
+    return false;
+  }
+  const bool same = now->same_state(then);
+  if (!then.digest || (same && !by_content)) {
+    return same;
+  }
+  return now->size == then.size && digest_of_file(path) == then.digest;
+}
+
+}  // namespace
+
+std::uint64_t content_digest(std::string_view contents) {
+  constexpr std::uint64_t kMultiplier = 0x9E3779B97F4A7C15u;
+  constexpr std::size_t kStep = 4 * sizeof(std::uint64_t);
+  const auto mixed = [](std::uint64_t digest, std::uint64_t word) {
+    return std::rotl(digest ^ word, 31) * kMultiplier;
+  };
+  std::array<std::uint64_t, 4> lanes{1, 2, 3, contents.size()};  // that processors do at once
+  std::array<std::uint64_t, 4> words{};
+  for (; contents.size() >= kStep; contents.remove_prefix(kStep)) {
+    std::memcpy(words.data(), contents.data(), kStep);
+    lanes = {mixed(lanes[0], words[0]), mixed(lanes[1], words[1]), mixed(lanes[2], words[2]),
+             mixed(lanes[3], words[3])};
+  }
+  words = {};
+  std::memcpy(words.data(), contents.data(), contents.size());
+  std::uint64_t digest = 0;
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    digest = mixed(mixed(digest, lanes[i]), words[i]);
+    digest ^= digest >> 32;
+  }
+  return digest * kMultiplier;
+}
+
+std::optional<FileStamp> stamp_of(const std::string& path) {
+  struct stat info = {};
+  if (::stat(path.c_str(), &info) != 0) {
+    return std::nullopt;
+  }
+  return stamp_from(info);
+}
+
+ReadRecord::~ReadRecord() {
+  ReadRecord* self = this;
+  installed.compare_exchange_strong(self, nullptr);
+}
+
+ReadRecord* ReadRecord::current() { return installed.load(std::memory_order_acquire); }
+
+void ReadRecord::install() { installed.store(this, std::memory_order_release); }
+
+void ReadRecord::note(const std::string& path, FileStamp stamp, std::string_view contents) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (digests_ == Digests::Yes && contents.size() <= kDigestBytes) {
+    stamp.digest = content_digest(contents);
+  }
+  identities_.insert(stamp.identity);
+  const auto [known, is_new] = files_.try_emplace(path, stamp);
+  if (is_new || known->second.same_state(stamp)) {
+    return;
+  }
+  if (!stamp.digest || known->second.digest != stamp.digest) {
+    changed_ = path;
+  }
+  known->second = stamp;
+}
+
+void ReadRecord::note(const std::string& path) {
+  if (const std::optional<FileStamp> stamp = stamp_of(path)) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    identities_.insert(stamp->identity);
+    files_.try_emplace(path, *stamp);
+  }
+}
+
+void ReadRecord::clear() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  files_.clear();
+  identities_.clear();
+  changed_.clear();
+}
+
+bool ReadRecord::has(const FileIdentity& file) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return identities_.contains(file);
+}
+
+Result<void> ReadRecord::check_unchanged(const std::set<FileIdentity>& by_content) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!changed_.empty()) {
+    return changed_error(changed_);
+  }
+  for (const auto& [path, stamp] : files_) {
+    if (!is_unchanged(path, stamp, by_content.contains(stamp.identity))) {
+      return changed_error(path);
+    }
+  }
+  return {};
+}
+
+void ReadRecord::refresh(const std::set<FileIdentity>& replaced) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (auto& [path, stamp] : files_) {
+    if (replaced.contains(stamp.identity)) {
+      stamp = stamp_of(path).value_or(stamp);
+      identities_.insert(stamp.identity);
+    }
+  }
+}
+
+void note_read(const std::string& path) {
+  if (ReadRecord* record = ReadRecord::current()) {
+    record->note(path);
+  }
+}
+
+bool is_changed_meanwhile(const Error& error) { return error.diagnostic().rule == kChanged; }
+
+}  // namespace tenon::bytes

@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/structure/written_note.h"
+
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+
+#include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/read_record.h"
+#include "tenon/bytes/zip_archive.h"
+#include "tenon/layer/dictionary.h"
+#include "tenon/layer/fields.h"
+
+namespace tenon::structure {
+namespace {
+
+namespace fs = std::filesystem;
+namespace fields = layer::fields;
+using layer::Dictionary;
+using layer::Value;
+
+constexpr const char* kTool = "tenon";
+constexpr const char* kWritten = "written";
+constexpr const char* kSelf = "self";
+constexpr std::size_t kHexDigits = 16;
+/// Stands before the digest in binary layers, so that its place is found in their bytes.
+constexpr std::int64_t kMark = 0x5e1f9d1e57a3c06b;
+
+std::string hex_of(std::uint64_t digest) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string text(kHexDigits, '0');
+  for (std::size_t i = kHexDigits; i-- > 0; digest >>= 4) {
+    text[i] = kDigits[digest & 0xf];
+  }
+  return text;
+}
+
+std::optional<std::uint64_t> digest_from(const std::string& hex) {
+  std::uint64_t digest = 0;
+  const auto [end, error] = std::from_chars(hex.data(), hex.data() + hex.size(), digest, 16);
+  const bool whole = error == std::errc() && end == hex.data() + hex.size();
+  return whole && hex.size() == kHexDigits ? std::optional(digest) : std::nullopt;
+}
+
+Value own_value(std::uint64_t digest) {
+  return Value(layer::Array<std::int64_t>{kMark, static_cast<std::int64_t>(digest)});
+}
+
+const Dictionary* note_of(const layer::Layer& layer) {
+  const auto* data = layer.root().get<Dictionary>(fields::customLayerData);
+  const Value* tool = data == nullptr ? nullptr : data->find(kTool);
+  const auto* own = tool == nullptr ? nullptr : tool->get<Dictionary>();
+  const Value* written = own == nullptr ? nullptr : own->find(kWritten);
+  return written == nullptr ? nullptr : written->get<Dictionary>();
+}
+
+/// Calls `change` on tenon's own part of customLayerData.
+template <class Change>
+void change_note(layer::Layer& layer, Change change) {
+  Dictionary data = layer.root().get_or(fields::customLayerData, Dictionary());
+  const Value* known = data.find(kTool);
+  Dictionary tool = known == nullptr ? Dictionary() : known->get_or(Dictionary());
+  change(tool);
+  if (tool.empty()) {
+    data.items.erase(kTool);
+  } else {
+    data.items.insert_or_assign(kTool, Value(std::move(tool)));
+  }
+  if (data.empty()) {
+    layer.root().erase(fields::customLayerData);
+  } else {
+    layer.root().set(fields::customLayerData, Value(std::move(data)));
+  }
+}
+
+/// Where the own digest stands in the bytes of a layer, and how many bytes it has.
+struct Place {
+  std::size_t at = 0;
+  std::size_t size = 0;
+};
+
+std::optional<Place> place_of_digest(std::string_view contents, const std::string& own) {
+  if (contents.starts_with("PXR-USDC")) {
+    std::array<char, sizeof kMark> mark{};
+    std::memcpy(mark.data(), &kMark, sizeof kMark);
+    const std::size_t at = contents.find(std::string_view(mark.data(), mark.size()));
+    const bool found = at != std::string_view::npos && at + 16 <= contents.size();
+    return found ? std::optional(Place{at + 8, 8}) : std::nullopt;
+  }
+  const std::string start = "string \"" + own + "\" = \"";
+  const std::size_t at = contents.find(start);
+  const bool found =
+      at != std::string_view::npos && at + start.size() + kHexDigits <= contents.size();
+  return found ? std::optional(Place{at + start.size(), kHexDigits}) : std::nullopt;
+}
+
+std::uint64_t masked_digest(std::string_view contents, const std::string& own) {
+  const std::optional<Place> place = place_of_digest(contents, own);
+  if (!place) {
+    return bytes::content_digest(contents);
+  }
+  std::string masked(contents);
+  masked.replace(place->at, place->size, place->size, '0');
+  return bytes::content_digest(masked);
+}
+
+std::optional<std::uint64_t> noted_digest(const Dictionary& note, const std::string& name) {
+  const Value* value = note.find(name);
+  if (value == nullptr) {
+    return std::nullopt;
+  }
+  if (const auto* numbers = value->get<layer::Array<std::int64_t>>()) {
+    return numbers->size() == 2 ? std::optional(static_cast<std::uint64_t>((*numbers)[1]))
+                                : std::nullopt;
+  }
+  return digest_from(value->get_or(std::string()));
+}
+
+std::shared_ptr<const bytes::FileBytes> contents_of(const std::string& file) {
+  bytes::FileRules rules;
+  rules.is_input = false;
+  return bytes::FileBytes::open(file, rules).value_or(nullptr);
+}
+
+/// The note in the bytes of a layer's file, as a copy.
+std::optional<Dictionary> note_in(std::shared_ptr<const bytes::FileBytes> contents,
+                                  const std::string& file) {
+  Diagnostics ignored;
+  const auto layer = formats::read_layer(std::move(contents), file, ignored);
+  const Dictionary* note = layer ? note_of(*layer) : nullptr;
+  return note == nullptr ? std::nullopt : std::optional(*note);
+}
+
+}  // namespace
+
+void add_note(layer::Layer& layer, const std::string& own, const Digests& others,
+              formats::LayerFormat format) {
+  Dictionary note;
+  for (const auto& [name, digest] : others) {
+    note.items.insert_or_assign(name, Value(hex_of(digest)));
+  }
+  if (format == formats::LayerFormat::Text) {
+    note.items.insert_or_assign(own, Value(std::string(kHexDigits, '0')));
+  } else {
+    note.items.insert_or_assign(kSelf, own_value(0));
+  }
+  change_note(layer, [&](Dictionary& tool) {
+    tool.items.insert_or_assign(kWritten, Value(std::move(note)));
+  });
+}
+
+void remove_note(layer::Layer& layer) {
+  if (note_of(layer) != nullptr) {
+    change_note(layer, [](Dictionary& tool) { tool.items.erase(kWritten); });
+  }
+}
+
+void set_own_digest(layer::Layer& layer, std::uint64_t digest) {
+  const Dictionary* known = note_of(layer);
+  Dictionary note = known == nullptr ? Dictionary() : *known;
+  note.items.insert_or_assign(kSelf, own_value(digest));
+  change_note(layer, [&](Dictionary& tool) {
+    tool.items.insert_or_assign(kWritten, Value(std::move(note)));
+  });
+}
+
+std::uint64_t own_digest(std::string_view contents, const std::string& own) {
+  if (!bytes::ZipArchive::is_zip(contents)) {
+    return masked_digest(contents, own);
+  }
+  auto archive = bytes::ZipArchive::open(bytes::FileBytes::own(std::string(contents)));
+  std::string digests;
+  for (std::size_t i = 0; archive && i < archive->entries().size(); ++i) {
+    const bytes::ZipEntry& entry = archive->entries()[i];
+    const auto inside = archive->read(entry);
+    const std::string_view text = inside ? (*inside)->text() : std::string_view();
+    digests += entry.name + hex_of(i == 0 ? masked_digest(text, own) : bytes::content_digest(text));
+  }
+  return bytes::content_digest(digests);
+}
+
+void seal(std::string& contents, const std::string& own) {
+  const std::optional<Place> place = place_of_digest(contents, own);
+  if (!place) {
+    return;
+  }
+  contents.replace(place->at, place->size, place->size, '0');
+  const std::uint64_t digest = bytes::content_digest(contents);
+  if (place->size == kHexDigits) {
+    contents.replace(place->at, place->size, hex_of(digest));
+  } else {
+    std::memcpy(contents.data() + place->at, &digest, sizeof digest);
+  }
+}
+
+WrittenState written_state(const std::string& file) {
+  WrittenState state;
+  const auto contents = contents_of(file);
+  const auto note = contents == nullptr ? std::nullopt : note_in(contents, file);
+  const std::string own = fs::path(file).filename().string();
+  const std::string self = note && note->find(kSelf) != nullptr ? kSelf : own;
+  if (!note || note->find(self) == nullptr) {
+    return state;
+  }
+  state.noted = true;
+  for (const auto& [name, value] : note->items) {
+    const bool is_self = name == self;
+    const std::string shown = is_self ? own : name;
+    const auto other =
+        is_self ? contents : contents_of((fs::path(file).parent_path() / name).string());
+    const bool same =
+        other != nullptr && noted_digest(*note, name) ==
+                                (is_self ? own_digest(other->text(), own)
+                                         : bytes::content_digest(other->text()));
+    (same ? state.written : state.edited).push_back(shown);
+  }
+  return state;
+}
+
+Result<void> check_not_edited(const std::string& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
+    return {};
+  }
+  const WrittenState state = written_state(file);
+  if (state.noted && state.edited.empty()) {
+    return {};
+  }
+  std::string names;
+  for (const std::string& name : state.edited) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  return Error(ErrorCode::Invalid,
+               state.noted ? "the asset was edited since it was written: " + names +
+                                 (state.edited.size() == 1 ? " differs" : " differ")
+                           : std::string("there is a file already, and it does not say that it is "
+                                         "as this program has written it"))
+      .in_file(file)
+      .with_rule("output.edited")
+      .with_fix("give --force to overwrite it, or name another place");
+}
+
+}  // namespace tenon::structure
