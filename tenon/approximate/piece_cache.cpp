@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "tenon/bytes/atomic_write.h"
+#include "tenon/bytes/file_transaction.h"
 #include "tenon/bytes/file_bytes.h"
 
 namespace tenon::approximate {
@@ -137,7 +137,9 @@ void PieceCache::keep(const std::string& key,
     put_mesh(piece, contents);
   }
   // A folder that cannot be written costs time at the next run, nothing else.
-  static_cast<void>(bytes::write_file(folder_ + "/" + name_of(key), contents));
+  bytes::FileTransaction transaction;
+  transaction.put(folder_ + "/" + name_of(key), contents);
+  static_cast<void>(transaction.commit({.in_place = true}));  // also over a damaged one
 }
 
 }  // namespace tenon::approximate

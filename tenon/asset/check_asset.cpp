@@ -12,6 +12,7 @@
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/check/apply_edits.h"
 #include "tenon/check/rule.h"
+#include "tenon/formats/find_places.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
@@ -72,15 +73,16 @@ bool is_usd_file(const fs::path& path) {
 }
 
 /// Files that a layer names as layers, as absolute paths.
-std::set<std::string> used_files(const std::string& path) {
+std::set<std::string> used_files(const std::string& path, const OpenOptions& options) {
   std::set<std::string> used;
   Diagnostics ignored;
-  auto layer = formats::open_layer_file(path, ignored);
-  if (!layer) {
+  const auto opened = open_layer(path, options, ignored);
+  if (!opened) {
     return used;
   }
+  layer::Layer layer = **opened;
   const fs::path folder = fs::path(path).parent_path();
-  formats::rename_assets(*layer, [&](const std::string& asset, formats::AssetUse use, Path) {
+  formats::rename_assets(layer, [&](const std::string& asset, formats::AssetUse use, Path) {
     if (use == formats::AssetUse::Layer) {
       used.insert((folder / asset.substr(0, asset.find('['))).lexically_normal().string());
     }
@@ -90,11 +92,12 @@ std::set<std::string> used_files(const std::string& path) {
 }
 
 /// Files that nothing else names; of a circle that nothing leads to, the first.
-std::vector<std::string> roots_of(const std::vector<std::string>& files) {
+std::vector<std::string> roots_of(const std::vector<std::string>& files,
+                                  const OpenOptions& options) {
   std::map<std::string, std::set<std::string>> uses;
   std::set<std::string> used;
   for (const std::string& file : files) {
-    uses[file] = used_files(file);
+    uses[file] = used_files(file, options);
     uses[file].erase(file);
     used.insert(uses[file].begin(), uses[file].end());
   }
@@ -176,6 +179,12 @@ Result<CheckedAsset> check_asset(const std::string& path, const CheckOptions& op
     runs.push_back(std::move(first.found));
   }
   checked.findings = check::merge_variants(std::move(runs));
+  std::vector<Diagnostic*> found;
+  for (check::Finding& finding : checked.findings) {
+    found.push_back(&finding.diagnostic);
+  }
+  formats::find_places(found);
+  check::sort_by_place(checked.findings);
   return checked;
 }
 
@@ -190,7 +199,7 @@ Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Find
   return files;
 }
 
-Result<std::vector<std::string>> root_assets(const std::string& path) {
+Result<std::vector<std::string>> root_assets(const std::string& path, const OpenOptions& options) {
   std::error_code error;
   if (!fs::is_directory(path, error)) {
     return std::vector<std::string>{path};
@@ -207,7 +216,7 @@ Result<std::vector<std::string>> root_assets(const std::string& path) {
     return Error(ErrorCode::Io, "the folder cannot be read: " + error.message()).in_file(path);
   }
   std::sort(files.begin(), files.end());
-  return roots_of(files);
+  return roots_of(files, options);
 }
 
 }  // namespace tenon

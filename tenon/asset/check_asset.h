@@ -44,7 +44,8 @@ struct CorrectedFile {
 Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Finding>& findings);
 
 /// Files below a folder that no other of them uses as a layer, sorted; a file alone is one.
-/// What cannot be opened counts as used by nobody. Errors: ErrorCode::NotFound, Io.
-Result<std::vector<std::string>> root_assets(const std::string& path);
+/// What cannot be opened, or may not by the options, counts as used by nobody. Errors:
+/// ErrorCode::NotFound, Io.
+Result<std::vector<std::string>> root_assets(const std::string& path, const OpenOptions& options);
 
 }  // namespace tenon

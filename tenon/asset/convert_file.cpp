@@ -4,12 +4,13 @@
 
 #include <string_view>
 
+#include "tenon/asset/mjcf_files.h"
+#include "tenon/asset_policy.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/guard/not_a_number.h"
+#include "tenon/guard/workers.h"
+#include "tenon/robot/check_model.h"
 #include "tenon/urdf/read_urdf.h"
-
-#if TENON_WITH_MUJOCO
-#include "tenon/mjcf/read_mjcf.h"
-#endif
 
 namespace tenon {
 namespace {
@@ -17,34 +18,61 @@ namespace {
 /// Told by the root element: a URDF may hold <mujoco> too, further down.
 bool is_mjcf(std::string_view text) { return text.find("<mujoco") < text.find("<robot"); }
 
-Result<robot::RobotModel> read_model(const std::string& path, const ConvertFileOptions& options,
-                                     Diagnostics& diagnostics) {
-  TENON_TRY(const auto bytes, bytes::FileBytes::open(path));
-  if (!is_mjcf(bytes->text())) {
-    return urdf::read_urdf_text(bytes->text(), path, {options.packages}, diagnostics);
+/// By MuJoCo in tenon-worker. What comes back is checked before anybody uses it.
+Result<robot::RobotModel> read_mjcf(const std::string& path, bytes::ReadPolicy& policy,
+                                    Diagnostics& diagnostics) {
+  TENON_CHECK(admit_mjcf_files(path, policy));
+  guard::Workers workers;
+  TENON_TRY(robot::RobotModel model,
+            guard::read_guarded<robot::RobotModel>(
+                workers, {guard::Reader::Mjcf, path, policy.roots()}, diagnostics));
+  model.parts_folders.clear();  // which folders belong to a model is not for a worker to say
+  TENON_CHECK(robot::check_model(model));
+  if (guard::has_not_a_number(model)) {
+    return Error(ErrorCode::Invalid, "the model holds a number that is not one (NaN)")
+        .in_file(path)
+        .with_rule("robot.not-finite")
+        .with_fix("give finite numbers");
   }
-#if TENON_WITH_MUJOCO
-  return mjcf::read_mjcf(path, diagnostics);
-#else
-  return Error(ErrorCode::Missing, "MJCF is read by MuJoCo, which this build is without")
-      .in_file(path)
-      .with_rule("mjcf.missing")
-      .with_fix("build with -DTENON_WITH_MUJOCO=ON");
-#endif
+  return model;
+}
+
+Result<robot::RobotModel> read_model(const std::string& path, const ConvertFileOptions& options,
+                                     bytes::ReadPolicy& policy, Diagnostics& diagnostics) {
+  TENON_TRY(const auto bytes,
+            policy.is_closed() ? policy.open(path) : bytes::FileBytes::open(path));
+  if (!is_mjcf(bytes->text())) {
+    return urdf::read_urdf_text(bytes->text(), path,
+                                {options.packages, options.open.search_paths, policy}, diagnostics);
+  }
+  return read_mjcf(path, policy, diagnostics);
+}
+
+bytes::ReadPolicy policy_of(const std::string& path, const ConvertFileOptions& options) {
+  bytes::ReadPolicy policy = policy_for(path, options.open);
+  for (const auto& [name, folder] : options.packages) {
+    policy.add_found(folder);
+  }
+  return policy;
 }
 
 }  // namespace
 
 Result<ConvertedFile> convert_file(const std::string& path, const ConvertFileOptions& options,
                                    Diagnostics& diagnostics) {
-  TENON_TRY(robot::RobotModel model, read_model(path, options, diagnostics));
-  const std::size_t links = model.links.size();
-  const std::size_t joints = model.joints.size();
-  const std::size_t meshes = model.meshes.size();
-  convert::InnerImages images;
-  TENON_TRY(layer::Layer layer,
-            convert::convert_robot(std::move(model), options.robot, diagnostics, &images));
-  return ConvertedFile{std::move(layer), std::move(images), links, joints, meshes};
+  bytes::ReadPolicy policy = policy_of(path, options);
+  TENON_TRY(robot::RobotModel model, read_model(path, options, policy, diagnostics));
+  for (const std::string& folder : model.parts_folders) {
+    policy.add_found(folder);
+  }
+  convert::ConvertOptions robot = options.robot;
+  robot.reading = policy;
+  ConvertedFile converted{layer::Layer(""),    {},
+                          std::move(policy),   model.links.size(),
+                          model.joints.size(), model.meshes.size()};
+  TENON_TRY(converted.layer,
+            convert::convert_robot(std::move(model), robot, diagnostics, &converted.images));
+  return converted;
 }
 
 }  // namespace tenon

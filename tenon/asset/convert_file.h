@@ -10,25 +10,30 @@
 #include "tenon/base/result.h"
 #include "tenon/convert/convert_robot.h"
 #include "tenon/layer/layer.h"
+#include "tenon/tenon.h"
 
 namespace tenon {
 
 struct ConvertFileOptions {
   convert::ConvertOptions robot;
   std::map<std::string, std::string> packages;  ///< folders of ROS packages by name
+  /// Of these sandbox, search paths and what may be read count; `robot.reading` is made of them.
+  OpenOptions open;
 };
 
 struct ConvertedFile {
   layer::Layer layer;
   convert::InnerImages images;  ///< that asset paths of the layer name, and that are no files
+  bytes::ReadPolicy reading;    ///< where its files lie
   std::size_t links = 0;        ///< of the description
   std::size_t joints = 0;
   std::size_t meshes = 0;  ///< files
 };
 
 /// A robot's description as a layer (convert/convert_robot.h): URDF or MJCF, told by its root.
-/// Asset paths of the layer are absolute. Errors: those of reading and converting; Missing for MJCF
-/// without MuJoCo.
+/// Asset paths of the layer are absolute. What the description names is read from the folders that
+/// belong to it (docs/reading.md); other files are left out, with an error. Errors: those of
+/// reading and converting; Missing for MJCF without MuJoCo.
 Result<ConvertedFile> convert_file(const std::string& path, const ConvertFileOptions& options,
                                    Diagnostics& diagnostics);
 

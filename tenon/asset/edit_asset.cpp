@@ -8,7 +8,7 @@
 
 #include "tenon/asset/edit_file_choice.h"
 #include "tenon/asset/edit_value.h"
-#include "tenon/bytes/replace_files.h"
+#include "tenon/bytes/file_transaction.h"
 #include "tenon/edit/edit_target.h"
 #include "tenon/edit/layer_editor.h"
 #include "tenon/formats/open_layer.h"
@@ -46,7 +46,7 @@ Result<void> check_in_no_package(const std::string& identifier) {
   if (!bytes::is_in_package(identifier)) {
     return {};
   }
-  return Error(ErrorCode::Unsupported, "files in a package are not changed in place")
+  return Error(ErrorCode::Unsupported, "files in a package cannot be edited in place")
       .in_file(identifier)
       .with_rule("edit.in-package")
       .with_fix("tenon zip PACKAGE --extract FOLDER unpacks it");
@@ -58,7 +58,7 @@ Result<void> check_object(const AssetEdit& edit) {
   if (fits && path.is_absolute() && !path.has_variants()) {
     return {};
   }
-  return Error(ErrorCode::Invalid, "<" + path.str() + "> is no path of a " +
+  return Error(ErrorCode::Invalid, "<" + path.str() + "> is not a path of a " +
                                        (edit.is_about_api() ? "prim" : "property"))
       .with_rule("edit.bad-path")
       .with_fix("write it from the root, as in /hand/palm.physics:mass");
@@ -168,6 +168,7 @@ class AssetEditor {
     selections_.push_back({options_.open.physics_variant, options_.open.physics_variant});
     TENON_TRY(const StagePtr first, composed(selections_.front()));
     TENON_CHECK(check_in_no_package(first->root_layer().identifier()));
+    diagnostics_.append(first->diagnostics());  // an edit of what is not there counts for nothing
     const stage::Prim root = first->default_prim();
     if (root && options_.open.physics_variant.empty()) {
       selections_.front().shown = root.variant_selection(kPhysics);
@@ -408,11 +409,11 @@ Result<EditedAsset> edit_asset(const std::string& path, const std::vector<AssetE
 }
 
 Result<void> write_files(const std::vector<EditedFile>& files) {
-  std::map<std::string, std::string> contents;
+  bytes::FileTransaction transaction;
   for (const EditedFile& file : files) {
-    contents.insert_or_assign(file.path, file.after);
+    transaction.put(file.path, file.after);
   }
-  return bytes::replace_files(contents);
+  return transaction.commit({.in_place = true});
 }
 
 }  // namespace tenon

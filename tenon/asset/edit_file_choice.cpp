@@ -39,14 +39,14 @@ Result<FileChoice> named_file(const FileQuestion& q) {
   std::vector<std::string> found;
   for (const std::string& layer : q.layers) {
     if (layer == absolute) {
-      return FileChoice{layer, "it was asked for"};
+      return FileChoice{layer, "you asked for it"};
     }
     if (layer.ends_with("/" + q.options.layer)) {
       found.push_back(layer);
     }
   }
   if (found.size() == 1) {
-    return FileChoice{found.front(), "it was asked for"};
+    return FileChoice{found.front(), "you asked for it"};
   }
   return no_file(
       q,
@@ -100,7 +100,8 @@ Result<FileChoice> strongest_file(const FileQuestion& q) {
     return no_file(q, "the prim is inside an instance whose content lies in a package",
                    "unpack it: tenon zip PACKAGE --extract FOLDER");
   }
-  return FileChoice{q.stage.root_layer().identifier(), "it is the root layer, no other one speaks"};
+  return FileChoice{q.stage.root_layer().identifier(),
+                    "it is the root layer, and no other layer has an opinion"};
 }
 
 std::vector<std::string> files_with(const FileQuestion& q, Role role) {

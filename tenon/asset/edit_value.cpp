@@ -70,7 +70,7 @@ Error unknown_property(const stage::Prim& prim, Token property) {
 }
 
 Error bad_value(const AssetEdit& edit, const std::string& type, const std::string& fix) {
-  return Error(ErrorCode::Invalid, "\"" + edit.value + "\" is no value of type " + type)
+  return Error(ErrorCode::Invalid, "\"" + edit.value + "\" is not a value of type " + type)
       .with_prim(edit.object.prim().str())
       .with_rule("edit.type-mismatch")
       .with_fix(fix);

@@ -22,8 +22,8 @@ namespace {
 /// Copies images, each once.
 class ImageCopier {
  public:
-  ImageCopier(std::string folder, Diagnostics& diagnostics)
-      : folder_(std::move(folder)), diagnostics_(diagnostics) {}
+  ImageCopier(std::string folder, const bytes::ReadPolicy& policy, Diagnostics& diagnostics)
+      : folder_(std::move(folder)), policy_(policy), diagnostics_(diagnostics) {}
 
   /// The name of the copy; empty where there is none.
   std::string copy(const std::string& file) {
@@ -38,10 +38,16 @@ class ImageCopier {
  private:
   std::string read(const std::string& file) {
     constexpr std::string_view kPng = "\x89PNG";
-    const auto bytes = resolver_.open(file);
+    const auto bytes = policy_.open(file);
+    if (!bytes && bytes.error().diagnostic().rule == bytes::kOutsideRule) {
+      const Diagnostic& why = bytes.error().diagnostic();
+      diagnostics_.add(file_finding(Severity::Error, why.rule, why.message + "; it is left out",
+                                    file, 0, why.fix));
+      return {};
+    }
     if (!bytes || !(*bytes)->text().starts_with(kPng)) {
       diagnostics_.add(file_finding(Severity::Warning, "mjcf.left-out",
-                                    "the image is no PNG, which is all that MuJoCo reads; it is "
+                                    "the image is not a PNG, which is all that MuJoCo reads; it is "
                                     "left out",
                                     file, 0, "save the image as PNG"));
       return {};
@@ -58,8 +64,8 @@ class ImageCopier {
     return place;
   }
 
-  bytes::AssetResolver resolver_;
   std::string folder_;
+  const bytes::ReadPolicy& policy_;
   Diagnostics& diagnostics_;
   std::map<std::string, std::string> copies_;
   std::map<std::string, std::string> images_;
@@ -68,9 +74,10 @@ class ImageCopier {
 }  // namespace
 
 Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const physics::PhysicsScene& scene,
-                                 const std::string& folder, Diagnostics& diagnostics) {
+                                 const std::string& folder, const bytes::ReadPolicy& policy,
+                                 Diagnostics& diagnostics) {
   robot::RobotModel visuals = describe::describe_visuals(stage, scene, diagnostics);
-  ImageCopier copier(folder, diagnostics);
+  ImageCopier copier(folder, policy, diagnostics);
   for (robot::Material& material : visuals.materials) {
     if (!material.texture.empty()) {
       material.texture = copier.copy(material.texture);
@@ -89,8 +96,8 @@ Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const physics::Physi
 }
 #else
 Result<ExportedMjcf> export_mjcf(const stage::Stage&, const physics::PhysicsScene&,
-                                 const std::string&, Diagnostics&) {
-  return Error(ErrorCode::Missing, "MJCF is written by MuJoCo, which this build is without")
+                                 const std::string&, const bytes::ReadPolicy&, Diagnostics&) {
+  return Error(ErrorCode::Missing, "MuJoCo writes MJCF, and this build is without it")
       .with_fix("build with -DTENON_WITH_MUJOCO=ON");
 }
 #endif

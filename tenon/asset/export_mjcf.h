@@ -7,6 +7,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/bytes/read_policy.h"
 #include "tenon/physics/physics_scene.h"
 #include "tenon/stage/stage.h"
 
@@ -18,9 +19,11 @@ struct ExportedMjcf {
 };
 
 /// A physics scene, read from `stage`, in MuJoCo's own format, with what is seen of it
-/// (mjcf/write_model.h): images are copied into `folder`, a name relative to the text. What MJCF
+/// (mjcf/write_model.h): images are copied into `folder`, a name relative to the text, as
+/// far as `policy` allows. What MJCF
 /// has no word for goes to `diagnostics`. ErrorCode::Missing in a build without MuJoCo.
 Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const physics::PhysicsScene& scene,
-                                 const std::string& folder, Diagnostics& diagnostics);
+                                 const std::string& folder, const bytes::ReadPolicy& policy,
+                                 Diagnostics& diagnostics);
 
 }  // namespace tenon

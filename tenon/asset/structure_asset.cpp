@@ -4,15 +4,14 @@
 
 #include <filesystem>
 
+#include "tenon/asset_policy.h"
 #include "tenon/stage_sources.h"
 
 namespace tenon {
 
-Result<structure::AssetSource> asset_source(const std::string& path, const OpenOptions& options) {
-  OpenOptions plain = options;
-  plain.physics_variant.clear();  // all variants are looked at
-  plain.session_path.clear();
-  TENON_TRY(const StageSources sources, open_sources(path, plain));
+namespace {
+
+structure::AssetSource source_of(const StageSources& sources, const bytes::ReadPolicy& policy) {
   structure::AssetSource source;
   source.root = sources.root;
   source.open_layer = sources.opener();
@@ -20,13 +19,13 @@ Result<structure::AssetSource> asset_source(const std::string& path, const OpenO
                                                        const layer::Layer& anchor) {
     return registry->resolver().resolve(asset, anchor.identifier()).value_or(std::string());
   };
-  source.open_asset = [registry = sources.registry](const std::string& identifier) {
-    return registry->resolver().open(identifier);
-  };
+  source.open_asset = [policy](const std::string& identifier) { return policy.open(identifier); };
   return source;
 }
 
-structure::AssetSource asset_source(layer::Layer layer) {
+}  // namespace
+
+structure::AssetSource asset_source(layer::Layer layer, const bytes::ReadPolicy& policy) {
   structure::AssetSource source;
   source.root = std::make_shared<const layer::Layer>(std::move(layer));
   source.open_layer = [](const std::string& asset, const layer::Layer&) -> Result<layer::LayerPtr> {
@@ -38,17 +37,24 @@ structure::AssetSource asset_source(layer::Layer layer) {
         std::filesystem::path(asset).is_absolute() && std::filesystem::exists(asset, error);
     return found ? asset : std::string();
   };
-  source.open_asset = [](const std::string& identifier) {
-    return bytes::FileBytes::open(identifier);
-  };
+  source.open_asset = [policy](const std::string& identifier) { return policy.open(identifier); };
   return source;
 }
 
 Result<structure::StructuredAsset> structure_asset(const std::string& path, const OpenOptions& open,
                                                    const structure::StructureOptions& options,
                                                    Diagnostics& diagnostics) {
-  TENON_TRY(const structure::AssetSource source, asset_source(path, open));
-  return structure::make_package(source, options, diagnostics);
+  OpenOptions plain = open;
+  plain.physics_variant.clear();  // all variants are looked at
+  plain.session_path.clear();
+  TENON_TRY(const StageSources sources, open_sources(path, plain));
+  const bytes::ReadPolicy policy = policy_for(path, open);
+  TENON_TRY(structure::StructuredAsset asset,
+            structure::make_package(source_of(sources, policy), options, diagnostics));
+  for (const std::string& layer : sources.registry->opened()) {
+    name_outside_layer(layer, sources.root->identifier(), policy, diagnostics);
+  }
+  return asset;
 }
 
 }  // namespace tenon

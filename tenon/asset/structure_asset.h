@@ -6,19 +6,19 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/bytes/read_policy.h"
 #include "tenon/structure/make_package.h"
 #include "tenon/tenon.h"
 
 namespace tenon {
 
-/// A file of any kind as the source of a structured asset; keeps what it opens.
-Result<structure::AssetSource> asset_source(const std::string& path, const OpenOptions& options);
-
-/// The same of a layer that is in no file and stands alone; its asset paths are absolute.
-structure::AssetSource asset_source(layer::Layer layer);
+/// A layer that is in no file and stands alone as the source of a structured asset; its asset paths
+/// are absolute. Files are collected under `policy`.
+structure::AssetSource asset_source(layer::Layer layer, const bytes::ReadPolicy& policy);
 
 /// The asset in Asset Structure 3.0, in no folder yet (structure/make_package.h tells what is done;
-/// structure::write_package puts it into a folder). Of the options sandbox and search paths count.
+/// structure::write_package puts it into a folder). Of the options sandbox,
+/// search paths and what may be read count; layers from elsewhere are named in `diagnostics`.
 Result<structure::StructuredAsset> structure_asset(const std::string& path, const OpenOptions& open,
                                                    const structure::StructureOptions& options,
                                                    Diagnostics& diagnostics);

@@ -95,7 +95,7 @@ void report_unknown_gains(const robot::RobotModel& model, const ConvertOptions& 
     if (!known) {
       diagnostics.add(
           file_finding(Severity::Error, "convert.gains",
-                       "gains are given for \"" + name + "\", which is no joint of the robot",
+                       "gains are given for \"" + name + "\", which is not a joint of the robot",
                        model.file, 0, "name a joint as the description does"));
     }
   }

@@ -14,6 +14,7 @@
 #include "tenon/convert/convert_robot.h"
 #include "tenon/convert/layer_builder.h"
 #include "tenon/convert/legal_names.h"
+#include "tenon/guard/workers.h"
 #include "tenon/mesh/mesh_scene.h"
 #include "tenon/robot/kinematic_tree.h"
 
@@ -90,6 +91,8 @@ class Conversion {
   // materials.cpp
   robot::Index add_material(const mesh::Appearance& appearance);
   Path material_path(robot::Index material);
+  robot::Material with_images_checked(robot::Material look);
+  bool is_usable(const std::string& image, const robot::Material& look);
   Path surface_path(const robot::Surface& surface);
   Path materials_scope();
   void bind(Path prim, const char* relationship, Path material);
@@ -152,6 +155,8 @@ class Conversion {
   std::unordered_map<std::string, robot::Index> mesh_materials_;
   std::vector<std::pair<robot::Surface, Path>> surfaces_;
   std::map<robot::Index, std::vector<MeshValues>> meshes_;
+  guard::Workers workers_;                   // for meshes that are read elsewhere
+  std::map<std::string, bool> usable_;       // images, by file, once asked about
   InnerImages images_;                       // of the mesh files that were read
   std::map<std::string, Path> site_paths_;   // by name; the first of that name
   std::map<std::string, Path> shape_paths_;  // visuals and colliders that have names

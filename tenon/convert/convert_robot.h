@@ -9,6 +9,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/bytes/read_policy.h"
 #include "tenon/layer/layer.h"
 #include "tenon/robot/robot_model.h"
 
@@ -36,6 +37,7 @@ struct ConvertOptions {
   SchemaGeneration schema = SchemaGeneration::Current;
   std::optional<Gains> gains;                ///< a drive for each joint that leads
   std::map<std::string, Gains> joint_gains;  ///< by joint, before `gains`
+  bytes::ReadPolicy reading;                 ///< where meshes and images may lie
 };
 
 /// Bytes of images that lie inside mesh files (.glb), by the asset path that names them: "<mesh
@@ -52,9 +54,10 @@ using InnerImages = std::map<std::string, std::string>;
 /// is listed ("convert.scene").
 /// A link without inertial is no body: at the root it stands still, on a fixed joint it is a frame
 /// (IsaacSiteAPI) of the link that holds it. Mesh files are read; texture paths are those of the
-/// model; those inside of mesh files are in `images` and are no files yet. Faults that leave
-/// something out go to `diagnostics`. Errors: what is no tree (Invalid), a chain too long to be
-/// nested (Limit).
+/// model; those inside of mesh files are in `images` and are no files yet. Files from outside of
+/// `reading` are left out, so are textures that are no images: errors of `diagnostics` say so.
+/// Faults that leave something out go to `diagnostics`. Errors: what is no tree (Invalid), a chain
+/// too long to be nested (Limit).
 Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions& options,
                                    Diagnostics& diagnostics, InnerImages* images = nullptr);
 

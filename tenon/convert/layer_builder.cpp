@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/convert/layer_builder.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
 #include "tenon/base/assert.h"
 #include "tenon/layer/list_op.h"
 
@@ -94,6 +99,17 @@ void LayerBuilder::set_value(Path prim, Token schema, std::string_view property,
                 definition.variability);
 }
 
+namespace {
+
+/// The nearest number that an int can be; 0 for what is none.
+std::int32_t whole_number(double value) {
+  constexpr double kLeast = std::numeric_limits<std::int32_t>::min();
+  constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+  return std::isnan(value) ? 0 : static_cast<std::int32_t>(std::clamp(value, kLeast, kMost));
+}
+
+}  // namespace
+
 void LayerBuilder::set_number(Path prim, Token schema, std::string_view property, double value) {
   const schema::PropertyDefinition& definition = declared(schema, property);
   const Token type = definition.type_name;
@@ -101,7 +117,7 @@ void LayerBuilder::set_number(Path prim, Token schema, std::string_view property
   if (type == "float") {
     typed = Value(static_cast<float>(value));
   } else if (type == "int") {
-    typed = Value(static_cast<std::int32_t>(value));
+    typed = Value(whole_number(value));
   } else {
     TENON_ASSERT(type == "double");
   }
@@ -119,7 +135,7 @@ void LayerBuilder::set_numbers(Path prim, Token schema, std::string_view propert
   } else if (type == "int[]") {
     std::vector<std::int32_t> whole;
     for (const double number : numbers) {
-      whole.push_back(static_cast<std::int32_t>(number));
+      whole.push_back(whole_number(number));
     }
     set_value(prim, schema, property, Value(std::move(whole)));
   } else if (type == "double3" && numbers.size() == 3) {

@@ -166,7 +166,7 @@ void Conversion::write_body(Index link) {
     if (!above && source.name != "world") {
       report(source.line, Severity::Info, "convert.static-root",
              "the root \"" + source.name +
-                 "\" has no mass: it is no body, and what fixed joints hold to it stands still",
+                 "\" has no mass: it is not a body, and what fixed joints hold to it stands still",
              "convert with --float-base where the robot is free to move");
     }
     if (prim.role == LinkRole::Frame) {

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Materials are written when the first shape shows them (surface_network.cpp says how).
+#include <filesystem>
+
 #include "tenon/base/text_number.h"
+#include "tenon/bytes/file_kind.h"
 #include "tenon/convert/conversion.h"
 
 namespace tenon::convert {
@@ -60,7 +63,7 @@ Path Conversion::materials_scope() {
 Path Conversion::material_path(Index material) {
   Path& path = material_paths_[material];
   if (path.empty()) {
-    const robot::Material& look = materials_[material];
+    const robot::Material look = with_images_checked(materials_[material]);
     const std::string wanted = look.name.empty() ? "material" : look.name;
     const Token name = material_names_.make(wanted);
     path = builder_.define(materials_scope(), name, "Material");
@@ -68,6 +71,45 @@ Path Conversion::material_path(Index material) {
     write_preview(path, look, linear_color_[material]);
   }
   return path;
+}
+
+/// Images go into the asset with it, or are named by it: only those that are images, from where
+/// they may lie. One that is not there at all is kept as a name.
+bool Conversion::is_usable(const std::string& image, const robot::Material& look) {
+  const auto [at, is_new] = usable_.emplace(image, true);
+  if (!is_new) {
+    return at->second;
+  }
+  std::optional<Error> refusal;
+  if (const auto inner = images_.find(image); inner != images_.end()) {
+    if (bytes::kind_of(inner->second) != bytes::FileKind::Image) {
+      refusal = bytes::not_media(image);
+    }
+  } else if (std::error_code error; std::filesystem::exists(image, error)) {
+    const auto bytes = options_.reading.open(image);
+    if (!bytes) {
+      refusal = bytes::not_read(image, bytes.error());
+    } else if (bytes::kind_of((*bytes)->text()) != bytes::FileKind::Image) {
+      refusal = bytes::not_media(image);
+    }
+  }
+  if (refusal) {
+    const Diagnostic& why = refusal->diagnostic();
+    report(look.line, Severity::Error, why.rule.c_str(),
+           "the texture of the material \"" + look.name + "\" is left out: " + why.message,
+           why.fix);
+    at->second = false;
+  }
+  return at->second;
+}
+
+robot::Material Conversion::with_images_checked(robot::Material look) {
+  if (!look.texture.empty() && !is_usable(look.texture, look)) {
+    look.texture.clear();
+  }
+  std::erase_if(look.images,
+                [&](const robot::MaterialImage& image) { return !is_usable(image.file, look); });
+  return look;
 }
 
 Path Conversion::surface_path(const robot::Surface& surface) {

@@ -100,9 +100,11 @@ const std::vector<MeshValues>& Conversion::mesh_values(Index mesh) {
   if (file.path.empty()) {
     return at->second;
   }
-  Result<mesh::MeshScene> scene = mesh::read_mesh(file.path, diagnostics_);
+  Result<mesh::MeshScene> scene =
+      mesh::read_mesh(file.path, {workers_, options_.reading}, diagnostics_);
   if (!scene) {
-    report(file.line, Severity::Error, "convert.mesh-unreadable",
+    const bool outside = scene.error().diagnostic().rule == bytes::kOutsideRule;
+    report(file.line, Severity::Error, outside ? bytes::kOutsideRule : "convert.mesh-unreadable",
            "the mesh \"" + file.written +
                "\" cannot be read and is left out: " + scene.error().to_string(),
            scene.error().diagnostic().fix);

@@ -202,7 +202,7 @@ std::optional<Index> SceneReader::surface_of(const stage::Prim& material) {
     robot_.materials.push_back(std::move(look));
     return static_cast<Index>(robot_.materials.size() - 1);
   }
-  left_out(material.path(), "the material is no UsdPreviewSurface");
+  left_out(material.path(), "the material is not a UsdPreviewSurface");
   return std::nullopt;
 }
 

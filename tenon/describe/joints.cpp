@@ -144,7 +144,7 @@ void SceneReader::add_mimics() {
     const std::size_t leader = joint_of_[mimic->leader];
     robot::Joint& joint = robot_.joints[joint_of_[i]];
     if (leader == kNone || !joint.has_one_axis() || mimic->higher != std::array<double, 3>{}) {
-      left_out(scene_.joints[i].path, "the joint follows another by a law that is no line");
+      left_out(scene_.joints[i].path, "the joint follows another by a law that is not linear");
       continue;
     }
     joint.mimic = robot::Mimic{static_cast<Index>(leader), mimic->multiplier, mimic->offset, {}, 0};

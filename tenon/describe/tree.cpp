@@ -38,7 +38,7 @@ void SceneReader::left_out(Path prim, const std::string& why) {
   finding.severity = Severity::Warning;
   finding.rule = format_ + ".left-out";
   finding.message =
-      why + ", which " + (is_mjcf() ? "MJCF" : "URDF") + " has no word for; it is left out";
+      why + ", which " + (is_mjcf() ? "MJCF" : "URDF") + " cannot express; it is left out";
   finding.prim = prim.str();
   diagnostics_.add(std::move(finding));
 }
@@ -93,7 +93,7 @@ Index SceneReader::add_body(std::size_t body, const Vec3d& anchor) {
   inertial.inertia = source.inertia;
   link_of_[body] = number;
   if (source.kinematic) {
-    left_out(source.path, "the body moves as it is told and is pushed by nothing");
+    left_out(source.path, "the body is kinematic: it follows its animation");
   }
   return number;
 }

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The only file that knows assimp: its C interface, loaded when the first such mesh is met, so that
-// programs that read none neither need nor wait for it.
+// The only file that knows assimp: its C interface, loaded when it is first asked for. Of the
+// programs only tenon-worker has this in it.
+#include "tenon/mesh/assimp_scene.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +18,6 @@
 #include "tenon/base/limits.h"
 #include "tenon/math/matrix.h"
 #include "tenon/mesh/point_welder.h"
-#include "tenon/mesh/read_mesh.h"
 
 #if TENON_WITH_ASSIMP
 #include <assimp/cimport.h>
@@ -55,7 +56,7 @@ bool load(void* library, const char* name, Function& function) {
 
 Assimp load_assimp() {
   Assimp a;
-  void* library = dlopen(TENON_ASSIMP_SONAME, RTLD_NOW | RTLD_LOCAL);
+  void* library = dlopen(TENON_ASSIMP_SONAME, RTLD_LAZY | RTLD_LOCAL);
   if (library != nullptr && load(library, "aiImportFileExWithProperties", a.import_file) &&
       load(library, "aiReleaseImport", a.release) &&
       load(library, "aiGetErrorString", a.error_text) &&
@@ -284,7 +285,7 @@ class SceneReader {
     const std::string_view hint(inside.achFormatHint);
     const bool known = hint == "png" || hint == "jpg" || hint == "jpeg";
     if (inside.mHeight != 0 || inside.pcData == nullptr || !known) {
-      report("the image " + std::to_string(number) + " of the file is no PNG and no JPEG",
+      report("the image " + std::to_string(number) + " of the file is neither PNG nor JPEG",
              "export the mesh with such images");
       return {};
     }
@@ -418,7 +419,7 @@ bool has_assimp() { return false; }
 std::string assimp_version() { return ""; }
 
 Result<MeshScene> read_with_assimp(const std::string& path, Diagnostics&) {
-  return Error(ErrorCode::Missing, "this mesh is read by assimp, which this build is without")
+  return Error(ErrorCode::Missing, "this mesh is read by assimp, which is not part of this build")
       .in_file(path)
       .with_rule("mesh.assimp")
       .with_fix("export the mesh as .obj or .stl");

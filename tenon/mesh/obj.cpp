@@ -36,8 +36,9 @@ struct Group {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, const std::string& path, Diagnostics& diagnostics)
-      : scanner_(text), path_(path), diagnostics_(diagnostics) {}
+  ObjReader(std::string_view text, const std::string& path, const bytes::ReadPolicy& policy,
+            Diagnostics& diagnostics)
+      : scanner_(text), path_(path), policy_(policy), diagnostics_(diagnostics) {}
 
   Result<MeshScene> run() {
     while (scanner_.next_line()) {
@@ -170,7 +171,16 @@ class ObjReader {
 
   void read_library(const std::string& name) {
     const std::string file = beside(path_, name);
-    const auto bytes = bytes::FileBytes::open(file);
+    const auto bytes = policy_.open(file);
+    if (!bytes && bytes.error().diagnostic().rule == bytes::kOutsideRule) {
+      Diagnostic outside = bytes.error().diagnostic();
+      outside.severity = Severity::Error;
+      outside.message = "the material library " + outside.message + "; colours are lost";
+      outside.file = path_;
+      outside.line = scanner_.line();
+      diagnostics_.add(std::move(outside));
+      return;
+    }
     if (!bytes) {
       diagnostics_.add(
           file_finding(Severity::Warning, "mesh.material-library-missing",
@@ -264,6 +274,7 @@ class ObjReader {
 
   TextScanner scanner_;
   const std::string& path_;
+  const bytes::ReadPolicy& policy_;
   Diagnostics& diagnostics_;
   std::vector<Vec3f> points_;
   std::vector<Vec3f> normals_;
@@ -280,8 +291,8 @@ class ObjReader {
 }  // namespace
 
 Result<MeshScene> read_obj(std::string_view text, const std::string& path,
-                           Diagnostics& diagnostics) {
-  return ObjReader(text, path, diagnostics).run();
+                           const bytes::ReadPolicy& policy, Diagnostics& diagnostics) {
+  return ObjReader(text, path, policy, diagnostics).run();
 }
 
 }  // namespace tenon::mesh

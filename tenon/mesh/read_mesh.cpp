@@ -4,6 +4,8 @@
 
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/lfs_pointer.h"
+#include "tenon/mesh/check_scene.h"
+#include "tenon/mesh/gltf_files.h"
 
 namespace tenon::mesh {
 namespace {
@@ -21,9 +23,20 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
+/// Lets the worker read the file; what it says is checked before anybody uses it.
+Result<MeshScene> read_elsewhere(const std::string& path, const MeshReading& reading,
+                                 Diagnostics& diagnostics) {
+  TENON_TRY(MeshScene scene,
+            guard::read_guarded<MeshScene>(
+                reading.workers, {guard::Reader::Mesh, path, reading.policy.roots()}, diagnostics));
+  TENON_CHECK(check_scene(scene, path));
+  return scene;
+}
+
 }  // namespace
 
-Result<MeshScene> read_mesh(const std::string& path, Diagnostics& diagnostics) {
+Result<MeshScene> read_mesh(const std::string& path, const MeshReading& reading,
+                            Diagnostics& diagnostics) {
   const std::string ending = ending_of(path);
   const bool by_assimp = ending == "dae" || ending == "gltf" || ending == "glb";
   if (!by_assimp && ending != "stl" && ending != "obj") {
@@ -32,13 +45,16 @@ Result<MeshScene> read_mesh(const std::string& path, Diagnostics& diagnostics) {
         .with_rule("mesh.format")
         .with_fix("export the mesh as .stl, .obj, .dae, .gltf or .glb");
   }
-  TENON_TRY(const auto bytes, bytes::FileBytes::open(path));
+  TENON_TRY(const auto bytes, reading.policy.open(path));
   TENON_CHECK(bytes::check_no_lfs_pointer(bytes->text(), path));
   if (by_assimp) {
-    return read_with_assimp(path, diagnostics);
+    if (ending != "dae") {
+      TENON_CHECK(check_gltf_files(bytes->text(), path, reading.policy));
+    }
+    return read_elsewhere(path, reading, diagnostics);
   }
   return ending == "stl" ? read_stl(bytes->text(), path)
-                         : read_obj(bytes->text(), path, diagnostics);
+                         : read_obj(bytes->text(), path, reading.policy, diagnostics);
 }
 
 }  // namespace tenon::mesh

@@ -7,25 +7,33 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/bytes/read_policy.h"
+#include "tenon/guard/workers.h"
 #include "tenon/mesh/mesh_scene.h"
 
 namespace tenon::mesh {
 
+/// Who reads the formats that are not read in this process, and which folders it may read.
+struct MeshReading {
+  guard::Workers& workers;
+  const bytes::ReadPolicy& policy;
+};
+
 /// Reads .stl (binary or text) and .obj with every number rounded once to float, and .dae, .gltf
-/// and .glb by assimp, where that is installed. What is left out goes to `diagnostics`. Errors,
-/// with the file and in text with the line: NotFound, Io, Parse, Corrupt, Limit (kMeshCorners),
-/// Unsupported for other endings, Missing without assimp. Collada's unit of length is applied, its
-/// up axis is not, as other readers of robots have it.
-Result<MeshScene> read_mesh(const std::string& path, Diagnostics& diagnostics);
+/// and .glb by assimp in tenon-worker, where both are installed. What is left out goes to
+/// `diagnostics`. Errors, with the file and in text with the line: NotFound, Io, Parse, Corrupt,
+/// Limit (kMeshCorners, those of the worker), Unsupported for other endings, Missing without
+/// assimp or worker. Collada's unit of length is applied, its up axis is not, as other readers of
+/// robots have it.
+/// The file and those that it names are read from the folders of the policy alone; for others an
+/// error under bytes::kOutsideRule is returned, or where the mesh can do without them put to
+/// `diagnostics`.
+Result<MeshScene> read_mesh(const std::string& path, const MeshReading& reading,
+                            Diagnostics& diagnostics);
 
-/// Whether the part that reads .dae, .gltf and .glb is there, and its version ("5.2").
-bool has_assimp();
-std::string assimp_version();
-
-/// The formats' readers. `path` is for messages and for files beside it.
+/// The readers of this process. `path` is for messages and for files beside it.
 Result<MeshScene> read_stl(std::string_view bytes, const std::string& path);
 Result<MeshScene> read_obj(std::string_view text, const std::string& path,
-                           Diagnostics& diagnostics);
-Result<MeshScene> read_with_assimp(const std::string& path, Diagnostics& diagnostics);
+                           const bytes::ReadPolicy& policy, Diagnostics& diagnostics);
 
 }  // namespace tenon::mesh

@@ -9,10 +9,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "tenon/mesh/assimp_scene.h"
+
 namespace tenon::mesh {
 namespace {
 
 namespace fs = std::filesystem;
+
+const bytes::ReadPolicy kAnywhere = bytes::ReadPolicy::unrestricted();
 
 /// A folder of its own for each test.
 class ReadMesh : public testing::Test {
@@ -28,7 +32,13 @@ class ReadMesh : public testing::Test {
     return (folder_ / name).string();
   }
 
+  /// As programs read; formats of others by tenon-worker.
+  Result<MeshScene> read(const std::string& path, Diagnostics& findings) {
+    return read_mesh(path, {workers_, kAnywhere}, findings);
+  }
+
   Diagnostics findings_;
+  guard::Workers workers_;
 
  private:
   fs::path folder_;
@@ -57,7 +67,7 @@ const std::vector<Vec3f> kTwoTriangles = {{{0, 0, 0}},    {{0.1f, 0, 0}},  {{0, 
 
 TEST_F(ReadMesh, KeepsEveryBitOfABinaryStl) {
   const auto scene =
-      read_mesh(write("a.STL", binary_stl(kTwoTriangles, 2, "solid but binary")), findings_);
+      read(write("a.STL", binary_stl(kTwoTriangles, 2, "solid but binary")), findings_);
   ASSERT_TRUE(scene) << scene.error().to_string();
   const PolygonMesh& mesh = scene->meshes.at(0);
   EXPECT_EQ(mesh.points,
@@ -92,7 +102,7 @@ TEST_F(ReadMesh, ReadsObjWithMaterials) {
       "m.obj",
       "mtllib m.mtl\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0 \\\n\nv 0 0 0.1 # a corner\nvt 0 0\nvt 1 0\n"
       "vt 1 1\nvn 0 0 1\nusemtl red\nf 1 2 3\nusemtl wood\nf 1/1/1 -3/2/1 -1/3/1\nl 1 2\n");
-  const auto scene = read_mesh(path, findings_);
+  const auto scene = read(path, findings_);
   ASSERT_TRUE(scene) << scene.error().to_string();
   ASSERT_EQ(scene->meshes.size(), 2u);
   EXPECT_EQ(scene->meshes[0].points.size(), 3u);
@@ -111,7 +121,7 @@ TEST_F(ReadMesh, ReadsObjWithMaterials) {
 TEST_F(ReadMesh, RefusesBadObj) {
   for (const char* text : {"v 0 0\n", "v 0 0 0\nf 1 2 3\n", "v 0 0 0\nf 1 1\n", "", "f 0 0 0\n",
                            "v 0 0 0\nf 1//2 1 1\n", "v 0 0 0\nf 99999999999999999999 1 1\n"}) {
-    const auto scene = read_obj(text, "x.obj", findings_);
+    const auto scene = read_obj(text, "x.obj", kAnywhere, findings_);
     ASSERT_FALSE(scene) << text;
     EXPECT_EQ(scene.error().code(), ErrorCode::Parse) << text;
   }
@@ -138,7 +148,7 @@ TEST_F(ReadMesh, ReadsColladaInMetresWithItsAxes) {
   if (!has_assimp()) {
     GTEST_SKIP() << "assimp is not installed";
   }
-  const auto scene = read_mesh(write("t.dae", kCollada), findings_);
+  const auto scene = read(write("t.dae", kCollada), findings_);
   ASSERT_TRUE(scene) << scene.error().to_string();
   const PolygonMesh& mesh = scene->meshes.at(0);
   ASSERT_EQ(mesh.points.size(), 3u);
@@ -164,7 +174,7 @@ TEST_F(ReadMesh, ReadsGltfToTheBit) {
   }
   std::string text = kGltf;
   std::erase(text, '\n');
-  const auto scene = read_mesh(write("t.gltf", text), findings_);
+  const auto scene = read(write("t.gltf", text), findings_);
   ASSERT_TRUE(scene) << scene.error().to_string();
   EXPECT_EQ(scene->meshes.at(0).points,
             (std::vector<Vec3f>{{{0, 0, 2}}, {{1, 0, 2}}, {{0, 0.1f, 2}}}));
@@ -186,7 +196,7 @@ TEST_F(ReadMesh, TakesImagesOfGltfFromInsideAndBeside) {
 {"uri":"data:image/png;base64,cGljdHVyZQ=="},{"uri":"rough.png"}])");
   std::erase(text, '\n');
   const std::string file = write("t.gltf", text);
-  const auto scene = read_mesh(file, findings_);
+  const auto scene = read(file, findings_);
   ASSERT_TRUE(scene) << scene.error().to_string();
   const Appearance& look = scene->appearances.at(*scene->meshes.at(0).appearance);
   EXPECT_EQ(look.texture, file + "[t_0.png]");
@@ -228,7 +238,7 @@ TEST_F(ReadMesh, ListsWhatIsLeftOutOfTheLooksOfGltf) {
                 R"("images":[{"uri":"light.png"}])");
     std::erase(text, '\n');
     Diagnostics findings;
-    const auto scene = read_mesh(write("e.gltf", text), findings);
+    const auto scene = read(write("e.gltf", text), findings);
     ASSERT_TRUE(scene) << scene.error().to_string();
     const Appearance& look = scene->appearances.at(*scene->meshes.at(0).appearance);
     EXPECT_EQ(look.images.size(), row.images) << row.material;
@@ -241,17 +251,17 @@ TEST_F(ReadMesh, ListsWhatIsLeftOutOfTheLooksOfGltf) {
 }
 
 TEST_F(ReadMesh, SaysWhyAMeshCannotBeRead) {
-  EXPECT_EQ(read_mesh("/nowhere/x.stl", findings_).error().code(), ErrorCode::NotFound);
-  EXPECT_EQ(read_mesh("x.step", findings_).error().code(), ErrorCode::Unsupported);
+  EXPECT_EQ(read("/nowhere/x.stl", findings_).error().code(), ErrorCode::NotFound);
+  EXPECT_EQ(read("x.step", findings_).error().code(), ErrorCode::Unsupported);
   const char* const pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
   for (const char* name : {"pointer.stl", "pointer.obj", "pointer.dae"}) {
-    const auto mesh = read_mesh(write(name, pointer), findings_);
+    const auto mesh = read(write(name, pointer), findings_);
     ASSERT_FALSE(mesh) << name;
     EXPECT_EQ(mesh.error().diagnostic().rule, "file.lfs-pointer") << name;
   }
   if (has_assimp()) {
-    EXPECT_FALSE(read_mesh(write("bad.dae", "<COLLADA"), findings_));
-    EXPECT_FALSE(read_mesh(write("bad.glb", "glTF\x02\x01"), findings_));
+    EXPECT_FALSE(read(write("bad.dae", "<COLLADA"), findings_));
+    EXPECT_FALSE(read(write("bad.glb", "glTF\x02\x01"), findings_));
   }
 }
 

@@ -111,7 +111,7 @@ Result<MeshScene> read_stl(std::string_view bytes, const std::string& path) {
     return read_text(bytes, path);
   }
   return fault(ErrorCode::Corrupt, "mesh.stl", path,
-               has_header ? "the file counts " + std::to_string(count) + " triangles and has " +
+               has_header ? "the file counts " + std::to_string(count) + " triangles, but has " +
                                 std::to_string(bytes.size()) + " bytes, not " +
                                 std::to_string(kHeader + count * kTriangle)
                           : "the file is too short for an STL")

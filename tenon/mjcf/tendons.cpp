@@ -148,7 +148,7 @@ void MjcfReader::read_tendons() {
     } else {
       report("mjcf.left-out",
              "the tendon \"" + unique_name(mjOBJ_TENDON, i, "tendon") +
-                 "\" begins with a pulley; it is left out",
+                 "\" starts with a pulley; it is left out",
              Severity::Warning, line_of(mjOBJ_TENDON, i));
     }
   }

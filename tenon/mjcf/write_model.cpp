@@ -298,7 +298,8 @@ Result<std::string> write_model(const physics::PhysicsScene& scene,
   }
   diagnostics.add(file_finding(
       Severity::Warning, "mjcf.left-out",
-      std::string("what is seen is left out, MuJoCo refuses it: ") + mjs_getError(built.spec.get()),
+      std::string("the visuals are left out, because MuJoCo refuses them: ") +
+          mjs_getError(built.spec.get()),
       "", 0));
   Diagnostics again;
   return write_model(scene, {}, {}, parts, again);

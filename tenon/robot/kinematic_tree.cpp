@@ -24,7 +24,7 @@ Result<void> check_names(const RobotModel& model, const std::vector<Thing>& thin
     const auto [known, is_new] = lines.emplace(thing.name, thing.line);
     if (!is_new) {
       return fault(model, thing.line, "robot.duplicate-name",
-                   "two " + what + "s are named \"" + thing.name + "\"; the first stands in line " +
+                   "two " + what + "s are named \"" + thing.name + "\"; the first is in line " +
                        std::to_string(known->second),
                    "rename one of them");
     }
@@ -40,7 +40,7 @@ Result<void> attach_children(const RobotModel& model, KinematicTree& tree) {
       return fault(model, joint.line, "robot.two-parents",
                    "the joints \"" + model.joints[*above].name + "\" and \"" + joint.name +
                        "\" have the same child \"" + model.links[joint.child].name +
-                       "\": that is no tree",
+                       "\": that is not a tree",
                    "keep one of the joints; loops are closed by other means than a second parent");
     }
     above = i;
@@ -65,7 +65,7 @@ Result<Index> find_root(const RobotModel& model, const KinematicTree& tree) {
   }
   if (!root) {
     return fault(model, model.links.front().line, "robot.circle",
-                 "every link has a parent: the joints go in a circle", "take out one joint");
+                 "every link has a parent: the joints form a cycle", "remove one joint");
   }
   return *root;
 }
@@ -106,8 +106,8 @@ Result<KinematicTree> kinematic_tree(const RobotModel& model) {
       if (reached[link] == 0) {
         return fault(model, model.links[link].line, "robot.circle",
                      "the link \"" + model.links[link].name +
-                         "\" is its own ancestor: the joints go in a circle",
-                     "take out one joint of the circle");
+                         "\" is its own ancestor: the joints form a cycle",
+                     "remove one joint of the cycle");
       }
     }
   }

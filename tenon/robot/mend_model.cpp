@@ -251,7 +251,7 @@ class Mending {
         report(
             joint.mimic->line, "robot.mimic",
             "the joint \"" + joint.name + "\" follows itself through others; its mimic is left out",
-            "let one joint of the circle lead");
+            "let one joint of the cycle lead");
         joint.mimic.reset();
       }
     }

@@ -261,6 +261,9 @@ struct RobotModel {
   std::vector<ContactClass> contact_classes;
   std::vector<LoopJoint> loops;
   MujocoParts mujoco;
+  /// Folders that its files were found in, beside that of the description: ROS packages, folders
+  /// of meshes and textures.
+  std::vector<std::string> parts_folders;
 };
 
 }  // namespace tenon::robot

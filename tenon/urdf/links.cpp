@@ -144,9 +144,7 @@ Result<std::optional<Geometry>> UrdfReader::read_mesh(pugi::xml_node element) {
   geometry.scale = {{scale[0], scale[1], scale[2]}};
   geometry.mesh = mesh_number(written, element);
   if (model_.meshes[geometry.mesh].path.empty()) {
-    xml_.warn(element, "urdf.mesh-missing",
-              "the mesh \"" + written + "\" cannot be found; the shape is left out",
-              paths_.advice(written), Severity::Error);
+    report_missing_mesh(written, element);
     return std::optional<Geometry>();
   }
   return std::optional<Geometry>(geometry);
@@ -156,10 +154,26 @@ robot::Index UrdfReader::mesh_number(const std::string& written, pugi::xml_node 
   const auto [at, is_new] =
       meshes_.emplace(written, static_cast<robot::Index>(model_.meshes.size()));
   if (is_new) {
-    model_.meshes.push_back(
-        {written, paths_.find(written).value_or(""), xml_.line_of(element), {}, {}});
+    const Result<std::string> file = paths_.find(written);
+    if (!file && !file.error().diagnostic().rule.empty()) {
+      refusals_.emplace(written, file.error());
+    }
+    model_.meshes.push_back({written, file.value_or(""), xml_.line_of(element), {}, {}});
   }
   return at->second;
+}
+
+void UrdfReader::report_missing_mesh(const std::string& written, pugi::xml_node element) {
+  const auto refusal = refusals_.find(written);
+  if (refusal == refusals_.end()) {
+    xml_.warn(element, "urdf.mesh-missing",
+              "the mesh \"" + written + "\" cannot be found; the shape is left out",
+              paths_.advice(written), Severity::Error);
+  } else {
+    const Diagnostic& why = refusal->second.diagnostic();
+    xml_.warn(element, why.rule.c_str(), "the mesh " + why.message + "; the shape is left out",
+              why.fix, Severity::Error);
+  }
 }
 
 }  // namespace tenon::urdf

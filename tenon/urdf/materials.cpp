@@ -36,9 +36,13 @@ Result<robot::Material> UrdfReader::read_material(pugi::xml_node element) {
   if (const pugi::xml_node texture = element.child("texture")) {
     xml_.list_unknown(texture, {"filename"}, {});
     const std::string written = texture.attribute("filename").value();
-    const std::optional<std::string> file = written.empty() ? "" : paths_.find(written);
+    const Result<std::string> file = written.empty() ? std::string() : paths_.find(written);
     if (written.empty()) {
       xml_.warn(texture, "urdf.missing", "names no file; it is left out", "write filename=\"...\"");
+    } else if (!file && !file.error().diagnostic().rule.empty()) {
+      const Diagnostic& why = file.error().diagnostic();
+      xml_.warn(texture, why.rule.c_str(), "the texture " + why.message + "; it is left out",
+                why.fix, Severity::Error);
     } else if (!file) {
       xml_.warn(texture, "urdf.texture-missing",
                 "the texture \"" + written + "\" cannot be found; it is left out",

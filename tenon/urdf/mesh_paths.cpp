@@ -9,6 +9,10 @@
 
 #include <pugixml.hpp>
 
+#include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/asset_roots.h"
+#include "tenon/urdf/read_urdf.h"
+
 namespace tenon::urdf {
 namespace {
 
@@ -37,8 +41,11 @@ std::optional<std::pair<std::string, std::string>> package_parts(const std::stri
 
 }  // namespace
 
-MeshPaths::MeshPaths(const std::string& path, const std::map<std::string, std::string>& packages)
-    : packages_(packages) {
+MeshPaths::MeshPaths(const std::string& path, const UrdfOptions& options)
+    : path_(path),
+      packages_(options.packages),
+      search_paths_(options.search_paths),
+      reading_(options.reading) {
   std::error_code error;
   const fs::path absolute = fs::absolute(path, error);
   folder_ = (error ? fs::path(path) : absolute).lexically_normal().parent_path().generic_string();
@@ -47,8 +54,10 @@ MeshPaths::MeshPaths(const std::string& path, const std::map<std::string, std::s
 const std::string& MeshPaths::package_name(const std::string& folder) {
   const auto [at, is_new] = names_.emplace(folder, "");
   if (is_new) {
+    const bool may_look = !reading_.is_closed() || reading_.allows(folder + "/package.xml");
+    const auto bytes = may_look ? bytes::package_xml_of(folder) : nullptr;
     pugi::xml_document document;
-    if (document.load_file((folder + "/package.xml").c_str())) {
+    if (bytes != nullptr && document.load_buffer(bytes->text().data(), bytes->size())) {
       at->second = document.child("package").child("name").text().as_string();
     }
   }
@@ -60,13 +69,36 @@ std::optional<std::string> MeshPaths::find_in_package(const std::string& name,
   if (const auto given = packages_.find(name); given != packages_.end()) {
     return file_at(fs::path(given->second) / rest);
   }
+  if (auto found = find_upward(name, rest)) {
+    return found;
+  }
+  for (const std::string& folder : search_paths_) {
+    if (auto found = file_at(fs::path(folder) / name / rest)) {
+      return found;
+    }
+  }
+  return std::nullopt;
+}
+
+/// A folder of the package's name is enough to look into it; to belong to the description it has to
+/// say by its package.xml that it is a package.
+std::optional<std::string> MeshPaths::find_upward(const std::string& name,
+                                                  const std::string& rest) {
   for (fs::path at = folder_;; at = at.parent_path()) {
-    if (at.filename() == name || package_name(at.generic_string()) == name) {
+    const bool is_named_so = package_name(at.generic_string()) == name;
+    if (at.filename() == name || is_named_so) {
       if (auto found = file_at(at / rest)) {
+        if (is_named_so) {
+          take_folder(at.generic_string());
+        }
         return found;
       }
     }
-    if (auto found = file_at(at / name / rest)) {
+    const fs::path below = at / name;
+    if (auto found = file_at(below / rest)) {
+      if (!package_name(below.generic_string()).empty()) {
+        take_folder(below.generic_string());
+      }
       return found;
     }
     if (at == at.parent_path()) {
@@ -75,12 +107,36 @@ std::optional<std::string> MeshPaths::find_in_package(const std::string& name,
   }
 }
 
-std::optional<std::string> MeshPaths::find(const std::string& written) {
+void MeshPaths::take_folder(const std::string& folder) {
+  if (!reading_.is_closed() && !reading_.allows(folder)) {
+    reading_.add_found(folder);
+    found_folders_.push_back(folder);
+  }
+}
+
+Result<std::string> MeshPaths::find(const std::string& written) {
+  const std::optional<std::string> file = look_for(written);
+  if (!file) {
+    return Error(ErrorCode::NotFound, "the file cannot be found");
+  }
+  if (!reading_.allows(*file)) {
+    if (const auto folder = bytes::parts_folder(path_, *file)) {
+      take_folder(*folder);
+    }
+  }
+  TENON_CHECK(reading_.check(*file));
+  return *file;
+}
+
+std::optional<std::string> MeshPaths::look_for(const std::string& written) {
   if (const auto parts = package_parts(written)) {
     return find_in_package(parts->first, parts->second);
   }
+  // A relative path behind "file:" and two slashes is none of URI's forms; other readers take it.
   constexpr std::string_view kFile = "file://";
-  const std::string plain = written.starts_with(kFile) ? written.substr(kFile.size()) : written;
+  const std::string place = written.starts_with(kFile) ? written.substr(kFile.size()) : "/";
+  const bool relative = !place.starts_with("/") && !place.starts_with("localhost/");
+  const std::string plain = relative ? place : bytes::plain_asset_path(written);
   if (plain.empty() || plain.find("://") != std::string::npos) {
     return std::nullopt;
   }

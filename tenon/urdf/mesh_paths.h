@@ -5,28 +5,45 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "tenon/base/result.h"
+#include "tenon/bytes/read_policy.h"
 
 namespace tenon::urdf {
 
+struct UrdfOptions;
+
 /// From file names in a description to files: `package://NAME/x` and `model://NAME/x` by the given
-/// folders, then upward from the description; `file://`; else relative to the description.
+/// folders, then upward from the description, then in the search paths; `file://`; else relative to
+/// the description.
 class MeshPaths {
  public:
   /// `path` is the description.
-  MeshPaths(const std::string& path, const std::map<std::string, std::string>& packages);
+  MeshPaths(const std::string& path, const UrdfOptions& options);
 
-  /// The file; none when there is none.
-  std::optional<std::string> find(const std::string& written);
+  /// The file. Errors: NotFound without a rule where there is none, with bytes::kOutsideRule where
+  /// it lies outside of what may be read.
+  Result<std::string> find(const std::string& written);
   /// What a person can do about a name that was not found.
   std::string advice(const std::string& written) const;
+  /// Folders that files were found in: UrdfOptions::reading had them not.
+  const std::vector<std::string>& found_folders() const { return found_folders_; }
 
  private:
+  std::optional<std::string> look_for(const std::string& written);
   std::optional<std::string> find_in_package(const std::string& name, const std::string& rest);
+  std::optional<std::string> find_upward(const std::string& name, const std::string& rest);
+  void take_folder(const std::string& folder);
   /// The name that the package.xml of a folder gives; empty without one.
   const std::string& package_name(const std::string& folder);
 
+  std::string path_;
   std::string folder_;
-  const std::map<std::string, std::string>& packages_;
+  std::map<std::string, std::string> packages_;
+  std::vector<std::string> search_paths_;
+  bytes::ReadPolicy reading_;
+  std::vector<std::string> found_folders_;
   std::map<std::string, std::string> names_;  // of folders, once read
 };
 

@@ -99,6 +99,7 @@ Result<robot::RobotModel> UrdfReader::run(pugi::xml_node robot) {
       }
     }
   }
+  model_.parts_folders = paths_.found_folders();
   return std::move(model_);
 }
 
@@ -107,7 +108,7 @@ Result<robot::RobotModel> read_urdf_text(std::string_view text, const std::strin
   XmlReader xml(text, path, diagnostics);
   TENON_TRY(const pugi::xml_node root, xml.parse());
   TENON_CHECK(check_root(xml, root));
-  return UrdfReader(xml, MeshPaths(path, options.packages)).run(root);
+  return UrdfReader(xml, MeshPaths(path, options)).run(root);
 }
 
 Result<robot::RobotModel> read_urdf(const std::string& path, const UrdfOptions& options,

@@ -64,6 +64,26 @@ TEST_F(ReadUrdf, TakesInertials) {
   EXPECT_EQ(found(), "");
 }
 
+TEST_F(ReadUrdf, PlacesAreThoseOfTagsAndAttributesInBytes) {
+  // A tab, letters of two bytes and line ends of two bytes stand in front.
+  const std::string text =
+      "<robot name=\"r\">\r\n<!-- \xc3\xbc > -->\r\n\t<link name='\xc3\xa4'\r\n   "
+      "colour = \"a>b\" name2=''/>\r\n</robot>\r\n";
+  Diagnostics findings;
+  ASSERT_TRUE(read_urdf_text(text, "r.urdf", {}, findings));
+  ASSERT_EQ(findings.size(), 2u);
+  const Diagnostic& colour = findings.items()[0];
+  EXPECT_EQ(std::tie(colour.line, colour.column, colour.end_line, colour.end_column),
+            std::tuple(4, 4, 4, 18));
+  const Diagnostic& name = findings.items()[1];
+  EXPECT_EQ(std::tie(name.line, name.column, name.end_line, name.end_column),
+            std::tuple(4, 19, 4, 27));
+  ASSERT_FALSE(read("\t<link nam='a'/>\n"));
+  const Diagnostic& fault = error_->diagnostic();
+  EXPECT_EQ(std::tie(fault.line, fault.column, fault.end_line, fault.end_column),
+            std::tuple(2, 2, 2, 17));
+}
+
 TEST_F(ReadUrdf, TurnsByRollPitchYawAboutFixedAxes) {
   const auto model =
       read(joint("fixed", "<origin rpy='1.5707963267948966 0 1.5707963267948966'/>"));
@@ -222,8 +242,10 @@ TEST_F(ReadUrdf, FindsMeshesOfPackages) {
       << shape("package://hand/meshes/a.stl") << shape("../meshes/a.stl")
       << shape("file://" + (root / "other/b.stl").string()) << shape("package://elsewhere/b.stl")
       << shape("package://none/b.stl") << "</link></robot>";
-  const auto model = read_urdf((root / "pkg_folder/urdf/r.urdf").string(),
-                               {{{"elsewhere", (root / "other").string()}}}, findings_);
+  const std::string file = (root / "pkg_folder/urdf/r.urdf").string();
+  const std::string other = (root / "other").string();
+  const bytes::ReadPolicy reading({(root / "pkg_folder/urdf").string(), other});
+  const auto model = read_urdf(file, {{{"elsewhere", other}}, {}, reading}, findings_);
   ASSERT_TRUE(model) << model.error().to_string();
   ASSERT_EQ(model->links[0].visuals.size(), 4u);
   EXPECT_EQ(model->links[0].visuals[0].geometry.scale, (Vec3d{{1, 2, -3}}));
@@ -231,6 +253,39 @@ TEST_F(ReadUrdf, FindsMeshesOfPackages) {
   EXPECT_TRUE(model->meshes[3].path.ends_with("other/b.stl"));
   EXPECT_EQ(found(), "urdf.mesh-missing:6 ");
   EXPECT_NE(findings_.items()[0].fix.find("--package none=DIR"), std::string::npos);
+  EXPECT_EQ(model->parts_folders, std::vector<std::string>{(root / "pkg_folder").string()});
+  fs::remove_all(root);
+}
+
+TEST_F(ReadUrdf, LeavesOutMeshesThatLieOutside) {
+  const fs::path root = fs::temp_directory_path() / ("tenon_urdf_out_" + std::to_string(getpid()));
+  fs::create_directories(root / "robot/own");
+  fs::create_directories(root / "secret/meshes");
+  fs::create_directories(root / "meshes");
+  for (const char* name : {"secret/a.stl", "meshes/b.stl"}) {
+    std::ofstream(root / name) << "x";
+  }
+  fs::create_symlink(root / "secret/a.stl", root / "robot/link.stl");
+  std::string shapes;
+  for (const std::string& name :
+       {std::string("../secret/a.stl"), (root / "secret/a.stl").string(),
+        "file://" + (root / "secret/a.stl").string(), std::string("package://secret/a.stl"),
+        std::string("package://robot/../secret/a.stl"), std::string("link.stl"),
+        std::string("../meshes/b.stl")}) {
+    shapes += "<visual><geometry><mesh filename='" + name + "'/></geometry></visual>\n";
+  }
+  std::ofstream(root / "robot/r.urdf")
+      << "<robot name='r'><link name='a'>" << shapes << "</link></robot>";
+  const bytes::ReadPolicy reading({(root / "robot").string()});
+  const auto model = read_urdf((root / "robot/r.urdf").string(), {{}, {}, reading}, findings_);
+  ASSERT_TRUE(model) << model.error().to_string();
+  EXPECT_EQ(model->links[0].visuals.size(), 1u);  // what lies beside by custom
+  ASSERT_EQ(findings_.size(), 6u);
+  for (const Diagnostic& finding : findings_) {
+    EXPECT_EQ(finding.rule, bytes::kOutsideRule);
+    EXPECT_EQ(finding.severity, Severity::Error);
+    EXPECT_NE(finding.fix.find("--allow-read"), std::string::npos);
+  }
   fs::remove_all(root);
 }
 

@@ -28,6 +28,7 @@ class UrdfReader {
   /// None for a mesh that cannot be found, which is reported.
   Result<std::optional<robot::Geometry>> read_geometry(pugi::xml_node element);
   Result<std::optional<robot::Geometry>> read_mesh(pugi::xml_node element);
+  void report_missing_mesh(const std::string& written, pugi::xml_node element);
   robot::Index mesh_number(const std::string& written, pugi::xml_node element);
 
   // materials.cpp
@@ -55,6 +56,7 @@ class UrdfReader {
   std::unordered_map<std::string, robot::Index> material_numbers_;  // by all that they say
   std::unordered_map<std::string, robot::Index> first_material_;    // by name
   std::unordered_map<std::string, pugi::xml_node> definitions_;     // in visuals, by name
+  std::unordered_map<std::string, Error> refusals_;                 // of meshes, by what is written
   std::vector<pugi::xml_node> joint_elements_;                      // (joint_count)
 };
 

@@ -33,8 +33,7 @@ Result<pugi::xml_node> XmlReader::parse() {
       document_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!parsed) {
     const auto offset = static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 0));
-    const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
-    const auto line = static_cast<std::size_t>(next - line_starts_.begin());
+    const std::size_t line = line_at(offset);
     return Error(ErrorCode::Parse, std::string("the XML is broken: ") + parsed.description())
         .in_file(file_)
         .at(static_cast<std::uint32_t>(line),
@@ -50,30 +49,91 @@ std::uint32_t XmlReader::line_of(pugi::xml_node element) const {
   if (offset < 0) {
     return 0;
   }
-  const auto next =
-      std::upper_bound(line_starts_.begin(), line_starts_.end(), static_cast<std::size_t>(offset));
-  return static_cast<std::uint32_t>(next - line_starts_.begin());
+  return static_cast<std::uint32_t>(line_at(static_cast<std::size_t>(offset)));
+}
+
+std::size_t XmlReader::line_at(std::size_t offset) const {
+  const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
+  return static_cast<std::size_t>(next - line_starts_.begin());
+}
+
+/// From '<' to after '>', by the place of the element's name. Of a very long tag only the name, so
+/// that many findings in one tag do not make the time grow with the square of it.
+XmlReader::Range XmlReader::tag_of(std::size_t name) const {
+  constexpr std::size_t kLongest = 4096;
+  const std::size_t last = std::min(name + kLongest, text_.size());
+  char quote = 0;
+  std::size_t end = name;
+  for (; end < last && (quote != 0 || text_[end] != '>'); ++end) {
+    const char c = text_[end];
+    if (quote != 0) {
+      quote = c == quote ? '\0' : quote;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    }
+  }
+  return {name - 1, end < last ? end + 1 : std::min(text_.find_first_of(" \t\r\n>/", name), last)};
+}
+
+/// The attribute with its value; the tag when it is not there.
+XmlReader::Range XmlReader::attribute_in(Range tag, std::string_view attribute) const {
+  constexpr std::string_view kSpace = " \t\r\n";
+  std::size_t at = text_.find_first_of(kSpace, tag.begin);
+  while (at < tag.end) {
+    const std::size_t begin = text_.find_first_not_of(kSpace, at);
+    const std::size_t equals = text_.find('=', at);
+    const std::size_t open = text_.find_first_of("\"'", equals);
+    if (open >= tag.end) {
+      break;
+    }
+    const std::size_t close = text_.find(text_[open], open + 1);
+    const std::size_t name_end = text_.find_first_of(" \t\r\n=", begin);
+    if (close < tag.end && text_.substr(begin, name_end - begin) == attribute) {
+      return {begin, close + 1};
+    }
+    at = close == std::string_view::npos ? tag.end : close + 1;
+  }
+  return tag;
+}
+
+void XmlReader::place(Diagnostic& finding, pugi::xml_node element,
+                      std::string_view attribute) const {
+  const std::ptrdiff_t name = element.offset_debug();
+  if (name <= 0 || static_cast<std::size_t>(name) > text_.size()) {
+    return;
+  }
+  const Range tag = tag_of(static_cast<std::size_t>(name));
+  const Range range = attribute.empty() ? tag : attribute_in(tag, attribute);
+  const auto column = [&](std::size_t offset) {
+    return static_cast<std::uint32_t>(offset - line_starts_[line_at(offset) - 1] + 1);
+  };
+  finding.line = static_cast<std::uint32_t>(line_at(range.begin));
+  finding.column = column(range.begin);
+  finding.end_line = static_cast<std::uint32_t>(line_at(range.end));
+  finding.end_column = column(range.end);
 }
 
 Error XmlReader::fault(pugi::xml_node element, const char* rule, std::string message,
-                       std::string fix) const {
-  return Error(ErrorCode::Parse, "<" + std::string(element.name()) + ">: " + std::move(message))
-      .in_file(file_)
-      .at(line_of(element), 0)
-      .with_rule(rule)
-      .with_fix(std::move(fix));
+                       std::string fix, std::string_view attribute) const {
+  Diagnostic finding =
+      file_finding(Severity::Error, rule, "<" + std::string(element.name()) + ">: " + message,
+                   file_, 0, std::move(fix));
+  place(finding, element, attribute);
+  return {ErrorCode::Parse, std::move(finding)};
 }
 
 void XmlReader::warn(pugi::xml_node element, const char* rule, std::string message, std::string fix,
-                     Severity severity) {
+                     Severity severity, std::string_view attribute) {
   if (++findings_ > limits::kLayerFindings) {
     return;
   }
   message = findings_ == limits::kLayerFindings
                 ? "further findings are not listed"
                 : "<" + std::string(element.name()) + ">: " + std::move(message);
-  diagnostics_.add(
-      file_finding(severity, rule, std::move(message), file_, line_of(element), std::move(fix)));
+  Diagnostic finding =
+      file_finding(severity, rule, std::move(message), file_, line_of(element), std::move(fix));
+  place(finding, element, attribute);
+  diagnostics_.add(std::move(finding));
 }
 
 void XmlReader::list_unknown(pugi::xml_node element,
@@ -85,7 +145,7 @@ void XmlReader::list_unknown(pugi::xml_node element,
       warn(element, "urdf.left-out",
            "the attribute " + std::string(name) + "=\"" + attribute.value() +
                "\" is not known; it is left out",
-           "");
+           "", Severity::Warning, name);
     }
   }
   for (const pugi::xml_node child : element.children()) {
@@ -134,7 +194,8 @@ Result<std::vector<double>> XmlReader::numbers(pugi::xml_node element, const cha
     return fault(element, found ? "urdf.number" : "urdf.missing",
                  found ? std::string(attribute) + "=\"" + found.value() + "\" is not " + wanted
                        : std::string("needs the attribute ") + attribute,
-                 std::string("write ") + attribute + "=\"...\" with " + wanted);
+                 std::string("write ") + attribute + "=\"...\" with " + wanted,
+                 found ? attribute : "");
   }
   return values;
 }

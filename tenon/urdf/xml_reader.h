@@ -28,9 +28,11 @@ class XmlReader {
   const std::string& file() const { return file_; }
   std::uint32_t line_of(pugi::xml_node element) const;
 
-  Error fault(pugi::xml_node element, const char* rule, std::string message, std::string fix) const;
+  /// At the start tag of the element, or at one attribute of it.
+  Error fault(pugi::xml_node element, const char* rule, std::string message, std::string fix,
+              std::string_view attribute = {}) const;
   void warn(pugi::xml_node element, const char* rule, std::string message, std::string fix,
-            Severity severity = Severity::Warning);
+            Severity severity = Severity::Warning, std::string_view attribute = {});
 
   /// Lists attributes and child elements of `element` that are in neither list.
   void list_unknown(pugi::xml_node element, std::initializer_list<std::string_view> attributes,
@@ -48,6 +50,16 @@ class XmlReader {
   Result<Pose> origin(pugi::xml_node element);
 
  private:
+  /// Bytes from `begin` up to `end`.
+  struct Range {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
+  Range tag_of(std::size_t name) const;
+  Range attribute_in(Range tag, std::string_view attribute) const;
+  void place(Diagnostic& finding, pugi::xml_node element, std::string_view attribute) const;
+  std::size_t line_at(std::size_t offset) const;
+
   std::string_view text_;
   std::string file_;
   Diagnostics& diagnostics_;

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tenon/guard/messages.h"
+
+/// How this process is held to what it may do. What the kernel lacks is left out and told.
+namespace tenon::worker {
+
+/// Before any file is met: no core dumps, no files written, few files open, an end where memory
+/// ends.
+void prepare();
+
+/// For good: no new privileges, nothing readable but `roots`, no system calls but those of reading
+/// and computing.
+guard::Confinement confine(const std::vector<std::string>& roots);
+
+/// Memory and time from now on.
+void allow(const guard::Allowance& allowance);
+
+/// The clock stands still until there is something to do.
+void rest();
+
+/// A file of `size` bytes is read on top: more memory and time.
+void allow_more(std::uint64_t size);
+
+/// Version of Landlock in force from now on, 0: none.
+int restrict_files(const std::vector<std::string>& roots);
+
+/// Whether the kernel took the filter of system calls.
+bool restrict_system_calls();
+
+}  // namespace tenon::worker
