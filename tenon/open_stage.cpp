@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "tenon/asset_policy.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/package/pack.h"
@@ -113,6 +114,11 @@ Result<layer::LayerPtr> open_layer(const std::string& path, Diagnostics& diagnos
 
 Result<layer::LayerPtr> open_layer(const std::string& path, const OpenOptions& options,
                                    Diagnostics& diagnostics) {
+  if (options.contents != nullptr) {
+    TENON_TRY(auto layer, formats::read_layer(options.contents, bytes::absolute_file_path(path),
+                                              diagnostics));
+    return layer::LayerPtr(std::make_shared<const layer::Layer>(std::move(layer)));
+  }
   const bytes::AssetResolver resolver(resolver_options(options));
   TENON_TRY(auto layer, formats::open_layer_file(resolver, path, diagnostics));
   return layer::LayerPtr(std::make_shared<const layer::Layer>(std::move(layer)));
@@ -127,7 +133,8 @@ Result<std::string> pack_layer(layer::Layer layer, const std::string& path,
   }
   bytes::ResolverOptions resolver = resolver_options(options);
   resolver.search_paths.insert(resolver.search_paths.begin(), folder);
-  return formats::pack(bytes::AssetResolver(std::move(resolver)), layer, diagnostics);
+  return formats::pack(bytes::AssetResolver(std::move(resolver)), policy_for(path, options), layer,
+                       diagnostics);
 }
 
 Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& options,
@@ -143,6 +150,7 @@ Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& opti
   if (options.layer_units) {
     TENON_CHECK(convert_layers(sources, options, stage));
   }
+  diagnostics.append(sources.of_contents);
   diagnostics.append(sources.registry->diagnostics());
   diagnostics.append(stage.diagnostics());
   if (!options.sandbox_roots.empty()) {

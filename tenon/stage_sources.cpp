@@ -13,7 +13,12 @@ compose::LayerOpener StageSources::opener() const {
 }
 
 bytes::ResolverOptions resolver_options(const OpenOptions& options) {
-  return {options.search_paths, options.sandbox_roots};
+  bytes::ResolverOptions result{options.search_paths, options.sandbox_roots};
+  if (!result.roots.empty()) {
+    result.roots.insert(result.roots.end(), options.allowed_reads.begin(),
+                        options.allowed_reads.end());
+  }
+  return result;
 }
 
 Result<Path> parse_prim_path(const std::string& text, const std::string& what) {
@@ -30,8 +35,12 @@ Result<compose::ComposeOptions> compose_options(const OpenOptions& options,
   compose::ComposeOptions result;
   result.load_payloads = options.load_payloads && options.load.empty();
   result.variant_fallbacks = options.variant_fallbacks;
+  if (options.most_work != 0) {
+    result.most_work = options.most_work;
+    result.most_work_per_spec = 0;
+  }
   for (const std::string& text : options.load) {
-    TENON_TRY(const Path path, parse_prim_path(text, "what to load,"));
+    TENON_TRY(const Path path, parse_prim_path(text, "the path to load"));
     result.loaded.insert(path);
   }
   const std::string& file = root.identifier();
@@ -49,6 +58,12 @@ Result<StageSources> open_sources(const std::string& path, const OpenOptions& op
   StageSources sources;
   sources.registry =
       std::make_shared<formats::LayerRegistry>(bytes::AssetResolver(resolver_options(options)));
+  if (options.contents != nullptr) {
+    TENON_TRY(layer::Layer layer,
+              formats::read_layer(options.contents, bytes::absolute_file_path(path),
+                                  sources.of_contents));
+    sources.registry->insert(std::make_shared<const layer::Layer>(std::move(layer)));
+  }
   TENON_TRY(sources.root, sources.registry->open_root(path));
   if (!options.session_path.empty()) {
     TENON_TRY(sources.session, sources.registry->open(options.session_path, nullptr));

@@ -19,6 +19,7 @@ namespace tenon {
 struct StageSources {
   std::shared_ptr<formats::LayerRegistry> registry;
   layer::LayerPtr root;
+  Diagnostics of_contents;  ///< findings in OpenOptions::contents
   layer::LayerPtr session;  ///< null when nothing asks for one
 
   /// Keeps the registry alive.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/bytes/file_bytes.h"
 #include "tenon/compose/index_cache.h"
 #include "tenon/engines/engines.h"
 #include "tenon/engines/simulation.h"
@@ -24,6 +26,9 @@ struct OpenOptions {
   std::string physics_variant;
   /// "PATH.attr=value" in text form of the attribute's type: opinions in the session layer.
   std::vector<std::string> overrides;
+  /// What the asset holds where it is in no file, such as a layer from a pipe; its path says where
+  /// it counts as standing. Null: the file at the path is read.
+  std::shared_ptr<const bytes::FileBytes> contents;
   /// A session layer file; the two options above are written over its opinions, in memory.
   std::string session_path;
   bool load_payloads = true;
@@ -40,6 +45,11 @@ struct OpenOptions {
   /// Folders that asset paths without "./" are looked up in, after the layer's own folder, the
   /// working directory and the folder of the asset.
   std::vector<std::string> search_paths;
+  /// Folders and files that may go into outputs, beside those that belong to the asset; with
+  /// `sandbox_roots` they may be opened, too (tenon/asset_policy.h).
+  std::vector<std::string> allowed_reads;
+  /// Units of work that composition may take; 0: limits::kComposeWork and more for larger layers.
+  std::size_t most_work = 0;
   /// Opinions of layers whose metersPerUnit or kilogramsPerUnit are not those of the stage are
   /// converted to them (S-11, physics/layer_units.h).
   bool layer_units = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tenon/check/subject.h"
+#include "tenon/physics/attribute_values.h"
 
 namespace tenon::check {
 namespace {
@@ -64,7 +65,8 @@ void check_articulation_empty(const Subject& subject, Reporter& report) {
     const bool joint = subject.joint_at(prim.path()).has_value();
     if (!known && !below && !joint) {
       report.at(prim, "the articulation root has no rigid bodies at or below it",
-                "apply PhysicsArticulationRootAPI above the robot's bodies");
+                "apply PhysicsArticulationRootAPI above the robot's bodies",
+                physics::api_part("PhysicsArticulationRootAPI"));
     }
   }
 }
@@ -83,7 +85,7 @@ void check_articulation_passive(const Subject& subject, Reporter& report) {
     }
     if (moving > 0 && !driven) {
       report.at(subject.stage.prim(articulation.path),
-                "no joint of the articulation is driven: it hangs as gravity lets it",
+                "no joint of the articulation is driven: it only hangs and swings",
                 "apply PhysicsDriveAPI with gains to the joints that have motors");
     }
   }
@@ -111,10 +113,10 @@ void check_material_target(const Subject& subject, Reporter& report) {
       for (const Path& target : prim.relationship(name).targets()) {
         const stage::Prim material = subject.stage.prim(target);
         if (material && !material.is_a("Material")) {
-          report.at(prim, name,
-                    std::string(name) + " names <" + target.str() + "> of type \"" +
-                        material.type_name().str() + "\", which is no Material",
-                    "name a Material prim");
+          report.at_target(prim, name, target,
+                           std::string(name) + " names <" + target.str() + "> of type \"" +
+                               material.type_name().str() + "\", which is not a Material",
+                           "name a Material prim");
         }
       }
     }

@@ -10,6 +10,7 @@
 
 #include "tenon/check/rule.h"
 #include "tenon/check/subject.h"
+#include "tenon/layer/finding_place.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/stage/property_errors.h"
 
@@ -43,9 +44,7 @@ void place_in_file(const stage::Stage& stage, Diagnostic& d) {
   if (session != nullptr && d.file == session->identifier() && !d.prim.empty()) {
     for (const stage::SpecSite& site : stage.prim(Path::from(d.prim)).spec_stack()) {
       if (site.layer != session) {
-        d.file = site.layer->identifier();
-        d.line = site.spec->line;
-        d.column = site.spec->column;
+        layer::place_finding(d, *site.layer, site.path, site.spec);
         break;
       }
     }
@@ -145,9 +144,13 @@ std::vector<Finding> merge_variants(std::vector<VariantFindings> runs) {
       finding.variants.clear();
     }
   }
-  std::stable_sort(merged.begin(), merged.end(),
-                   [](const Finding& a, const Finding& b) { return order_of(a) < order_of(b); });
+  sort_by_place(merged);
   return merged;
+}
+
+void sort_by_place(std::vector<Finding>& findings) {
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& a, const Finding& b) { return order_of(a) < order_of(b); });
 }
 
 }  // namespace tenon::check

@@ -35,4 +35,7 @@ struct VariantFindings {
 /// holds; sorted by file, line, column, prim, rule and message.
 std::vector<Finding> merge_variants(std::vector<VariantFindings> runs);
 
+/// By file, line and column, then by prim and rule.
+void sort_by_place(std::vector<Finding>& findings);
+
 }  // namespace tenon::check

@@ -50,15 +50,6 @@ bool acts(const Drive& drive) { return drive.stiffness != 0 || drive.damping != 
 
 }  // namespace
 
-void check_negative_gain(const Subject& subject, Reporter& report) {
-  each_gain(subject, [&](const stage::Prim& prim, const std::string& name, double value) {
-    if (value < 0) {
-      report.at(prim, name, name + " is " + digits(value) + ": the drive feeds energy in",
-                "author a gain that is not negative");
-    }
-  });
-}
-
 void check_absurd_gain(const Subject& subject, Reporter& report) {
   each_gain(subject, [&](const stage::Prim& prim, const std::string& name, double value) {
     if (value > kAbsurdGain && std::isfinite(value)) {

@@ -8,6 +8,7 @@
 
 #include "tenon/check/joint_state.h"
 #include "tenon/check/subject.h"
+#include "tenon/physics/attribute_values.h"
 
 namespace tenon::check {
 namespace {
@@ -227,7 +228,8 @@ void check_physx_joint_api(const Subject& subject, Reporter& report) {
     if (prim.has_api("PhysxJointAPI")) {
       report.at(prim,
                 "PhysxJointAPI is applied; newer PhysX releases ignore its attributes in silence",
-                "apply PhysxJointAxisAPI or NewtonJointAPI beside it");
+                "apply PhysxJointAxisAPI or NewtonJointAPI beside it",
+                physics::api_part("PhysxJointAPI"));
     }
   }
 }

@@ -9,6 +9,7 @@
 
 #include "tenon/check/nearest_name.h"
 #include "tenon/check/subject.h"
+#include "tenon/physics/attribute_values.h"
 #include "tenon/schema/registry.h"
 
 namespace tenon::check {
@@ -109,7 +110,7 @@ void check_unknown_type(const Subject& subject, Reporter& report) {
     const std::string_view nearest = nearest_names.find(type);
     if (!nearest.empty()) {
       report.at(prim, "there is no type \"" + type.str() + "\"; the prim counts as untyped",
-                advice(nearest, ""));
+                advice(nearest, ""), physics::type_part());
     }
   }
 }
@@ -128,7 +129,7 @@ void check_unknown_api(const Subject& subject, Reporter& report) {
       }
       if (!nearest.empty() || name.view().starts_with("Physics")) {
         report.at(prim, "there is no API schema \"" + name.str() + "\"; it is ignored",
-                  advice(nearest, "apply a schema that exists"));
+                  advice(nearest, "apply a schema that exists"), physics::api_part(applied.str()));
       }
     }
   }

@@ -10,6 +10,8 @@
 #include "tenon/check/subject.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/finding_place.h"
+#include "tenon/physics/attribute_values.h"
 #include "tenon/stage/transform_at.h"
 
 namespace tenon::check {
@@ -33,6 +35,10 @@ std::map<std::string, std::string> authored_selections(const Subject& subject,
     }
   }
   return found;
+}
+
+StatementPart selection_part(const std::string& set, const std::string& variant) {
+  return layer::entry_part(fields::variantSelection, {set}, variant);
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -113,7 +119,8 @@ void check_up_axis_missing(const Subject& subject, Reporter& report) {
 void check_default_prim_missing(const Subject& subject, Reporter& report) {
   const layer::Layer& root = subject.stage.root_layer();
   if (root.default_prim().empty() && !subject.prims.empty()) {
-    report.at_root(subject.stage, "defaultPrim is not authored: nobody can reference the file",
+    report.at_root(subject.stage,
+                   "defaultPrim is not authored: references to the file have to name a prim",
                    "author defaultPrim with the name of the root prim");
   }
 }
@@ -122,7 +129,7 @@ void check_default_prim_unresolved(const Subject& subject, Reporter& report) {
   const Token name = subject.stage.root_layer().default_prim();
   if (!name.empty() && !subject.stage.default_prim()) {
     report.at_root(subject.stage, "defaultPrim names \"" + name.str() + "\", which does not exist",
-                   "name a prim that exists");
+                   "name a prim that exists", layer::item_part(fields::defaultPrim, name.str()));
   }
 }
 
@@ -140,8 +147,9 @@ void check_target_missing(const Subject& subject, Reporter& report) {
         const bool owner = name == "physics:simulationOwner" &&
                            subject.has_finding("scene.owner-missing", prim.path().str());
         if (!exists && !owner && !subject.is_reported(prim.path().str(), name.str())) {
-          report.at(prim, name, name.str() + " names <" + target.str() + ">, which does not exist",
-                    "name what exists, or remove the target");
+          report.at_target(prim, name, target,
+                           name.str() + " names <" + target.str() + ">, which does not exist",
+                           "name what exists, or remove the target");
         }
       }
     }
@@ -156,12 +164,12 @@ void check_unknown_selection(const Subject& subject, Reporter& report) {
       if (!has(sets, set)) {
         report.at(prim,
                   "a variant of the set \"" + set + "\" is selected, and there is no such set",
-                  "remove the selection");
+                  "remove the selection", selection_part(set, variant));
       } else if (!variant.empty() && !has(variants, variant)) {
         report.at(prim,
                   "variant set \"" + set + "\" has no variant \"" + variant +
                       "\": nothing of the set is composed",
-                  "select one of: " + joined(variants));
+                  "select one of: " + joined(variants), selection_part(set, variant));
       }
     }
   }
@@ -196,7 +204,8 @@ void check_asset_missing(const Subject& subject, Reporter& report) {
           asset->authored.find('/') == std::string::npos && asset->authored.ends_with(".mdl");
       if (!pattern && !module) {
         report.at(prim, name, name.str() + " names @" + asset->authored + "@, which is not there",
-                  "put the file there, or correct the path");
+                  "put the file there, or correct the path",
+                  physics::value_part("@" + asset->authored + "@"));
       }
     }
   }
@@ -211,7 +220,7 @@ void check_extent(const Subject& subject, Reporter& report) {
       if (corners && !has_box(*corners)) {
         report.at(
             prim, name,
-            std::string(name) + " holds no box: corners are inside out, infinite or no number",
+            std::string(name) + " is not a box: its corners are inside out, infinite or no number",
             "author low and high corners, or remove it");
       }
     }
@@ -263,7 +272,7 @@ void check_xform_op(const Subject& subject, Reporter& report) {
     Diagnostics found;
     stage::local_transform(prim, {}, &found);
     for (const Diagnostic& d : found) {
-      report.at(prim, "xformOpOrder", d.message, d.fix);
+      report.at(prim, "xformOpOrder", d.message, d.fix, d.part);
     }
   }
 }

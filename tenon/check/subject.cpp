@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tenon/base/rounded_text.h"
+#include "tenon/layer/finding_place.h"
 #include "tenon/physics/attribute_values.h"
 
 namespace tenon::check {
@@ -86,29 +87,44 @@ void Reporter::add(Diagnostic diagnostic, const stage::Prim& prim, std::string f
   out_->push_back(std::move(diagnostic));
 }
 
-void Reporter::at(const stage::Prim& prim, std::string message, std::string fix) {
-  add(prim.located(rule_->severity, std::string(rule_->id), std::move(message)), prim,
-      std::move(fix));
+void Reporter::at(const stage::Prim& prim, std::string message, std::string fix,
+                  StatementPart part) {
+  add(prim.located(rule_->severity, std::string(rule_->id), std::move(message), std::move(part)),
+      prim, std::move(fix));
 }
 
-void Reporter::at(const stage::Prim& prim, Token property, std::string message, std::string fix) {
-  Diagnostic found = prim.is_relationship(property)
-                         ? prim.relationship(property).located(
-                               rule_->severity, std::string(rule_->id), std::move(message))
-                         : prim.attribute(property).located(rule_->severity, std::string(rule_->id),
-                                                            std::move(message));
+void Reporter::at(const stage::Prim& prim, Token property, std::string message, std::string fix,
+                  StatementPart part) {
+  const auto found_at = [&](const auto& opinions) {
+    return opinions.located(rule_->severity, std::string(rule_->id), std::move(message),
+                            std::move(part));
+  };
+  Diagnostic found = prim.is_relationship(property) ? found_at(prim.relationship(property))
+                                                    : found_at(prim.attribute(property));
   if (found.property.empty()) {
     found.property = property.str();
   }
   add(std::move(found), prim, std::move(fix));
 }
 
-void Reporter::at_root(const stage::Stage& stage, std::string message, std::string fix) {
+void Reporter::at_target(const stage::Prim& prim, Token property, Path target, std::string message,
+                         std::string fix) {
+  const auto found_at = [&](const auto& opinions) {
+    return opinions.located_target(rule_->severity, std::string(rule_->id), std::move(message),
+                                   target);
+  };
+  add(prim.is_relationship(property) ? found_at(prim.relationship(property))
+                                     : found_at(prim.attribute(property)),
+      prim, std::move(fix));
+}
+
+void Reporter::at_root(const stage::Stage& stage, std::string message, std::string fix,
+                       StatementPart part) {
   Diagnostic found;
   found.severity = rule_->severity;
   found.rule = rule_->id;
   found.message = std::move(message);
-  found.file = stage.root_layer().identifier();
+  layer::place_finding(found, stage.root_layer(), Path::absolute_root(), std::move(part));
   found.line = 1;
   found.fix = std::move(fix);
   out_->push_back(std::move(found));

@@ -96,11 +96,13 @@ class ActuatorReader {
                       "only actuators of joints are read, not of tendons and sites");
       return std::nullopt;
     }
-    state_.report(prim, tokens_.target, Severity::Error, "actuator.target-missing",
-                  targets.empty() ? "mjc:target names nothing; the actuator is left out"
-                                  : "mjc:target names <" + targets.front().str() +
-                                        ">, which is no joint; the actuator is left out",
-                  "name one joint in mjc:target");
+    state_.values.report_target(prim, tokens_.target, targets.empty() ? Path() : targets.front(),
+                                Severity::Error, "actuator.target-missing",
+                                targets.empty()
+                                    ? "mjc:target names nothing; the actuator is left out"
+                                    : "mjc:target names <" + targets.front().str() +
+                                          ">, which is not a joint; the actuator is left out",
+                                "name one joint in mjc:target");
     return std::nullopt;
   }
 

@@ -57,10 +57,12 @@ class ArticulationReader {
   }
 
  private:
+  static StatementPart root_part() { return api_part("PhysicsArticulationRootAPI"); }
+
   void drop(const PhysicsPrim& found, const char* rule, std::string why, std::string fix) const {
     state_.report(found.prim, Severity::Error, rule,
                   std::move(why) + "; its bodies are simulated without an articulation",
-                  std::move(fix));
+                  std::move(fix), root_part());
   }
 
   const Joint& joint(Index i) const { return state_.scene.joints[i]; }
@@ -102,7 +104,7 @@ class ArticulationReader {
       // S-112
       state_.report(found.prim, Severity::Info, "articulation.single-body",
                     "the articulation is one body without joints; it is simulated as a plain body",
-                    "remove PhysicsArticulationRootAPI, or add joints");
+                    "remove PhysicsArticulationRootAPI, or add joints", root_part());
       return;
     }
     add(found, component, body, own, found.path);

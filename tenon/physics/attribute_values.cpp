@@ -7,6 +7,7 @@
 
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/finding_place.h"
 #include "tenon/layer/type_names.h"
 
 namespace tenon::physics {
@@ -159,14 +160,25 @@ std::optional<bool> AttributeValues::authored_flag(const stage::Prim& prim, Toke
 }
 
 void AttributeValues::report(const stage::Prim& prim, Token name, Severity severity,
-                             const char* rule, std::string message, std::string fix) const {
-  Diagnostic finding = prim.attribute(name).located(severity, rule, std::move(message));
+                             const char* rule, std::string message, std::string fix,
+                             StatementPart part) const {
+  Diagnostic finding =
+      prim.attribute(name).located(severity, rule, std::move(message), std::move(part));
   if (finding.prim.empty()) {
     finding.prim = prim.path().str();
   }
   if (finding.property.empty()) {
     finding.property = name.str();
   }
+  finding.fix = std::move(fix);
+  diagnostics_->add(std::move(finding));
+}
+
+void AttributeValues::report_target(const stage::Prim& prim, Token name, Path target,
+                                    Severity severity, const char* rule, std::string message,
+                                    std::string fix) const {
+  Diagnostic finding =
+      prim.relationship(name).located_target(severity, rule, std::move(message), target);
   finding.fix = std::move(fix);
   diagnostics_->add(std::move(finding));
 }
@@ -186,13 +198,23 @@ void AttributeValues::report_type(const stage::Prim& prim, Token name, layer::Va
 }
 
 void report(Diagnostics& diagnostics, const stage::Prim& prim, Severity severity, const char* rule,
-            std::string message, std::string fix) {
-  Diagnostic finding = prim.located(severity, rule, std::move(message));
+            std::string message, std::string fix, StatementPart part) {
+  Diagnostic finding = prim.located(severity, rule, std::move(message), std::move(part));
   if (finding.prim.empty()) {
     finding.prim = prim.path().str();
   }
   finding.fix = std::move(fix);
   diagnostics.add(std::move(finding));
+}
+
+StatementPart api_part(std::string name) {
+  return layer::item_part(layer::fields::apiSchemas, std::move(name));
+}
+
+StatementPart type_part() { return layer::field_part(layer::fields::typeName); }
+
+StatementPart value_part(std::string item) {
+  return layer::item_part(layer::fields::default_value, std::move(item));
 }
 
 }  // namespace tenon::physics

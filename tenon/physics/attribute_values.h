@@ -67,7 +67,10 @@ class AttributeValues {
 
   /// One finding with the place of the strongest opinion about the attribute.
   void report(const stage::Prim& prim, Token name, Severity severity, const char* rule,
-              std::string message, std::string fix) const;
+              std::string message, std::string fix, StatementPart part = {}) const;
+  /// The same with the place of one of its targets.
+  void report_target(const stage::Prim& prim, Token name, Path target, Severity severity,
+                     const char* rule, std::string message, std::string fix) const;
 
  private:
   layer::Value resolved(const stage::Attribute& attribute) const;
@@ -81,8 +84,15 @@ class AttributeValues {
   Diagnostics* diagnostics_;
 };
 
-/// One finding about a prim as a whole.
+/// One finding about a prim as a whole, or about what `part` names.
 void report(Diagnostics& diagnostics, const stage::Prim& prim, Severity severity, const char* rule,
-            std::string message, std::string fix);
+            std::string message, std::string fix, StatementPart part = {});
+
+/// An API that a prim applies; the name of an instance is part of it.
+StatementPart api_part(std::string name);
+/// The type that a prim is given.
+StatementPart type_part();
+/// One item of the list that is an attribute's value, or that value.
+StatementPart value_part(std::string item = {});
 
 }  // namespace tenon::physics

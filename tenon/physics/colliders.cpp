@@ -88,12 +88,13 @@ void check_apis(const ReadState& state, const PhysicsPrim& found) {
     // S-74
     state.report(found.prim, Severity::Error, "collider.is-material",
                  "PhysicsMaterialAPI on a collider is ignored",
-                 "apply it to a Material prim and bind that");
+                 "apply it to a Material prim and bind that", api_part("PhysicsMaterialAPI"));
   }
   if (found.roles.has(Api::MeshCollision) && found.roles.kind != PrimKind::Mesh) {
     // S-63
     state.report(found.prim, Severity::Warning, "collider.mesh-api-ignored",
-                 "PhysicsMeshCollisionAPI on a prim that is no Mesh is ignored", "remove it");
+                 "PhysicsMeshCollisionAPI on a prim that is not a Mesh is ignored", "remove it",
+                 api_part("PhysicsMeshCollisionAPI"));
   }
 }
 
@@ -205,8 +206,9 @@ void report_lone_mesh_apis(const ReadState& state) {
   for (const PhysicsPrim& found : state.walk.prims) {
     if (found.roles.has(Api::MeshCollision) && !found.roles.has(Api::Collision)) {
       state.report(found.prim, Severity::Warning, "collider.mesh-api-alone",
-                   "PhysicsMeshCollisionAPI without PhysicsCollisionAPI is no collider",
-                   "apply PhysicsCollisionAPI too, or remove it");
+                   "PhysicsMeshCollisionAPI without PhysicsCollisionAPI is not a collider",
+                   "apply PhysicsCollisionAPI too, or remove it",
+                   api_part("PhysicsMeshCollisionAPI"));
     }
   }
 }

@@ -21,11 +21,11 @@ AuthoredGroup read_group(const ReadState& state, const PhysicsPrim& found,
     const auto named = std::lower_bound(paths.begin(), paths.end(), target);
     if (named == paths.end() || !(*named == target)) {
       // S-80
-      state.report(found.prim, state.tokens.filtered_groups, Severity::Warning,
-                   "group.unknown-target",
-                   "physics:filteredGroups names <" + target.str() +
-                       ">, which is no collision group; it is ignored",
-                   "name a PhysicsCollisionGroup");
+      values.report_target(found.prim, state.tokens.filtered_groups, target, Severity::Warning,
+                           "group.unknown-target",
+                           "physics:filteredGroups names <" + target.str() +
+                               ">, which is not a collision group; it is ignored",
+                           "name a PhysicsCollisionGroup");
       continue;
     }
     group.filtered.push_back(static_cast<Index>(named - paths.begin()));
@@ -65,6 +65,11 @@ void find_members(ReadState& state, const PhysicsPrim& found, Index group) {
         (prim.instance != kNone && members.contains(prim.prim.path()))) {
       state.scene.filter.groups_of_collider[i].push_back(group);
     }
+  }
+  if (members.is_cut()) {
+    state.not_read(found.prim, "collection:colliders",
+                   "the collection is too large or its expression too costly (docs/limits.md); "
+                   "some of its colliders are not in the group");
   }
 }
 

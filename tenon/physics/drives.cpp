@@ -23,7 +23,7 @@ std::optional<Dof> driven_dof(const ReadState& state, const stage::Prim& prim, c
   if (one_axis && named == joint.dof()) {
     state.report(prim, Severity::Info, "drive.axis-token",
                  api + " is taken as PhysicsDriveAPI:" + own.str() + ", the joint's own axis",
-                 "apply PhysicsDriveAPI:" + own.str());
+                 "apply PhysicsDriveAPI:" + own.str(), api_part(api));
     return named;
   }
   if (joint.kind == JointKind::D6 && named && *named != Dof::Distance) {
@@ -32,7 +32,7 @@ std::optional<Dof> driven_dof(const ReadState& state, const stage::Prim& prim, c
   // S-107
   state.report(prim, Severity::Warning, "drive.no-such-axis",
                api + " is ignored: the joint does not move that way",
-               one_axis ? "apply PhysicsDriveAPI:" + own.str() : "remove it");
+               one_axis ? "apply PhysicsDriveAPI:" + own.str() : "remove it", api_part(api));
   return std::nullopt;
 }
 
@@ -58,25 +58,37 @@ double read_max_force(const ReadState& state, const stage::Prim& prim, Token nam
   return force * unit;
 }
 
+/// A gain in the file's own unit, as it is: one below zero acts, and is told (S-102).
+double read_gain(const ReadState& state, const stage::Prim& prim, Token name) {
+  const double gain = state.values.number(prim, name).value_or(0);
+  if (gain < 0) {
+    state.report(prim, name, Severity::Error, "drive.negative-gain",
+                 name.str() + " is " + shortest(gain) + ": the drive feeds energy in",
+                 "author a gain that is not negative");
+  }
+  return gain;
+}
+
 void check_effect(const ReadState& state, const stage::Prim& prim, const Joint& joint,
-                  const Drive& drive) {
+                  const Drive& drive, Token instance) {
+  const StatementPart api = api_part("PhysicsDriveAPI:" + instance.str());
   const std::string name = "the drive of " + std::string(dof_name(drive.dof));
   if (drive.acceleration && is_angular(drive.dof)) {
     state.report(prim, Severity::Info, "drive.angular-acceleration",
                  name +
                      " is an angular acceleration drive: its gains are taken per degree, as "
                      "PhysX does; read literally they are 57.3 times weaker",
-                 "use a force drive, whose gains all readers take alike");
+                 "use a force drive, whose gains all readers take alike", api);
   }
   if (drive.stiffness == 0 && drive.damping == 0) {
     // S-106
     state.report(prim, Severity::Info, "drive.no-effect",
-                 name + " has neither stiffness nor damping: no force", "author gains");
+                 name + " has neither stiffness nor damping: no force", "author gains", api);
   } else if (is_locked(joint, drive.dof)) {
     // S-107
     state.report(prim, Severity::Warning, "drive.locked-axis",
                  name + " has no effect: limits lock that axis",
-                 "open the limit or remove the drive");
+                 "open the limit or remove the drive", api);
   }
 }
 
@@ -118,12 +130,12 @@ std::optional<Drive> read_drive(const ReadState& state, const stage::Prim& prim,
   drive.dof = *dof;
   drive.acceleration = read_acceleration(state, prim, names.type);
   const DriveUnits unit = drive_units(state, *dof, drive.acceleration);
-  drive.stiffness = values.number(prim, names.stiffness).value_or(0) * unit.stiffness;
-  drive.damping = values.number(prim, names.damping).value_or(0) * unit.damping;
+  drive.stiffness = read_gain(state, prim, names.stiffness) * unit.stiffness;
+  drive.damping = read_gain(state, prim, names.damping) * unit.damping;
   drive.max_force = read_max_force(state, prim, names.max_force, unit.force);
   drive.target_position = values.number(prim, names.target_position).value_or(0) * unit.position;
   drive.target_velocity = values.number(prim, names.target_velocity).value_or(0) * unit.velocity;
-  check_effect(state, prim, joint, drive);
+  check_effect(state, prim, joint, drive, instance);
   return drive;
 }
 

@@ -147,7 +147,8 @@ class PairFilter {
       state_.report(prim.prim, Severity::Info, "filter.body-or-articulation",
                     "a filtered pair names a body that is an articulation root too; the body is "
                     "meant, not all links",
-                    "apply PhysicsArticulationRootAPI above the body if all links are meant");
+                    "apply PhysicsArticulationRootAPI above the body if all links are meant",
+                    api_part("PhysicsArticulationRootAPI"));
     }
   }
 
@@ -158,18 +159,20 @@ class PairFilter {
     speaks(PairRule::FilteredPair, found.path);
     for (const Path& target : found.prim.relationship(name).targets()) {
       if (!state_.stage.prim(target)) {
-        state_.report(found.prim, name, Severity::Warning, "filter.target-missing",
-                      "physics:filteredPairs names <" + target.str() +
-                          ">, which does not exist; it is ignored",
-                      "name an existing prim");
+        state_.values.report_target(found.prim, name, target, Severity::Warning,
+                                    "filter.target-missing",
+                                    "physics:filteredPairs names <" + target.str() +
+                                        ">, which does not exist; it is ignored",
+                                    "name an existing prim");
         continue;
       }
       const Path meant = state_.walk.near(found, target);
       if (meant == found.path) {
         // S-82
-        state_.report(found.prim, name, Severity::Warning, "filter.self",
-                      "physics:filteredPairs names its own prim: contacts within it are off",
-                      "use the self collision switch of the articulation");
+        state_.values.report_target(
+            found.prim, name, target, Severity::Warning, "filter.self",
+            "physics:filteredPairs names its own prim: contacts within it are off",
+            "use the self collision switch of the articulation");
       }
       add_all(own, meant_by(meant));
     }

@@ -12,12 +12,13 @@
 namespace tenon::physics {
 namespace {
 
-void drop(const ReadState& state, const stage::Prim& joint, Token name, const char* rule,
-          std::string why, std::string fix) {
+void drop(const ReadState& state, const stage::Prim& joint, Token name, Path target,
+          const char* rule, std::string why, std::string fix) {
   const bool world = state.readings.missing_target == MissingTarget::World;
-  state.report(joint, name, Severity::Error, rule,
-               std::move(why) + (world ? "; the world is taken" : "; the joint is left out"),
-               std::move(fix));
+  state.values.report_target(
+      joint, name, target, Severity::Error, rule,
+      std::move(why) + (world ? "; the world is taken" : "; the joint is left out"),
+      std::move(fix));
 }
 
 /// The prim that a side names; an invalid one when it is unusable (S-87), reported.
@@ -27,8 +28,8 @@ stage::Prim find_target(const ReadState& state, const PhysicsPrim& from, Token n
     return met->prim;  // the walk meets usable prims only
   }
   if (!target.is_prim_or_root()) {
-    drop(state, joint, name, "joint.target-not-prim",
-         name.str() + " names <" + target.str() + ">, which is no prim", "name a prim");
+    drop(state, joint, name, target, "joint.target-not-prim",
+         name.str() + " names <" + target.str() + ">, which is not a prim", "name a prim");
     return {};
   }
   const stage::Prim prim =
@@ -36,7 +37,7 @@ stage::Prim find_target(const ReadState& state, const PhysicsPrim& from, Token n
   const bool there =
       prim.is_valid() && prim.is_active() && prim.is_defined() && !prim.is_abstract();
   if (!there) {
-    drop(state, joint, name, "joint.body-missing",
+    drop(state, joint, name, target, "joint.body-missing",
          name.str() + " names <" + target.str() + ">, which does not exist",
          "name an existing prim, or clear the relationship to attach to the world");
     return {};
@@ -88,8 +89,8 @@ std::optional<JointSide> read_joint_side(const ReadState& state, const PhysicsPr
     return result;
   }
   if (targets.size() > 1) {
-    state.report(
-        joint, name, Severity::Error, "joint.several-targets",
+    state.values.report_target(
+        joint, name, targets[1], Severity::Error, "joint.several-targets",
         name.str() + " has " + std::to_string(targets.size()) + " targets; only the first counts",
         "leave one target");
   }

@@ -107,7 +107,7 @@ void apply_limit(const ReadState& state, const stage::Prim& prim, const NamedLim
   if (!named.dof) {
     state.report(prim, Severity::Warning, "limit.unknown-axis",
                  name + " names no degree of freedom; it is ignored",
-                 "use transX, transY, transZ, rotX, rotY, rotZ or distance");
+                 "use transX, transY, transZ, rotX, rotY, rotZ or distance", api_part(name));
     return;
   }
   if (joint.kind == JointKind::D6) {
@@ -116,7 +116,8 @@ void apply_limit(const ReadState& state, const stage::Prim& prim, const NamedLim
   }
   if (!has_one_dof(joint) || joint.dof() != *named.dof) {
     state.report(prim, Severity::Warning, "limit.other-axis",
-                 name + " is ignored: the joint does not move along it", "remove it");
+                 name + " is ignored: the joint does not move along it", "remove it",
+                 api_part(name));
     return;
   }
   joint.lower = std::max(joint.lower, named.limit.lower);

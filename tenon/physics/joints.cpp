@@ -64,7 +64,7 @@ bool sides_fit(const ReadState& state, const stage::Prim& prim, const Joint& joi
     return false;
   }
   if (joint.body0 == joint.body1) {
-    state.report(prim, Severity::Error, "joint.same-body",
+    state.report(prim, state.tokens.body1, Severity::Error, "joint.same-body",
                  "both sides of the joint are the body <" +
                      state.scene.bodies[*joint.body0].path.str() + ">; the joint is left out",
                  "name two bodies");

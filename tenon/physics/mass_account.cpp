@@ -24,7 +24,7 @@ class Chain {
     const bool first = !used_;
     used_ = true;
     account_.candidates.push_back({quantity_, prim, property, std::move(value), rule, first,
-                                   first ? std::move(why) : "beaten by what stands above"});
+                                   first ? std::move(why) : "overruled by the opinion above"});
   }
   void add_unset(Path prim, Token property, std::string value, const char* rule, std::string why) {
     account_.candidates.push_back(
@@ -110,7 +110,8 @@ void account_inertia(const ReadState& state, const PhysicsPrim& found, CenterShi
   } else {
     add_passed_over(found, state.tokens.diagonal_inertia, "S-45",
                     "unset: exactly zero, negative, blocked or of another type", chain);
-    add_passed_over(found, state.tokens.principal_axes, "S-46", "axes without moments say nothing",
+    add_passed_over(found, state.tokens.principal_axes, "S-46",
+                    "axes without moments have no effect",
                     chain);
   }
   const bool none = !(account.computed.mass > 0);

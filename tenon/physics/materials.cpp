@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "tenon/base/text_number.h"
 #include "tenon/physics/read_state.h"
@@ -134,9 +135,15 @@ void bind_materials(ReadState& state) {
   }
   const Token purpose("physics");
   bool bound = false;
+  std::set<Path> told;
   for (Index i = 0; i < state.scene.colliders.size(); ++i) {
     const PhysicsPrim& found = state.prim_of_collider(i);
     const stage::MaterialBinding binding = stage::find_material_binding(found.prim, purpose);
+    if (const Path cut = binding.cut_collection; !cut.empty() && told.insert(cut).second) {
+      state.not_read(state.stage.prim(cut.parent()), cut.name().str(),
+                     "the collection is too large or its expression too costly (docs/limits.md); "
+                     "some of what it holds does not get the material bound to it");
+    }
     // S-67, S-68: a binding that wins and has no physics means no physics material.
     const auto material = state.material_of_path.find(binding.material);
     if (material == state.material_of_path.end()) {

@@ -41,7 +41,7 @@ class MimicReader {
       if (newton && has_leader("newton:mimicJoint")) {
         state_.report(found_.prim, Severity::Info, "mimic.several",
                       "PhysxMimicJointAPI counts; the Newton mimic law beside it is not used",
-                      "apply one of them, or keep both equal");
+                      "apply one of them, or keep both equal", api_part("NewtonMimicAPI"));
       }
       read_physx();
     } else {
@@ -63,7 +63,7 @@ class MimicReader {
     const std::vector<Path> targets = found_.prim.relationship(name).targets();
     std::string why = name + " names no joint";
     if (!targets.empty()) {
-      why = name + " names <" + targets.front().str() + ">, which is no joint of one axis";
+      why = name + " names <" + targets.front().str() + ">, which is not a joint of one axis";
       const auto found = state_.walk.index_of.find(state_.walk.near(found_, targets.front()));
       if (found != state_.walk.index_of.end()) {
         const std::uint32_t joint = state_.joint_of_prim[found->second];
@@ -73,8 +73,10 @@ class MimicReader {
         }
       }
     }
-    state_.report(found_.prim, name, Severity::Error, "mimic.leader-missing",
-                  why + "; the joint follows none", "name a revolute or prismatic joint");
+    state_.values.report_target(found_.prim, Token(name),
+                                targets.empty() ? Path() : targets.front(), Severity::Error,
+                                "mimic.leader-missing", why + "; the joint follows none",
+                                "name a revolute or prismatic joint");
     return std::nullopt;
   }
 
@@ -168,7 +170,7 @@ void break_circles(ReadState& state) {
       if (at == i) {
         state.report(state.prim_of_joint(i).prim, Severity::Error, "mimic.circle",
                      "the joint follows itself through others; it follows none",
-                     "let one joint of the circle lead");
+                     "let one joint of the cycle lead");
         joints[i].mimic.reset();
         break;
       }

@@ -97,7 +97,11 @@ class MovingShapes {
     const double frame = fps > 0 ? state_.scene.time_codes_per_second / fps : 1;
     const double step =
         std::max(frame / kSamplesPerFrame, span / static_cast<double>(limits::kShapeSamples));
-    for (double code = first + step; code < last; code += step) {
+    for (std::size_t i = 1; i <= limits::kShapeSamples; ++i) {
+      const double code = first + static_cast<double>(i) * step;
+      if (!(code < last)) {
+        break;
+      }
       codes.push_back(code);
     }
     return ascending_codes(std::move(codes));

@@ -336,12 +336,12 @@ class BodyWeigher {
     const auto add = [&](MassQuantity quantity, Path prim, Token property, std::string value,
                          const char* rule, const char* why) {
       account.candidates.push_back({quantity, prim, property, std::move(value), rule, !used,
-                                    used ? "beaten by what stands above" : why});
+                                    used ? "overruled by the opinion above" : why});
       used = true;
     };
     if (authored.mass) {
       add(MassQuantity::Mass, found.path, state_.tokens.mass, mass_text(*authored.mass), "S-39",
-          "a mass of its own beats every density");
+          "its own mass overrules every density");
     }
     const auto list = [&](const std::optional<double>& given, Path prim, const char* rule) {
       if (given) {
@@ -415,7 +415,7 @@ void report_between(const ReadState& state) {
                    std::string("PhysicsMassAPI between a body and its colliders ") +
                        (counts ? "counts for what lies below; OpenUSD passes over it"
                                : "is ignored, as in OpenUSD"),
-                   "apply it to the body or to the colliders");
+                   "apply it to the body or to the colliders", api_part("PhysicsMassAPI"));
     }
   }
 }
@@ -438,7 +438,7 @@ void read_masses(ReadState& state) {
       // S-40
       state.report(found.prim, Severity::Warning, "mass.outside-body",
                    "PhysicsMassAPI above or beside bodies is ignored",
-                   "apply it to a rigid body or to a prim below one");
+                   "apply it to a rigid body or to a prim below one", api_part("PhysicsMassAPI"));
     }
   }
 }

@@ -142,7 +142,7 @@ class ActuatorList {
   void read_sites(const stage::Prim& prim, Path target, MujocoActuator& result) const {
     const std::optional<Place> site = place_of(target);
     if (!site) {
-      result.fault = "<" + target.str() + "> is no joint, tendon or site that is there";
+      result.fault = "<" + target.str() + "> is not a joint, tendon or site that is there";
       return;
     }
     result.kind = Target::Site;

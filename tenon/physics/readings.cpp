@@ -137,7 +137,7 @@ Result<void> set_reading(Readings& readings, std::string_view name, std::string_
     if (choice.name == name) {
       const auto at = std::find(choice.values.begin(), choice.values.end(), value);
       if (at == choice.values.end()) {
-        return unknown("\"" + std::string(value) + "\" is no reading of " + choice.name,
+        return unknown("\"" + std::string(value) + "\" is not a reading of " + choice.name,
                        choice.values);
       }
       choice.set(readings, static_cast<std::size_t>(at - choice.values.begin()));

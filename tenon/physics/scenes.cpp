@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tenon/base/text_number.h"
+#include "tenon/base/work_limits.h"
 #include "tenon/physics/mujoco_settings.h"
 #include "tenon/physics/read_state.h"
 
@@ -63,6 +64,19 @@ Vec3d scene_gravity(const ReadState& state, const PhysicsPrim& found) {
 
 namespace {
 
+/// Nothing, and a warning, where a run would never end.
+std::optional<double> usable_step(const ReadState& state, const stage::Prim& prim, double step) {
+  if (step * static_cast<double>(limits::kStepsPerSecond) >= 1) {
+    return step;
+  }
+  state.report(prim, Severity::Warning, "scene.time-step",
+               "the scene asks for steps of " + shortest(step) + " s, more than " +
+                   std::to_string(limits::kStepsPerSecond) + " in a second (kStepsPerSecond); " +
+                   "the engine's own step is used",
+               "author a longer step");
+  return std::nullopt;
+}
+
 /// The step that the strongest of the vendors' APIs asks for: Newton, PhysX, MuJoCo.
 std::optional<double> read_time_step(const ReadState& state, const stage::Prim& prim,
                                      const Roles& roles) {
@@ -75,12 +89,12 @@ std::optional<double> read_time_step(const ReadState& state, const stage::Prim& 
     rate = values.authored_number(prim, state.tokens.physx_steps);
   }
   if (rate && *rate > 0 && std::isfinite(*rate)) {
-    return 1 / *rate;
+    return usable_step(state, prim, 1 / *rate);
   }
   if (roles.has(Api::MjcScene)) {
     const std::optional<double> step = values.authored_number(prim, state.tokens.mjc_time_step);
     if (step && *step > 0 && std::isfinite(*step)) {
-      return step;
+      return usable_step(state, prim, *step);
     }
   }
   return std::nullopt;
@@ -167,17 +181,19 @@ OwnerScene owner_scene(const ReadState& state, const stage::Prim& prim, Index fa
     return {fallback, true};
   }
   if (targets.size() > 1) {
-    state.report(prim, Severity::Error, "scene.several-owners",
-                 "physics:simulationOwner has " + std::to_string(targets.size()) +
-                     " targets; only the first counts",
-                 "leave one target");
+    state.values.report_target(prim, state.tokens.simulation_owner, targets[1], Severity::Error,
+                               "scene.several-owners",
+                               "physics:simulationOwner has " + std::to_string(targets.size()) +
+                                   " targets; only the first counts",
+                               "leave one target");
   }
   const std::optional<Index> scene = scene_at(state, targets.front());
   if (!scene) {
-    state.report(prim, Severity::Error, "scene.owner-missing",
-                 "physics:simulationOwner names <" + targets.front().str() +
-                     ">, which is no PhysicsScene; it is not simulated",
-                 "name a PhysicsScene, or none");
+    state.values.report_target(prim, state.tokens.simulation_owner, targets.front(),
+                               Severity::Error, "scene.owner-missing",
+                               "physics:simulationOwner names <" + targets.front().str() +
+                                   ">, which is not a PhysicsScene; it is not simulated",
+                               "name a PhysicsScene, or none");
     return {fallback, false};
   }
   return {*scene, true};

@@ -314,7 +314,8 @@ std::optional<ShapeReading> read_shape(ReadState& state, const ShapeSource& sour
                "PhysicsCollisionAPI is applied to a prim of type \"" +
                    source.found.prim.type_name().str() + "\", which is " +
                    (gprim ? "a shape that does not collide" : "no shape") + "; it does not collide",
-               "apply it to a Cube, Sphere, Cylinder, Cone, Capsule, Plane, Points or Mesh");
+               "apply it to a Cube, Sphere, Cylinder, Cone, Capsule, Plane, Points or Mesh",
+               api_part("PhysicsCollisionAPI"));
   return std::nullopt;
 }
 

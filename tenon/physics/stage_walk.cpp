@@ -244,8 +244,8 @@ class Walker {
       // S-22
       report(values_.diagnostics(), prim, Severity::Error, "body.not-xformable",
              "PhysicsRigidBodyAPI is applied to a prim of type \"" + prim.type_name().str() +
-                 "\" that has no transform; it is no body",
-             "apply it to an Xform or a shape");
+                 "\" that has no transform; it is not a body",
+             "apply it to an Xform or a shape", api_part("PhysicsRigidBodyAPI"));
       return false;
     }
     // S-28: a body that is enabled at some time is one throughout.
@@ -268,11 +268,13 @@ class Walker {
       }
       report(values_.diagnostics(), prim, Severity::Error, "body.nested-rejected",
              "the body lies below another one; it is part of that",
-             "author !resetXformStack! on it, or place it beside the other");
+             "author !resetXformStack! on it, or place it beside the other",
+             api_part("PhysicsRigidBodyAPI"));
       return false;
     }
     report(values_.diagnostics(), prim, Severity::Warning, "body.nested-ignored",
-           "the body lies below another one; it is part of that", "place it beside the other body");
+           "the body lies below another one; it is part of that", "place it beside the other body",
+           api_part("PhysicsRigidBodyAPI"));
     return false;
   }
 

@@ -78,7 +78,7 @@ void report_stray_properties(const AttributeValues& values, const stage::Prim& p
   if (!roles.meant_type.empty()) {
     report(values.diagnostics(), prim, Severity::Warning, "joint.unknown-type",
            "there is no type \"" + prim.type_name().str() + "\"; the joint is left out",
-           "write " + roles.meant_type.str());
+           "write " + roles.meant_type.str(), type_part());
   }
 }
 

@@ -116,7 +116,7 @@ class TendonReader {
           prim == state_.walk.index_of.end() ? kNone : state_.joint_of_prim[prim->second];
       if (joint == kNone || !(state_.scene.joints[joint].kind == JointKind::Revolute ||
                               state_.scene.joints[joint].kind == JointKind::Prismatic)) {
-        return refuse(tokens_.path, "<" + target.str() + "> is no joint of one axis");
+        return refuse(tokens_.path, "<" + target.str() + "> is not a joint of one axis");
       }
       turns_ = turns_ && state_.scene.joints[joint].kind == JointKind::Revolute;
       tendon_.joints.push_back(joint);
@@ -183,7 +183,8 @@ class TendonReader {
     const bool site = prim.has_api("MjcSiteAPI") || prim.has_api("IsaacSiteAPI");
     if (!site && prim.is_a("Gprim")) {
       if (!read_round(prim, world, stop)) {
-        return refuse(tokens_.path, "<" + order_[at].str() + "> is no sphere and no cylinder");
+        return refuse(tokens_.path,
+                      "<" + order_[at].str() + "> is neither a sphere nor a cylinder");
       }
       if (!read_side(at, stop)) {
         return false;

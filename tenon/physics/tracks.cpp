@@ -39,23 +39,35 @@ class TrackReader {
       add_anchor(i, 1);
     }
     report_dynamic();
+    if (is_coarse_) {
+      state_.scene.not_read.push_back(
+          {Path::absolute_root(), "timeSamples",
+           "poses between the authored samples of motions are taken further apart than four in a "
+           "frame: there are more than " + std::to_string(limits::kTrackSamples) +
+               " (kTrackSamples)"});
+    }
   }
 
  private:
   double seconds(double code) const { return state_.seconds(code); }
 
-  /// Codes from the first to the last of `authored`, these included, at least four per frame.
-  std::vector<double> dense(std::vector<double> authored) const {
-    if (authored.size() < 2) {
+  /// Codes from the first to the last of `authored`, these included, at least four per frame as
+  /// long as all tracks of the scene together have not too many.
+  std::vector<double> dense(std::vector<double> authored) {
+    const double span = authored.empty() ? 0 : authored.back() - authored.front();
+    if (authored.size() < 2 || samples_left_ == 0 || !std::isfinite(span)) {
+      is_coarse_ = is_coarse_ || authored.size() > 1;
       return authored;
     }
-    const double span = authored.back() - authored.front();
     const double fps = state_.stage.frames_per_second();
     const double frame = fps > 0 ? state_.scene.time_codes_per_second / fps : 1;
     const double step =
-        std::max(frame / kSamplesPerFrame, span / static_cast<double>(limits::kTrackSamples));
+        std::max(frame / kSamplesPerFrame, span / static_cast<double>(samples_left_));
     const double first = authored.front();
-    const auto count = static_cast<std::size_t>(span / step);
+    const std::size_t count =
+        std::min(static_cast<std::size_t>(std::max(span / step, 0.0)), samples_left_);
+    is_coarse_ = is_coarse_ || step > frame / kSamplesPerFrame || count == samples_left_;
+    samples_left_ -= count;
     authored.reserve(authored.size() + count);
     for (std::size_t i = 1; i <= count; ++i) {
       authored.push_back(first + static_cast<double>(i) * step);
@@ -65,7 +77,7 @@ class TrackReader {
     return authored;
   }
 
-  std::vector<double> sample_codes(const stage::Attribute& attribute) const {
+  std::vector<double> sample_codes(const stage::Attribute& attribute) {
     std::vector<double> codes = attribute.time_samples();
     if (codes.empty()) {  // a spline
       codes = dense({state_.scene.start_time_code, state_.scene.end_time_code});
@@ -112,7 +124,7 @@ class TrackReader {
 
   /// World poses of a prim, followed by the constant pose `X_PC` of what hangs on it.
   PoseTrack poses(const stage::Prim& prim, const std::vector<double>& codes,
-                  const Pose& fixed) const {
+                  const Pose& fixed) {
     PoseTrack track;
     track.held = state_.readings.held_samples == HeldSamples::Held;
     for (const double code : track.held ? codes : dense(codes)) {
@@ -188,6 +200,8 @@ class TrackReader {
   }
 
   ReadState& state_;
+  std::size_t samples_left_ = limits::kTrackSamples;  // between authored ones
+  bool is_coarse_ = false;
   std::size_t dynamic_count_ = 0;
   Index first_dynamic_ = kNone;
 };

@@ -63,8 +63,8 @@ void add_joints(Build& build);
 void add_equalities(Build& build);
 /// Tendons that the asset has. After add_geoms.
 void add_tendons(Build& build);
-/// Colliders.
-void add_geoms(Build& build);
+/// Colliders. Errors: Limit for more than a model may have.
+Result<void> add_geoms(Build& build);
 /// Drives.
 void add_actuators(Build& build);
 /// Body pairs that never touch and classes of the others. After add_geoms.

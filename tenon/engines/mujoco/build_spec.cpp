@@ -6,8 +6,10 @@
 #include <string_view>
 
 #include "tenon/base/limits.h"
+#include "tenon/base/text_number.h"
 #include "tenon/engines/mujoco/build.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/mujoco/model_size.h"
 #include "tenon/engines/mujoco/surfaces.h"
 
 // The pass list: neutral scene -> mjSpec -> mjModel.
@@ -32,7 +34,7 @@ double choose_time_step(const physics::PhysicsScene& scene, const SimulationOpti
   if (parts > 1) {
     diagnostics.add({Severity::Info, "mujoco.time-step",
                      "the scene asks for steps of " + std::to_string(asked) + " s; MuJoCo takes " +
-                         std::to_string(static_cast<int>(parts)) + " steps for each",
+                         shortest(parts) + " steps for each",
                      "", 0, 0, scene.scenes.front().path.str(), "", ""});
   }
   return asked / std::max(parts, 1.0);
@@ -78,6 +80,7 @@ Path refused_part(const physics::PhysicsScene& scene, const std::string& words) 
 
 Result<Model> build_once(Build& build, Begin begin) {
   const physics::PhysicsScene& scene = build.scene;
+  TENON_CHECK(check_scene_size(scene));
   build.plan = plan_tree(scene);
   TENON_CHECK(check_sizes(build));
   for (const physics::Joint& joint : scene.joints) {
@@ -90,7 +93,7 @@ Result<Model> build_once(Build& build, Begin begin) {
   add_joints(build);
   add_equalities(build);
   add_actuators(build);
-  add_geoms(build);
+  TENON_CHECK(add_geoms(build));
   add_tendons(build);
   ContactFilter filter = add_filters(build);
   Surfaces surfaces = add_surfaces(build);

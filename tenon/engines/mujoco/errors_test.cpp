@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "tenon/base/engine_limits.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/mujoco/model_size.h"
 #include "tenon/engines/mujoco/mujoco_engine.h"
 #include "tenon/engines/mujoco/test_scene.h"
 #include "tenon/engines/mujoco/write_mjcf.h"
@@ -151,6 +153,23 @@ TEST(Errors, LargeStepsOfAnAssetAreDivided) {
   EXPECT_NEAR((*made)->time_step(), 1.0 / 300, 1e-12);
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings.items()[0].rule, "mujoco.time-step");
+}
+
+TEST(Errors, ModelsHaveASize) {
+  const Path last = *Path::parse("/World/Last");
+  EXPECT_TRUE(check_model_size({limits::kModelGeoms, limits::kModelMeshPoints}, last));
+  for (const ModelSize& size : {ModelSize{limits::kModelGeoms + 1, 0},
+                                ModelSize{0, limits::kModelMeshPoints + 1}}) {
+    const Result<void> checked = check_model_size(size, last);
+    ASSERT_FALSE(checked);
+    EXPECT_EQ(checked.error().code(), ErrorCode::Limit);
+    EXPECT_EQ(checked.error().diagnostic().prim, "/World/Last");
+  }
+  physics::PhysicsScene scene;
+  scene.joints.resize(limits::kModelBodies);
+  EXPECT_TRUE(check_scene_size(scene));
+  scene.joints.resize(limits::kModelBodies + 1);
+  EXPECT_EQ(check_scene_size(scene).error().diagnostic().rule, "mujoco.too-large");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "tenon/engines/mujoco/build.h"
 #include "tenon/engines/mujoco/mesh_pieces.h"
+#include "tenon/engines/mujoco/model_size.h"
 
 // Colliders become geoms of their body's MuJoCo body. Every static collider gets a MuJoCo body of
 // its own without joints, so that body pairs can be excluded one by one and animated ones can move.
@@ -101,6 +102,8 @@ class ColliderPass {
         index_(index),
         collider_(build.scene.colliders[index]),
         material_(collider_.material) {}
+
+  std::size_t mesh_points() const { return mesh_points_; }
 
   void add() {
     find_place();
@@ -287,6 +290,7 @@ class ColliderPass {
           numbers.push_back(static_cast<float>(x));
         }
       }
+      mesh_points_ += hull.size();
       mjs_setFloat(mesh->uservert, numbers.data(), static_cast<int>(numbers.size()));
       mesh->inertia = mjMESH_INERTIA_CONVEX;
       if (collider_.max_hull_vertices.has_value() && *collider_.max_hull_vertices > 3) {
@@ -311,20 +315,27 @@ class ColliderPass {
   Pose world_;  // of the collider at the start
   bool is_static_ = false;
   bool moves_freely_ = false;
+  std::size_t mesh_points_ = 0;
 };
 
 }  // namespace
 
-void add_geoms(Build& build) {
+Result<void> add_geoms(Build& build) {
   const std::size_t count = build.scene.colliders.size();
   build.geoms.assign(count, {});
   build.geom_materials.assign(count, {});
   build.static_bodies.assign(count, nullptr);
+  ModelSize size;
   for (std::size_t i = 0; i < count; ++i) {
     if (build.scene.colliders[i].enabled) {
-      ColliderPass(build, static_cast<physics::Index>(i)).add();
+      ColliderPass pass(build, static_cast<physics::Index>(i));
+      pass.add();
+      size.geoms += build.geoms[i].size();
+      size.mesh_points += pass.mesh_points();
+      TENON_CHECK(check_model_size(size, build.scene.colliders[i].path));
     }
   }
+  return {};
 }
 
 }  // namespace tenon::engines::mujoco
