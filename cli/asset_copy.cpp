@@ -8,11 +8,13 @@
 
 #include "cli/output_place.h"
 #include "cli/report.h"
+#include "tenon/asset_policy.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/formats/text/layout_edit.h"
+#include "tenon/stage_sources.h"
 
 namespace tenon::cli {
 namespace {
@@ -40,7 +42,8 @@ std::string relative_to(const std::string& file, const std::string& folder) {
 
 Result<AssetLayers> AssetLayers::open(const std::string& path, const OpenOptions& options) {
   AssetLayers asset;
-  asset.resolver_ = bytes::AssetResolver({options.search_paths, options.sandbox_roots});
+  asset.resolver_ = bytes::AssetResolver(resolver_options(options));
+  const bytes::ReadPolicy policy = policy_for(path, options);
   Diagnostics ignored;  // whoever opens the stage reports them
   TENON_TRY(layer::LayerPtr root, open_layer(path, options, ignored));
   asset.layers_.push_back({std::move(root), nullptr});
@@ -50,8 +53,15 @@ Result<AssetLayers> AssetLayers::open(const std::string& path, const OpenOptions
     const layer::LayerPtr from = asset.layers_[i].layer;
     for (const std::string& name : named_layers(*from)) {
       const auto identifier = asset.resolver_.resolve(name, from->identifier());
-      if (!identifier) {
-        continue;  // a missing layer holds no physics
+      if (!identifier) {  // a missing layer holds no physics
+        if (identifier.error().diagnostic().rule == "layer.outside") {
+          asset.refused_.add(identifier.error().diagnostic());
+        }
+        continue;
+      }
+      if (!policy.allows(*identifier)) {
+        asset.outside_.insert(*identifier);
+        continue;
       }
       const auto [entry, is_new] = known.try_emplace(*identifier, asset.layers_.size());
       if (is_new) {
@@ -68,18 +78,18 @@ Result<AssetLayers> AssetLayers::open(const std::string& path, const OpenOptions
   return asset;
 }
 
-Result<std::vector<std::string>> AssetLayers::write_in_place() {
+Result<std::vector<std::string>> AssetLayers::put_in_place(Outputs& outputs) {
   std::vector<std::string> written;
   for (const AssetLayer& part : layers_) {
     if (part.edited != nullptr && bytes::is_in_package(part.layer->identifier())) {
       return Error(ErrorCode::Unsupported,
-                   "files in a package are not changed in place: " + part.layer->identifier())
+                   "files in a package cannot be edited in place: " + part.layer->identifier())
           .with_fix("give -o FILE");
     }
   }
   for (const AssetLayer& part : layers_) {
     if (part.edited != nullptr) {
-      TENON_TRY(const bool kept, save_edited(*part.edited, part.layer->identifier()));
+      TENON_TRY(const bool kept, put_edited(*part.edited, part.layer->identifier(), outputs));
       if (!kept) {
         without_layout_.push_back(part.layer->identifier());
       }
@@ -165,7 +175,8 @@ void AssetLayers::rename(layer::Layer& layer, const std::string& from, const std
   });
 }
 
-Result<std::vector<std::string>> AssetLayers::write_to(const std::string& output) {
+Result<std::vector<std::string>> AssetLayers::put_to(const std::string& output,
+                                                     Outputs& outputs) {
   if (output == "-") {
     for (std::size_t i = 1; i < layers_.size(); ++i) {
       if (layers_[i].edited != nullptr) {
@@ -176,8 +187,8 @@ Result<std::vector<std::string>> AssetLayers::write_to(const std::string& output
       }
     }
     const layer::Layer& root = layers_[0].edited ? *layers_[0].edited : *layers_[0].layer;
-    TENON_TRY(const std::string text, formats::encode_layer(root, formats::LayerFormat::Text));
-    TENON_CHECK(write_output("-", text));
+    TENON_TRY(std::string text, formats::encode_layer(root, formats::LayerFormat::Text));
+    outputs.put("-", std::move(text));
     return std::vector<std::string>{"-"};
   }
   const std::map<std::string, std::string> places = new_places(output);
@@ -192,9 +203,7 @@ Result<std::vector<std::string>> AssetLayers::write_to(const std::string& output
     }
     layer::Layer copy = part.edited ? *part.edited : *part.layer;
     rename(copy, part.layer->identifier(), place->second, places);
-    std::error_code ignored;
-    fs::create_directories(fs::path(place->second).parent_path(), ignored);
-    TENON_TRY(const bool kept, save_edited(copy, place->second));
+    TENON_TRY(const bool kept, put_edited(copy, place->second, outputs));
     if (!kept) {
       without_layout_.push_back(part.layer->identifier());
     }
@@ -215,18 +224,22 @@ std::string root_output(const std::string& output, const layer::Layer& root) {
   return (fs::path(output) / name).string();
 }
 
-Result<bool> save_edited(const layer::Layer& layer, const std::string& file) {
+Result<bool> put_edited(const layer::Layer& layer, const std::string& file, Outputs& outputs) {
   const auto wanted = formats::layer_format_for(file);
   const auto bytes = bytes::FileBytes::open(layer.identifier());
   const bool in_place = file == layer.identifier();
   const bool text = bytes && formats::format_of(**bytes) == formats::LayerFormat::Text &&
                     (in_place || (wanted && *wanted == formats::LayerFormat::Text));
   if (text) {
-    const formats::EditedText edited = formats::edit_text((*bytes)->text(), layer);
-    TENON_CHECK(write_output(file, edited.text));
+    formats::EditedText edited = formats::edit_text((*bytes)->text(), layer);
+    outputs.put_beside(file, std::move(edited.text));
     return edited.kept_layout;
   }
-  TENON_CHECK(formats::save_layer(layer, file));
+  const bool keeps_format = in_place && bytes;  // whatever its name says
+  TENON_TRY(const formats::LayerFormat format,
+            keeps_format ? Result<formats::LayerFormat>(formats::format_of(**bytes)) : wanted);
+  TENON_TRY(std::string contents, formats::encode_layer(layer, format));
+  outputs.put_beside(file, std::move(contents));
   return true;  // nothing but a binary layer, or another format: no layout to keep
 }
 

@@ -4,9 +4,12 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "cli/output.h"
+#include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/layer/layer.h"
@@ -22,22 +25,26 @@ struct AssetLayer {
 
 /// All layers that an asset leads to by sublayers, references, payloads and clips, those of
 /// variants that are not selected too, the root layer first; for edits that reach through all of
-/// them.
+/// them. Layers that lie outside of the asset's folders (docs/reading.md) are not among them.
 class AssetLayers {
  public:
   static Result<AssetLayers> open(const std::string& path, const OpenOptions& options);
 
   std::vector<AssetLayer>& layers() { return layers_; }
-  /// Writes the edited layers over their files; text keeps its layout. The files written.
+  /// Puts the edited layers among the outputs, over their files; text keeps its layout. The files.
   /// Errors: Unsupported where one lies in a package.
-  Result<std::vector<std::string>> write_in_place();
-  /// Writes the root layer to `output` and, into the folder "<output without its ending>_layers",
-  /// every layer that is edited or leads to an edited one; asset paths follow. The files written.
+  Result<std::vector<std::string>> put_in_place(Outputs& outputs);
+  /// Puts the root layer to `output` and, into the folder "<output without its ending>_layers",
+  /// every layer that is edited or leads to an edited one; asset paths follow. The files.
   /// A folder (names_folder) takes them all, each under its own name, where it stands beside the
   /// root layer. "-" is standard output, for the root layer as text.
   /// Errors: Unsupported for "-" where another layer is edited; Invalid for a folder where a layer
   /// of the asset itself would be written over.
-  Result<std::vector<std::string>> write_to(const std::string& output);
+  Result<std::vector<std::string>> put_to(const std::string& output, Outputs& outputs);
+  /// Layers that the asset leads to and that do not belong to it: they stay as they are.
+  const std::set<std::string>& outside() const { return outside_; }
+  /// What the sandbox kept from being opened.
+  const Diagnostics& refused() const { return refused_; }
   /// Files whose comments and layout could not be kept.
   const std::vector<std::string>& without_layout() const { return without_layout_; }
 
@@ -51,13 +58,15 @@ class AssetLayers {
   std::vector<AssetLayer> layers_;
   std::vector<std::vector<std::size_t>> leads_to_;  // (layer_count)
   std::vector<std::string> without_layout_;
+  std::set<std::string> outside_;
+  Diagnostics refused_;
 };
 
 /// The file that an output means for the asset: a folder takes it under its own name.
 std::string root_output(const std::string& output, const layer::Layer& root);
 
-/// Writes `layer` to `file`. Where the layer's own file is text and the new one is to be text, its
-/// comments and layout stay but for what changed: the answer is whether they did.
-Result<bool> save_edited(const layer::Layer& layer, const std::string& file);
+/// Puts `layer` among the outputs, as `file`. Where the layer's own file is text and the new one is
+/// to be text, its comments and layout stay but for what changed: the answer is whether they did.
+Result<bool> put_edited(const layer::Layer& layer, const std::string& file, Outputs& outputs);
 
 }  // namespace tenon::cli

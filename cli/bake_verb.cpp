@@ -14,8 +14,20 @@ struct Options {
   std::string output;
 };
 
+Result<void> claim(const Globals& globals, const Options& options, Outputs& outputs) {
+  if (globals.json && options.output == "-") {
+    return Error(ErrorCode::Invalid, "--json and a layer cannot both go to standard output")
+        .with_fix("name an output file with -o");
+  }
+  return outputs.claim(OutputKind::Overlay, options.output);
+}
+
 int run_bake(const Globals& globals, const Options& options) {
   Report report(globals, "bake", options.simulate.asset.asset);
+  Outputs outputs;
+  if (auto claimed = claim(globals, options, outputs); !claimed) {
+    return report.fail(claimed.error());
+  }
   auto simulated = simulate(options.simulate, report);
   if (!simulated) {
     return report.fail(simulated.error());
@@ -23,7 +35,9 @@ int run_bake(const Globals& globals, const Options& options) {
   if (simulated->run.interrupted) {
     return report.finish(kInterrupted);
   }
-  if (auto written = write_bake(*simulated, options.simulate, options.output, report); !written) {
+  auto written = put_bake(*simulated, options.simulate, options.output, outputs, report);
+  written = written ? outputs.commit() : written;
+  if (!written) {
     return report.fail(written.error());
   }
   const std::size_t frames = simulated->run.recording.frame_count();
@@ -45,6 +59,7 @@ void add_bake(const Command& parent, const Globals& globals, Chosen& chosen) {
       "bake", "Simulate and write the motion into a layer over the asset, which stays untouched");
   auto options = std::make_shared<Options>();
   options->simulate.add_to(verb);
+  verb.option("asset").file_only().description("A .usd, .usda, .usdc or .usdz file");
   verb.add_option("-o,--output", options->output, "The layer to write: .usda, .usdc or .usd")
       .required();
   verb.add_flag("--uninstance", options->simulate.uninstance,

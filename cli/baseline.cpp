@@ -29,7 +29,7 @@ Result<Baseline> Baseline::read(const std::string& path) {
   const bool usable = json.is_object() && text_at(json, "schema") == kSchema &&
                       json.contains("findings") && json["findings"].is_array();
   if (!usable) {
-    return Error(ErrorCode::Parse, "the file is no baseline of tenon check")
+    return Error(ErrorCode::Parse, "the file is not a baseline that tenon check wrote")
         .in_file(path)
         .with_fix("write one with --write-baseline");
   }

@@ -1,13 +1,18 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
+#include <filesystem>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
+#include "cli/output.h"
+#include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/asset_policy.h"
+#include "tenon/bytes/asset_resolver.h"
+#include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/stage/flatten.h"
 #include "tenon/tenon.h"
@@ -21,6 +26,7 @@ struct Options {
   std::string format;
   bool flatten = false;
   bool flatten_layer_stack = false;
+  bool in_place = false;
 };
 
 Result<layer::Layer> read_input(const Options& options, Diagnostics& diagnostics) {
@@ -32,7 +38,22 @@ Result<layer::Layer> read_input(const Options& options, Diagnostics& diagnostics
   }
   TENON_TRY(const stage::Stage stage,
             open_stage(options.asset.asset, options.asset.open_options(), diagnostics));
+  name_outside_layers(stage, policy_for(options.asset.asset, options.asset.open_options()),
+                      diagnostics);
   return options.flatten_layer_stack ? stage::flatten_layer_stack(stage) : stage::flatten(stage);
+}
+
+/// A layer that is copied as it is opens none of those that it names: they are inputs nevertheless.
+void note_named_layers(layer::Layer& layer, const OpenOptions& open) {
+  const bytes::AssetResolver resolver({open.search_paths, open.sandbox_roots});
+  formats::rename_assets(layer, [&](const std::string& name, formats::AssetUse use, Path) {
+    const bool is_layer = use == formats::AssetUse::Layer && !name.empty();
+    const auto identifier = is_layer ? resolver.resolve(name, layer.identifier()) : std::string();
+    if (identifier && !identifier->empty()) {
+      bytes::note_read(bytes::split_package_path(*identifier).package);
+    }
+    return name;
+  });
 }
 
 /// Gives what a composed scene took back to the system: writing then needs nothing on top of it.
@@ -50,17 +71,36 @@ Result<formats::LayerFormat> output_format(const Options& options) {
                                : formats::layer_format_for(options.output);
 }
 
-Result<void> write(const Options& options, Diagnostics& diagnostics) {
+/// The name and the format, before the work. A format that is asked for may have a name that says
+/// nothing about formats.
+Result<formats::LayerFormat> claim(const Options& options, Outputs& outputs) {
   TENON_TRY(const formats::LayerFormat format, output_format(options));
+  if (options.output != "-") {
+    TENON_CHECK(check_layer_name(options.output, format));
+  }
+  const OutputKind kind = options.format.empty() ? OutputKind::Layer : OutputKind::NamedFormat;
+  TENON_CHECK(outputs.claim(kind, options.output));
+  return format;
+}
+
+Result<void> write(const Options& options, Diagnostics& diagnostics) {
+  Outputs outputs = options.in_place ? Outputs::in_place() : Outputs();
+  TENON_TRY(const formats::LayerFormat format, claim(options, outputs));
   TENON_TRY(layer::Layer layer, read_input(options, diagnostics));
+  std::error_code error;
+  if (std::filesystem::exists(options.output, error)) {
+    note_named_layers(layer, options.asset.open_options());
+  }
   return_free_memory();
   if (format == formats::LayerFormat::Package) {
-    TENON_TRY(const std::string package, pack_layer(std::move(layer), options.asset.asset,
-                                                    options.asset.open_options(), diagnostics));
-    return write_output(options.output, package);
+    TENON_TRY(std::string package, pack_layer(std::move(layer), options.asset.asset,
+                                              options.asset.open_options(), diagnostics));
+    outputs.put(options.output, std::move(package));
+    return outputs.commit();
   }
-  TENON_TRY(const std::string bytes, formats::encode_layer(layer, format));
-  return write_output(options.output, bytes);
+  TENON_TRY(std::string bytes, formats::encode_layer(layer, format));
+  outputs.put(options.output, std::move(bytes));
+  return outputs.commit();
 }
 
 int run_cat(const Globals& globals, const Options& options) {
@@ -70,10 +110,15 @@ int run_cat(const Globals& globals, const Options& options) {
         Error(ErrorCode::Invalid, "--json and a layer cannot both go to standard output")
             .with_fix("name an output file with -o"));
   }
-  if (auto written = write(options, report.diagnostics); !written) {
+  const Progress progress(globals, "reading and writing " + shown_path(options.asset.asset));
+  const auto written =
+      edit_files(report, [&] { return write(options, report.diagnostics); });
+  if (!written) {
     return report.fail(written.error());
   }
-  return report.finish(kOk, {{"output", options.output}});
+  const bool package = bytes::is_package_name(options.output) || options.format == "usdz";
+  return report.finish(package && left_out(report.diagnostics) ? kNo : kOk,
+                       {{"output", options.output}});
 }
 
 }  // namespace
@@ -82,12 +127,14 @@ void add_cat(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb =
       parent.add_subcommand("cat", "Read any layer, write it as text, binary or package");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(verb);
+  options->asset.add_with_standard_input_to(verb);
   verb.add_option("-o,--output", options->output, "Where to write; - is standard output");
+  verb.add_flag("--in-place", options->in_place, "The output may be a file that is read");
   verb.add_flag("-f,--flatten", options->flatten, "Compose first and write one layer");
-  verb.add_flag("--flatten-layer-stack,--flattenLayerStack", options->flatten_layer_stack,
+  verb.add_flag("--flattenLayerStack,--flatten-layer-stack", options->flatten_layer_stack,
                 "Merge the sublayers, keep references and the like");
-  verb.add_option("--format,--usdFormat", options->format, "usda, usdc or usdz");
+  verb.add_option("--usdFormat,--format", options->format, "usda, usdc or usdz")
+      .one_of({"usda", "usdc", "usdz"});
   verb.footer(
       "Examples:\n  tenon cat geometry.usdc\n  tenon cat hand.usda --flatten -o flat.usdc\n"
       "A package (-o hand.usdz) takes in all layers and textures that it needs.\n"

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <set>
 #include <tuple>
 
 #include <unistd.h>
 
 #include "cli/baseline.h"
+#include "cli/output.h"
+#include "cli/progress.h"
 #include "cli/reading_options.h"
 #include "cli/report.h"
 #include "cli/sarif.h"
@@ -66,13 +69,17 @@ class Run {
 
   Result<Outcome> all_assets() {
     std::set<std::string> seen;
+    std::vector<std::string> all;
     for (const std::string& path : options_.paths) {
-      TENON_TRY(const std::vector<std::string> roots, root_assets(path));
-      for (const std::string& root : roots) {
-        if (seen.insert(root).second) {
-          TENON_CHECK(one_asset(root));
-        }
-      }
+      TENON_TRY(const std::vector<std::string> roots,
+                root_assets(path, options_.asset.open_options()));
+      std::copy_if(roots.begin(), roots.end(), std::back_inserter(all),
+                   [&](const std::string& root) { return seen.insert(root).second; });
+    }
+    Progress progress(globals_, "checking");
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      progress.at(static_cast<double>(i), static_cast<double>(all.size()), "assets");
+      TENON_CHECK(one_asset(all[i]));
     }
     if (!options_.baseline.empty()) {
       TENON_TRY(const Baseline baseline, Baseline::read(options_.baseline));
@@ -88,12 +95,13 @@ class Run {
     check.rules = options_.rules;
     check.profile = options_.profile;
     TENON_TRY(check.readings, chosen_readings(options_.readings));
-    auto checked = check_asset(path, check);
-    if (checked && options_.fix) {
-      TENON_TRY(const bool changed, correct(checked->findings));
-      if (changed && !options_.dry_run) {
-        checked = check_asset(path, check);
-      }
+    Result<CheckedAsset> checked = CheckedAsset();
+    bool changed = false;
+    if (options_.fix) {
+      TENON_TRY(changed, correct(path, check, checked));
+    }
+    if (!options_.fix || (changed && !options_.dry_run)) {
+      checked = check_asset(path, check);
     }
     Json asset = Json::object();
     asset["asset"] = shown_path(path);
@@ -102,16 +110,23 @@ class Run {
     outcome_.assets.push_back(std::move(asset));
     if (!checked) {
       outcome_.failed = true;
-      check::Finding finding;
-      finding.diagnostic = checked.error().diagnostic();
-      finding.rule = check::find_rule(finding.diagnostic.rule);
-      add(std::move(finding));
+      add(checked.error().diagnostic());
+      for (const Diagnostic& further : checked.error().further()) {
+        add(further);
+      }
       return {};
     }
     for (check::Finding& finding : checked->findings) {
       add(std::move(finding));
     }
     return {};
+  }
+
+  void add(const Diagnostic& fault) {
+    check::Finding finding;
+    finding.diagnostic = fault;
+    finding.rule = check::find_rule(fault.rule);
+    add(std::move(finding));
   }
 
   /// Assets share layers: what is wrong in one is said once.
@@ -122,12 +137,31 @@ class Run {
     }
   }
 
-  Result<bool> correct(const std::vector<check::Finding>& findings) {
-    TENON_TRY(std::vector<CorrectedFile> files, corrected_files(findings));
+  /// None for an asset that cannot be checked.
+  Result<std::vector<CorrectedFile>> write_corrected(const std::string& path,
+                                                     const CheckOptions& check,
+                                                     Result<CheckedAsset>& checked) const {
+    checked = check_asset(path, check);
+    if (!checked) {
+      return std::vector<CorrectedFile>();
+    }
+    TENON_TRY(std::vector<CorrectedFile> files, corrected_files(checked->findings));
+    Outputs outputs = Outputs::in_place();
+    for (const CorrectedFile& file : files) {
+      outputs.put(file.path, file.after);
+    }
+    if (!options_.dry_run) {
+      TENON_CHECK(outputs.commit());
+    }
+    return files;
+  }
+
+  /// Whether there was something to correct.
+  Result<bool> correct(const std::string& path, const CheckOptions& check,
+                       Result<CheckedAsset>& checked) {
+    TENON_TRY(std::vector<CorrectedFile> files,
+              edit_files(report_, [&] { return write_corrected(path, check, checked); }));
     for (CorrectedFile& file : files) {
-      if (!options_.dry_run) {
-        TENON_CHECK(write_output(file.path, file.after));
-      }
       const bool known =
           std::any_of(outcome_.corrected.begin(), outcome_.corrected.end(),
                       [&](const CorrectedFile& other) { return other.path == file.path; });
@@ -204,20 +238,22 @@ Json body_of(const Outcome& outcome, const Counts& counts, const Options& option
   return body;
 }
 
-void print_findings(const Outcome& outcome, const Globals& globals, std::FILE* out) {
-  const bool color = use_color(globals, isatty(fileno(out)) != 0);
+void print_findings(const Outcome& outcome, const Globals& globals, bool to_stderr) {
+  const bool color =
+      use_color(globals, to_stderr ? stderr_is_terminal() : stdout_is_terminal());
+  std::vector<Remark> findings;
   for (const ReportedFinding& reported : outcome.findings) {
     const Severity severity = reported.finding.diagnostic.severity;
     const bool shown = severity == Severity::Error ||
                        (severity == Severity::Warning && !globals.quiet) || globals.verbose;
-    if (reported.suppressed || !shown) {
-      continue;
+    if (!reported.suppressed && shown) {
+      const std::vector<std::string>& variants = reported.finding.variants;
+      findings.push_back({&reported.finding.diagnostic,
+                          variants.empty() ? "" : " (Physics=" + joined(variants) + ")"});
     }
-    std::string line = diagnostic_line(reported.finding.diagnostic, color);
-    if (!reported.finding.variants.empty()) {
-      line += " (Physics=" + joined(reported.finding.variants) + ")";
-    }
-    std::fprintf(out, "%s\n", line.c_str());
+  }
+  for (const std::string& line : diagnostic_lines(findings, color, globals.verbose)) {
+    to_stderr ? say_aside(line) : print_colored(line + "\n");
   }
 }
 
@@ -241,26 +277,31 @@ std::string summary_of(const Counts& counts, const Outcome& outcome, const Optio
   return text;
 }
 
-Result<void> write_reports(const Outcome& outcome, const Options& options) {
+Result<void> claim_reports(const Options& options, Outputs& outputs) {
+  TENON_CHECK(outputs.claim(OutputKind::Sarif, options.sarif));
+  return outputs.claim(OutputKind::Baseline, options.write_baseline);
+}
+
+Result<void> write_reports(const Outcome& outcome, const Options& options, Outputs& outputs) {
   if (!options.sarif.empty()) {
     const std::string text =
         sarif_log(outcome.findings).dump(2, ' ', false, Json::error_handler_t::replace);
-    TENON_CHECK(write_output(options.sarif, text + "\n"));
+    outputs.put(options.sarif, text + "\n");
   }
   if (!options.write_baseline.empty()) {
-    TENON_CHECK(write_output(options.write_baseline,
-                             Baseline::text_of(outcome.findings, options.write_baseline)));
+    outputs.put(options.write_baseline,
+                Baseline::text_of(outcome.findings, options.write_baseline));
   }
-  return {};
+  return outputs.commit();
 }
 
-void print_text(const Outcome& outcome, const Counts& counts, const Options& options,
+void print_outcome(const Outcome& outcome, const Counts& counts, const Options& options,
                 const Globals& globals, const Report& report) {
   const bool diff = options.fix && options.dry_run;
   for (const CorrectedFile& file : outcome.corrected) {
     if (diff && file.text) {
       const std::string name = shown_path(file.path);
-      std::fputs(unified_diff(name, file.before, file.after).c_str(), stdout);
+      print_data(unified_diff(name, file.before, file.after));
     } else {
       report.note((diff ? "would correct " : "corrected ") + shown_path(file.path));
     }
@@ -268,26 +309,30 @@ void print_text(const Outcome& outcome, const Counts& counts, const Options& opt
       report.note("comments and layout of " + shown_path(file.path) + " are not kept");
     }
   }
-  if (options.sarif != "-") {
-    print_findings(outcome, globals, diff ? stderr : stdout);
+  if (options.sarif != "-" && options.write_baseline != "-") {
+    print_findings(outcome, globals, diff);
   }
   report.note(summary_of(counts, outcome, options));
 }
 
 int check_assets(const Globals& globals, const Options& options) {
   Report report(globals, "check", options.paths.front());
+  Outputs outputs;
+  if (auto claimed = claim_reports(options, outputs); !claimed) {
+    return report.fail(claimed.error());
+  }
   auto outcome = Run(globals, options, report).all_assets();
   if (!outcome) {
     return report.fail(outcome.error());
   }
-  if (auto written = write_reports(*outcome, options); !written) {
+  if (auto written = write_reports(*outcome, options, outputs); !written) {
     return report.fail(written.error());
   }
   const Counts counts = count(outcome->findings);
   const bool found = counts.errors > 0 || (options.strict && counts.warnings > 0);
   const int code = outcome->failed ? kFailed : (found ? kNo : kOk);
   if (!report.json()) {
-    print_text(*outcome, counts, options, globals, report);
+    print_outcome(*outcome, counts, options, globals, report);
   }
   return report.finish(code, report.json() ? body_of(*outcome, counts, options) : Json::object());
 }
@@ -298,7 +343,7 @@ int list_rules(const Globals& globals) {
   for (const check::Rule& rule : check::rules()) {
     const std::string title = check::title_of(check::page_of(rule.id));
     if (!globals.json) {
-      std::printf("%-40s %-8s %-14s %s %s\n", std::string(rule.id).c_str(),
+      print("%-40s %-8s %-14s %s %s\n", std::string(rule.id).c_str(),
                   std::string(severity_name(rule.severity)).c_str(),
                   std::string(rule.numbers).c_str(), rule.fix == nullptr ? "   " : "fix",
                   title.c_str());
@@ -320,15 +365,15 @@ int explain_rule(const Globals& globals, const std::string& id) {
                            .with_fix("tenon check --list-rules names all"));
   }
   if (!globals.json) {
-    std::fwrite(page.data(), 1, page.size(), stdout);
+    print_text(page);
   }
   return report.finish(kOk, globals.json ? Json{{"rule", id}, {"page", page}} : Json::object());
 }
 
 Result<void> check_arguments(const Options& options, bool json) {
-  if (json && options.sarif == "-") {
-    return Error(ErrorCode::Invalid, "--json and --sarif - both want standard output")
-        .with_fix("write the SARIF log to a file");
+  if (json && (options.sarif == "-" || options.write_baseline == "-")) {
+    return Error(ErrorCode::Invalid, "--json and another output both want standard output")
+        .with_fix("write the SARIF log or the baseline to a file");
   }
   if (options.paths.empty()) {
     return Error(ErrorCode::Invalid, "nothing to check")
@@ -383,7 +428,7 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb =
       parent.add_subcommand("check", "What is wrong with assets, and how to correct it");
   auto options = std::make_shared<Options>();
-  verb.add_option("assets", options->paths, "USD files or folders");
+  verb.add_option("assets", options->paths, "USD files or folders").file_only();
   options->asset.add_options_to(verb);
   verb.add_flag("--fix", options->fix, "Correct what has a safe fix, in the files that own it");
   verb.add_flag("--dry-run", options->dry_run, "With --fix: print the difference, write nothing");

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
+#include "cli/output.h"
 #include "cli/output_place.h"
+#include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/asset/convert_file.h"
@@ -13,12 +14,14 @@
 #include "tenon/asset/export_urdf.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset/structure_asset.h"
+#include "tenon/asset_policy.h"
 #include "tenon/base/text_number.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/structure/written_note.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -30,6 +33,7 @@ struct Options {
   std::string input;
   std::string output;
   std::vector<std::string> packages;
+  FileAccess files;
   std::string gains;
   std::string schema = "current";
   std::string physics;
@@ -38,6 +42,7 @@ struct Options {
   bool merge_fixed = false;
   bool scene = false;
   bool flat = false;
+  bool force = false;
 };
 
 /// "K,D", both numbers.
@@ -61,20 +66,20 @@ Result<void> read_gains_file(const std::string& path, convert::ConvertOptions& o
         .in_file(path)
         .with_fix("write {\"joint\": [K, D], \"*\": [K, D]} in N m/rad and N m s/rad");
   };
-  std::ifstream file(path);
+  const auto file = bytes::FileBytes::open(path);
   if (!file) {
     return fault("the gains are neither two numbers K,D nor a file that can be read");
   }
-  const Json json = Json::parse(file, nullptr, false);
+  const Json json = Json::parse((*file)->text(), nullptr, false);
   if (!json.is_object()) {
-    return fault("the file of gains is no JSON object");
+    return fault("the gains file is not a JSON object");
   }
   for (const auto& [name, pair] : json.items()) {
     const bool sound = pair.is_array() && pair.size() == 2 && pair[0].is_number() &&
                        pair[1].is_number() && pair[0].get<double>() >= 0 &&
                        pair[1].get<double>() >= 0;
     if (!sound) {
-      return fault("the gains of \"" + name + "\" are not two numbers that are not negative");
+      return fault("the gains of \"" + name + "\" are not two numbers of 0 or more");
     }
     const convert::Gains gains{pair[0].get<double>(), pair[1].get<double>()};
     if (name == "*") {
@@ -88,6 +93,7 @@ Result<void> read_gains_file(const std::string& path, convert::ConvertOptions& o
 
 Result<ConvertFileOptions> convert_options(const Options& options) {
   ConvertFileOptions result;
+  result.open = options.files.open_options();
   result.robot.flat = options.flat;
   result.robot.fix_base = options.fix_base;
   result.robot.float_base = options.float_base;
@@ -128,20 +134,41 @@ void make_relative(layer::Layer& layer, const std::string& output) {
 }
 
 std::string name_of_image(const std::string& identifier) {
-  return bytes::split_package_path(identifier).inner;
+  const std::string inner = bytes::split_package_path(identifier).inner;
+  return inner.empty() ? fs::path(identifier).filename().string() : inner;
 }
 
-/// Images that lie inside mesh files as files of a folder of their own beside the output; asset
-/// paths follow.
-Result<void> write_images(const convert::InnerImages& images, const Options& options,
-                          layer::Layer& layer) {
+/// Images of the description's folders that would lie outside of the folders of the output: they
+/// have to come along, for the asset to be whole.
+convert::InnerImages images_elsewhere(const ConvertedFile& converted, const Options& options) {
+  convert::InnerImages found;
+  if (bytes::is_package_name(options.output)) {
+    return found;  // takes them in
+  }
+  const bytes::ReadPolicy here = policy_for(options.output, {});
+  layer::Layer copy = converted.layer;
+  formats::rename_assets(copy, [&](const std::string& asset, formats::AssetUse use, Path) {
+    const bool is_file = use == formats::AssetUse::Value && fs::path(asset).is_absolute();
+    if (is_file && !converted.images.contains(asset) && !here.allows(asset)) {
+      if (const auto contents = converted.reading.open(asset)) {
+        found.emplace(asset, std::string((*contents)->text()));
+      }
+    }
+    return asset;
+  });
+  return found;
+}
+
+/// Images, those inside of mesh files for one, as files of a folder of their own beside the output;
+/// asset paths follow. Digests of them by name.
+structure::Digests put_images(const convert::InnerImages& images, const Options& options,
+                              layer::Layer& layer, Outputs& outputs) {
+  structure::Digests digests;
   if (images.empty()) {
-    return {};
+    return digests;
   }
   const fs::path output = fs::absolute(options.output).lexically_normal();
   const fs::path folder = output.parent_path() / (output.stem().string() + "_images");
-  std::error_code error;
-  fs::create_directories(folder, error);
   std::map<std::string, std::string> place_of;
   std::set<std::string> taken;
   for (const auto& [identifier, contents] : images) {
@@ -151,31 +178,62 @@ Result<void> write_images(const convert::InnerImages& images, const Options& opt
       free = name.stem().string() + "_" + std::to_string(i) + name.extension().string();
     }
     const std::string place = (folder / free).generic_string();
-    TENON_CHECK(write_output(place, contents));
+    outputs.put_beside(place, contents);
+    digests.emplace((folder.filename() / free).generic_string(), bytes::content_digest(contents));
     place_of.emplace(identifier, place);
   }
   formats::rename_assets(layer, [&](const std::string& asset, formats::AssetUse, Path) {
     const auto place = place_of.find(asset);
     return place == place_of.end() ? asset : place->second;
   });
-  return {};
+  return digests;
 }
 
-Result<void> write(layer::Layer& layer, const Options& options, Diagnostics& diagnostics) {
+/// A package holds checksums: it is made once to know the digest, once more with it.
+Result<std::string> noted_package(layer::Layer layer, const bytes::ReadPolicy& policy,
+                                  const Options& options, Diagnostics& diagnostics) {
+  OpenOptions open;
+  open.allowed_reads = policy.roots();
+  const std::string name = fs::path(options.output).filename().string();
+  structure::add_note(layer, name, {}, formats::LayerFormat::Package);
+  TENON_TRY(const std::string first, pack_layer(layer, options.output, open, diagnostics));
+  structure::set_own_digest(layer, structure::own_digest(first, name));
+  Diagnostics known;
+  return pack_layer(std::move(layer), options.output, open, known);
+}
+
+/// One file, and images beside it. It says what was written, for the next time.
+Result<void> write_file(ConvertedFile& converted, const Options& options, Outputs& outputs,
+                        Diagnostics& diagnostics) {
+  layer::Layer& layer = converted.layer;
   TENON_TRY(const formats::LayerFormat format, formats::layer_format_for(options.output));
-  if (format == formats::LayerFormat::Package) {
-    TENON_TRY(const std::string package,
-              pack_layer(std::move(layer), options.output, {}, diagnostics));
-    return write_output(options.output, package);
+  if (!options.force) {
+    outputs.check_before_commit([&] { return structure::check_not_edited(options.output); });
   }
+  if (format == formats::LayerFormat::Package) {
+    Outputs images;  // they are packed from their files
+    put_images(converted.images, options, layer, images);
+    TENON_CHECK(images.commit());
+    TENON_TRY(std::string package,
+              noted_package(std::move(layer), converted.reading, options, diagnostics));
+    outputs.put(options.output, std::move(package));
+    return outputs.commit();
+  }
+  const structure::Digests images = put_images(converted.images, options, layer, outputs);
   make_relative(layer, options.output);
-  return formats::save_layer(layer, options.output);
+  const std::string name = fs::path(options.output).filename().string();
+  structure::add_note(layer, name, images, format);
+  TENON_TRY(std::string contents, formats::encode_layer(layer, format));
+  structure::seal(contents, name);
+  outputs.put(options.output, std::move(contents));
+  return outputs.commit();
 }
 
 /// As `tenon structure` would make of the same asset in a file, proven in the same way.
-Result<void> write_structure(layer::Layer layer, const convert::InnerImages& images,
-                             const std::string& folder, Diagnostics& diagnostics) {
-  structure::AssetSource source = asset_source(std::move(layer));
+Result<void> write_structure(layer::Layer layer, const ConvertedFile& converted,
+                             const Options& options, Diagnostics& diagnostics) {
+  const convert::InnerImages& images = converted.images;
+  structure::AssetSource source = asset_source(std::move(layer), converted.reading);
   const auto resolve = source.resolve_asset;
   source.resolve_asset = [&images, resolve](const std::string& asset, const layer::Layer& anchor) {
     return images.contains(asset) ? asset : resolve(asset, anchor);
@@ -191,73 +249,95 @@ Result<void> write_structure(layer::Layer layer, const convert::InnerImages& ima
   };
   TENON_TRY(const structure::StructuredAsset asset,
             structure::make_package(source, {}, diagnostics));
-  return structure::write_package(asset.package, folder);
+  return write_asset(asset.package, options.output, {.force = options.force});
+}
+
+/// What would be lost is told before the work.
+Result<void> claim(const Options& options, bool folder, Outputs& outputs) {
+  if (folder) {
+    return structure::check_folder(options.output, {.force = options.force});
+  }
+  TENON_CHECK(outputs.claim(OutputKind::Layer, options.output));
+  return options.force ? Result<void>() : structure::check_not_edited(options.output);
 }
 
 Result<ConvertedFile> convert_and_write(const Options& options, Diagnostics& diagnostics) {
   TENON_TRY(const ConvertFileOptions wanted, convert_options(options));
+  const bool folder = names_folder(options.output);  // straight into Asset Structure 3.0
+  Outputs outputs;
+  TENON_CHECK(claim(options, folder, outputs));
   TENON_TRY(ConvertedFile converted, convert_file(options.input, wanted, diagnostics));
-  if (names_folder(options.output)) {  // straight into Asset Structure 3.0
-    TENON_CHECK(write_structure(converted.layer, converted.images, options.output, diagnostics));
+  if (folder) {
+    TENON_CHECK(write_structure(converted.layer, converted, options, diagnostics));
   } else {
-    TENON_CHECK(write_images(converted.images, options, converted.layer));
-    TENON_CHECK(write(converted.layer, options, diagnostics));
+    converted.images.merge(images_elsewhere(converted, options));
+    TENON_CHECK(write_file(converted, options, outputs, diagnostics));
   }
   return converted;
 }
 
-/// The files beside it come first, so that a description never names what is not there.
+/// With the files beside it that it names.
 Result<void> write_description(const std::string& text,
                                const std::map<std::string, std::string>& files,
-                               const std::string& output) {
+                               const std::string& output, Outputs& outputs) {
   const fs::path folder = fs::path(output).parent_path();
   for (const auto& [name, contents] : files) {
-    std::error_code error;
-    fs::create_directories((folder / name).parent_path(), error);
-    TENON_CHECK(write_output((folder / name).string(), contents));
+    outputs.put_beside((folder / name).string(), contents);
   }
-  return write_output(output, text);
+  outputs.put(output, text);
+  return outputs.commit();
 }
 
 OpenOptions open_options(const Options& options) {
-  OpenOptions open;
+  OpenOptions open = options.files.open_options();
   open.physics_variant = options.physics;
   return open;
 }
 
 /// The other way: an asset's physics as a model of MuJoCo.
 int run_export(Report& report, const Options& options) {
+  Outputs outputs;
+  if (auto claimed = outputs.claim(OutputKind::Description, options.output); !claimed) {
+    return report.fail(claimed.error());
+  }
   auto stage = open_stage(options.input, open_options(options), report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }
+  const bytes::ReadPolicy policy = policy_for(options.input, open_options(options));
+  name_outside_layers(*stage, policy, report.diagnostics);
   const physics::PhysicsScene scene =
       physics::read_physics(*stage, read_options(), report.diagnostics);
   const std::string folder = fs::path(options.output).stem().string() + "_images";
-  const auto model = export_mjcf(*stage, scene, folder, report.diagnostics);
+  const auto model = export_mjcf(*stage, scene, folder, policy, report.diagnostics);
   if (!model) {
     return report.fail(model.error());
   }
-  const auto written = write_description(model->text, model->images, options.output);
+  const auto written = write_description(model->text, model->images, options.output, outputs);
   if (!written) {
     return report.fail(written.error());
   }
-  return report.finish(kOk, {{"output", options.output},
-                             {"bodies", scene.bodies.size()},
-                             {"joints", scene.joints.size()}});
+  return report.finish(left_out(report.diagnostics) ? kNo : kOk, {{"output", options.output},
+                                                                  {"bodies", scene.bodies.size()},
+                                                                  {"joints", scene.joints.size()}});
 }
 
 int run_export_urdf(Report& report, const Options& options) {
+  Outputs outputs;
+  if (auto claimed = outputs.claim(OutputKind::Description, options.output); !claimed) {
+    return report.fail(claimed.error());
+  }
   auto stage = open_stage(options.input, open_options(options), report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }
+  name_outside_layers(*stage, policy_for(options.input, open_options(options)), report.diagnostics);
   const std::string folder = fs::path(options.output).stem().string() + "_meshes";
   const auto urdf = export_urdf(*stage, folder, report.diagnostics);
   if (!urdf) {
     return report.fail(urdf.error());
   }
-  const auto written = write_description(urdf->text, urdf->meshes, options.output);
+  const auto written = write_description(urdf->text, urdf->meshes, options.output, outputs);
   if (!written) {
     return report.fail(written.error());
   }
@@ -277,13 +357,14 @@ bool ends_in(const std::string& path, std::initializer_list<const char*> endings
 
 int run_convert(const Globals& globals, const Options& options) {
   Report report(globals, "convert", options.input);
+  const Progress progress(globals, "converting " + shown_path(options.input));
   if (ends_in(options.input, {".usda", ".usdc", ".usd", ".usdz"})) {
     if (ends_in(options.output, {".urdf"})) {
       return run_export_urdf(report, options);
     }
     if (!ends_in(options.output, {".xml"})) {
       return report.fail(
-          Error(ErrorCode::Unsupported, "an asset becomes MJCF or URDF only")
+          Error(ErrorCode::Unsupported, "an asset can be converted to MJCF or URDF only")
               .with_fix("name the output .xml or .urdf; `tenon cat` and `tenon structure` write "
                         "assets"));
     }
@@ -308,17 +389,20 @@ int run_convert(const Globals& globals, const Options& options) {
 void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
       "convert",
-      "Make an asset of a robot's description (URDF, MJCF), or a description of an asset");
+      "Convert a robot description (URDF, MJCF) to an asset, or an asset to a description");
   auto options = std::make_shared<Options>();
-  verb.add_option("input", options->input, "A URDF or MJCF file, or an asset").required();
+  verb.add_option("input", options->input, "A URDF or MJCF file, or an asset")
+      .required()
+      .file_only();
   verb.add_option("output", options->output,
                   "A .usda, .usdc, .usd or .usdz file, or a folder for Asset Structure 3.0; for an "
                   "asset an .xml or .urdf file")
       .required();
   verb.add_option("--package", options->packages,
-                  "NAME=DIR: where a ROS package lies; else it "
-                  "is looked for upward from the input")
+                  "NAME=DIR: where a ROS package is; without "
+                  "it, the folders above the input are searched")
       .repeatable();
+  options->files.add_to(verb);
   verb.add_flag("--fix-base", options->fix_base, "Hold the root link in the world");
   verb.add_flag("--float-base", options->float_base,
                 "A root link without mass is free to move, as that of a walking robot; else it "
@@ -326,10 +410,12 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
   verb.add_flag("--merge-fixed", options->merge_fixed,
                 "Make links on fixed joints parts of the links that hold them");
   verb.add_option("--physics", options->physics,
-                  "Of an asset: the variant of its set \"Physics\" to make a description of");
+                  "Of an asset: the variant of its set \"Physics\" to describe");
   verb.add_flag("--scene", options->scene,
                 "Keep a MJCF model's world as a PhysicsScene: gravity, time step, options");
   verb.add_flag("--flat", options->flat, "Links side by side, not nested");
+  verb.add_flag("--force", options->force,
+                "Overwrite an asset that was edited since it was written");
   verb.add_option("--gains", options->gains,
                   "K,D: a drive for each joint that follows no other, in N m/rad and N m s/rad "
                   "(N/m and N s/m); or a JSON file {\"joint\": [K, D], \"*\": [K, D]}");

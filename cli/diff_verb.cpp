@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "cli/difference_text.h"
+#include "cli/output.h"
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/asset/physics_options.h"
+#include "tenon/asset_policy.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/zip_archive.h"
 #include "tenon/diff/layer_difference.h"
@@ -30,8 +33,10 @@ struct Options {
   double tolerance = 0;
   bool physics = false;
   bool composed = false;
+  std::string show;
   std::string variant;
-  std::vector<std::string> search_paths;
+  FileAccess files;
+  std::string older_variant;  ///< --variant
 };
 
 /// What is compared: two names, or what git hands to an external diff driver.
@@ -61,9 +66,8 @@ struct Found {
 };
 
 OpenOptions open_options(const Options& options) {
-  OpenOptions open;
+  OpenOptions open = options.files.open_options();
   open.physics_variant = options.variant;
-  open.search_paths = options.search_paths;
   return open;
 }
 
@@ -125,15 +129,21 @@ bool is_package(const std::string& path) {
          (bytes::is_package_name(path) && bytes::split_package_path(path).inner.empty());
 }
 
+/// What may be read of a folder, whose files may be links, or of a package.
+bytes::ReadPolicy policy_of(const std::string& path, const Options& options) {
+  return policy_for(is_folder(path) ? path + "/." : path, open_options(options));
+}
+
 /// Files of a package or folder: name below it -> identifier. Hidden ones are left out.
-Result<std::map<std::string, std::string>> files_of(const std::string& path) {
+Result<std::map<std::string, std::string>> files_of(const std::string& path,
+                                                    const Options& options) {
   std::map<std::string, std::string> files;
   if (path == kNothing) {
     return files;
   }
   if (!is_folder(path)) {
     const std::string file = bytes::absolute_file_path(path);
-    TENON_TRY(const auto contents, bytes::AssetResolver().open(file));
+    TENON_TRY(const auto contents, policy_of(path, options).open(file));
     TENON_TRY(const bytes::ZipArchive archive, bytes::ZipArchive::open(contents));
     for (const bytes::ZipEntry& entry : archive.entries()) {
       files.emplace(entry.name, bytes::join_package_path(file, entry.name));
@@ -157,12 +167,34 @@ Result<std::map<std::string, std::string>> files_of(const std::string& path) {
   return files;
 }
 
+/// One side of a file; null, and why in `diagnostics`, where it may not be read.
+Result<std::shared_ptr<const bytes::FileBytes>> open_file(const bytes::ReadPolicy& policy,
+                                                          const std::string& file,
+                                                          Diagnostics& diagnostics) {
+  auto contents = policy.open(file);
+  if (!contents && contents.error().diagnostic().rule == bytes::kOutsideRule) {
+    Diagnostic finding = contents.error().diagnostic();
+    finding.severity = Severity::Error;
+    finding.message += "; it is not compared";
+    diagnostics.add(std::move(finding));
+    return std::shared_ptr<const bytes::FileBytes>();
+  }
+  return contents;
+}
+
+struct Policies {
+  bytes::ReadPolicy before;
+  bytes::ReadPolicy after;
+};
+
 Result<void> compare_file(const std::string& name, const std::string& before,
-                          const std::string& after, const Options& options,
-                          Diagnostics& diagnostics, Found& found) {
-  const bytes::AssetResolver resolver;
-  TENON_TRY(const auto a, resolver.open(before));
-  TENON_TRY(const auto b, resolver.open(after));
+                          const std::string& after, const Policies& policies,
+                          const Options& options, Diagnostics& diagnostics, Found& found) {
+  TENON_TRY(const auto a, open_file(policies.before, before, diagnostics));
+  TENON_TRY(const auto b, open_file(policies.after, after, diagnostics));
+  if (a == nullptr || b == nullptr) {
+    return {};
+  }
   if (a->text() == b->text()) {
     return {};
   }
@@ -180,8 +212,9 @@ Result<void> compare_file(const std::string& name, const std::string& before,
 
 Result<void> compare_packages(const Sides& sides, const Options& options, Diagnostics& diagnostics,
                               Found& found) {
-  TENON_TRY(const auto before, files_of(sides.before));
-  TENON_TRY(const auto after, files_of(sides.after));
+  TENON_TRY(const auto before, files_of(sides.before, options));
+  TENON_TRY(const auto after, files_of(sides.after, options));
+  const Policies policies{policy_of(sides.before, options), policy_of(sides.after, options)};
   std::set<std::string> names;
   for (const auto* files : {&before, &after}) {
     for (const auto& [name, identifier] : *files) {
@@ -196,7 +229,7 @@ Result<void> compare_packages(const Sides& sides, const Options& options, Diagno
     } else if (b == after.end()) {
       found.add_file(name, "removed", "-");
     } else {
-      TENON_CHECK(compare_file(name, a->second, b->second, options, diagnostics, found));
+      TENON_CHECK(compare_file(name, a->second, b->second, policies, options, diagnostics, found));
     }
   }
   return {};
@@ -213,7 +246,8 @@ Result<Sides> sides_of(const Options& options) {
     return Sides{inputs[1], inputs[4], inputs[0] + moved};
   }
   return Error(ErrorCode::Invalid,
-               "a difference is one of two: " + std::to_string(inputs.size()) + " names were given")
+               "diff compares two files, and " + std::to_string(inputs.size()) +
+                   (inputs.size() == 1 ? " was" : " were") + " given")
       .with_fix("tenon diff BEFORE AFTER; git hands over seven or nine arguments");
 }
 
@@ -233,9 +267,6 @@ int run_diff(const Globals& globals, const Options& options) {
   if (!sides) {
     return report.fail(sides.error());
   }
-  if (options.tolerance < 0) {
-    return report.fail(Error(ErrorCode::Invalid, "a tolerance is not negative"));
-  }
   const std::string mode = mode_of(*sides, options);
   Found found;
   const auto done = mode == "packages"
@@ -247,12 +278,16 @@ int run_diff(const Globals& globals, const Options& options) {
   }
   const bool equal = found.rows.empty();
   const bool in_git = !sides->shown.empty();
+  if (in_git) {
+    report.keep_exit_code();
+  }
   if (!report.json() && !equal && !report.quiet()) {
     const std::string title = in_git ? "tenon diff " + sides->shown + "\n" : "";
-    std::fputs((title + found.text).c_str(), stdout);
+    print_text(title + found.text);
   }
   // git takes every other code for a crash of the driver.
-  const int code = equal || in_git ? kOk : kNo;
+  const bool complete = !left_out(report.diagnostics);
+  const int code = (equal && complete) || in_git ? kOk : kNo;
   return report.finish(code, {{"before", sides->before},
                               {"after", sides->after},
                               {"mode", mode},
@@ -260,15 +295,29 @@ int run_diff(const Globals& globals, const Options& options) {
                               {"differences", std::move(found.rows)}});
 }
 
+/// `--physics` without a value is the older way to write `--show physics`; in `diff --physics A B`,
+/// also as git calls it, what stands behind it is the first input.
+void untangle_physics(Options& options, const Option& physics) {
+  const std::size_t count = options.inputs.size();
+  if (!options.variant.empty() && (count == 1 || count == 6 || count == 8)) {
+    options.inputs.insert(options.inputs.begin(), std::exchange(options.variant, {}));
+  }
+  options.physics = options.show == "physics" || (physics.given() && options.variant.empty());
+  if (options.variant.empty()) {
+    options.variant = options.older_variant;
+  }
+  options.composed = options.composed || !options.variant.empty();
+}
+
 constexpr const char* kFooter =
     "Two layers are compared as they are, two packages or folders file by file; --composed "
-    "compares\n"
-    "what they compose to, --physics what an engine receives. Exit codes: 0 equal, 1 different.\n\n"
+    "compares what they compose to, --show physics what an engine receives. A variant chosen with "
+    "--physics means --composed. Exit codes: 0 equal, 1 different.\n\n"
     "With git, in .gitattributes \"*.usd* diff=usd\" and in the configuration either\n"
     "  git config diff.usd.command \"tenon diff\"        these differences\n"
     "  git config diff.usd.textconv \"tenon cat\"        lines of text, of binary layers, too\n\n"
     "Examples:\n"
-    "  tenon diff old/hand.usda new/hand.usda --physics\n"
+    "  tenon diff old/hand.usda new/hand.usda --show physics\n"
     "  tenon diff hand.usda hand.usdc                  equal: the form does not count\n"
     "  tenon diff hand/ hand.usdz\n"
     "  tenon diff a.usda b.usda --composed --tolerance 1e-6 --json";
@@ -280,17 +329,29 @@ void add_diff(const Command& parent, const Globals& globals, Chosen& chosen) {
       "diff", "What differs between two layers, packages, scenes or their physics");
   auto options = std::make_shared<Options>();
   verb.add_option("inputs", options->inputs, "BEFORE AFTER; /dev/null is an empty layer")
-      .required();
-  verb.add_flag("--physics", options->physics,
-                "Joints, masses, frames, limits, colliders and materials as engines receive them");
+      .required()
+      .file_only();
+  verb.add_option("--show", options->show,
+                  "physics: joints, masses, frames, limits, colliders and materials as engines "
+                  "receive them")
+      .one_of({"physics"})
+      .value_name("WHAT");
   verb.add_flag("--composed", options->composed, "Compose both and compare the scenes");
-  verb.add_option("--variant", options->variant,
-                  "With these two: select this variant of \"Physics\" in both");
-  verb.add_option("--tolerance", options->tolerance,
-                  "Numbers a, b are equal when |a - b| <= T max(1, |a|, |b|)");
-  verb.add_option("--search-path", options->search_paths, "As for other verbs").split_at_commas();
+  const Option physics =
+      verb.add_option("--physics", options->variant,
+                      "Select this variant of the variant set \"Physics\" in both")
+          .with_optional_value()
+          .value_name("VARIANT");
+  verb.add_option("--variant", options->older_variant, "The older name of --physics VARIANT");
+  verb.add_option("--tolerance", options->tolerance, {0, 1e9, false, false, ""},
+                  "Numbers a, b are equal when |a - b| <= T max(1, |a|, |b|)")
+      .value_name("T");
+  options->files.add_to(verb);
   verb.footer(kFooter);
-  choose(verb, chosen, [&globals, options] { return run_diff(globals, *options); });
+  choose(verb, chosen, [&globals, options, physics] {
+    untangle_physics(*options, physics);
+    return run_diff(globals, *options);
+  });
 }
 
 }  // namespace tenon::cli

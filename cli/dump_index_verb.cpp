@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/output.h"
 #include "cli/report.h"
 #include "cli/variant_fallbacks.h"
 #include "cli/verb.h"
@@ -17,11 +18,24 @@ namespace {
 struct Options {
   AssetArguments asset;
   std::vector<std::string> prims;
+  std::string session;
   std::string fallbacks;
+  bool is_record = false;  ///< of the suite, whose errors stand in the text alone
 };
+
+Diagnostic missing(const compose::MissingArc& arc) {
+  Diagnostic finding;
+  finding.rule = "compose.invalid-asset-path";
+  finding.message = "the " + std::string(arc.arc) + " @" + arc.path + "@ cannot be opened";
+  finding.file = arc.layer;
+  finding.prim = arc.prim.str();
+  finding.fix = "correct the path or provide the file";
+  return finding;
+}
 
 Result<std::string> dump(const Options& options, Report& report) {
   OpenOptions open = options.asset.open_options();
+  open.session_path = options.session;
   TENON_TRY(open.variant_fallbacks, parse_variant_fallbacks(options.fallbacks));
   std::vector<Path> prims;
   for (const std::string& text : options.prims) {
@@ -36,7 +50,13 @@ Result<std::string> dump(const Options& options, Report& report) {
     return path.is_absolute() ? path.lexically_proximate(folder).generic_string()
                               : layer.identifier();
   };
-  return compose::dump_indices(*cache, label, prims);
+  std::string text = compose::dump_indices(*cache, label, prims);
+  for (const compose::MissingArc& arc : cache->missing_arcs()) {
+    if (!options.is_record) {
+      report.diagnostics.add(missing(arc));
+    }
+  }
+  return text;
 }
 
 int run_dump_index(const Globals& globals, const Options& options) {
@@ -48,9 +68,7 @@ int run_dump_index(const Globals& globals, const Options& options) {
   if (globals.json) {
     return report.finish(kOk, {{"text", *text}});
   }
-  if (auto written = write_output("-", *text); !written) {
-    return report.fail(written.error());
-  }
+  print_data(*text);
   return report.finish(kOk);
 }
 
@@ -66,8 +84,10 @@ void add_index_dump(const Command& parent, const std::string& name, const std::s
       parent.add_subcommand(name, "How prims are composed: layers, specs, offsets, targets");
   auto options = std::make_shared<Options>();
   options->fallbacks = fallbacks;
-  options->asset.add_to(verb);
+  options->is_record = name != "dump-index";
+  options->asset.add_with_standard_input_to(verb);
   verb.add_option("prims", options->prims, "Prim paths; without them all prims");
+  verb.add_option("--session", options->session, "A session layer");
   verb.add_option("--variant-fallback", options->fallbacks, "set=variant|variant,set=...");
   verb.footer("Example:\n  tenon dump-index hand.usda /inspire_hand/right_thumb_1");
   choose(verb, chosen, [&globals, options] { return run_dump_index(globals, *options); });

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/dump.h"
+#include "cli/output.h"
 #include "cli/report.h"
 #include "cli/variant_fallbacks.h"
 #include "cli/verb.h"
@@ -21,6 +22,10 @@ struct Options {
 
 int run_dump(const Globals& globals, const Options& options) {
   Report report(globals, "dump", options.asset.asset);
+  Outputs outputs;
+  if (auto claimed = outputs.claim(OutputKind::Dump, options.output); !claimed) {
+    return report.fail(claimed.error());
+  }
   OpenOptions open = options.asset.open_options();
   open.session_path = options.session;
   open.load_payloads = !options.dump.no_payloads && open.load_payloads;
@@ -35,7 +40,8 @@ int run_dump(const Globals& globals, const Options& options) {
   }
   std::ostringstream text;
   write_stage_dump(*stage, options.dump, text);
-  if (auto written = write_output(options.output, text.str()); !written) {
+  outputs.put(options.output, text.str());
+  if (auto written = outputs.commit(); !written) {
     return report.fail(written.error());
   }
   report.speak_as_text();  // the dump itself is the JSON object
@@ -48,7 +54,7 @@ void add_dump(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb =
       parent.add_subcommand("dump", "Canonical JSON of the composed stage, to compare");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(verb);
+  options->asset.add_with_standard_input_to(verb);
   verb.add_option("-o,--output", options->output, "Where to write; - is standard output");
   verb.add_option("--session", options->session, "A session layer");
   verb.add_flag("--no-payloads", options->dump.no_payloads, "Leave payloads out");
@@ -56,7 +62,7 @@ void add_dump(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_flag("--stacks", options->dump.stacks, "Layers and paths of every opinion");
   verb.add_flag("--xforms", options->dump.xforms, "World transforms");
   verb.add_option("--variant-fallback", options->fallbacks, "set=variant|variant,set=...");
-  verb.add_option("--full-arrays", options->dump.full_arrays,
+  verb.add_option("--full-arrays", options->dump.full_arrays, {0, 1e9, false, true, "values"},
                   "Longest array that is written out in full");
   verb.footer("Example:\n  tenon dump hand.usda --physics physx --stacks -o hand.json");
   choose(verb, chosen, [&globals, options] { return run_dump(globals, *options); });

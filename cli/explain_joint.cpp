@@ -43,8 +43,8 @@ Json side_json(const Explained& explained, const std::optional<physics::Index>& 
                {"world", pose_json(in_world(explained.scene, body, frame))}};
   side["why"] =
       target.empty() ? "no target: the world, localPos and localRot are world values [S-85]"
-      : moved        ? "the target is no body: that of the nearest body above, with the transform "
-                       "between [S-86]"
+      : moved        ? "the target is not a body: that of the nearest body above, with the "
+                       "transform between [S-86]"
       : body         ? "localPos through the whole matrix of the body, its scale included [S-83]"
                      : "the target has no body: the world, with its transform [S-86]";
   return side;
@@ -115,11 +115,22 @@ std::string dof_text(const Json& row) {
   if (!drive.is_null()) {
     line += ", " + drive["type"].get<std::string>() + " drive from " +
             drive["source"].get<std::string>() + ": stiffness " + text(drive["stiffness"]) +
-            ", damping " + text(drive["damping"]) + ", at most " + text(drive["maxForce"]) +
+            ", damping " + text(drive["damping"]) +
+            (drive["maxForce"].is_null() ? ", no force limit"
+                                         : ", at most " + text(drive["maxForce"])) +
             ", to " + text(drive["targetPosition"]) + " at " + text(drive["targetVelocity"]) +
             " (SI, radians)";
   }
   return line + "\n";
+}
+
+std::string breaking_text(const Json& force, const Json& torque) {
+  if (force.is_null() && torque.is_null()) {
+    return "never breaks";
+  }
+  return "breaks above " + (force.is_null() ? "" : text(force) + " N") +
+         (force.is_null() || torque.is_null() ? "" : " or ") +
+         (torque.is_null() ? "" : text(torque) + " N m");
 }
 
 }  // namespace
@@ -166,8 +177,7 @@ std::string joint_text(const Json& joint) {
   text_of += joint["collisionEnabled"].get<bool>()
                  ? "    the jointed sides may touch [S-92]\n"
                  : "    the jointed sides do not touch, where both are named [S-92]\n";
-  text_of += "    breaks at " + text(joint["breakForce"]) + " N, " + text(joint["breakTorque"]) +
-             " N m [S-93]\n";
+  text_of += "    " + breaking_text(joint["breakForce"], joint["breakTorque"]) + " [S-93]\n";
   if (!joint["articulation"].is_null()) {
     text_of += "    of the articulation " + joint["articulation"]["path"].get<std::string>() +
                (joint["articulation"]["loop"].get<bool>() ? ", closes a loop [S-111]\n" : "\n");

@@ -3,10 +3,13 @@
 #include <cstdio>
 
 #include "cli/explain.h"
+#include "cli/output.h"
 #include "cli/reading_options.h"
 #include "cli/report.h"
+#include "cli/rule_numbers.h"
 #include "cli/verb.h"
 #include "tenon/asset/physics_options.h"
+#include "tenon/check/rule.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/tenon.h"
 
@@ -54,9 +57,32 @@ int explain_two(Report& report, const Explained& explained, const Object& a,
   }
   const Json answer = explain_pair(explained, a.prim, other->prim);
   if (!report.json()) {
-    std::fputs(explain_pair_text(answer).c_str(), stdout);
+    print_text(explain_pair_text(answer));
   }
   return report.finish(kOk, answer);
+}
+
+/// `tenon explain S-83`, `tenon explain joint.body-missing`: what a rule says.
+int explain_rule(const Globals& globals, const std::string& rule) {
+  Report report(globals, "explain", "");
+  std::string text;
+  if (is_rule_number(rule)) {
+    text = rule_with_number(rule).value_or("");
+  } else {
+    text = check::page_of(rule);
+  }
+  if (text.empty()) {
+    return report.fail(
+        Error(ErrorCode::NotFound, "explain needs an asset and a prim, or a rule; \"" + rule +
+                                       "\" is neither the number nor the name of a rule")
+            .with_rule("usage.missing-argument")
+            .with_fix("write `tenon explain FILE PRIM` or `tenon explain RULE`; `tenon check "
+                      "--list-rules` names all rules"));
+  }
+  if (!report.json()) {
+    print_text(is_rule_number(rule) ? rule + ": " + text + "\n" : text);
+  }
+  return report.finish(kOk, {{"rule", rule}, {"page", text}});
 }
 
 int run_explain(const Globals& globals, const Options& options) {
@@ -85,8 +111,7 @@ int run_explain(const Globals& globals, const Options& options) {
   const Json answer = property ? explain_property(explained, object->prim, object->property)
                                : explain_prim(explained, object->prim);
   if (!report.json()) {
-    std::fputs((property ? explain_property_text(answer) : explain_prim_text(answer)).c_str(),
-               stdout);
+    print_text(property ? explain_property_text(answer) : explain_prim_text(answer));
   }
   return report.finish(kOk, answer);
 }
@@ -97,8 +122,9 @@ void add_explain(const Command& parent, const Globals& globals, Chosen& chosen) 
   const Command verb = parent.add_subcommand(
       "explain", "Where a number comes from: layer and line, rule, and what lost to it");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(verb);
-  verb.add_option("object", options->object, "PRIM or PRIM.property").required();
+  options->asset.add_with_standard_input_to(verb);
+  verb.option("asset").description("A USD file, - for standard input; or a rule alone");
+  verb.add_option("object", options->object, "PRIM or PRIM.property; without it a rule is meant");
   verb.add_option("other", options->other, "A second prim: do the two collide, and why not");
   add_readings(verb, options->readings);
   verb.footer(
@@ -106,8 +132,13 @@ void add_explain(const Command& parent, const Globals& globals, Chosen& chosen) 
       "\n\nExamples:\n  tenon explain hand.usda /hand/palm                    its mass, its "
       "joints\n"
       "  tenon explain hand.usda /hand/palm.physics:mass       every opinion, strongest first\n"
-      "  tenon explain hand.usda /hand/palm /hand/thumb        whether they collide, and why not");
-  choose(verb, chosen, [&globals, options] { return run_explain(globals, *options); });
+      "  tenon explain hand.usda /hand/palm /hand/thumb        whether they collide, and why not\n"
+      "  tenon explain S-83                                    the numbered rule in a message\n"
+      "  tenon explain joint.body-missing                      the rule in brackets behind one");
+  choose(verb, chosen, [&globals, options] {
+    return options->object.empty() ? explain_rule(globals, options->asset.asset)
+                                   : run_explain(globals, *options);
+  });
 }
 
 }  // namespace tenon::cli

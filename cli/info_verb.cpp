@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "cli/output.h"
 #include "cli/prim_walk.h"
 #include "cli/report.h"
 #include "cli/verb.h"
@@ -78,17 +79,17 @@ Json physics_json(const physics::PhysicsCounts& counts) {
           {"joints", joints}};
 }
 
-void print_text(const Json& info) {
+void print_info(const Json& info) {
   const Json& stage = info["stage"];
-  std::printf("default prim   %s\n", stage["defaultPrim"].get<std::string>().c_str());
-  std::printf("units          %g m, %g kg, up %s, %g time codes per second\n",
+  print("default prim   %s\n", stage["defaultPrim"].get<std::string>().c_str());
+  print("units          %g m, %g kg, up %s, %g time codes per second\n",
               stage["metersPerUnit"].get<double>(), stage["kilogramsPerUnit"].get<double>(),
               stage["upAxis"].get<std::string>().c_str(),
               stage["timeCodesPerSecond"].get<double>());
-  std::printf("prims          %zu in %zu layers\n", stage["primCount"].get<std::size_t>(),
+  print("prims          %zu in %zu layers\n", stage["primCount"].get<std::size_t>(),
               stage["layers"].size());
   for (const auto& layer : stage["layers"]) {
-    std::printf("  %s\n", layer.get<std::string>().c_str());
+    print("  %s\n", layer.get<std::string>().c_str());
   }
   for (const auto& variant : info["variants"]) {
     std::string options;
@@ -97,11 +98,11 @@ void print_text(const Json& info) {
       options +=
           (options.empty() ? "" : " ") + (option == variant["selection"] ? "[" + name + "]" : name);
     }
-    std::printf("variants       %s %s: %s\n", variant["prim"].get<std::string>().c_str(),
+    print("variants       %s %s: %s\n", variant["prim"].get<std::string>().c_str(),
                 variant["set"].get<std::string>().c_str(), options.c_str());
   }
   const Json& p = info["physics"];
-  std::printf("physics        %zu scenes, %zu bodies (%zu kinematic), %.6g kg, %zu articulations\n",
+  print("physics        %zu scenes, %zu bodies (%zu kinematic), %.6g kg, %zu articulations\n",
               p["scenes"].get<std::size_t>(), p["bodies"].get<std::size_t>(),
               p["kinematicBodies"].get<std::size_t>(), p["mass_kg"].get<double>(),
               p["articulations"].get<std::size_t>());
@@ -112,14 +113,14 @@ void print_text(const Json& info) {
           (joints.empty() ? "" : ", ") + std::to_string(count.get<std::size_t>()) + " " + kind;
     }
   }
-  std::printf("joints         %s\n", joints.empty() ? "none" : joints.c_str());
-  std::printf("               %zu degrees of freedom, %zu drives, %zu limits, %zu mimics\n",
+  print("joints         %s\n", joints.empty() ? "none" : joints.c_str());
+  print("               %zu degrees of freedom, %zu drives, %zu limits, %zu mimics\n",
               p["dofs"].get<std::size_t>(), p["drives"].get<std::size_t>(),
               p["limits"].get<std::size_t>(), p["mimics"].get<std::size_t>());
-  std::printf("colliders      %zu (%zu static)\n", p["colliders"].get<std::size_t>(),
+  print("colliders      %zu (%zu static)\n", p["colliders"].get<std::size_t>(),
               p["staticColliders"].get<std::size_t>());
   for (const auto& missing : info["missing"]) {
-    std::printf("missing        %s\n", missing["path"].get<std::string>().c_str());
+    print("missing        %s\n", missing["path"].get<std::string>().c_str());
   }
 }
 
@@ -149,7 +150,7 @@ int run_info(const Globals& globals, const AssetArguments& arguments) {
   info["physics"] = physics_json(physics::count_physics(scene));
   info["missing"] = missing;
   if (!globals.json) {
-    print_text(info);
+    print_info(info);
   }
   return report.finish(kOk, info);
 }
@@ -159,10 +160,22 @@ int run_info(const Globals& globals, const AssetArguments& arguments) {
 void add_info(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
       "info", "What the asset is: layers, variants, units, physics, missing files");
-  auto arguments = std::make_shared<AssetArguments>();
-  arguments->add_to(verb);
-  verb.footer("Examples:\n  tenon info hand.usda\n  tenon info hand.usda --json --physics physics");
-  choose(verb, chosen, [&globals, arguments] { return run_info(globals, *arguments); });
+  struct Several {
+    AssetArguments one;
+    std::vector<std::string> assets;
+  };
+  auto several = std::make_shared<Several>();
+  several->one.add_several_to(verb, several->assets);
+  verb.footer(
+      "Examples:\n  tenon info hand.usda\n  tenon info hand.usda --json --physics physics\n"
+      "  tenon info *.usd");
+  choose(verb, chosen, [&globals, several] {
+    return each_asset(globals, "info", several->assets,
+                      [&](const Globals& inner, const auto& name) {
+                        several->one.asset = name;
+                        return run_info(inner, several->one);
+                      });
+  });
 }
 
 }  // namespace tenon::cli

@@ -1,108 +1,125 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <clocale>
+#include <csignal>
 #include <cstdio>
-#include <optional>
-#include <span>
+#include <new>
+#include <string>
 #include <string_view>
 
-#include "cli/command_line.h"
+#include <unistd.h>
+
 #include "cli/exit_code.h"
+#include "cli/nearest_name.h"
+#include "cli/output.h"
+#include "cli/print.h"
+#include "cli/program.h"
+#include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/base/heap.h"
 
 namespace {
 
+using tenon::Error;
+using tenon::ErrorCode;
 using tenon::cli::Chosen;
-using tenon::cli::Command;
-using tenon::cli::CommandLine;
 using tenon::cli::Globals;
+using tenon::cli::Parsed;
 
-constexpr const char* kExamples =
-    "Examples:\n"
-    "  tenon info hand.usda                              what the asset is, what is missing\n"
-    "  tenon tree hand.usda --physics physics            its prims, with physics switched on\n"
-    "  tenon check hand.usda                             what is wrong with it, and --fix\n"
-    "  tenon physics hand.usda --json                    what an engine receives, SI and radians\n"
-    "  tenon sim hand.usda --duration 5 -o run.csv       simulate it on MuJoCo\n"
-    "  tenon bake hand.usda -o motion.usda               a layer that any USD viewer plays\n"
-    "  tenon convert hand.urdf hand.usda                 an asset of a robot's description\n"
-    "  tenon cat model.usdc                              a binary layer as text\n"
-    "Exit codes: 0 ok, 1 the answer is no, 2 usage, I/O or parse error, 3 unstable simulation,\n"
-    "4 engine not installed, 130 interrupted.";
-
-void add_global_options(const Command& root, Globals& globals) {
-  root.add_flag("--json", globals.json, "Print exactly one JSON object on standard output");
-  root.add_flag("-q,--quiet", globals.quiet, "Only errors on standard error");
-  root.add_flag("-v,--verbose", globals.verbose, "Also what is only worth knowing");
-  root.add_option("--color", globals.color, "auto, always or never")
-      .one_of({"auto", "always", "never"});
-  root.add_version_flag("--version", "tenon " TENON_VERSION);
+/// The verb: the first argument that is neither an option nor the value of one before it.
+std::string_view first_word(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (argument == "--color") {
+      ++i;
+    } else if (argument.empty() || argument.front() != '-') {
+      return argument;
+    }
+  }
+  return {};
 }
 
-struct Verb {
-  std::string_view name;
-  void (*add)(const Command& parent, const Globals& globals, Chosen& chosen);
-};
+bool has_argument(int argc, char** argv, std::string_view name) {
+  for (int i = 1; i < argc; ++i) {
+    if (argv[i] == name) {
+      return true;
+    }
+  }
+  return false;
+}
 
-constexpr Verb kVerbs[] = {
-    {"bake", tenon::cli::add_bake},
-    {"cat", tenon::cli::add_cat},
-    {"check", tenon::cli::add_check},
-    {"convert", tenon::cli::add_convert},
-    {"diff", tenon::cli::add_diff},
-    {"doctor", tenon::cli::add_doctor},
-    {"dump", tenon::cli::add_dump},
-    {"dump-index", tenon::cli::add_dump_index},
-    {"explain", tenon::cli::add_explain},
-    {"info", tenon::cli::add_info},
-    {"physics", tenon::cli::add_physics},
-    {"set", tenon::cli::add_set},
-    {"sim", tenon::cli::add_sim},
-    {"strip", tenon::cli::add_strip},
-    {"structure", tenon::cli::add_structure},
-    {"test-runner", tenon::cli::add_test_runner},
-    {"tree", tenon::cli::add_tree},
-    {"variant", tenon::cli::add_variant},
-    {"where", tenon::cli::add_where},
-    {"zip", tenon::cli::add_zip},
-};
-
-/// The verb that the first argument names, else all: making all of them takes a millisecond.
-std::span<const Verb> verbs_for(int argc, char** argv) {
-  const std::span<const Verb> all(kVerbs);
-  const std::string_view first = argc > 1 ? argv[1] : "";
-  const auto named =
-      std::find_if(all.begin(), all.end(), [&](const Verb& verb) { return verb.name == first; });
-  return named == all.end() ? all : std::span<const Verb>(&*named, 1);
+/// An error of usage, in JSON where that was asked for on the line that could not be understood.
+int fail(int argc, char** argv, std::string_view verb, const Error& error) {
+  Globals globals;
+  globals.json = has_argument(argc, argv, "--json");
+  const std::string name(verb.empty() ? "usage" : verb);
+  return tenon::cli::Report(globals, name, "").fail(error);
 }
 
 int run(int argc, char** argv) {
-  const CommandLine line("tenon: open, explain and simulate physics-ready USD assets", "tenon");
-  const Command root = line.root();
+  namespace cli = tenon::cli;
+  const std::string_view verb = first_word(argc, argv);
+  if (!verb.empty() && !cli::is_verb(verb)) {
+    const std::string name(verb);
+    const std::string other = "`tenon help` lists all verbs";
+    return fail(argc, argv, "",
+                Error(ErrorCode::NotFound, "there is no verb \"" + name + "\"")
+                    .with_rule("usage.unknown-verb")
+                    .with_fix(cli::did_you_mean(name, cli::verb_names(), other)));
+  }
   Globals globals;
   Chosen chosen;
-  root.footer(kExamples);
-  root.require_subcommand();
-  add_global_options(root, globals);
-  for (const Verb& verb : verbs_for(argc, argv)) {
-    verb.add(root, globals, chosen);
+  const auto line = cli::make_command_line(verb, globals, chosen);
+  const Parsed parsed = line->parse(argc, argv);
+  if (parsed.help) {
+    cli::print_text(cli::help_of(line->describe(), parsed.command));
+    return cli::kOk;
   }
-  if (const std::optional<bool> is_error = line.parse(argc, argv)) {
-    return *is_error ? tenon::cli::kFailed : tenon::cli::kOk;
+  if (parsed.error) {
+    return fail(argc, argv, verb, *parsed.error);
   }
-  return chosen.run ? chosen.run() : tenon::cli::kFailed;
+  if (globals.version) {
+    cli::print("tenon %s\n", TENON_VERSION);
+    return cli::kOk;
+  }
+  if (!chosen.run) {
+    return fail(argc, argv, verb,
+                Error(ErrorCode::Invalid, "no verb is given")
+                    .with_rule("usage.missing-verb")
+                    .with_fix("`tenon help` lists all verbs; try `tenon info FILE`"));
+  }
+  return chosen.run();
+}
+
+/// Files are written whole or not at all, so that nothing needs to be tidied up.
+extern "C" void end_at_once(int) {
+  constexpr std::string_view kClearLine = "\r\033[K";
+  if (::isatty(STDERR_FILENO) != 0) {
+    [[maybe_unused]] const auto written =
+        ::write(STDERR_FILENO, kClearLine.data(), kClearLine.size());
+  }
+  ::_exit(tenon::cli::kInterrupted);
+}
+
+/// A job in the background, whose shell lets it ignore the key, goes on.
+void end_at_interrupt() {
+  if (std::signal(SIGINT, end_at_once) == SIG_IGN) {
+    std::signal(SIGINT, SIG_IGN);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   tenon::keep_heap_in_huge_pages();
+  tenon::cli::begin_output();
+  end_at_interrupt();
+  int code = tenon::cli::kFailed;
   try {
-    return run(argc, argv);
+    code = run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    code = fail(argc, argv, "", Error(ErrorCode::Limit, "out of memory"));
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "tenon: error: %s\n", error.what());
-    return tenon::cli::kFailed;
+    code = fail(argc, argv, "", Error(ErrorCode::Invalid, error.what()));
   }
+  return tenon::cli::finish_output(code);
 }

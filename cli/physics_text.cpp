@@ -92,8 +92,9 @@ std::string joint_lines(const PhysicsScene& scene, const physics::Joint& joint) 
   for (const physics::Drive& drive : joint.drives) {
     lines += "    drive " + std::string(physics::dof_name(drive.dof)) +
              (drive.acceleration ? " (acceleration)" : "") + ": stiffness " +
-             text(drive.stiffness) + ", damping " + text(drive.damping) + ", at most " +
-             (std::isinf(drive.max_force) ? std::string("unlimited") : text(drive.max_force)) +
+             text(drive.stiffness) + ", damping " + text(drive.damping) + ", " +
+             (std::isinf(drive.max_force) ? std::string("no force limit")
+                                          : "at most " + text(drive.max_force)) +
              ", to " + text(drive.target_position) + " at " + text(drive.target_velocity) + "\n";
   }
   if (joint.mimic) {

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "cli/mass_report.h"
+#include "cli/output.h"
 #include "cli/physics_json.h"
 #include "cli/reading_options.h"
 #include "cli/report.h"
@@ -16,6 +17,7 @@ namespace {
 
 struct Options {
   AssetArguments asset;
+  std::vector<std::string> assets;
   std::vector<std::string> readings;  ///< --reading NAME=VALUE
   bool mass = false;                  ///< --mass
 };
@@ -38,12 +40,12 @@ int run_physics(const Globals& globals, const Options& options) {
   if (options.mass) {
     const Json table = mass_table_json(*stage, scene, accounts);
     if (!globals.json) {
-      std::fputs(mass_table_text(table).c_str(), stdout);
+      print_text(mass_table_text(table));
     }
     return report.finish(kOk, {{"masses", table}});
   }
   if (!globals.json) {
-    std::fputs(physics_text(scene).c_str(), stdout);
+    print_text(physics_text(scene));
   }
   return report.finish(kOk, globals.json ? physics_json(scene) : Json::object());
 }
@@ -54,14 +56,20 @@ void add_physics(const Command& parent, const Globals& globals, Chosen& chosen) 
   const Command verb = parent.add_subcommand(
       "physics", "The neutral physics description that engines receive, in SI and radians");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(verb);
+  options->asset.add_several_to(verb, options->assets);
   add_readings(verb, options->readings);
   verb.add_flag("--mass", options->mass,
                 "A table of every body's mass, centre and inertia: authored, resolved, reason");
   verb.footer(readings_help() +
               "\n\nExample:\n  tenon physics hand.usda --physics physx --json\n"
               "  tenon physics hand.usda --mass");
-  choose(verb, chosen, [&globals, options] { return run_physics(globals, *options); });
+  choose(verb, chosen, [&globals, options] {
+    return each_asset(globals, "physics", options->assets,
+                      [&](const Globals& inner, const auto& name) {
+                        options->asset.asset = name;
+                        return run_physics(inner, *options);
+                      });
+  });
 }
 
 }  // namespace tenon::cli

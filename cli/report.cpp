@@ -2,40 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
+#include <string_view>
+#include <vector>
 
-#include <unistd.h>
-
-#include "tenon/bytes/atomic_write.h"
+#include "cli/missing_input.h"
+#include "cli/print.h"
+#include "cli/terminal_text.h"
+#include "tenon/formats/find_places.h"
 
 namespace tenon::cli {
 namespace {
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 Json number_or_null(std::uint32_t number) { return number == 0 ? Json(nullptr) : Json(number); }
-
-const char* color_of(Severity severity) {
-  switch (severity) {
-    case Severity::Error:
-      return "\033[31m";
-    case Severity::Warning:
-      return "\033[33m";
-    case Severity::Info:
-      break;
-  }
-  return "\033[36m";
-}
-
-std::string colored(std::string line, Severity severity) {
-  const std::string word = std::string(severity_name(severity)) + ":";
-  const std::size_t at = line.find(word);
-  if (at != std::string::npos) {
-    line.replace(at, word.size(), color_of(severity) + word + "\033[0m");
-  }
-  return line;
-}
 
 }  // namespace
 
@@ -47,31 +29,13 @@ Json diagnostic_json(const Diagnostic& d) {
   item["file"] = d.file.empty() ? Json(nullptr) : Json(shown_path(d.file));
   item["line"] = number_or_null(d.line);
   item["column"] = number_or_null(d.column);
+  item["endLine"] = number_or_null(d.end_line);
+  item["endColumn"] = number_or_null(d.end_column);
   item["prim"] = text_or_null(d.prim);
   item["property"] = text_or_null(d.property);
   item["fix"] = text_or_null(d.fix);
   return item;
 }
-
-std::string diagnostic_line(Diagnostic diagnostic, bool color) {
-  diagnostic.file = shown_path(diagnostic.file);
-  const std::string line = diagnostic.to_string();
-  return color ? colored(line, diagnostic.severity) : line;
-}
-
-std::string shown_path(const std::string& path) {
-  const std::size_t bracket = path.find('[');
-  const std::filesystem::path file = path.substr(0, bracket);
-  if (!file.is_absolute()) {
-    return path;
-  }
-  std::error_code ignored;
-  const auto here = std::filesystem::current_path(ignored);
-  const std::string shown = file.lexically_proximate(here).string();
-  return bracket == std::string::npos ? shown : shown + path.substr(bracket);
-}
-
-bool stderr_is_terminal() { return isatty(STDERR_FILENO) != 0; }
 
 bool use_color(const Globals& globals, bool is_terminal) {
   if (globals.color != "auto") {
@@ -85,24 +49,33 @@ bool use_color(const Globals& globals) { return use_color(globals, stderr_is_ter
 
 void Report::note(const std::string& text) const {
   if (!globals_.quiet && !json()) {
-    std::fprintf(stderr, "%s\n", text.c_str());
+    say_aside(terminal_text(text, true));
   }
 }
 
 void Report::print_diagnostics() const {
-  const bool color = use_color(globals_);
+  std::vector<Remark> shown;
   for (const Diagnostic& d : diagnostics) {
-    if (globals_.quiet && d.severity != Severity::Error) {
-      continue;
+    const bool wanted = d.severity == Severity::Error ||
+                        (d.severity == Severity::Warning && !globals_.quiet) ||
+                        (d.severity == Severity::Info && globals_.verbose && !globals_.quiet);
+    if (wanted) {
+      shown.push_back({&d, ""});
     }
-    if (d.severity == Severity::Info && !globals_.verbose) {
-      continue;
-    }
-    std::fprintf(stderr, "%s\n", diagnostic_line(d, color).c_str());
+  }
+  for (const std::string& line :
+       diagnostic_lines(shown, use_color(globals_), globals_.verbose)) {
+    say_aside(line);
   }
 }
 
 int Report::finish(int code, const Json& body) {
+  if (code == kOk && !any_exit_code_misleads_) {
+    const bool missing =
+        std::any_of(diagnostics.begin(), diagnostics.end(), tells_of_missing_input);
+    code = missing ? kNo : kOk;
+  }
+  formats::find_places(diagnostics);
   if (!json()) {
     print_diagnostics();
     return code;
@@ -118,26 +91,46 @@ int Report::finish(int code, const Json& body) {
     envelope["diagnostics"].push_back(diagnostic_json(d));
   }
   envelope.update(body);
+  if (globals_.collected != nullptr) {
+    globals_.collected->list.push_back(std::move(envelope));
+    return code;
+  }
+  const bool only_ascii = stdout_is_terminal();
   const std::string text =
-      envelope.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fputc('\n', stdout);
+      envelope.dump(2, ' ', only_ascii, nlohmann::ordered_json::error_handler_t::replace);
+  print_data(text + "\n");
   return code;
 }
 
 int Report::fail(const Error& error) {
   diagnostics.add(error.diagnostic());
+  for (const Diagnostic& further : error.further()) {
+    diagnostics.add(further);
+  }
   return finish(exit_code_of(error));
 }
 
-Result<void> write_output(const std::string& path, const std::string& text) {
-  if (path != "-") {
-    return bytes::write_file(path, text);
+int each_asset(const Globals& globals, const std::string& verb,
+               const std::vector<std::string>& assets, const RunOne& run) {
+  if (assets.size() == 1) {
+    return run(globals, assets.front());
   }
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-    return Error(ErrorCode::Io, "standard output cannot be written");
+  Envelopes envelopes;
+  Globals inner = globals;
+  inner.collected = &envelopes;
+  int code = kOk;
+  for (const std::string& asset : assets) {
+    if (!globals.json) {
+      print("%s==> %s <==\n", &asset == &assets.front() ? "" : "\n", asset.c_str());
+      std::fflush(stdout);  // what is told on standard error stands below its title
+    }
+    code = std::max(code, run(inner, asset));
   }
-  return {};
+  if (!globals.json) {
+    return code;
+  }
+  Report report(globals, verb, "");
+  return report.finish(code, {{"assets", std::move(envelopes.list)}});
 }
 
 }  // namespace tenon::cli

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "cli/diagnostic_lines.h"
 #include "cli/exit_code.h"
+#include "cli/print.h"
 #include "cli/verb.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/error.h"
@@ -27,12 +32,17 @@ class Report {
   void speak_as_text() { text_only_ = true; }
 
   bool json() const { return globals_.json && !text_only_; }
+  const Globals& globals() const { return globals_; }
   bool quiet() const { return globals_.quiet; }
   bool verbose() const { return globals_.verbose; }
+  /// For callers, such as git, to which every code but 0 is a crash: keeps `finish` from turning 0
+  /// into 1 where input is missing.
+  void keep_exit_code() { any_exit_code_misleads_ = true; }
   /// Talk for people on stderr, unless quiet or JSON was asked for.
   void note(const std::string& text) const;
 
-  /// Prints the diagnostics, or with --json the envelope with `body` appended. Returns `code`.
+  /// Prints the diagnostics, or with --json the envelope with `body` appended. Returns `code`, but
+  /// 1 for 0 when a layer, a payload or a mesh that the input names was missing.
   int finish(int code, const Json& body = Json::object());
   /// The same for a run that came to nothing.
   int fail(const Error& error);
@@ -44,22 +54,25 @@ class Report {
   std::string verb_;
   std::string asset_;
   bool text_only_ = false;
+  bool any_exit_code_misleads_ = false;
 };
+
+/// The JSON objects of several assets, until they are printed as one.
+struct Envelopes {
+  Json list = Json::array();
+};
+
+/// Answers for every asset in turn: as text each under a title, as JSON one object whose "assets"
+/// holds the object of each; a single asset is answered as if there were no list. Returns the
+/// highest exit code.
+using RunOne = std::function<int(const Globals& globals, const std::string& asset)>;
+int each_asset(const Globals& globals, const std::string& verb,
+               const std::vector<std::string>& assets, const RunOne& run);
 
 /// The JSON form of a diagnostic: null for what is unknown.
 Json diagnostic_json(const Diagnostic& diagnostic);
-/// The line that people read, with the file as shown_path has it.
-std::string diagnostic_line(Diagnostic diagnostic, bool color);
-
-/// A file name as people read it: relative to the working folder.
-std::string shown_path(const std::string& path);
-
 /// The stream is a terminal and colour is wanted (--color, NO_COLOR).
 bool use_color(const Globals& globals, bool is_terminal);
 bool use_color(const Globals& globals);  ///< of standard error
-bool stderr_is_terminal();
-
-/// Standard output for "-", else a file written atomically.
-Result<void> write_output(const std::string& path, const std::string& text);
 
 }  // namespace tenon::cli

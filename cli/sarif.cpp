@@ -67,6 +67,10 @@ Json location_json(const Diagnostic& d) {
       if (d.column > 0) {
         physical["region"]["startColumn"] = d.column;
       }
+      if (d.end_line > 0) {
+        physical["region"]["endLine"] = d.end_line;
+        physical["region"]["endColumn"] = d.end_column;
+      }
     }
     location["physicalLocation"] = std::move(physical);
   }

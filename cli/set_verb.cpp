@@ -4,7 +4,10 @@
 #include <cstdio>
 #include <functional>
 
+#include "cli/missing_input.h"
+#include "cli/output.h"
 #include "cli/report.h"
+#include "cli/terminal_text.h"
 #include "cli/typed_edits.h"
 #include "cli/unified_diff.h"
 #include "cli/verb.h"
@@ -30,15 +33,13 @@ struct Options {
   std::string engine;
   std::string physics;
   bool dry_run = false;
-  std::vector<std::string> search_paths;
-  std::vector<std::string> sandbox;
+  FileAccess files;
 };
 
 EditOptions edit_options(const Options& options) {
   EditOptions edit;
   edit.open.physics_variant = options.physics;
-  edit.open.search_paths = options.search_paths;
-  edit.open.sandbox_roots = options.sandbox;
+  options.files.apply_to(edit.open);
   edit.layer = options.layer;
   edit.engine = options.engine;
   return edit;
@@ -49,7 +50,7 @@ Result<Path> read_path(const std::string& text) {
   if (path && path->is_absolute()) {
     return path;
   }
-  return Error(ErrorCode::Invalid, "\"" + text + "\" is no path")
+  return Error(ErrorCode::Invalid, "\"" + text + "\" is not an absolute path")
       .with_rule("edit.bad-path")
       .with_fix("write it from the root, as in /hand/palm.physics:mass");
 }
@@ -206,9 +207,9 @@ void print_files(const Report& report, const EditedAsset& asset, bool dry_run) {
   for (const EditedFile& file : asset.files) {
     const std::string name = shown_path(file.path);
     if (dry_run && file.text) {
-      std::fputs(unified_diff(name, file.before, file.after).c_str(), stdout);
+      print_data(unified_diff(name, file.before, file.after));
     } else if (dry_run) {
-      report.note("would change " + name + ", which is no text");
+      report.note("would change " + name + ", which is not text");
     }
     if (!file.kept_layout) {
       report.note("comments and layout of " + name + " are not kept");
@@ -216,27 +217,34 @@ void print_files(const Report& report, const EditedAsset& asset, bool dry_run) {
   }
 }
 
+/// Reads the asset, edits it and writes it back; `edits` are those that were made.
+Result<EditedAsset> edit(const Options& options, Report& report, std::vector<AssetEdit>& edits) {
+  return edit_files(report, [&]() -> Result<EditedAsset> {
+    TENON_TRY(edits, edits_of(options));
+    TENON_TRY(EditedAsset asset,
+              edit_asset(options.asset, edits, edit_options(options), report.diagnostics));
+    if (!options.dry_run) {
+      TENON_CHECK(write_edits(asset.files));
+    }
+    return asset;
+  });
+}
+
 int run_set(const Globals& globals, const Options& options) {
   Report report(globals, "set", options.asset);
-  const auto edits = edits_of(options);
-  if (!edits) {
-    return report.fail(edits.error());
-  }
-  auto asset = edit_asset(options.asset, *edits, edit_options(options), report.diagnostics);
+  std::vector<AssetEdit> edits;
+  const auto asset = edit(options, report, edits);
   if (!asset) {
     return report.fail(asset.error());
   }
-  if (!options.dry_run) {
-    if (auto written = write_files(asset->files); !written) {
-      return report.fail(written.error());
-    }
-  }
+  add_missing_input(options.asset, edit_options(options).open, report);
   Json places = Json::array();
   for (const EditedPlace& place : asset->places) {
-    places.push_back(place_json((*edits)[place.edit], place));
+    places.push_back(place_json(edits[place.edit], place));
     if (!report.json()) {
-      std::fprintf(options.dry_run ? stderr : stdout, "%s\n",
-                   place_line((*edits)[place.edit], place).c_str());
+      const std::string line = place_line(edits[place.edit], place);
+      // In a dry run standard output is the difference.
+      options.dry_run ? say_aside(terminal_text(line, false)) : print("%s\n", line.c_str());
     }
   }
   if (!report.json()) {
@@ -266,10 +274,10 @@ constexpr const char* kFooter =
     "Units of the typed edits: kilograms; else those of the schema, degrees for angles.";
 
 void add_edit_options(const Command& verb, Options& options) {
-  verb.add_option("--clear", options.clear, "Take the owning file's opinion on PATH.attr away")
+  verb.add_option("--clear", options.clear, "Remove the owning file's opinion on PATH.attr")
       .repeatable();
   verb.add_option("--apply", options.apply, "PRIM=SCHEMA: apply an API schema").repeatable();
-  verb.add_option("--remove", options.remove, "PRIM=SCHEMA: the other way round").repeatable();
+  verb.add_option("--remove", options.remove, "PRIM=SCHEMA: remove an API schema").repeatable();
   verb.add_option("--mass", options.mass, "PRIM=KILOGRAMS").repeatable();
   verb.add_option("--drive", options.drive, "JOINT=stiffness:10,damping:1,maxForce:5,...")
       .repeatable();
@@ -284,20 +292,18 @@ void add_set(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb =
       parent.add_subcommand("set", "Change properties of an asset, each in the file that owns it");
   auto options = std::make_shared<Options>();
-  verb.add_option("asset", options->asset, "A .usd, .usda or .usdc file").required();
+  verb.add_option("asset", options->asset, "A .usd, .usda or .usdc file").required().file_only();
   verb.add_option("assignments", options->assignments,
                   "PATH.attr=VALUE as text layers print it; PATH.rel=/a,/b for relationships");
   add_edit_options(verb, *options);
-  verb.add_option("--type", options->type, "Type of attributes that are made by this");
-  verb.add_option("--in", options->layer, "This file of the asset, whoever owns the property");
+  verb.add_option("--type", options->type, "The type of attributes that this creates");
+  verb.add_option("--in", options->layer, "Edit this file, whichever owns the property");
   verb.add_option("--engine", options->engine,
                   "The file of this engine alone: physx, mujoco, newton");
   verb.add_option("--physics", options->physics,
                   "The variant of \"Physics\" in which the value has to count");
   verb.add_flag("--dry-run", options->dry_run, "Print the difference, write nothing");
-  verb.add_option("--search-path", options->search_paths, "As for other verbs").split_at_commas();
-  verb.add_option("--sandbox", options->sandbox, "Open no file outside of these folders")
-      .split_at_commas();
+  options->files.add_to(verb);
   verb.footer(kFooter);
   choose(verb, chosen, [&globals, options] { return run_set(globals, *options); });
 }

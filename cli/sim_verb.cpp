@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/output.h"
 #include "cli/report.h"
 #include "cli/simulate.h"
 #include "cli/verb.h"
@@ -18,7 +19,10 @@ namespace {
 struct Options {
   SimulateArguments simulate;
   std::string log;
+  std::string format;
   std::string bake;
+
+  bool uses_standard_output() const { return log == "-" || bake == "-"; }
 };
 
 Json list(const Vec3d& v) { return Json(v.v); }
@@ -88,7 +92,24 @@ Json end_state(const Simulated& s, const std::string& engine) {
 
 void print_numbers(const Json& numbers) {
   for (const auto& number : numbers) {
-    std::printf(" %10.5g", number.get<double>());
+    print(" %10.5g", number.get<double>());
+  }
+}
+
+constexpr std::size_t kMostRows = 50;  // more than that nobody reads
+
+/// The position of each, one line each, as long as people can read them all.
+void print_rows(const Json& states, const char* what, const char* title) {
+  if (states.size() > kMostRows) {
+    print("the positions of %s %s are not listed: --json has them, -o LOG all frames\n",
+        grouped_digits(states.size()).c_str(), what);
+    return;
+  }
+  print("%s\n", title);
+  for (const auto& [path, state] : states.items()) {
+    print("  %-56s", path.c_str());
+    print_numbers(state["position"]);
+    print("\n");
   }
 }
 
@@ -108,64 +129,87 @@ void print_not_mapped(const Json& items) {
   for (const auto& [reason, prims] : reasons) {
     const std::string more =
         prims.size() > 1 ? " and " + std::to_string(prims.size() - 1) + " more" : "";
-    std::printf("not mapped  %s (<%s>%s)\n", reason.c_str(), prims.front().c_str(), more.c_str());
+    print("not mapped  %s (<%s>%s)\n", reason.c_str(), prims.front().c_str(), more.c_str());
   }
 }
 
-void print_text(const Json& state) {
-  std::printf(
+void print_state(const Json& state) {
+  print(
       "%s %s  %zu steps of %g s = %g s  %.1fx real time%s\n",
       state["engine"].get<std::string>().c_str(), state["engineVersion"].get<std::string>().c_str(),
       state["steps"].get<std::size_t>(), state["dt"].get<double>(), state["time"].get<double>(),
       state["realTimeFactor"].get<double>(), state["unstable"].get<bool>() ? "  UNSTABLE" : "");
-  std::printf("energy %.6g J -> %.6g J, %zu contacts\n", state["energy"]["initial"].get<double>(),
+  print("energy %.6g J -> %.6g J, %zu contacts\n", state["energy"]["initial"].get<double>(),
               state["energy"]["final"].get<double>(), state["contacts"].get<std::size_t>());
   if (!state["joints"].empty()) {
-    std::printf("joint positions (degrees or stage units)\n");
+    print_rows(state["joints"], "joints", "joint positions (degrees or stage units)");
   }
-  for (const auto& [path, joint] : state["joints"].items()) {
-    std::printf("  %-56s", path.c_str());
-    print_numbers(joint["position"]);
-    std::printf("\n");
-  }
-  std::printf("body positions (stage units)\n");
-  for (const auto& [path, body] : state["bodies"].items()) {
-    std::printf("  %-56s", path.c_str());
-    print_numbers(body["position"]);
-    std::printf("\n");
-  }
+  print_rows(state["bodies"], "bodies", "body positions (stage units)");
   for (const auto& event : state["events"]) {
-    std::printf("at %g s  <%s> %s\n", event["time"].get<double>(),
+    print("at %g s  <%s> %s\n", event["time"].get<double>(),
                 event["prim"].get<std::string>().c_str(), event["what"].get<std::string>().c_str());
   }
   print_not_mapped(state["notMapped"]);
 }
 
-Result<void> write_files(const Simulated& s, const Options& options, Report& report) {
+Result<void> claim(const Globals& globals, const Options& options, Outputs& outputs) {
+  if (globals.json && options.uses_standard_output()) {
+    return Error(ErrorCode::Invalid, "--json and another output both want standard output")
+        .with_fix("name an output file");
+  }
+  const std::string wanted = "." + options.format;
+  const bool speaks = options.log.ends_with(".csv") || options.log.ends_with(".jsonl") ||
+                      options.log.ends_with(".npz");
+  if (!options.format.empty() && speaks && !options.log.ends_with(wanted)) {
+    return Error(ErrorCode::Invalid, "the name says another format than --format")
+        .in_file(options.log)
+        .with_rule("output.kind")
+        .with_fix("name a file that ends in " + wanted + ", or leave --format out");
+  }
+  TENON_CHECK(outputs.claim(options.format.empty() ? OutputKind::Log : OutputKind::NamedLog,
+                            options.log));
+  return outputs.claim(OutputKind::Overlay, options.bake);
+}
+
+Result<void> write_outputs(const Simulated& s, const Options& options, Outputs& outputs,
+                         Report& report) {
   if (!options.log.empty()) {
-    TENON_TRY(const std::string log, bake::log_for(options.log, *s.scene, s.run.recording));
-    TENON_CHECK(write_output(options.log, log));
+    const std::string kind = !options.format.empty() ? "." + options.format
+                             : options.log == "-"    ? ".csv"
+                                                     : options.log;
+    TENON_TRY(std::string log, bake::log_for(kind, *s.scene, s.run.recording));
+    outputs.put(options.log, std::move(log));
   }
   if (!options.bake.empty()) {
-    TENON_CHECK(write_bake(s, options.simulate, options.bake, report));
+    TENON_CHECK(put_bake(s, options.simulate, options.bake, outputs, report));
   }
-  return {};
+  return outputs.commit();
 }
 
 int run_sim(const Globals& globals, const Options& options) {
   Report report(globals, "sim", options.simulate.asset.asset);
+  Outputs outputs;
+  if (auto claimed = claim(globals, options, outputs); !claimed) {
+    return report.fail(claimed.error());
+  }
+  if (!options.bake.empty() && options.simulate.asset.asset == "-") {
+    return report.fail(Error(ErrorCode::Invalid, "--bake writes a layer over a file, and the asset "
+                                                 "comes from standard input")
+                           .with_rule("usage.value")
+                           .with_fix("name the file"));
+  }
   auto simulated = simulate(options.simulate, report);
   if (!simulated) {
     return report.fail(simulated.error());
   }
   const Json state = end_state(*simulated, options.simulate.engine);
-  if (!globals.json) {
-    print_text(state);
+  if (!globals.json && !options.uses_standard_output()) {
+    print_state(state);
   }
   if (simulated->run.interrupted) {
     return report.finish(kInterrupted, state);
   }
-  if (auto written = write_files(*simulated, options, report); !written) {
+  if (auto written = write_outputs(*simulated, options, outputs, report); !written) {
     report.diagnostics.add(written.error().diagnostic());
     return report.finish(exit_code_of(written.error()), state);
   }
@@ -178,7 +222,10 @@ void add_sim(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand("sim", "Simulate the asset on a real engine");
   auto options = std::make_shared<Options>();
   options->simulate.add_to(verb);
-  verb.add_option("-o,--output", options->log, "Write a log: .csv, .jsonl or .npz");
+  verb.add_option("-o,--output", options->log,
+                  "Write a log: .csv, .jsonl or .npz; - is standard output");
+  verb.add_option("--format", options->format, "Format of the log: csv (as for -o -), jsonl, npz")
+      .one_of({"csv", "jsonl", "npz"});
   verb.add_option("--bake", options->bake, "Also write the motion as a layer over the asset");
   verb.footer(
       "Examples:\n"

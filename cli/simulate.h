@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/output.h"
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/bake/run_simulation.h"
@@ -22,8 +23,8 @@ struct SimulateArguments {
   std::vector<std::string> readings;  ///< --reading NAME=VALUE
   bool uninstance = false;            ///< of bake: instances with bodies inside are taken apart
   std::string engine = "mujoco";
-  double duration = 0;   ///< [s]; 0: what the stage's time range says, else 5
-  double time_step = 0;  ///< [s]; 0: the asset's, else the engine's
+  std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5
+  double time_step = 0;            ///< [s]; 0: the asset's, else the engine's
   double frames_per_second = 60;
 
   void add_to(const Command& verb);
@@ -46,8 +47,8 @@ struct Simulated {
 /// (see Run::failure), one that could not begin is an Error.
 Result<Simulated> simulate(const SimulateArguments& arguments, Report& report);
 
-/// Writes the overlay layer that plays the run.
-Result<void> write_bake(const Simulated& simulated, const SimulateArguments& arguments,
-                        const std::string& output, Report& report);
+/// Puts the overlay layer that plays the run among the outputs.
+Result<void> put_bake(const Simulated& simulated, const SimulateArguments& arguments,
+                      const std::string& output, Outputs& outputs, Report& report);
 
 }  // namespace tenon::cli

@@ -3,6 +3,7 @@
 #include "cli/spline_text.h"
 
 #include "tenon/base/text_number.h"
+#include "tenon/formats/text/value_text.h"
 
 namespace tenon::cli {
 namespace {
@@ -59,10 +60,19 @@ void add_line(std::string& text, const char* name, const std::string& value) {
   text += std::string("  ") + name + " " + value + "\n";
 }
 
-void add_tangent(std::string& text, const std::string& side, const layer::SplineTangent& tangent,
-                 double width) {
+/// In the precision of the spline's values.
+std::string number_text(const layer::Spline& spline, double value) {
+  if (spline.value_type == layer::ValueType::Half) {
+    return formats::value_text(layer::Value(Half(value)));
+  }
+  return spline.value_type == layer::ValueType::Float ? layer_text(static_cast<float>(value))
+                                                      : layer_text(value);
+}
+
+void add_tangent(std::string& text, const layer::Spline& spline, const std::string& side,
+                 const layer::SplineTangent& tangent, double width) {
   add_line(text, (side + "-tan width").c_str(), layer_text(width));
-  add_line(text, (side + "-tan slope").c_str(), layer_text(tangent.slope));
+  add_line(text, (side + "-tan slope").c_str(), number_text(spline, tangent.slope));
   if (tangent.algorithm != layer::TangentAlgorithm::None) {
     const bool custom = tangent.algorithm == layer::TangentAlgorithm::Custom;
     add_line(text, (side + "-tan algorithm").c_str(), custom ? "Custom" : "AutoEase");
@@ -104,13 +114,13 @@ std::string spline_text(const layer::Spline& spline) {
     text += "Knot:\n";
     add_line(text, "value type", type_text(spline));
     add_line(text, "time", layer_text(knot.time));
-    add_line(text, "value", layer_text(knot.value));
+    add_line(text, "value", number_text(spline, knot.value));
     add_line(text, "next interp", interpolation_text(knot.next));
     if (knot.pre_value) {
-      add_line(text, "preValue", layer_text(*knot.pre_value));
+      add_line(text, "preValue", number_text(spline, *knot.pre_value));
     }
-    add_tangent(text, "pre", knot.pre_tangent, width(spline, i, true));
-    add_tangent(text, "post", knot.post_tangent, width(spline, i, false));
+    add_tangent(text, spline, "pre", knot.pre_tangent, width(spline, i, true));
+    add_tangent(text, spline, "post", knot.post_tangent, width(spline, i, false));
   }
   return text;
 }

@@ -4,9 +4,15 @@
 #include <filesystem>
 
 #include "cli/asset_copy.h"
+#include "cli/missing_input.h"
+#include "cli/output.h"
+#include "cli/output_place.h"
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/asset_policy.h"
 #include "tenon/bake/mute_layer.h"
+#include "tenon/base/file_finding.h"
+#include "tenon/bytes/asset_resolver.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/physics/strip.h"
 #include "tenon/tenon.h"
@@ -26,9 +32,42 @@ struct Stripped {
   Json layers = Json::array();
 };
 
+/// A folder is claimed by nothing but the files in it.
+Result<void> claim(const Options& options, Outputs& outputs) {
+  return options.in_place || names_folder(options.output)
+             ? Result<void>()
+             : outputs.claim(OutputKind::Layer, options.output);
+}
+
+/// Physics in layers that do not belong to the asset stays, which is no success.
+void report_outside(const AssetLayers& asset, const Options& options, Report& report) {
+  report.diagnostics.append(asset.refused());
+  for (const std::string& identifier : asset.outside()) {
+    Diagnostics ignored;
+    const auto layer = open_layer(identifier, options.asset.open_options(), ignored);
+    if (!layer) {
+      continue;
+    }
+    layer::Layer copy = **layer;
+    if (physics::strip_physics(copy).total() != 0) {
+      report.diagnostics.add(
+          file_finding(Severity::Error, bytes::kOutsideRule,
+                       "the layer @" + identifier +
+                           "@ lies outside of the folders of the asset; its physics "
+                           "stays",
+                       options.asset.asset, 0,
+                       "if it belongs to the asset, give --allow-read " +
+                           std::filesystem::path(bytes::split_package_path(identifier).package)
+                               .parent_path()
+                               .string()));
+    }
+  }
+}
+
 Result<Stripped> strip(const Options& options, Report& report) {
   TENON_TRY(AssetLayers asset,
             AssetLayers::open(options.asset.asset, options.asset.open_options()));
+  report_outside(asset, options, report);
   Stripped result;
   for (AssetLayer& part : asset.layers()) {
     layer::Layer edited = *part.layer;
@@ -47,8 +86,11 @@ Result<Stripped> strip(const Options& options, Report& report) {
                              {"metadata", counts.metadata}});
     part.edited = std::make_shared<layer::Layer>(std::move(edited));
   }
-  TENON_TRY(const std::vector<std::string> written,
-            options.in_place ? asset.write_in_place() : asset.write_to(options.output));
+  Outputs outputs = options.in_place ? Outputs::in_place() : Outputs();
+  TENON_TRY(const std::vector<std::string> written, options.in_place
+                                                        ? asset.put_in_place(outputs)
+                                                        : asset.put_to(options.output, outputs));
+  TENON_CHECK(outputs.commit());
   for (const std::string& file : asset.without_layout()) {
     report.note("comments and layout of " + shown_path(file) + " are not kept");
   }
@@ -60,15 +102,21 @@ Result<Stripped> strip(const Options& options, Report& report) {
 }
 
 int run_strip(Report& report, const Options& options) {
-  auto stripped = strip(options, report);
+  Outputs outputs;
+  if (auto claimed = claim(options, outputs); !claimed) {
+    return report.fail(claimed.error());
+  }
+  const auto stripped = edit_files(report, [&] { return strip(options, report); });
   if (!stripped) {
     return report.fail(stripped.error());
   }
-  return report.finish(kOk, {{"prims", stripped->counts.prims},
-                             {"apiSchemas", stripped->counts.api_schemas},
-                             {"properties", stripped->counts.properties},
-                             {"metadata", stripped->counts.metadata},
-                             {"layers", stripped->layers}});
+  add_missing_input(options.asset.asset, options.asset.open_options(), report);
+  return report.finish(left_out(report.diagnostics) ? kNo : kOk,
+                       {{"prims", stripped->counts.prims},
+                        {"apiSchemas", stripped->counts.api_schemas},
+                        {"properties", stripped->counts.properties},
+                        {"metadata", stripped->counts.metadata},
+                        {"layers", stripped->layers}});
 }
 
 /// A layer over the asset, with its units and times.
@@ -90,47 +138,55 @@ layer::Layer overlay(const layer::Layer& asset, const std::string& output) {
   return over;
 }
 
-Result<void> write_muted(layer::LayerPtr layer, bool in_place, const std::string& output) {
+Result<void> write_muted(const layer::Layer& layer, bool in_place, const std::string& output) {
+  Outputs outputs = in_place ? Outputs::in_place() : Outputs();
   if (in_place) {
-    TENON_CHECK(save_edited(*layer, layer->identifier()));
-    return {};
+    TENON_CHECK(put_edited(layer, layer.identifier(), outputs));
+    return outputs.commit();
   }
-  if (output == "-") {
-    TENON_TRY(const std::string text, formats::encode_layer(*layer, formats::LayerFormat::Text));
-    return write_output("-", text);
+  formats::LayerFormat format = formats::LayerFormat::Text;
+  if (output != "-") {
+    TENON_TRY(format, formats::layer_format_for(output));
   }
-  std::error_code error;
-  std::filesystem::create_directories(std::filesystem::absolute(output).parent_path(), error);
-  return formats::save_layer(*layer, output);
+  TENON_TRY(std::string contents, formats::encode_layer(layer, format));
+  outputs.put_beside(output, std::move(contents));
+  return outputs.commit();
+}
+
+Result<bake::MuteCounts> mute(const Options& options, Report& report) {
+  TENON_TRY(const stage::Stage stage, open_stage(options.asset.asset, options.asset.open_options(),
+                                                 report.diagnostics));
+  const std::string output = root_output(options.output, stage.root_layer());
+  std::error_code ignored;
+  if (std::filesystem::equivalent(stage.root_layer().identifier(), output, ignored)) {
+    return Error(ErrorCode::Invalid, "the layer over the asset would replace the asset")
+        .in_file(output)
+        .with_rule("output.is-input")
+        .with_fix("name another place, or give --in-place");
+  }
+  layer::Layer layer = options.in_place ? stage.root_layer() : overlay(stage.root_layer(), output);
+  const bake::MuteCounts counts = bake::mute_physics(stage, layer, report.diagnostics);
+  TENON_CHECK(write_muted(layer, options.in_place, output));
+  return counts;
 }
 
 int run_mute(Report& report, const Options& options) {
-  auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
-  if (!stage) {
-    return report.fail(stage.error());
+  Outputs outputs;
+  if (auto claimed = claim(options, outputs); !claimed) {
+    return report.fail(claimed.error());
   }
-  const std::string output = root_output(options.output, stage->root_layer());
-  std::error_code ignored;
-  if (std::filesystem::equivalent(stage->root_layer().identifier(), output, ignored)) {
-    return report.fail(Error(ErrorCode::Invalid, "the layer over the asset would replace the asset")
-                           .in_file(output)
-                           .with_fix("name another place, or give --in-place"));
+  const auto counts = edit_files(report, [&] { return mute(options, report); });
+  if (!counts) {
+    return report.fail(counts.error());
   }
-  layer::Layer layer =
-      options.in_place ? stage->root_layer() : overlay(stage->root_layer(), output);
-  const bake::MuteCounts counts = bake::mute_physics(*stage, layer, report.diagnostics);
-  const auto written =
-      write_muted(std::make_shared<layer::Layer>(std::move(layer)), options.in_place, output);
-  if (!written) {
-    return report.fail(written.error());
-  }
-  report.note("switched off " + std::to_string(counts.bodies) + " bodies, " +
-              std::to_string(counts.colliders) + " colliders, " + std::to_string(counts.joints) +
-              " joints");
-  return report.finish(counts.out_of_reach == 0 ? kOk : kNo, {{"bodies", counts.bodies},
-                                                              {"colliders", counts.colliders},
-                                                              {"joints", counts.joints},
-                                                              {"outOfReach", counts.out_of_reach}});
+  report.note("switched off " + std::to_string(counts->bodies) + " bodies, " +
+              std::to_string(counts->colliders) + " colliders, " +
+              std::to_string(counts->joints) + " joints");
+  return report.finish(counts->out_of_reach == 0 ? kOk : kNo,
+                       {{"bodies", counts->bodies},
+                        {"colliders", counts->colliders},
+                        {"joints", counts->joints},
+                        {"outOfReach", counts->out_of_reach}});
 }
 
 }  // namespace
@@ -157,7 +213,7 @@ void add_strip(const Command& parent, const Globals& globals, Chosen& chosen) {
   choose(verb, chosen, [&globals, options] {
     Report report(globals, "strip", options->asset.asset);
     if (options->output.empty() != options->in_place) {
-      return report.fail(Error(ErrorCode::Invalid, "the result needs a place to be written to")
+      return report.fail(Error(ErrorCode::Invalid, "say where to write the result")
                              .with_fix("give either -o FILE, -o FOLDER or --in-place"));
     }
     if (options->output == "-") {

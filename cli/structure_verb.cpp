@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
+#include <filesystem>
 
+#include "cli/missing_input.h"
+#include "cli/output.h"
+#include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/asset/structure_asset.h"
+#include "tenon/asset_policy.h"
 
 namespace tenon::cli {
 namespace {
@@ -17,6 +21,7 @@ struct Options {
   std::string schema = "as-authored";
   std::string links = "as-authored";
   bool dry_run = false;
+  structure::WriteOptions write;
 };
 
 struct ListedFile {
@@ -65,27 +70,38 @@ structure::LinkNesting nesting_of(const std::string& name) {
                             : LinkNesting::AsAuthored;
 }
 
+Result<structure::StructuredAsset> make(const Options& options, Report& report) {
+  TENON_TRY(structure::StructuredAsset asset,
+            structure_asset(options.asset.asset, options.asset.open_options(), options.structure,
+                            report.diagnostics));
+  if (!options.dry_run) {
+    TENON_CHECK(write_asset(asset.package, options.output, options.write));
+  }
+  return asset;
+}
+
 int run_structure(Report& report, const Options& options) {
-  const auto asset = structure_asset(options.asset.asset, options.asset.open_options(),
-                                     options.structure, report.diagnostics);
+  if (!options.dry_run && !options.write.in_place) {
+    if (auto claimed = structure::check_folder(options.output, options.write); !claimed) {
+      return report.fail(claimed.error());
+    }
+  }
+  const Progress progress(report.globals(), "structuring " + shown_path(options.asset.asset));
+  const auto asset = edit_files(report, [&] { return make(options, report); });
   if (!asset) {
     return report.fail(asset.error());
   }
+  add_missing_input(options.asset.asset, options.asset.open_options(), report);
   const std::vector<ListedFile> files = list_files(asset->package);
-  if (!options.dry_run) {
-    if (auto written = structure::write_package(asset->package, options.output); !written) {
-      return report.fail(written.error());
-    }
-  }
   if (options.dry_run && !report.json()) {
     for (const ListedFile& file : files) {
-      std::printf("%10zu  %-11s %s\n", file.size, file.role.c_str(), file.name.c_str());
+      print("%10zu  %-11s %s\n", file.size, file.role.c_str(), file.name.c_str());
     }
   }
   report.note((options.dry_run ? "would write " : "wrote ") + std::to_string(files.size()) +
               " files; " + std::to_string(asset->moved.size()) +
-              " prims are elsewhere; Physics=" + asset->selection + " is selected");
-  return report.finish(kOk, json_of(*asset, files));
+              " prims moved; Physics=" + asset->selection + " is selected");
+  return report.finish(left_out(report.diagnostics) ? kNo : kOk, json_of(*asset, files));
 }
 
 }  // namespace
@@ -96,7 +112,13 @@ void add_structure(const Command& parent, const Globals& globals, Chosen& chosen
   auto options = std::make_shared<Options>();
   options->asset.add_to(verb);
   verb.add_option("-o,--output", options->output,
-                  "Folder of the new asset; what such an asset has there is replaced in one step");
+                  "Folder of the new asset; an earlier one there is replaced in one step, unless "
+                  "it was edited since");
+  verb.add_flag("--force", options->write.force,
+                "Overwrite an asset that was edited since it was written");
+  verb.add_flag("--in-place", options->write.in_place,
+                "The folder may be that of the asset itself, which it is without -o");
+  options->write.can_be_in_place = true;
   verb.add_option("--name", options->structure.name,
                   "Name of the file that opens the asset; that of the default prim if not given");
   verb.add_option("--names", options->names,
@@ -122,9 +144,12 @@ void add_structure(const Command& parent, const Globals& globals, Chosen& chosen
       "  tenon structure robot.usda --dry-run --json");
   choose(verb, chosen, [&globals, options] {
     Report report(globals, "structure", options->asset.asset);
+    if (options->output.empty() && options->write.in_place) {
+      options->output = std::filesystem::absolute(options->asset.asset).parent_path().string();
+    }
     if (options->output.empty() && !options->dry_run) {
-      return report.fail(Error(ErrorCode::Invalid, "the result needs a place to be written to")
-                             .with_fix("give -o FOLDER, or --dry-run"));
+      return report.fail(Error(ErrorCode::Invalid, "say where to write the result")
+                             .with_fix("give -o FOLDER, --in-place or --dry-run"));
     }
     options->structure.names =
         options->names == "tutorial" ? structure::Names::Tutorial : structure::Names::Current;

@@ -12,6 +12,7 @@
 #include "cli/json_writer.h"
 #include "cli/layer_json.h"
 #include "cli/list_op_json.h"
+#include "cli/output.h"
 #include "cli/report.h"
 #include "cli/schema_json.h"
 #include "cli/verb.h"
@@ -29,14 +30,18 @@ int answer(Report& report, const Result<std::string>& text) {
   if (!text) {
     return report.fail(text.error());
   }
-  if (auto written = write_output("-", *text + "\n"); !written) {
-    return report.fail(written.error());
-  }
+  print_data(*text + "\n");
   return report.finish(kOk);
 }
 
-Result<std::string> layer_text(const std::string& file, Diagnostics& diagnostics) {
-  TENON_TRY(const layer::LayerPtr layer, open_layer(file, diagnostics));
+struct LayerOptions {
+  std::string file;
+  FileAccess files;
+};
+
+Result<std::string> layer_text(const LayerOptions& options, Diagnostics& diagnostics) {
+  TENON_TRY(const layer::LayerPtr layer,
+            open_layer(options.file, options.files.open_options(), diagnostics));
   std::ostringstream out;
   write_layer_json(out, *layer);
   return out.str();
@@ -71,7 +76,8 @@ Result<std::string> values_text(const ValueOptions& options, Diagnostics& diagno
             open_stage(options.asset.asset, options.asset.open_options(), diagnostics));
   const stage::Attribute attribute = stage.prim(path.prim()).attribute(path.name());
   if (!path.is_property() || !attribute.is_defined()) {
-    return Error(ErrorCode::NotFound, "<" + options.attribute + "> is no attribute of the stage");
+    return Error(ErrorCode::NotFound,
+                 "<" + options.attribute + "> is not an attribute of the stage");
   }
   std::ostringstream out;
   {
@@ -90,11 +96,12 @@ Result<std::string> values_text(const ValueOptions& options, Diagnostics& diagno
 void add_layer(const Command& runner, const Globals& globals, Chosen& chosen) {
   const Command verb =
       runner.add_subcommand("layer", "The fields of every spec of one layer, as JSON");
-  auto file = std::make_shared<std::string>();
-  verb.add_option("file", *file, "A .usd, .usda, .usdc or .usdz file").required();
-  choose(verb, chosen, [&globals, file] {
-    Report report(globals, kName, *file);
-    return answer(report, layer_text(*file, report.diagnostics));
+  auto options = std::make_shared<LayerOptions>();
+  verb.add_option("file", options->file, "A .usd, .usda, .usdc or .usdz file").required();
+  options->files.add_to(verb);
+  choose(verb, chosen, [&globals, options] {
+    Report report(globals, kName, options->file);
+    return answer(report, layer_text(*options, report.diagnostics));
   });
 }
 

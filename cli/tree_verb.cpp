@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/kinematic_tree.h"
+#include "cli/output.h"
 #include "cli/prim_walk.h"
 #include "cli/report.h"
 #include "cli/verb.h"
@@ -20,6 +22,8 @@ struct Options {
   bool attributes = false;
   bool metadata = false;
   bool kinematic = false;
+  std::string show;
+  std::vector<std::string> assets;
 };
 
 std::string specifier_word(layer::Specifier specifier) {
@@ -58,7 +62,7 @@ struct Branch {
 void print_attributes(const stage::Prim& prim, const std::string& indent) {
   for (const Token& name : prim.authored_property_names()) {
     if (prim.is_relationship(name)) {
-      std::printf("%s  .%s -> %zu\n", indent.c_str(), name.str().c_str(),
+      print("%s  .%s -> %zu\n", indent.c_str(), name.str().c_str(),
                   prim.relationship(name).targets().size());
       continue;
     }
@@ -66,7 +70,7 @@ void print_attributes(const stage::Prim& prim, const std::string& indent) {
     const layer::Value value = attribute.get();
     std::string text = value.size() > 8 ? "[" + std::to_string(value.size()) + " values]"
                                         : formats::value_text(value);
-    std::printf("%s  .%s %s = %s\n", indent.c_str(), name.str().c_str(),
+    print("%s  .%s %s = %s\n", indent.c_str(), name.str().c_str(),
                 attribute.type_name().str().c_str(), text.c_str());
   }
 }
@@ -74,14 +78,14 @@ void print_attributes(const stage::Prim& prim, const std::string& indent) {
 void print_metadata(const stage::Prim& prim, const std::string& indent) {
   for (const auto& [field, value] : prim.all_authored_metadata()) {
     if (field != "specifier" && field != "typeName") {
-      std::printf("%s  (%s = %s)\n", indent.c_str(), field.c_str(),
+      print("%s  (%s = %s)\n", indent.c_str(), field.c_str(),
                   formats::value_text(value).c_str());
     }
   }
 }
 
 void print_tree(const stage::Stage& stage, const Options& options) {
-  std::printf("/\n");
+  print("/\n");
   std::vector<Branch> open;
   auto push_children = [&](const stage::Prim& prim, const std::string& indent) {
     const std::vector<stage::Prim> children = prim.children();
@@ -93,7 +97,7 @@ void print_tree(const stage::Stage& stage, const Options& options) {
   while (!open.empty()) {
     const Branch branch = open.back();
     open.pop_back();
-    std::printf("%s%s%s [%s]\n", branch.indent.c_str(), branch.last ? "`--" : "|--",
+    print("%s%s%s [%s]\n", branch.indent.c_str(), branch.last ? "`--" : "|--",
                 branch.prim.name().str().c_str(), prim_words(branch.prim).c_str());
     const std::string below = branch.indent + (branch.last ? "   " : "|  ");
     if (options.metadata) {
@@ -127,10 +131,9 @@ int run_tree(const Globals& globals, const Options& options) {
     return report.fail(stage.error());
   }
   Json body = Json::object();
-  const bool prims = !options.kinematic || !options.asset.physics.empty();
-  if (prims && globals.json) {
+  if (!options.kinematic && globals.json) {
     body["prims"] = tree_json(*stage);
-  } else if (prims) {
+  } else if (!options.kinematic) {
     print_tree(*stage, options);
   }
   if (options.kinematic) {
@@ -138,17 +141,20 @@ int run_tree(const Globals& globals, const Options& options) {
     const KinematicTree tree = make_kinematic_tree(scene);
     body["kinematicTree"] = kinematic_json(scene, tree);
     if (!globals.json) {
-      std::fputs(kinematic_text(scene, tree).c_str(), stdout);
+      print_text(kinematic_text(scene, tree));
     }
   }
   return report.finish(kOk, body);
 }
 
-/// `tree --physics A` reads as "the kinematic tree of A", although --physics may take a value.
-void untangle_physics(Options& options, bool physics_given) {
-  options.kinematic = physics_given;
-  if (options.asset.asset.empty()) {
-    std::swap(options.asset.asset, options.asset.physics);
+/// `--physics` without a value is the older way to write `--show physics`. In `tree --physics A`
+/// what stands behind it is the asset.
+void untangle_physics(Options& options, const Option& physics) {
+  const bool bare = physics.given() && options.asset.physics.empty();
+  options.kinematic = options.show == "physics" || bare;
+  if (options.assets.empty() && !options.asset.physics.empty()) {
+    options.kinematic = true;
+    options.assets.push_back(std::exchange(options.asset.physics, {}));
   }
 }
 
@@ -156,20 +162,35 @@ void untangle_physics(Options& options, bool physics_given) {
 
 void add_tree(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb =
-      parent.add_subcommand("tree", "The prim tree; with --physics the tree of bodies and joints");
+      parent.add_subcommand("tree", "The prim tree, or with --show physics that of the bodies");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(verb);
-  verb.option("asset").required(false);
+  options->asset.add_several_to(verb, options->assets);
+  verb.option("assets").required(false);
   const Option physics = verb.option("--physics");
-  physics.with_optional_value().description(
-      "Also bodies, joint types, degrees of freedom and masses, under this variant of the default "
-      "prim's variant set \"Physics\"; without a value only those, under the selection in force");
+  physics.with_optional_value();
+  verb.add_option("--show", options->show,
+                  "physics: the tree of bodies and joints, with joint types, degrees of freedom "
+                  "and masses")
+      .one_of({"physics"})
+      .value_name("WHAT");
   verb.add_flag("-a,--attributes", options->attributes, "Also attributes and their values");
   verb.add_flag("-m,--metadata", options->metadata, "Also metadata");
-  verb.footer("Examples:\n  tenon tree hand.usda -a\n  tenon tree hand.usda --physics");
+  verb.footer(
+      "Examples:\n  tenon tree hand.usda -a\n  tenon tree hand.usda --mask /hand/palm\n"
+      "  tenon tree hand.usda --show physics --physics physx");
   choose(verb, chosen, [&globals, options, physics] {
-    untangle_physics(*options, physics.given());
-    return run_tree(globals, *options);
+    untangle_physics(*options, physics);
+    if (options->assets.empty()) {
+      Report report(globals, "tree", "");
+      return report.fail(Error(ErrorCode::Invalid, "tenon tree: no asset is given")
+                             .with_rule("usage.missing-argument")
+                             .with_fix("see `tenon tree --help`"));
+    }
+    return each_asset(globals, "tree", options->assets,
+                      [&](const Globals& inner, const auto& name) {
+                        options->asset.asset = name;
+                        return run_tree(inner, *options);
+                      });
   });
 }
 

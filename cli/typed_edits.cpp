@@ -73,7 +73,7 @@ Result<Edits> mass_edits(const stage::Stage& stage, const std::string& text) {
   TENON_TRY(const Assignment mass, read_assignment(text, "PRIM=KILOGRAMS, as in /hand/palm=0.14"));
   const auto kilograms = parse_double(mass.value);
   if (!kilograms || !(*kilograms > 0)) {
-    return bad(text, "a mass is a number of kilograms above zero");
+    return bad(text, "a mass is a number of kilograms above 0");
   }
   const double unit = stage.metadata(Token("kilogramsPerUnit")).get_or(1.0);
   const double value = unit > 0 ? *kilograms / unit : *kilograms;

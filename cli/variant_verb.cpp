@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "cli/output.h"
 #include "cli/prim_walk.h"
 #include "cli/report.h"
 #include "cli/verb.h"
@@ -38,10 +39,10 @@ Json variants_json(const stage::Stage& stage, const std::string& only) {
 
 void print_variants(const Json& variants) {
   for (const auto& v : variants) {
-    std::printf("%s  %s\n", v["prim"].get<std::string>().c_str(),
+    print("%s  %s\n", v["prim"].get<std::string>().c_str(),
                 v["set"].get<std::string>().c_str());
     for (const auto& option : v["options"]) {
-      std::printf("  %s %s\n", option == v["selection"] ? "*" : " ",
+      print("  %s %s\n", option == v["selection"] ? "*" : " ",
                   option.get<std::string>().c_str());
     }
   }
@@ -109,8 +110,9 @@ Result<std::optional<std::string>> edited_text(const layer::Layer& edited, Repor
   return std::optional<std::string>(std::move(text.text));
 }
 
-Result<void> write_selection(const layer::Layer& layer, const Selection& selection,
-                             const Options& options, Report& report) {
+/// The contents of the file to be written.
+Result<std::string> with_selection_written(const layer::Layer& layer, const Selection& selection,
+                                           const Options& options, Report& report) {
   namespace fs = std::filesystem;
   const std::string output = options.in_place ? layer.identifier() : options.output;
   const bool same_folder = output != "-" && fs::absolute(output).parent_path().lexically_normal() ==
@@ -129,51 +131,81 @@ Result<void> write_selection(const layer::Layer& layer, const Selection& selecti
       }
     }
     report.note(shown_path(output) + " is a layer over " + shown_path(layer.identifier()));
-    return formats::save_layer(with_selection(std::move(over), selection), output);
+    TENON_TRY(const formats::LayerFormat format, formats::layer_format_for(output));
+    return formats::encode_layer(with_selection(std::move(over), selection), format);
   }
   const layer::Layer changed = with_selection(layer, selection);
   const auto format = formats::layer_format_for(output);
   if (options.in_place || output == "-" || (format && *format == formats::LayerFormat::Text)) {
-    TENON_TRY(const auto text, edited_text(changed, report));
+    TENON_TRY(auto text, edited_text(changed, report));
     if (text) {
-      return write_output(output, *text);
+      return *std::move(text);
     }
   }
   if (output == "-") {
-    TENON_TRY(const std::string text, formats::encode_layer(changed, formats::LayerFormat::Text));
-    return write_output(output, text);
+    return formats::encode_layer(changed, formats::LayerFormat::Text);
   }
-  return formats::save_layer(changed, output);
+  if (options.in_place && bytes::is_in_package(output)) {
+    return Error(ErrorCode::Unsupported, "files in a package are not changed in place")
+        .in_file(output)
+        .with_fix("give -o FILE, or unpack it: tenon zip PACKAGE --extract FOLDER");
+  }
+  if (options.in_place) {
+    return formats::encode_layer(changed, formats::LayerFormat::Crate);
+  }
+  TENON_TRY(const formats::LayerFormat wanted, format);
+  return formats::encode_layer(changed, wanted);
 }
 
-int run_variant(const Globals& globals, const Options& options) {
-  Report report(globals, "variant", options.asset.asset);
+Result<Selection> select(const Options& options, Outputs& outputs, Report& report) {
+  TENON_TRY(const stage::Stage stage, open_stage(options.asset.asset, options.asset.open_options(),
+                                                 report.diagnostics));
+  TENON_TRY(Selection selection, find_selection(stage, options));
+  Diagnostics known;  // the stage has reported them
+  TENON_TRY(const layer::LayerPtr layer,
+            open_layer(options.asset.asset, options.asset.open_options(), known));
+  TENON_TRY(std::string contents, with_selection_written(*layer, selection, options, report));
+  outputs.put(options.in_place ? layer->identifier() : options.output, std::move(contents));
+  TENON_CHECK(outputs.commit());
+  return selection;
+}
+
+int list_variants(Report& report, const Options& options) {
   auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }
+  const Json variants = variants_json(*stage, options.prim);
+  if (!report.json()) {
+    print_variants(variants);
+  }
+  return report.finish(kOk, {{"variants", variants}});
+}
+
+int run_variant(const Globals& globals, const Options& options) {
+  Report report(globals, "variant", options.asset.asset);
   if (options.assignment.empty()) {
-    const Json variants = variants_json(*stage, options.prim);
-    if (!globals.json) {
-      print_variants(variants);
-    }
-    return report.finish(kOk, {{"variants", variants}});
+    return list_variants(report, options);
   }
   if (options.output.empty() != options.in_place) {
-    return report.fail(Error(ErrorCode::Invalid, "a selection needs a place to be written to")
+    return report.fail(Error(ErrorCode::Invalid, "say where to write the selection")
                            .with_fix("give either -o FILE or --in-place"));
   }
-  auto selection = find_selection(*stage, options);
+  if (options.output == "-" && globals.json) {
+    return report.fail(
+        Error(ErrorCode::Invalid, "--json and a layer cannot both go to standard output")
+            .with_fix("name an output file with -o"));
+  }
+  Outputs claims;
+  if (auto claimed = claims.claim(OutputKind::Layer, options.output); !claimed) {
+    return report.fail(claimed.error());
+  }
+  const auto selection = edit_files(report, [&] {
+    Outputs outputs = options.in_place ? Outputs::in_place() : Outputs();
+    return select(options, outputs, report);
+  });
   if (!selection) {
     return report.fail(selection.error());
-  }
-  Diagnostics known;  // the stage has reported them
-  auto layer = open_layer(options.asset.asset, options.asset.open_options(), known);
-  if (!layer) {
-    return report.fail(layer.error());
-  }
-  if (auto written = write_selection(**layer, *selection, options, report); !written) {
-    return report.fail(written.error());
   }
   return report.finish(kOk, {{"prim", selection->prim.str()},
                              {"set", selection->set},

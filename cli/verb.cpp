@@ -2,30 +2,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/verb.h"
 
-#include <cstdlib>
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+
+#include "tenon/base/run_limits.h"
+#include "tenon/bytes/file_bytes.h"
 
 namespace tenon::cli {
 namespace {
 
-/// Folders of PXR_AR_DEFAULT_SEARCH_PATH, separated by ':', as OpenUSD reads it.
-std::vector<std::string> environment_search_paths() {
-  std::vector<std::string> folders;
-  const char* text = std::getenv("PXR_AR_DEFAULT_SEARCH_PATH");
-  std::string rest = text == nullptr ? "" : text;
-  while (!rest.empty()) {
-    const std::size_t colon = rest.find(':');
-    if (colon != 0) {
-      folders.push_back(rest.substr(0, colon));
+/// All of standard input; read once, however often it is asked for.
+std::shared_ptr<const bytes::FileBytes> standard_input() {
+  static const std::shared_ptr<const bytes::FileBytes> contents = [] {
+    std::string text;
+    std::array<char, 1u << 16u> buffer{};
+    while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), stdin)) {
+      text.append(buffer.data(), count);
+      if (text.size() > limits::kStandardInput) {
+        throw std::runtime_error("standard input holds more than 4 GiB; read it from a file");
+      }
     }
-    rest = colon == std::string::npos ? std::string() : rest.substr(colon + 1);
-  }
-  return folders;
+    if (std::ferror(stdin) != 0) {
+      throw std::runtime_error("standard input cannot be read");
+    }
+    return bytes::FileBytes::own(std::move(text));
+  }();
+  return contents;
 }
 
 }  // namespace
 
 void AssetArguments::add_to(const Command& verb) {
-  verb.add_option("asset", asset, "A .usd, .usda, .usdc or .usdz file").required();
+  verb.add_option("asset", asset, "A .usd, .usda, .usdc or .usdz file").required().file_only();
+  add_options_to(verb);
+}
+
+void AssetArguments::add_with_standard_input_to(const Command& verb) {
+  verb.add_option("asset", asset, "A .usd, .usda, .usdc or .usdz file; - is standard input")
+      .required();
+  add_options_to(verb);
+}
+
+void AssetArguments::add_several_to(const Command& verb, std::vector<std::string>& assets) {
+  verb.add_option("assets", assets, "USD files: .usd, .usda, .usdc or .usdz; - is standard input")
+      .required();
   add_options_to(verb);
 }
 
@@ -44,13 +65,10 @@ void AssetArguments::add_options_to(const Command& verb) {
                   "Compose as if these layers were not there: files, or asset paths as layers name "
                   "them; the asset itself cannot be muted")
       .split_at_commas();
-  verb.add_option("--search-path", search_paths,
-                  "Look up asset paths without ./ in these folders, too, before those of the "
-                  "environment variable PXR_AR_DEFAULT_SEARCH_PATH")
-      .split_at_commas();
-  verb.add_option("--sandbox", sandbox,
-                  "Open no file outside of these folders, whatever layers, links and packages name")
-      .split_at_commas();
+  files.add_to(verb);
+  verb.add_option("--most-work", most_work, {1, 1e15, false, false, ""},
+                  "Let composition take this many units of work (docs/limits.md), for scenes that "
+                  "are large by their arcs");
 }
 
 bool AssetArguments::selects() const {
@@ -59,6 +77,7 @@ bool AssetArguments::selects() const {
 
 OpenOptions AssetArguments::open_options() const {
   OpenOptions options;
+  options.contents = asset == "-" ? standard_input() : nullptr;
   options.physics_variant = physics;
   options.overrides = overrides;
   const bool none = load == std::vector<std::string>{"none"};
@@ -69,11 +88,8 @@ OpenOptions AssetArguments::open_options() const {
   }
   options.muted = muted;
   options.mask = mask;
-  options.search_paths = search_paths;
-  for (const std::string& folder : environment_search_paths()) {
-    options.search_paths.push_back(folder);
-  }
-  options.sandbox_roots = sandbox;
+  files.apply_to(options);
+  options.most_work = most_work;
   return options;
 }
 

@@ -9,17 +9,22 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "cli/file_access.h"
 #include "tenon/base/result.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
+
+struct Envelopes;  // cli/report.h
 
 /// Options that every verb understands.
 struct Globals {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
+  bool version = false;
   std::string color = "auto";
+  Envelopes* collected = nullptr;  ///< where the JSON of one asset of several goes
 };
 
 /// The verb that the command line chose; run after parsing.
@@ -34,13 +39,17 @@ struct AssetArguments {
   std::vector<std::string> overrides;  ///< --set PATH.attr=value
   std::vector<std::string> mask;
   bool unloaded = false;
-  std::vector<std::string> load;          ///< --load none, all or prim paths
-  std::vector<std::string> muted;         ///< --mute-layer LAYER
-  std::vector<std::string> search_paths;  ///< --search-path
-  std::vector<std::string> sandbox;       ///< --sandbox
+  std::vector<std::string> load;   ///< --load none, all or prim paths
+  std::vector<std::string> muted;  ///< --mute-layer LAYER
+  FileAccess files;                ///< --search-path, --sandbox, --allow-read
+  std::size_t most_work = 0;              ///< --most-work
 
-  /// Adds the positional and the options to `verb`.
+  /// Adds the positional and the options to `verb`, which reads a file.
   void add_to(const Command& verb);
+  /// The same for a verb that also reads a layer from standard input, named "-".
+  void add_with_standard_input_to(const Command& verb);
+  /// The same for verbs that answer for several assets in turn (each_asset in cli/report.h).
+  void add_several_to(const Command& verb, std::vector<std::string>& assets);
   /// The options alone.
   void add_options_to(const Command& verb);
   OpenOptions open_options() const;
@@ -57,13 +66,16 @@ using AddVerb = void(const Command& parent, const Globals& globals, Chosen& chos
 AddVerb add_bake;
 AddVerb add_cat;
 AddVerb add_check;
+AddVerb add_completion;
 AddVerb add_convert;
 AddVerb add_diff;
 AddVerb add_doctor;
 AddVerb add_dump;
 AddVerb add_dump_index;
 AddVerb add_explain;
+AddVerb add_help;
 AddVerb add_info;
+AddVerb add_manual;
 AddVerb add_physics;
 AddVerb add_set;
 AddVerb add_sim;
@@ -72,6 +84,7 @@ AddVerb add_structure;
 AddVerb add_tree;
 AddVerb add_variant;
 AddVerb add_test_runner;
+AddVerb add_version;
 AddVerb add_where;
 AddVerb add_zip;
 

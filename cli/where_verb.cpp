@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 
+#include "cli/output.h"
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "cli/where_opinions.h"
@@ -27,7 +28,7 @@ Result<Object> parse_object(const std::string& text) {
   const auto path = Path::parse(text);
   if (!path || !path->is_absolute() || path->has_variants() ||
       !(path->is_prim_or_root() || path->kind() == PathKind::Property)) {
-    return Error(ErrorCode::Invalid, "\"" + text + "\" is no path of a prim or property")
+    return Error(ErrorCode::Invalid, "\"" + text + "\" is not the path of a prim or property")
         .with_fix("write it from the root, as in /hand/palm.physics:mass");
   }
   return path->is_property() ? Object{path->parent(), path->name()} : Object{*path, {}};
@@ -94,7 +95,7 @@ int run_where(const Globals& globals, const Options& options) {
     }
   }
   if (!report.json()) {
-    std::fputs(where_text(answer).c_str(), stdout);
+    print_text(where_text(answer));
   }
   return report.finish(kOk, answer);
 }
@@ -105,7 +106,7 @@ void add_where(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
       "where", "Every file that speaks about a property or prim, and which of them counts");
   auto options = std::make_shared<Options>();
-  options->asset.add_to(verb);
+  options->asset.add_with_standard_input_to(verb);
   verb.add_option("object", options->object, "PRIM.property, or PRIM for its own fields")
       .required();
   verb.add_flag("--variants", options->variants,

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/output.h"
+#include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/verb.h"
-#include "tenon/bytes/unpack_zip.h"
+#include "tenon/asset_policy.h"
 #include "tenon/bytes/zip_archive.h"
 #include "tenon/pack_asset.h"
+#include "tenon/stage_sources.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -19,8 +22,7 @@ struct Options {
   std::string folder;
   bool list = false;
   bool strict = false;
-  std::vector<std::string> search_paths;
-  std::vector<std::string> sandbox;
+  FileAccess files;
 };
 
 Json file_json(const formats::PackedFile& file) {
@@ -34,21 +36,21 @@ Json file_json(const formats::PackedFile& file) {
 void note_files(const Report& report, const std::vector<formats::PackedFile>& files) {
   for (const formats::PackedFile& file : files) {
     if (file.outside) {
-      report.note("from outside of the asset's folder: " + shown_path(file.source) + " as " +
+      report.note("from outside the asset's folder: " + shown_path(file.source) + " as " +
                   file.name);
     }
   }
 }
 
 int pack(Report& report, const Options& options) {
-  OpenOptions open;
-  open.search_paths = options.search_paths;
-  open.sandbox_roots = options.sandbox;
-  if (!bytes::is_package_name(options.output)) {
-    return report.fail(Error(ErrorCode::Invalid, options.output.empty()
-                                                     ? "a package needs a place to be written to"
-                                                     : "a package has a name that ends in .usdz")
+  const OpenOptions open = options.files.open_options();
+  if (options.output.empty()) {
+    return report.fail(Error(ErrorCode::Invalid, "say where to write the package")
                            .with_fix("give -o NAME.usdz"));
+  }
+  Outputs outputs;
+  if (auto claimed = outputs.claim(OutputKind::Package, options.output); !claimed) {
+    return report.fail(claimed.error());
   }
   auto packed = pack_asset(options.asset, open, report.diagnostics);
   if (!packed) {
@@ -57,34 +59,48 @@ int pack(Report& report, const Options& options) {
   const bool complete =
       std::none_of(report.diagnostics.begin(), report.diagnostics.end(),
                    [](const Diagnostic& finding) { return finding.rule == "package.missing"; });
-  const bool write = complete || !options.strict;
+  const bool refused = left_out(report.diagnostics);
+  const bool write = (complete && !refused) || !options.strict;
+  const std::size_t size = packed->package.size();
   if (write) {
-    if (auto written = write_output(options.output, packed->package); !written) {
+    outputs.put(options.output, std::move(packed->package));
+    if (auto written = outputs.commit(); !written) {
       return report.fail(written.error());
     }
   }
   note_files(report, packed->files);
   report.note(write ? shown_path(options.output) + ": " + std::to_string(packed->files.size()) +
-                          " files, " + std::to_string(packed->package.size()) + " bytes"
+                          " files, " + std::to_string(size) + " bytes"
                     : "nothing is written: files are missing");
   Json files = Json::array();
   for (const formats::PackedFile& file : packed->files) {
     files.push_back(file_json(file));
   }
-  return report.finish(write ? kOk : kNo, {{"output", write ? Json(options.output) : Json(nullptr)},
-                                           {"size", packed->package.size()},
-                                           {"complete", complete},
-                                           {"files", std::move(files)}});
+  return report.finish(write && !refused ? kOk : kNo,
+                       {{"output", write ? Json(options.output) : Json(nullptr)},
+                        {"size", size},
+                        {"complete", complete && !refused},
+                        {"files", std::move(files)}});
 }
 
-Result<bytes::ZipArchive> open_archive(const std::string& path) {
-  TENON_TRY(const auto contents, bytes::FileBytes::open(path));
+Result<std::shared_ptr<const bytes::FileBytes>> open_package(const Options& options) {
+  const bytes::AssetResolver resolver(resolver_options(options.files.open_options()));
+  TENON_TRY(auto contents, resolver.open(options.asset));
   if (!bytes::ZipArchive::is_zip(contents->text())) {
-    return Error(ErrorCode::Invalid, "this is no package")
-        .in_file(path)
+    return Error(ErrorCode::Invalid, "this is not a package")
+        .in_file(options.asset)
         .with_fix("name a .usdz file; tenon zip ASSET -o NAME.usdz makes one");
   }
-  return bytes::ZipArchive::open(contents);
+  return contents;
+}
+
+Result<bytes::ZipArchive> open_archive(const Options& options) {
+  TENON_TRY(auto contents, open_package(options));
+  auto archive = bytes::ZipArchive::open(std::move(contents));
+  if (!archive) {
+    return std::move(archive).error().in_file(options.asset);
+  }
+  return archive;
 }
 
 /// Offset of the data of an entry in the file; the specification wants multiples of 64.
@@ -95,22 +111,21 @@ Result<std::size_t> data_offset(const bytes::FileBytes& file, const bytes::ZipAr
 }
 
 int list(Report& report, const Options& options) {
-  const auto file = bytes::FileBytes::open(options.asset);
-  auto archive = open_archive(options.asset);
-  if (!file || !archive) {
-    return report.fail(file ? archive.error() : file.error());
+  const auto file = open_package(options);
+  if (!file) {
+    return report.fail(file.error());
   }
-  auto again = bytes::ZipArchive::open(*file);  // offsets count from these bytes
-  if (!again) {
-    return report.fail(again.error());
+  const auto archive = bytes::ZipArchive::open(*file);
+  if (!archive) {
+    return report.fail(Error(archive.error()).in_file(options.asset));
   }
   Json entries = Json::array();
-  for (const bytes::ZipEntry& entry : again->entries()) {
-    const auto offset = data_offset(**file, *again, entry);
+  for (const bytes::ZipEntry& entry : archive->entries()) {
+    const auto offset = data_offset(**file, *archive, entry);
     const bool stored = entry.method == 0 && !entry.encrypted;
     const bool aligned = offset && *offset % 64 == 0;
     if (!report.json()) {
-      std::printf("%12llu  %s%s\n", static_cast<unsigned long long>(entry.size), entry.name.c_str(),
+      print("%12llu  %s%s\n", static_cast<unsigned long long>(entry.size), entry.name.c_str(),
                   !stored    ? "  (not stored: readers reject it)"
                   : !aligned ? "  (not at a multiple of 64 bytes)"
                              : "");
@@ -125,11 +140,11 @@ int list(Report& report, const Options& options) {
 }
 
 int extract(Report& report, const Options& options) {
-  auto archive = open_archive(options.asset);
+  auto archive = open_archive(options);
   if (!archive) {
     return report.fail(archive.error());
   }
-  if (auto written = bytes::unpack_zip(*archive, options.folder); !written) {
+  if (auto written = unpack(*archive, options.folder); !written) {
     return report.fail(written.error());
   }
   Json files = Json::array();
@@ -142,6 +157,8 @@ int extract(Report& report, const Options& options) {
 
 int run_zip(const Globals& globals, const Options& options) {
   Report report(globals, "zip", options.asset);
+  const Progress progress(globals, (options.folder.empty() ? "packing " : "unpacking ") +
+                                       shown_path(options.asset));
   const int ways =
       (options.list ? 1 : 0) + (options.folder.empty() ? 0 : 1) + (options.output.empty() ? 0 : 1);
   if (ways > 1) {
@@ -160,20 +177,19 @@ void add_zip(const Command& parent, const Globals& globals, Chosen& chosen) {
       "zip", "Pack an asset with all its variants into one .usdz; list, unpack");
   auto options = std::make_shared<Options>();
   verb.add_option("asset", options->asset, "A USD file; with --list or --extract a .usdz")
-      .required();
+      .required()
+      .file_only();
   verb.add_option("-o,--output", options->output, "The .usdz to write, in one step");
   verb.add_flag("--list", options->list, "Name the files of a package");
   verb.add_option("--extract", options->folder,
                   "Unpack into this folder, which must not exist yet; all or nothing");
   verb.add_flag("--strict", options->strict, "Write nothing when a file is missing, and answer no");
-  verb.add_option("--search-path", options->search_paths, "As for other verbs").split_at_commas();
-  verb.add_option("--sandbox", options->sandbox, "Open no file outside of these folders")
-      .split_at_commas();
+  options->files.add_to(verb);
   verb.footer(
       "Everything that any variant names goes in: layers, textures, clips; files keep their "
       "places,\n"
-      "those from outside of the asset's folder get one. What cannot be found is reported by "
-      "name.\n\n"
+      "those from outside of the asset's folder, which --allow-read lets in, get one. What cannot "
+      "be\nfound or may not be read is reported by name.\n\n"
       "Examples:\n"
       "  tenon zip hand.usda -o hand.usdz\n"
       "  tenon zip hand.usdz --list\n"

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What the program understands, as values: help, manual pages, completions and tests all read the
+/// same table, which command_line.cpp makes of the options that parse.
+namespace tenon::cli {
+
+/// The numbers that an option takes.
+struct NumberRange {
+  double least = 0;
+  double most = 0;
+  bool without_least = false;  ///< `least` itself is too small
+  bool whole = false;          ///< whole numbers only
+  std::string unit;            ///< "s", or empty
+
+  bool holds(double number) const;
+  /// "from 0 to 10 s", "above 0, up to 10 s".
+  std::string text() const;
+};
+
+struct OptionInfo {
+  std::vector<std::string> names;  ///< with their dashes; a positional has one, without
+  std::string value;               ///< what stands for the value, "FILE"; empty: takes none
+  std::string help;
+  std::vector<std::string> choices;  ///< when not empty, the only values
+  std::optional<NumberRange> range;
+  bool positional = false;
+  bool required = false;
+  bool list = false;            ///< may be given many times
+  bool optional_value = false;  ///< the value may be left out
+
+  const std::string& longest_name() const { return names.back(); }
+  /// "-o, --output FILE".
+  std::string signature() const;
+};
+
+struct CommandInfo {
+  std::string name;
+  std::string about;
+  std::string footer;
+  std::vector<OptionInfo> options;  ///< positionals first
+  std::vector<CommandInfo> commands;
+
+  const CommandInfo* find(const std::string& verb) const;
+};
+
+}  // namespace tenon::cli

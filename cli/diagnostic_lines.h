@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+
+/// Findings as lines that people read.
+namespace tenon::cli {
+
+/// A finding and what is said behind it: " (Physics=physx)".
+struct Remark {
+  const Diagnostic* finding = nullptr;
+  std::string behind;
+};
+
+/// One line for each finding, in their order. Where findings repeat, the first ones stand for all:
+/// of more than kShownAlike that say the same of several places one, of more than kShownOfAKind
+/// that differ in names and numbers alone so many; the last of them ends with "and 19,999 more like
+/// it". With `all` none is left out. Nothing in a line acts on a terminal but the colours.
+std::vector<std::string> diagnostic_lines(const std::vector<Remark>& findings, bool color,
+                                          bool all);
+
+constexpr std::size_t kShownAlike = 3;
+constexpr std::size_t kShownOfAKind = 10;
+
+/// The line of one finding, with the file as shown_path has it.
+std::string diagnostic_line(Diagnostic diagnostic, bool color);
+
+/// A file name as people read it: relative to the working folder.
+std::string shown_path(const std::string& path);
+
+/// "19,999".
+std::string grouped_digits(std::size_t number);
+
+}  // namespace tenon::cli

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/command_line.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+
+/// Which files a verb may read for an asset: the options --search-path, --sandbox and --allow-read,
+/// which every verb that reads an asset takes from here.
+struct FileAccess {
+  std::vector<std::string> search_paths;
+  std::vector<std::string> sandbox;
+  std::vector<std::string> allowed;
+
+  void add_to(const Command& verb);
+  /// Also the folders of the environment variable PXR_AR_DEFAULT_SEARCH_PATH, as OpenUSD has it.
+  void apply_to(OpenOptions& options) const;
+  OpenOptions open_options() const;
+};
+
+}  // namespace tenon::cli

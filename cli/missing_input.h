@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cli/report.h"
+#include "tenon/base/diagnostics.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+
+/// The finding says that something that the input names was not there, or could not be read, so
+/// that the answer is about less than was asked for.
+bool tells_of_missing_input(const Diagnostic& finding);
+
+/// For verbs that work on layers without composing them: adds what composing finds missing.
+void add_missing_input(const std::string& asset, const OpenOptions& options, Report& report);
+
+}  // namespace tenon::cli

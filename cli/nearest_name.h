@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tenon::cli {
+
+/// Letters to insert, delete, exchange or swap with their neighbour to make one of the other.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The name that was probably meant by `text`: few edits away or begun with it; empty when none is
+/// near. Case does not count. Of equally near ones the first.
+std::string nearest_name(std::string_view text, const std::vector<std::string>& names);
+
+/// "did you mean \"info\"?", or `otherwise` when no name is near.
+std::string did_you_mean(std::string_view text, const std::vector<std::string>& names,
+                         const std::string& otherwise);
+
+}  // namespace tenon::cli

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cli/print.h"
+#include "cli/report.h"
+#include "tenon/asset/edit_asset.h"
+#include "tenon/base/result.h"
+#include "tenon/bytes/read_record.h"
+#include "tenon/bytes/zip_archive.h"
+#include "tenon/formats/open_layer.h"
+#include "tenon/structure/package.h"
+
+/// Everything that the command hands out goes through here, files and standard output alike; no
+/// other file of cli/ writes (tools/check_outputs.py, a test).
+namespace tenon::cli {
+
+/// What an output is. Which endings its name may have is a table in output.cpp.
+enum class OutputKind : std::uint8_t {
+  Layer,        ///< any layer, packages included
+  NamedFormat,  ///< the same, in a format that was asked for by its own name
+  Overlay,      ///< a layer over another one, which a package would be without
+  Package,      ///< .usdz
+  Log,          ///< what a simulation did
+  NamedLog,     ///< the same, in a format that was asked for by its own name
+  Description,  ///< of a robot, for other programs
+  Dump,         ///< of a stage
+  Sarif,
+  Baseline,
+};
+
+/// The files of one run. They are claimed before the work, so that nobody waits for what cannot be
+/// written, then filled, then written all together or not at all.
+class Outputs {
+ public:
+  Outputs() = default;
+  /// In place: over files that the run has read, as long as they are still what was read.
+  static Outputs in_place() {
+    Outputs outputs;
+    outputs.in_place_ = true;
+    return outputs;
+  }
+
+  /// Looks at the name alone and at the place that it names. "-" is standard output, "" nothing.
+  /// Errors: ErrorCode::Invalid (rules "output.kind", "output.twice"), Io ("file.unwritable").
+  Result<void> claim(OutputKind kind, const std::string& path);
+  /// A file, or standard output for "-".
+  void put(const std::string& path, std::string contents);
+  /// A file of an output of several, in folders that are made for it.
+  void put_beside(const std::string& path, std::string contents);
+  /// Asked once nobody else can write, right before anything is written.
+  void check_before_commit(std::function<Result<void>()> check) { check_ = std::move(check); }
+  /// Writes what was put. Errors: those of bytes::FileTransaction; ErrorCode::Invalid for contents
+  /// that are of another format than their name says.
+  Result<void> commit() const;
+
+ private:
+  std::vector<std::string> claimed_;
+  std::vector<std::pair<std::string, std::string>> files_;
+  std::function<Result<void>()> check_;
+  bool in_place_ = false;
+  bool make_folders_ = false;
+};
+
+/// The ending says which format a layer has; .usd may be text or binary.
+Result<void> check_layer_name(const std::string& path, formats::LayerFormat format);
+
+/// For edits of files: repeats `work` as long as it ends because somebody else has changed what was
+/// read, so that no edit is lost.
+template <class Work>
+auto edit_files(Report& report, Work work) {
+  constexpr int kAttempts = 100;
+  const Diagnostics before = report.diagnostics;
+  bytes::ReadRecord* record = bytes::ReadRecord::current();
+  if (record != nullptr) {
+    record->keep_digests();
+  }
+  auto done = work();
+  for (int i = 1; i < kAttempts && !done && bytes::is_changed_meanwhile(done.error()); ++i) {
+    if (record != nullptr) {
+      record->clear();
+    }
+    report.diagnostics = before;
+    done = work();
+  }
+  return done;
+}
+
+/// What other parts make into files, behind the same guards: an asset as a folder, edits of an
+/// asset's files, a package unpacked.
+Result<void> write_asset(const structure::Package& package, const std::string& folder,
+                         const structure::WriteOptions& options);
+Result<void> write_edits(const std::vector<EditedFile>& files);
+Result<void> unpack(const bytes::ZipArchive& archive, const std::string& folder);
+
+/// To be called before anything else: a closed standard stream stays closed, whatever files are
+/// opened; a closed pipe and a file that may not grow are errors, not signals; files that are read
+/// are noted.
+void begin_output();
+/// To be called last: whether standard output took all that was printed. `code`, or that of a
+/// failure, with a message; nothing is said to a reader that has closed its end of a pipe.
+int finish_output(int code);
+
+}  // namespace tenon::cli
