@@ -45,7 +45,5 @@ std::string put_together(const CrateParts& parts);
 /// Damages the file in one to four places, chosen by `seed`: its tables, values and packed arrays
 /// when it can be taken apart, else bytes. At most `most_bytes` long.
 std::string mutate_crate(std::string_view crate, std::uint64_t seed, std::size_t most_bytes);
-/// The same for text: bytes, words of the grammar, pieces moved, repeated and left out.
-std::string mutate_text(std::string_view text, std::uint64_t seed, std::size_t most_bytes);
 
 }  // namespace tenon::fuzz

@@ -3,55 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <random>
 #include <utility>
 
 #include "fuzz/crate_parts.h"
+#include "fuzz/dice.h"
+#include "fuzz/text_mutations.h"
 #include "tenon/bytes/byte_writer.h"
 #include "tenon/bytes/integer_coding.h"
 
 namespace tenon::fuzz {
-namespace {
 
 using formats::crate::ValueWord;
-
-/// std::mt19937_64 is the same everywhere; the standard's distributions are not.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
-  std::uint64_t number() { return engine_(); }
-  std::size_t below(std::size_t limit) { return limit == 0 ? 0 : engine_() % limit; }
-  bool one_in(std::size_t n) { return below(n) == 0; }
-
-  /// Numbers at which counts and offsets go wrong.
-  std::uint64_t extreme() {
-    static constexpr std::uint64_t kExtremes[] = {0,
-                                                  1,
-                                                  2,
-                                                  0x7f,
-                                                  0xff,
-                                                  0x7fff,
-                                                  0xffff,
-                                                  0x10000,
-                                                  0x7fffffff,
-                                                  0x80000000,
-                                                  0xfffffffe,
-                                                  0xffffffff,
-                                                  1ull << 32,
-                                                  1ull << 40,
-                                                  1ull << 48,
-                                                  1ull << 60,
-                                                  (1ull << 63) - 1,
-                                                  1ull << 63,
-                                                  ~0ull,
-                                                  ~0ull - 7,
-                                                  0x100000001};
-    return kExtremes[below(std::size(kExtremes))];
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 void mutate_bytes(std::string& bytes, Dice& dice) {
   if (bytes.empty()) {
@@ -82,6 +44,8 @@ void mutate_bytes(std::string& bytes, Dice& dice) {
       break;
   }
 }
+
+namespace {
 
 void mutate_column(Column& column, Dice& dice) {
   if (column.empty()) {
@@ -239,167 +203,6 @@ void mutate_parts(CrateParts& parts, Dice& dice) {
   }
 }
 
-constexpr std::string_view kNumbers[] = {"0",
-                                         "-1",
-                                         "1e308",
-                                         "-1e308",
-                                         "1e-320",
-                                         "inf",
-                                         "-inf",
-                                         "nan",
-                                         "2147483647",
-                                         "-2147483648",
-                                         "4294967295",
-                                         "9223372036854775807",
-                                         "-9223372036854775808",
-                                         "18446744073709551615",
-                                         "65504",
-                                         "0.1",
-                                         "1000000",
-                                         "3"};
-constexpr std::string_view kWords[] = {"{",
-                                       "}",
-                                       "(",
-                                       ")",
-                                       "[",
-                                       "]",
-                                       "<",
-                                       ">",
-                                       "=",
-                                       ",",
-                                       ";",
-                                       ":",
-                                       "@",
-                                       "@@@",
-                                       "\"",
-                                       "'''",
-                                       "\"\"\"",
-                                       "\n",
-                                       "\r\n",
-                                       std::string_view("\0", 1),
-                                       "\xef\xbb\xbf",
-                                       "\xc3\x28",
-                                       "\\",
-                                       "#",
-                                       "None",
-                                       "def ",
-                                       "over ",
-                                       "class ",
-                                       "\"A\"",
-                                       "</A>",
-                                       "</A{v=x}B>",
-                                       "<../../..>",
-                                       ".timeSamples",
-                                       ".connect",
-                                       ".spline",
-                                       "references",
-                                       "payload",
-                                       "inherits",
-                                       "specializes",
-                                       "variantSet \"v\"",
-                                       "variants",
-                                       "subLayers",
-                                       "relocates",
-                                       "dictionary",
-                                       "prepend ",
-                                       "append ",
-                                       "delete ",
-                                       "add ",
-                                       "reorder ",
-                                       "1e400",
-                                       "-inf",
-                                       "nan",
-                                       "0x7fffffff",
-                                       "-9223372036854775809",
-                                       "18446744073709551616",
-                                       "1_000",
-                                       "`${A}`",
-                                       "matrix4d m = ((",
-                                       "quath",
-                                       "double3[]",
-                                       "timecode",
-                                       "pathExpression",
-                                       "rel r",
-                                       "uniform ",
-                                       "custom ",
-                                       "varying ",
-                                       "offset = ",
-                                       "scale = 0",
-                                       "instanceable = true",
-                                       "clips",
-                                       "bezier",
-                                       "loop repeat",
-                                       "AnimationBlock"};
-
-/// Start and length, line feed included, of the line that holds byte `at`.
-std::pair<std::size_t, std::size_t> line_around(const std::string& text, std::size_t at) {
-  const std::size_t before = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
-  const std::size_t start = before == std::string::npos ? 0 : before + 1;
-  const std::size_t end = text.find('\n', at);
-  return {start, (end == std::string::npos ? text.size() : end + 1) - start};
-}
-
-/// Lines left out, repeated and moved: most such texts still are layers.
-void mutate_lines(std::string& text, Dice& dice) {
-  const auto [from, length] = line_around(text, dice.below(text.size() + 1));
-  const std::string line = text.substr(from, length);
-  switch (dice.below(4)) {
-    case 0:
-      text.erase(from, length);
-      break;
-    case 1:
-      text.insert(from, line);
-      break;
-    default:
-      text.insert(line_around(text, dice.below(text.size() + 1)).first, line);
-      break;
-  }
-}
-
-/// A number or name of the text replaced by an extreme or by another of its own.
-void mutate_literal(std::string& text, Dice& dice) {
-  constexpr std::string_view kLiteral =
-      "0123456789.-abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_:";
-  const auto literal = [&](std::size_t near) {
-    const std::size_t start = std::min(text.find_first_of(kLiteral, near), text.size());
-    return std::pair(start, std::min(text.find_first_not_of(kLiteral, start), text.size()) - start);
-  };
-  const auto [at, length] = literal(dice.below(text.size() + 1));
-  const auto [other, other_length] = literal(dice.below(text.size() + 1));
-  const bool number = at < text.size() && text[at] <= '9';
-  const std::string_view extreme = kNumbers[dice.below(std::size(kNumbers))];
-  text.replace(at, length,
-               number && dice.one_in(2) ? std::string(extreme) : text.substr(other, other_length));
-}
-
-void mutate_words(std::string& text, Dice& dice) {
-  const std::size_t at = dice.below(text.size() + 1);
-  const std::size_t from = dice.below(text.size() + 1);
-  switch (dice.below(5)) {
-    case 0:
-    case 1:
-      text.insert(at, kWords[dice.below(std::size(kWords))]);
-      break;
-    case 2:
-      text.erase(at, dice.below(64));
-      break;
-    case 3:
-      text.insert(at, text.substr(from, dice.below(256)));
-      break;
-    default: {  // repeated as a hostile file would have it
-      const std::string piece = dice.one_in(2) ? text.substr(from, dice.below(24) + 1)
-                                               : std::string(kWords[dice.below(std::size(kWords))]);
-      const std::size_t times = std::size_t{1} << dice.below(13);
-      std::string many;
-      for (std::size_t i = 0; i < times; ++i) {
-        many += piece;
-      }
-      text.insert(at, many);
-      break;
-    }
-  }
-}
-
 /// Once mostly, so that the rest of the file is still read.
 std::size_t times(Dice& dice) { return dice.one_in(2) ? 1 : dice.below(4) + 1; }
 
@@ -421,32 +224,6 @@ std::string mutate_crate(std::string_view crate, std::uint64_t seed, std::size_t
     result = put_together(*parts);
     if (dice.one_in(8)) {
       mutate_bytes(result, dice);
-    }
-  }
-  if (result.size() > most_bytes) {
-    result.resize(most_bytes);
-  }
-  return result;
-}
-
-std::string mutate_text(std::string_view text, std::uint64_t seed, std::size_t most_bytes) {
-  Dice dice(seed);
-  std::string result(text);
-  for (std::size_t left = times(dice); left > 0; --left) {
-    switch (dice.below(6)) {
-      case 0:
-        mutate_bytes(result, dice);
-        break;
-      case 1:
-        mutate_words(result, dice);
-        break;
-      case 2:
-      case 3:
-        mutate_lines(result, dice);
-        break;
-      default:
-        mutate_literal(result, dice);
-        break;
     }
   }
   if (result.size() > most_bytes) {

@@ -4,6 +4,7 @@
 # Installs what the build needs and this machine lacks (Debian 12, Ubuntu 22.04 and later).
 #   tools/bootstrap.sh build        to build the program
 #   tools/bootstrap.sh build test   to run the tests too
+#   tools/bootstrap.sh build test judge   and the long runs, some of which need clang
 # Says what it does; asks for root only to install; with all there it does nothing, offline too.
 set -euo pipefail
 
@@ -56,7 +57,14 @@ need_for_build() {
 
 need_for_test() {
   need_package libgtest-dev
+  need_tool valgrind valgrind --version
+  need_tool binutils readelf --version
   need_oracle_python
+}
+
+need_for_judge() {
+  need_tool clang-19 clang++-19 --version
+  need_package libclang-rt-19-dev
 }
 
 install_missing() {
@@ -83,8 +91,9 @@ for part in "${@:-build}"; do
   case "$part" in
     build) need_for_build ;;
     test) need_for_test ;;
+    judge) need_for_judge ;;
     *)
-      echo "bootstrap: unknown part '$part'; expected: build, test" >&2
+      echo "bootstrap: unknown part '$part'; expected: build, test, judge" >&2
       exit 2
       ;;
   esac

@@ -15,7 +15,7 @@ import sys
 import source_files
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
-USERS = ("cli/", "tests/", "bench/", "fuzz/")
+USERS = ("cli/", "worker/", "tests/", "bench/", "fuzz/")
 
 # Libraries that only some files may name: pattern of the include -> patterns of the files.
 LIBRARIES = {
@@ -23,8 +23,13 @@ LIBRARIES = {
     "Eigen/*": ["tenon/math/*.cpp", "tenon/physics/*.cpp"],
     "meshoptimizer.h": ["tenon/approximate/*.cpp"],
     "lz4*.h": ["tenon/bytes/*.cpp"],
-    "mujoco/*": ["tenon/engines/mujoco/*", "tenon/mjcf/*", "bench/step_mujoco.cpp"],
-    "pugixml.hpp": ["tenon/urdf/*"],
+    "mujoco/*": [
+        "tenon/engines/mujoco/*",
+        "tenon/mjcf/*",
+        "worker/main.cpp",
+        "bench/step_mujoco.cpp",
+    ],
+    "pugixml.hpp": ["tenon/asset/mjcf_files.cpp", "tenon/urdf/*"],
     "assimp/*": ["tenon/mesh/assimp_scene.cpp"],
     "CLI/*": ["cli/command_line.cpp"],
     "nlohmann/*": ["cli/*", "tests/*", "bench/*"],

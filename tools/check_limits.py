@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the limits: each constant of the tables is used and stands in docs/limits.md.
+"""Holds the limits: each constant of tenon/base/*limits.h is used and stands in docs/limits.md.
 
 Exit 0: held; 1: each fault on a line of its own.
 """
@@ -12,7 +12,7 @@ import sys
 
 import source_files
 
-TABLES = ("tenon/base/limits.h", "tenon/base/physics_limits.h")
+TABLE = re.compile(r"tenon/base/(\w+_)?limits\.h")
 PAGE = "docs/limits.md"
 CONSTANT = re.compile(r"inline constexpr [\w:]+ (k\w+) = ([^;]+);")
 
@@ -27,24 +27,23 @@ def numeral(text):
 def check(root, files):
     """-> faults of the project at `root`, whose files are `files`."""
     limits, faults = {}, []
-    for table in TABLES:
-        if os.path.exists(os.path.join(root, table)):
-            with open(os.path.join(root, table), encoding="utf-8") as file:
-                limits.update((name, numeral(value))
-                              for name, value in CONSTANT.findall(file.read()))
+    for table in filter(TABLE.fullmatch, files):
+        with open(os.path.join(root, table), encoding="utf-8") as file:
+            limits.update((name, (table, numeral(value)))
+                          for name, value in CONSTANT.findall(file.read()))
     with open(os.path.join(root, PAGE), encoding="utf-8") as file:
         rows = dict(re.findall(r"^\| `(k\w+)` \| ([\d ]+) \|", file.read(), re.MULTILINE))
     used = set()
     for path in files:
-        if path.startswith(("tenon/", "cli/")) and path not in TABLES:
+        if path.startswith(("tenon/", "cli/", "worker/")) and not TABLE.fullmatch(path):
             if path.endswith(source_files.CODE):
                 with open(os.path.join(root, path), encoding="utf-8") as file:
                     used.update(re.findall(r"limits::(k\w+)", file.read()))
     if not limits:
-        faults.append(f"{TABLES[0]}: no limits found")
-    for name, value in limits.items():
+        faults.append("tenon/base: no limits found")
+    for name, (table, value) in limits.items():
         if name not in used:
-            faults.append(f"{TABLES[0]}: {name} is not used")
+            faults.append(f"{table}: {name} is not used")
         if name not in rows:
             faults.append(f"{PAGE}: no row for {name}")
         elif int(rows[name].replace(" ", "")) != value:

@@ -10,6 +10,7 @@ import unittest
 
 import check_folders
 import check_limits
+import check_outputs
 import check_sizes
 import check_text
 
@@ -73,13 +74,55 @@ class Folders(unittest.TestCase):
             self.assertEqual(len(check_folders.check(root)[1]), 1)
 
 
+class Outputs(unittest.TestCase):
+    FILES = {
+        "tenon/bytes/put.h": "", "tenon/bytes/put.cpp": "int f() { return ::rename(a, b); }\n",
+        "tenon/bytes/many.h": "", "tenon/bytes/many.cpp": '#include "tenon/bytes/put.h"\n',
+        "tenon/bytes/get.h": "",
+        "tenon/formats/save.cpp": '#include "tenon/bytes/many.h"\nvoid save_layer(int a) {\n'
+                                  "  write_file(a);\n}\nvoid read_layer() {\n  get();\n}\n",
+        "tenon/asset/edit.cpp": "void write_all(int a) {\n  formats::save_layer(a);\n}\n",
+        "cli/output.cpp": '#include "tenon/bytes/put.h"\nint g() { return std::fwrite(a); }\n',
+    }
+    CASES = [
+        # file, line, allowed
+        ("cli/a.cpp", '#include "tenon/bytes/get.h"', True),
+        ("cli/a.cpp", '#include "tenon/bytes/put.h"', False),
+        ("cli/a.cpp", '#include "tenon/bytes/many.h"', False),
+        ("cli/a.cpp", "formats::read_layer();", True),
+        ("cli/a.cpp", "formats::save_layer(1);", False),
+        ("cli/a.cpp", "write_all(1);", False),
+        ("cli/a.cpp", "other::write_all(1);", True),
+        ("cli/a.cpp", 'std::printf("x");', False),
+        ("cli/a.cpp", 'std::fprintf(stderr, "x");', True),
+        ("cli/a.cpp", 'std::fprintf(stdout, "x");', False),
+        ("cli/a.cpp", "std::fputs(a.c_str(), stdout);", False),
+        ("cli/a.cpp", "std::ofstream(a) << 1;", False),
+        ("cli/a.cpp", "std::cout << 1;", False),
+        ("cli/a.cpp", "// std::cout << 1;", True),
+        ("cli/a.cpp", 'say("a tree that puts std::cout to sleep");', True),
+        ("cli/a_test.cpp", "std::ofstream(a) << 1;", True),
+        ("tenon/layer/a.cpp", 'std::fopen(name, "w");', False),
+        ("tenon/layer/a.cpp", 'std::fopen("/dev/null", "w");', True),
+        ("tenon/layer/a.cpp", "::open(a, O_CREAT);", False),
+        ("tenon/bytes/a.cpp", "::open(a, O_CREAT);", True),
+    ]
+
+    def test_who_writes(self):
+        for path, line, allowed in self.CASES:
+            files = {**self.FILES, path: line + "\n"}
+            with self.subTest(path=path, line=line), tree(files) as root:
+                faults = check_outputs.check(root, list(files))
+                self.assertEqual(faults == [], allowed, faults)
+
+
 class Limits(unittest.TestCase):
     TABLE = "inline constexpr std::size_t kOne = 1'000;\ninline constexpr int kTwo = 1u << 20;\n"
     PAGE = "| `kOne` | 1000 | a |\n| `kTwo` | 1 048 576 | b |\n"
     USE = "int x = limits::kOne + limits::kTwo;\n"
 
     def faults(self, page=PAGE, use=USE):
-        files = {check_limits.TABLES[0]: self.TABLE, check_limits.PAGE: page, "tenon/a.cpp": use}
+        files = {"tenon/base/limits.h": self.TABLE, check_limits.PAGE: page, "tenon/a.cpp": use}
         with tree(files) as root:
             return check_limits.check(root, list(files))
 

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/mutants/verbs.h"
+
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+namespace tenon::fuzz {
+namespace {
+
+/// {in} the asset, {out} the output, {prim} a prim of it.
+struct Row {
+  const char* words;
+  Leaves leaves = Leaves::Text;
+  const char* output = "";
+  bool edits = false;
+};
+
+constexpr Row kForLayers[] = {
+    {"info {in}"},
+    {"info {in} --json"},
+    {"cat {in}"},
+    {"cat {in} --flatten"},
+    {"cat {in} --flatten-layer-stack"},
+    {"cat {in} -o {out}", Leaves::Layer, "out.usda"},
+    {"cat {in} -o {out}", Leaves::Layer, "out.usdc"},
+    {"cat {in} --flatten -o {out}", Leaves::Layer, "out.usdc"},
+    {"cat {in} --flatten-layer-stack -o {out}", Leaves::Layer, "out.usda"},
+    {"tree {in} -a -m"},
+    {"tree {in} --mask {prim}"},
+    {"check {in}", Leaves::Nothing},
+    {"check {in} --json"},
+    {"check {in} --sarif {out}", Leaves::Log, "out.sarif"},
+    {"physics {in}", Leaves::Nothing},
+    {"physics {in} --json"},
+    {"physics {in} --mass", Leaves::Nothing},
+    {"dump {in} --xforms"},
+    {"dump {in} --stacks --builtins"},
+    {"dump {in} -o {out}", Leaves::File, "out.json"},
+    {"dump-index {in}", Leaves::Nothing},
+    {"explain {in} {prim}"},
+    {"where {in} {prim}", Leaves::Nothing},
+    {"variant {in}", Leaves::Nothing},
+    {"test-runner layer {in}"},
+    {"diff {in} /dev/null", Leaves::Nothing},
+    {"diff /dev/null {in} --composed", Leaves::Nothing},
+    {"structure {in} -o {out}", Leaves::Folder, "out"},
+    {"zip {in} -o {out}", Leaves::Layer, "out.usdz"},
+    {"bake {in} -o {out} --duration 0.05 --dt 0.01", Leaves::Layer, "out.usda"},
+    {"sim {in} --duration 0.05 --dt 0.01"},
+    {"sim {in} --duration 0.05 --dt 0.01 -o {out} --json", Leaves::File, "out.jsonl"},
+    {"convert {in} {out}", Leaves::File, "out.urdf"},
+    {"convert {in} {out}", Leaves::File, "out.xml"},
+};
+/// What packages do not have: files that can be edited.
+constexpr Row kForEdits[] = {
+    {"check {in} --fix", Leaves::Nothing, "", true},
+    {"strip {in} -o {out}", Leaves::Layer, "out.usda"},
+    {"set {in} {prim}.physics:mass=2 --type float", Leaves::Nothing, "", true},
+    {"set {in} --apply {prim}=PhysicsRigidBodyAPI", Leaves::Nothing, "", true},
+};
+constexpr Row kForPackages[] = {
+    {"zip {in} --list", Leaves::Nothing},
+    {"zip {in} --extract {out}", Leaves::Nothing, "out"},  // a package may be empty
+    {"zip {in} --list --json"},
+};
+constexpr Row kForMotion[] = {
+    {"dump {in} --xforms"},
+    {"dump {in}"},
+    {"cat {in} --flatten -o {out}", Leaves::Layer, "out.usdc"},
+    {"test-runner value {in} {prim}.s 0 1 5 14 1e300 default"},
+    {"test-runner value {in} {prim}.t 0 1 5 14 1e300 default"},
+};
+constexpr Row kForArcs[] = {
+    {"variant {in} v=a --prim {prim} -o {out}", Leaves::Layer, "out.usda"},
+    {"dump-index {in} {prim}", Leaves::Nothing},
+    {"cat {in} --flatten --mask {prim}"},
+};
+constexpr Row kForRobots[] = {
+    {"convert {in} {out}", Leaves::Folder, "out"},
+    {"convert {in} {out}", Leaves::Folder, "out"},
+    {"convert {in} {out}", Leaves::Layer, "out.usda"},
+    {"convert {in} {out}", Leaves::Layer, "out.usdc"},
+    {"convert {in} {out} --merge-fixed --flat", Leaves::Folder, "out"},
+    {"convert {in} {out} --scene --physics mujoco", Leaves::Folder, "out"},
+};
+
+std::string replaced(const std::string& word, const Mutant& mutant, const std::string& output) {
+  std::string text = word;
+  const std::pair<std::string_view, const std::string&> values[] = {
+      {"{in}", mutant.asset}, {"{out}", output}, {"{prim}", mutant.prim}};
+  for (const auto& [name, value] : values) {
+    const std::size_t at = text.find(name);
+    if (at != std::string::npos) {
+      text.replace(at, name.size(), value);
+    }
+  }
+  return text;
+}
+
+Command command_of(const Row& row, const Mutant& mutant) {
+  Command command;
+  command.row = row.words;
+  if (*row.output != '\0') {
+    command.row += std::string(" (") + row.output + ")";
+  }
+  command.output = row.output;
+  command.leaves = row.leaves;
+  command.edits = row.edits;
+  std::istringstream words(row.words);
+  for (std::string word; words >> word;) {
+    command.words.push_back(replaced(word, mutant, command.output));
+  }
+  return command;
+}
+
+template <std::size_t count>
+const Row& one_of(const Row (&rows)[count], Dice& dice) {
+  return rows[dice.below(count)];
+}
+
+}  // namespace
+
+Command command_for(const Mutant& mutant, Dice& dice) {
+  const auto is = [&](const char* suffix) { return mutant.asset.ends_with(suffix); };
+  if (is(".urdf") || is(".xml")) {
+    return command_of(one_of(kForRobots, dice), mutant);
+  }
+  if (is(".usdz")) {
+    return command_of(dice.one_in(3) ? one_of(kForPackages, dice) : one_of(kForLayers, dice),
+                      mutant);
+  }
+  if (mutant.format == "splines and clips" && dice.one_in(2)) {
+    return command_of(one_of(kForMotion, dice), mutant);
+  }
+  if (mutant.format == "graphs of arcs" && dice.one_in(4)) {
+    return command_of(one_of(kForArcs, dice), mutant);
+  }
+  return command_of(dice.one_in(8) ? one_of(kForEdits, dice) : one_of(kForLayers, dice), mutant);
+}
+
+}  // namespace tenon::fuzz

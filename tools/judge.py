@@ -1,0 +1,185 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""The long runs, by name, and the table of CONFORMANCE.md that says how each of them ended.
+
+usage: judge.py [NAME...] [--list] [--jobs N] [--no-table]    (make judge, make judge ONLY="a b")
+
+Without names all are run. A judgement is a command; it is good when the command ends with 0, and a
+skip (77) is a failure here, because nobody looks at what it left out. The last line that it
+prints is its result in the table, with commit and date; rows of judgements that were not run stay.
+Environments lie outside of the clone, in $XDG_CACHE_HOME/tenon-judge or ~/.cache/tenon-judge, and
+are made once. Exit 0: all good; 1: one was not; 2: unknown name.
+"""
+
+import argparse
+import datetime
+import glob
+import hashlib
+import os
+import re
+import subprocess
+import sys
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+DOCUMENT = os.path.join(ROOT, "CONFORMANCE.md")
+CACHE = os.path.join(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"),
+                     "tenon-judge")
+TABLE = re.compile(r"(<!-- judgements: .*? -->\n)(.*?)(<!-- end of judgements -->)", re.S)
+HEAD = "| judgement | commit | date | minutes | good | result |\n|---|---|---|---|---|---|\n"
+SKIPPED = 77
+SEEDS = ["fuzz/seeds", "fuzz/corpus", "examples", "tests"]
+FUZZ_SECONDS = 120
+LOGS = os.path.join(ROOT, "build/judge")
+
+
+class Judgement:
+    """A command and what has to be built for it; {jobs} and {python} are filled in."""
+
+    def __init__(self, name, command, preset=None, targets=()):
+        self.name, self.command, self.preset, self.targets = name, command, preset, targets
+
+
+def mutants(name, program, start, more=()):
+    return Judgement(
+        name,
+        ["build/bench/bin/tenon_mutants", "--program", program, "--seeds", *SEEDS, "--seed", "15",
+         "--from", str(start), "--count", "50000", "--jobs", "{jobs}", "--findings",
+         f"build/judge/{name}", "--json", f"build/judge/{name}.json", *more],
+        "bench", ["tenon_mutants"])
+
+
+def judgements():
+    """All of them, in the order in which they are run."""
+    yield Judgement("kill_runs", ["{python}", "-B", "tests/output/kill_runs.py",
+                                  ".", "build/release/bin/tenon", "--runs", "50", "--pairs", "20"],
+                    "release")
+    yield mutants("mutants_release", "build/release/bin/tenon", 0)
+    yield mutants("mutants_sanitizers", "build/dev/bin/tenon", 50000, ["--sanitized"])
+    yield Judgement("labelled", ["ctest", "--preset", "dev", "-L", "judge", "-j", "{jobs}",
+                                 "--no-tests=error"], "dev")
+    yield Judgement("structure_sweep", ["{python}", "-B", "tests/structure/sweep.py", ".",
+                                        "build/release/bin/tenon", "--all"], "release")
+    yield Judgement("random_scenes", ["{python}", "-B", "tests/differential/compose_random.py",
+                                      "build/bench/bin/tenon_composition_dump", "--seed", "5001",
+                                      "--scenes", "5000", "--show", "3"],
+                    "bench", ["tenon_composition_dump"])
+    for source in sorted(glob.glob(os.path.join(ROOT, "fuzz/*_fuzz.cpp"))):
+        target = os.path.basename(source)[:-len(".cpp")]
+        yield Judgement(f"fuzz_{target[:-len('_fuzz')]}",
+                        ["fuzz/run.sh", target, str(FUZZ_SECONDS)], "fuzz", [target])
+
+
+def oracle_python():
+    """The Python with usd-core of tests/requirements.txt, made once in the cache."""
+    with open(os.path.join(ROOT, "tests/requirements.txt"), "rb") as file:
+        key = hashlib.sha256(file.read()).hexdigest()[:12]
+    folder = os.path.join(CACHE, f"oracle-{key}")
+    python = os.path.join(folder, "bin/python")
+    if not os.path.exists(os.path.join(folder, "made")):
+        subprocess.run([sys.executable, "-m", "venv", "--clear", folder], check=True)
+        subprocess.run([python, "-m", "pip", "install", "--quiet", "--require-hashes", "-r",
+                        os.path.join(ROOT, "tests/requirements.txt")], check=True)
+        with open(os.path.join(folder, "made"), "w", encoding="utf-8"):
+            pass
+    return python
+
+
+def build(judgement, jobs, log):
+    """True when what the judgement needs is built."""
+    if judgement.preset is None:
+        return True
+    folder = os.path.join(ROOT, "build", judgement.preset)
+    if not os.path.exists(os.path.join(folder, "build.ninja")):
+        done = subprocess.run(["cmake", "--preset", judgement.preset], cwd=ROOT, stdout=log,
+                              stderr=log, check=False)
+        if done.returncode:
+            return False
+    targets = [word for target in judgement.targets for word in ("--target", target)]
+    return subprocess.run(["cmake", "--build", folder, "-j", str(jobs), *targets], cwd=ROOT,
+                          stdout=log, stderr=log, check=False).returncode == 0
+
+
+def last_line(path):
+    with open(path, encoding="utf-8", errors="replace") as file:
+        lines = [line.strip() for line in file if line.strip()]
+    return lines[-1].replace("|", "/")[:200] if lines else "it printed nothing"
+
+
+def run(judgement, python, jobs):
+    """-> (good, result, minutes)"""
+    os.makedirs(LOGS, exist_ok=True)
+    path = os.path.join(LOGS, judgement.name + ".txt")
+    start = time.monotonic()
+    with open(path, "w", encoding="utf-8") as log:
+        if not build(judgement, jobs, log):
+            return False, f"not built: {os.path.relpath(path, ROOT)}", 0
+        words = [word.format(jobs=jobs, python=python) for word in judgement.command]
+        environment = {**os.environ, "TENON_ORACLE_PYTHON": python}
+        try:
+            status = subprocess.run(words, cwd=ROOT, stdout=log, stderr=log, env=environment,
+                                    check=False).returncode
+        except OSError as error:
+            print(error, file=log)
+            status = -1
+    minutes = (time.monotonic() - start) / 60
+    result = last_line(path)
+    return status == 0, f"skipped: {result}" if status == SKIPPED else result, minutes
+
+
+def commit():
+    def lines(*words):
+        return subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True,
+                              check=False).stdout.strip()
+    changed = "+changes" if lines("status", "--porcelain", "--untracked-files=no") else ""
+    return lines("rev-parse", "--short", "HEAD") + changed
+
+
+def write_row(judgement, good, result, minutes):
+    """Puts the row into the table, in the place of the one that was there."""
+    with open(DOCUMENT, encoding="utf-8") as file:
+        text = file.read()
+    found = TABLE.search(text)
+    if found is None:
+        sys.exit("CONFORMANCE.md has no part <!-- judgements: ... --> <!-- end of judgements -->")
+    rows = {row.split("|")[1].strip(): row for row in found[2].split("\n")[2:] if row}
+    rows[judgement.name] = (f"| {judgement.name} | {commit()} | {datetime.date.today()} "
+                            f"| {minutes:.0f} | {'yes' if good else 'NO'} | {result} |")
+    order = [each.name for each in judgements()]
+    kept = [rows[name] for name in order if name in rows]
+    whole = found[1] + HEAD + "".join(row + "\n" for row in kept) + found[3]
+    with open(DOCUMENT + ".new", "w", encoding="utf-8") as file:
+        file.write(text[:found.start()] + whole + text[found.end():])
+    os.replace(DOCUMENT + ".new", DOCUMENT)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--list", action="store_true", help="only name the judgements")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--no-table", action="store_true", help="leave CONFORMANCE.md alone")
+    arguments = parser.parse_intermixed_args()
+    known = {judgement.name: judgement for judgement in judgements()}
+    if arguments.list:
+        for judgement in known.values():
+            print(f"{judgement.name:20} {' '.join(judgement.command)}")
+        return 0
+    unknown = [name for name in arguments.names if name not in known]
+    if unknown:
+        print(f"no judgement {', '.join(unknown)}; there are {', '.join(known)}")
+        return 2
+    python = oracle_python()
+    all_good = True
+    for name in arguments.names or known:
+        good, result, minutes = run(known[name], python, arguments.jobs)
+        all_good = all_good and good
+        print(f"{'good' if good else 'BAD '} {name:20} {minutes:6.1f} min  {result}", flush=True)
+        if not arguments.no_table:
+            write_row(known[name], good, result, minutes)
+    return 0 if all_good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
