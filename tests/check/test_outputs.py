@@ -154,7 +154,8 @@ class Outputs(unittest.TestCase):
     def test_json_has_the_contracts_keys(self):
         answer = self.json(SCENES / "mass.inertia-triangle.usda", code=0)
         self.assertEqual(set(answer["diagnostics"][0]),
-                         {"severity", "rule", "message", "file", "line", "column", "prim",
+                         {"severity", "rule", "message", "file", "line", "column",
+                          "endLine", "endColumn", "prim",
                           "property", "fix", "variants", "numbers", "autofix", "suppressed"})
         self.assertEqual(answer["diagnostics"][0]["numbers"], "S-45, M-19")
         self.assertEqual(answer["summary"], {"errors": 0, "warnings": 1, "infos": 0, "fixable": 0,

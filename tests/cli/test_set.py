@@ -161,7 +161,7 @@ class Refusals(Case):
     def test_what_cannot_be_is_refused_with_a_way_out(self):
         for arguments, words in (
                 ((f"{JOINT}.physics:uperLimit=1",), "did you mean physics:upperLimit?"),
-                ((f"{JOINT}.physics:upperLimit=high",), "no value of type float"),
+                ((f"{JOINT}.physics:upperLimit=high",), "not a value of type float"),
                 ((f"{JOINT}.physics:axis=W",), "choose one of: X, Y, Z"),
                 ((f"{R}/nowhere.physics:mass=1",), "no prim"),
                 ((f"{JOINT}.physics:mass=1",), "PhysicsMassAPI"),

@@ -141,7 +141,7 @@ class Where(unittest.TestCase):
     def test_what_is_not_there_is_said(self):
         for name, words in (("/nowhere", "there is no prim"),
                             ("/inspire_hand.nothing", "has no property"),
-                            ("relative", "no path")):
+                            ("relative", "not the path")):
             process = tenon("where", HAND, name)
             self.assertEqual(process.returncode, 2, name)
             self.assertIn(words, process.stderr)

@@ -144,7 +144,11 @@ class Zip(unittest.TestCase):
                            '    references = [@../lib/part.usda@</P>, @./gone.usda@</G>]\n)\n{\n'
                            '    asset t = @./no.png@\n    asset m = @./x.mdl@\n}\n')
         self.write("asset/x.mdl", "mdl 1.0;\n")
-        answer = self.run_json(asset, "-o", self.package)
+        alone = self.run_json(asset, "-o", self.package, code=1)
+        self.assertNotIn("part.usda", str(alone["files"]))
+        self.assertIn("read.outside", {finding["rule"] for finding in alone["diagnostics"]})
+        library = ("--allow-read", self.folder / "lib")
+        answer = self.run_json(asset, "-o", self.package, *library, code=1)
         outside = [file for file in answer["files"] if file["outside"]]
         self.assertEqual([file["name"] for file in outside], ["0/part.usda"])
         self.assertTrue(outside[0]["source"].endswith("lib/part.usda"))
@@ -155,7 +159,7 @@ class Zip(unittest.TestCase):
         self.assertLessEqual({("package.missing", "gone.usda"), ("package.missing", "no.png"),
                               ("package.file-type", "x.mdl"), ("package.outside", "part.usda")},
                              told)
-        self.assertIn("part.usda", tenon("zip", asset, "-o", self.package).stderr)
+        self.assertIn("part.usda", tenon("zip", asset, "-o", self.package, *library).stderr)
         before = self.package.read_bytes()
         answer = self.run_json(asset, "-o", self.package, "--strict", code=1)
         self.assertIsNone(answer["output"])

@@ -98,9 +98,9 @@ def check_shapes(work):
         expect("colliders", len(scene["colliders"]), 5)  # the mesh has two materials
         code, text, _ = tenon("cat", target) if ending != "usdz" else (0, "", "")
         if ending == "usda":
-            relative = os.path.relpath(URDF / "stripes.png", work)
-            expect("texture is relative", f"@{relative}@" in text or f"@./{relative}@" in text,
-                   True)
+            expect("texture is beside it", "@./shapes_images/stripes.png@" in text, True)
+            expect("texture comes along", (work / "shapes_images/stripes.png").read_bytes(),
+                   (URDF / "stripes.png").read_bytes())
 
 
 def check_bad_input(work):

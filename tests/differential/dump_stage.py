@@ -144,7 +144,9 @@ def actual_dump(tenon, case):
         run = subprocess.run(command, capture_output=True, timeout=SECONDS, check=False)
     except subprocess.TimeoutExpired:
         return -1, ""
-    return run.returncode, run.stdout.decode("utf-8", "surrogateescape")
+    # 1: the dump is there, and something that the layers name is not.
+    answered = run.returncode == 1 and run.stdout
+    return 0 if answered else run.returncode, run.stdout.decode("utf-8", "surrogateescape")
 
 
 def close(a, b, tolerance):

@@ -89,6 +89,7 @@ def "Part" (payload = @./deep.usda@</Deep>)
     "asset/clips/c.002.usda": '#usda 1.0\nover "C"\n{\n    double x.timeSamples = { 2: 7, }\n}\n',
     "shared/base.usda": '#usda 1.0\nover "A"\n{\n    asset based = @./b.png@\n}\n',
 }
+PNG = b"\x89PNG\r\n\x1a\n"  # as much of an image as is looked at
 IMAGES = ("asset/tex/a.png", "asset/tex/c.png", "asset/tex/wall.1001.png",
           "asset/tex/wall.1002.png", "asset/sub/p.png", "shared/b.png",
           "shared/udim/floor.1001.png", "shared/udim/floor.1011.png")
@@ -98,15 +99,15 @@ def write_files(folder):
     for name, text in FILES.items():
         put(os.path.join(folder, name), text.encode())
     for name in IMAGES:
-        put(os.path.join(folder, name), ("PNG " + name).encode())
+        put(os.path.join(folder, name), PNG + name.encode())
     layer = Sdf.Layer.FindOrOpen(os.path.join(folder, "asset/sub/variant.usda"))
     layer.Export(os.path.join(folder, "asset/sub/variant.usdc"))
     inside = {"root.usda": '#usda 1.0\n(\n    defaultPrim = "N"\n)\ndef "N" (\n'
                            '    references = @./deep/inner.usda@</Inner>\n)\n{\n}\n',
               "deep/inner.usda": '#usda 1.0\ndef "Inner"\n{\n    asset t = @../t.png@\n}\n',
-              "t.png": "PNG t"}
+              "t.png": PNG + b"t"}
     for name, text in inside.items():
-        put(os.path.join(folder, "nest", name), text.encode())
+        put(os.path.join(folder, "nest", name), text if name == "t.png" else text.encode())
     here = os.getcwd()
     os.chdir(os.path.join(folder, "nest"))
     with Sdf.ZipFileWriter.CreateNew(os.path.join(folder, "asset/nested.usdz")) as writer:
@@ -188,10 +189,11 @@ def check_ours(tenon, folder):
     """What tenon packs; a fault a line."""
     root, package = os.path.join(folder, "asset/root.usda"), os.path.join(folder, "away/ours.usdz")
     os.makedirs(os.path.dirname(package), exist_ok=True)
-    run = subprocess.run([tenon, "cat", root, "-o", package], capture_output=True, text=True,
-                         check=False)
-    if run.returncode:
-        yield f"tenon cat: {run.stderr}"
+    shared = ["--allow-read", os.path.join(folder, "shared")]
+    run = subprocess.run([tenon, "cat", root, "-o", package, *shared], capture_output=True,
+                         text=True, check=False)
+    if run.returncode != 1:  # a texture is missing
+        yield f"tenon cat: {run.returncode} {run.stderr}"
         return
     if "missing.png" not in run.stderr:
         yield "the missing texture is not reported: " + run.stderr
@@ -213,7 +215,8 @@ def check_ours(tenon, folder):
     yield from (f"packed again: {line}"
                 for line in differences(want, meaning(Usd.Stage.Open(again))))
     flat = os.path.join(folder, "flat.usdz")
-    subprocess.run([tenon, "cat", root, "--flatten", "-o", flat], capture_output=True, check=False)
+    subprocess.run([tenon, "cat", root, "--flatten", "-o", flat, *shared], capture_output=True,
+                   check=False)
     found = differences(want, meaning(Usd.Stage.Open(flat)))
     # Values of clips are not flattened.
     yield from (f"flattened: {line}" for line in found if not line.startswith("/Clipped.x"))

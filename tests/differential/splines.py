@@ -24,6 +24,37 @@ except ImportError:
 TOLERANCE = {"double": 1e-6, "timecode": 1e-6, "float": 2e-6, "half": 2e-3}
 
 
+def coarse(rng, low, high):
+    """Often a whole number, so that knots, ends of loops and samples meet."""
+    return rng.randint(int(low), int(high)) if rng.random() < 0.9 else number(rng, low, high)
+
+
+def coarse_spline(rng):
+    """Short, with every kind of knot, loop and end."""
+    is_bezier = rng.random() < 0.6
+    lines = ["bezier," if is_bezier else "hermite,"]
+    ends = [extrapolation(rng) for _ in range(2)]
+    lines += [f"{side}: {end}," for side, end in zip(("pre", "post"), ends) if rng.random() < 0.8]
+    times = sorted({coarse(rng, -6, 12) for _ in range(rng.randint(1, 5))})
+    if rng.random() < 0.5:
+        start = rng.choice(times)
+        end = start + rng.choice([1, 2, 3, 4, 6, 0.5, 10])
+        counts = f"{rng.randint(0, 3)}, {rng.randint(0, 3)}"
+        lines.append(f"loop: ({start}, {end}, {counts}, {coarse(rng, -3, 3)}),")
+    before = "curve"
+    for time in times:
+        pre = f"{coarse(rng, -9, 9)} & " if rng.random() < 0.4 else ""
+        after = rng.choice(["curve", "linear", "held", "none"])
+        line = f"{time}: {pre}{coarse(rng, -9, 9)}"
+        if before == "curve":
+            line += f"; pre {tangent(rng, is_bezier, rng.choice([1, 3, 9]))}"
+        line += f"; post {after}"
+        line += f" {tangent(rng, is_bezier, rng.choice([1, 3, 9]))}" if after == "curve" else ""
+        lines.append(line + ",")
+        before = after
+    return "\n".join(lines), times
+
+
 def number(rng, low, high):
     return round(rng.uniform(low, high), rng.choice([0, 1, 3]))
 
@@ -71,7 +102,9 @@ def spline(rng):
 
 def sample_times(rng, all_times):
     knots = rng.sample(sorted(all_times), min(40, len(all_times)))
-    return sorted(set(knots + [round(rng.uniform(-80, 110), 4) for _ in range(150)]))
+    whole = list(range(-24, 36)) + [i + 0.5 for i in range(-8, 16)]
+    between = [round(rng.uniform(-80, 110), 4) for _ in range(110)]
+    return sorted(set(knots + whole + between))
 
 
 def expected_values(curve, times):
@@ -93,26 +126,34 @@ def agrees(curve, time, theirs, ours, tolerance):
     return difference <= tolerance + max([abs(v - theirs) for v in beside if v is not None] + [0])
 
 
+def samples_of(program, path, times):
+    command = [program, path] + [repr(t) for t in times]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+
+
 def main():
     program = sys.argv[1]
     seed, count = (int(a) for a in sys.argv[2:4]) if len(sys.argv) > 3 else (1, 600)
     rng = random.Random(seed)
     text, all_times, kinds = ["#usda 1.0", 'def "A" {'], set(), {}
     for i in range(count):
-        body, times = spline(rng)
+        body, times = (coarse_spline if i % 2 else spline)(rng)
         kinds[f"/A.s{i}"] = kind = rng.choice(["double", "double", "float", "half", "timecode"])
         text += [f"{kind} s{i}.spline = {{", body, "}"]
         all_times.update(times)
     times = sample_times(rng, all_times)
+    differences, compared, failures = {}, 0, 0
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "splines.usda")
         with open(path, "w", encoding="utf-8") as out:
             out.write("\n".join(text) + "\n}\n")
-        command = [program, path] + [repr(t) for t in times]
-        run = subprocess.run(command, capture_output=True, text=True, check=True)
-        layer = Sdf.Layer.FindOrOpen(path)
-    differences, compared, failures = {}, 0, 0
-    for line in run.stdout.splitlines():
+        from_text = Sdf.Layer.FindOrOpen(path)
+        binary = os.path.join(folder, "splines.usdc")
+        from_text.Export(binary)
+        lines = [(from_text, line) for line in samples_of(program, path, times)]
+        from_crate = Sdf.Layer.OpenAsAnonymous(binary)  # which shortens tangents
+        lines += [(from_crate, line) for line in samples_of(program, binary, times)]
+    for layer, line in lines:
         attribute, *values = line.split(" ")
         curve = layer.GetAttributeAtPath(attribute).GetSpline()
         expected = expected_values(curve, times)

@@ -29,21 +29,21 @@ PLANTED = {
     "structure.wrong-arc": (
         ROBOT, 'over "inspire_hand" (',
         'over "inspire_hand" (\n    prepend references = @./instances.usda@</Instances>',
-        'over "inspire_hand" ('),
+        'references = @./instances.usda@</Instances>'),
     "structure.absolute-path": (
         MATERIAL, "float inputs:roughness = 0.45",
         "float inputs:roughness = 0.45\n            asset inputs:file = @/home/me/skin.png@",
         "inputs:file"),
     "structure.missing-file": (
         INTERFACE, "@./payloads/Physics/mujoco.usda@", "@./payloads/Physics/muscle.usda@",
-        '"mujoco" ('),
+        "@./payloads/Physics/muscle.usda@"),
     "structure.dangling-selection": (
         INTERFACE, 'string Physics = "physics"', 'string Physics = "PhysX"',
-        'def Xform "inspire_hand"'),
+        'string Physics = "PhysX"'),
     "structure.dangling-target": (
         ROBOT, "rel isaac:physics:robotJoints\n",
         "rel isaac:physics:robotJoints = </inspire_hand/Physics/no_joint>\n",
-        None),  # it stands where the strongest opinion does
+        "</inspire_hand/Physics/no_joint>"),
     "structure.below-instance": (
         PHYSX, 'over "Physics"\n    {',
         'over "r_base_link"\n    {\n        over "r_base_link_1"\n        {\n'

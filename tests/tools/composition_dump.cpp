@@ -4,10 +4,11 @@
 // tests/differential.
 //
 // usage: composition_dump LAYER [--session LAYER] [OPTION OF COMPOSITION]... [--nodes
-//                         [--prim PRIM]]
+//                         [--prim PRIM] | --work]
 //        composition_dump --batch
 // Options of composition and --batch: see tests/tools/compose_options.h.
 // Exit: 0 printed; 2 wrong usage; 3 a layer could not be opened.
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <set>
@@ -29,6 +30,7 @@ struct Arguments {
   std::string root;
   std::string session;
   bool nodes = false;
+  bool work = false;
   Path prim;  // of --nodes; empty: all
   compose::ComposeOptions options;
 };
@@ -39,6 +41,8 @@ bool read_arguments(const std::vector<std::string>& words, Arguments& arguments)
     const std::string& word = words[i];
     if (word == "--nodes") {
       arguments.nodes = true;
+    } else if (word == "--work") {
+      arguments.work = true;
     } else if (word == "--prim" && i + 1 < words.size()) {
       arguments.prim = Path::from(words[++i]);
     } else if (word == "--session" && i + 1 < words.size()) {
@@ -160,6 +164,42 @@ std::string nodes_of_one(compose::IndexCache& cache, Path prim, const compose::L
          facts_of(cache, cache.index(prim), label);
 }
 
+/// What composing everything took, the size of what it made, and findings of limits.
+std::string work_of_all(compose::IndexCache& cache) {
+  std::size_t prims = 0;
+  std::size_t nodes = 0;
+  std::size_t contributing = 0;
+  std::size_t findings = 0;
+  std::size_t depth = 0;
+  std::string limits;
+  std::vector<const compose::PrimIndex*> open{&cache.index(Path::absolute_root())};
+  while (!open.empty()) {
+    const compose::PrimIndex& index = *open.back();
+    open.pop_back();
+    ++prims;
+    nodes += index.nodes.size();
+    for (const compose::Node& node : index.nodes) {
+      contributing += node.can_contribute() && node.has_specs ? 1 : 0;
+    }
+    findings += index.errors.size();
+    depth = std::max<std::size_t>(depth, index.path.depth());
+    for (const Diagnostic& found : index.errors) {
+      if (found.rule.ends_with("exceeded")) {
+        limits += found.rule + " " + found.message + "\n";
+      }
+    }
+    for (auto name = index.child_names.rbegin(); name != index.child_names.rend(); ++name) {
+      open.push_back(&cache.child_index(index, *name));
+    }
+  }
+  const auto item = [](const char* name, std::size_t value) {
+    return std::string(name) + " " + std::to_string(value) + "\n";
+  };
+  return item("work", cache.work()) + item("prims", prims) + item("nodes", nodes) +
+         item("contributing", contributing) + item("findings", findings) + item("depth", depth) +
+         limits;
+}
+
 int dump(const Arguments& arguments) {
   formats::LayerRegistry registry;
   const Result<RootLayers> roots = open_roots(registry, arguments.root, arguments.session);
@@ -178,7 +218,8 @@ int dump(const Arguments& arguments) {
     return name.rfind(folder, 0) == 0 ? name.substr(folder.size()) : name;
   };
   build_ahead(cache, {&cache.index(Path::absolute_root())});
-  const std::string text = !arguments.nodes         ? compose::dump_indices(cache, label)
+  const std::string text = arguments.work           ? work_of_all(cache)
+                           : !arguments.nodes         ? compose::dump_indices(cache, label)
                            : arguments.prim.empty() ? nodes_of_all(cache, label)
                                                     : nodes_of_one(cache, arguments.prim, label);
   std::fwrite(text.data(), 1, text.size(), stdout);

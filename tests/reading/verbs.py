@@ -1,0 +1,157 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every verb that reads an asset takes --sandbox, --search-path and --allow-read, and --sandbox
+means the same to each: no file outside of these folders is opened.
+
+    verbs.py TENON
+
+The verbs are those that the program names; one without a row here is a fault.
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+TENON = os.path.abspath(sys.argv[1])
+OPTIONS = ("--sandbox", "--search-path", "--allow-read")
+MARK = "CANARY"
+
+# What reads no asset.
+WITHOUT = {"doctor", "help", "version", "completion", "manual",
+           "test-runner list-op", "test-runner schemas"}
+# Verb -> its arguments behind the asset; OUT is a folder.
+ROWS = {
+    "bake": ["-o", "OUT/b.usda", "--duration", "0.01"],
+    "cat": ["--flatten"],
+    "check": [],
+    "convert": ["OUT/c.xml"],
+    "diff": ["OWN", "--composed"],
+    "dump": [],
+    "dump-index": [],
+    "explain": ["/A"],
+    "info": [],
+    "physics": [],
+    "set": ["/A.visibility=inherited", "--dry-run"],
+    "sim": ["--duration", "0.01"],
+    "strip": ["-o", "OUT/s.usda"],
+    "structure": ["-o", "OUT/s"],
+    "test-runner composition": [],
+    "test-runner layer": [],
+    "test-runner value": ["/A.visibility", "default"],
+    "tree": [],
+    "variant": [],
+    "where": ["/A.visibility"],
+    "zip": ["-o", "OUT/z.usdz"],
+    "zip --list": [],
+    "zip --extract": ["OUT/e"],
+}
+ASSET = """#usda 1.0
+(
+    defaultPrim = "A"
+    subLayers = [@%s@]
+)
+def Xform "A" (
+    prepend apiSchemas = ["PhysicsRigidBodyAPI"]
+)
+{
+    token visibility = "inherited"
+    def Cube "Box" (prepend apiSchemas = ["PhysicsCollisionAPI"])
+    {
+    }
+}
+"""
+OTHER = (f'#usda 1.0\nover "A"\n{{\n    string told = "{MARK}"\n    def Cube "{MARK}"\n    {{\n'
+         "    }\n}\n")
+
+
+def run(*words):
+    return subprocess.run([TENON, *map(str, words)], capture_output=True, text=True, check=False,
+                          timeout=60)
+
+
+def names_of(*words):
+    """The verbs that a page of help lists."""
+    text = run(*words, "--help").stdout
+    at = re.search(r"^(sub)?commands:|^verbs:", text, re.IGNORECASE | re.MULTILINE)
+    return re.findall(r"^  ([a-z][a-z-]+)(?:\s{2,}|$)", text[at.end():] if at else "", re.MULTILINE)
+
+
+def all_verbs():
+    found = []
+    for verb in names_of():
+        inner = names_of(verb) if verb == "test-runner" else []
+        found += [f"{verb} {name}" for name in inner] or [verb]
+    return found
+
+
+def lists_options(verb):
+    text = run(*verb.split(), "--help").stdout
+    return [option for option in OPTIONS if option not in text]
+
+
+def words_of(verb, asset, folder):
+    first, *rest = verb.split()
+    behind = [word.replace("OUT", str(folder / "out")).replace("OWN", str(folder / "in/own.usda"))
+              for word in ROWS[verb]]
+    if rest and rest[0].startswith("--"):
+        return [first, asset, rest[0], *behind]
+    return [first, *rest, asset, *behind]
+
+
+def check_sandbox(verb, folder):
+    """An asset outside is not opened; one inside is, without what it names outside."""
+    package = verb.startswith("zip --")
+    outside = folder / ("other/p.usdz" if package else "other/o.usda")
+    inside = folder / ("in/p.usdz" if package else "in/a.usda")
+    for asset, sandbox, may in ((outside, "in", False), (inside, "in", True)):
+        done = run(*words_of(verb, asset, folder), "--sandbox", folder / sandbox)
+        said = done.stdout + done.stderr
+        written = b"".join(path.read_bytes() for path in (folder / "out").rglob("*")
+                           if path.is_file())
+        if MARK in said or MARK.encode() in written:
+            yield f"{verb}: opened a file outside of its sandbox"
+        if not may and done.returncode == 0:
+            yield f"{verb}: opened an asset outside of its sandbox"
+        if not may and "outside" not in said:
+            yield f"{verb}: does not say why it opens nothing: {said[-200:]}"
+        if may and package and done.returncode != 0:
+            yield f"{verb}: does not open an asset in its sandbox: {said[-200:]}"
+        if may and not package and verb != "test-runner layer" and "outside" not in said:
+            yield f"{verb}: does not say what it leaves out: {said[-200:]}"
+
+
+def main():
+    faults = []
+    verbs = all_verbs()
+    if len(verbs) < 15:
+        faults.append(f"only {len(verbs)} verbs were found: {verbs}")
+    for verb in verbs:
+        if verb in WITHOUT:
+            continue
+        faults += [f"{verb}: has no {option}" for option in lists_options(verb)]
+        if verb not in ROWS:
+            faults.append(f"{verb}: this test has no row for it")
+    for verb in ROWS:
+        if verb in verbs or verb.startswith("zip --"):
+            with tempfile.TemporaryDirectory() as temporary:
+                folder = pathlib.Path(os.path.realpath(temporary))
+                for name in ("in", "out", "other"):
+                    (folder / name).mkdir()
+                (folder / "other/s.usda").write_text(OTHER)
+                (folder / "other/o.usda").write_text(ASSET % "./s.usda")
+                (folder / "in/a.usda").write_text(ASSET % "../other/s.usda")
+                (folder / "in/own.usda").write_text(ASSET % "./none.usda")
+                for place in ("other", "in"):
+                    run("cat", folder / "in/own.usda", "-o", folder / place / "p.usdz")
+                faults += check_sandbox(verb, folder)
+    for fault in faults:
+        print(fault)
+    print(f"{len(verbs)} verbs, {len(faults)} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
