@@ -4,29 +4,43 @@
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build bench clean packages test-packages oracle
+.PHONY: help demo test build bench judge clean packages test-packages judge-packages oracle
 .DELETE_ON_ERROR:
 
 help:
 	@echo "make demo    build tenon, let the example hand grasp, say what to look at"
 	@echo "make test    build with sanitizers and run every test"
 	@echo "make build   only the program: build/release/bin/tenon"
-	@echo "make bench   measure, beside usd-core"
+	@echo "make bench   measure, beside usd-core; BASE=<commit>: beside that commit"
+	@echo "make judge   the long runs, hours of them; ONLY=\"NAME...\" chooses, tools/judge.py --list"
 	@echo "make clean   remove build/"
 
-build: packages build/release/build.ninja
-	@cmake --build build/release -j $(JOBS) --target tenon_cli
+build: packages
+	@tools/quiet_build.sh release $(JOBS) tenon_cli
 
 demo: build
 	@tools/demo.sh
 
-test: test-packages oracle build/dev/build.ninja
+# Some tests are of the program that users run.
+test: test-packages oracle build/dev/build.ninja build/release/build.ninja
 	@cmake --build build/dev -j $(JOBS)
-	@ctest --preset dev -j $(JOBS)
+	@cmake --build build/release -j $(JOBS)
+	@ctest --preset dev -LE judge -j $(JOBS)
 
+ifdef BASE
+bench: test-packages build/bench/build.ninja
+	@cmake --build build/bench -j $(JOBS) --target tenon_cli
+	@tools/python.sh bench/compare.py $(BASE) $(ONLY)
+else
 bench: test-packages oracle build/bench/build.ninja
 	@cmake --build build/bench -j $(JOBS)
 	@tools/python.sh bench/run.py
+endif
+
+judge: judge-packages build/dev/build.ninja build/release/build.ninja build/bench/build.ninja
+	@cmake --build build/dev -j $(JOBS)
+	@cmake --build build/release -j $(JOBS)
+	@python3 tools/judge.py --jobs $(JOBS) $(ONLY)
 
 clean:
 	rm -rf build
@@ -38,10 +52,12 @@ packages:
 test-packages:
 	@tools/bootstrap.sh build test
 
+judge-packages:
+	@tools/bootstrap.sh build test judge
+
 oracle: | test-packages
 	@tools/make_oracle.sh
 
-build/release/build.ninja: | packages
 build/dev/build.ninja build/bench/build.ninja: | test-packages oracle
 build/%/build.ninja: CMakePresets.json
 	cmake --preset $*

@@ -1,12 +1,27 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-# Installs the executable, the engine library it loads, and all licences. The build folder has the
-# same layout, so that the executable finds the library from either place.
+# Installs the executable, the worker that it starts, the engine library of both, and all licences.
+# The build folder has the same layout, so that the executable finds the library from either place.
 set_target_properties(tenon_cli PROPERTIES INSTALL_RPATH
                                            "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/tenon")
 install(TARGETS tenon_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+set_target_properties(tenon_worker PROPERTIES INSTALL_RPATH
+                                              "$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}/tenon")
+install(TARGETS tenon_worker RUNTIME DESTINATION libexec/tenon)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon)
+include(licences)
+
+if(tenon_shell_files) # cli/CMakeLists.txt
+  install(FILES ${tenon_shell_files}/tenon.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${tenon_shell_files}/tenon
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${tenon_shell_files}/_tenon
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+  install(FILES ${tenon_shell_files}/tenon.fish
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+endif()
+
 if(tenon_coacd_library)
   install(DIRECTORY ${tenon_coacd_root}/coacd ${tenon_coacd_root}/coacd.libs
           DESTINATION ${CMAKE_INSTALL_LIBDIR}/tenon)
