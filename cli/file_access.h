@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,13 @@
 
 namespace tenon::cli {
 
-/// Which files a verb may read for an asset: the options --search-path, --sandbox and --allow-read,
-/// which every verb that reads an asset takes from here.
+/// What a verb may read for an asset and how much it may make of it: the options --search-path,
+/// --sandbox, --allow-read and --most-work, which every verb that reads an asset takes from here.
 struct FileAccess {
   std::vector<std::string> search_paths;
   std::vector<std::string> sandbox;
   std::vector<std::string> allowed;
+  std::size_t most_work = 0;
 
   void add_to(const Command& verb);
   /// Also the folders of the environment variable PXR_AR_DEFAULT_SEARCH_PATH, as OpenUSD has it.

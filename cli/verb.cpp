@@ -66,9 +66,6 @@ void AssetArguments::add_options_to(const Command& verb) {
                   "them; the asset itself cannot be muted")
       .split_at_commas();
   files.add_to(verb);
-  verb.add_option("--most-work", most_work, {1, 1e15, false, false, ""},
-                  "Let composition take this many units of work (docs/limits.md), for scenes that "
-                  "are large by their arcs");
 }
 
 bool AssetArguments::selects() const {
@@ -89,7 +86,6 @@ OpenOptions AssetArguments::open_options() const {
   options.muted = muted;
   options.mask = mask;
   files.apply_to(options);
-  options.most_work = most_work;
   return options;
 }
 

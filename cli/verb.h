@@ -42,7 +42,6 @@ struct AssetArguments {
   std::vector<std::string> load;   ///< --load none, all or prim paths
   std::vector<std::string> muted;  ///< --mute-layer LAYER
   FileAccess files;                ///< --search-path, --sandbox, --allow-read
-  std::size_t most_work = 0;              ///< --most-work
 
   /// Adds the positional and the options to `verb`, which reads a file.
   void add_to(const Command& verb);

@@ -30,6 +30,8 @@ constexpr std::size_t kMegabyte = 1u << 20;
 constexpr std::size_t kCompositionBytes = 512 * kMegabyte;
 constexpr std::size_t kAddressSpace = 6144 * kMegabyte;
 constexpr std::size_t kReadOfMessages = 256u << 10;
+/// Composition under sanitizers, which are ten times slower, gets a tenth of limits::kComposeWork.
+constexpr const char* kSanitizedWork = "4000000";
 
 std::string start_of(const fs::path& path, std::size_t most) {
   std::ifstream file(path, std::ios::binary);
@@ -150,7 +152,10 @@ std::string left_behind(const Mutant& mutant, const Command& command, const std:
 std::string fault_of_reading_back(const Subject& subject, const Command& command,
                                   const std::string& folder) {
   const std::string outer = fs::path(folder).parent_path().string();
-  const ProgramCall call{{subject.program, "cat", command.output},
+  // What is binary need not have a text.
+  const bool is_text = command.output.ends_with(".usda");
+  const std::string format = is_text ? "usda" : "usdc";
+  const ProgramCall call{{subject.program, "cat", command.output, "--format", format},
                          folder,
                          outer + "/stdout",
                          outer + "/stderr",
@@ -201,6 +206,9 @@ Verdict run_and_judge(const Subject& subject, const Mutant& mutant, const Comman
   ProgramCall call{
       {subject.program}, inside, folder + "/stdout", folder + "/stderr", subject.environment};
   call.words.insert(call.words.end(), command.words.begin(), command.words.end());
+  if (subject.sanitized && mutant.bound == Bound::Composition) {
+    call.words.insert(call.words.end(), {"--most-work", kSanitizedWork});
+  }
   Verdict verdict;
   verdict.run = run_program(call, subject.limits());
   const std::string errors = start_of(folder + "/stderr", kReadOfMessages);

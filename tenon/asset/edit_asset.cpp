@@ -18,6 +18,7 @@
 #include "tenon/layer/fields.h"
 #include "tenon/session_opinions.h"
 #include "tenon/stage/opinion_sources.h"
+#include "tenon/stage/work_account.h"
 #include "tenon/stage_sources.h"
 
 namespace tenon {
@@ -161,7 +162,10 @@ class Author {
 class AssetEditor {
  public:
   AssetEditor(const std::string& path, const EditOptions& options, Diagnostics& diagnostics)
-      : path_(path), options_(options), diagnostics_(diagnostics) {}
+      : path_(path),
+        options_(options),
+        diagnostics_(diagnostics),
+        work_(options.open.most_work) {}
 
   /// Composes the asset under all variants, to know its files.
   Result<void> open() {
@@ -247,8 +251,11 @@ class AssetEditor {
     if (!selection.variant.empty()) {
       TENON_TRY(sources.session, with_variant(nullptr, *sources.root, kPhysics, selection.variant));
     }
-    TENON_TRY(stage::Stage stage,
-              stage::Stage::open(sources.root, sources.session, sources.opener()));
+    stage::StageOptions stage_options;
+    TENON_TRY(stage_options.compose, compose_options(options_.open, *sources.root));
+    TENON_TRY(stage::Stage stage, stage::Stage::open(sources.root, sources.session,
+                                                     sources.opener(), std::move(stage_options)));
+    TENON_CHECK(work_.spend(stage));
     for (const layer::LayerPtr& layer : stage.used_layers()) {
       if (layer != sources.session) {
         layers_.emplace(layer->identifier(), layer);
@@ -391,6 +398,7 @@ class AssetEditor {
   std::map<std::string, layer::LayerPtr> layers_;  // as they are now, by identifier
   std::map<std::string, layer::LayerPtr> edited_;
   std::map<std::string, StagePtr> stages_;  // of the layers as they are now, by variant
+  stage::WorkAccount work_;
   std::vector<std::string> names_;
   structure::RolesOfFiles roles_;
   std::vector<EditedPlace> places_;

@@ -6,6 +6,7 @@
 #include "tenon/bake/instance_arrays.h"
 #include "tenon/bake/op_stack.h"
 #include "tenon/bake/over_specs.h"
+#include "tenon/layer/metadata_fields.h"
 
 namespace tenon::bake {
 namespace {
@@ -14,6 +15,17 @@ using layer::Value;
 
 double code_of(const physics::PhysicsScene& scene, double seconds) {
   return scene.start_time_code + seconds * scene.time_codes_per_second;
+}
+
+/// A value of another type, which a crate can hold, is left out: it says nothing to a reader.
+void copy_metadata(const stage::Stage& stage, Token name, layer::Spec& root) {
+  const auto* field = layer::find_metadata_field(name, layer::SpecKind::PseudoRoot);
+  if (stage.has_authored_metadata(name)) {
+    const Value value = stage.metadata(name);
+    if (field == nullptr || value.type() == field->type) {
+      root.set(name, value);
+    }
+  }
 }
 
 /// Metadata that a sublayer does not give to the stage on top of it.
@@ -25,16 +37,12 @@ void write_metadata(const stage::Stage& stage, const physics::PhysicsScene& scen
   root.set("defaultPrim", Value(stage.root_layer().default_prim()));
   root.set("endTimeCode", Value(code_of(scene, end)));
   for (const char* field : {"framesPerSecond", "kilogramsPerUnit", "metersPerUnit"}) {
-    if (stage.has_authored_metadata(field)) {
-      root.set(field, stage.metadata(field));
-    }
+    copy_metadata(stage, Token(field), root);
   }
   root.set("startTimeCode", Value(scene.start_time_code));
   root.set("subLayers", Value(std::vector<std::string>{options.asset_path}));
   root.set("timeCodesPerSecond", Value(scene.time_codes_per_second));
-  if (stage.has_authored_metadata("upAxis")) {
-    root.set("upAxis", stage.metadata("upAxis"));
-  }
+  copy_metadata(stage, Token("upAxis"), root);
   if (stage.root_layer().default_prim().empty()) {
     root.erase("defaultPrim");
   }
@@ -89,6 +97,9 @@ layer::Layer write_time_samples(const stage::Stage& stage, const physics::Physic
                                 const PoseRecording& recording, const BakeOptions& options,
                                 Diagnostics& diagnostics) {
   layer::Layer layer("bake.usda");
+  if (stage.is_from_binary()) {
+    layer.set_from_binary();
+  }
   write_metadata(stage, scene, recording, options, layer);
   write_selections(stage, options, layer);
   const BodyTransforms transforms(stage, scene);

@@ -7,6 +7,7 @@
 #include "tenon/bytes/atomic_write.h"
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/package/writer.h"
+#include "tenon/formats/text/reader.h"
 #include "tenon/formats/text/writer.h"
 #include "tenon/layer/dictionary.h"
 #include "tenon/layer/field_values.h"
@@ -72,13 +73,31 @@ Result<void> decode_arrays(const layer::Layer& layer) {
   return {};
 }
 
+/// The text of a layer from a binary file is read back: what that one held need not have a text.
+Result<std::string> encode_text(const layer::Layer& layer) {
+  std::string text = write_text(layer);
+  if (layer.is_from_binary()) {
+    Diagnostics ignored;
+    const auto again = read_text(text, layer.identifier(), ignored);
+    if (!again) {
+      const Diagnostic& fault = again.error().diagnostic();
+      return Error(ErrorCode::Unsupported,
+                   "this layer has no text form that can be read back: " + fault.message)
+          .in_file(layer.identifier())
+          .with_prim(fault.prim)
+          .with_fix("write it as .usdc, or mend what the message names");
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 Result<std::string> encode_layer(const layer::Layer& layer, LayerFormat format) {
   switch (format) {
     case LayerFormat::Text:
       TENON_CHECK(decode_arrays(layer));
-      return write_text(layer);
+      return encode_text(layer);
     case LayerFormat::Crate:
       return write_crate(layer);
     case LayerFormat::Package:

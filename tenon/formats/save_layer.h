@@ -16,7 +16,8 @@ Result<LayerFormat> layer_format_named(std::string_view name);
 /// By the name's ending: .usda text, .usdc and .usd crate, .usdz package.
 Result<LayerFormat> layer_format_for(std::string_view path);
 
-/// The bytes of a file that holds the layer. A package holds it alone, as a crate.
+/// The bytes of a file that holds the layer. A package holds it alone, as a crate. The text of a
+/// layer from a binary file is read back first: ErrorCode::Unsupported where that fails.
 Result<std::string> encode_layer(const layer::Layer& layer, LayerFormat format);
 
 /// Writes the layer to `path` in the format that its ending names, in one step (the old file or the

@@ -38,6 +38,11 @@ class Layer {
   const std::string& identifier() const { return identifier_; }
   void set_identifier(std::string identifier) { identifier_ = std::move(identifier); }
 
+  /// True where something comes from a binary form. That one can hold what the text form has no
+  /// words for: fields and types whose names are none, values of another type than declared.
+  bool is_from_binary() const { return is_from_binary_; }
+  void set_from_binary() { is_from_binary_ = true; }
+
   const Spec* find(Path path) const;
   Spec* find(Path path);
   bool has(Path path) const { return find(path) != nullptr; }
@@ -81,6 +86,7 @@ class Layer {
   std::deque<Entry> entries_;  // erased entries keep an empty path
   std::vector<Slot> slots_;    // open addressing
   std::size_t erased_ = 0;
+  bool is_from_binary_ = false;
 };
 
 using LayerPtr = std::shared_ptr<const Layer>;

@@ -47,6 +47,9 @@ class Flattener {
       copy_prototype(prototype);
     }
     put_prototypes_first();
+    if (stage_.is_from_binary()) {
+      layer_.set_from_binary();
+    }
     return std::move(layer_);
   }
 

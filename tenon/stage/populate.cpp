@@ -6,9 +6,11 @@
 // Inactive prims end the walk. An explicit stack keeps deep trees off ours.
 #include <algorithm>
 
+#include "tenon/base/fault_limits.h"
 #include "tenon/base/parallel.h"
 #include "tenon/schema/kinds.h"
 #include "tenon/stage/composed_type.h"
+#include "tenon/stage/instance_bound.h"
 #include "tenon/stage/prototype_sources.h"
 #include "tenon/stage/stage_data.h"
 
@@ -35,7 +37,7 @@ class Populator {
     data_.root->specifier = Specifier::Def;
     data_.root->definition = data_.definitions.get(Token(), {});
     data_.by_path.emplace(data_.root->path, data_.root);
-    data_.diagnostics.append(data_.root->index->errors);
+    add_findings(data_.root->index->errors);
     pending_.push_back(data_.root);
     while (!pending_.empty()) {
       build_ahead();
@@ -93,6 +95,33 @@ class Populator {
     }
     // Last in, first out: the first child is walked first.
     pending_.insert(pending_.end(), next.rbegin(), next.rend());
+  }
+
+  /// Arcs that multiply give the same finding for every prim that they bring in.
+  void add_findings(const Diagnostics& found) {
+    if (data_.diagnostics.size() <= limits::kStageFindings) {
+      data_.diagnostics.append(found);
+      if (data_.diagnostics.size() > limits::kStageFindings) {
+        report_too_many_findings();
+      }
+      return;
+    }
+    // That the stage is not whole is said in any case.
+    for (const Diagnostic& one : found.items()) {
+      if (one.rule == "compose.work-exceeded") {
+        data_.diagnostics.add(one);
+      }
+    }
+  }
+
+  void report_too_many_findings() {
+    Diagnostic last;
+    last.rule = "stage.too-many-findings";
+    last.message = "there are more than " + std::to_string(limits::kStageFindings) +
+                   " findings of composition; no more are given";
+    last.file = data_.cache->layer_stack()->identifier();
+    last.fix = "mend the first of them";
+    data_.diagnostics.add(std::move(last));
   }
 
   void report_too_many(Path path) {
@@ -154,7 +183,7 @@ class Populator {
     (parent.last_child == nullptr ? parent.first_child : parent.last_child->next_sibling) = &prim;
     parent.last_child = &prim;
     data_.by_path.emplace(path, &prim);
-    data_.diagnostics.append(prim.index->errors);
+    add_findings(prim.index->errors);
     set_flags(prim, parent);
     prim.clips = add_clips(own_clip_definitions(data_, *prim.index, data_.diagnostics),
                            parent.clips, path, data_.diagnostics);
@@ -219,6 +248,9 @@ const schema::PrimDefinition* DefinitionCache::get(Token type, const std::vector
   return slot.get();
 }
 
-void populate(StageData& data) { Populator(data).run(); }
+void populate(StageData& data) {
+  Populator(data).run();
+  bound_instances(data);
+}
 
 }  // namespace tenon::stage

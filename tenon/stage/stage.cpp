@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/stage/stage.h"
 
+#include <algorithm>
+
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/stage_data.h"
 
@@ -145,6 +147,14 @@ std::vector<layer::LayerPtr> Stage::used_layers() const {
     result.push_back(layer);
   }
   return result;
+}
+
+std::size_t Stage::work() const { return data_->cache->work(); }
+
+bool Stage::is_from_binary() const {
+  const std::vector<layer::LayerPtr> layers = used_layers();
+  return std::any_of(layers.begin(), layers.end(),
+                     [](const layer::LayerPtr& layer) { return layer->is_from_binary(); });
 }
 
 const std::vector<compose::MissingArc>& Stage::missing_arcs() const {

@@ -13,6 +13,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/limits.h"
 #include "tenon/base/result.h"
+#include "tenon/base/work_limits.h"
 #include "tenon/compose/index_cache.h"
 #include "tenon/layer/layer.h"
 #include "tenon/stage/interpolate.h"
@@ -27,6 +28,10 @@ struct StageOptions {
   std::set<Path> mask;
   /// Populated prims, prototypes counted once; those beyond are left out with a diagnostic.
   std::size_t most_prims = limits::kStagePrims;
+  /// Prims with those below instances, each as often as a walk meets it, and how many more for each
+  /// spec of the layers; what is below further instances is left out with a diagnostic.
+  std::size_t most_instanced_prims = limits::kInstancedPrims;
+  std::size_t most_instanced_prims_per_spec = limits::kInstancedPrimsPerSpec;
   /// Asset path authored in a layer -> where it is, "" when nowhere; for resolved asset values.
   std::function<std::string(const std::string& asset_path, const layer::Layer& anchor)>
       resolve_asset;
@@ -57,8 +62,12 @@ class Stage {
   const compose::LayerStack& layer_stack() const;
   /// All layers opened so far, those of value clips included, sorted by identifier.
   std::vector<layer::LayerPtr> used_layers() const;
+  /// One of them is from a binary form (Layer::is_from_binary).
+  bool is_from_binary() const;
   /// Layers that arcs name and that cannot be opened.
   const std::vector<compose::MissingArc>& missing_arcs() const;
+  /// Units of work that composition took so far (limits::kComposeWork).
+  std::size_t work() const;
   /// Composition errors and value errors found so far.
   const Diagnostics& diagnostics() const;
 

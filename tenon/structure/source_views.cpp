@@ -7,22 +7,32 @@
 
 #include "tenon/layer/fields.h"
 #include "tenon/stage/stage.h"
+#include "tenon/stage/work_account.h"
 #include "tenon/structure/content.h"
 #include "tenon/structure/layer_tree.h"
 
 namespace tenon::structure {
 namespace {
 
-Result<stage::Stage> open_view(const AssetSource& source, const Selections& selections) {
+Result<stage::Stage> open_view(const AssetSource& source, const Selections& selections,
+                               stage::WorkAccount& work) {
   stage::StageOptions options;
   options.resolve_asset = source.resolve_asset;
-  return stage::Stage::open(source.root, selections_layer(source.root->default_prim(), selections),
-                            source.open_layer, options);
+  if (source.most_work != 0) {
+    options.compose.most_work = source.most_work;
+    options.compose.most_work_per_spec = 0;
+  }
+  TENON_TRY(stage::Stage stage,
+            stage::Stage::open(source.root,
+                               selections_layer(source.root->default_prim(), selections),
+                               source.open_layer, options));
+  TENON_CHECK(work.spend(stage));
+  return stage;
 }
 
 Result<layer::Layer> view_content(const AssetSource& source, const Selections& selections,
-                                  std::map<Path, Path>& moved) {
-  TENON_TRY(const stage::Stage stage, open_view(source, selections));
+                                  stage::WorkAccount& work, std::map<Path, Path>& moved) {
+  TENON_TRY(const stage::Stage stage, open_view(source, selections, work));
   return content_of(stage, &moved);
 }
 
@@ -104,9 +114,9 @@ struct Variants {
   Selections none;  ///< no variant of any set
 };
 
-Result<Variants> read_variants(const AssetSource& source, SourceViews& views,
-                               Diagnostics& diagnostics) {
-  TENON_TRY(const stage::Stage stage, open_view(source, {}));
+Result<Variants> read_variants(const AssetSource& source, stage::WorkAccount& work,
+                               SourceViews& views, Diagnostics& diagnostics) {
+  TENON_TRY(const stage::Stage stage, open_view(source, {}, work));
   diagnostics.append(stage.diagnostics());  // what is not there is missing in every view
   const stage::Prim robot = stage.default_prim();
   if (!robot || !robot.is_defined()) {  // the selections above name it, too
@@ -141,7 +151,8 @@ const SourceView* SourceViews::find(std::string_view variant) const {
 
 Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnostics) {
   SourceViews views;
-  TENON_TRY(const Variants variants, read_variants(source, views, diagnostics));
+  stage::WorkAccount work(source.most_work);
+  TENON_TRY(const Variants variants, read_variants(source, work, views, diagnostics));
   const bool plain = variants.physics.empty();
   const Path robot = Path::absolute_root().child(views.robot);
   std::set<Path> said;
@@ -151,7 +162,7 @@ Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnosti
     if (!plain) {
       selections[std::string(kPhysicsSet)] = variant;
     }
-    TENON_TRY(layer::Layer content, view_content(source, selections, views.moved));
+    TENON_TRY(layer::Layer content, view_content(source, selections, work, views.moved));
     drop_targets_outside(content, robot, said, diagnostics);
     views.physics.push_back({variant, std::move(content)});
   }
@@ -162,7 +173,7 @@ Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnosti
     if (!plain) {
       selections[std::string(kPhysicsSet)] = views.physics[views.chosen].variant;
     }
-    TENON_TRY(layer::Layer content, view_content(source, selections, views.moved));
+    TENON_TRY(layer::Layer content, view_content(source, selections, work, views.moved));
     drop_targets_outside(content, robot, said, diagnostics);
     views.others.push_back({set, variant, std::move(content)});
   }

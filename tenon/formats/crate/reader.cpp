@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/crate/reader.h"
 
+#include <span>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "tenon/base/parallel.h"
@@ -82,6 +84,7 @@ class LayerBuilder {
     for (std::size_t i = 0; i < specs_.size(); ++i) {
       TENON_CHECK(add_fields(tables_.specs[i].field_set, *specs_[i]));
     }
+    layer_.set_from_binary();
     return std::move(layer_);
   }
 
@@ -169,7 +172,32 @@ class LayerBuilder {
         fields.append(tables_.fields[sets[i]].name, value);
       }
     }
+    TENON_CHECK(check_names(fields));
     return fields;
+  }
+
+  /// A spec has a field once.
+  static Result<void> check_names(const layer::FieldList& fields) {
+    constexpr std::size_t kFew = 32;  // compared with each other
+    const std::span<const layer::Field> items = fields.items();
+    std::unordered_set<Token> met;
+    for (std::size_t i = 1; i < items.size() && items.size() <= kFew; ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        if (items[i].name == items[k].name) {
+          return twice(items[i].name);
+        }
+      }
+    }
+    for (std::size_t i = 0; i < items.size() && items.size() > kFew; ++i) {
+      if (!met.insert(items[i].name).second) {
+        return twice(items[i].name);
+      }
+    }
+    return {};
+  }
+
+  static Error twice(Token name) {
+    return crate::corrupt("a set of fields has `" + name.str() + "` twice");
   }
 
   crate::Tables tables_;

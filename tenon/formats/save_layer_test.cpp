@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/formats/save_layer.h"
+
+#include <gtest/gtest.h>
+
+#include "tenon/formats/open_layer.h"
+#include "tenon/layer/field_values.h"
+
+namespace tenon::formats {
+namespace {
+
+namespace fields = layer::fields;
+using layer::Layer;
+using layer::SpecKind;
+
+/// A prim with an attribute; `change` puts into it what no text says.
+template <class Change>
+Layer from_crate(const Change& change) {
+  Layer layer("odd.usda");
+  const Path prim = Path::absolute_root().child(Token("A"));
+  const Path attribute = prim.property(Token("a"));
+  layer.root().set(fields::primChildren, std::vector<Token>{Token("A")});
+  layer::Spec& spec = layer.create(prim, SpecKind::Prim);
+  spec.set(fields::specifier, layer::Specifier::Def);
+  spec.set(fields::properties, std::vector<Token>{Token("a")});
+  layer.create(attribute, SpecKind::Attribute).set(fields::typeName, Token("float"));
+  change(*layer.find(prim), *layer.find(attribute));
+  Diagnostics diagnostics;
+  auto bytes = encode_layer(layer, LayerFormat::Crate);
+  EXPECT_TRUE(bytes);
+  auto back = read_layer(bytes::FileBytes::own(*bytes), "odd.usdc", diagnostics);
+  EXPECT_TRUE(back);
+  return *std::move(back);
+}
+
+void expect_no_text(const Layer& layer) {
+  const auto text = encode_layer(layer, LayerFormat::Text);
+  ASSERT_FALSE(text) << *text;
+  EXPECT_EQ(text.error().code(), ErrorCode::Unsupported);
+  EXPECT_EQ(text.error().diagnostic().file, "odd.usdc");
+  EXPECT_NE(text.error().diagnostic().fix, "");
+  EXPECT_TRUE(encode_layer(layer, LayerFormat::Crate));
+}
+
+TEST(SaveLayer, WritesTextOfCratesThatHaveOne) {
+  EXPECT_TRUE(encode_layer(
+      from_crate([](layer::Spec&, layer::Spec& a) { a.set(fields::default_value, 1.0f); }),
+      LayerFormat::Text));
+}
+
+TEST(SaveLayer, RefusesTextThatCannotBeReadBack) {
+  expect_no_text(from_crate([](layer::Spec&, layer::Spec& a) {
+    a.set(fields::default_value, std::string("no number"));
+  }));
+  expect_no_text(
+      from_crate([](layer::Spec&, layer::Spec& a) { a.set(fields::typeName, Token("fl\xffoat")); }));
+  expect_no_text(from_crate([](layer::Spec& p, layer::Spec&) { p.set(Token("no word"), 1.0f); }));
+  expect_no_text(from_crate([](layer::Spec& p, layer::Spec&) {
+    p.set(fields::documentation, std::string("\xff is no UTF-8"));
+  }));
+}
+
+}  // namespace
+}  // namespace tenon::formats

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/stage/work_account.h"
+
+#include <gtest/gtest.h>
+
+#include "tenon/base/work_limits.h"
+#include "tenon/formats/text/reader.h"
+
+namespace tenon::stage {
+namespace {
+
+Stage stage_of(std::size_t most_work) {
+  std::string text = "#usda 1.0\ndef \"L0\" {\n    def \"leaf\" {}\n}\n";
+  for (int level = 1; level <= 12; ++level) {
+    const std::string below = std::to_string(level - 1);
+    text += "def \"L" + std::to_string(level) + "\" {\n    def \"a\" (\n        references = </L" +
+            below + ">\n    ) {}\n    def \"b\" (\n        references = </L" + below +
+            ">\n    ) {}\n}\n";
+  }
+  Diagnostics diagnostics;
+  auto layer = formats::read_text(text, "root", diagnostics);
+  EXPECT_TRUE(layer) << (layer ? "" : layer.error().to_string());
+  StageOptions options;
+  options.compose.most_work = most_work;
+  options.compose.most_work_per_spec = 0;
+  const auto no_other = [](const std::string& path, const layer::Layer&) {
+    return Result<layer::LayerPtr>(Error(ErrorCode::NotFound, "no " + path));
+  };
+  auto stage = Stage::open(std::make_shared<const layer::Layer>(*std::move(layer)), nullptr,
+                           no_other, std::move(options));
+  EXPECT_TRUE(stage);
+  return *std::move(stage);
+}
+
+TEST(WorkAccount, RefusesWhatWasNotComposedToItsEnd) {
+  const auto spent = WorkAccount().spend(stage_of(100'000));
+  ASSERT_FALSE(spent);
+  EXPECT_EQ(spent.error().code(), ErrorCode::Limit);
+  EXPECT_EQ(spent.error().diagnostic().rule, "compose.work-exceeded");
+  EXPECT_TRUE(WorkAccount().spend(stage_of(limits::kComposeWork)));
+}
+
+TEST(WorkAccount, AddsUp) {
+  const Stage stage = stage_of(limits::kComposeWork);
+  ASSERT_GT(stage.work(), 500'000u);
+  WorkAccount account;
+  std::size_t rounds = 0;
+  while (rounds < 10'000 && account.spend(stage)) {
+    ++rounds;
+  }
+  EXPECT_GT(rounds, 1u);
+  EXPECT_LT(rounds, 10'000u);
+}
+
+}  // namespace
+}  // namespace tenon::stage
