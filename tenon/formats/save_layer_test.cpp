@@ -53,8 +53,9 @@ TEST(SaveLayer, RefusesTextThatCannotBeReadBack) {
   expect_no_text(from_crate([](layer::Spec&, layer::Spec& a) {
     a.set(fields::default_value, std::string("no number"));
   }));
-  expect_no_text(
-      from_crate([](layer::Spec&, layer::Spec& a) { a.set(fields::typeName, Token("fl\xffoat")); }));
+  expect_no_text(from_crate([](layer::Spec&, layer::Spec& a) {
+    a.set(fields::typeName, Token("fl\xffoat"));
+  }));
   expect_no_text(from_crate([](layer::Spec& p, layer::Spec&) { p.set(Token("no word"), 1.0f); }));
   expect_no_text(from_crate([](layer::Spec& p, layer::Spec&) {
     p.set(fields::documentation, std::string("\xff is no UTF-8"));
