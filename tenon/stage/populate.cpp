@@ -99,17 +99,14 @@ class Populator {
 
   /// Arcs that multiply give the same finding for every prim that they bring in.
   void add_findings(const Diagnostics& found) {
-    if (data_.diagnostics.size() <= limits::kStageFindings) {
-      data_.diagnostics.append(found);
-      if (data_.diagnostics.size() > limits::kStageFindings) {
-        report_too_many_findings();
-      }
-      return;
-    }
-    // That the stage is not whole is said in any case.
     for (const Diagnostic& one : found.items()) {
-      if (one.rule == "compose.work-exceeded") {
+      // That the stage is not whole is said in any case.
+      if (data_.diagnostics.size() < limits::kStageFindings ||
+          one.rule == "compose.work-exceeded") {
         data_.diagnostics.add(one);
+      } else if (!too_many_findings_reported_) {
+        too_many_findings_reported_ = true;
+        report_too_many_findings();
       }
     }
   }
@@ -224,6 +221,7 @@ class Populator {
   StageData& data_;
   std::unordered_map<std::string, Path> sources_;  // of prototypes; filled for the first instance
   bool too_many_reported_ = false;
+  bool too_many_findings_reported_ = false;
   std::vector<PrimData*> pending_;
   bool built_ahead_ = false;  // the indices of all that is below `pending_`
   std::size_t next_ahead_ = 0;
