@@ -40,13 +40,13 @@ class BatchBuilder {
   void build_below(const PrimIndex& root) {
     std::vector<Pending> pending{{&root, 0}};
     above_.clear();
-    while (!pending.empty()) {
+    while (!pending.empty() && !batch_.full) {
       const Pending parent = pending.back();
       pending.pop_back();
       above_.resize(parent.depth);
       above_.push_back(parent.index);
       for (const Token name : parent.index->child_names) {
-        const PrimIndex* const child = child_of(*parent.index, name);
+        const PrimIndex* const child = batch_.full ? nullptr : child_of(*parent.index, name);
         if (child != nullptr && !child->child_names.empty() && known_.enters(*child)) {
           pending.push_back({child, parent.depth + 1});
         }
@@ -69,6 +69,7 @@ class BatchBuilder {
     if (batch_.indices.size() >= known_.most_indices ||
         node_count_ >= known_.options->most_nodes || work_.exhausted()) {
       batch_.complete = false;
+      batch_.full = true;
       return nullptr;
     }
     IndexAhead& ahead = batch_.indices.emplace_back();
@@ -88,6 +89,7 @@ class BatchBuilder {
       return &ahead.index;
     }
     batch_.complete = false;
+    batch_.full = !gave_up_;
     batch_.indices.pop_back();
     node_count_ = nodes_before;
     work_.restart(work_before);

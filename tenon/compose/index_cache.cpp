@@ -51,7 +51,8 @@ struct IndexCache::State {
   std::deque<PrimIndex> indices;
   std::deque<IndexBatch> batches;  // built ahead
   std::unordered_map<Path, Entry> by_path;
-  bool at_limit = false;  // what was built ahead is of no use any more
+  bool at_limit = false;    // what was built ahead is of no use any more
+  bool ahead_full = false;  // the work that building ahead may take is done
   Diagnostics errors;
   std::vector<MissingArc> missing;
   std::set<std::tuple<std::string, Path, std::string, std::string>> known_missing;
@@ -191,6 +192,7 @@ struct IndexCache::State {
     std::size_t count = by_path.size();
     for (const IndexBatch& batch : built) {
       complete = complete && batch.complete;
+      ahead_full = ahead_full || batch.full;
       count += batch.indices.size();
     }
     by_path.reserve(count);
@@ -288,7 +290,7 @@ bool IndexCache::build_below(const std::vector<const PrimIndex*>& roots,
                              const std::function<bool(const PrimIndex&)>& enters,
                              std::size_t most) {
   const State& state = *state_;
-  if (state.at_limit) {
+  if (state.at_limit || state.ahead_full) {
     return false;
   }
   KnownIndices known;
@@ -296,7 +298,9 @@ bool IndexCache::build_below(const std::vector<const PrimIndex*>& roots,
   known.root_stack = state.root_stack.get();
   known.node_count = state.node_count;
   known.work_done = state.work.done();
-  known.most_work = state.work.most();
+  // Each of two threads gets half of what is left: work that nobody asks for is wasted.
+  const std::size_t left = state.work.most() - std::min(known.work_done, state.work.most());
+  known.most_work = known.work_done + left / 2;
   known.most_indices = most;
   known.index = [&state](Path path) { return state.find_index(path); };
   known.layer = [&state](const std::string& path, const layer::Layer& anchor) {
