@@ -35,7 +35,8 @@ inline double unlimited_or(double value) {
   return is_sentinel(value) ? std::copysign(std::numeric_limits<double>::infinity(), value) : value;
 }
 
-/// S-7 to S-9; unusable metadata are reported and the fallbacks taken.
+/// S-7 to S-9; unusable metadata are reported and the fallbacks taken. Rates of time codes that are
+/// not positive numbers are reported and taken as they are.
 Units read_units(const stage::Stage& stage, Diagnostics& diagnostics);
 
 }  // namespace tenon::physics

@@ -188,6 +188,28 @@ def Xform "robot" (
         self.assertEqual(found["stage.unknown-api"], ['"PhysicsRigidBodyApi"'])
         self.assertEqual(sorted(found["stage.target-missing"]), ["<../c>", "<b>"])
 
+    def test_rates_and_units_stand_where_a_layer_says_them(self):
+        self.write("part.usda", '#usda 1.0\n(\n    defaultPrim = "p"\n    metersPerUnit = 7\n'
+                   '    framesPerSecond = inf\n    timeCodesPerSecond = nan\n)\ndef "p"\n{\n}\n')
+        self.write("weak.usda", "#usda 1.0\n(\n    timeCodesPerSecond = 0\n)\n")
+        found = self.places("""#usda 1.0
+(
+    metersPerUnit = 1
+    subLayers = [@./weak.usda@]
+    timeCodesPerSecond = -1
+    framesPerSecond = 30
+)
+def "a" (
+    references = @./part.usda@
+)
+{
+}
+""")
+        self.assertEqual(sorted(found["units.time-codes-per-second"]),
+                         ["framesPerSecond = inf", "timeCodesPerSecond = -1",
+                          "timeCodesPerSecond = 0", "timeCodesPerSecond = nan"])
+        self.assertEqual(found["units.mixed"], ["metersPerUnit = 7"])
+
     def test_clips_stand_where_their_entries_do(self):
         found = self.places("""#usda 1.0
 def Xform "a" (
