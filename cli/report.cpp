@@ -11,6 +11,7 @@
 #include "cli/missing_input.h"
 #include "cli/print.h"
 #include "cli/terminal_text.h"
+#include "tenon/bytes/asset_resolver.h"
 #include "tenon/formats/find_places.h"
 
 namespace tenon::cli {
@@ -63,8 +64,7 @@ void Report::print_diagnostics() const {
       shown.push_back({&d, ""});
     }
   }
-  for (const std::string& line :
-       diagnostic_lines(shown, use_color(globals_), globals_.verbose)) {
+  for (const std::string& line : diagnostic_lines(shown, use_color(globals_), globals_.verbose)) {
     say_aside(line);
   }
 }
@@ -75,7 +75,10 @@ int Report::finish(int code, const Json& body) {
         std::any_of(diagnostics.begin(), diagnostics.end(), tells_of_missing_input);
     code = missing ? kNo : kOk;
   }
-  formats::find_places(diagnostics);
+  formats::find_places(diagnostics, [&](const std::string& identifier) {
+    const bool piped = asset_ == "-" && identifier == bytes::absolute_file_path("-");
+    return piped ? standard_input() : formats::source_bytes(identifier);
+  });
   if (!json()) {
     print_diagnostics();
     return code;

@@ -7,12 +7,9 @@
 #include <stdexcept>
 
 #include "tenon/base/run_limits.h"
-#include "tenon/bytes/file_bytes.h"
 
 namespace tenon::cli {
-namespace {
 
-/// All of standard input; read once, however often it is asked for.
 std::shared_ptr<const bytes::FileBytes> standard_input() {
   static const std::shared_ptr<const bytes::FileBytes> contents = [] {
     std::string text;
@@ -30,8 +27,6 @@ std::shared_ptr<const bytes::FileBytes> standard_input() {
   }();
   return contents;
 }
-
-}  // namespace
 
 void AssetArguments::add_to(const Command& verb) {
   verb.add_option("asset", asset, "A .usd, .usda, .usdc or .usdz file").required().file_only();

@@ -11,6 +11,7 @@
 #include "cli/command_line.h"
 #include "cli/file_access.h"
 #include "tenon/base/result.h"
+#include "tenon/bytes/file_bytes.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -31,6 +32,10 @@ struct Globals {
 struct Chosen {
   std::function<int()> run;
 };
+
+/// All of standard input, read once however often it is asked for. Throws std::runtime_error where
+/// it cannot be read or is too large.
+std::shared_ptr<const bytes::FileBytes> standard_input();
 
 /// The asset and how it is to be composed: shared by the verbs that open a stage.
 struct AssetArguments {

@@ -3,15 +3,12 @@
 #include "tenon/formats/find_places.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
 
 #include "tenon/base/path.h"
-#include "tenon/bytes/asset_resolver.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/text/cursor.h"
 #include "tenon/formats/text/part_finder.h"
@@ -19,19 +16,6 @@
 
 namespace tenon::formats {
 namespace {
-
-/// What a layer was read from; nothing for what is no file.
-std::shared_ptr<const bytes::FileBytes> bytes_of(const std::string& identifier) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(bytes::split_package_path(identifier).package, ignored)) {
-    return nullptr;
-  }
-  auto bytes = bytes::AssetResolver().open(identifier);
-  if (bytes) {
-    bytes = bytes_of_layer(*std::move(bytes));
-  }
-  return bytes ? *std::move(bytes) : nullptr;
-}
 
 /// The findings in one layer, in the order of its text.
 class LayerPlaces {
@@ -120,7 +104,7 @@ auto order_of(const Diagnostic& finding) {
 
 }  // namespace
 
-void find_places(const std::vector<Diagnostic*>& findings) {
+void find_places(const std::vector<Diagnostic*>& findings, const SourceOpener& open) {
   std::map<std::string, std::vector<Diagnostic*>> by_file;
   for (Diagnostic* finding : findings) {
     if (!finding->part.spec.empty() && !finding->file.empty()) {
@@ -128,7 +112,7 @@ void find_places(const std::vector<Diagnostic*>& findings) {
     }
   }
   for (auto& [file, found] : by_file) {
-    const auto bytes = bytes_of(file);
+    const auto bytes = open(file);
     const bool is_text = bytes != nullptr && format_of(*bytes) == LayerFormat::Text;
     if (is_text) {
       std::stable_sort(found.begin(), found.end(), [](const Diagnostic* a, const Diagnostic* b) {
@@ -149,12 +133,12 @@ void find_places(const std::vector<Diagnostic*>& findings) {
   }
 }
 
-void find_places(Diagnostics& findings) {
+void find_places(Diagnostics& findings, const SourceOpener& open) {
   std::vector<Diagnostic*> all;
   for (Diagnostic& finding : findings) {
     all.push_back(&finding);
   }
-  find_places(all);
+  find_places(all, open);
 }
 
 }  // namespace tenon::formats

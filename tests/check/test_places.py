@@ -210,6 +210,31 @@ def "a" (
                           "timeCodesPerSecond = 0", "timeCodesPerSecond = nan"])
         self.assertEqual(found["units.mixed"], ["metersPerUnit = 7"])
 
+    def test_text_that_is_piped_in_has_the_places_of_a_file(self):
+        text = """#usda 1.0
+(
+    subLayers = [@./gone_a.usda@, @./gone_b.usda@ (offset = 3)]
+)
+def "a" (
+    references = [@./missing.usda@</X>, </nowhere>]
+)
+{
+}
+"""
+        self.write("scene.usda", text)
+        (self.folder / "-").write_text("#usda 1.0\n")  # a file of that name is not the input
+        found = []
+        for asset in ("scene.usda", "-"):
+            done = subprocess.run([TENON, "info", "--json", asset], capture_output=True,
+                                  input=text.encode(), check=False, cwd=self.folder)
+            found.append([(finding["rule"], text_at(finding, self.folder) if asset != "-" else
+                           text_at({**finding, "file": "scene.usda"}, self.folder))
+                          for finding in json.loads(done.stdout)["diagnostics"]])
+        self.assertEqual(found[0], found[1])
+        self.assertEqual([place for _, place in found[0]],
+                         ["@./gone_a.usda@", "@./gone_b.usda@", "@./missing.usda@</X>",
+                          "</nowhere>"])
+
     def test_clips_stand_where_their_entries_do(self):
         found = self.places("""#usda 1.0
 def Xform "a" (
