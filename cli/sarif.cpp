@@ -8,6 +8,7 @@
 
 #include "cli/sha256.h"
 #include "tenon/check/rule.h"
+#include "tenon/formats/character_columns.h"
 
 namespace tenon::cli {
 namespace {
@@ -58,19 +59,25 @@ Json rule_json(const std::string& id, Severity severity) {
   return json;
 }
 
-Json location_json(const Diagnostic& d) {
+/// Where a finding stands, from its first character to the one behind its last.
+Json region_json(const Diagnostic& d, formats::CharacterColumns columns) {
+  Json region = {{"startLine", d.line}};
+  if (columns.column > 0) {
+    region["startColumn"] = columns.column;
+  }
+  if (columns.column > 0 && columns.end_column > 0) {
+    region["endLine"] = d.end_line;
+    region["endColumn"] = columns.end_column;
+  }
+  return region;
+}
+
+Json location_json(const Diagnostic& d, formats::CharacterColumns columns) {
   Json location = Json::object();
   if (!d.file.empty()) {
     Json physical = {{"artifactLocation", {{"uri", uri_of(d.file)}}}};
     if (d.line > 0) {
-      physical["region"] = {{"startLine", d.line}};
-      if (d.column > 0) {
-        physical["region"]["startColumn"] = d.column;
-      }
-      if (d.end_line > 0) {
-        physical["region"]["endLine"] = d.end_line;
-        physical["region"]["endColumn"] = d.end_column;
-      }
+      physical["region"] = region_json(d, columns);
     }
     location["physicalLocation"] = std::move(physical);
   }
@@ -82,14 +89,15 @@ Json location_json(const Diagnostic& d) {
   return location;
 }
 
-Json result_json(const ReportedFinding& reported, std::size_t rule_index) {
+Json result_json(const ReportedFinding& reported, formats::CharacterColumns columns,
+                 std::size_t rule_index) {
   const Diagnostic& d = reported.finding.diagnostic;
   Json result = Json::object();
   result["ruleId"] = d.rule;
   result["ruleIndex"] = rule_index;
   result["level"] = level_of(d.severity);
   result["message"] = {{"text", d.fix.empty() ? d.message : d.message + "; " + d.fix}};
-  const Json location = location_json(d);
+  const Json location = location_json(d, columns);
   result["locations"] = location.empty() ? Json::array() : Json::array({location});
   Sha256 digest;
   digest.update(fingerprint_of(reported.finding, "."));
@@ -128,12 +136,18 @@ Json sarif_log(const std::vector<ReportedFinding>& findings) {
     rules.push_back(rule_json(id, severity));
   }
   Json results = Json::array();
+  std::vector<const Diagnostic*> diagnostics;
   for (const ReportedFinding& reported : findings) {
-    results.push_back(result_json(reported, index[reported.finding.diagnostic.rule]));
+    diagnostics.push_back(&reported.finding.diagnostic);
+  }
+  const std::vector<formats::CharacterColumns> columns = formats::character_columns(diagnostics);
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    results.push_back(result_json(findings[i], columns[i], index[diagnostics[i]->rule]));
   }
   Json driver = {{"name", "tenon"}, {"version", TENON_VERSION}, {"rules", std::move(rules)}};
   Json run = Json::object();
   run["tool"] = {{"driver", std::move(driver)}};
+  run["columnKind"] = "unicodeCodePoints";  // elsewhere columns are bytes
   run["results"] = std::move(results);
   Json log = Json::object();
   log["$schema"] = "https://json.schemastore.org/sarif-2.1.0.json";

@@ -249,6 +249,21 @@ class Outputs(unittest.TestCase):
             self.assertTrue(result["message"]["text"])
             self.assertEqual(len(result["partialFingerprints"]["tenon/1"]), 64)
 
+    def test_columns_in_sarif_are_characters(self):
+        text = ('#usda 1.0\ndef Xform "\u00e4" { string s = "\u4e2d\U0001d11e"; '
+                'rel r = [</gone>,\n\t/* \u00fc */ </lost>] }\n')
+        scene = self.write("a.usda", text)
+        log = json.loads(run(scene, "--only", "stage.target-missing", "--sarif", "-").stdout)
+        (only,) = log["runs"]
+        self.assertEqual(only["columnKind"], "unicodeCodePoints")
+        lines, found = text.split("\n"), []
+        for result in only["results"]:
+            region = result["locations"][0]["physicalLocation"]["region"]
+            self.assertEqual(region["startLine"], region["endLine"])
+            line = lines[region["startLine"] - 1]
+            found.append(line[region["startColumn"] - 1:region["endColumn"] - 1])
+        self.assertEqual(found, ["</gone>", "</lost>"])
+
     def test_fixes_land_in_the_layer_that_owns_the_opinion(self):
         weak = self.copy("material.restitution", "weak.usda")
         over = self.write("over.usda", "#usda 1.0\n(\n    defaultPrim = \"World\"\n    "
