@@ -11,6 +11,7 @@
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/package/pack.h"
 #include "tenon/formats/text/reader.h"
+#include "tenon/layer/finding_place.h"
 #include "tenon/physics/layer_units.h"
 #include "tenon/session_opinions.h"
 #include "tenon/stage_sources.h"
@@ -90,13 +91,14 @@ void check_assets(const stage::Stage& stage, const bytes::AssetResolver& resolve
                   Diagnostics& diagnostics) {
   for (const layer::LayerPtr& layer : stage.used_layers()) {
     layer::Layer copy = *layer;
-    formats::rename_assets(copy, [&](const std::string& path, formats::AssetUse use, Path spec) {
+    formats::rename_asset_parts(copy, [&](const std::string& path, formats::AssetUse use, Path spec,
+                                          const StatementPart& part) {
       const auto found = use == formats::AssetUse::Value
                              ? resolver.resolve(path, layer->identifier())
                              : Result<std::string>(path);
       if (!found && found.error().diagnostic().rule == "layer.outside") {
         Diagnostic finding = found.error().diagnostic();
-        finding.file = layer->identifier();
+        layer::place_finding(finding, *layer, spec, part);
         finding.prim = spec.prim().str();
         finding.property = spec.is_property() ? spec.name().str() : std::string();
         diagnostics.add(std::move(finding));
@@ -115,8 +117,8 @@ Result<layer::LayerPtr> open_layer(const std::string& path, Diagnostics& diagnos
 Result<layer::LayerPtr> open_layer(const std::string& path, const OpenOptions& options,
                                    Diagnostics& diagnostics) {
   if (options.contents != nullptr) {
-    TENON_TRY(auto layer, formats::read_layer(options.contents, bytes::absolute_file_path(path),
-                                              diagnostics));
+    TENON_TRY(auto layer,
+              formats::read_layer(options.contents, bytes::absolute_file_path(path), diagnostics));
     return layer::LayerPtr(std::make_shared<const layer::Layer>(std::move(layer)));
   }
   const bytes::AssetResolver resolver(resolver_options(options));

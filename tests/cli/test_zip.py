@@ -160,10 +160,64 @@ class Zip(unittest.TestCase):
                               ("package.file-type", "x.mdl"), ("package.outside", "part.usda")},
                              told)
         self.assertIn("part.usda", tenon("zip", asset, "-o", self.package, *library).stderr)
+        places = {finding["message"].split("@")[1]: finding for finding in answer["diagnostics"]
+                  if finding["rule"] == "package.missing"}
+        for path, text, prim_property in (("./gone.usda", "@./gone.usda@</G>", ("/A", None)),
+                                          ("./no.png", "@./no.png@", ("/A", "t"))):
+            finding = places[path]
+            line = asset.read_text().split("\n")[finding["line"] - 1]
+            self.assertEqual(line[finding["column"] - 1:finding["endColumn"] - 1], text)
+            self.assertEqual((finding["prim"], finding["property"]), prim_property)
         before = self.package.read_bytes()
         answer = self.run_json(asset, "-o", self.package, "--strict", code=1)
         self.assertIsNone(answer["output"])
         self.assertEqual(self.package.read_bytes(), before)
+
+    def test_a_missing_file_stands_where_it_is_named(self):
+        text = """#usda 1.0
+(
+    subLayers = [@./a.usda@ (offset = 2), @./b.usda@]
+)
+def "A" (
+    assetInfo = {
+        asset identifier = @./c.usda@
+    }
+    clips = {
+        dictionary default = {
+            asset[] assetPaths = [@./d.usda@, @./e.usda@]
+            string templateAssetPath = "./f.###.usda"
+        }
+    }
+    variantSets = "v"
+)
+{
+    asset[] many = [@./g.png@, @./h.png@]
+    asset moving.timeSamples = {
+        1: @./i.png@,
+        2.50: @./j.png@,
+    }
+    variantSet "v" = {
+        "x" (
+            payload = @./k.usda@</K>
+        ) {
+        }
+    }
+}
+"""
+        asset = self.write("a.usda.d/asset.usda", text)
+        answer = self.run_json(asset, "-o", self.package, code=1)
+        lines, found = text.split("\n"), {}
+        for finding in answer["diagnostics"]:
+            if finding["rule"] == "package.missing":
+                line = lines[finding["line"] - 1]
+                found[finding["message"].split("@")[1]] = \
+                    line[finding["column"] - 1:finding["endColumn"] - 1]
+        wanted = {f"./{name}": f"@./{name}@" for name in
+                  ("a.usda", "b.usda", "d.usda", "e.usda", "g.png", "h.png", "i.png", "j.png")}
+        wanted["./c.usda"] = "@./c.usda@"
+        wanted["./f.###.usda"] = '"./f.###.usda"'
+        wanted["./k.usda"] = "@./k.usda@</K>"
+        self.assertEqual(found, wanted)
 
     def test_usage(self):
         for arguments in ((HAND,), (HAND, "-o", self.folder / "x.zip"), (HAND, "--list"),

@@ -4,8 +4,10 @@
 
 #include <vector>
 
+#include "tenon/base/text_number.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/finding_place.h"
 
 namespace tenon::formats {
 namespace {
@@ -15,15 +17,16 @@ namespace fields = layer::fields;
 
 class Renamer {
  public:
-  Renamer(const RenameAsset& rename, Path spec) : rename_(rename), spec_(spec) {}
+  Renamer(const RenameAssetPart& rename, Path spec, Token field)
+      : rename_(rename), spec_(spec), field_(field) {}
 
   bool changed() const { return changed_; }
 
-  Value renamed(Token field, const Value& value) {
-    if (field == fields::subLayers) {
+  Value renamed(const Value& value) {
+    if (field_ == fields::subLayers) {
       return renamed_layers(value);
     }
-    if (field == fields::clips) {
+    if (field_ == fields::clips) {
       return renamed_clips(value);
     }
     return renamed(value, AssetUse::Value);
@@ -31,10 +34,16 @@ class Renamer {
 
  private:
   std::string name(const std::string& asset_path, AssetUse use) {
+    return name(asset_path, use, layer::item_text(asset_path, Path()));
+  }
+
+  /// `item`: how lists say it.
+  std::string name(const std::string& asset_path, AssetUse use, std::string item) {
     if (asset_path.empty()) {
       return asset_path;
     }
-    std::string result = rename_(asset_path, use, spec_);
+    std::string result =
+        rename_(asset_path, use, spec_, layer::entry_part(field_, keys_, std::move(item)));
     changed_ = changed_ || result != asset_path;
     return result;
   }
@@ -57,7 +66,7 @@ class Renamer {
     for (std::vector<Arc>* list : {&result.explicit_items, &result.prepended, &result.appended,
                                    &result.deleted, &result.added, &result.ordered}) {
       for (Arc& arc : *list) {
-        arc.asset_path = name(arc.asset_path, AssetUse::Layer);
+        arc.asset_path = name(arc.asset_path, AssetUse::Layer, layer::item_text(arc));
       }
     }
     return result;
@@ -83,7 +92,7 @@ class Renamer {
     if (const auto* dictionary = value.get<layer::Dictionary>()) {
       layer::Dictionary result = *dictionary;
       for (auto& [key, item] : result.items) {
-        item = renamed(item, use);
+        item = renamed_below(key, item, use);
       }
       return result;
     }
@@ -98,9 +107,18 @@ class Renamer {
       return value;
     }
     layer::TimeSamples result = *samples;
-    for (Value& sample : result.values) {
-      sample = renamed(sample, AssetUse::Value);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      result.values[i] =
+          renamed_below(shortest(result.times[i]), result.values[i], AssetUse::Value);
     }
+    return result;
+  }
+
+  /// What stands under a key of a dictionary, or at a time.
+  Value renamed_below(const std::string& key, const Value& value, AssetUse use) {
+    keys_.push_back(key);
+    Value result = renamed(value, use);
+    keys_.pop_back();
     return result;
   }
 
@@ -117,21 +135,27 @@ class Renamer {
         continue;
       }
       layer::Dictionary changed = *set_fields;
+      keys_ = {set};
       for (auto& [key, entry] : changed.items) {
         const auto* pattern = entry.get<std::string>();
         if (key == "templateAssetPath" && pattern != nullptr) {
-          entry = Value(name(*pattern, AssetUse::ClipTemplate));
+          keys_.push_back(key);
+          entry = Value(name(*pattern, AssetUse::ClipTemplate, *pattern));
+          keys_.pop_back();
         } else {
-          entry = renamed(entry, AssetUse::Layer);
+          entry = renamed_below(key, entry, AssetUse::Layer);
         }
       }
+      keys_.clear();
       item = Value(std::move(changed));
     }
     return result;
   }
 
-  const RenameAsset& rename_;
+  const RenameAssetPart& rename_;
   Path spec_;
+  Token field_;
+  std::vector<std::string> keys_;  // of the dictionaries or the time that are being looked at
   bool changed_ = false;
 };
 
@@ -152,6 +176,13 @@ bool may_hold_assets(Token field, const Value& value) {
 }  // namespace
 
 bool rename_assets(layer::Layer& layer, const RenameAsset& rename) {
+  return rename_asset_parts(
+      layer, [&](const std::string& asset_path, AssetUse use, Path spec, const StatementPart&) {
+        return rename(asset_path, use, spec);
+      });
+}
+
+bool rename_asset_parts(layer::Layer& layer, const RenameAssetPart& rename) {
   std::vector<Path> paths;
   for (const layer::Layer::Entry& entry : layer.entries()) {
     if (!entry.path.empty()) {
@@ -166,8 +197,8 @@ bool rename_assets(layer::Layer& layer, const RenameAsset& rename) {
       if (!may_hold_assets(field.name, field.value)) {
         continue;
       }
-      Renamer renamer(rename, path);
-      Value value = renamer.renamed(field.name, field.value);
+      Renamer renamer(rename, path, field.name);
+      Value value = renamer.renamed(field.value);
       if (renamer.changed()) {
         layer.find(path)->set(field.name, std::move(value));
         any = true;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "tenon/base/diagnostics.h"
 #include "tenon/base/path.h"
 #include "tenon/layer/layer.h"
 
@@ -22,5 +23,10 @@ enum class AssetUse : unsigned char {
 using RenameAsset =
     std::function<std::string(const std::string& asset_path, AssetUse use, Path spec)>;
 bool rename_assets(layer::Layer& layer, const RenameAsset& rename);
+
+/// The same with the item or value that holds the asset path, for findings: see place_finding.
+using RenameAssetPart = std::function<std::string(const std::string& asset_path, AssetUse use,
+                                                  Path spec, const StatementPart& part)>;
+bool rename_asset_parts(layer::Layer& layer, const RenameAssetPart& rename);
 
 }  // namespace tenon::formats

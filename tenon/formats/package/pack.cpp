@@ -18,6 +18,7 @@
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/text/layout_edit.h"
+#include "tenon/layer/finding_place.h"
 
 namespace tenon::formats {
 namespace {
@@ -183,35 +184,42 @@ class Packer {
 
   bool rename_all(layer::Layer& layer, const std::string& own_name) {
     const std::string anchor = layer.identifier();
-    return rename_assets(layer, [&](const std::string& path, AssetUse use, Path spec) {
-      refusals_.clear();
-      const std::string target = use == AssetUse::ClipTemplate   ? template_target(path, anchor)
-                                 : path.find(kUdim) != path.npos ? udim_target(path, anchor)
-                                                                 : target_of(path, anchor, use);
-      for (const Error& refusal : refusals_) {
-        report_refused(refusal, anchor, spec);
-      }
-      if (target.empty() && refusals_.empty()) {
-        report_missing(path, anchor, spec);
-      }
-      return target.empty() ? path : path_to(target, own_name, path);
-    });
+    return rename_asset_parts(
+        layer, [&](const std::string& path, AssetUse use, Path spec, const StatementPart& part) {
+          refusals_.clear();
+          const std::string target = use == AssetUse::ClipTemplate   ? template_target(path, anchor)
+                                     : path.find(kUdim) != path.npos ? udim_target(path, anchor)
+                                                                     : target_of(path, anchor, use);
+          for (const Error& refusal : refusals_) {
+            report_refused(refusal, layer, spec, part);
+          }
+          if (target.empty() && refusals_.empty()) {
+            report_missing(path, layer, spec, part);
+          }
+          return target.empty() ? path : path_to(target, own_name, path);
+        });
   }
 
-  void report_missing(const std::string& path, const std::string& anchor, Path spec) {
-    Diagnostic missing = file_finding(Severity::Warning, "package.missing",
-                                      "@" + path + "@ is not in the package: it cannot be found",
-                                      anchor, 0, "put the file there, or correct the path");
-    missing.prim = spec.prim().str();
-    diagnostics_.add(std::move(missing));
+  void report_missing(const std::string& path, const layer::Layer& layer, Path spec,
+                      const StatementPart& part) {
+    report_at(layer, spec, part,
+              file_finding(Severity::Warning, "package.missing",
+                           "@" + path + "@ is not in the package: it cannot be found", {}, 0,
+                           "put the file there, or correct the path"));
   }
 
-  void report_refused(const Error& refusal, const std::string& anchor, Path spec) {
+  void report_refused(const Error& refusal, const layer::Layer& layer, Path spec,
+                      const StatementPart& part) {
     Diagnostic finding = refusal.diagnostic();
     finding.severity = Severity::Error;
     finding.message += "; it is not in the package";
-    finding.file = anchor;
-    finding.prim = spec.prim().str();
+    report_at(layer, spec, part, std::move(finding));
+  }
+
+  void report_at(const layer::Layer& layer, Path spec, const StatementPart& part,
+                 Diagnostic finding) {
+    layer::place_finding(finding, layer, spec, part);
+    finding.prim = spec.prim().is_absolute_root() ? std::string() : spec.prim().str();
     finding.property = spec.is_property() ? spec.name().str() : std::string();
     diagnostics_.add(std::move(finding));
   }
