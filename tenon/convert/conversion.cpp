@@ -21,10 +21,10 @@ Conversion::Conversion(const robot::RobotModel& model, const robot::KinematicTre
       linear_color_(model.materials.size(), false),
       contact_members_(model.contact_classes.size()) {}
 
-void Conversion::report(std::uint32_t line, Severity severity, const char* rule,
+void Conversion::report(const robot::Place& place, Severity severity, const char* rule,
                         std::string message, std::string fix) {
   diagnostics_.add(
-      file_finding(severity, rule, std::move(message), model_.file, line, std::move(fix)));
+      robot::model_finding(model_, place, severity, rule, std::move(message), std::move(fix)));
 }
 
 void Conversion::name_prim(Path prim, Token name, const std::string& wanted) {

@@ -61,7 +61,7 @@ class Conversion {
  private:
   // conversion.cpp
   void write_layer_metadata();
-  void report(std::uint32_t line, Severity severity, const char* rule, std::string message,
+  void report(const robot::Place& place, Severity severity, const char* rule, std::string message,
               std::string fix);
   void name_prim(Path prim, Token name, const std::string& wanted);
 

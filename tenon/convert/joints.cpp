@@ -99,14 +99,14 @@ void Conversion::write_dofs(Path path, const robot::Joint& joint) {
 Path Conversion::write_joint(const robot::Joint& joint) {
   const LinkPrim& child = links_[joint.child];
   if (child.role == LinkRole::Frame) {
-    report(joint.line, Severity::Info, "convert.frame",
+    report(joint.place, Severity::Info, "convert.frame",
            "the link \"" + model_.links[joint.child].name + "\" has no mass: it is a frame of \"" +
                model_.links[child.host].name + "\", without a body and a joint",
            "");
     return {};
   }
   if (joint.kind == JointKind::Floating) {
-    report(joint.line, Severity::Info, "convert.floating",
+    report(joint.place, Severity::Info, "convert.floating",
            "the joint \"" + joint.name + "\" lets everything move: no joint is written", "");
     return {};
   }

@@ -91,7 +91,8 @@ Result<void> Conversion::place_links() {
                                          "\" is nested deeper than " +
                                          std::to_string(kNestedLinks) + " links")
           .in_file(model_.file)
-          .at(model_.links[link].line, 0)
+          .at(model_.links[link].place.line, model_.links[link].place.column)
+          .until(model_.links[link].place.end_line, model_.links[link].place.end_column)
           .with_rule("convert.too-deep")
           .with_fix("convert with --flat");
     }
@@ -150,7 +151,7 @@ void Conversion::write_root_share(Path path, const robot::Link& root) {
     }
   }
   write_mass(path, share);
-  report(root.line, Severity::Warning, "convert.massless-root",
+  report(root.place, Severity::Warning, "convert.massless-root",
          "the root \"" + root.name + "\" has no mass: it gets a millionth of that of \"" +
              carried.name + "\"",
          "");
@@ -164,7 +165,7 @@ void Conversion::write_body(Index link) {
   write_pose(prim.path, relative ? model_.joints[*above].origin : prim.in_robot, {{1, 1, 1}});
   if (prim.role != LinkRole::Body) {
     if (!above && source.name != "world") {
-      report(source.line, Severity::Info, "convert.static-root",
+      report(source.place, Severity::Info, "convert.static-root",
              "the root \"" + source.name +
                  "\" has no mass: it is not a body, and what fixed joints hold to it stands still",
              "convert with --float-base where the robot is free to move");
@@ -178,7 +179,7 @@ void Conversion::write_body(Index link) {
   if (has_mass(source)) {
     write_mass(prim.path, *source.inertial);
     if (source.inertial->inertia == Mat3d{}) {
-      report(source.line, Severity::Info, "convert.no-inertia",
+      report(source.place, Severity::Info, "convert.no-inertia",
              "the link \"" + source.name +
                  "\" has a mass and no inertia; engines take that of its colliders",
              "give it an inertia");
@@ -186,7 +187,7 @@ void Conversion::write_body(Index link) {
   } else if (!above) {
     write_root_share(prim.path, source);
   } else {
-    report(source.line, Severity::Warning, "convert.no-mass",
+    report(source.place, Severity::Warning, "convert.no-mass",
            "the link \"" + source.name +
                "\" moves and has no mass; engines take that of its colliders, or 1 kg",
            "give it an inertial");

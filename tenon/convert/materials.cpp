@@ -95,7 +95,7 @@ bool Conversion::is_usable(const std::string& image, const robot::Material& look
   }
   if (refusal) {
     const Diagnostic& why = refusal->diagnostic();
-    report(look.line, Severity::Error, why.rule.c_str(),
+    report(look.place, Severity::Error, why.rule.c_str(),
            "the texture of the material \"" + look.name + "\" is left out: " + why.message,
            why.fix);
     at->second = false;

@@ -45,7 +45,7 @@ void Conversion::write_scene() {
   const robot::MujocoScene& scene = *model_.mujoco.scene;
   if (!options_.scene) {
     if (!is_usual(scene)) {
-      report(0, Severity::Warning, "convert.scene",
+      report({}, Severity::Warning, "convert.scene",
              "the model's world is left out, for robots get that of the scene they are put into: " +
                  words_of(scene),
              "--scene keeps it as a PhysicsScene");

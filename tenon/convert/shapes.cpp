@@ -104,7 +104,7 @@ const std::vector<MeshValues>& Conversion::mesh_values(Index mesh) {
       mesh::read_mesh(file.path, {workers_, options_.reading}, diagnostics_);
   if (!scene) {
     const bool outside = scene.error().diagnostic().rule == bytes::kOutsideRule;
-    report(file.line, Severity::Error, outside ? bytes::kOutsideRule : "convert.mesh-unreadable",
+    report(file.place, Severity::Error, outside ? bytes::kOutsideRule : "convert.mesh-unreadable",
            "the mesh \"" + file.written +
                "\" cannot be read and is left out: " + scene.error().to_string(),
            scene.error().diagnostic().fix);

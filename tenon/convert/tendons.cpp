@@ -80,7 +80,7 @@ void Conversion::write_path(Path prim, const robot::MujocoTendon& tendon) {
       }
     }
     if (path.back().empty() || (!sides.empty() && sides.back().empty())) {
-      report(0, Severity::Error, "convert.tendon",
+      report({}, Severity::Error, "convert.tendon",
              "the tendon \"" + tendon.name + "\" goes to \"" + stop.name +
                  "\", which is not converted",
              "");

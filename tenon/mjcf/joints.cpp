@@ -219,7 +219,7 @@ void MjcfReader::read_equalities() {
     const double* data = model_.eq_data + mjNEQDATA * at;
     robot::Joint& joint = robot_.joints[joint_of_joint_[follower]];
     joint.mimic =
-        robot::Mimic{joint_of_joint_[leader], data[1], data[0], {data[2], data[3], data[4]}, 0};
+        robot::Mimic{joint_of_joint_[leader], data[1], data[0], {data[2], data[3], data[4]}, {}};
   }
 }
 

@@ -147,7 +147,7 @@ void MjcfReader::read_images(int number, robot::Material& material) {
              "the texture \"" + unique_name(mjOBJ_TEXTURE, texture, "texture") +
                  "\" of material \"" + material.name + "\" " + why +
                  (color ? "; its mean colour stands for it" : "; it is left out"),
-             Severity::Warning, material.line);
+             Severity::Warning, material.place.line);
     }
     if (color && file.empty()) {
       const Vec3d mean = mean_color(model_, texture);
@@ -177,7 +177,7 @@ void MjcfReader::read_materials() {
     const auto at = static_cast<std::size_t>(i);
     robot::Material material;
     material.name = unique_name(mjOBJ_MATERIAL, i, "material");
-    material.line = line_of(mjOBJ_MATERIAL, i);
+    material.place.line = line_of(mjOBJ_MATERIAL, i);
     material.color = color_at(model_.mat_rgba + 4 * at);
     if (model_.mat_roughness[at] >= 0) {
       material.roughness = model_.mat_roughness[at];
@@ -263,10 +263,10 @@ void MjcfReader::report_materials() {
     const robot::Material& material = robot_.materials[at];
     if (model_.mat_specular[at] != 0.5f || model_.mat_shininess[at] != 0.5f ||
         model_.mat_reflectance[at] != 0) {
-      glossy.push_back(material.line);
+      glossy.push_back(material.place.line);
     }
     if (model_.mat_texuniform[at] != 0 && !material.texture.empty()) {
-      uniform.push_back(material.line);
+      uniform.push_back(material.place.line);
     }
   }
   if (!glossy.empty()) {

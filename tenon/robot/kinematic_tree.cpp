@@ -5,15 +5,13 @@
 #include <string>
 #include <unordered_map>
 
-#include "tenon/base/file_finding.h"
-
 namespace tenon::robot {
 namespace {
 
-Error fault(const RobotModel& model, std::uint32_t line, const char* rule, std::string message,
+Error fault(const RobotModel& model, const Place& place, const char* rule, std::string message,
             std::string fix) {
-  return {ErrorCode::Invalid, file_finding(Severity::Error, rule, std::move(message), model.file,
-                                           line, std::move(fix))};
+  return {ErrorCode::Invalid,
+          model_finding(model, place, Severity::Error, rule, std::move(message), std::move(fix))};
 }
 
 template <class Thing>
@@ -21,9 +19,9 @@ Result<void> check_names(const RobotModel& model, const std::vector<Thing>& thin
                          const std::string& what) {
   std::unordered_map<std::string_view, std::uint32_t> lines;
   for (const Thing& thing : things) {
-    const auto [known, is_new] = lines.emplace(thing.name, thing.line);
+    const auto [known, is_new] = lines.emplace(thing.name, thing.place.line);
     if (!is_new) {
-      return fault(model, thing.line, "robot.duplicate-name",
+      return fault(model, thing.place, "robot.duplicate-name",
                    "two " + what + "s are named \"" + thing.name + "\"; the first is in line " +
                        std::to_string(known->second),
                    "rename one of them");
@@ -37,7 +35,7 @@ Result<void> attach_children(const RobotModel& model, KinematicTree& tree) {
     const Joint& joint = model.joints[i];
     std::optional<Index>& above = tree.joint_to_parent[joint.child];
     if (above) {
-      return fault(model, joint.line, "robot.two-parents",
+      return fault(model, joint.place, "robot.two-parents",
                    "the joints \"" + model.joints[*above].name + "\" and \"" + joint.name +
                        "\" have the same child \"" + model.links[joint.child].name +
                        "\": that is not a tree",
@@ -56,7 +54,7 @@ Result<Index> find_root(const RobotModel& model, const KinematicTree& tree) {
       continue;
     }
     if (root) {
-      return fault(model, model.links[link].line, "robot.two-roots",
+      return fault(model, model.links[link].place, "robot.two-roots",
                    "the links \"" + model.links[*root].name + "\" and \"" + model.links[link].name +
                        "\" both have no parent",
                    "join them by a joint (of type fixed or floating)");
@@ -64,7 +62,7 @@ Result<Index> find_root(const RobotModel& model, const KinematicTree& tree) {
     root = link;
   }
   if (!root) {
-    return fault(model, model.links.front().line, "robot.circle",
+    return fault(model, model.links.front().place, "robot.circle",
                  "every link has a parent: the joints form a cycle", "remove one joint");
   }
   return *root;
@@ -87,7 +85,7 @@ void walk(const RobotModel& model, KinematicTree& tree) {
 
 Result<KinematicTree> kinematic_tree(const RobotModel& model) {
   if (model.links.empty()) {
-    return fault(model, 0, "robot.no-links", "the robot has no links", "give it at least one");
+    return fault(model, {}, "robot.no-links", "the robot has no links", "give it at least one");
   }
   TENON_CHECK(check_names(model, model.links, "link"));
   TENON_CHECK(check_names(model, model.joints, "joint"));
@@ -104,7 +102,7 @@ Result<KinematicTree> kinematic_tree(const RobotModel& model) {
     }
     for (Index link = 0; link < model.links.size(); ++link) {
       if (reached[link] == 0) {
-        return fault(model, model.links[link].line, "robot.circle",
+        return fault(model, model.links[link].place, "robot.circle",
                      "the link \"" + model.links[link].name +
                          "\" is its own ancestor: the joints form a cycle",
                      "remove one joint of the cycle");

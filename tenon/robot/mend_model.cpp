@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "tenon/base/file_finding.h"
 #include "tenon/math/inertia.h"
 #include "tenon/robot/kinematic_tree.h"
 
@@ -45,10 +44,10 @@ class Mending {
   }
 
  private:
-  void report(std::uint32_t line, const char* rule, std::string message, std::string fix,
+  void report(const Place& place, const char* rule, std::string message, std::string fix,
               Severity severity = Severity::Error) {
     diagnostics_.add(
-        file_finding(severity, rule, std::move(message), model_.file, line, std::move(fix)));
+        model_finding(model_, place, severity, rule, std::move(message), std::move(fix)));
   }
 
   void mend_inertial(Link& link) {
@@ -59,13 +58,13 @@ class Mending {
     const std::string whose = "the inertial of link \"" + link.name + "\" ";
     if (!std::isfinite(inertial.mass) || !finite(inertial.center_of_mass) ||
         !std::isfinite(dot(inertial.axes, inertial.axes)) || !finite(inertial.inertia)) {
-      report(inertial.line, "robot.not-finite",
+      report(inertial.place, "robot.not-finite",
              whose + "holds a number that is not finite; it is left out", "give finite numbers");
       link.inertial.reset();
       return;
     }
     if (inertial.mass < 0) {
-      report(inertial.line, "robot.negative-mass", whose + "has a negative mass; it is left out",
+      report(inertial.place, "robot.negative-mass", whose + "has a negative mass; it is left out",
              "give a mass above 0");
       link.inertial.reset();
       return;
@@ -77,7 +76,7 @@ class Mending {
     const double sum = moments[0] + moments[1] + moments[2];
     for (std::size_t i = 0; i < 3; ++i) {
       if (sum - 2 * moments[i] < -1e-6 * std::fabs(sum)) {
-        report(inertial.line, "robot.inertia-triangle",
+        report(inertial.place, "robot.inertia-triangle",
                whose +
                    "has a principal moment larger than the sum of the other two, which no body "
                    "has; it is kept as it is",
@@ -96,7 +95,7 @@ class Mending {
       return false;
     }
     inertial.inertia = sum > 0 ? diagonal_matrix(Vec3d{{1, 1, 1}} * (sum / 3)) : Mat3d{};
-    report(inertial.line, "robot.inertia-not-positive",
+    report(inertial.place, "robot.inertia-not-positive",
            whose + "has a principal moment that is not above 0; " +
                (sum > 0 ? "the mean of the three is taken for each" : "it is left out"),
            "take the inertia from the part's shape and mass", Severity::Warning);
@@ -130,12 +129,12 @@ class Mending {
     for (Shape& shape : shapes) {
       const std::string name(geometry_name(shape.geometry.kind));
       if (!finite(shape.pose)) {
-        report(shape.line, "robot.not-finite",
+        report(shape.place, "robot.not-finite",
                "a " + what + " of link \"" + link.name +
                    "\" stands at no finite place; it is left out",
                "give finite numbers");
       } else if (!sized(shape.geometry)) {
-        report(shape.line, "robot.bad-size",
+        report(shape.place, "robot.bad-size",
                "a " + what + " of link \"" + link.name + "\" is a " + name +
                    " of no size; it is left out",
                "give sizes above 0");
@@ -149,7 +148,7 @@ class Mending {
   void mend_frames(Joint& joint) {
     for (Pose* pose : {&joint.origin, &joint.frame}) {
       if (!finite(*pose)) {
-        report(joint.line, "robot.not-finite",
+        report(joint.place, "robot.not-finite",
                "the joint \"" + joint.name + "\" stands at no finite place; 0 is taken",
                "give finite numbers");
         *pose = {};
@@ -167,7 +166,7 @@ class Mending {
       return;
     }
     if (joint.has_one_axis() || joint.kind == JointKind::Planar) {
-      report(joint.line, "robot.zero-axis",
+      report(joint.place, "robot.zero-axis",
              "the axis of joint \"" + joint.name + "\" has no direction; 1 0 0 is taken",
              "give the axis three numbers that are not all 0");
     }
@@ -176,7 +175,7 @@ class Mending {
 
   void mend_number(const Joint& joint, const char* name, double fallback, double& value) {
     if (std::isnan(value) || value < 0 || (std::isinf(value) && fallback == 0)) {
-      report(joint.line, "robot.bad-number",
+      report(joint.place, "robot.bad-number",
              std::string("the ") + name + " of joint \"" + joint.name +
                  "\" is negative or not finite; it is left out",
              "give a number that is not negative");
@@ -202,12 +201,12 @@ class Mending {
     }
     const Limit& limit = *joint.limit;
     if (std::isnan(limit.lower) || std::isnan(limit.upper)) {
-      report(joint.line, "robot.not-finite",
+      report(joint.place, "robot.not-finite",
              "a limit of joint \"" + joint.name + "\" is not a number; the joint is unlimited",
              "give finite limits");
       joint.limit.reset();
     } else if (limit.lower > limit.upper) {
-      report(joint.line, "robot.limit-order",
+      report(joint.place, "robot.limit-order",
              "the lower limit of joint \"" + joint.name +
                  "\" lies above the upper one; they are swapped",
              "swap them");
@@ -229,7 +228,7 @@ class Mending {
       why = "has a mimic whose numbers are not finite";
     }
     if (!why.empty()) {
-      report(joint.mimic->line, "robot.mimic",
+      report(joint.mimic->place, "robot.mimic",
              "the joint \"" + joint.name + "\" " + why + "; the mimic is left out",
              "name another joint with one axis, and finite numbers");
       joint.mimic.reset();
@@ -249,7 +248,7 @@ class Mending {
       Joint& joint = model_.joints[at];
       if (walked_by[at] == start && joint.mimic) {
         report(
-            joint.mimic->line, "robot.mimic",
+            joint.mimic->place, "robot.mimic",
             "the joint \"" + joint.name + "\" follows itself through others; its mimic is left out",
             "let one joint of the cycle lead");
         joint.mimic.reset();

@@ -64,7 +64,7 @@ Inertial placed(const Inertial& inertial, const Pose& pose) {
 
 Inertial sum_inertials(const Inertial& a, const Inertial& b) {
   Inertial result;
-  result.line = a.line;
+  result.place = a.place;
   result.mass = a.mass + b.mass;
   result.center_of_mass =
       result.mass > 0 ? (a.center_of_mass * a.mass + b.center_of_mass * b.mass) * (1 / result.mass)

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tenon/base/diagnostics.h"
 #include "tenon/math/matrix.h"
 #include "tenon/math/transform.h"
 #include "tenon/math/vector.h"
@@ -24,12 +25,20 @@ namespace tenon::robot {
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 using Index = std::uint32_t;
 
+/// Where the description says something; zeros where that is unknown.
+struct Place {
+  std::uint32_t line = 0;      ///< 1-based
+  std::uint32_t column = 0;    ///< 1-based, in bytes
+  std::uint32_t end_line = 0;  ///< of the byte behind it
+  std::uint32_t end_column = 0;
+};
+
 struct Inertial {
   double mass = 0;                 ///< [kg]
   Vec3d center_of_mass;            ///< in the link frame [m]
   Quatd axes = kIdentityRotation;  ///< link <- frame of `inertia`
   Mat3d inertia;  ///< about the centre of mass [kg m^2], symmetric, in the frame `axes`
-  std::uint32_t line = 0;
+  Place place;
 
   /// The same in the axes of the link.
   Mat3d inertia_in_link() const;
@@ -62,7 +71,7 @@ struct Visual {
   Pose pose;         ///< in the link frame
   Geometry geometry;
   std::optional<Index> material;  ///< into RobotModel::materials
-  std::uint32_t line = 0;
+  Place place;
 };
 
 struct Surface {
@@ -83,7 +92,7 @@ struct Collider {
   std::optional<Index> material;       ///< how it looks, where the description says so
   std::optional<Index> contact_class;  ///< into RobotModel::contact_classes; none: touches all
   MujocoContact mujoco;
-  std::uint32_t line = 0;
+  Place place;
 };
 
 /// What an image says of a material, beside its colour.
@@ -117,14 +126,14 @@ struct Material {
   std::optional<double> roughness;  ///< 0 to 1
   std::optional<double> metallic;   ///< 0 to 1
   double emission = 0;              ///< share of its colour that it gives off as light
-  std::uint32_t line = 0;
+  Place place;
 };
 
 /// A mesh that geometries show: a file, or triangles that came with the description.
 struct MeshFile {
   std::string written;  ///< as the description names it
   std::string path;     ///< the file; empty: not found
-  std::uint32_t line = 0;
+  Place place;
   std::vector<Vec3f> points;     ///< (point_count) [m], without a file
   std::vector<Vec3i> triangles;  ///< (triangle_count), indices into points
   /// (3 triangle_count), a corner's place in images from the lower left; or empty
@@ -143,7 +152,7 @@ struct Link {
   std::vector<Visual> visuals;
   std::vector<Collider> colliders;
   std::vector<Site> sites;
-  std::uint32_t line = 0;
+  Place place;
 };
 
 enum class JointKind : std::uint8_t {
@@ -185,7 +194,7 @@ struct Mimic {
   double multiplier = 1;
   double offset = 0;
   std::array<double, 3> higher{};
-  std::uint32_t line = 0;
+  Place place;
 };
 
 /// effort = stiffness (target - q) + damping (0 - v), clamped to the joint's effort.
@@ -221,7 +230,7 @@ struct Joint {
   std::optional<Mimic> mimic;
   std::optional<Drive> drive;
   MujocoSoftness mujoco;
-  std::uint32_t line = 0;
+  Place place;
 
   /// One degree of freedom about or along `axis`.
   bool has_one_axis() const {
@@ -251,7 +260,7 @@ struct ContactClass {
 
 struct RobotModel {
   std::string name;
-  std::string file;  ///< the description; lines are lines of it, 0 where unknown
+  std::string file;  ///< the description; places are places in it
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Material> materials;
@@ -265,5 +274,10 @@ struct RobotModel {
   /// of meshes and textures.
   std::vector<std::string> parts_folders;
 };
+
+Diagnostic at_place(Diagnostic finding, const Place& place);
+/// A finding about a place in the description of `model`.
+Diagnostic model_finding(const RobotModel& model, const Place& place, Severity severity,
+                         std::string rule, std::string message, std::string fix);
 
 }  // namespace tenon::robot

@@ -107,7 +107,7 @@ TEST(KinematicTree, WalksChainsOfAnyLength) {
     model.links.push_back(link_of_mass("l" + std::to_string(i), 1));
     if (i > 0) {
       model.joints.push_back(joint_of("j" + std::to_string(i), JointKind::Continuous, i - 1, i));
-      model.joints.back().mimic = Mimic{i < 2 ? i - 1 : i - 2, 1, 0, {}, 0};
+      model.joints.back().mimic = Mimic{i < 2 ? i - 1 : i - 2, 1, 0, {}, {}};
     }
   }
   const auto tree = kinematic_tree(model);
@@ -119,7 +119,7 @@ TEST(KinematicTree, WalksChainsOfAnyLength) {
 TEST(MendModel, LeavesASoundModelAlone) {
   RobotModel model = four_links();
   model.joints[1].limit = Limit{-1, 2};
-  model.joints[2].mimic = Mimic{1, -1.5, 0.25, {}, 0};
+  model.joints[2].mimic = Mimic{1, -1.5, 0.25, {}, {}};
   EXPECT_EQ(mended(model), "");
   EXPECT_TRUE(model.joints[2].mimic);
 }
@@ -163,11 +163,11 @@ TEST(MendModel, MendsJoints) {
 
 TEST(MendModel, LeavesOutMimicsThatCannotBe) {
   RobotModel model = four_links();
-  model.joints[1].mimic = Mimic{2, 1, 0, {}, 0};
-  model.joints[2].mimic = Mimic{1, 1, 0, {}, 0};
+  model.joints[1].mimic = Mimic{2, 1, 0, {}, {}};
+  model.joints[2].mimic = Mimic{1, 1, 0, {}, {}};
   EXPECT_EQ(mended(model), "robot.mimic;");
   EXPECT_NE(model.joints[1].mimic.has_value(), model.joints[2].mimic.has_value());
-  model.joints[1].mimic = Mimic{0, 1, 0, {}, 0};  // a fixed joint
+  model.joints[1].mimic = Mimic{0, 1, 0, {}, {}};  // a fixed joint
   EXPECT_EQ(mended(model), "robot.mimic;");
 }
 
@@ -187,7 +187,7 @@ TEST(MergeFixed, SumsMassesAndMovesJoints) {
   RobotModel model = four_links();
   model.joints[0].origin.position = {{2, 0, 0}};
   model.joints[1].origin.position = {{0, 1, 0}};
-  model.joints[1].mimic = Mimic{2, 2, 0, {}, 0};
+  model.joints[1].mimic = Mimic{2, 2, 0, {}, {}};
   const auto tree = kinematic_tree(model);
   ASSERT_TRUE(tree);
   const RobotModel merged = merge_fixed(model, *tree);

@@ -53,7 +53,7 @@ Result<void> UrdfReader::read_joint(pugi::xml_node element) {
                      "safety_controller", "calibration"});
   robot::Joint joint;
   TENON_TRY(joint.name, xml_.text(element, "name"));
-  joint.line = xml_.line_of(element);
+  joint.place = xml_.place_of(element);
   TENON_TRY(const std::string type, xml_.text(element, "type"));
   const std::optional<JointKind> kind = kind_named(type);
   if (!kind) {
@@ -182,7 +182,7 @@ Result<void> UrdfReader::read_mimics() {
     }
     robot::Mimic& values = model_.joints[i].mimic.emplace();
     values.leader = leader->second;
-    values.line = xml_.line_of(mimic);
+    values.place = xml_.place_of(mimic);
     TENON_TRY(values.multiplier, xml_.number(mimic, "multiplier", 1.0));
     TENON_TRY(values.offset, xml_.number(mimic, "offset", 0.0));
   }

@@ -11,7 +11,7 @@ Result<void> UrdfReader::read_link(pugi::xml_node element) {
   xml_.list_unknown(element, {"name"}, {"inertial", "visual", "collision"});
   robot::Link link;
   TENON_TRY(link.name, xml_.text(element, "name"));
-  link.line = xml_.line_of(element);
+  link.place = xml_.place_of(element);
   if (const pugi::xml_node inertial = element.child("inertial")) {
     TENON_TRY(link.inertial, read_inertial(inertial));
     if (inertial.next_sibling("inertial")) {
@@ -33,7 +33,7 @@ Result<void> UrdfReader::read_link(pugi::xml_node element) {
 Result<robot::Inertial> UrdfReader::read_inertial(pugi::xml_node element) {
   xml_.list_unknown(element, {}, {"origin", "mass", "inertia"});
   robot::Inertial inertial;
-  inertial.line = xml_.line_of(element);
+  inertial.place = xml_.place_of(element);
   TENON_TRY(const Pose origin, xml_.origin(element));
   inertial.center_of_mass = origin.position;
   inertial.axes = origin.orientation;
@@ -73,7 +73,7 @@ Result<void> UrdfReader::read_visual(pugi::xml_node element, robot::Link& link) 
   xml_.list_unknown(element, {"name"}, {"origin", "geometry", "material"});
   robot::Visual visual;
   visual.name = element.attribute("name").value();
-  visual.line = xml_.line_of(element);
+  visual.place = xml_.place_of(element);
   TENON_TRY(visual.pose, xml_.origin(element));
   TENON_TRY(const std::optional<Geometry> geometry, read_geometry(element));
   TENON_TRY(visual.material, read_material_of(element));
@@ -88,7 +88,7 @@ Result<void> UrdfReader::read_collision(pugi::xml_node element, robot::Link& lin
   xml_.list_unknown(element, {"name"}, {"origin", "geometry"});
   robot::Collider collider;
   collider.name = element.attribute("name").value();
-  collider.line = xml_.line_of(element);
+  collider.place = xml_.place_of(element);
   TENON_TRY(collider.pose, xml_.origin(element));
   TENON_TRY(const std::optional<Geometry> geometry, read_geometry(element));
   if (geometry) {
@@ -158,7 +158,7 @@ robot::Index UrdfReader::mesh_number(const std::string& written, pugi::xml_node 
     if (!file && !file.error().diagnostic().rule.empty()) {
       refusals_.emplace(written, file.error());
     }
-    model_.meshes.push_back({written, file.value_or(""), xml_.line_of(element), {}, {}});
+    model_.meshes.push_back({written, file.value_or(""), xml_.place_of(element), {}, {}});
   }
   return at->second;
 }

@@ -19,7 +19,7 @@ Result<robot::Material> UrdfReader::read_material(pugi::xml_node element) {
   xml_.list_unknown(element, {"name"}, {"color", "texture"});
   robot::Material material;
   material.name = element.attribute("name").value();
-  material.line = xml_.line_of(element);
+  material.place = xml_.place_of(element);
   if (const pugi::xml_node color = element.child("color")) {
     xml_.list_unknown(color, {"rgba"}, {});
     TENON_TRY(const std::vector<double> rgba, xml_.numbers(color, "rgba", 4, {}));

@@ -26,21 +26,25 @@ Result<void> check_root(const XmlReader& xml, pugi::xml_node root) {
   const std::string name = root.name();
   if (name != "robot") {
     const bool mjcf = name == "mujoco";
+    const robot::Place at = xml.place_of(root);
     return Error(ErrorCode::Unsupported, "the root element is <" + name + ">, not <robot>" +
                                              (mjcf            ? ": this is MJCF"
                                               : name == "sdf" ? ": this is SDF"
                                                               : ""))
         .in_file(xml.file())
-        .at(xml.line_of(root), 0)
+        .at(at.line, at.column)
+        .until(at.end_line, at.end_column)
         .with_rule("urdf.root")
         .with_fix(mjcf ? "name the file .xml" : "give a URDF");
   }
   for (pugi::xml_node node = root; node; node = next_in_text(node, root)) {
     if (std::string_view(node.name()).starts_with("xacro:")) {
+      const robot::Place at = xml.place_of(node);
       return Error(ErrorCode::Unsupported,
                    "<" + std::string(node.name()) + "> is a macro of xacro, which is not expanded")
           .in_file(xml.file())
-          .at(xml.line_of(node), 0)
+          .at(at.line, at.column)
+          .until(at.end_line, at.end_column)
           .with_rule("urdf.xacro")
           .with_fix("expand it first: xacro IN.xacro > OUT.urdf");
     }

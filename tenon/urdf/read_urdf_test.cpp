@@ -84,6 +84,21 @@ TEST_F(ReadUrdf, PlacesAreThoseOfTagsAndAttributesInBytes) {
             std::tuple(2, 2, 2, 17));
 }
 
+TEST_F(ReadUrdf, TheModelKnowsThePlacesOfItsParts) {
+  const auto model = read(
+      "<link name='a'> <inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>"
+      "</link>\n  <link name='b'/><joint name='j' type='fixed'\n><parent link='a'/>"
+      "<child link='b'/></joint>");
+  ASSERT_TRUE(model) << error_->to_string();
+  const auto places = [](const robot::Place& place) {
+    return std::tuple(place.line, place.column, place.end_line, place.end_column);
+  };
+  EXPECT_EQ(places(model->links[0].place), std::tuple(2, 1, 2, 16));
+  EXPECT_EQ(places(model->links[0].inertial->place), std::tuple(2, 17, 2, 27));
+  EXPECT_EQ(places(model->links[1].place), std::tuple(3, 3, 3, 19));
+  EXPECT_EQ(places(model->joints[0].place), std::tuple(3, 19, 4, 2));
+}
+
 TEST_F(ReadUrdf, TurnsByRollPitchYawAboutFixedAxes) {
   const auto model =
       read(joint("fixed", "<origin rpy='1.5707963267948966 0 1.5707963267948966'/>"));

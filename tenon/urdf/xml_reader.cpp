@@ -44,13 +44,7 @@ Result<pugi::xml_node> XmlReader::parse() {
   return document_.document_element();
 }
 
-std::uint32_t XmlReader::line_of(pugi::xml_node element) const {
-  const std::ptrdiff_t offset = element.offset_debug();
-  if (offset < 0) {
-    return 0;
-  }
-  return static_cast<std::uint32_t>(line_at(static_cast<std::size_t>(offset)));
-}
+robot::Place XmlReader::place_of(pugi::xml_node element) const { return place_of(element, {}); }
 
 std::size_t XmlReader::line_at(std::size_t offset) const {
   const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
@@ -96,21 +90,18 @@ XmlReader::Range XmlReader::attribute_in(Range tag, std::string_view attribute) 
   return tag;
 }
 
-void XmlReader::place(Diagnostic& finding, pugi::xml_node element,
-                      std::string_view attribute) const {
+robot::Place XmlReader::place_of(pugi::xml_node element, std::string_view attribute) const {
   const std::ptrdiff_t name = element.offset_debug();
   if (name <= 0 || static_cast<std::size_t>(name) > text_.size()) {
-    return;
+    return {};
   }
   const Range tag = tag_of(static_cast<std::size_t>(name));
   const Range range = attribute.empty() ? tag : attribute_in(tag, attribute);
   const auto column = [&](std::size_t offset) {
     return static_cast<std::uint32_t>(offset - line_starts_[line_at(offset) - 1] + 1);
   };
-  finding.line = static_cast<std::uint32_t>(line_at(range.begin));
-  finding.column = column(range.begin);
-  finding.end_line = static_cast<std::uint32_t>(line_at(range.end));
-  finding.end_column = column(range.end);
+  return {static_cast<std::uint32_t>(line_at(range.begin)), column(range.begin),
+          static_cast<std::uint32_t>(line_at(range.end)), column(range.end)};
 }
 
 Error XmlReader::fault(pugi::xml_node element, const char* rule, std::string message,
@@ -118,8 +109,7 @@ Error XmlReader::fault(pugi::xml_node element, const char* rule, std::string mes
   Diagnostic finding =
       file_finding(Severity::Error, rule, "<" + std::string(element.name()) + ">: " + message,
                    file_, 0, std::move(fix));
-  place(finding, element, attribute);
-  return {ErrorCode::Parse, std::move(finding)};
+  return {ErrorCode::Parse, robot::at_place(std::move(finding), place_of(element, attribute))};
 }
 
 void XmlReader::warn(pugi::xml_node element, const char* rule, std::string message, std::string fix,
@@ -130,10 +120,9 @@ void XmlReader::warn(pugi::xml_node element, const char* rule, std::string messa
   message = findings_ == limits::kLayerFindings
                 ? "further findings are not listed"
                 : "<" + std::string(element.name()) + ">: " + std::move(message);
-  Diagnostic finding =
-      file_finding(severity, rule, std::move(message), file_, line_of(element), std::move(fix));
-  place(finding, element, attribute);
-  diagnostics_.add(std::move(finding));
+  diagnostics_.add(
+      robot::at_place(file_finding(severity, rule, std::move(message), file_, 0, std::move(fix)),
+                      place_of(element, attribute)));
 }
 
 void XmlReader::list_unknown(pugi::xml_node element,

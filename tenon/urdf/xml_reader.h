@@ -13,6 +13,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/math/transform.h"
+#include "tenon/robot/robot_model.h"
 
 /// Internal to this folder.
 namespace tenon::urdf {
@@ -26,7 +27,8 @@ class XmlReader {
   Result<pugi::xml_node> parse();
 
   const std::string& file() const { return file_; }
-  std::uint32_t line_of(pugi::xml_node element) const;
+  /// Of the start tag of an element.
+  robot::Place place_of(pugi::xml_node element) const;
 
   /// At the start tag of the element, or at one attribute of it.
   Error fault(pugi::xml_node element, const char* rule, std::string message, std::string fix,
@@ -57,7 +59,8 @@ class XmlReader {
   };
   Range tag_of(std::size_t name) const;
   Range attribute_in(Range tag, std::string_view attribute) const;
-  void place(Diagnostic& finding, pugi::xml_node element, std::string_view attribute) const;
+  /// Of an attribute of the element, or of its start tag.
+  robot::Place place_of(pugi::xml_node element, std::string_view attribute) const;
   std::size_t line_at(std::size_t offset) const;
 
   std::string_view text_;

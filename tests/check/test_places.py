@@ -210,6 +210,20 @@ def "a" (
                           "timeCodesPerSecond = 0", "timeCodesPerSecond = nan"])
         self.assertEqual(found["units.mixed"], ["metersPerUnit = 7"])
 
+    def test_findings_on_a_robot_stand_at_the_tags_of_its_parts(self):
+        robot = self.write("r.urdf", """<robot name="r"><!-- \u00fc -->
+  <link name="a"/><link name="b"/>
+  <joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 0"/>
+    <limit lower="1" upper="-1" effort="1" velocity="1"/></joint>
+</robot>
+""")
+        done = subprocess.run([TENON, "convert", "--json", robot, "-o", self.folder / "r.usda"],
+                              capture_output=True, check=False)
+        found = {finding["rule"]: text_at(finding, self.folder)
+                 for finding in json.loads(done.stdout)["diagnostics"]}
+        self.assertEqual(found["robot.zero-axis"], '<joint name="j" type="revolute">')
+        self.assertEqual(found["robot.limit-order"], '<joint name="j" type="revolute">')
+
     def test_text_that_is_piped_in_has_the_places_of_a_file(self):
         text = """#usda 1.0
 (
