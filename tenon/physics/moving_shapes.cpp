@@ -87,7 +87,7 @@ class MovingShapes {
   }
 
   std::vector<double> dense(std::vector<double> codes) const {
-    if (state_.readings.held_samples == HeldSamples::Held) {
+    if (state_.readings.held_samples == HeldSamples::Held || codes.empty()) {
       return codes;
     }
     const double first = codes.front();

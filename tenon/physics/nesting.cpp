@@ -6,6 +6,7 @@
 // more, with what is off as no body; what that says of membership and mass is kept.
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "tenon/base/physics_limits.h"
@@ -108,27 +109,41 @@ class NestingReader {
     std::map<Index, std::vector<Index>> carried_by;
     for (const Index body : nested_) {
       const PhysicsPrim* prim = then.walk.find(state_.scene.bodies[body].path);
-      if (prim != nullptr && !prim->is_body && prim->body != kNone) {
-        const Index carrier = body_at(then.walk.prims[prim->body].path);
-        found.carried.push_back({body, carrier});
-        carried_by[carrier].push_back(body);
+      const bool is_carried = prim != nullptr && !prim->is_body && prim->body != kNone;
+      const std::optional<Index> carrier =
+          is_carried ? body_at(state_, then.walk.prims[prim->body].path) : std::nullopt;
+      if (carrier) {
+        found.carried.push_back({body, *carrier});
+        carried_by[*carrier].push_back(body);
       }
     }
     for (const auto& [carrier, carried] : carried_by) {
-      const std::uint32_t there = then.walk.index_of.at(state_.scene.bodies[carrier].path);
-      share_mass(accounts.masses[then.body_of_prim[there]], then.scene, carrier, carried, found);
+      const auto there = body_at(then, state_.scene.bodies[carrier].path);
+      const auto account = std::find_if(accounts.masses.begin(), accounts.masses.end(),
+                                        [&](const MassAccount& one) { return one.body == there; });
+      if (account != accounts.masses.end()) {
+        share_mass(*account, then.scene, carrier, carried, found);
+      }
     }
     std::sort(found.masses.begin(), found.masses.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
     state_.scene.nesting_states.push_back(std::move(found));
   }
 
-  Index body_at(Path path) const { return state_.body_of_prim[state_.walk.index_of.at(path)]; }
+  static std::optional<Index> body_at(const ReadState& state, Path path) {
+    const auto found = state.walk.index_of.find(path);
+    const std::uint32_t body =
+        found == state.walk.index_of.end() ? kNone : state.body_of_prim[found->second];
+    return body == kNone ? std::nullopt : std::optional<Index>(body);
+  }
 
-  /// Whose collider it is while everything is on.
+  /// Whose collider it is while everything is on; kNone of what does not collide then, as a plane
+  /// inside a body that moves.
   Index owner_of(Path collider) const {
-    const Index i = state_.collider_of_prim[state_.walk.index_of.at(collider)];
-    return state_.scene.colliders[i].body.value_or(kNone);
+    const auto found = state_.walk.index_of.find(collider);
+    const std::uint32_t i =
+        found == state_.walk.index_of.end() ? kNone : state_.collider_of_prim[found->second];
+    return i == kNone ? kNone : state_.scene.colliders[i].body.value_or(kNone);
   }
 
   /// Each part gets what its own colliders weigh; all of it is the carrier's where its mass API

@@ -30,6 +30,24 @@ INSIDES = {
     "robot": BODY % CUBE + ' def PhysicsScene "S" {} def Material "M" {} def Scope "L" {}'
              ' def PhysicsFixedJoint "J" { rel physics:body0 = </A>\nrel physics:body1 = </A/B> }',
 }
+# Relationships that lead to a property, to their own prim, to nothing, to a prim of another kind.
+TARGETS = "".join(
+    f'def {kind} "{kind}{number}" (prepend apiSchemas = ["{api}"]) {{ rel {name} = {target}\n}}\n'
+    for number, target in enumerate(["</A.x>", "</A>", "</No/Where>", "</A/Scope>", "None",
+                                     "[</A/PhysicsFixedJoint1>, </A.x>, </No>]"])
+    for kind, api, name in [("PhysicsFixedJoint", "UnknownAPI", "physics:body1"),
+                            ("Cube", "PhysicsCollisionAPI", "physics:simulationOwner"),
+                            ("Xform", "PhysicsRigidBodyAPI", "physics:simulationOwner"),
+                            ("PhysicsRevoluteJoint", "NewtonMimicAPI", "newton:mimicJoint"),
+                            ("Sphere", "PhysicsFilteredPairsAPI", "physics:filteredPairs"),
+                            ("PhysicsCollisionGroup", "UnknownAPI", "physics:filteredGroups"),
+                            ("PointInstancer", "UnknownAPI", "prototypes"),
+                            ("MjcActuator", "UnknownAPI", "mjc:target"),
+                            ("MjcTendon", "UnknownAPI", "mjc:path"),
+                            ("Capsule", "MaterialBindingAPI", "material:binding:physics"),
+                            ("Plane", "IsaacRobotAPI", "isaac:physics:robotLinks")]
+) + 'def Scope "Scope" {}\ndouble x = 1\n'  # fmt: skip
+
 FEW_TYPES = ["", "Unknown", "Xform", "Mesh", "Material", "Camera", "GeomSubset",
              "PointInstancer", "PhysicsScene", "PhysicsCollisionGroup", "PhysicsPrismaticJoint",
              "PhysicsJoint"]  # fmt: skip
@@ -74,6 +92,29 @@ SHAPES = {
     "joint_of_itself": HEADER + 'def PhysicsRevoluteJoint "A" (prepend apiSchemas = '
                        '["PhysicsDriveAPI:angular"]) { rel physics:body0 = </A>\n'
                        'rel physics:body1 = </A> }\n',
+    "default_is_a_property": '#usda 1.0\n(defaultPrim = "A.x")\ndef Xform "A" { double x = 1\n}\n',
+    "default_is_in_a_variant": '#usda 1.0\n(defaultPrim = "/A{v=x}B")\ndef Xform "A" { '
+                               'variantSet "v" = { "x" { def Xform "B" {} } } }\n',
+    "default_is_the_root": '#usda 1.0\n(defaultPrim = "/")\ndef Xform "A" { %s }\n'
+                           % INSIDES["body"],
+    "default_has_no_type": HEADER + 'def "A" { %s }\nover "B" {}\nclass "C" {}\n'
+                           % INSIDES["joint"],
+    "targets_that_are_none": HEADER + 'def Xform "A" { %s }\n' % TARGETS,
+    # An inner body that samples switch off, with a collider that only its carrier can have.
+    "plane_in_a_switched_body": HEADER + 'def Xform "A" (prepend apiSchemas = '
+        '["PhysicsRigidBodyAPI"]) { bool physics:kinematicEnabled = true\n'
+        'def Xform "B" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) {\n'
+        'bool physics:rigidBodyEnabled.timeSamples = { 0: 1, 5: 0, }\n'
+        'def Plane "C" (prepend apiSchemas = ["PhysicsCollisionAPI"]) {} } }\n',
+    "splines_of_nothing": HEADER + 'def Xform "A" { double s.spline = { }\n'
+        'double xformOp:translateX.spline = { post: loop repeat, }\n'
+        'uniform token[] xformOpOrder = ["xformOp:translateX", "xformOp:", "!invert!", ""]\n}\n',
+    "axis_of_no_name": HEADER + 'def Xform "A" { %s def PhysicsRevoluteJoint "J" (prepend '
+        'apiSchemas = ["NewtonMimicAPI", "PhysxMimicJointAPI:rotX"]) { rel newton:mimicJoint = '
+        '</A/K>\nrel physxMimicJoint:rotX:referenceJoint = </A/K>\n'
+        'uniform token physics:axis = ""\nrel physics:body1 = </A/B>\n}\n'
+        'def PhysicsRevoluteJoint "K" { uniform token physics:axis = "X:Y Z"\n'
+        'rel physics:body1 = </A/B>\n} }\n' % (BODY % ""),
     "lonely_attributes": HEADER + 'def Xform "A" { float physics:mass = 1\n'
                          'rel physics:body0 = </A>\ntoken physics:axis = "Q"\n'
                          'point3f[] points = []\nint[] faceVertexCounts = [3]\n}\n',
@@ -137,9 +178,9 @@ def calls(verb, asset, folder):
                   SET_OPTIONS.items() if ALL)],
         "sim": [["--duration", "0.01"]],
         "strip": [["-o", out + ".usda"]],
-        "structure": [["-o", out], ["--dry-run"]],
+        "structure": [["-o", out], ["--dry-run"], ["--dry-run", "--schema", "both"]],
         "test-runner": [["composition"], ["layer"]],
-        "tree": [[], ["--physics", "physics"]],
+        "tree": [[], ["--physics", "physics"], ["--show", "physics"]],
         "where": [["/A"], ["/A.physics:mass"], ["/A/B"]],
         "zip": [["-o", out + ".usdz"]],
     }.get(verb, [[]])
