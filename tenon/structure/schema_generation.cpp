@@ -34,7 +34,7 @@ struct MimicLaw {
 void remove(Layer& content, Path prim, Token api) {
   std::vector<Token> apis = apis_of(content, prim);
   std::erase(apis, api);
-  set_apis(*content.find(prim), std::move(apis));
+  set_apis(make_prim(content, prim), std::move(apis));
   const schema::PrimDefinition definition(Token(), {api});
   for (const Path property : properties_of(content, prim)) {
     if (definition.find(property.name()) != nullptr) {
@@ -48,9 +48,10 @@ Spec declared(Token api, Token property) {
   const schema::PrimDefinition definition(Token(), {api});
   const schema::PropertyDefinition* known = definition.find(property);
   Spec spec;
-  spec.kind = known->is_relationship ? layer::SpecKind::Relationship : layer::SpecKind::Attribute;
+  const bool relationship = known != nullptr && known->is_relationship;
+  spec.kind = relationship ? layer::SpecKind::Relationship : layer::SpecKind::Attribute;
   spec.set(fields::custom, false);
-  if (!known->is_relationship) {
+  if (known != nullptr && !relationship) {
     spec.set(fields::typeName, Value(known->type_name));
     spec.set(fields::variability, Value(known->variability));
   }
@@ -98,12 +99,12 @@ std::string axis_of(const Layer& content, Path prim) {
                                            : "";
 }
 
-/// "rotX" for a joint that turns about X. PhysX wants it of sliding joints too, where it has no
-/// meaning.
+/// "rotX" for a joint that turns about X, and about an axis that there is not (as physics are
+/// read). PhysX wants it of sliding joints too, where it has no meaning.
 std::string rotation_axis(const Layer& content, Path prim) {
   const Spec* spec = content.find(prim.property("physics:axis"));
-  return "rot" +
-         (spec == nullptr ? Token("X") : spec->get_or(fields::default_value, Token("X"))).str();
+  const Token axis = spec == nullptr ? Token() : spec->get_or(fields::default_value, Token());
+  return axis == "Y" ? "rotY" : axis == "Z" ? "rotZ" : "rotX";
 }
 
 /// The instances that PhysxMimicJointAPI is applied with.

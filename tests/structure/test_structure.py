@@ -309,6 +309,17 @@ class Generations(unittest.TestCase):  # 2
             self.assertIn(name, physx)
         self.assertIn("NewtonMimicAPI", file_of(interface, "Physics/physics.usda"))
 
+    def test_an_axis_that_there_is_not_is_x(self):
+        for axis in ("Y Z", "1/2", "", "X:Y"):
+            with self.subTest(axis):
+                path = write("axis.usda", LEGACY.replace(
+                    "float physxMimicJoint:rotX:gearing",
+                    f'uniform token physics:axis = "{axis}"\n'
+                    "        float physxMimicJoint:rotX:gearing"))
+                physx = file_of(made(made(path, "--schema", "current"), "--schema", "legacy"),
+                                "Physics/physx.usda")
+                self.assertIn("physxMimicJoint:rotX:gearing = -0.75", physx)
+
     def test_a_hand_stays_what_it_is(self):
         for generation in ("current", "legacy", "both"):
             with self.subTest(generation):
