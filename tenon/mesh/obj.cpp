@@ -4,6 +4,7 @@
 // Wavefront OBJ: v, vt, vn, f and usemtl, and of its material libraries newmtl, Kd, d, Tr, map_Kd.
 // Faces keep their corners; one mesh for each material in order of first use.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -25,6 +26,11 @@ struct Corner {
   std::optional<std::size_t> texture;
   std::optional<std::size_t> normal;
 };
+
+template <std::size_t N>
+bool is_finite(const Vec<float, N>& values) {
+  return std::all_of(values.v.begin(), values.v.end(), [](float x) { return std::isfinite(x); });
+}
 
 /// Faces of one material, with numbers of points of the whole file.
 struct Group {
@@ -57,7 +63,7 @@ class ObjReader {
 
   Result<void> read_line(std::string_view word) {
     if (word == "v") {
-      return read_numbers(points_, 3);
+      return read_point();
     }
     if (word == "vn") {
       return read_numbers(normals_, 3);
@@ -74,6 +80,17 @@ class ObjReader {
       read_library(std::string(scanner_.rest_of_line()));
     } else if (word == "l" || word == "p" || word.starts_with("curv") || word == "surf") {
       ++left_out_;
+    }
+    return {};
+  }
+
+  /// A point is needed; normals and texture coordinates are not: see is_usable().
+  Result<void> read_point() {
+    TENON_CHECK(read_numbers(points_, 3));
+    if (!is_finite(points_.back())) {
+      return fault(ErrorCode::Corrupt, "a point has a coordinate that is not a finite number")
+          .with_rule("mesh.not-finite")
+          .with_fix("export the mesh again, or take out the faces that use the point");
     }
     return {};
   }
@@ -143,8 +160,12 @@ class ObjReader {
       mesh.face_points.push_back(static_cast<std::int32_t>(corner.point));
       mesh.texture_coordinates.push_back(corner.texture ? textures_[*corner.texture] : Vec2f{});
       mesh.normals.push_back(corner.normal ? normals_[*corner.normal] : Vec3f{});
-      group.all_textures = group.all_textures && corner.texture.has_value();
-      group.all_normals = group.all_normals && corner.normal.has_value();
+      group.all_textures = group.all_textures && corner.texture.has_value() &&
+                           is_usable(mesh.texture_coordinates.back(), "texture coordinate",
+                                     "its material's faces get none");
+      group.all_normals = group.all_normals && corner.normal.has_value() &&
+                          is_usable(mesh.normals.back(), "normal",
+                                    "its material's faces get those of their planes");
       ++count;
     }
     if (count < 3) {
@@ -152,6 +173,19 @@ class ObjReader {
     }
     mesh.face_counts.push_back(count);
     return {};
+  }
+
+  /// Says what is done without numbers that nothing can be drawn with.
+  template <std::size_t N>
+  bool is_usable(const Vec<float, N>& values, const char* what, const char* instead) {
+    if (is_finite(values)) {
+      return true;
+    }
+    diagnostics_.add(file_finding(Severity::Warning, "mesh.not-finite",
+                                  std::string("the face has a ") + what +
+                                      " that is not a finite number; " + instead,
+                                  path_, scanner_.line(), "export the mesh again"));
+    return false;
   }
 
   void use(std::string material) {
@@ -195,23 +229,36 @@ class ObjReader {
         appearance_of_.emplace(std::string(lines.rest_of_line()), appearances_.size());
         appearances_.emplace_back();
       } else if (!appearances_.empty()) {
-        read_appearance(lines, word, file, appearances_.back());
+        if (!read_appearance(lines, word, file, appearances_.back())) {
+          diagnostics_.add(file_finding(Severity::Warning, "mesh.not-finite",
+                                        "a colour or an opacity is not a finite number; full "
+                                        "ones are taken",
+                                        file, lines.line(), "give numbers from 0 to 1"));
+        }
       }
     }
   }
 
-  static void read_appearance(TextScanner& lines, std::string_view word, const std::string& file,
+  /// False where a number is not finite; 1 is taken then, as where there is none.
+  static bool read_appearance(TextScanner& lines, std::string_view word, const std::string& file,
                               Appearance& look) {
+    bool finite = true;
+    const auto number = [&] {
+      const float value = number_of<float>(lines.word()).value_or(1.0f);
+      finite = finite && std::isfinite(value);
+      return std::isfinite(value) ? value : 1.0f;
+    };
     if (word == "Kd") {
       Vec4f color = look.color.value_or(Vec4f{{1, 1, 1, 1}});
       for (std::size_t i = 0; i < 3; ++i) {
-        color[i] = number_of<float>(lines.word()).value_or(1.0f);
+        color[i] = number();
       }
       look.color = color;
     } else if (word == "d" || word == "Tr") {
       const float value = number_of<float>(lines.word()).value_or(word == "d" ? 1.0f : 0.0f);
+      finite = std::isfinite(value);
       Vec4f color = look.color.value_or(Vec4f{{1, 1, 1, 1}});
-      color[3] = word == "d" ? value : 1 - value;
+      color[3] = !finite ? 1.0f : word == "d" ? value : 1 - value;
       look.color = color;
     } else if (word == "map_Kd") {
       std::string name(lines.rest_of_line());
@@ -220,6 +267,7 @@ class ObjReader {
       }
       look.texture = beside(file, name);
     }
+    return finite;
   }
 
   /// The points that a group uses, in the order of the file.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/mesh/read_mesh.h"
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -94,6 +95,65 @@ TEST_F(ReadMesh, RefusesStlsThatContradictThemselves) {
   const auto cut = read_stl("solid x\nfacet\nvertex 0 0 0\nvertex 1 0\n", "x.stl");
   EXPECT_EQ(cut.error().code(), ErrorCode::Parse);
   EXPECT_EQ(cut.error().diagnostic().line, 4u);
+}
+
+TEST_F(ReadMesh, RefusesStlsWithPointsThatAreNoNumbers) {
+  for (const float bad : {NAN, INFINITY, -INFINITY}) {
+    std::vector<Vec3f> corners = kTwoTriangles;
+    corners[4] = {{1, bad, 0}};
+    const auto scene = read_stl(binary_stl(corners, 2, ""), "x.stl");
+    ASSERT_FALSE(scene);
+    EXPECT_EQ(scene.error().diagnostic().rule, "mesh.not-finite");
+    EXPECT_NE(scene.error().message().find("triangle 2 has"), std::string::npos);
+  }
+  const auto text = read_stl(
+      "solid x\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 nan 0\nendfacet\n", "x.stl");
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().diagnostic().rule, "mesh.not-finite");
+  EXPECT_EQ(text.error().diagnostic().line, 5u);
+}
+
+TEST_F(ReadMesh, RefusesObjWithPointsThatAreNoNumbers) {
+  for (const char* bad : {"nan", "inf", "-inf", "NAN", "+Infinity"}) {
+    const auto scene = read_obj("v 0 0 0\nv 1 " + std::string(bad) + " 0\nv 0 1 0\nf 1 2 3\n",
+                                "x.obj", kAnywhere, findings_);
+    ASSERT_FALSE(scene) << bad;
+    EXPECT_EQ(scene.error().diagnostic().rule, "mesh.not-finite") << bad;
+    EXPECT_EQ(scene.error().diagnostic().line, 2u) << bad;
+  }
+}
+
+TEST_F(ReadMesh, DoesWithoutNormalsAndColoursThatAreNoNumbers) {
+  write("n.mtl", "newmtl a\nKd nan 0.5 inf\nnewmtl b\nd nan\n");
+  const std::string path = write(
+      "n.obj",
+      "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 nan\nvn 0 0 1\nvt inf 0\nvt 0 0\n"
+      "usemtl a\nf 1/1/1 2/1/1 3/1/1\nusemtl b\nf 1/2/2 2/2/2 3/2/2\n");
+  const auto scene = read(path, findings_);
+  ASSERT_TRUE(scene) << scene.error().to_string();
+  ASSERT_EQ(scene->meshes.size(), 2u);
+  EXPECT_TRUE(scene->meshes[0].normals.empty());
+  EXPECT_TRUE(scene->meshes[0].texture_coordinates.empty());
+  EXPECT_EQ(scene->meshes[1].normals.size(), 3u);
+  EXPECT_EQ(scene->meshes[1].texture_coordinates.size(), 3u);
+  EXPECT_EQ(scene->appearances[0].color, (Vec4f{{1, 0.5f, 1, 1}}));
+  EXPECT_EQ(scene->appearances[1].color, (Vec4f{{1, 1, 1, 1}}));
+  std::vector<std::uint32_t> lines;
+  for (const Diagnostic& finding : findings_.items()) {
+    EXPECT_EQ(finding.rule, "mesh.not-finite");
+    lines.push_back(finding.line);
+  }
+  EXPECT_EQ(lines, (std::vector<std::uint32_t>{2, 4, 10, 10}));  // once for each list
+}
+
+TEST_F(ReadMesh, NamesTheLineOfAFaceThatNamesNoPoint) {
+  for (const char* face : {"f 1 2 4", "f 1 2 -4", "f 1 2 0", "f 1 2 2147483648"}) {
+    const auto scene = read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + std::string(face) + "\n", "x.obj",
+                                kAnywhere, findings_);
+    ASSERT_FALSE(scene) << face;
+    EXPECT_EQ(scene.error().diagnostic().line, 4u) << face;
+    EXPECT_NE(scene.error().message().find("of 3 so far"), std::string::npos) << face;
+  }
 }
 
 TEST_F(ReadMesh, ReadsObjWithMaterials) {

@@ -4,7 +4,9 @@
 // Binary STL: 80 bytes of anything, a count, then 50 bytes for each triangle (normal, three points,
 // two bytes). Text STL: `facet normal`, `outer loop`, three `vertex`. A binary file may begin with
 // the word "solid", so the size decides first. Normals are what the points say; they are not kept.
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "tenon/base/limits.h"
@@ -33,6 +35,20 @@ Vec3f read_point(const char* at) {
            std::bit_cast<float>(read_uint32(at + 8))}};
 }
 
+bool is_finite(const Vec3f& point) {
+  return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
+}
+
+/// About the first triangle that no engine and no renderer can use, counted from 1.
+Error not_finite(const std::string& path, std::size_t triangle, std::size_t further) {
+  const std::string more =
+      further == 0 ? "" : " (and so have " + std::to_string(further) + " more triangles)";
+  return fault(ErrorCode::Corrupt, "mesh.not-finite", path,
+               "triangle " + std::to_string(triangle) +
+                   " has a coordinate that is not a finite number" + more)
+      .with_fix("export the mesh again, or take the triangle out");
+}
+
 MeshScene scene_of(PointWelder& welder, std::vector<std::int32_t> corners) {
   MeshScene scene;
   PolygonMesh& mesh = scene.meshes.emplace_back();
@@ -42,15 +58,25 @@ MeshScene scene_of(PointWelder& welder, std::vector<std::int32_t> corners) {
   return scene;
 }
 
-MeshScene read_binary(std::string_view bytes) {
+Result<MeshScene> read_binary(std::string_view bytes, const std::string& path) {
   const std::size_t count = (bytes.size() - kHeader) / kTriangle;
   PointWelder welder(count * 3);
   std::vector<std::int32_t> corners(count * 3);
+  std::size_t first_bad = count;
+  std::size_t bad = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const char* triangle = bytes.data() + kHeader + i * kTriangle + 12;
+    bool finite = true;
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      corners[3 * i + corner] = welder.number(read_point(triangle + 12 * corner));
+      const Vec3f point = read_point(triangle + 12 * corner);
+      finite = finite && is_finite(point);
+      corners[3 * i + corner] = welder.number(point);
     }
+    first_bad = finite ? first_bad : std::min(first_bad, i);
+    bad += finite ? 0 : 1;
+  }
+  if (bad > 0) {
+    return not_finite(path, first_bad + 1, bad - 1);
   }
   return scene_of(welder, std::move(corners));
 }
@@ -71,6 +97,9 @@ Result<MeshScene> read_text(std::string_view text, const std::string& path) {
               .at(scanner.line(), 0);
         }
         point[i] = *number;
+      }
+      if (!is_finite(point)) {
+        return not_finite(path, corners.size() / 3 + 1, 0).at(scanner.line(), 0);
       }
       if (corners.size() >= limits::kMeshCorners) {
         return fault(ErrorCode::Limit, "mesh.stl", path, "more corners than a mesh may have")
@@ -104,7 +133,7 @@ Result<MeshScene> read_stl(std::string_view bytes, const std::string& path) {
       return fault(ErrorCode::Limit, "mesh.stl", path,
                    std::to_string(count) + " triangles are more than a mesh may have");
     }
-    return read_binary(bytes);
+    return read_binary(bytes, path);
   }
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
   if (start != std::string_view::npos && bytes.substr(start).starts_with("solid")) {

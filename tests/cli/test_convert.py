@@ -7,8 +7,10 @@
 """
 
 import json
+import math
 import pathlib
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -27,6 +29,42 @@ def tenon(*arguments):
 def files_of(folder):
     return {p.relative_to(folder).as_posix(): p.read_bytes()
             for p in folder.rglob("*") if p.is_file()}
+
+
+class BadMeshes(unittest.TestCase):
+    """A mesh with numbers that are none is left out: no NaN reaches an asset."""
+
+    HEAD = struct.pack("<80xI", 2)
+    FIRST = struct.pack("<12f2x", *[0.0] * 3, 0, 0, 0, 1, 0, 0, 0, 1, 0)
+    SECOND = struct.pack("<12f2x", *[0.0] * 3, 0, 0, 0, 1, math.nan, 0, 0, 1, 0)
+    MESHES = {
+        "a.stl": (HEAD + FIRST + SECOND, "triangle 2 has a coordinate that is not a finite"),
+        "b.stl": (b"solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex inf 0 0\nendfacet\n",
+                  "b.stl:5: error: triangle 1 has"),
+        "a.obj": (b"v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n", "a.obj:3: error: a point has"),
+        "b.obj": (b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
+                  'b.obj:4: error: a face names "4" of 3 so far'),
+    }
+
+    def test_are_told_and_left_out(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, (contents, words) in self.MESHES.items():
+                pathlib.Path(folder, name).write_bytes(contents)
+                robot, asset = pathlib.Path(folder, "r.urdf"), pathlib.Path(folder, "r.usda")
+                mesh = f'<geometry><mesh filename="{name}"/></geometry>'
+                robot.write_text(f'<robot name="r"><link name="l">\n<visual>{mesh}</visual>\n'
+                                 f"<collision>{mesh}</collision></link></robot>\n")
+                with self.subTest(name):
+                    code, answer = tenon("convert", robot, asset)
+                    self.assertEqual(code, 1)
+                    told = [d["message"] for d in answer["diagnostics"]
+                            if d["rule"] == "convert.mesh-unreadable"]
+                    self.assertEqual(len(told), 1)
+                    self.assertIn(words, told[0])
+                    self.assertIn("is left out", told[0])
+                    text = asset.read_text(encoding="utf-8")
+                    self.assertNotRegex(text, r"\b(nan|inf)\b")
+                    self.assertNotIn("def Mesh", text)
 
 
 class IntoAFolder(unittest.TestCase):
