@@ -310,5 +310,26 @@ TEST(Contacts, PiecesOfAMeshLeaveItsHollowOpen) {
   EXPECT_NEAR(sim->body_state(0).pose.position[2], 0.1, 2e-3);
 }
 
+// MuJoCo makes hulls with Qhull, which took minutes here.
+TEST(Contacts, HullsOfVeryManyCornersAreThinned) {
+  TestScene scene;
+  const auto body = scene.add_body("drum", {{0, 0, 0.5}});
+  physics::TriangleMesh mesh;
+  for (std::size_t i = 0; i < 50'000; ++i) {
+    const double angle = 2 * M_PI * static_cast<double>(i) / 50'000;
+    mesh.points.push_back({{std::cos(angle), std::sin(angle), i % 2 == 0 ? -0.5 : 0.5}});
+  }
+  physics::Shape hull;
+  hull.kind = physics::ShapeKind::ConvexHull;
+  scene.meshes.push_back(std::move(mesh));
+  scene.add_collider("hull", body, hull);
+  scene.add_collider("ground", std::nullopt, ground());
+  const auto s = simulation(scene);
+  ASSERT_NE(s, nullptr);
+  EXPECT_TRUE(mentions(s->not_mapped(), "/hull", "physics:approximation"));
+  run(*s, 0.1);
+  EXPECT_NEAR(s->body_state(body).pose.position[2], 0.5, 1e-2);
+}
+
 }  // namespace
 }  // namespace tenon::engines::mujoco

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "tenon/base/limits.h"
+#include "tenon/base/physics_limits.h"
+#include "tenon/physics/convex_hull.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -190,6 +193,17 @@ std::vector<Vec3d> prism(const physics::TriangleMesh& mesh, const Vec3i& t, cons
   return result;
 }
 
+/// One hull of points in space: MuJoCo makes it with Qhull, whose time has no other bound.
+MeshPieces one_hull(const std::vector<Vec3d>& points, std::string note) {
+  physics::HullPoints hull = physics::hull_points(points);
+  if (hull.thinned) {
+    note += std::string(note.empty() ? "" : "; ") + "the hull has more than " +
+            std::to_string(limits::kHullPoints) +
+            " corners (kHullPoints); it goes through the outermost ones";
+  }
+  return {{std::move(hull.points)}, std::move(note)};
+}
+
 }  // namespace
 
 MeshPieces hull_pieces(const std::vector<Vec3d>& points, const Vec3d& up) {
@@ -198,10 +212,10 @@ MeshPieces hull_pieces(const std::vector<Vec3d>& points, const Vec3d& up) {
     return {{}, "a mesh whose points lie on a line has no surface to touch; left out"};
   }
   if (plane.thickness > kFlat * plane.size) {
-    return {{points}, ""};
+    return one_hull(points, "");
   }
   const Thickness thickness = thickness_of(plane, up);
-  return {{thicken(points, thickness)}, thickness.note};
+  return one_hull(thicken(points, thickness), thickness.note);
 }
 
 MeshPieces triangle_pieces(const physics::TriangleMesh& mesh, const Vec3d& up) {
@@ -214,13 +228,13 @@ MeshPieces triangle_pieces(const physics::TriangleMesh& mesh, const Vec3d& up) {
     return hull_pieces(mesh.points, up);
   }
   if (!flat && is_convex(mesh, plane.size)) {
-    return {{mesh.points}, ""};
+    return one_hull(mesh.points, "");
   }
   if (mesh.triangles.size() > limits::kTrianglePieces) {
-    return {
-        {mesh.points},
+    return one_hull(
+        mesh.points,
         "MuJoCo has no contacts with triangle meshes, and this one has too many triangles to be "
-        "split; its convex hull is used"};
+        "split; its convex hull is used");
   }
   MeshPieces result;
   const Thickness thickness = thickness_of(plane, up);
