@@ -327,6 +327,13 @@ std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource&
   const Approximation asked = approximation_of(state, source);
   const Approximation kind = settle(state, source, asked);
   ShapeReading reading;
+  const bool finite = std::all_of(mesh->points.begin(), mesh->points.end(),
+                                  [](const Vec3d& point) { return is_finite(point); });
+  if (!finite) {  // nothing can stand for it; who asked says so
+    reading.shape.kind = ShapeKind::Mesh;
+    reading.shape.mesh = add_mesh(state, *std::move(mesh));
+    return reading;
+  }
   if (kind == Approximation::BoundingSphere || kind == Approximation::BoundingCube) {
     reading = kind == Approximation::BoundingCube ? bounded_by_box(*mesh) : bounded_by_ball(*mesh);
     reading.approximation = asked;
@@ -358,7 +365,7 @@ std::vector<Index> first_triangles(const ReadState& state, const stage::Prim& pr
   const std::vector<std::int32_t> holes = sorted(integers(state, prim, state.tokens.hole_indices));
   std::vector<Index> first{0};
   for (std::size_t face = 0; face < counts.size(); ++face) {
-    const std::int32_t count = is_hole(holes, face) ? 0 : std::max(0, counts[face] - 2);
+    const std::int32_t count = is_hole(holes, face) ? 0 : std::max(2, counts[face]) - 2;
     first.push_back(first.back() + static_cast<Index>(count));
   }
   return first;

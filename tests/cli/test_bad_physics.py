@@ -59,6 +59,13 @@ SHAPES = {
         "Mesh", BODY, "point3f[] points = [(0,0,nan),(1,0,0),(0,1,0)]\n"
         "int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]",
         ["collider.not-finite"]),
+    **{f"mesh points NaN, {kind}": (
+        "Mesh", BODY + ["PhysicsMeshCollisionAPI"],
+        "point3f[] points = [(0,0,nan),(1,0,0),(0,1,0),(0,0,1),(1,inf,1)]\n"
+        "int[] faceVertexCounts = [3,3,3]\nint[] faceVertexIndices = [0,1,2,0,2,3,1,2,4]\n"
+        f'uniform token physics:approximation = "{kind}"', ["collider.not-finite"])
+       for kind in ("none", "convexHull", "convexDecomposition", "meshSimplification",
+                    "boundingSphere", "boundingCube")},
     "points without widths": ("Points", BODY, "point3f[] points = [(0,0,0)]",
                               ["collider.points-invalid"]),
     "owner nowhere": ("Cube", BODY, "rel physics:simulationOwner = </Nowhere>",
