@@ -310,6 +310,31 @@ TEST(Contacts, PiecesOfAMeshLeaveItsHollowOpen) {
   EXPECT_NEAR(sim->body_state(0).pose.position[2], 0.1, 2e-3);
 }
 
+// Each had a body of MuJoCo's, and of 5000 its search for contacts had no room.
+TEST(Contacts, ManyStaticCollidersCollide) {
+  TestScene scene;
+  constexpr int kAcross = 80;
+  for (int i = 0; i < kAcross * kAcross; ++i) {
+    const Vec3d place{{static_cast<double>(i % kAcross), static_cast<double>(i / kAcross), -0.5}};
+    scene.add_collider("floor" + std::to_string(i), std::nullopt, box({{0.5, 0.5, 0.5}}),
+                       Pose{place, kIdentityRotation});
+  }
+  const auto rests = scene.add_body("rests", {{10, 10, 0.1}});
+  scene.add_collider("ball", rests, sphere(0.1));
+  const auto falls = scene.add_body("falls", {{40, 40, 0.1}});
+  const auto ghost = scene.add_collider("ghost", falls, sphere(0.1));
+  for (physics::Index i = 0; i < kAcross * kAcross; ++i) {
+    if (length(scene.colliders[i].pose.position - Vec3d{{40, 40, -0.5}}) < 5) {
+      scene.filter.pairs_off.emplace_back(i, ghost);
+    }
+  }
+  const auto s = simulation(scene);
+  ASSERT_NE(s, nullptr);
+  run(*s, 0.25);
+  EXPECT_NEAR(s->body_state(rests).pose.position[2], 0.1, 1e-3);
+  EXPECT_LT(s->body_state(falls).pose.position[2], -0.1);
+}
+
 // MuJoCo makes hulls with Qhull, which took minutes here.
 TEST(Contacts, HullsOfVeryManyCornersAreThinned) {
   TestScene scene;

@@ -95,10 +95,37 @@ void set_contact(mjsGeom& geom, const physics::MujocoContact& contact) {
   std::copy(contact.solimp.begin(), contact.solimp.end(), geom.solimp);
 }
 
+/// Up to so many static colliders each have a MuJoCo body. Of more, only those that need one have:
+/// MuJoCo's search for contacts takes room for every pair of bodies.
+constexpr std::size_t kOwnStaticBodies = 1000;
+constexpr std::size_t kRoomPerPair = 8;  // [bytes]
+
+/// Which static colliders have a body of their own: pairs that are switched off are told by their
+/// bodies, and what moves along a track is one.
+std::vector<char> own_static_bodies(const physics::PhysicsScene& scene) {
+  std::vector<char> own(scene.colliders.size(), 1);
+  const auto is_static = [](const Collider& c) { return c.enabled && !c.body.has_value(); };
+  const auto count = std::count_if(scene.colliders.begin(), scene.colliders.end(), is_static);
+  if (static_cast<std::size_t>(count) <= kOwnStaticBodies) {
+    return own;
+  }
+  std::fill(own.begin(), own.end(), 0);
+  for (const auto& [first, second] : scene.filter.pairs_off) {
+    own[first] = own[second] = 1;
+  }
+  for (const physics::PoseTrack& track : scene.pose_tracks) {
+    if (track.collider.has_value()) {
+      own[*track.collider] = 1;
+    }
+  }
+  return own;
+}
+
 class ColliderPass {
  public:
-  ColliderPass(Build& build, physics::Index index)
+  ColliderPass(Build& build, physics::Index index, bool own_body)
       : build_(build),
+        own_body_(own_body),
         index_(index),
         collider_(build.scene.colliders[index]),
         material_(collider_.material) {}
@@ -137,7 +164,15 @@ class ColliderPass {
       world_ = build_.scene.bodies[*collider_.body].pose * collider_.pose;
       return;
     }
-    body_ = mjs_addBody(mjs_findBody(build_.spec.get(), "world"), nullptr);
+    mjsBody* const world = mjs_findBody(build_.spec.get(), "world");
+    is_static_ = true;
+    world_ = collider_.pose;
+    if (!own_body_) {
+      body_ = world;
+      pose_ = collider_.pose;
+      return;
+    }
+    body_ = mjs_addBody(world, nullptr);
     place(body_, collider_.path.str() + ".static", collider_.pose);
     build_.static_bodies[index_] = body_;
     for (const physics::PoseTrack& track : build_.scene.pose_tracks) {
@@ -146,7 +181,6 @@ class ColliderPass {
       }
     }
     is_static_ = body_->mocap == 0;
-    world_ = collider_.pose;
   }
 
   bool has_size() const {
@@ -307,6 +341,7 @@ class ColliderPass {
   }
 
   Build& build_;
+  bool own_body_;  // of a static collider
   physics::Index index_;
   const Collider& collider_;
   std::optional<physics::Index> material_;  // of the geoms made next
@@ -325,15 +360,22 @@ Result<void> add_geoms(Build& build) {
   build.geoms.assign(count, {});
   build.geom_materials.assign(count, {});
   build.static_bodies.assign(count, nullptr);
+  const std::vector<char> own_body = own_static_bodies(build.scene);
   ModelSize size;
+  std::size_t own_bodies = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (build.scene.colliders[i].enabled) {
-      ColliderPass pass(build, static_cast<physics::Index>(i));
+      ColliderPass pass(build, static_cast<physics::Index>(i), own_body[i] != 0);
       pass.add();
       size.geoms += build.geoms[i].size();
       size.mesh_points += pass.mesh_points();
       TENON_CHECK(check_model_size(size, build.scene.colliders[i].path));
+      own_bodies += build.static_bodies[i] == nullptr ? 0 : 1;
     }
+  }
+  if (own_bodies > kOwnStaticBodies) {
+    const std::size_t bodies = own_bodies + build.scene.bodies.size();
+    build.spec->memory += static_cast<mjtSize>(kRoomPerPair * bodies * bodies / 2);
   }
   return {};
 }
