@@ -71,7 +71,7 @@ void write_samples(JsonWriter& json, const Attribute& attribute, const ValueStyl
 
 void write_spline(JsonWriter& json, const Attribute& attribute, const ValueStyle& style) {
   const std::optional<layer::Spline> spline = attribute.spline();
-  if (!spline) {
+  if (!spline || spline->knots.empty()) {
     return;
   }
   json.key("spline");

@@ -29,9 +29,9 @@ layer::Spec& over(layer::Layer& layer, Path path) {
       continue;
     }
     layer.create(at, layer::SpecKind::Prim).set(fields::specifier, layer::Specifier::Over);
-    add_name(*layer.find(at.parent()), fields::primChildren, at.name());
+    add_name(layer.create(at.parent(), layer::SpecKind::Prim), fields::primChildren, at.name());
   }
-  return *layer.find(path);
+  return layer.create(path, layer::SpecKind::Prim);
 }
 
 struct Assignment {
@@ -88,12 +88,13 @@ Result<layer::Spec> read_property(const Assignment& assignment, const std::strin
   Diagnostics diagnostics;
   auto snippet = read_text("#usda 1.0\nover \"P\"\n{\n    " + text + "\n}\n", "", diagnostics);
   const Path path = Path::from("/P").property(assignment.property.name());
-  if (!snippet || !snippet->has(path)) {
+  const layer::Spec* found = snippet ? snippet->find(path) : nullptr;
+  if (found == nullptr) {
     return Error(ErrorCode::Invalid, "`" + assignment.value + "` cannot be read as a value of " +
                                          assignment.property.str())
         .with_fix("write it as a text layer would: " + text);
   }
-  layer::Spec spec = *snippet->find(path);
+  layer::Spec spec = *found;
   spec.line = spec.column = 0;
   return spec;
 }

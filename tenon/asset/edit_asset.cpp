@@ -131,7 +131,7 @@ class Author {
   }
 
   Result<Path> apply(Token api) {
-    auto op = editor_.layer().find(site_.path)->get_or(fields::apiSchemas, layer::ListOp<Token>());
+    auto op = editor_.get_or(site_.path, fields::apiSchemas, layer::ListOp<Token>());
     std::erase(op.deleted, api);
     edit::apply(edit::ListEdit<Token>::add(api), op);
     editor_.set(site_.path, fields::apiSchemas, layer::Value(std::move(op)));
@@ -139,7 +139,7 @@ class Author {
   }
 
   Result<Path> remove(Token api) {
-    auto op = editor_.layer().find(site_.path)->get_or(fields::apiSchemas, layer::ListOp<Token>());
+    auto op = editor_.get_or(site_.path, fields::apiSchemas, layer::ListOp<Token>());
     std::size_t taken = 0;
     for (auto* list : {&op.explicit_items, &op.prepended, &op.appended, &op.added}) {
       taken += std::erase(*list, api);
@@ -384,9 +384,8 @@ class AssetEditor {
     Diagnostics ignored;
     TENON_TRY(const layer::Layer again, formats::read_text(file.after, identifier, ignored));
     for (EditedPlace& place : places_) {
-      if (place.file == identifier && again.has(place.spec)) {
-        place.line = again.find(place.spec)->line;
-      }
+      const layer::Spec* spec = place.file == identifier ? again.find(place.spec) : nullptr;
+      place.line = spec == nullptr ? place.line : spec->line;
     }
     return file;
   }

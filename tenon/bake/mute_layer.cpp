@@ -57,14 +57,15 @@ class Muter {
       diagnostics_.add(std::move(finding));
       return;
     }
-    if (!layer_.has(prim.path().property(name))) {
+    layer::Spec* spec = layer_.find(prim.path().property(name));
+    if (spec == nullptr) {
       layer::Spec& made = over_attribute(layer_, prim.path(), name, Token("bool"));
       made.set(layer::fields::custom, layer::Value(false));
       made.set(layer::fields::variability, layer::Value(layer::Variability::Varying));
+      spec = &made;
     }
-    layer::Spec& spec = *layer_.find(prim.path().property(name));
-    spec.erase(Token("timeSamples"));
-    spec.set(layer::fields::default_value, layer::Value(false));
+    spec->erase(Token("timeSamples"));
+    spec->set(layer::fields::default_value, layer::Value(false));
     ++count;
   }
 

@@ -20,12 +20,13 @@ void list_child(layer::Spec& parent, Token field, Token name) {
 layer::Spec& over_prim(layer::Layer& layer, Path prim) {
   for (const Path& at : prim.prefixes()) {
     if (at.is_prim() && !layer.has(at)) {
-      list_child(*layer.find(at.parent()), layer::fields::primChildren, at.name());
+      list_child(layer.create(at.parent(), layer::SpecKind::Prim), layer::fields::primChildren,
+                 at.name());
       layer.create(at, layer::SpecKind::Prim)
           .set(layer::fields::specifier, layer::Value(layer::Specifier::Over));
     }
   }
-  return *layer.find(prim);
+  return layer.create(prim, layer::SpecKind::Prim);
 }
 
 layer::Spec& over_attribute(layer::Layer& layer, Path prim, Token name, Token type_name) {

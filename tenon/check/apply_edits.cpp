@@ -19,7 +19,7 @@ bool same_place(const SpecEdit& a, const SpecEdit& b) {
 /// Puts a name into the list of applied schemas, or takes it out; an empty list goes.
 void edit_apis(const SpecEdit& edit, edit::LayerEditor& editor) {
   namespace fields = layer::fields;
-  auto op = editor.layer().find(edit.path)->get_or(fields::apiSchemas, layer::ListOp<Token>{});
+  auto op = editor.get_or(edit.path, fields::apiSchemas, layer::ListOp<Token>{});
   if (!edit.added_api.empty()) {
     (op.is_explicit ? op.explicit_items : op.prepended).push_back(edit.added_api);
   }

@@ -31,7 +31,7 @@ Path LayerBuilder::define(Path parent, Token name, Token type) {
 }
 
 void LayerBuilder::set_metadata(Path prim, Token field, Value value) {
-  layer_.find(prim)->set(field, std::move(value));
+  layer_.create(prim, SpecKind::Prim).set(field, std::move(value));
 }
 
 void LayerBuilder::apply(Path prim, Token api) {
@@ -84,7 +84,7 @@ void LayerBuilder::set_attribute(Path prim, Token name, Token type_name, Value v
 
 void LayerBuilder::set_custom(Path prim, Token name, Token type_name, Value value) {
   set_attribute(prim, name, type_name, std::move(value));
-  layer_.find(prim.property(name))->set(fields::custom, Value(true));
+  layer_.create(prim.property(name), SpecKind::Attribute).set(fields::custom, Value(true));
 }
 
 void LayerBuilder::set_connection(Path prim, Token name, Token type_name, Path source) {
@@ -182,7 +182,7 @@ void LayerBuilder::declare(Path prim, Token name, Token type_name) {
 
 layer::Layer LayerBuilder::take() {
   for (auto& [prim, lists] : lists_) {
-    layer::Spec& spec = *layer_.find(prim);
+    layer::Spec& spec = layer_.create(prim, SpecKind::Prim);
     if (!lists.apis.empty()) {
       spec.set(fields::apiSchemas,
                Value(layer::ListOp<Token>::make_prepended(std::move(lists.apis))));

@@ -205,7 +205,7 @@ Result<void> StageEditor::set_variant_selection(Path prim, const std::string& se
   }
   return edit_prim(prim, [&](LayerEditor& editor, Path path) -> Result<void> {
     auto selections =
-        editor.layer().find(path)->get_or(fields::variantSelection, layer::VariantSelections{});
+        editor.get_or(path, fields::variantSelection, layer::VariantSelections{});
     selections.items.insert_or_assign(set, variant);
     editor.set(path, fields::variantSelection, Value(std::move(selections)));
     return {};
@@ -215,7 +215,7 @@ Result<void> StageEditor::set_variant_selection(Path prim, const std::string& se
 Result<void> StageEditor::clear_variant_selection(Path prim, const std::string& set) {
   return edit_prim(prim, [&](LayerEditor& editor, Path path) -> Result<void> {
     auto selections =
-        editor.layer().find(path)->get_or(fields::variantSelection, layer::VariantSelections{});
+        editor.get_or(path, fields::variantSelection, layer::VariantSelections{});
     selections.items.erase(set);
     selections.items.empty()
         ? editor.erase(path, fields::variantSelection)
@@ -227,7 +227,7 @@ Result<void> StageEditor::clear_variant_selection(Path prim, const std::string& 
 Result<void> StageEditor::block_variant_selection(Path prim, const std::string& set) {
   return edit_prim(prim, [&](LayerEditor& editor, Path path) -> Result<void> {
     auto selections =
-        editor.layer().find(path)->get_or(fields::variantSelection, layer::VariantSelections{});
+        editor.get_or(path, fields::variantSelection, layer::VariantSelections{});
     selections.items.insert_or_assign(set, std::string());
     editor.set(path, fields::variantSelection, Value(std::move(selections)));
     return {};

@@ -74,11 +74,14 @@ LayerChange LayerEditor::take_change() {
 void LayerEditor::roll_back() { edit::apply(inverse(take_change()), *layer_); }
 
 Spec& LayerEditor::touch(Path path) {
-  Spec& spec = *layer_->find(path);
-  if (index_.emplace(path, touched_.size()).second) {
-    touched_.push_back({path, spec, std::nullopt});
+  Spec* const spec = layer_->find(path);
+  if (spec == nullptr) {
+    return add_spec(path, path.is_property() ? SpecKind::Attribute : SpecKind::Prim);
   }
-  return spec;
+  if (index_.emplace(path, touched_.size()).second) {
+    touched_.push_back({path, *spec, std::nullopt});
+  }
+  return *spec;
 }
 
 Spec& LayerEditor::add_spec(Path path, SpecKind kind) {
@@ -98,7 +101,8 @@ void LayerEditor::set(Path path, Token field, Value value) {
 }
 
 void LayerEditor::erase(Path path, Token field) {
-  if (layer_->find(path)->has(field)) {
+  const Spec* spec = layer_->find(path);
+  if (spec != nullptr && spec->has(field)) {
     touch(path).erase(field);
   }
 }
@@ -218,7 +222,11 @@ Result<void> LayerEditor::move_prim(Path from, Path to) {
         .with_fix("choose another name or remove what is there");
   }
   for (const Path old : subtree(from)) {
-    Spec spec = *layer_->find(old);
+    const Spec* there = layer_->find(old);
+    if (there == nullptr) {
+      continue;
+    }
+    Spec spec = *there;
     erase_spec(old);
     const SpecKind kind = spec.kind;
     add_spec(old.replace_prefix(from, to, false), kind) = std::move(spec);
@@ -288,17 +296,13 @@ Result<void> LayerEditor::remove_property(Path path) {
 }
 
 void LayerEditor::set_time_sample(Path attribute, double time, Value value) {
-  auto samples = layer_->find(attribute)->get_or(fields::timeSamples, layer::TimeSamples{});
+  auto samples = get_or(attribute, fields::timeSamples, layer::TimeSamples{});
   samples.set(time, std::move(value));
   set(attribute, fields::timeSamples, Value(std::move(samples)));
 }
 
 void LayerEditor::erase_time_sample(Path attribute, double time) {
-  const auto* old = layer_->find(attribute)->get<layer::TimeSamples>(fields::timeSamples);
-  if (old == nullptr) {
-    return;
-  }
-  layer::TimeSamples samples = *old;
+  auto samples = get_or(attribute, fields::timeSamples, layer::TimeSamples{});
   const auto it = std::find(samples.times.begin(), samples.times.end(), time);
   if (it == samples.times.end()) {
     return;

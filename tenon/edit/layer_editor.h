@@ -24,18 +24,24 @@ class LayerEditor {
   explicit LayerEditor(layer::Layer& layer) : layer_(&layer) {}
 
   const layer::Layer& layer() const { return *layer_; }
+  /// The value of a field; `fallback` where there is no such field, value or spec.
+  template <class T>
+  T get_or(Path path, Token field, T fallback) const {
+    const layer::Spec* spec = layer_->find(path);
+    return spec == nullptr ? fallback : spec->get_or(field, std::move(fallback));
+  }
   /// What was done since the editor was made or asked last; specs that are as they were left out.
   LayerChange take_change();
   /// Takes back what was done since then.
   void roll_back();
 
-  // Fields. The spec must exist.
+  // Fields. A spec that is missing is made by `set`.
   void set(Path path, Token field, layer::Value value);
   void erase(Path path, Token field);
   /// Edits the list op in a field; an empty one is erased.
   template <class T>
   void edit_list(Path path, Token field, const ListEdit<T>& edit) {
-    auto op = layer_->find(path)->get_or(field, layer::ListOp<T>{});
+    auto op = get_or(path, field, layer::ListOp<T>{});
     apply(edit, op);
     op.empty() ? erase(path, field) : set(path, field, layer::Value(std::move(op)));
   }

@@ -163,7 +163,7 @@ Result<void> StageEditor::set_metadata(Path object, Token field, const std::stri
       editor.set(path, field, value);
       return {};
     }
-    auto dictionary = editor.layer().find(path)->get_or(field, layer::Dictionary{});
+    auto dictionary = editor.get_or(path, field, layer::Dictionary{});
     TENON_CHECK(check_field(object, field, kind, Value(dictionary)));
     set_key(dictionary, key_path, value);
     editor.set(path, field, Value(std::move(dictionary)));
@@ -175,12 +175,11 @@ Result<void> StageEditor::clear_metadata(Path object, Token field, const std::st
   return edit_existing(object, SpecKind::None, [&](LayerEditor& editor, Path path) -> Result<void> {
     const SpecKind kind = kind_of(editor.layer(), path);
     TENON_CHECK(field_type(object, field, kind));
-    const auto* old = editor.layer().find(path)->get<layer::Dictionary>(field);
-    if (key_path.empty() || old == nullptr) {
+    auto dictionary = editor.get_or(path, field, layer::Dictionary{});
+    if (key_path.empty() || dictionary.empty()) {
       editor.erase(path, field);
       return {};
     }
-    layer::Dictionary dictionary = *old;
     set_key(dictionary, key_path, {});
     dictionary.empty() ? editor.erase(path, field)
                        : editor.set(path, field, Value(std::move(dictionary)));
@@ -200,7 +199,7 @@ Result<void> StageEditor::remove_api(Path prim, Token schema) {
 
 Result<void> StageEditor::add_applied_schema(Path prim, Token name) {
   return edit_prim(prim, [&](LayerEditor& editor, Path path) -> Result<void> {
-    const auto op = editor.layer().find(path)->get_or(fields::apiSchemas, layer::ListOp<Token>{});
+    const auto op = editor.get_or(path, fields::apiSchemas, layer::ListOp<Token>{});
     const bool there = op.is_explicit ? contains(op.explicit_items, name)
                                       : contains(op.prepended, name) || contains(op.appended, name);
     if (!there) {

@@ -102,7 +102,8 @@ void LayerEditor::retarget(Path from, Path to) {
     }
   }
   for (const Path path : paths) {
-    const layer::FieldList spec_fields = layer_->find(path)->field_list();
+    const layer::Spec* spec = layer_->find(path);
+    const layer::FieldList spec_fields = spec == nullptr ? layer::FieldList() : spec->field_list();
     for (const layer::Field& field : spec_fields.items()) {
       Value value = field.value;
       if (follow_field(field.name, value, {from, to})) {

@@ -242,10 +242,12 @@ class LayerConversion {
       return;
     }
     const double factor = std::pow(length_, dimension.length) * std::pow(mass_, dimension.mass);
-    layer::Spec& edited = *result_.find(path);
+    const layer::Spec* const source = layer_.find(path);
+    layer::Spec* const edited = result_.find(path);
     for (const char* field : {"default", "timeSamples", "spline"}) {
-      if (const layer::Value* value = layer_.find(path)->find(Token(field))) {
-        edited.set(field, scaled_value(*value, factor));
+      const layer::Value* value = source == nullptr ? nullptr : source->find(Token(field));
+      if (value != nullptr && edited != nullptr) {
+        edited->set(field, scaled_value(*value, factor));
       }
     }
   }

@@ -104,11 +104,12 @@ class Stripper {
   }
 
   void strip_schemas(Path prim) {
-    layer::Spec& spec = *layer_.find(prim);
+    layer::Spec* const found = layer_.find(prim);
     static const Token kField("apiSchemas");
-    if (spec.find(kField) == nullptr) {
+    if (found == nullptr || found->find(kField) == nullptr) {
       return;
     }
+    layer::Spec& spec = *found;
     auto op = spec.get_or(kField, layer::ListOp<Token>{});
     std::size_t removed = 0;
     for (std::vector<Token>* list :

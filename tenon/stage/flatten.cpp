@@ -114,13 +114,13 @@ class Flattener {
         names.push_back(child.name());
       }
       if (!names.empty()) {
-        layer_.find(copy.path)->set(fields::primChildren, std::move(names));
+        layer_.create(copy.path, SpecKind::Prim).set(fields::primChildren, std::move(names));
       }
     }
   }
 
   void add_child(Path parent, Token field, Token name) {
-    Spec& spec = *layer_.find(parent);
+    Spec& spec = layer_.create(parent, SpecKind::Prim);
     std::vector<Token> names = Layer::children(spec, field);
     names.push_back(name);
     spec.set(field, std::move(names));

@@ -189,8 +189,10 @@ Value read_one_value(const StageData& stage, const PrimData& prim, Token name,
       opinion.offset = resolved.clips->offset();
       return localize(stage, prim, opinion, found.value, form);
     }
-    case ValueSource::Fallback:
-      return resolved.blocked ? Value() : prim.definition->find(name)->fallback;
+    case ValueSource::Fallback: {
+      const schema::PropertyDefinition* declared = prim.definition->find(name);
+      return resolved.blocked || declared == nullptr ? Value() : declared->fallback;
+    }
     default:
       return {};
   }

@@ -32,7 +32,7 @@ void put_robot_order_first(Layer& content) {
     if (!names.empty()) {
       std::stable_partition(names.begin(), names.end(),
                             [&](Token name) { return named.contains(prim.child(name)); });
-      content.find(prim)->set(fields::primChildren, std::move(names));
+      make_prim(content, prim).set(fields::primChildren, std::move(names));
     }
   }
 }
@@ -54,7 +54,7 @@ void order_like(Layer& content, const Layer& like) {
     std::copy_if(old.begin(), old.end(), std::back_inserter(names),
                  [&](Token name) { return !first.contains(name); });
     if (names != old) {
-      content.find(prim)->set(fields::primChildren, std::move(names));
+      make_prim(content, prim).set(fields::primChildren, std::move(names));
     }
   }
 }

@@ -33,9 +33,10 @@ Result<void> unfold_instances(Layer& flat) {
   while (!pending.empty()) {
     const Path path = pending.back();
     pending.pop_back();
-    const Path prototype = prototype_of(*flat.find(path));
+    Spec* const instance = flat.find(path);
+    const Path prototype = instance == nullptr ? Path() : prototype_of(*instance);
     if (!prototype.empty()) {
-      flat.find(path)->erase(fields::references);
+      instance->erase(fields::references);
       for (const Path& child : child_prims(flat, prototype)) {
         copy_tree(flat, child, flat, path.child(child.name()),
                   [&](Path at) { return at.replace_prefix(prototype, path); });
@@ -78,7 +79,7 @@ void add_inactive(const stage::Stage& stage, Layer& flat) {
       }
     }
     if (!names.empty()) {
-      flat.find(prim.path())->set(fields::primChildren, std::move(names));
+      make_prim(flat, prim.path()).set(fields::primChildren, std::move(names));
     }
   }
 }
@@ -177,7 +178,9 @@ void order_fields(Layer& content) {
     for (layer::Field& field : fields) {
       ordered.append(field.name, std::move(field.value));
     }
-    content.find(entry.path)->set_field_list(std::move(ordered));
+    if (Spec* spec = content.find(entry.path)) {
+      spec->set_field_list(std::move(ordered));
+    }
   }
 }
 

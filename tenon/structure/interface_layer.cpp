@@ -26,10 +26,10 @@ void add_variant(Layer& layer, Path robot, const InterfaceVariant& variant) {
   const Token set(variant.set);
   const Path set_path = robot.variant_selection(set, Token());
   if (!layer.has(set_path)) {
-    layer.create(set_path, SpecKind::VariantSet);
-    append_name(*layer.find(robot), fields::variantSetChildren, set);
+    append_name(make_prim(layer, robot), fields::variantSetChildren, set);
   }
-  append_name(*layer.find(set_path), fields::variantChildren, Token(variant.variant));
+  append_name(layer.create(set_path, SpecKind::VariantSet), fields::variantChildren,
+              Token(variant.variant));
   Spec& spec =
       layer.create(robot.variant_selection(set, Token(variant.variant)), SpecKind::Variant);
   spec.set(fields::specifier, layer::Specifier::Over);
@@ -68,9 +68,8 @@ Layer interface_layer(const Layer& content, const InterfaceParts& parts, std::st
       selections.items[set] = variant;
     }
   }
-  Spec& made = *layer.find(robot);
-  made.set(fields::variantSetNames, std::move(sets));
-  made.set(fields::variantSelection, std::move(selections));
+  prim.set(fields::variantSetNames, std::move(sets));
+  prim.set(fields::variantSelection, std::move(selections));
   return layer;
 }
 

@@ -17,7 +17,7 @@ using layer::Spec;
 
 /// Appends to the list where it is, which nobody else holds then.
 void add_name(Layer& layer, Path parent, Token field, Token name) {
-  Spec& spec = *layer.find(parent);
+  Spec& spec = layer.create(parent, layer::SpecKind::Prim);
   if (!spec.has(field)) {
     spec.set(field, std::vector<Token>{name});
     return;
@@ -56,7 +56,9 @@ layer::ListOp<Path> mapped(layer::ListOp<Path> op, const PathMap& map) {
 std::vector<Path> child_prims(const Layer& layer, Path prim) {
   std::vector<Path> found;
   for (const Token name : layer.children(prim, fields::primChildren)) {
-    found.push_back(prim.child(name));
+    if (const Path child = prim.child(name); layer.has(child)) {
+      found.push_back(child);
+    }
   }
   return found;
 }
@@ -72,20 +74,22 @@ Path free_child(Path parent, const std::string& name, const std::function<bool(P
 std::vector<Path> properties_of(const Layer& layer, Path prim) {
   std::vector<Path> found;
   for (const Token name : layer.children(prim, fields::properties)) {
-    found.push_back(prim.property(name));
+    if (const Path property = prim.property(name); layer.has(property)) {
+      found.push_back(property);
+    }
   }
   return found;
 }
 
 std::vector<Path> prims_below(const Layer& layer, Path root) {
   std::vector<Path> found;
-  std::vector<Path> pending{root};
+  std::vector<Path> pending;
+  if (layer.has(root)) {
+    pending.push_back(root);
+  }
   while (!pending.empty()) {
     const Path path = pending.back();
     pending.pop_back();
-    if (!layer.has(path)) {
-      continue;
-    }
     if (!path.is_absolute_root()) {
       found.push_back(path);
     }
@@ -105,7 +109,7 @@ Spec& make_prim(Layer& layer, Path path) {
     layer.create(at, layer::SpecKind::Prim).set(fields::specifier, layer::Specifier::Over);
     add_name(layer, at.parent(), fields::primChildren, at.name());
   }
-  return *layer.find(path);
+  return layer.create(path, layer::SpecKind::Prim);
 }
 
 Spec& define_prim(Layer& layer, Path path, Token type) {
@@ -194,7 +198,7 @@ void place_child_like(Layer& layer, Path child, const Layer& like) {
     }
   }
   names.insert(place, child.name());
-  layer.find(parent)->set(fields::primChildren, std::move(names));
+  make_prim(layer, parent).set(fields::primChildren, std::move(names));
 }
 
 Token type_of(const Layer& layer, Path prim) {
@@ -229,7 +233,7 @@ void add_api(Layer& layer, Path prim, Token api) {
   if (!has_api(layer, prim, api.view())) {
     std::vector<Token> apis = apis_of(layer, prim);
     apis.push_back(api);
-    set_apis(*layer.find(prim), std::move(apis));
+    set_apis(make_prim(layer, prim), std::move(apis));
   }
 }
 

@@ -17,13 +17,13 @@ namespace tenon::structure {
 using PathMap = std::function<Path(Path)>;
 
 /// The prims at and below `root`, which may be the root of the layer and is left out then; parents
-/// before children, children in order.
+/// before children, children in order. The layer has a spec for each of them.
 std::vector<Path> prims_below(const layer::Layer& layer, Path root = Path::absolute_root());
-/// Child prims of a prim that are in the layer.
+/// Child prims of a prim that are in the layer, with a spec for each.
 std::vector<Path> child_prims(const layer::Layer& layer, Path prim);
 /// A child of `parent` that nobody is: of that name, or else with a number, `name_1`.
 Path free_child(Path parent, const std::string& name, const std::function<bool(Path)>& is_taken);
-/// Properties of a prim that are in the layer.
+/// Properties of a prim that are in the layer, with a spec for each.
 std::vector<Path> properties_of(const layer::Layer& layer, Path prim);
 
 /// A layer with the fields of another one's root, and no prims.
@@ -53,7 +53,8 @@ std::vector<Token> apis_of(const layer::Layer& layer, Path prim);
 /// Writes the list as `prepend apiSchemas`; an empty one is erased.
 void set_apis(layer::Spec& prim, std::vector<Token> apis);
 bool has_api(const layer::Layer& layer, Path prim, std::string_view api);
-/// Applies an API schema, after those that the prim has; nothing where it has it.
+/// Applies an API schema, after those that the prim has; nothing where it has it. A prim that is
+/// not there becomes an over.
 void add_api(layer::Layer& layer, Path prim, Token api);
 /// False where the layer switches the prim off itself.
 bool is_active(const layer::Layer& layer, Path prim);

@@ -149,14 +149,15 @@ Path MeshMoves::moved_target(Path target) const {
 }
 
 void MeshMoves::move_mesh(const Layer& content, Path from, const Move& move, Layer& to) const {
-  const Spec& old = *content.find(from);
   Spec& place = define_prim(to, from, "Xform");
   if (!is_active(content, from)) {
     place.set(fields::active, false);
     return;
   }
   define_prim(to, move.wrapper, "Xform");
-  put_prim_fields(make_prim(to, move.mesh), old);
+  if (const Spec* old = content.find(from)) {
+    put_prim_fields(make_prim(to, move.mesh), *old);
+  }
   const Token type = type_of(content, from);
   const std::vector<Token> apis = apis_of(content, from);
   const PathMap map = [this](Path path) { return moved_target(path); };
@@ -173,8 +174,8 @@ void MeshMoves::move_mesh(const Layer& content, Path from, const Move& move, Lay
     std::copy_if(apis.begin(), apis.end(), std::back_inserter(body_apis),
                  [](Token api) { return !is_of_shape(owner_of_api(api)); });
   }
-  set_apis(*to.find(move.mesh), std::move(shape_apis));
-  set_apis(*to.find(from), std::move(body_apis));
+  set_apis(make_prim(to, move.mesh), std::move(shape_apis));
+  set_apis(place, std::move(body_apis));
 }
 
 Layer MeshMoves::apply(const Layer& content) const {

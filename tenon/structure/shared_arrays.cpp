@@ -47,7 +47,7 @@ void share_arrays(const layer::Layer& original, layer::Layer& layer) {
     for (const layer::Field& field : source->fields()) {
       const layer::Value* value = entry.spec.find(field.name);
       if (value != nullptr && same_bits(field.value, *value)) {
-        layer.find(entry.path)->set(field.name, field.value);
+        layer.create(entry.path, entry.spec.kind).set(field.name, field.value);
       }
     }
   }

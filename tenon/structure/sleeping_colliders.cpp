@@ -73,7 +73,7 @@ std::set<Path> pure_colliders(const Layer& content) {
 }
 
 Layer unite(const std::vector<const Layer*>& views) {
-  Layer united = *views.front();
+  Layer united = views.empty() ? Layer("anon:united.usda") : *views.front();
   for (const Layer* view : views) {
     for (const Path& prim : prims_below(*view)) {
       const bool sleeps = united.has(prim) && !is_active(united, prim) && is_active(*view, prim);
@@ -91,7 +91,7 @@ Layer unite(const std::vector<const Layer*>& views) {
           apis.push_back(api);
         }
       }
-      set_apis(*united.find(prim), std::move(apis));
+      set_apis(make_prim(united, prim), std::move(apis));
     }
   }
   return united;
@@ -106,7 +106,7 @@ void put_to_sleep(Layer& content, const std::set<Path>& prims) {
     const std::vector<Token> names = content.children(prim.parent(), fields::primChildren);
     remove_tree(content, prim);
     define_prim(content, prim, type).set(fields::active, false);
-    content.find(prim.parent())->set(fields::primChildren, names);
+    make_prim(content, prim.parent()).set(fields::primChildren, names);
   }
 }
 
@@ -130,7 +130,7 @@ void fill_sleeping(Layer& base, const Layer& view, const std::set<Path>& collide
     const Layer& from = colliders.contains(prim) ? view : *without_physics;
     if (from.has(prim)) {
       copy_tree(from, prim, base, prim);
-      base.find(prim)->set(fields::active, false);
+      make_prim(base, prim).set(fields::active, false);
       place_child_like(base, prim, view);
     }
   }

@@ -195,7 +195,7 @@ class Splitter {
     if (is_new) {
       copy_tree(alone, top, files_.instances, place);
     }
-    Spec& prim = *files_.base.find(wrapper);
+    Spec& prim = make_prim(files_.base, wrapper);
     set_reference(prim, name_from(Role::Base, Role::Instances), place);
     if (shareable && !is_touched(wrapper)) {
       prim.set(fields::instanceable, true);
@@ -226,7 +226,7 @@ class Splitter {
       const std::vector<Token> apis = apis_of(content_, path);
       if (has_own_fields(fields_of_shape)) {
         put_prim_fields(make_prim(alone, to), fields_of_shape);
-        set_apis(*alone.find(to), apis);
+        set_apis(make_prim(alone, to), apis);
       }
       for (const Path& property : properties_of(content_, path)) {
         const Spec& spec = *content_.find(property);

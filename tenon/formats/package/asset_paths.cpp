@@ -191,7 +191,11 @@ bool rename_asset_parts(layer::Layer& layer, const RenameAssetPart& rename) {
   }
   bool any = false;
   for (const Path path : paths) {
-    const auto fields = layer.find(path)->fields();
+    layer::Spec* const spec = layer.find(path);
+    if (spec == nullptr) {
+      continue;
+    }
+    const auto fields = spec->fields();
     const std::vector<layer::Field> all(fields.begin(), fields.end());  // `set` moves them
     for (const layer::Field& field : all) {
       if (!may_hold_assets(field.name, field.value)) {
@@ -200,7 +204,7 @@ bool rename_asset_parts(layer::Layer& layer, const RenameAssetPart& rename) {
       Renamer renamer(rename, path, field.name);
       Value value = renamer.renamed(field.value);
       if (renamer.changed()) {
-        layer.find(path)->set(field.name, std::move(value));
+        spec->set(field.name, std::move(value));
         any = true;
       }
     }

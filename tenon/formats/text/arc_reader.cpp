@@ -147,7 +147,8 @@ bool read_references(LayerState& state, Path prim, ListEdit edit) {
   if (!ok || !check_items(cursor, start, edit, items)) {
     return false;
   }
-  set_items(*state.layer.find(prim), layer::fields::references, edit, std::move(items));
+  set_items(state.layer.create(prim, layer::SpecKind::Prim), layer::fields::references, edit,
+            std::move(items));
   return true;
 }
 
@@ -166,7 +167,8 @@ bool read_payload(LayerState& state, Path prim, ListEdit edit) {
   if (!ok || !check_items(cursor, start, edit, items)) {
     return false;
   }
-  set_items(*state.layer.find(prim), layer::fields::payload, edit, std::move(items));
+  set_items(state.layer.create(prim, layer::SpecKind::Prim), layer::fields::payload, edit,
+            std::move(items));
   return true;
 }
 
@@ -193,7 +195,7 @@ bool read_prim_paths(LayerState& state, Path prim, Token field, ListEdit edit) {
   if (!check_items(cursor, start, edit, items)) {
     return false;
   }
-  set_items(*state.layer.find(prim), field, edit, std::move(items));
+  set_items(state.layer.create(prim, layer::SpecKind::Prim), field, edit, std::move(items));
   return true;
 }
 

@@ -31,11 +31,11 @@ bool LayerReader::take_rest(LayerReader& rest) {
     return false;
   }
   for (Block& block : blocks_) {
-    const layer::Spec& more = *rest.state_.layer.find(block.path);
+    const layer::Layer& more = rest.state_.layer;
     const bool is_layer = block.kind == Block::Kind::Layer;
     append(block.children, is_layer ? rest.blocks_.front().children
-                                    : layer::Layer::children(more, fields::primChildren));
-    append(block.properties, layer::Layer::children(more, fields::properties));
+                                    : more.children(block.path, fields::primChildren));
+    append(block.properties, more.children(block.path, fields::properties));
   }
   state_.layer.take_missing(std::move(rest.state_.layer));
   while (blocks_.size() > 1) {
@@ -77,7 +77,11 @@ bool LayerReader::continues_here(const LayerReader& rest) const {
 }
 
 bool LayerReader::only_adds(const LayerReader& rest, Path path) const {
-  const layer::Spec& more = *rest.state_.layer.find(path);
+  const layer::Spec* const found = rest.state_.layer.find(path);
+  if (found == nullptr) {
+    return false;
+  }
+  const layer::Spec& more = *found;
   const auto is_plain = [](const layer::Field& field) {
     return field.name == fields::primChildren || field.name == fields::properties;
   };

@@ -233,7 +233,8 @@ bool LayerReader::read_order(Token field, std::size_t start) {
   if (!read_name_list(cursor_, names)) {
     return false;
   }
-  state_.layer.find(top().path)->set(field, Value(std::vector<Token>(names.begin(), names.end())));
+  state_.layer.create(top().path, SpecKind::Prim)
+      .set(field, Value(std::vector<Token>(names.begin(), names.end())));
   if (state_.sources != nullptr) {
     state_.sources->orders[top().path].push_back({start, cursor_.offset()});
   }
@@ -425,7 +426,7 @@ bool LayerReader::open_variant() {
     top().children.push_back(variant);
     state_.make_spec(path, SpecKind::Variant, start);
   }
-  const layer::Spec& spec = *state_.layer.find(path);
+  const layer::Spec& spec = state_.layer.create(path, SpecKind::Variant);
   Block block{Block::Kind::Variant, path, start};
   block.children = layer::Layer::children(spec, fields::primChildren);
   block.properties = layer::Layer::children(spec, fields::properties);
@@ -437,7 +438,7 @@ bool LayerReader::open_variant() {
 }
 
 void LayerReader::store_children(Block& block) {
-  layer::Spec& spec = *state_.layer.find(block.path);
+  layer::Spec& spec = state_.layer.create(block.path, SpecKind::Prim);
   if (block.kind == Block::Kind::VariantSet) {
     spec.set(fields::variantChildren, Value(std::move(block.children)));
     return;

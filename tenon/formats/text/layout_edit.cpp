@@ -87,13 +87,15 @@ class BlockLayout {
   }
 
   void edit_block(Path path) {
-    const Spec& before = *state_.before.find(path);
-    const Spec& after = *state_.after.find(path);
+    const Spec* const was = state_.before.find(path);
+    const Spec* const is = state_.after.find(path);
     const SourceBlock* at = block(path);
-    if (!path.is_absolute_root() && at == nullptr) {
+    if (was == nullptr || is == nullptr || (!path.is_absolute_root() && at == nullptr)) {
       state_.failed = true;
       return;
     }
+    const Spec& before = *was;
+    const Spec& after = *is;
     if (at == nullptr) {
       edit_metadata(state_, path, {0, state_.sources.header_end});
       const auto metadata = state_.sources.metadata.find(path);
@@ -197,6 +199,14 @@ class BlockLayout {
     }
   }
 
+  /// The spec says the same before and after; what is in one of the layers alone does not.
+  bool is_same(Path path) const {
+    const Spec* const before = state_.before.find(path);
+    const Spec* const after = state_.after.find(path);
+    return before == nullptr || after == nullptr ? before == after
+                                                 : layer::same_spec(*before, *after);
+  }
+
   void edit_properties(Path path, const Spec& before, const Spec& after) {
     const auto& old = Layer::children(before, fields::properties);
     const auto& now = Layer::children(after, fields::properties);
@@ -213,8 +223,7 @@ class BlockLayout {
           patch_.remove(statement.range);
         }
       }
-      if (has(now, name) &&
-          !layer::same_spec(*state_.before.find(property), *state_.after.find(property))) {
+      if (has(now, name) && !is_same(property)) {
         edit_property(state_, property);
       }
     }
@@ -262,8 +271,7 @@ class BlockLayout {
       if (const SourceBlock* at = block(set)) {
         note_last(at->range);
         has(now, name) ? edit_variants(path, set) : patch_.remove(at->range, '\0');
-      } else if (has(now, name) &&
-                 !layer::same_spec(*state_.before.find(set), *state_.after.find(set))) {
+      } else if (has(now, name) && !is_same(set)) {
         insert(path, part_text(state_.after, set), false);
       }
     }

@@ -51,7 +51,7 @@ class MetadataReader {
 
  private:
   bool is_prim() const { return kind_ == SpecKind::Prim || kind_ == SpecKind::Variant; }
-  layer::Spec& spec() { return *state_.layer.find(path_); }
+  layer::Spec& spec() { return state_.layer.create(path_, layer::SpecKind::Prim); }
   bool set(Token name, Value value) {
     spec().set(name, std::move(value));
     return true;

@@ -83,14 +83,15 @@ class LayerWriter {
   }
 
   void append_property(Path path) {
-    const Spec& spec = *layer_.find(path);
-    spec.kind == SpecKind::Attribute ? append_attribute(path.name(), spec, 0)
-                                     : append_relationship(path.name(), spec, 0);
+    if (const Spec* spec = layer_.find(path)) {
+      spec->kind == SpecKind::Attribute ? append_attribute(path.name(), *spec, 0)
+                                        : append_relationship(path.name(), *spec, 0);
+    }
   }
 
   void append_variant_set(Path path, std::size_t indent) {
     const std::vector<Token> variants =
-        sorted(Layer::children(*layer_.find(path), fields::variantChildren));
+        sorted(layer_.children(path, fields::variantChildren));
     if (variants.empty()) {
       return;
     }
@@ -352,16 +353,19 @@ class LayerWriter {
 }  // namespace text
 
 std::string text::part_text(const layer::Layer& layer, Path path) {
-  const layer::Spec& spec = *layer.find(path);
+  const layer::Spec* const spec = layer.find(path);
+  if (spec == nullptr) {
+    return {};
+  }
   return LayerWriter(layer).part([&](LayerWriter& writer) {
     if (path.is_property()) {
       writer.append_property(path);
-    } else if (spec.kind == layer::SpecKind::VariantSet) {
+    } else if (spec->kind == layer::SpecKind::VariantSet) {
       writer.append_variant_set(path, 0);
     } else if (path.is_variant_selection()) {
       writer.append_variant(path, 0);
     } else {
-      writer.append_prim(path, spec, 0);
+      writer.append_prim(path, *spec, 0);
     }
   });
 }
