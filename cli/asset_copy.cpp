@@ -21,16 +21,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The layers that a layer names, as it names them.
-std::set<std::string> named_layers(layer::Layer layer) {
-  std::set<std::string> names;
+struct NamedLayers {
+  std::set<std::string> names;  ///< as the layer writes them
+  bool patterns = false;        ///< clips by a template, which stands for names
+};
+
+NamedLayers named_layers(layer::Layer layer) {
+  NamedLayers named;
   formats::rename_assets(layer, [&](const std::string& name, formats::AssetUse use, Path) {
     if (use == formats::AssetUse::Layer && !name.empty()) {
-      names.insert(name);
+      named.names.insert(name);
     }
+    named.patterns = named.patterns || use == formats::AssetUse::ClipTemplate;
     return name;
   });
-  return names;
+  return named;
 }
 
 std::string relative_to(const std::string& file, const std::string& folder) {
@@ -42,24 +47,32 @@ std::string relative_to(const std::string& file, const std::string& folder) {
 
 Result<AssetLayers> AssetLayers::open(const std::string& path, const OpenOptions& options) {
   AssetLayers asset;
-  asset.resolver_ = bytes::AssetResolver(resolver_options(options));
   const bytes::ReadPolicy policy = policy_for(path, options);
   Diagnostics ignored;  // whoever opens the stage reports them
   TENON_TRY(layer::LayerPtr root, open_layer(path, options, ignored));
+  bytes::ResolverOptions resolving = resolver_options(options);
+  const std::string file = bytes::split_package_path(root->identifier()).package;
+  resolving.search_paths.insert(resolving.search_paths.begin(),
+                                file.substr(0, file.rfind('/') + 1));  // as composition has it
+  asset.resolver_ = bytes::AssetResolver(std::move(resolving));
   asset.layers_.push_back({std::move(root), nullptr});
   std::map<std::string, std::size_t> known{{asset.layers_.front().layer->identifier(), 0}};
   for (std::size_t i = 0; i < asset.layers_.size(); ++i) {
     asset.leads_to_.emplace_back();
     const layer::LayerPtr from = asset.layers_[i].layer;
-    for (const std::string& name : named_layers(*from)) {
+    const NamedLayers named = named_layers(*from);
+    asset.is_whole_ = asset.is_whole_ && !named.patterns;
+    for (const std::string& name : named.names) {
       const auto identifier = asset.resolver_.resolve(name, from->identifier());
       if (!identifier) {  // a missing layer holds no physics
+        asset.is_whole_ = false;
         if (identifier.error().diagnostic().rule == "layer.outside") {
           asset.refused_.add(identifier.error().diagnostic());
         }
         continue;
       }
       if (!policy.allows(*identifier)) {
+        asset.is_whole_ = false;
         asset.outside_.insert(*identifier);
         continue;
       }
@@ -67,6 +80,7 @@ Result<AssetLayers> AssetLayers::open(const std::string& path, const OpenOptions
       if (is_new) {
         auto opened = open_layer(*identifier, options, ignored);
         if (!opened) {
+          asset.is_whole_ = false;
           known.erase(entry);
           continue;
         }

@@ -41,6 +41,9 @@ class AssetLayers {
   /// Errors: Unsupported for "-" where another layer is edited; Invalid for a folder where a layer
   /// of the asset itself would be written over.
   Result<std::vector<std::string>> put_to(const std::string& output, Outputs& outputs);
+  /// Every layer that one of them names is among them, so that composing finds none missing either.
+  /// False also where a name has to be composed to be known.
+  bool is_whole() const { return is_whole_; }
   /// Layers that the asset leads to and that do not belong to it: they stay as they are.
   const std::set<std::string>& outside() const { return outside_; }
   /// What the sandbox kept from being opened.
@@ -58,6 +61,7 @@ class AssetLayers {
   std::vector<AssetLayer> layers_;
   std::vector<std::vector<std::size_t>> leads_to_;  // (layer_count)
   std::vector<std::string> without_layout_;
+  bool is_whole_ = true;
   std::set<std::string> outside_;
   Diagnostics refused_;
 };

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <functional>
 
-#include "cli/missing_input.h"
 #include "cli/output.h"
 #include "cli/report.h"
 #include "cli/terminal_text.h"
@@ -237,7 +236,6 @@ int run_set(const Globals& globals, const Options& options) {
   if (!asset) {
     return report.fail(asset.error());
   }
-  add_missing_input(options.asset, edit_options(options).open, report);
   Json places = Json::array();
   for (const EditedPlace& place : asset->places) {
     places.push_back(place_json(edits[place.edit], place));

@@ -30,6 +30,7 @@ struct Options {
 struct Stripped {
   physics::StripCounts counts;
   Json layers = Json::array();
+  bool is_whole = true;  ///< no layer is missing
 };
 
 /// A folder is claimed by nothing but the files in it.
@@ -69,6 +70,7 @@ Result<Stripped> strip(const Options& options, Report& report) {
             AssetLayers::open(options.asset.asset, options.asset.open_options()));
   report_outside(asset, options, report);
   Stripped result;
+  result.is_whole = asset.is_whole();
   for (AssetLayer& part : asset.layers()) {
     layer::Layer edited = *part.layer;
     const physics::StripCounts counts = physics::strip_physics(edited);
@@ -110,7 +112,9 @@ int run_strip(Report& report, const Options& options) {
   if (!stripped) {
     return report.fail(stripped.error());
   }
-  add_missing_input(options.asset.asset, options.asset.open_options(), report);
+  if (!stripped->is_whole) {
+    add_missing_input(options.asset.asset, options.asset.open_options(), report);
+  }
   return report.finish(left_out(report.diagnostics) ? kNo : kOk,
                        {{"prims", stripped->counts.prims},
                         {"apiSchemas", stripped->counts.api_schemas},

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 
-#include "cli/missing_input.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/report.h"
@@ -91,7 +90,6 @@ int run_structure(Report& report, const Options& options) {
   if (!asset) {
     return report.fail(asset.error());
   }
-  add_missing_input(options.asset.asset, options.asset.open_options(), report);
   const std::vector<ListedFile> files = list_files(asset->package);
   if (options.dry_run && !report.json()) {
     for (const ListedFile& file : files) {

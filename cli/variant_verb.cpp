@@ -161,11 +161,9 @@ Result<Selection> select(const Options& options, Outputs& outputs, Report& repor
   TENON_TRY(const stage::Stage stage, open_stage(options.asset.asset, options.asset.open_options(),
                                                  report.diagnostics));
   TENON_TRY(Selection selection, find_selection(stage, options));
-  Diagnostics known;  // the stage has reported them
-  TENON_TRY(const layer::LayerPtr layer,
-            open_layer(options.asset.asset, options.asset.open_options(), known));
-  TENON_TRY(std::string contents, with_selection_written(*layer, selection, options, report));
-  outputs.put(options.in_place ? layer->identifier() : options.output, std::move(contents));
+  const layer::Layer& layer = stage.root_layer();
+  TENON_TRY(std::string contents, with_selection_written(layer, selection, options, report));
+  outputs.put(options.in_place ? layer.identifier() : options.output, std::move(contents));
   TENON_CHECK(outputs.commit());
   return selection;
 }

@@ -14,27 +14,50 @@
 namespace tenon::structure {
 namespace {
 
-Result<stage::Stage> open_view(const AssetSource& source, const Selections& selections,
-                               stage::WorkAccount& work) {
-  stage::StageOptions options;
-  options.resolve_asset = source.resolve_asset;
-  if (source.most_work != 0) {
-    options.compose.most_work = source.most_work;
-    options.compose.most_work_per_spec = 0;
-  }
-  TENON_TRY(stage::Stage stage,
-            stage::Stage::open(source.root,
-                               selections_layer(source.root->default_prim(), selections),
-                               source.open_layer, options));
-  TENON_CHECK(work.spend(stage));
-  return stage;
-}
+/// Composes the views of one source: what that takes is counted together, and what it finds is said
+/// once, whatever number of views have it.
+class Composer {
+ public:
+  Composer(const AssetSource& source, Diagnostics& diagnostics)
+      : source_(source), work_(source.most_work), diagnostics_(diagnostics) {}
 
-Result<layer::Layer> view_content(const AssetSource& source, const Selections& selections,
-                                  stage::WorkAccount& work, std::map<Path, Path>& moved) {
-  TENON_TRY(const stage::Stage stage, open_view(source, selections, work));
-  return content_of(stage, &moved);
-}
+  Result<stage::Stage> open(const Selections& selections) {
+    stage::StageOptions options;
+    options.resolve_asset = source_.resolve_asset;
+    if (source_.most_work != 0) {
+      options.compose.most_work = source_.most_work;
+      options.compose.most_work_per_spec = 0;
+    }
+    TENON_TRY(stage::Stage stage,
+              stage::Stage::open(source_.root,
+                                 selections_layer(source_.root->default_prim(), selections),
+                                 source_.open_layer, options));
+    TENON_CHECK(work_.spend(stage));
+    report(stage);
+    return stage;
+  }
+
+  Result<layer::Layer> content(const Selections& selections, std::map<Path, Path>& moved) {
+    TENON_TRY(const stage::Stage stage, open(selections));
+    TENON_TRY(layer::Layer content, content_of(stage, &moved));
+    report(stage);  // values find further layers
+    return content;
+  }
+
+ private:
+  void report(const stage::Stage& stage) {
+    for (const Diagnostic& finding : stage.diagnostics()) {
+      if (known_.insert(finding.to_string()).second) {
+        diagnostics_.add(finding);
+      }
+    }
+  }
+
+  const AssetSource& source_;
+  stage::WorkAccount work_;
+  Diagnostics& diagnostics_;
+  std::set<std::string> known_;
+};
 
 /// The selected view, else that of the strongest engine.
 std::size_t choose(const SourceViews& views) {
@@ -114,10 +137,9 @@ struct Variants {
   Selections none;  ///< no variant of any set
 };
 
-Result<Variants> read_variants(const AssetSource& source, stage::WorkAccount& work,
-                               SourceViews& views, Diagnostics& diagnostics) {
-  TENON_TRY(const stage::Stage stage, open_view(source, {}, work));
-  diagnostics.append(stage.diagnostics());  // what is not there is missing in every view
+Result<Variants> read_variants(const AssetSource& source, Composer& composer, SourceViews& views,
+                               Diagnostics& diagnostics) {
+  TENON_TRY(const stage::Stage stage, composer.open({}));
   const stage::Prim robot = stage.default_prim();
   if (!robot || !robot.is_defined()) {  // the selections above name it, too
     return no_default_prim(*source.root);
@@ -151,8 +173,8 @@ const SourceView* SourceViews::find(std::string_view variant) const {
 
 Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnostics) {
   SourceViews views;
-  stage::WorkAccount work(source.most_work);
-  TENON_TRY(const Variants variants, read_variants(source, work, views, diagnostics));
+  Composer composer(source, diagnostics);
+  TENON_TRY(const Variants variants, read_variants(source, composer, views, diagnostics));
   const bool plain = variants.physics.empty();
   const Path robot = Path::absolute_root().child(views.robot);
   std::set<Path> said;
@@ -162,7 +184,7 @@ Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnosti
     if (!plain) {
       selections[std::string(kPhysicsSet)] = variant;
     }
-    TENON_TRY(layer::Layer content, view_content(source, selections, work, views.moved));
+    TENON_TRY(layer::Layer content, composer.content(selections, views.moved));
     drop_targets_outside(content, robot, said, diagnostics);
     views.physics.push_back({variant, std::move(content)});
   }
@@ -173,7 +195,7 @@ Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnosti
     if (!plain) {
       selections[std::string(kPhysicsSet)] = views.physics[views.chosen].variant;
     }
-    TENON_TRY(layer::Layer content, view_content(source, selections, work, views.moved));
+    TENON_TRY(layer::Layer content, composer.content(selections, views.moved));
     drop_targets_outside(content, robot, said, diagnostics);
     views.others.push_back({set, variant, std::move(content)});
   }

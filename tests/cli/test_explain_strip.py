@@ -341,6 +341,31 @@ class Strip(Base):
                                       for p in left.GetAuthoredProperties()})
 
 
+    def test_layers_that_composition_finds_are_found(self):
+        """By the folder of the asset's root layer, whichever layer names them."""
+        files = {"root.usda": ('defaultPrim = "A"', 'def "A" (references = @./sub/part.usda@</P>) '
+                                                    '{ }'),
+                 "sub/part.usda": ("", 'def Xform "P" (references = @body.usda@</B>) { }'),
+                 "body.usda": ("", 'def Cube "B" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) '
+                                   '{ }')}
+        for name, (head, text) in files.items():
+            (self.folder / name).parent.mkdir(exist_ok=True)
+            (self.folder / name).write_text(f"#usda 1.0\n(\n{head}\n)\n{text}\n")
+        self.json("strip", self.folder / "root.usda", "--in-place")
+        self.assertNotIn("Physics", (self.folder / "body.usda").read_text())
+
+    def test_what_is_missing_is_told_once(self):
+        asset = self.folder / "a.usda"
+        asset.write_text('#usda 1.0\ndef Xform "A" (payload = @./gone.usda@</X>) { }\n'
+                         'def Xform "B" (references = @./there.usda@</X>) { }\n')
+        (self.folder / "there.usda").write_text('#usda 1.0\ndef Xform "X" { }\n')
+        for arguments in (["strip", asset, "-o", self.folder / "s.usda"],
+                          ["set", asset, "/A.visibility=invisible"]):
+            answer = self.json(*arguments, code=1)
+            rules = [d["rule"] for d in answer["diagnostics"]]
+            self.assertEqual(rules.count("compose.invalid-asset-path"), 1, arguments)
+
+
 class Mute(Base):
     def test_overlay_switches_off_and_the_asset_stays(self):
         asset = self.layered()

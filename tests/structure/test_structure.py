@@ -555,6 +555,27 @@ class Writing(unittest.TestCase):
     def test_a_place_is_asked_for(self):
         self.assertEqual(run("structure", EXAMPLE).returncode, 2)
 
+    def test_what_is_missing_in_any_variant_is_told_once(self):
+        path = write("gaps.usda", HEAD + """
+def Xform "r" (
+    variants = { string tool = "none" }
+    prepend variantSets = "tool"
+) {
+    def Xform "always" (references = @./gone.usda@</X>) { }
+    variantSet "tool" = {
+        "none" { }
+        "grip" {
+            def Xform "grip" (payload = @./lost.usda@</X>) { }
+        }
+    }
+}
+""")
+        process = run("structure", path, "-o", path.parent / "gaps", "--json")
+        self.assertEqual(process.returncode, 1, process.stderr)
+        said = [d["message"] for d in json.loads(process.stdout)["diagnostics"]
+                if d["rule"] == "compose.invalid-asset-path"]
+        self.assertEqual([sum(name in text for text in said) for name in ("gone", "lost")], [1, 1])
+
     def test_variants_that_go_are_told(self):
         path = write("inner.usda", HEAD + '''
 def Xform "r" { def Xform "tool" (
