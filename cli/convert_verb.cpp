@@ -20,6 +20,7 @@
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
+#include "tenon/pack_asset.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/structure/written_note.h"
 #include "tenon/tenon.h"
@@ -159,47 +160,58 @@ convert::InnerImages images_elsewhere(const ConvertedFile& converted, const Opti
   return found;
 }
 
-/// Images, those inside of mesh files for one, as files of a folder of their own beside the output;
-/// asset paths follow. Digests of them by name.
-structure::Digests put_images(const convert::InnerImages& images, const Options& options,
-                              layer::Layer& layer, Outputs& outputs) {
-  structure::Digests digests;
+/// Images, those inside of mesh files for one, get places in a folder of their own beside the
+/// output; asset paths follow. The images by their places.
+convert::InnerImages place_images(convert::InnerImages images, const Options& options,
+                                  layer::Layer& layer) {
+  convert::InnerImages placed;
   if (images.empty()) {
-    return digests;
+    return placed;
   }
   const fs::path output = fs::absolute(options.output).lexically_normal();
   const fs::path folder = output.parent_path() / (output.stem().string() + "_images");
   std::map<std::string, std::string> place_of;
   std::set<std::string> taken;
-  for (const auto& [identifier, contents] : images) {
+  for (auto& [identifier, contents] : images) {
     const fs::path name(name_of_image(identifier));
     std::string free = name.string();
     for (int i = 2; !taken.insert(free).second; ++i) {
       free = name.stem().string() + "_" + std::to_string(i) + name.extension().string();
     }
     const std::string place = (folder / free).generic_string();
-    outputs.put_beside(place, contents);
-    digests.emplace((folder.filename() / free).generic_string(), bytes::content_digest(contents));
+    placed.emplace(place, std::move(contents));
     place_of.emplace(identifier, place);
   }
   formats::rename_assets(layer, [&](const std::string& asset, formats::AssetUse, Path) {
     const auto place = place_of.find(asset);
     return place == place_of.end() ? asset : place->second;
   });
+  return placed;
+}
+
+/// Digests of files beside the output, by their names from there.
+structure::Digests digests_of(const convert::InnerImages& files, const std::string& output) {
+  const fs::path folder = fs::absolute(output).lexically_normal().parent_path();
+  structure::Digests digests;
+  for (const auto& [place, contents] : files) {
+    digests.emplace(fs::path(place).lexically_relative(folder).generic_string(),
+                    bytes::content_digest(contents));
+  }
   return digests;
 }
 
 /// A package holds checksums: it is made once to know the digest, once more with it.
-Result<std::string> noted_package(layer::Layer layer, const bytes::ReadPolicy& policy,
-                                  const Options& options, Diagnostics& diagnostics) {
+Result<std::string> noted_package(layer::Layer layer, const convert::InnerImages& images,
+                                  const bytes::ReadPolicy& policy, const Options& options,
+                                  Diagnostics& diagnostics) {
   OpenOptions open;
   open.allowed_reads = policy.roots();
   const std::string name = fs::path(options.output).filename().string();
   structure::add_note(layer, name, {}, formats::LayerFormat::Package);
-  TENON_TRY(const std::string first, pack_layer(layer, options.output, open, diagnostics));
+  TENON_TRY(const std::string first, pack_layer(layer, options.output, open, images, diagnostics));
   structure::set_own_digest(layer, structure::own_digest(first, name));
   Diagnostics known;
-  return pack_layer(std::move(layer), options.output, open, known);
+  return pack_layer(std::move(layer), options.output, open, images, known);
 }
 
 /// One file, and images beside it. It says what was written, for the next time.
@@ -210,19 +222,19 @@ Result<void> write_file(ConvertedFile& converted, const Options& options, Output
   if (!options.force) {
     outputs.check_before_commit([&] { return structure::check_not_edited(options.output); });
   }
-  if (format == formats::LayerFormat::Package) {
-    Outputs images;  // they are packed from their files
-    put_images(converted.images, options, layer, images);
-    TENON_CHECK(images.commit());
-    TENON_TRY(std::string package,
-              noted_package(std::move(layer), converted.reading, options, diagnostics));
+  convert::InnerImages images = place_images(std::move(converted.images), options, layer);
+  if (format == formats::LayerFormat::Package) {  // takes them in
+    TENON_TRY(std::string package, noted_package(std::move(layer), images, converted.reading,
+                                                 options, diagnostics));
     outputs.put(options.output, std::move(package));
     return outputs.commit();
   }
-  const structure::Digests images = put_images(converted.images, options, layer, outputs);
   make_relative(layer, options.output);
   const std::string name = fs::path(options.output).filename().string();
-  structure::add_note(layer, name, images, format);
+  structure::add_note(layer, name, digests_of(images, options.output), format);
+  for (auto& [place, contents] : images) {
+    outputs.put_beside(place, std::move(contents));
+  }
   TENON_TRY(std::string contents, formats::encode_layer(layer, format));
   structure::seal(contents, name);
   outputs.put(options.output, std::move(contents));

@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <memory>
 
-#include "tenon/asset_policy.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
-#include "tenon/formats/package/pack.h"
 #include "tenon/formats/text/reader.h"
 #include "tenon/layer/finding_place.h"
+#include "tenon/pack_asset.h"
 #include "tenon/physics/layer_units.h"
 #include "tenon/session_opinions.h"
 #include "tenon/stage_sources.h"
@@ -128,15 +127,7 @@ Result<layer::LayerPtr> open_layer(const std::string& path, const OpenOptions& o
 
 Result<std::string> pack_layer(layer::Layer layer, const std::string& path,
                                const OpenOptions& options, Diagnostics& diagnostics) {
-  const std::string file = bytes::absolute_file_path(bytes::split_package_path(path).package);
-  const std::string folder = file.substr(0, file.rfind('/') + 1);
-  if (!layer.identifier().starts_with('/')) {
-    layer.set_identifier(folder + "composed");  // no file: its paths are relative to the folder
-  }
-  bytes::ResolverOptions resolver = resolver_options(options);
-  resolver.search_paths.insert(resolver.search_paths.begin(), folder);
-  return formats::pack(bytes::AssetResolver(std::move(resolver)), policy_for(path, options), layer,
-                       diagnostics);
+  return pack_layer(std::move(layer), path, options, {}, diagnostics);
 }
 
 Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& options,

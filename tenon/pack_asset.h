@@ -24,4 +24,9 @@ struct PackedAsset {
 Result<PackedAsset> pack_asset(const std::string& path, const OpenOptions& options,
                                Diagnostics& diagnostics);
 
+/// pack_layer of tenon.h for a layer that also names what is in no file yet: `made`.
+Result<std::string> pack_layer(layer::Layer layer, const std::string& path,
+                               const OpenOptions& options, const formats::MadeFiles& made,
+                               Diagnostics& diagnostics);
+
 }  // namespace tenon

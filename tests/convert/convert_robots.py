@@ -269,6 +269,13 @@ def check_gltf_images(work):
     expect("gltf: its image", (work / "gltf_flat_images/part_0.png").read_bytes(),
            (source / "inner.png").read_bytes())
     expect("gltf: its path", "@./gltf_flat_images/part_0.png@" in flat.read_text(), True)
+    packed = work / "gltf_packed"
+    packed.mkdir()
+    expect("gltf: as a package", convert(source / "robot.urdf", packed / "robot.usdz")[0], 0)
+    expect("gltf: and nothing beside it", list(tree(packed)), ["robot.usdz"])
+    expect("gltf: unpacked", tenon("zip", packed / "robot.usdz", "--extract", work / "un")[0], 0)
+    expect("gltf: in the package", tree(work / "un").get("robot_images/part_0.png"),
+           (source / "inner.png").read_bytes())
     expect("gltf: structure", tenon("structure", flat, "-o", work / "gltf_again")[0], 0)
 
 

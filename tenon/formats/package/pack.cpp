@@ -82,8 +82,8 @@ bool fits_template(std::string_view name, std::string_view pattern) {
 class Packer {
  public:
   Packer(const bytes::AssetResolver& resolver, const bytes::ReadPolicy& policy,
-         Diagnostics& diagnostics)
-      : resolver_(resolver), policy_(policy), diagnostics_(diagnostics) {}
+         const MadeFiles& made, Diagnostics& diagnostics)
+      : resolver_(resolver), policy_(policy), made_(made), diagnostics_(diagnostics) {}
 
   const std::vector<PackedFile>& packed() const { return packed_; }
 
@@ -229,6 +229,9 @@ class Packer {
     if (path.starts_with('`')) {
       return {};  // an expression has no file of its own
     }
+    if (made_.contains(path)) {
+      return name_of(path, use);
+    }
     const Result<std::string> found = resolver_.resolve(path, anchor);
     if (!found && found.error().diagnostic().rule == "layer.outside") {
       refusals_.push_back(found.error());
@@ -238,6 +241,9 @@ class Packer {
 
   /// The contents of a file, where they may go into the package; else `refusals_` says why not.
   std::shared_ptr<const bytes::FileBytes> admit(const std::string& identifier, AssetUse use) {
+    if (const auto made = made_.find(identifier); made != made_.end()) {
+      return bytes::FileBytes::own(made->second);
+    }
     auto contents = policy_.open(identifier);
     if (!contents) {
       refusals_.push_back(bytes::not_read(identifier, std::move(contents).error()));
@@ -363,6 +369,7 @@ class Packer {
 
   const bytes::AssetResolver& resolver_;
   const bytes::ReadPolicy& policy_;
+  const MadeFiles& made_;
   Diagnostics& diagnostics_;
   std::string base_;          // what identifiers of files that keep their place begin with
   std::string base_package_;  // the package that the root layer is in
@@ -378,8 +385,8 @@ class Packer {
 
 Result<std::string> pack(const bytes::AssetResolver& resolver, const bytes::ReadPolicy& policy,
                          const layer::Layer& root, Diagnostics& diagnostics,
-                         std::vector<PackedFile>* files) {
-  Packer packer(resolver, policy, diagnostics);
+                         std::vector<PackedFile>* files, const MadeFiles& made) {
+  Packer packer(resolver, policy, made, diagnostics);
   TENON_TRY(std::string package, packer.run(root));
   if (files != nullptr) {
     *files = packer.packed();

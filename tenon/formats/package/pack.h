@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct PackedFile {
   bool outside = false;    ///< it lies outside of the root layer's folder, and got a place
 };
 
+/// Files that are in no place yet, by the absolute path that layers name them by.
+using MadeFiles = std::map<std::string, std::string>;
+
 /// A package (.usdz) with the layer in front and everything that it needs: all layers that it and
 /// they name in sublayers, references, payloads and clips (templates included), and all files that
 /// asset values name (`<UDIM>` patterns: every tile that is there). Files below the layer's folder
@@ -31,13 +35,14 @@ struct PackedFile {
 /// Diagnostics: "package.missing" for what cannot be found, which stays as it was named;
 /// "package.outside" (info) for files from outside of the layer's folder; "package.file-type" for
 /// files of a type that the specification of packages does not name.
-/// `files`, where given, receives what went in, in the order of the package.
+/// `files`, where given, receives what went in, in the order of the package. What `made` holds goes
+/// in as it is, without a look at the file system.
 /// What lies outside of `policy`'s folders, and what is no layer where one is named or else nothing
 /// that a scene shows or plays, stays out and stays as it was named, with an error: "read.outside",
 /// "read.wrong-kind", "read.unreadable" (docs/reading.md).
 /// Errors: those of reading the layers, of write_crate and of bytes::write_zip.
 Result<std::string> pack(const bytes::AssetResolver& resolver, const bytes::ReadPolicy& policy,
                          const layer::Layer& root, Diagnostics& diagnostics,
-                         std::vector<PackedFile>* files = nullptr);
+                         std::vector<PackedFile>* files = nullptr, const MadeFiles& made = {});
 
 }  // namespace tenon::formats
