@@ -200,6 +200,17 @@ structure::Digests digests_of(const convert::InnerImages& files, const std::stri
   return digests;
 }
 
+/// What was edited since it was written stays, without --force; what is not known to have been
+/// written, too.
+Result<void> commit_unedited(const Options& options, const structure::Digests& beside,
+                             Outputs& outputs) {
+  if (!options.force) {
+    outputs.check_before_commit(
+        [&] { return structure::check_not_edited(options.output, beside); });
+  }
+  return outputs.commit();
+}
+
 /// A package holds checksums: it is made once to know the digest, once more with it.
 Result<std::string> noted_package(layer::Layer layer, const convert::InnerImages& images,
                                   const bytes::ReadPolicy& policy, const Options& options,
@@ -219,26 +230,24 @@ Result<void> write_file(ConvertedFile& converted, const Options& options, Output
                         Diagnostics& diagnostics) {
   layer::Layer& layer = converted.layer;
   TENON_TRY(const formats::LayerFormat format, formats::layer_format_for(options.output));
-  if (!options.force) {
-    outputs.check_before_commit([&] { return structure::check_not_edited(options.output); });
-  }
   convert::InnerImages images = place_images(std::move(converted.images), options, layer);
   if (format == formats::LayerFormat::Package) {  // takes them in
     TENON_TRY(std::string package, noted_package(std::move(layer), images, converted.reading,
                                                  options, diagnostics));
     outputs.put(options.output, std::move(package));
-    return outputs.commit();
+    return commit_unedited(options, {}, outputs);
   }
   make_relative(layer, options.output);
   const std::string name = fs::path(options.output).filename().string();
-  structure::add_note(layer, name, digests_of(images, options.output), format);
+  const structure::Digests digests = digests_of(images, options.output);
+  structure::add_note(layer, name, digests, format);
   for (auto& [place, contents] : images) {
     outputs.put_beside(place, std::move(contents));
   }
   TENON_TRY(std::string contents, formats::encode_layer(layer, format));
   structure::seal(contents, name);
   outputs.put(options.output, std::move(contents));
-  return outputs.commit();
+  return commit_unedited(options, digests, outputs);
 }
 
 /// As `tenon structure` would make of the same asset in a file, proven in the same way.
@@ -265,11 +274,8 @@ Result<void> write_structure(layer::Layer layer, const ConvertedFile& converted,
 }
 
 /// What would be lost is told before the work.
-Result<void> claim(const Options& options, bool folder, Outputs& outputs) {
-  if (folder) {
-    return structure::check_folder(options.output, {.force = options.force});
-  }
-  TENON_CHECK(outputs.claim(OutputKind::Layer, options.output));
+Result<void> claim(const Options& options, OutputKind kind, Outputs& outputs) {
+  TENON_CHECK(outputs.claim(kind, options.output));
   return options.force ? Result<void>() : structure::check_not_edited(options.output);
 }
 
@@ -277,7 +283,8 @@ Result<ConvertedFile> convert_and_write(const Options& options, Diagnostics& dia
   TENON_TRY(const ConvertFileOptions wanted, convert_options(options));
   const bool folder = names_folder(options.output);  // straight into Asset Structure 3.0
   Outputs outputs;
-  TENON_CHECK(claim(options, folder, outputs));
+  TENON_CHECK(folder ? structure::check_folder(options.output, {.force = options.force})
+                     : claim(options, OutputKind::Layer, outputs));
   TENON_TRY(ConvertedFile converted, convert_file(options.input, wanted, diagnostics));
   if (folder) {
     TENON_CHECK(write_structure(converted.layer, converted, options, diagnostics));
@@ -288,16 +295,18 @@ Result<ConvertedFile> convert_and_write(const Options& options, Diagnostics& dia
   return converted;
 }
 
-/// With the files beside it that it names.
+/// With the files beside it that it names. It says what was written, for the next time.
 Result<void> write_description(const std::string& text,
                                const std::map<std::string, std::string>& files,
-                               const std::string& output, Outputs& outputs) {
-  const fs::path folder = fs::path(output).parent_path();
+                               const Options& options, Outputs& outputs) {
+  const fs::path folder = fs::path(options.output).parent_path();
+  structure::Digests digests;
   for (const auto& [name, contents] : files) {
+    digests.emplace(name, bytes::content_digest(contents));
     outputs.put_beside((folder / name).string(), contents);
   }
-  outputs.put(output, text);
-  return outputs.commit();
+  outputs.put(options.output, structure::noted_description(text, digests));
+  return commit_unedited(options, digests, outputs);
 }
 
 OpenOptions open_options(const Options& options) {
@@ -309,7 +318,7 @@ OpenOptions open_options(const Options& options) {
 /// The other way: an asset's physics as a model of MuJoCo.
 int run_export(Report& report, const Options& options) {
   Outputs outputs;
-  if (auto claimed = outputs.claim(OutputKind::Description, options.output); !claimed) {
+  if (auto claimed = claim(options, OutputKind::Description, outputs); !claimed) {
     return report.fail(claimed.error());
   }
   auto stage = open_stage(options.input, open_options(options), report.diagnostics);
@@ -325,7 +334,7 @@ int run_export(Report& report, const Options& options) {
   if (!model) {
     return report.fail(model.error());
   }
-  const auto written = write_description(model->text, model->images, options.output, outputs);
+  const auto written = write_description(model->text, model->images, options, outputs);
   if (!written) {
     return report.fail(written.error());
   }
@@ -336,7 +345,7 @@ int run_export(Report& report, const Options& options) {
 
 int run_export_urdf(Report& report, const Options& options) {
   Outputs outputs;
-  if (auto claimed = outputs.claim(OutputKind::Description, options.output); !claimed) {
+  if (auto claimed = claim(options, OutputKind::Description, outputs); !claimed) {
     return report.fail(claimed.error());
   }
   auto stage = open_stage(options.input, open_options(options), report.diagnostics);
@@ -349,7 +358,7 @@ int run_export_urdf(Report& report, const Options& options) {
   if (!urdf) {
     return report.fail(urdf.error());
   }
-  const auto written = write_description(urdf->text, urdf->meshes, options.output, outputs);
+  const auto written = write_description(urdf->text, urdf->meshes, options, outputs);
   if (!written) {
     return report.fail(written.error());
   }
@@ -427,7 +436,7 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
                 "Keep a MJCF model's world as a PhysicsScene: gravity, time step, options");
   verb.add_flag("--flat", options->flat, "Links side by side, not nested");
   verb.add_flag("--force", options->force,
-                "Overwrite an asset that was edited since it was written");
+                "Overwrite an asset or a description that was edited since it was written");
   verb.add_option("--gains", options->gains,
                   "K,D: a drive for each joint that follows no other, in N m/rad and N m s/rad "
                   "(N/m and N s/m); or a JSON file {\"joint\": [K, D], \"*\": [K, D]}");

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/structure/written_note.h"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -13,6 +13,8 @@
 #include "tenon/bytes/zip_archive.h"
 #include "tenon/layer/dictionary.h"
 #include "tenon/layer/fields.h"
+#include "tenon/structure/digest_text.h"
+#include "tenon/structure/xml_note.h"
 
 namespace tenon::structure {
 namespace {
@@ -25,25 +27,8 @@ using layer::Value;
 constexpr const char* kTool = "tenon";
 constexpr const char* kWritten = "written";
 constexpr const char* kSelf = "self";
-constexpr std::size_t kHexDigits = 16;
 /// Stands before the digest in binary layers, so that its place is found in their bytes.
 constexpr std::int64_t kMark = 0x5e1f9d1e57a3c06b;
-
-std::string hex_of(std::uint64_t digest) {
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::string text(kHexDigits, '0');
-  for (std::size_t i = kHexDigits; i-- > 0; digest >>= 4) {
-    text[i] = kDigits[digest & 0xf];
-  }
-  return text;
-}
-
-std::optional<std::uint64_t> digest_from(const std::string& hex) {
-  std::uint64_t digest = 0;
-  const auto [end, error] = std::from_chars(hex.data(), hex.data() + hex.size(), digest, 16);
-  const bool whole = error == std::errc() && end == hex.data() + hex.size();
-  return whole && hex.size() == kHexDigits ? std::optional(digest) : std::nullopt;
-}
 
 Value own_value(std::uint64_t digest) {
   return Value(layer::Array<std::int64_t>{kMark, static_cast<std::int64_t>(digest)});
@@ -76,6 +61,9 @@ void change_note(layer::Layer& layer, Change change) {
   }
 }
 
+/// No layer begins so.
+bool is_xml(std::string_view contents) { return contents.starts_with('<'); }
+
 /// Where the own digest stands in the bytes of a layer, and how many bytes it has.
 struct Place {
   std::size_t at = 0;
@@ -90,11 +78,15 @@ std::optional<Place> place_of_digest(std::string_view contents, const std::strin
     const bool found = at != std::string_view::npos && at + 16 <= contents.size();
     return found ? std::optional(Place{at + 8, 8}) : std::nullopt;
   }
+  if (is_xml(contents)) {
+    const auto note = xml_note_of(contents);
+    return note ? std::optional(Place{note->own_at, kDigestDigits}) : std::nullopt;
+  }
   const std::string start = "string \"" + own + "\" = \"";
   const std::size_t at = contents.find(start);
   const bool found =
-      at != std::string_view::npos && at + start.size() + kHexDigits <= contents.size();
-  return found ? std::optional(Place{at + start.size(), kHexDigits}) : std::nullopt;
+      at != std::string_view::npos && at + start.size() + kDigestDigits <= contents.size();
+  return found ? std::optional(Place{at + start.size(), kDigestDigits}) : std::nullopt;
 }
 
 std::uint64_t masked_digest(std::string_view contents, const std::string& own) {
@@ -125,13 +117,46 @@ std::shared_ptr<const bytes::FileBytes> contents_of(const std::string& file) {
   return bytes::FileBytes::open(file, rules).value_or(nullptr);
 }
 
-/// The note in the bytes of a layer's file, as a copy.
+Dictionary dictionary_of(const XmlNote& xml) {
+  Dictionary note;
+  for (const auto& [name, digest] : xml.others) {
+    note.items.insert_or_assign(name, Value(hex_of(digest)));
+  }
+  note.items.insert_or_assign(kSelf, Value(hex_of(xml.own)));
+  return note;
+}
+
+/// The note in the bytes of a file, as a copy.
 std::optional<Dictionary> note_in(std::shared_ptr<const bytes::FileBytes> contents,
                                   const std::string& file) {
+  if (is_xml(contents->text())) {
+    const auto xml = xml_note_of(contents->text());
+    return xml ? std::optional(dictionary_of(*xml)) : std::nullopt;
+  }
   Diagnostics ignored;
   const auto layer = formats::read_layer(std::move(contents), file, ignored);
   const Dictionary* note = layer ? note_of(*layer) : nullptr;
   return note == nullptr ? std::nullopt : std::optional(*note);
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) {
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  return list;
+}
+
+Error edited(const std::string& file, const WrittenState& state) {
+  return Error(ErrorCode::Invalid,
+               state.noted ? "the asset was edited since it was written: " +
+                                 list_of(state.edited) +
+                                 (state.edited.size() == 1 ? " differs" : " differ")
+                           : std::string("there is a file already, and it does not say that it is "
+                                         "as this program has written it"))
+      .in_file(file)
+      .with_rule("output.edited")
+      .with_fix("give --force to overwrite it, or name another place");
 }
 
 }  // namespace
@@ -143,7 +168,7 @@ void add_note(layer::Layer& layer, const std::string& own, const Digests& others
     note.items.insert_or_assign(name, Value(hex_of(digest)));
   }
   if (format == formats::LayerFormat::Text) {
-    note.items.insert_or_assign(own, Value(std::string(kHexDigits, '0')));
+    note.items.insert_or_assign(own, Value(std::string(kDigestDigits, '0')));
   } else {
     note.items.insert_or_assign(kSelf, own_value(0));
   }
@@ -189,7 +214,7 @@ void seal(std::string& contents, const std::string& own) {
   }
   contents.replace(place->at, place->size, place->size, '0');
   const std::uint64_t digest = bytes::content_digest(contents);
-  if (place->size == kHexDigits) {
+  if (place->size == kDigestDigits) {
     contents.replace(place->at, place->size, hex_of(digest));
   } else {
     std::memcpy(contents.data() + place->at, &digest, sizeof digest);
@@ -220,27 +245,38 @@ WrittenState written_state(const std::string& file) {
   return state;
 }
 
-Result<void> check_not_edited(const std::string& file) {
+std::string noted_description(std::string text, const Digests& others) {
+  std::string contents = with_xml_note(std::move(text), others);
+  seal(contents, {});
+  return contents;
+}
+
+Result<void> check_not_edited(const std::string& file, const Digests& beside) {
   std::error_code error;
-  if (!fs::is_regular_file(file, error)) {
-    return {};
+  WrittenState state;
+  if (fs::is_regular_file(file, error)) {
+    state = written_state(file);
+    if (!state.noted || !state.edited.empty()) {
+      return edited(file, state);
+    }
   }
-  const WrittenState state = written_state(file);
-  if (state.noted && state.edited.empty()) {
-    return {};
+  std::vector<std::string> strange;
+  for (const auto& [name, digest] : beside) {
+    const auto there = contents_of((fs::path(file).parent_path() / name).string());
+    const bool known = std::find(state.written.begin(), state.written.end(), name) !=
+                       state.written.end();
+    if (there != nullptr && !known && bytes::content_digest(there->text()) != digest) {
+      strange.push_back(name);
+    }
   }
-  std::string names;
-  for (const std::string& name : state.edited) {
-    names += (names.empty() ? "" : ", ") + name;
+  if (strange.empty()) {
+    return {};
   }
   return Error(ErrorCode::Invalid,
-               state.noted ? "the asset was edited since it was written: " + names +
-                                 (state.edited.size() == 1 ? " differs" : " differ")
-                           : std::string("there is a file already, and it does not say that it is "
-                                         "as this program has written it"))
+               "files stand in the way that were not written with it: " + list_of(strange))
       .in_file(file)
-      .with_rule("output.edited")
-      .with_fix("give --force to overwrite it, or name another place");
+      .with_rule("output.unknown")
+      .with_fix("name another place, or give --force to overwrite them");
 }
 
 }  // namespace tenon::structure

@@ -23,7 +23,7 @@
 ///
 /// are digests of all of its files, its own among them. Making it again compares them: what differs
 /// was edited since, and is not overwritten unasked. Binary layers hold their own digest as the
-/// second of two numbers instead, `int64[] self`.
+/// second of two numbers instead, `int64[] self`. Descriptions in XML have a comment (xml_note.h).
 namespace tenon::structure {
 
 /// Digests by name, relative to the folder of the layer that holds them.
@@ -44,6 +44,9 @@ std::uint64_t own_digest(std::string_view contents, const std::string& own);
 /// The same in a layer of a package.
 void set_own_digest(layer::Layer& layer, std::uint64_t digest);
 
+/// The text of a description with its note, sealed.
+std::string noted_description(std::string text, const Digests& others);
+
 /// How the files of an asset are beside what was written.
 struct WrittenState {
   bool noted = false;                 ///< there is a note
@@ -55,6 +58,8 @@ WrittenState written_state(const std::string& file);
 
 /// Error with rule "output.edited" that names what was edited since; nothing when `file` does not
 /// exist or is as it was written. For files that say nothing about themselves, too.
-Result<void> check_not_edited(const std::string& file);
+/// `beside` are what is to be written with it, named from its folder: for one of them that is there
+/// with other contents, and was not written with `file`, an Error with rule "output.unknown".
+Result<void> check_not_edited(const std::string& file, const Digests& beside = {});
 
 }  // namespace tenon::structure

@@ -16,8 +16,25 @@ import sys
 import tempfile
 import unittest
 
-from program import (EDITS, PRINTING, TENON, WRITING, make_inputs, run, snapshot, verbs)
+from program import (EDITS, PRINTING, ROOT, TENON, WRITING, make_inputs, run, snapshot, verbs)
 
+MESH = """#usda 1.0
+(
+    defaultPrim = "r"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "r" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])
+{
+    float physics:mass = 1
+    def Mesh "m" (prepend apiSchemas = ["PhysicsCollisionAPI"])
+    {
+        int[] faceVertexCounts = [3, 3, 3, 3]
+        int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]
+        point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    }
+}
+"""
 LIBC = ctypes.CDLL(None, use_errno=True)
 NOBODY = 65534
 
@@ -303,6 +320,67 @@ class Edited(Folder):
                 self.fails(self.go(["convert", "arm.urdf", output]), output)
                 self.same(before)
                 self.assertEqual(self.go(["convert", "arm.urdf", output, "--force"]).returncode, 0)
+
+    def test_descriptions_know_as_well(self):
+        (self.folder / "other.usda").write_text(
+            (self.folder / "base.usda").read_text().replace("mass = 2", "mass = 3"))
+        for output in ("made.xml", "made.urdf"):
+            with self.subTest(output):
+                for asset in ("base.usda", "base.usda", "other.usda"):
+                    process = self.go(["convert", asset, output])
+                    self.assertEqual(process.returncode, 0, process.stderr)
+                path = self.folder / output
+                made = path.read_bytes()
+                self.go(["convert", "other.usda", "again" + path.suffix])
+                self.assertEqual((self.folder / f"again{path.suffix}").read_bytes(), made)
+                for text in (made.replace(b'"3"', b'"4"'), made + b"<!-- mine -->\n",
+                             b"<mujoco/>\n" if output.endswith("xml") else b"<robot/>\n", b""):
+                    path.write_bytes(text)
+                    before = snapshot(self.folder)
+                    process = self.go(["convert", "base.usda", output])
+                    self.fails(process, output)
+                    self.assertIn("--force", process.stderr)
+                    self.same(before)
+                process = self.go(["convert", "base.usda", output, "--force"])
+                self.assertEqual(process.returncode, 0, process.stderr)
+                self.assertEqual(self.go(["convert", "base.usda", output]).returncode, 0)
+
+    def test_meshes_beside_a_description_are_part_of_it(self):
+        (self.folder / "mesh.usda").write_text(MESH)
+        mesh = self.folder / "two--robots_meshes/mesh_0.obj"
+        words = ["convert", "mesh.usda", "two--robots.urdf"]
+        mesh.parent.mkdir()
+        mesh.write_text("of somebody else")
+        before = snapshot(self.folder)
+        self.fails(self.go(words), "a mesh of somebody else")
+        self.same(before)
+        mesh.unlink()
+        for _ in range(2):
+            process = self.go(words)
+            self.assertEqual(process.returncode, 0, process.stderr)
+        mesh.write_text(mesh.read_text() + "# tuned\n")
+        before = snapshot(self.folder)
+        process = self.go(words)
+        self.fails(process, "edited mesh")
+        self.assertIn("mesh_0.obj", process.stderr)
+        self.same(before)
+        self.assertEqual(self.go([*words, "--force"]).returncode, 0)
+        self.assertNotIn("tuned", mesh.read_text())
+
+    def test_images_of_somebody_else_stay(self):
+        """Textures of a description that lies elsewhere come into a folder beside the layer."""
+        words = ["convert", ROOT / "tests/convert/urdf/shapes.urdf", "made.usda"]
+        image = self.folder / "made_images/stripes.png"
+        image.parent.mkdir()
+        image.write_text("of somebody else")
+        before = snapshot(self.folder)
+        process = self.go(words)
+        self.fails(process, "image")
+        self.assertIn("stripes.png", process.stderr)
+        self.same(before)
+        self.assertEqual(self.go([*words, "--force"]).returncode, 0)
+        self.assertTrue(image.read_bytes().startswith(b"\x89PNG"))
+        self.assertEqual(self.go(words).returncode, 0)
 
     def test_edits_by_this_program_count(self):
         self.go(["convert", "arm.urdf", "made"])
