@@ -123,6 +123,7 @@ void reply(Result<T> result, const Diagnostics& findings, const guard::Allowance
   }
   answer.findings = taken(findings);
   answer.refused = take_refused();
+  answer.opened = take_opened();
   const std::uint64_t size = guard::encoded_size(answer);
   if (size > allowance.reply_bytes) {
     leave(WorkerExit::LongReply);

@@ -31,6 +31,7 @@ struct Held {
   bool is_held = false;
   std::vector<std::string> roots;
   std::vector<std::string> refused;
+  std::vector<std::string> opened;
   std::set<std::string, std::less<>> allowed;    // names that were looked at
   std::set<std::pair<dev_t, ino_t>> counted;     // files that memory and time were given for
 };
@@ -88,6 +89,7 @@ int verdict(const char* path, int flags) {
   }
   all.allowed.emplace(path);
   if (all.counted.emplace(facts.st_dev, facts.st_ino).second) {
+    all.opened.push_back(real);
     allow_more(static_cast<std::uint64_t>(facts.st_size));
   }
   return 0;
@@ -128,12 +130,19 @@ void hold_to(const std::vector<std::string>& roots) {
   all.roots = roots;
   all.allowed.clear();
   all.counted.clear();
+  all.opened.clear();
 }
 
 std::vector<std::string> take_refused() {
   Held& all = held();
   const std::lock_guard<std::mutex> lock(all.lock);
   return std::exchange(all.refused, {});
+}
+
+std::vector<std::string> take_opened() {
+  Held& all = held();
+  const std::lock_guard<std::mutex> lock(all.lock);
+  return std::exchange(all.opened, {});
 }
 
 }  // namespace tenon::worker

@@ -14,5 +14,7 @@ void hold_to(const std::vector<std::string>& roots);
 
 /// What was refused since this was asked last, each name once.
 std::vector<std::string> take_refused();
+/// The same of what was opened, without symbolic links.
+std::vector<std::string> take_opened();
 
 }  // namespace tenon::worker

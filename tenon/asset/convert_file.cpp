@@ -3,10 +3,12 @@
 #include "tenon/asset/convert_file.h"
 
 #include <string_view>
+#include <vector>
 
 #include "tenon/asset/mjcf_files.h"
 #include "tenon/asset_policy.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/read_record.h"
 #include "tenon/guard/not_a_number.h"
 #include "tenon/guard/workers.h"
 #include "tenon/robot/check_model.h"
@@ -23,9 +25,13 @@ Result<robot::RobotModel> read_mjcf(const std::string& path, bytes::ReadPolicy& 
                                     Diagnostics& diagnostics) {
   TENON_CHECK(admit_mjcf_files(path, policy));
   guard::Workers workers;
-  TENON_TRY(robot::RobotModel model,
-            guard::read_guarded<robot::RobotModel>(
-                workers, {guard::Reader::Mjcf, path, policy.roots()}, diagnostics));
+  std::vector<std::string> opened;
+  auto read = guard::read_guarded<robot::RobotModel>(
+      workers, {guard::Reader::Mjcf, path, policy.roots()}, diagnostics, &opened);
+  for (const std::string& file : opened) {
+    bytes::note_read(file);
+  }
+  TENON_TRY(robot::RobotModel model, std::move(read));
   model.parts_folders.clear();  // which folders belong to a model is not for a worker to say
   TENON_CHECK(robot::check_model(model));
   if (guard::has_not_a_number(model)) {

@@ -70,6 +70,7 @@ struct Answer {
   std::optional<Failure> failure;  ///< where there is no value
   std::vector<Diagnostic> findings;
   std::vector<std::string> refused;  ///< files that were asked for and may not be read
+  std::vector<std::string> opened;   ///< files that were read, by their real names
 };
 
 /// How a worker ends by itself; signals tell the rest.

@@ -58,9 +58,11 @@ Diagnostic refused_file(const std::string& file, const std::string& refused,
                         const std::vector<std::string>& roots);
 
 /// Lets a worker read a file. What it finds goes to `diagnostics`. The value is decoded; its owner
-/// checks what it means.
+/// checks what it means. `opened`, where given, receives the files that it says it has read, those
+/// beside the one that was asked for, too.
 template <class T>
-Result<T> read_guarded(Workers& workers, Request request, Diagnostics& diagnostics) {
+Result<T> read_guarded(Workers& workers, Request request, Diagnostics& diagnostics,
+                       std::vector<std::string>* opened = nullptr) {
   if (request.readable_roots.empty()) {
     request.readable_roots = own_roots(request.file);
   }
@@ -75,6 +77,9 @@ Result<T> read_guarded(Workers& workers, Request request, Diagnostics& diagnosti
   }
   for (const std::string& refused : answer->refused) {
     diagnostics.add(refused_file(request.file, refused, request.readable_roots));
+  }
+  if (opened != nullptr) {
+    *opened = std::move(answer->opened);
   }
   if (answer->failure) {
     return Error(answer->failure->code, std::move(answer->failure->diagnostic));

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "tenon/guard/worker_place.h"
+#include "tenon/mesh/mesh_scene.h"
 
 namespace tenon::guard {
 namespace {
@@ -87,9 +88,9 @@ TEST_F(HostileWorker, ThatAnswersGarbageIsAnError) {
             "guard.crashed");
   EXPECT_EQ(rule_of(error_of(R"(printf '\000\000\000\000\000\000\000\000' >&0; sleep 9)")),
             "guard.crashed");
-  // Neither a value nor a failure: an answer's four fields, all empty.
-  EXPECT_EQ(rule_of(error_of(R"({ printf '\022\000\000\000\000\000\000\000'; )"
-                             "head -c 18 /dev/zero; } >&0; sleep 9")),
+  // Neither a value nor a failure: an answer's five fields, all empty.
+  EXPECT_EQ(rule_of(error_of(R"({ printf '\032\000\000\000\000\000\000\000'; )"
+                             "head -c 26 /dev/zero; } >&0; sleep 9")),
             "guard.crashed");
 }
 
@@ -149,6 +150,33 @@ TEST(Worker, TellsWhatHoldsIt) {
   EXPECT_TRUE(read_guarded<AboutWorker>(workers, {Reader::About, "", {}}, none));
   EXPECT_EQ(workers.started(), 1u);
   EXPECT_TRUE(none.empty());
+}
+
+TEST(Worker, NamesEachFileThatItReads) {
+  Workers workers;
+  Diagnostics findings;
+  if (read_guarded<AboutWorker>(workers, {Reader::About, "", {}}, findings)->assimp.empty()) {
+    GTEST_SKIP() << "without assimp";
+  }
+  const fs::path folder =
+      fs::canonical(fs::temp_directory_path()) / ("tenon_guard_opened_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "numbers.bin") << std::string(36, '\0');
+  std::ofstream(folder / "m.gltf")
+      << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+             "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+             "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+                           "min":[0,0,0],"max":[0,0,0]}],
+             "bufferViews":[{"buffer":0,"byteLength":36}],
+             "buffers":[{"byteLength":36,"uri":"numbers.bin"}]})";
+  const std::string file = (folder / "m.gltf").string();
+  for (int i = 0; i < 2; ++i) {  // the second is by the same process
+    std::vector<std::string> opened;
+    const Request request{Reader::Mesh, file, {}};
+    EXPECT_TRUE(read_guarded<mesh::MeshScene>(workers, request, findings, &opened));
+    EXPECT_EQ(opened, (std::vector<std::string>{file, (folder / "numbers.bin").string()}));
+  }
+  fs::remove_all(folder);
 }
 
 TEST(Worker, RefusesMoreFoldersThanAreUsual) {

@@ -4,6 +4,7 @@
 
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/lfs_pointer.h"
+#include "tenon/bytes/read_record.h"
 #include "tenon/mesh/check_scene.h"
 #include "tenon/mesh/gltf_files.h"
 
@@ -26,9 +27,13 @@ std::string ending_of(const std::string& path) {
 /// Lets the worker read the file; what it says is checked before anybody uses it.
 Result<MeshScene> read_elsewhere(const std::string& path, const MeshReading& reading,
                                  Diagnostics& diagnostics) {
-  TENON_TRY(MeshScene scene,
-            guard::read_guarded<MeshScene>(
-                reading.workers, {guard::Reader::Mesh, path, reading.policy.roots()}, diagnostics));
+  std::vector<std::string> opened;
+  auto read = guard::read_guarded<MeshScene>(
+      reading.workers, {guard::Reader::Mesh, path, reading.policy.roots()}, diagnostics, &opened);
+  for (const std::string& file : opened) {
+    bytes::note_read(file);
+  }
+  TENON_TRY(MeshScene scene, std::move(read));
   TENON_CHECK(check_scene(scene, path));
   return scene;
 }

@@ -200,6 +200,18 @@ class Folders(Guarded):
         self.assertIn("read.outside", rules)
         self.assertIn("away/numbers.bin", message)
 
+    def test_no_output_replaces_what_the_worker_found(self):
+        """Libraries find files by more names than the one that is written."""
+        for name in ("numbers.usda", "gone/numbers.usda", ".\\\\numbers.usda"):
+            side = self.write("numbers.usda", "\0" * 36)
+            self.write("m.gltf", gltf(buffer=f'"uri":"{name}"'))
+            robot = self.write("r.urdf", urdf("m.gltf"))
+            process = subprocess.run([TENON, "convert", str(robot), str(side), "--force"],
+                                     capture_output=True, text=True, check=False)
+            self.assertEqual(process.returncode, 2, name + process.stderr)
+            self.assertIn("output.is-input", process.stderr, name)
+            self.assertEqual(side.read_bytes(), bytes(36), name)
+
     def test_links_count_by_where_they_lead(self):
         secret = self.write("away/secret.xml", mjcf(""))
         folder = self.folder / "a/b"
