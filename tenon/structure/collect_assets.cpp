@@ -64,10 +64,15 @@ class Collector {
 
  private:
   std::string renamed(const std::string& authored, const fs::path& folder, Path at) {
-    const std::string asset =
+    std::string asset =
         authored.starts_with("file:") ? bytes::plain_asset_path(authored) : authored;
     if (!fs::path(asset).is_absolute()) {
-      return asset;  // it was found nowhere: a module that comes with the renderer, or missing
+      const std::string found = found_elsewhere(asset);
+      if (found.empty()) {
+        report_unknown(asset, at);
+        return asset;
+      }
+      asset = found;
     }
     const auto known = places_.find(asset);
     std::string place = known == places_.end() ? collect(asset, at) : known->second;
@@ -75,6 +80,35 @@ class Collector {
     places_[authored] = place;
     place = fs::path(place).lexically_relative(folder).generic_string();
     return place.starts_with("../") ? place : "./" + place;
+  }
+
+  /// What is not in the folder of its layer: in the working directory or on a search path. Of a
+  /// pattern, where a tile is.
+  std::string found_elsewhere(const std::string& asset) const {
+    const layer::Layer nowhere("");
+    if (asset.find(kTilePattern) == std::string::npos) {
+      return source_.resolve_asset(asset, nowhere);
+    }
+    for (int tile = kFirstTile; tile <= kLastTile; ++tile) {
+      const std::string name = with_tile(asset, std::to_string(tile));
+      const std::string found = source_.resolve_asset(name, nowhere);
+      if (found.ends_with(name)) {
+        return found.substr(0, found.size() - name.size()) + asset;
+      }
+    }
+    return {};
+  }
+
+  /// Modules of materials come with renderers, which find them by themselves.
+  void report_unknown(const std::string& asset, Path at) {
+    const std::string ending = fs::path(asset).extension().string();
+    const bool is_module =
+        ending == ".mdl" || ending == ".glslfx" || ending == ".osl" || ending == ".oso";
+    if (!is_module && unknown_.insert(asset).second) {
+      report(Severity::Warning, "structure.asset-missing",
+             "the asset @" + asset + "@ is found nowhere and is not collected",
+             "give its folder with --search-path, or correct the path", at);
+    }
   }
 
   std::string collect(const std::string& asset, Path at) {
@@ -195,6 +229,7 @@ class Collector {
   CollectedAssets places_;
   std::vector<Error> refusals_;    // of the asset at hand, not yet reported
   bool is_refused_ = false;        // something of the asset at hand was refused
+  std::set<std::string> unknown_;  // names that were found nowhere
   std::set<std::string> missing_;  // places that are kept for what cannot be read
 };
 

@@ -30,6 +30,22 @@ def "A" (
 """
 LAYER = '#usda 1.0\n(\n    defaultPrim = "R"\n)\ndef "R"\n{\n    int secret = 1\n}\n'
 
+PAINTED = """#usda 1.0
+(
+    defaultPrim = "r"
+)
+def Xform "r"
+{
+    def Shader "s"
+    {
+        uniform asset info:mdl:sourceAsset = @OmniPBR.mdl@
+        asset inputs:bark = @bark.<UDIM>.png@
+        asset inputs:gone = @gone.png@
+        asset inputs:skin = @skin.png@
+    }
+}
+"""
+
 
 class AssetPaths(unittest.TestCase):
     def setUp(self):
@@ -97,6 +113,34 @@ class AssetPaths(unittest.TestCase):
         variable = self.run_tenon("cat", asset, "--flatten",
                                   PXR_AR_DEFAULT_SEARCH_PATH="/no:" + lib)
         self.assertIn("secret", variable.stdout)
+
+    def test_structure_collects_what_search_paths_lead_to(self):
+        self.put("in/painted.usda", PAINTED)
+        for name in ("skin.png", "bark.1001.png", "bark.1012.png"):
+            self.put("shelf/" + name, "GIF89a" + name)
+        run = self.run_tenon("structure", self.path("in/painted.usda"), "-o", self.path("made"),
+                             "--search-path", self.path("shelf"), "--json")
+        answer = json.loads(run.stdout)
+        names = [row["file"] for row in answer["files"] if "Textures" in row["file"]]
+        self.assertEqual(names, ["Textures/bark.1001.png", "Textures/bark.1012.png",
+                                 "Textures/skin.png"])
+        said = [(d["rule"], d["message"]) for d in answer["diagnostics"]]
+        self.assertEqual([rule for rule, _ in said], ["structure.asset-missing"], said)
+        self.assertIn("@gone.png@", said[0][1])
+        with open(self.path("made/payloads/base.usda"), encoding="utf-8") as file:
+            text = file.read()
+        for name in ("../Textures/skin.png", "../Textures/bark.<UDIM>.png", "gone.png",
+                     "OmniPBR.mdl"):
+            self.assertIn(f"@{name}@", text)
+
+    def test_structure_keeps_to_what_may_be_read_in_search_paths(self):
+        self.put("in/painted.usda", PAINTED)
+        self.put("shelf/skin.png", "password=1")
+        run = self.run_tenon("structure", self.path("in/painted.usda"), "-o", self.path("made"),
+                             "--search-path", self.path("shelf"), "--json")
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertIn("read.wrong-kind", run.stdout)
+        self.assertFalse(os.path.exists(self.path("made/Textures/skin.png")))
 
 
 if __name__ == "__main__":

@@ -125,6 +125,18 @@ class Zip(unittest.TestCase):
             self.assertEqual((folder / name).read_bytes(), (HAND.parent / name).read_bytes())
         self.assertEqual(tenon("zip", self.package, "--extract", folder).returncode, 2)
 
+    def test_an_empty_package_is_an_empty_folder(self):
+        for name, entries in (("empty", []), ("folders", ["a/", "b/c/"])):
+            with zipfile.ZipFile(self.folder / f"{name}.usdz", "w") as package:
+                for entry in entries:
+                    package.writestr(entry, "")
+            for place in (name, f"{name}_slash/", f"deep/er/{name}"):
+                self.run_json(self.folder / f"{name}.usdz", "--extract", self.folder / place)
+                folder = self.folder / place
+                self.assertTrue(folder.is_dir(), place)
+                self.assertEqual(sorted(f"{path.relative_to(folder)}/" for path in
+                                        folder.rglob("*") if path.name != "b"), entries)
+
     def test_no_file_leaves_the_folder(self):
         inner = self.folder / "inner"
         inner.mkdir()
