@@ -47,17 +47,27 @@ std::vector<OptionInfo> options_of(const CommandInfo& program, const CommandInfo
   return all;
 }
 
-std::vector<std::string> words_of(const CommandInfo& program, const CommandInfo& verb) {
+/// Words that may stand by themselves: verbs below this one, and what it takes by its place.
+std::vector<std::string> plain_words(const CommandInfo& verb) {
   std::vector<std::string> words = verb_names(verb);
-  for (const OptionInfo& option : options_of(program, verb)) {
-    words.insert(words.end(), option.names.begin(), option.names.end());
-  }
   for (const OptionInfo& option : verb.options) {
     if (option.positional) {
       words.insert(words.end(), option.choices.begin(), option.choices.end());
     }
   }
   return words;
+}
+
+std::vector<std::string> with_names(std::vector<std::string> words,
+                                    const std::vector<OptionInfo>& options) {
+  for (const OptionInfo& option : options) {
+    words.insert(words.end(), option.names.begin(), option.names.end());
+  }
+  return words;
+}
+
+std::string bash_reply(const std::vector<std::string>& words) {
+  return "COMPREPLY=($(compgen -W " + quoted(joined(words, " ")) + " -- \"$word\"))";
 }
 
 std::string bash_script(const CommandInfo& program) {
@@ -73,22 +83,18 @@ std::string bash_script(const CommandInfo& program) {
     for (const OptionInfo& option : options_of(program, verb)) {
       if (!option.choices.empty()) {
         for (const std::string& name : option.names) {
-          text += "    " + verb.name + "," + name + ") COMPREPLY=($(compgen -W " +
-                  quoted(joined(option.choices, " ")) + " -- \"$word\")); return ;;\n";
+          text += "    " + verb.name + "," + name + ") " + bash_reply(option.choices) +
+                  "; return ;;\n";
         }
       }
     }
   }
   text += "  esac\n  case $verb in\n";
-  std::vector<std::string> first = verb_names(program);
-  for (const OptionInfo& option : program.options) {
-    first.insert(first.end(), option.names.begin(), option.names.end());
-  }
-  text += "    '') COMPREPLY=($(compgen -W " + quoted(joined(first, " ")) +
-          " -- \"$word\")); return ;;\n";
+  text += "    '') " + bash_reply(with_names(verb_names(program), program.options)) +
+          "; return ;;\n";
   for (const CommandInfo& verb : program.commands) {
-    text += "    " + verb.name + ") COMPREPLY=($(compgen -W " +
-            quoted(joined(words_of(program, verb), " ")) + " -- \"$word\")) ;;\n";
+    text += "    " + verb.name + ") " +
+            bash_reply(with_names(plain_words(verb), options_of(program, verb))) + " ;;\n";
   }
   return text +
          "  esac\n"
@@ -144,12 +150,7 @@ std::string zsh_script(const CommandInfo& program) {
     for (const OptionInfo& option : options_of(program, verb)) {
       text += zsh_option(option);
     }
-    std::vector<std::string> words = verb_names(verb);
-    for (const OptionInfo& option : verb.options) {
-      if (option.positional) {
-        words.insert(words.end(), option.choices.begin(), option.choices.end());
-      }
-    }
+    const std::vector<std::string> words = plain_words(verb);
     text += " \\\n        " +
             quoted(words.empty() ? "*:file:_files" : "*:word:(" + joined(words, " ") + ")") +
             " ;;\n";
@@ -183,17 +184,11 @@ std::string fish_script(const CommandInfo& program) {
   }
   for (const CommandInfo& verb : program.commands) {
     const std::string condition = " -n " + quoted("__fish_seen_subcommand_from " + verb.name);
-    const auto add_words = [&](const std::vector<std::string>& words) {
-      text += words.empty() ? ""
-                            : "complete -c tenon -f" + condition + " -a " +
-                                  quoted(joined(words, " ")) + "\n";
-    };
-    add_words(verb_names(verb));
+    if (const std::vector<std::string> words = plain_words(verb); !words.empty()) {
+      text += "complete -c tenon -f" + condition + " -a " + quoted(joined(words, " ")) + "\n";
+    }
     for (const OptionInfo& option : options_of({}, verb)) {
       text += fish_option(option, condition);
-    }
-    for (const OptionInfo& option : verb.options) {
-      add_words(option.positional ? option.choices : std::vector<std::string>());
     }
   }
   return text;

@@ -39,8 +39,8 @@ struct CorrectedFile {
   bool kept_layout = true;  ///< comments and layout of text stay
 };
 
-/// What the fixes of the findings make of the files that own the opinions. No file is touched:
-/// write_file (bytes/atomic_write.h) does that.
+/// What the fixes of the findings make of the files that own the opinions. No file is touched: the
+/// caller writes them together, in place (Outputs of cli/output.h, bytes/file_transaction.h).
 Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Finding>& findings);
 
 /// Files below a folder that no other of them uses as a layer, sorted; a file alone is one.

@@ -5,10 +5,10 @@
 #if TENON_WITH_MUJOCO
 #include <filesystem>
 #include <set>
-#include <string_view>
 
 #include "tenon/base/file_finding.h"
 #include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/file_kind.h"
 #include "tenon/describe/describe_visuals.h"
 #include "tenon/mjcf/write_model.h"
 #include "tenon/physics/read_mujoco_parts.h"
@@ -37,7 +37,6 @@ class ImageCopier {
 
  private:
   std::string read(const std::string& file) {
-    constexpr std::string_view kPng = "\x89PNG";
     const auto bytes = policy_.open(file);
     if (!bytes && bytes.error().diagnostic().rule == bytes::kOutsideRule) {
       const Diagnostic& why = bytes.error().diagnostic();
@@ -45,7 +44,7 @@ class ImageCopier {
                                     file, 0, why.fix));
       return {};
     }
-    if (!bytes || !(*bytes)->text().starts_with(kPng)) {
+    if (!bytes || !bytes::is_png((*bytes)->text())) {
       diagnostics_.add(file_finding(Severity::Warning, "mjcf.left-out",
                                     "the image is not a PNG, which is all that MuJoCo reads; it is "
                                     "left out",

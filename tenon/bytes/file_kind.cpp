@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 
 #include "tenon/bytes/read_policy.h"
 
@@ -19,8 +20,10 @@ struct Mark {
   std::string_view bytes;
 };
 
+constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n"sv;
+
 constexpr Mark kMarks[] = {
-    {FileKind::Image, 0, "\x89PNG\r\n\x1a\n"sv},
+    {FileKind::Image, 0, kPng},
     {FileKind::Image, 0, "\xff\xd8\xff"sv},      // JPEG
     {FileKind::Image, 0, "\x76\x2f\x31\x01"sv},  // OpenEXR
     {FileKind::Image, 0, "#?RADIANCE"sv},
@@ -136,32 +139,49 @@ std::string_view without_byte_order(std::string_view text) {
   return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
 }
 
+/// What may stand in front of what says which kind a text is: a comment and the like.
+struct Aside {
+  std::string_view begin;
+  std::string_view end;
+};
+
+/// The text behind blanks and asides; empty where one of them does not end.
+std::string_view behind(std::string_view text, std::initializer_list<Aside> asides) {
+  text = without_blanks(without_byte_order(text));
+  while (true) {
+    const Aside* aside = std::find_if(asides.begin(), asides.end(), [&](const Aside& one) {
+      return text.starts_with(one.begin);
+    });
+    if (aside == asides.end()) {
+      return text;
+    }
+    const std::size_t end = text.find(aside->end, aside->begin.size());
+    if (end == std::string_view::npos) {
+      return {};
+    }
+    text = without_blanks(text.substr(end + aside->end.size()));
+  }
+}
+
 /// XML whose root element is <materialx>, told by what is in front of it.
 bool is_materialx(std::string_view text) {
-  text = without_blanks(without_byte_order(text.substr(0, 65536)));
-  while (text.starts_with("<?") || text.starts_with("<!")) {
-    const bool comment = text.starts_with("<!--");
-    const std::size_t end = text.find(comment ? "-->" : ">");
-    if (end == std::string_view::npos) {
-      return false;
-    }
-    text = without_blanks(text.substr(end + (comment ? 3 : 1)));
-  }
-  return text.starts_with("<materialx");
+  constexpr std::size_t kLookedAt = 65536;
+  return behind(text.substr(0, kLookedAt), {{"<!--", "-->"}, {"<?", ">"}, {"<!", ">"}})
+      .starts_with("<materialx");
+}
+
+Error wrong_kind(const std::string& path, const char* what, const char* fix) {
+  return Error(ErrorCode::Invalid, "@" + path + "@ is " + what)
+      .with_rule(kWrongKindRule)
+      .with_fix(fix);
 }
 
 }  // namespace
 
+bool is_png(std::string_view bytes) { return bytes.starts_with(kPng); }
+
 bool is_mdl(std::string_view text) {
-  text = without_blanks(without_byte_order(text));
-  while (text.starts_with("//") || text.starts_with("/*")) {
-    const bool line = text[1] == '/';
-    const std::size_t end = text.find(line ? "\n" : "*/", 2);
-    if (end == std::string_view::npos) {
-      return false;
-    }
-    text = without_blanks(text.substr(end + (line ? 1 : 2)));
-  }
+  text = behind(text, {{"//", "\n"}, {"/*", "*/"}});
   if (!text.starts_with("mdl ") && !text.starts_with("mdl\t")) {
     return false;
   }
@@ -201,17 +221,14 @@ Error not_read(const std::string& path, Error error) {
 }
 
 Error not_media(const std::string& path) {
-  return Error(ErrorCode::Invalid, "@" + path +
-                                       "@ is neither an image nor a sound, a volume, a module of a "
-                                       "material, a light profile or a layer")
-      .with_rule(kWrongKindRule)
-      .with_fix("name a file that is what the asset uses it as");
+  return wrong_kind(path,
+                    "neither an image nor a sound, a volume, a module of a material, a light "
+                    "profile or a layer",
+                    "name a file that is what the asset uses it as");
 }
 
 Error not_a_layer(const std::string& path) {
-  return Error(ErrorCode::Invalid, "@" + path + "@ is named as a layer and is none")
-      .with_rule(kWrongKindRule)
-      .with_fix("name a file of USD");
+  return wrong_kind(path, "named as a layer and is none", "name a file of USD");
 }
 
 }  // namespace tenon::bytes

@@ -24,6 +24,8 @@ enum class FileKind : std::uint8_t {
 };
 
 FileKind kind_of(std::string_view bytes);
+/// The one format of images that MuJoCo reads.
+bool is_png(std::string_view bytes);
 /// A module of NVIDIA's Material Definition Language: "mdl 1.7;" behind comments.
 bool is_mdl(std::string_view text);
 

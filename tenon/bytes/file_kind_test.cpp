@@ -51,6 +51,15 @@ TEST(FileKind, OtherFilesOfScenesAreKnown) {
   EXPECT_EQ(kind_of("// by us\n/* all\nrights */ mdl 1.7;\nimport ::df::*;"), FileKind::Shader);
 }
 
+TEST(FileKind, CommentsInFrontMayBeManyAndHaveToEnd) {
+  EXPECT_EQ(kind_of("\xef\xbb\xbf <!DOCTYPE m><!-- <svg> --><?a?>\n<materialx>"), FileKind::Shader);
+  EXPECT_EQ(kind_of("<!-- > <materialx>"), FileKind::Unknown);
+  EXPECT_EQ(kind_of("\xef\xbb\xbf//\n/* // */\tmdl 1.0;"), FileKind::Shader);
+  EXPECT_EQ(kind_of("/*/ mdl 1.0;"), FileKind::Unknown);
+  EXPECT_TRUE(is_png("\x89PNG\r\n\x1a\n..."));
+  EXPECT_FALSE(is_png("\x89PNG is how it begins"));
+}
+
 TEST(FileKind, WhatPeopleKeepToThemselvesIsNone) {
   for (const std::string& secret :
        {"root:x:0:0:root:/root:/bin/bash\n"s, "-----BEGIN OPENSSH PRIVATE KEY-----\n"s, ""s,
