@@ -9,9 +9,12 @@
 namespace tenon::cli {
 
 bool tells_of_missing_input(const Diagnostic& finding) {
-  static constexpr std::array<std::string_view, 6> kRules = {
-      "clips.layer",     "compose.invalid-asset-path", "compose.invalid-sublayer-path",
-      "package.missing", "convert.mesh-unreadable",    "urdf.mesh-missing"};
+  static constexpr std::array<std::string_view, 9> kRules = {
+      "clips.layer",           "compose.index-capacity-exceeded",
+      "compose.work-exceeded", "compose.invalid-asset-path",
+      "package.missing",       "compose.invalid-sublayer-path",
+      "stage.too-many-prims",  "convert.mesh-unreadable",
+      "urdf.mesh-missing"};
   return std::find(kRules.begin(), kRules.end(), finding.rule) != kRules.end();
 }
 

@@ -251,7 +251,7 @@ class Outputs(unittest.TestCase):
 
     def test_columns_in_sarif_are_characters(self):
         text = ('#usda 1.0\ndef Xform "\u00e4" { string s = "\u4e2d\U0001d11e"; '
-                'rel r = [</gone>,\n\t/* \u00fc */ </lost>] }\n')
+                'rel r = [</gone>,\n\t/* \u00fc */ </lost>]\n}\n')
         scene = self.write("a.usda", text)
         log = json.loads(run(scene, "--only", "stage.target-missing", "--sarif", "-").stdout)
         (only,) = log["runs"]

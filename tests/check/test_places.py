@@ -217,7 +217,7 @@ def "a" (
     <limit lower="1" upper="-1" effort="1" velocity="1"/></joint>
 </robot>
 """)
-        done = subprocess.run([TENON, "convert", "--json", robot, "-o", self.folder / "r.usda"],
+        done = subprocess.run([TENON, "convert", "--json", robot, self.folder / "r.usda"],
                               capture_output=True, check=False)
         found = {finding["rule"]: text_at(finding, self.folder)
                  for finding in json.loads(done.stdout)["diagnostics"]}

@@ -343,6 +343,17 @@ class Command(unittest.TestCase):
                                      'filename="no.stl"/></geometry></visual></link></robot>')
         self.assertEqual(tenon("convert", robot, self.folder / "r.usda").returncode, 1)
 
+    def test_what_a_limit_cuts_short_is_no(self):
+        for name in ("info", "tree", "physics", "dump", "check"):
+            process = tenon(name, self.scene, "--most-work", "1")
+            self.assertEqual(process.returncode, 1, (name, process.stderr))
+            self.assertIn("compose.work-exceeded", process.stderr + process.stdout)
+        for call in (["set", self.scene, "/World/ball.radius=2", "--dry-run"],
+                     ["structure", self.scene, "-o", self.folder / "cut"]):
+            process = tenon(*call, "--most-work", "1")
+            self.assertEqual(process.returncode, 2, (call, process.stderr))
+            self.assertIn("compose.work-exceeded", process.stderr)
+
     def test_nothing_acts_on_the_terminal(self):
         evil = "\033]0;title\a\u202edrow\u009b31m"
         scene = self.write("evil.usda", SCENE % (
