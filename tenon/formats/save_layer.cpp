@@ -7,6 +7,7 @@
 #include "tenon/bytes/atomic_write.h"
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/package/writer.h"
+#include "tenon/formats/text/plain_layer.h"
 #include "tenon/formats/text/reader.h"
 #include "tenon/formats/text/writer.h"
 #include "tenon/layer/dictionary.h"
@@ -76,7 +77,7 @@ Result<void> decode_arrays(const layer::Layer& layer) {
 /// The text of a layer from a binary file is read back: what that one held need not have a text.
 Result<std::string> encode_text(const layer::Layer& layer) {
   std::string text = write_text(layer);
-  if (layer.is_from_binary()) {
+  if (layer.is_from_binary() && !text::has_plain_text(layer)) {
     Diagnostics ignored;
     const auto again = read_text(text, layer.identifier(), ignored);
     if (!again) {

@@ -17,7 +17,8 @@ Result<LayerFormat> layer_format_named(std::string_view name);
 Result<LayerFormat> layer_format_for(std::string_view path);
 
 /// The bytes of a file that holds the layer. A package holds it alone, as a crate. The text of a
-/// layer from a binary file is read back first: ErrorCode::Unsupported where that fails.
+/// layer from a binary file is read back first, unless all of it is of forms that surely have one:
+/// ErrorCode::Unsupported where that fails.
 Result<std::string> encode_layer(const layer::Layer& layer, LayerFormat format);
 
 /// Writes the layer to `path` in the format that its ending names, in one step (the old file or the

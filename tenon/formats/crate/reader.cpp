@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/crate/reader.h"
 
+#include <algorithm>
 #include <span>
 #include <string_view>
 #include <unordered_set>
@@ -172,32 +173,34 @@ class LayerBuilder {
         fields.append(tables_.fields[sets[i]].name, value);
       }
     }
-    TENON_CHECK(check_names(fields));
+    keep_first_of_each(fields);
     return fields;
   }
 
-  /// A spec has a field once.
-  static Result<void> check_names(const layer::FieldList& fields) {
+  /// Some writers name a field of a set twice; the first counts, as in OpenUSD.
+  static void keep_first_of_each(layer::FieldList& fields) {
     constexpr std::size_t kFew = 32;  // compared with each other
     const std::span<const layer::Field> items = fields.items();
+    const auto is_met = [&](std::size_t i) {
+      return std::any_of(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(i),
+                         [&](const layer::Field& before) { return before.name == items[i].name; });
+    };
+    bool all_new = true;
     std::unordered_set<Token> met;
-    for (std::size_t i = 1; i < items.size() && items.size() <= kFew; ++i) {
-      for (std::size_t k = 0; k < i; ++k) {
-        if (items[i].name == items[k].name) {
-          return twice(items[i].name);
-        }
+    for (std::size_t i = 0; i < items.size() && all_new; ++i) {
+      all_new = items.size() <= kFew ? !is_met(i) : met.insert(items[i].name).second;
+    }
+    if (all_new) {
+      return;
+    }
+    met.clear();
+    layer::FieldList kept;
+    for (const layer::Field& field : items) {
+      if (met.insert(field.name).second) {
+        kept.append(field.name, field.value);
       }
     }
-    for (std::size_t i = 0; i < items.size() && items.size() > kFew; ++i) {
-      if (!met.insert(items[i].name).second) {
-        return twice(items[i].name);
-      }
-    }
-    return {};
-  }
-
-  static Error twice(Token name) {
-    return crate::corrupt("a set of fields has `" + name.str() + "` twice");
+    fields = std::move(kept);
   }
 
   crate::Tables tables_;
