@@ -10,8 +10,8 @@
 
 namespace tenon::cli {
 
-/// The finding says that something that the input names was not there, could not be read, or was left
-/// out at a limit, so that the answer is about less than was asked for.
+/// The finding says that something that the input names was not there, could not be read, or was
+/// left out at a limit, so that the answer is about less than was asked for.
 bool tells_of_missing_input(const Diagnostic& finding);
 
 /// For verbs that work on layers without composing them: adds what composing finds missing.
