@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/asset/convert_file.h"
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -17,8 +18,43 @@
 namespace tenon {
 namespace {
 
-/// Told by the root element: a URDF may hold <mujoco> too, further down.
-bool is_mjcf(std::string_view text) { return text.find("<mujoco") < text.find("<robot"); }
+/// Behind the first `end` from `at` on; the size of `text` where there is none.
+std::size_t behind(std::string_view text, std::string_view end, std::size_t at) {
+  const std::size_t found = text.find(end, at);
+  return found == std::string_view::npos ? text.size() : found + end.size();
+}
+
+/// Behind a document type, whose own declarations stand in brackets.
+std::size_t behind_document_type(std::string_view text, std::size_t at) {
+  const std::size_t open = text.find_first_of("[>", at);
+  const bool has_declarations = open != std::string_view::npos && text[open] == '[';
+  return behind(text, ">", has_declarations ? behind(text, "]", open) : at);
+}
+
+/// The name of the root element; empty where the text is no XML.
+std::string_view root_element(std::string_view text) {
+  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  for (;;) {
+    at = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
+    const std::string_view rest = text.substr(at);
+    if (rest.starts_with("<!--")) {
+      at = behind(text, "-->", at + 4);
+    } else if (rest.starts_with("<?")) {
+      at = behind(text, "?>", at);
+    } else if (rest.starts_with("<!")) {
+      at = behind_document_type(text, at);
+    } else {
+      return rest.starts_with('<') ? rest.substr(1, rest.find_first_of(" \t\r\n/>") - 1)
+                                   : std::string_view();
+    }
+  }
+}
+
+/// Told by the root element: a URDF may hold <mujoco> too, further down or in a comment.
+bool is_mjcf(std::string_view text) {
+  const std::string_view root = root_element(text);
+  return root == "mujoco" || root == "mujocoinclude";
+}
 
 /// By MuJoCo in tenon-worker. What comes back is checked before anybody uses it.
 Result<robot::RobotModel> read_mjcf(const std::string& path, bytes::ReadPolicy& policy,

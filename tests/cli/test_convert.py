@@ -67,6 +67,38 @@ class BadMeshes(unittest.TestCase):
                     self.assertNotIn("def Mesh", text)
 
 
+class Kinds(unittest.TestCase):
+    """URDF and MJCF are told apart by the root element, whatever stands before it."""
+
+    URDF = '<robot name="r"><link name="l"/></robot>'
+    MJCF = '<mujoco model="m"><worldbody><geom size="1"/></worldbody></mujoco>'
+    FRONTS = ["", "\ufeff", '<?xml version="1.0"?>\n', "<!-- <robot> and <mujoco>, or > -->",
+              '<!DOCTYPE any [<!ELEMENT robot ANY> <!ELEMENT mujoco ANY>]>\n', "<!DOCTYPE mujoco>"]
+
+    def test_by_the_root(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for number, front in enumerate(self.FRONTS):
+                for body in (self.URDF, self.MJCF):
+                    robot = pathlib.Path(folder, f"r{number}.xml")
+                    robot.write_text(front + body, encoding="utf-8")
+                    code, answer = tenon("convert", robot, robot.with_suffix(".usda"), "--force")
+                    with self.subTest(front=front, body=body):
+                        if body == self.URDF:
+                            self.assertEqual((code, answer["links"]), (0, 1), answer)
+                        # MuJoCo's own reader takes no declarations in a document type.
+                        for finding in answer["diagnostics"]:
+                            self.assertFalse(finding["rule"].startswith("urdf."), finding)
+
+    def test_what_is_neither_is_told(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for text in ("", "<", "<!--", "<?", "<!DOCTYPE [", "<!", "mujoco", "<a><mujoco/></a>"):
+                robot = pathlib.Path(folder, "r.xml")
+                robot.write_text(text, encoding="utf-8")
+                code, answer = tenon("convert", robot, robot.with_suffix(".usda"))
+                self.assertEqual(code, 2, text)
+                self.assertTrue(answer["diagnostics"][0]["rule"].startswith("urdf."), text)
+
+
 class IntoAFolder(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())
