@@ -14,6 +14,7 @@
 #include "tenon/base/file_finding.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/formats/save_layer.h"
+#include "tenon/layer/metadata_fields.h"
 #include "tenon/physics/strip.h"
 #include "tenon/tenon.h"
 
@@ -135,7 +136,9 @@ layer::Layer overlay(const layer::Layer& asset, const std::string& output) {
       layer::Value(std::vector<std::string>{name.starts_with("../") ? name : "./" + name}));
   for (const char* field : {"defaultPrim", "kilogramsPerUnit", "metersPerUnit", "upAxis",
                             "startTimeCode", "endTimeCode", "timeCodesPerSecond"}) {
-    if (const layer::Value* value = asset.root().find(field)) {
+    const layer::Value* value = asset.root().find(field);
+    if (value != nullptr &&
+        layer::is_value_of_metadata(field, layer::SpecKind::PseudoRoot, *value)) {
       over.root().set(field, *value);
     }
   }

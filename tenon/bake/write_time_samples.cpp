@@ -19,10 +19,9 @@ double code_of(const physics::PhysicsScene& scene, double seconds) {
 
 /// A value of another type, which a crate can hold, is left out: it says nothing to a reader.
 void copy_metadata(const stage::Stage& stage, Token name, layer::Spec& root) {
-  const auto* field = layer::find_metadata_field(name, layer::SpecKind::PseudoRoot);
   if (stage.has_authored_metadata(name)) {
     const Value value = stage.metadata(name);
-    if (field == nullptr || value.type() == field->type) {
+    if (layer::is_value_of_metadata(name, layer::SpecKind::PseudoRoot, value)) {
       root.set(name, value);
     }
   }

@@ -79,6 +79,8 @@ bool closes_cycle(const Indexer& indexer, const Arc& arc, Site site) {
 }
 
 void report_cycle(Indexer& indexer, const Arc& arc, const Site& site) {
+  constexpr std::size_t kArcs = 20;   // told at most
+  constexpr std::size_t kText = 800;  // bytes, after which no more are told
   std::string chain = quoted(*site.layer_stack->root, site.path);
   std::string_view word = verb(arc.kind);
   std::size_t length = 0;
@@ -86,7 +88,7 @@ void report_cycle(Indexer& indexer, const Arc& arc, const Site& site) {
     const Node& node = (*at.graph)[at.node];
     chain = quoted(*node.layer_stack->root, node.path) + " " + std::string(word) + " " + chain;
     word = verb(at.arc());
-    if (++length > 20) {
+    if (++length > kArcs || chain.size() > kText) {
       chain = "... " + chain;
       break;
     }

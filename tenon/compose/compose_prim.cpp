@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kTaskUnits = 8;
 constexpr std::size_t kReportUnits = 400;  // a finding is kept as long as the index
+constexpr std::size_t kTextOfUnit = 2;     // bytes of its text
 
 void run_task(Indexer& indexer, const Task& task) {
   switch (task.kind) {
@@ -162,7 +163,7 @@ void build_from_top(Indexer& indexer, const Site& site, bool root_contributes) {
 
 void Indexer::report(std::string_view error_class, const layer::Layer* layer, Path spec,
                      std::string message, std::string fix, StatementPart part) {
-  services.work->count(kReportUnits);
+  services.work->count(kReportUnits + message.size() / kTextOfUnit);
   errors.add(composition_error(error_class, Severity::Error,
                                {layer, spec, root_prim, std::move(part)}, std::move(message),
                                std::move(fix)));

@@ -55,10 +55,15 @@ class WorkMeter {
     return too_much;
   }
   std::size_t most() const { return most_; }
-  void set_most(std::size_t most) { most_ = most; }
+  void set_most(std::size_t most) {
+    most_ = most;
+    tally_from_ = most / 16;
+  }
   /// Goes on from another count.
   void restart(std::size_t done) { done_ = done; }
 
+  /// Whether it is worth to know which arcs take the work: not as long as there is little.
+  bool tallies() const { return done_ >= tally_from_; }
   bool has_costs() const { return !costs_.empty(); }
   /// What tasks have cost since this was asked for last.
   std::vector<ArcCost> take_costs() { return std::exchange(costs_, {}); }
@@ -76,29 +81,39 @@ class WorkMeter {
 
   std::size_t done_ = 0;
   std::size_t most_ = kUnlimited;
+  std::size_t tally_from_ = kUnlimited / 16;
   std::size_t inner_ = 0;  ///< of tasks within the one that runs
   std::vector<ArcCost> costs_;
   std::size_t most_costs_ = 1u << 16;
 };
 
-/// Counts what is done during its life as the cost of a place.
+/// Counts what is done during its life as the cost of a place, once the meter tallies.
 class TaskTally {
  public:
-  TaskTally(WorkMeter& work, const ArcPlace& place)
-      : work_(work), place_(place), start_(work.done_), outer_(std::exchange(work.inner_, 0)) {}
+  TaskTally(WorkMeter& work, const ArcPlace& place) : work_(work) {
+    if (work.tallies()) {
+      place_ = place;
+      start_ = work.done_;
+      outer_ = std::exchange(work.inner_, 0);
+      counts_ = true;
+    }
+  }
   TaskTally(const TaskTally&) = delete;
   TaskTally& operator=(const TaskTally&) = delete;
   ~TaskTally() {
-    const std::size_t all = work_.done_ - start_;
-    work_.add_cost({place_, all - work_.inner_});
-    work_.inner_ = outer_ + all;
+    if (counts_) {
+      const std::size_t all = work_.done_ - start_;
+      work_.add_cost({place_, all - work_.inner_});
+      work_.inner_ = outer_ + all;
+    }
   }
 
  private:
   WorkMeter& work_;
   ArcPlace place_;
-  std::size_t start_;
-  std::size_t outer_;
+  std::size_t start_ = 0;
+  std::size_t outer_ = 0;
+  bool counts_ = false;
 };
 
 /// Costs of a whole stage.

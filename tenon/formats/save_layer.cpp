@@ -64,9 +64,11 @@ Result<void> decode_arrays(const layer::Value& value) {
 Result<void> decode_arrays(const layer::Layer& layer) {
   for (const layer::Layer::Entry& entry : layer.entries()) {
     for (const layer::Field& field : entry.spec.fields()) {
-      const bool may_hold = field.value.is_deferred() || field.value.holds<layer::TimeSamples>() ||
-                            field.value.holds<layer::Dictionary>();
-      if (const auto decoded = may_hold ? decode_arrays(field.value) : Result<void>(); !decoded) {
+      if (!field.value.is_deferred() && !field.value.holds<layer::TimeSamples>() &&
+          !field.value.holds<layer::Dictionary>()) {
+        continue;
+      }
+      if (const auto decoded = decode_arrays(field.value); !decoded) {
         return Error(decoded.error()).with_prim(entry.path.str());
       }
     }

@@ -62,6 +62,11 @@ TEST(SaveLayer, RefusesTextThatCannotBeReadBack) {
     a.set(fields::typeName, Token("fl\xffoat"));
   }));
   expect_no_text(from_crate([](layer::Spec& p, layer::Spec&) { p.set(Token("no word"), 1.0f); }));
+  expect_no_text(from_crate(
+      [](layer::Spec& p, layer::Spec&) { p.set(fields::kind, layer::Specifier::Def); }));
+  Layer layer = from_crate([](layer::Spec&, layer::Spec&) {});
+  layer.root().set(fields::specifier, layer::Specifier::Def);
+  expect_no_text(layer);
 }
 
 }  // namespace

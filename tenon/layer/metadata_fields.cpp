@@ -81,6 +81,11 @@ const MetadataField* find_metadata_field(Token name, SpecKind kind) {
   return (field.homes & home_of(kind)) == 0 ? nullptr : &field;
 }
 
+bool is_value_of_metadata(Token name, SpecKind kind, const Value& value) {
+  const MetadataField* field = find_metadata_field(name, kind);
+  return field != nullptr && value.type() == field->type && value.is_array() == field->is_array;
+}
+
 bool is_structural_field(Token name, SpecKind kind) {
   const auto it = table().structural.find(name);
   return it != table().structural.end() && (it->second & home_of(kind)) != 0;

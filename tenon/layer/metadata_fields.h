@@ -23,6 +23,10 @@ struct MetadataField {
 /// nullptr. The core fields and those that the schema domains shipped with OpenUSD 26.11 register.
 const MetadataField* find_metadata_field(Token name, SpecKind kind);
 
+/// True where `value` is of the type that the metadata `name` of such specs has. Binary layers can
+/// hold others, which no text can.
+bool is_value_of_metadata(Token name, SpecKind kind, const Value& value);
+
 /// True for a field of `kind` that is no metadata: children, arcs, values and the like.
 bool is_structural_field(Token name, SpecKind kind);
 

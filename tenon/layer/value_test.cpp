@@ -190,6 +190,9 @@ TEST(MetadataFields, HaveTypesAndHomes) {
   EXPECT_EQ(find_metadata_field("metersPerUnit", SpecKind::Prim), nullptr);
   EXPECT_NE(find_metadata_field("kind", SpecKind::Variant), nullptr);
   EXPECT_EQ(find_metadata_field("nothing", SpecKind::Prim), nullptr);
+  EXPECT_TRUE(is_value_of_metadata("metersPerUnit", SpecKind::PseudoRoot, Value(1.0)));
+  EXPECT_FALSE(is_value_of_metadata("metersPerUnit", SpecKind::PseudoRoot, Value(1)));
+  EXPECT_FALSE(is_value_of_metadata("metersPerUnit", SpecKind::Prim, Value(1.0)));
   EXPECT_TRUE(is_structural_field("primChildren", SpecKind::Prim));
   EXPECT_FALSE(is_structural_field("primChildren", SpecKind::Attribute));
   for (std::size_t i = 1; i < all_metadata_fields().size(); ++i) {

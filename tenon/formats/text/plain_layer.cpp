@@ -94,11 +94,10 @@ bool is_plain_metadata(const layer::Field& field, SpecKind kind) {
   if (field.name == fields::comment) {
     return field.value.holds<std::string>();
   }
-  const layer::MetadataField* known = layer::find_metadata_field(field.name, kind);
-  if (known == nullptr || known->type != field.value.type() ||
-      known->is_array != field.value.is_array() || field.name == fields::symmetryFunction ||
-      field.name == fields::displayUnit || field.name == fields::framesPerSecond ||
-      field.name == fields::prefixSubstitutions || field.name == fields::suffixSubstitutions) {
+  if (!layer::is_value_of_metadata(field.name, kind, field.value) ||
+      field.name == fields::symmetryFunction || field.name == fields::displayUnit ||
+      field.name == fields::framesPerSecond || field.name == fields::prefixSubstitutions ||
+      field.name == fields::suffixSubstitutions) {
     return false;
   }
   if (const auto* dictionary = field.value.get<layer::Dictionary>()) {
@@ -194,16 +193,18 @@ bool is_plain_relationship(const layer::Spec& spec) {
 
 /// A prim, or the layer itself.
 bool is_plain_prim(const layer::Spec& spec, Memory& memory) {
+  const bool is_prim = spec.kind == SpecKind::Prim;
   const auto& all = spec.fields();
   return std::all_of(all.begin(), all.end(), [&](const layer::Field& field) {
     if (const auto* names = field.value.get<std::vector<Token>>()) {
-      const bool is_list = field.name == fields::primChildren || field.name == fields::properties;
+      const bool is_list =
+          field.name == fields::primChildren || (is_prim && field.name == fields::properties);
       return is_list && are_unique(*names);
     }
-    if (field.name == fields::specifier) {
+    if (is_prim && field.name == fields::specifier) {
       return field.value.holds<layer::Specifier>();
     }
-    if (field.name == fields::typeName) {
+    if (is_prim && field.name == fields::typeName) {
       const auto* type = field.value.get<Token>();
       return type != nullptr && memory.is_prim_type(*type);
     }
