@@ -135,7 +135,8 @@ struct IndexCache::State {
     PrimIndex& index = add_index(path);
     build_child_index(services, parent, index);
     if (work.has_costs()) {
-      arc_costs.add(work.take_costs());
+      arc_costs.add(work.costs());
+      work.clear_costs();
     }
     if (work.exhausted() && !work_reported) {
       work_reported = true;

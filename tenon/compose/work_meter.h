@@ -55,17 +55,14 @@ class WorkMeter {
     return too_much;
   }
   std::size_t most() const { return most_; }
-  void set_most(std::size_t most) {
-    most_ = most;
-    tally_from_ = most / 16;
-  }
+  void set_most(std::size_t most) { most_ = most; }
   /// Goes on from another count.
   void restart(std::size_t done) { done_ = done; }
 
-  /// Whether it is worth to know which arcs take the work: not as long as there is little.
-  bool tallies() const { return done_ >= tally_from_; }
   bool has_costs() const { return !costs_.empty(); }
-  /// What tasks have cost since this was asked for last.
+  /// What tasks have cost since it was taken or cleared last.
+  const std::vector<ArcCost>& costs() const { return costs_; }
+  void clear_costs() { costs_.clear(); }
   std::vector<ArcCost> take_costs() { return std::exchange(costs_, {}); }
 
  private:
@@ -81,39 +78,29 @@ class WorkMeter {
 
   std::size_t done_ = 0;
   std::size_t most_ = kUnlimited;
-  std::size_t tally_from_ = kUnlimited / 16;
   std::size_t inner_ = 0;  ///< of tasks within the one that runs
   std::vector<ArcCost> costs_;
   std::size_t most_costs_ = 1u << 16;
 };
 
-/// Counts what is done during its life as the cost of a place, once the meter tallies.
+/// Counts what is done during its life as the cost of a place.
 class TaskTally {
  public:
-  TaskTally(WorkMeter& work, const ArcPlace& place) : work_(work) {
-    if (work.tallies()) {
-      place_ = place;
-      start_ = work.done_;
-      outer_ = std::exchange(work.inner_, 0);
-      counts_ = true;
-    }
-  }
+  TaskTally(WorkMeter& work, const ArcPlace& place)
+      : work_(work), place_(place), start_(work.done_), outer_(std::exchange(work.inner_, 0)) {}
   TaskTally(const TaskTally&) = delete;
   TaskTally& operator=(const TaskTally&) = delete;
   ~TaskTally() {
-    if (counts_) {
-      const std::size_t all = work_.done_ - start_;
-      work_.add_cost({place_, all - work_.inner_});
-      work_.inner_ = outer_ + all;
-    }
+    const std::size_t all = work_.done_ - start_;
+    work_.add_cost({place_, all - work_.inner_});
+    work_.inner_ = outer_ + all;
   }
 
  private:
   WorkMeter& work_;
   ArcPlace place_;
-  std::size_t start_ = 0;
-  std::size_t outer_ = 0;
-  bool counts_ = false;
+  std::size_t start_;
+  std::size_t outer_;
 };
 
 /// Costs of a whole stage.

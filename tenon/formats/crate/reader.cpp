@@ -170,11 +170,33 @@ class LayerBuilder {
     for (std::size_t i = set; i < end; ++i) {
       const layer::Value& value = values_[sets[i]];
       if (!value.empty()) {
+        TENON_CHECK(check_children(tables_.fields[sets[i]].name, value));
         fields.append(tables_.fields[sets[i]].name, value);
       }
     }
     keep_first_of_each(fields);
     return fields;
+  }
+
+  /// What lists of children name has to be a name: paths are made of them.
+  static Result<void> check_children(Token field, const layer::Value& value) {
+    const auto* const names = value.get<std::vector<Token>>();
+    if (names == nullptr) {
+      return {};
+    }
+    const auto is_name = [&](Token name) {
+      return field == layer::fields::primChildren ? is_identifier(name.view())
+             : field == layer::fields::properties ? is_namespaced_identifier(name.view())
+             : field == layer::fields::variantChildren ||
+                     field == layer::fields::variantSetChildren
+                 ? is_variant_name(name.view())
+                 : true;
+    };
+    const auto wrong = std::find_if_not(names->begin(), names->end(), is_name);
+    if (wrong != names->end()) {
+      return crate::corrupt("`" + field.str() + "` names \"" + wrong->str() + "\", which is no name");
+    }
+    return {};
   }
 
   /// Some writers name a field of a set twice; the first counts, as in OpenUSD.
