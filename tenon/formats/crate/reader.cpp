@@ -194,7 +194,8 @@ class LayerBuilder {
     };
     const auto wrong = std::find_if_not(names->begin(), names->end(), is_name);
     if (wrong != names->end()) {
-      return crate::corrupt("`" + field.str() + "` names \"" + wrong->str() + "\", which is no name");
+      return crate::corrupt("`" + field.str() + "` names \"" + wrong->str() +
+                            "\", which is no name");
     }
     return {};
   }
