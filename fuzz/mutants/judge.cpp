@@ -46,6 +46,12 @@ std::string first_line_with(const std::string& text, std::string_view word) {
   return text.substr(at, std::min<std::size_t>(text.find('\n', at) - at, 160));
 }
 
+/// Arcs of any layer may multiply until a limit of composition ends them.
+bool is_large_composition(const std::string& errors) {
+  return errors.find("[compose.index-capacity-exceeded]") != std::string::npos ||
+         errors.find("[compose.work-exceeded]") != std::string::npos;
+}
+
 /// A crash, a report of a sanitizer, too much time or memory.
 std::string fault_of_process(const Subject& subject, const ProgramRun& run, std::size_t allowed,
                              const std::string& errors) {
@@ -212,7 +218,11 @@ Verdict run_and_judge(const Subject& subject, const Mutant& mutant, const Comman
   Verdict verdict;
   verdict.run = run_program(call, subject.limits());
   const std::string errors = start_of(folder + "/stderr", kReadOfMessages);
-  verdict.fault = fault_of_process(subject, verdict.run, subject.allowed_bytes(mutant), errors);
+  std::size_t allowed = subject.allowed_bytes(mutant);
+  if (is_large_composition(errors)) {
+    allowed = std::max(allowed, kCompositionBytes);
+  }
+  verdict.fault = fault_of_process(subject, verdict.run, allowed, errors);
   if (verdict.fault.empty()) {
     verdict.fault = silent_fault(command, verdict.run, inside, errors);
   }
