@@ -10,7 +10,7 @@ import shutil
 import subprocess
 import sys
 
-ROOT, TENON = pathlib.Path(sys.argv[1]), str(pathlib.Path(sys.argv[2]).absolute())
+ROOT, TENON = pathlib.Path(sys.argv[1]).absolute(), str(pathlib.Path(sys.argv[2]).absolute())
 EXAMPLE = ROOT / "examples/inspire_hand"
 
 SHAPES = """#usda 1.0

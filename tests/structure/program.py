@@ -8,7 +8,7 @@ import pathlib
 import subprocess
 import sys
 
-ROOT, TENON = pathlib.Path(sys.argv[1]), str(pathlib.Path(sys.argv[2]).absolute())
+ROOT, TENON = pathlib.Path(sys.argv[1]).absolute(), str(pathlib.Path(sys.argv[2]).absolute())
 SHARED = pathlib.Path(os.environ.get("TENON_SHARED_DIR", ROOT.parent / "shared"))
 EXAMPLE = ROOT / "examples/inspire_hand/inspire_hand.usda"
 INCUMBENT = SHARED / "assets/inspire_hand_isaac/inspire_hand.usda"
