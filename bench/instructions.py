@@ -34,6 +34,7 @@ def circumstances(program):
     return {
         "compiler": machine.first_line([compiler, "--version"], build),
         "flags": machine.cache_entry(build, "CMAKE_CXX_FLAGS_RELEASE"),
+        "unity": machine.cache_entry(build, "TENON_UNITY"),
         "libc": " ".join(platform.libc_ver()),
         "valgrind": machine.first_line(["valgrind", "--version"], build),
         "architecture": platform.machine(),

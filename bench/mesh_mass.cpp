@@ -9,14 +9,14 @@
 #include <cstdlib>
 
 #include "bench/measure.h"
-#include "tenon/physics/mesh_inertia.h"
+#include "tenon/scene/mesh_inertia.h"
 
 namespace tenon::bench {
 namespace {
 
 /// A torus of radii 2 and 1 in `rings` rings of `sides` points: 2 x rings x sides triangles.
-physics::TriangleMesh torus(int rings, int sides) {
-  physics::TriangleMesh mesh;
+scene::TriangleMesh torus(int rings, int sides) {
+  scene::TriangleMesh mesh;
   for (int i = 0; i < rings; ++i) {
     const double u = 2 * M_PI * i / rings;
     for (int j = 0; j < sides; ++j) {
@@ -41,13 +41,13 @@ physics::TriangleMesh torus(int rings, int sides) {
 void run(const Arguments& arguments) {
   const double wanted = std::strtod(arguments.files[0].c_str(), nullptr);
   const int side = static_cast<int>(std::sqrt(std::fmin(std::fmax(wanted, 18), 1e8) / 2));
-  const physics::TriangleMesh mesh = torus(side, side);
+  const scene::TriangleMesh mesh = torus(side, side);
   Report report("mesh_mass");
   for (int i = 0; i < arguments.repeats; ++i) {
-    const physics::TriangleMesh copy = report.time("copy", [&] { return mesh; });
-    const bool closed = report.time("closed", [&] { return physics::is_closed(copy); });
-    const physics::SolidIntegrals solid =
-        report.time("integrals", [&] { return physics::mesh_integrals(copy); });
+    const scene::TriangleMesh copy = report.time("copy", [&] { return mesh; });
+    const bool closed = report.time("closed", [&] { return scene::is_closed(copy); });
+    const scene::SolidIntegrals solid =
+        report.time("integrals", [&] { return scene::mesh_integrals(copy); });
     // 2 pi^2 R r^2; inscribed, so a little less.
     if (!closed || std::fabs(solid.volume / (4 * M_PI * M_PI) - 1) > 0.5) {
       fail("a torus is closed and has a volume");

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "bench/open_phases.h"
-#include "cli/dump.h"
+#include "tenon/answers/dump/stage_dump.h"
 
 int main(int count, char** values) {
   using namespace tenon::bench;
@@ -17,7 +17,7 @@ int main(int count, char** values) {
     time_attributes(report, time_traverse(report, stage, true));
     const std::string text = report.time("dump", [&] {
       std::ostringstream out;
-      tenon::cli::write_stage_dump(stage, {}, out);
+      tenon::answers::write_stage_dump(stage, {}, out);
       return std::move(out).str();
     });
     if (text.empty()) {

@@ -54,7 +54,7 @@ const engines::mujoco::MujocoSimulation& adapter(const engines::Simulation& simu
   return static_cast<const engines::mujoco::MujocoSimulation&>(simulation);
 }
 
-SimulationPtr make(const physics::PhysicsScene& scene) {
+SimulationPtr make(const scene::PhysicsScene& scene) {
   Diagnostics diagnostics;
   return value_or_fail(make_simulation("mujoco", scene, {}, diagnostics));
 }
@@ -103,7 +103,7 @@ class Inputs {
   std::vector<double> values_;  // (step_count x row)
 };
 
-Inputs record_inputs(const physics::PhysicsScene& scene, std::size_t steps) {
+Inputs record_inputs(const scene::PhysicsScene& scene, std::size_t steps) {
   const SimulationPtr simulation = make(scene);
   Inputs inputs(adapter(*simulation).engine_model());
   for (std::size_t i = 0; i < steps; ++i) {
@@ -144,7 +144,7 @@ double difference(const Plain& plain, const engines::Simulation& simulation) {
   return largest;
 }
 
-void time_steps(Report& report, const physics::PhysicsScene& scene, const Options& options) {
+void time_steps(Report& report, const scene::PhysicsScene& scene, const Options& options) {
   const Inputs inputs = record_inputs(scene, options.chunk * options.chunks);
   const bool animated = inputs.change();
   const SimulationPtr simulation = make(scene);
@@ -190,7 +190,7 @@ int main(int count, char** values) {
   const Options options = read_options(count, values);
   Diagnostics diagnostics;
   const stage::Stage stage = value_or_fail(open_stage(options.file, {}, diagnostics));
-  const physics::PhysicsScene scene = physics::read_physics(stage, {}, diagnostics);
+  const scene::PhysicsScene scene = physics::read_physics(stage, {}, diagnostics);
   Report report("step_mujoco");
   time_steps(report, scene, options);
   report.count("steps_per_lap", static_cast<double>(options.chunk));

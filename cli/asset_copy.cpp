@@ -189,8 +189,7 @@ void AssetLayers::rename(layer::Layer& layer, const std::string& from, const std
   });
 }
 
-Result<std::vector<std::string>> AssetLayers::put_to(const std::string& output,
-                                                     Outputs& outputs) {
+Result<std::vector<std::string>> AssetLayers::put_to(const std::string& output, Outputs& outputs) {
   if (output == "-") {
     for (std::size_t i = 1; i < layers_.size(); ++i) {
       if (layers_[i].edited != nullptr) {

@@ -5,16 +5,17 @@
 #include "cli/report.h"
 #include "cli/simulate.h"
 #include "cli/verb.h"
+#include "tenon/base/shown_path.h"
 
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct BakeArguments {
   SimulateArguments simulate;
   std::string output;
 };
 
-Result<void> claim(const Globals& globals, const Options& options, Outputs& outputs) {
+Result<void> claim(const Globals& globals, const BakeArguments& options, Outputs& outputs) {
   if (globals.json && options.output == "-") {
     return Error(ErrorCode::Invalid, "--json and a layer cannot both go to standard output")
         .with_fix("name an output file with -o");
@@ -22,7 +23,7 @@ Result<void> claim(const Globals& globals, const Options& options, Outputs& outp
   return outputs.claim(OutputKind::Overlay, options.output);
 }
 
-int run_bake(const Globals& globals, const Options& options) {
+int run_bake(const Globals& globals, const BakeArguments& options) {
   Report report(globals, "bake", options.simulate.asset.asset);
   Outputs outputs;
   if (auto claimed = claim(globals, options, outputs); !claimed) {
@@ -57,7 +58,7 @@ int run_bake(const Globals& globals, const Options& options) {
 void add_bake(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
       "bake", "Simulate and write the motion into a layer over the asset, which stays untouched");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BakeArguments>();
   options->simulate.add_to(verb);
   verb.option("asset").file_only().description("A .usd, .usda, .usdc or .usdz file");
   verb.add_option("-o,--output", options->output, "The layer to write: .usda, .usdc or .usd")

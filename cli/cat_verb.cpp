@@ -11,6 +11,7 @@
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/asset_policy.h"
+#include "tenon/base/shown_path.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
@@ -20,7 +21,7 @@
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct CatArguments {
   AssetArguments asset;
   std::string output = "-";
   std::string format;
@@ -29,7 +30,7 @@ struct Options {
   bool in_place = false;
 };
 
-Result<layer::Layer> read_input(const Options& options, Diagnostics& diagnostics) {
+Result<layer::Layer> read_input(const CatArguments& options, Diagnostics& diagnostics) {
   const bool compose = options.flatten || options.flatten_layer_stack || options.asset.selects();
   if (!compose) {
     TENON_TRY(const layer::LayerPtr layer,
@@ -63,7 +64,7 @@ void return_free_memory() {
 #endif
 }
 
-Result<formats::LayerFormat> output_format(const Options& options) {
+Result<formats::LayerFormat> output_format(const CatArguments& options) {
   if (!options.format.empty()) {
     return formats::layer_format_named(options.format);
   }
@@ -73,7 +74,7 @@ Result<formats::LayerFormat> output_format(const Options& options) {
 
 /// The name and the format, before the work. A format that is asked for may have a name that says
 /// nothing about formats.
-Result<formats::LayerFormat> claim(const Options& options, Outputs& outputs) {
+Result<formats::LayerFormat> claim(const CatArguments& options, Outputs& outputs) {
   TENON_TRY(const formats::LayerFormat format, output_format(options));
   if (options.output != "-") {
     TENON_CHECK(check_layer_name(options.output, format));
@@ -83,7 +84,7 @@ Result<formats::LayerFormat> claim(const Options& options, Outputs& outputs) {
   return format;
 }
 
-Result<void> write(const Options& options, Diagnostics& diagnostics) {
+Result<void> write(const CatArguments& options, Diagnostics& diagnostics) {
   Outputs outputs = options.in_place ? Outputs::in_place() : Outputs();
   TENON_TRY(const formats::LayerFormat format, claim(options, outputs));
   TENON_TRY(layer::Layer layer, read_input(options, diagnostics));
@@ -103,7 +104,7 @@ Result<void> write(const Options& options, Diagnostics& diagnostics) {
   return outputs.commit();
 }
 
-int run_cat(const Globals& globals, const Options& options) {
+int run_cat(const Globals& globals, const CatArguments& options) {
   Report report(globals, "cat", options.asset.asset);
   if (globals.json && options.output == "-") {
     return report.fail(
@@ -111,8 +112,7 @@ int run_cat(const Globals& globals, const Options& options) {
             .with_fix("name an output file with -o"));
   }
   const Progress progress(globals, "reading and writing " + shown_path(options.asset.asset));
-  const auto written =
-      edit_files(report, [&] { return write(options, report.diagnostics); });
+  const auto written = edit_files(report, [&] { return write(options, report.diagnostics); });
   if (!written) {
     return report.fail(written.error());
   }
@@ -126,7 +126,7 @@ int run_cat(const Globals& globals, const Options& options) {
 void add_cat(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb =
       parent.add_subcommand("cat", "Read any layer, write it as text, binary or package");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CatArguments>();
   options->asset.add_with_standard_input_to(verb);
   verb.add_option("-o,--output", options->output, "Where to write; - is standard output");
   verb.add_flag("--in-place", options->in_place, "The output may be a file that is read");

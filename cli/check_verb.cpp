@@ -17,12 +17,13 @@
 #include "cli/unified_diff.h"
 #include "cli/verb.h"
 #include "tenon/asset/check_asset.h"
+#include "tenon/base/shown_path.h"
 #include "tenon/check/rule.h"
 
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct CheckArguments {
   std::vector<std::string> paths;
   AssetArguments asset;
   check::Selection rules;
@@ -64,7 +65,7 @@ std::string joined(const std::vector<std::string>& names) {
 
 class Run {
  public:
-  Run(const Globals& globals, const Options& options, Report& report)
+  Run(const Globals& globals, const CheckArguments& options, Report& report)
       : globals_(globals), options_(options), report_(report) {}
 
   Result<Outcome> all_assets() {
@@ -173,7 +174,7 @@ class Run {
   }
 
   const Globals& globals_;
-  const Options& options_;
+  const CheckArguments& options_;
   Report& report_;
   Outcome outcome_;
   std::set<std::tuple<std::string, std::uint32_t, std::uint32_t, std::string, std::string,
@@ -220,7 +221,7 @@ Json corrected_json(const Outcome& outcome) {
   return files;
 }
 
-Json body_of(const Outcome& outcome, const Counts& counts, const Options& options) {
+Json body_of(const Outcome& outcome, const Counts& counts, const CheckArguments& options) {
   Json body = Json::object();
   body["diagnostics"] = Json::array();
   for (const ReportedFinding& reported : outcome.findings) {
@@ -239,8 +240,7 @@ Json body_of(const Outcome& outcome, const Counts& counts, const Options& option
 }
 
 void print_findings(const Outcome& outcome, const Globals& globals, bool to_stderr) {
-  const bool color =
-      use_color(globals, to_stderr ? stderr_is_terminal() : stdout_is_terminal());
+  const bool color = use_color(globals, to_stderr ? stderr_is_terminal() : stdout_is_terminal());
   std::vector<Remark> findings;
   for (const ReportedFinding& reported : outcome.findings) {
     const Severity severity = reported.finding.diagnostic.severity;
@@ -261,7 +261,8 @@ std::string counted(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-std::string summary_of(const Counts& counts, const Outcome& outcome, const Options& options) {
+std::string summary_of(const Counts& counts, const Outcome& outcome,
+                       const CheckArguments& options) {
   std::string text = counted(counts.errors, "error") + ", " + counted(counts.warnings, "warning") +
                      ", " + counted(counts.infos, "info") + " in " +
                      counted(outcome.assets.size(), "asset");
@@ -277,12 +278,13 @@ std::string summary_of(const Counts& counts, const Outcome& outcome, const Optio
   return text;
 }
 
-Result<void> claim_reports(const Options& options, Outputs& outputs) {
+Result<void> claim_reports(const CheckArguments& options, Outputs& outputs) {
   TENON_CHECK(outputs.claim(OutputKind::Sarif, options.sarif));
   return outputs.claim(OutputKind::Baseline, options.write_baseline);
 }
 
-Result<void> write_reports(const Outcome& outcome, const Options& options, Outputs& outputs) {
+Result<void> write_reports(const Outcome& outcome, const CheckArguments& options,
+                           Outputs& outputs) {
   if (!options.sarif.empty()) {
     const std::string text =
         sarif_log(outcome.findings).dump(2, ' ', false, Json::error_handler_t::replace);
@@ -295,8 +297,8 @@ Result<void> write_reports(const Outcome& outcome, const Options& options, Outpu
   return outputs.commit();
 }
 
-void print_outcome(const Outcome& outcome, const Counts& counts, const Options& options,
-                const Globals& globals, const Report& report) {
+void print_outcome(const Outcome& outcome, const Counts& counts, const CheckArguments& options,
+                   const Globals& globals, const Report& report) {
   const bool diff = options.fix && options.dry_run;
   for (const CorrectedFile& file : outcome.corrected) {
     if (diff && file.text) {
@@ -315,7 +317,7 @@ void print_outcome(const Outcome& outcome, const Counts& counts, const Options& 
   report.note(summary_of(counts, outcome, options));
 }
 
-int check_assets(const Globals& globals, const Options& options) {
+int check_assets(const Globals& globals, const CheckArguments& options) {
   Report report(globals, "check", options.paths.front());
   Outputs outputs;
   if (auto claimed = claim_reports(options, outputs); !claimed) {
@@ -344,9 +346,8 @@ int list_rules(const Globals& globals) {
     const std::string title = check::title_of(check::page_of(rule.id));
     if (!globals.json) {
       print("%-40s %-8s %-14s %s %s\n", std::string(rule.id).c_str(),
-                  std::string(severity_name(rule.severity)).c_str(),
-                  std::string(rule.numbers).c_str(), rule.fix == nullptr ? "   " : "fix",
-                  title.c_str());
+            std::string(severity_name(rule.severity)).c_str(), std::string(rule.numbers).c_str(),
+            rule.fix == nullptr ? "   " : "fix", title.c_str());
     }
     list.push_back({{"rule", rule.id},
                     {"severity", severity_name(rule.severity)},
@@ -370,7 +371,7 @@ int explain_rule(const Globals& globals, const std::string& id) {
   return report.finish(kOk, globals.json ? Json{{"rule", id}, {"page", page}} : Json::object());
 }
 
-Result<void> check_arguments(const Options& options, bool json) {
+Result<void> check_arguments(const CheckArguments& options, bool json) {
   if (json && (options.sarif == "-" || options.write_baseline == "-")) {
     return Error(ErrorCode::Invalid, "--json and another output both want standard output")
         .with_fix("write the SARIF log or the baseline to a file");
@@ -397,7 +398,7 @@ Result<void> check_arguments(const Options& options, bool json) {
   return {};
 }
 
-int run_check(const Globals& globals, const Options& options) {
+int run_check(const Globals& globals, const CheckArguments& options) {
   if (options.list_rules) {
     return list_rules(globals);
   }
@@ -410,7 +411,7 @@ int run_check(const Globals& globals, const Options& options) {
   return check_assets(globals, options);
 }
 
-constexpr const char* kFooter =
+constexpr const char* kCheckFooter =
     "Errors give exit code 1, with --strict warnings too; infos show with -v.\n"
     "All variants of the default prim's set \"Physics\" are looked at; --physics V takes one.\n"
     "Of a folder, the files that no other file in it uses as a layer are checked.\n\n"
@@ -427,7 +428,7 @@ constexpr const char* kFooter =
 void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb =
       parent.add_subcommand("check", "What is wrong with assets, and how to correct it");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckArguments>();
   verb.add_option("assets", options->paths, "USD files or folders").file_only();
   options->asset.add_options_to(verb);
   verb.add_flag("--fix", options->fix, "Correct what has a safe fix, in the files that own it");
@@ -447,7 +448,7 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "Write all findings to a baseline for later runs");
   verb.add_flag("--list-rules", options->list_rules, "Name all rules");
   verb.add_option("--explain", options->explain, "Print the page of a rule");
-  verb.footer(kFooter);
+  verb.footer(kCheckFooter);
   choose(verb, chosen, [&globals, options] { return run_check(globals, *options); });
 }
 

@@ -18,9 +18,9 @@ struct Command::Table {
   std::deque<std::pair<CLI::Option*, OptionInfo>> options;  // elements stay where they are
 
   OptionInfo& of(const CLI::Option* option) {
-    return std::find_if(options.begin(), options.end(), [&](const auto& known) {
-             return known.first == option;
-           })->second;
+    return std::find_if(options.begin(), options.end(),
+                        [&](const auto& known) { return known.first == option; })
+        ->second;
   }
 };
 
@@ -186,10 +186,9 @@ std::optional<Error> swallowed_option(const CLI::App& app) {
       }
       for (const std::string& value : option->results()) {
         if (value.size() > 1 && value.front() == '-' && is_option_name(app, value)) {
-          return usage_error(app,
-                             option->get_name() + " needs a value; " + value +
-                                 " behind it is an option",
-                             "usage.missing-value");
+          return usage_error(
+              app, option->get_name() + " needs a value; " + value + " behind it is an option",
+              "usage.missing-value");
         }
       }
     }
@@ -215,7 +214,7 @@ Error translated(const CLI::App& root, const CLI::ParseError& error) {
 /// Nothing when the option's value is fine, else what is wrong; CLI11's form of a check.
 using Check = std::function<std::string(std::string&)>;
 
-void add_check(CLI::Option* option, Check check) {
+void hold_value_to(CLI::Option* option, Check check) {
   option->check(CLI::Validator(std::move(check), ""));
 }
 
@@ -244,7 +243,7 @@ Option Option::with_optional_value() const {
 Option Option::one_of(const std::vector<std::string>& choices) const {
   info_->choices = choices;
   const std::string name = info_->longest_name();
-  add_check(option_, [choices, name](const std::string& value) {
+  hold_value_to(option_, [choices, name](const std::string& value) {
     const bool known = std::find(choices.begin(), choices.end(), value) != choices.end();
     const std::string all = "one of " + listed(choices);
     return known ? std::string()
@@ -257,7 +256,7 @@ Option Option::one_of(const std::vector<std::string>& choices) const {
 }
 
 Option Option::file_only() const {
-  add_check(option_, [name = info_->longest_name()](const std::string& value) {
+  hold_value_to(option_, [name = info_->longest_name()](const std::string& value) {
     return value == "-" ? name + " has to be a file: standard input is not read here" : "";
   });
   return *this;
@@ -315,7 +314,7 @@ Option Command::add_number(CLI::Option* option, const std::string& names, const 
                            const std::string& help) const {
   const Option result = remember(option, names, "NUMBER", help);
   result.info_->range = range;
-  add_check(option, [range, name = result.info_->longest_name()](const std::string& text) {
+  hold_value_to(option, [range, name = result.info_->longest_name()](const std::string& text) {
     const std::optional<double> number = parse_double(text);
     return number && range.holds(*number)
                ? std::string()

@@ -16,8 +16,9 @@ bool NumberRange::holds(double number) const {
 
 std::string NumberRange::text() const {
   const std::string number = whole ? "whole number " : "number ";
-  return number + (without_least ? "above " + layer_text(least) + ", up to " + layer_text(most)
-                                 : "from " + layer_text(least) + " to " + layer_text(most)) +
+  return number +
+         (without_least ? "above " + layer_text(least) + ", up to " + layer_text(most)
+                        : "from " + layer_text(least) + " to " + layer_text(most)) +
          (unit.empty() ? "" : " " + unit);
 }
 

@@ -12,7 +12,7 @@ namespace tenon::cli {
 namespace {
 
 /// Text between single quotes of a shell.
-std::string quoted(std::string_view text) {
+std::string shell_quoted(std::string_view text) {
   std::string result = "'";
   for (const char c : text) {
     result += c == '\'' ? "'\\''" : std::string(1, c);
@@ -28,7 +28,7 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return text;
 }
 
-std::vector<std::string> verb_names(const CommandInfo& program) {
+std::vector<std::string> names_of_verbs(const CommandInfo& program) {
   std::vector<std::string> names;
   for (const CommandInfo& verb : program.commands) {
     names.push_back(verb.name);
@@ -49,7 +49,7 @@ std::vector<OptionInfo> options_of(const CommandInfo& program, const CommandInfo
 
 /// Words that may stand by themselves: verbs below this one, and what it takes by its place.
 std::vector<std::string> plain_words(const CommandInfo& verb) {
-  std::vector<std::string> words = verb_names(verb);
+  std::vector<std::string> words = names_of_verbs(verb);
   for (const OptionInfo& option : verb.options) {
     if (option.positional) {
       words.insert(words.end(), option.choices.begin(), option.choices.end());
@@ -67,7 +67,7 @@ std::vector<std::string> with_names(std::vector<std::string> words,
 }
 
 std::string bash_reply(const std::vector<std::string>& words) {
-  return "COMPREPLY=($(compgen -W " + quoted(joined(words, " ")) + " -- \"$word\"))";
+  return "COMPREPLY=($(compgen -W " + shell_quoted(joined(words, " ")) + " -- \"$word\"))";
 }
 
 std::string bash_script(const CommandInfo& program) {
@@ -83,14 +83,14 @@ std::string bash_script(const CommandInfo& program) {
     for (const OptionInfo& option : options_of(program, verb)) {
       if (!option.choices.empty()) {
         for (const std::string& name : option.names) {
-          text += "    " + verb.name + "," + name + ") " + bash_reply(option.choices) +
-                  "; return ;;\n";
+          text +=
+              "    " + verb.name + "," + name + ") " + bash_reply(option.choices) + "; return ;;\n";
         }
       }
     }
   }
   text += "  esac\n  case $verb in\n";
-  text += "    '') " + bash_reply(with_names(verb_names(program), program.options)) +
+  text += "    '') " + bash_reply(with_names(names_of_verbs(program), program.options)) +
           "; return ;;\n";
   for (const CommandInfo& verb : program.commands) {
     text += "    " + verb.name + ") " +
@@ -106,22 +106,21 @@ std::string bash_script(const CommandInfo& program) {
 std::string zsh_escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    result += c == ']' || c == '[' || c == ':' || c == '\\' ? std::string("\\") + c
-                                                            : std::string(1, c);
+    result +=
+        c == ']' || c == '[' || c == ':' || c == '\\' ? std::string("\\") + c : std::string(1, c);
   }
   return result;
 }
 
 std::string zsh_option(const OptionInfo& option) {
   std::string text;
-  const std::string value =
-      option.value.empty() ? ""
-      : option.choices.empty()
-          ? ":" + option.value + ":_files"
-          : ":" + option.value + ":(" + joined(option.choices, " ") + ")";
+  const std::string value = option.value.empty() ? ""
+                            : option.choices.empty()
+                                ? ":" + option.value + ":_files"
+                                : ":" + option.value + ":(" + joined(option.choices, " ") + ")";
   for (const std::string& name : option.names) {
-    text += " \\\n        " + quoted((option.list ? "*" : "") + name + "[" +
-                                     zsh_escaped(option_help(option)) + "]" + value);
+    text += " \\\n        " + shell_quoted((option.list ? "*" : "") + name + "[" +
+                                           zsh_escaped(option_help(option)) + "]" + value);
   }
   return text;
 }
@@ -133,7 +132,7 @@ std::string zsh_script(const CommandInfo& program) {
       "_tenon() {\n"
       "  local -a verbs=(\n";
   for (const CommandInfo& verb : program.commands) {
-    text += "    " + quoted(verb.name + ":" + zsh_escaped(verb.about)) + "\n";
+    text += "    " + shell_quoted(verb.name + ":" + zsh_escaped(verb.about)) + "\n";
   }
   text +=
       "  )\n"
@@ -152,7 +151,7 @@ std::string zsh_script(const CommandInfo& program) {
     }
     const std::vector<std::string> words = plain_words(verb);
     text += " \\\n        " +
-            quoted(words.empty() ? "*:file:_files" : "*:word:(" + joined(words, " ") + ")") +
+            shell_quoted(words.empty() ? "*:file:_files" : "*:word:(" + joined(words, " ") + ")") +
             " ;;\n";
   }
   return text + "  esac\n}\n_tenon \"$@\"\n";
@@ -164,28 +163,28 @@ std::string fish_option(const OptionInfo& option, const std::string& condition) 
     text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
   }
   if (!option.choices.empty()) {
-    text += " -x -a " + quoted(joined(option.choices, " "));
+    text += " -x -a " + shell_quoted(joined(option.choices, " "));
   } else if (!option.value.empty() && !option.optional_value) {
     text += " -r";
   }
-  return text + " -d " + quoted(option_help(option)) + "\n";
+  return text + " -d " + shell_quoted(option_help(option)) + "\n";
 }
 
 std::string fish_script(const CommandInfo& program) {
   std::string text = "# Completion of tenon for fish, made by: tenon completion fish\n";
-  const std::string none =
-      " -n " + quoted("not __fish_seen_subcommand_from " + joined(verb_names(program), " "));
+  const std::string none = " -n " + shell_quoted("not __fish_seen_subcommand_from " +
+                                                 joined(names_of_verbs(program), " "));
   for (const CommandInfo& verb : program.commands) {
-    text += "complete -c tenon -f" + none + " -a " + quoted(verb.name) + " -d " +
-            quoted(verb.about) + "\n";
+    text += "complete -c tenon -f" + none + " -a " + shell_quoted(verb.name) + " -d " +
+            shell_quoted(verb.about) + "\n";
   }
   for (const OptionInfo& option : program.options) {
     text += fish_option(option, "");
   }
   for (const CommandInfo& verb : program.commands) {
-    const std::string condition = " -n " + quoted("__fish_seen_subcommand_from " + verb.name);
+    const std::string condition = " -n " + shell_quoted("__fish_seen_subcommand_from " + verb.name);
     if (const std::vector<std::string> words = plain_words(verb); !words.empty()) {
-      text += "complete -c tenon -f" + condition + " -a " + quoted(joined(words, " ")) + "\n";
+      text += "complete -c tenon -f" + condition + " -a " + shell_quoted(joined(words, " ")) + "\n";
     }
     for (const OptionInfo& option : options_of({}, verb)) {
       text += fish_option(option, condition);

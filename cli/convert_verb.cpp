@@ -15,6 +15,9 @@
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset/structure_asset.h"
 #include "tenon/asset_policy.h"
+#include "tenon/base/assignment.h"
+#include "tenon/base/content_digest.h"
+#include "tenon/base/shown_path.h"
 #include "tenon/base/text_number.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/file_bytes.h"
@@ -30,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ConvertArguments {
   std::string input;
   std::string output;
   std::vector<std::string> packages;
@@ -92,7 +95,7 @@ Result<void> read_gains_file(const std::string& path, convert::ConvertOptions& o
   return {};
 }
 
-Result<ConvertFileOptions> convert_options(const Options& options) {
+Result<ConvertFileOptions> convert_options(const ConvertArguments& options) {
   ConvertFileOptions result;
   result.open = options.files.open_options();
   result.robot.flat = options.flat;
@@ -141,7 +144,8 @@ std::string name_of_image(const std::string& identifier) {
 
 /// Images of the description's folders that would lie outside of the folders of the output: they
 /// have to come along, for the asset to be whole.
-convert::InnerImages images_elsewhere(const ConvertedFile& converted, const Options& options) {
+convert::InnerImages images_elsewhere(const ConvertedFile& converted,
+                                      const ConvertArguments& options) {
   convert::InnerImages found;
   if (bytes::is_package_name(options.output)) {
     return found;  // takes them in
@@ -162,7 +166,7 @@ convert::InnerImages images_elsewhere(const ConvertedFile& converted, const Opti
 
 /// Images, those inside of mesh files for one, get places in a folder of their own beside the
 /// output; asset paths follow. The images by their places.
-convert::InnerImages place_images(convert::InnerImages images, const Options& options,
+convert::InnerImages place_images(convert::InnerImages images, const ConvertArguments& options,
                                   layer::Layer& layer) {
   convert::InnerImages placed;
   if (images.empty()) {
@@ -195,14 +199,14 @@ structure::Digests digests_of(const convert::InnerImages& files, const std::stri
   structure::Digests digests;
   for (const auto& [place, contents] : files) {
     digests.emplace(fs::path(place).lexically_relative(folder).generic_string(),
-                    bytes::content_digest(contents));
+                    content_digest(contents));
   }
   return digests;
 }
 
 /// What was edited since it was written stays, without --force; what is not known to have been
 /// written, too.
-Result<void> commit_unedited(const Options& options, const structure::Digests& beside,
+Result<void> commit_unedited(const ConvertArguments& options, const structure::Digests& beside,
                              Outputs& outputs) {
   if (!options.force) {
     outputs.check_before_commit(
@@ -213,7 +217,7 @@ Result<void> commit_unedited(const Options& options, const structure::Digests& b
 
 /// A package holds checksums: it is made once to know the digest, once more with it.
 Result<std::string> noted_package(layer::Layer layer, const convert::InnerImages& images,
-                                  const bytes::ReadPolicy& policy, const Options& options,
+                                  const bytes::ReadPolicy& policy, const ConvertArguments& options,
                                   Diagnostics& diagnostics) {
   OpenOptions open;
   open.allowed_reads = policy.roots();
@@ -226,14 +230,14 @@ Result<std::string> noted_package(layer::Layer layer, const convert::InnerImages
 }
 
 /// One file, and images beside it. It says what was written, for the next time.
-Result<void> write_file(ConvertedFile& converted, const Options& options, Outputs& outputs,
+Result<void> write_file(ConvertedFile& converted, const ConvertArguments& options, Outputs& outputs,
                         Diagnostics& diagnostics) {
   layer::Layer& layer = converted.layer;
   TENON_TRY(const formats::LayerFormat format, formats::layer_format_for(options.output));
   convert::InnerImages images = place_images(std::move(converted.images), options, layer);
   if (format == formats::LayerFormat::Package) {  // takes them in
-    TENON_TRY(std::string package, noted_package(std::move(layer), images, converted.reading,
-                                                 options, diagnostics));
+    TENON_TRY(std::string package,
+              noted_package(std::move(layer), images, converted.reading, options, diagnostics));
     outputs.put(options.output, std::move(package));
     return commit_unedited(options, {}, outputs);
   }
@@ -252,7 +256,7 @@ Result<void> write_file(ConvertedFile& converted, const Options& options, Output
 
 /// As `tenon structure` would make of the same asset in a file, proven in the same way.
 Result<void> write_structure(layer::Layer layer, const ConvertedFile& converted,
-                             const Options& options, Diagnostics& diagnostics) {
+                             const ConvertArguments& options, Diagnostics& diagnostics) {
   const convert::InnerImages& images = converted.images;
   structure::AssetSource source = asset_source(std::move(layer), converted.reading);
   const auto resolve = source.resolve_asset;
@@ -274,12 +278,12 @@ Result<void> write_structure(layer::Layer layer, const ConvertedFile& converted,
 }
 
 /// What would be lost is told before the work.
-Result<void> claim(const Options& options, OutputKind kind, Outputs& outputs) {
+Result<void> claim(const ConvertArguments& options, OutputKind kind, Outputs& outputs) {
   TENON_CHECK(outputs.claim(kind, options.output));
   return options.force ? Result<void>() : structure::check_not_edited(options.output);
 }
 
-Result<ConvertedFile> convert_and_write(const Options& options, Diagnostics& diagnostics) {
+Result<ConvertedFile> convert_and_write(const ConvertArguments& options, Diagnostics& diagnostics) {
   TENON_TRY(const ConvertFileOptions wanted, convert_options(options));
   const bool folder = names_folder(options.output);  // straight into Asset Structure 3.0
   Outputs outputs;
@@ -298,25 +302,25 @@ Result<ConvertedFile> convert_and_write(const Options& options, Diagnostics& dia
 /// With the files beside it that it names. It says what was written, for the next time.
 Result<void> write_description(const std::string& text,
                                const std::map<std::string, std::string>& files,
-                               const Options& options, Outputs& outputs) {
+                               const ConvertArguments& options, Outputs& outputs) {
   const fs::path folder = fs::path(options.output).parent_path();
   structure::Digests digests;
   for (const auto& [name, contents] : files) {
-    digests.emplace(name, bytes::content_digest(contents));
+    digests.emplace(name, content_digest(contents));
     outputs.put_beside((folder / name).string(), contents);
   }
   outputs.put(options.output, structure::noted_description(text, digests));
   return commit_unedited(options, digests, outputs);
 }
 
-OpenOptions open_options(const Options& options) {
+OpenOptions open_options(const ConvertArguments& options) {
   OpenOptions open = options.files.open_options();
   open.physics_variant = options.physics;
   return open;
 }
 
 /// The other way: an asset's physics as a model of MuJoCo.
-int run_export(Report& report, const Options& options) {
+int run_export(Report& report, const ConvertArguments& options) {
   Outputs outputs;
   if (auto claimed = claim(options, OutputKind::Description, outputs); !claimed) {
     return report.fail(claimed.error());
@@ -327,7 +331,7 @@ int run_export(Report& report, const Options& options) {
   }
   const bytes::ReadPolicy policy = policy_for(options.input, open_options(options));
   name_outside_layers(*stage, policy, report.diagnostics);
-  const physics::PhysicsScene scene =
+  const scene::PhysicsScene scene =
       physics::read_physics(*stage, read_options(), report.diagnostics);
   const std::string folder = fs::path(options.output).stem().string() + "_images";
   const auto model = export_mjcf(*stage, scene, folder, policy, report.diagnostics);
@@ -343,7 +347,7 @@ int run_export(Report& report, const Options& options) {
                                                                   {"joints", scene.joints.size()}});
 }
 
-int run_export_urdf(Report& report, const Options& options) {
+int run_export_urdf(Report& report, const ConvertArguments& options) {
   Outputs outputs;
   if (auto claimed = claim(options, OutputKind::Description, outputs); !claimed) {
     return report.fail(claimed.error());
@@ -376,7 +380,7 @@ bool ends_in(const std::string& path, std::initializer_list<const char*> endings
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
-int run_convert(const Globals& globals, const Options& options) {
+int run_convert(const Globals& globals, const ConvertArguments& options) {
   Report report(globals, "convert", options.input);
   const Progress progress(globals, "converting " + shown_path(options.input));
   if (ends_in(options.input, {".usda", ".usdc", ".usd", ".usdz"})) {
@@ -411,7 +415,7 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
   const Command verb = parent.add_subcommand(
       "convert",
       "Convert a robot description (URDF, MJCF) to an asset, or an asset to a description");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConvertArguments>();
   verb.add_option("input", options->input, "A URDF or MJCF file, or an asset")
       .required()
       .file_only();

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/diagnostic_lines.h"
 
-#include <filesystem>
 #include <map>
 
 #include "cli/terminal_text.h"
+#include "tenon/base/shown_path.h"
 
 namespace tenon::cli {
 namespace {
@@ -107,8 +107,8 @@ std::vector<std::string> diagnostic_lines(const std::vector<Remark>& findings, b
     if (stands_for[i] == 0) {
       continue;
     }
-    std::string line = diagnostic_line(*findings[i].finding, color) +
-                       terminal_text(findings[i].behind, false);
+    std::string line =
+        diagnostic_line(*findings[i].finding, color) + terminal_text(findings[i].behind, false);
     if (stands_for[i] > 1) {
       line += " (and " + grouped_digits(stands_for[i] - 1) + " more like it; -v lists all)";
     }
@@ -121,18 +121,6 @@ std::string diagnostic_line(Diagnostic diagnostic, bool color) {
   diagnostic.file = shown_path(diagnostic.file);
   const std::string line = terminal_text(diagnostic.to_string(), false);
   return color ? colored(line, diagnostic.severity) : line;
-}
-
-std::string shown_path(const std::string& path) {
-  const std::size_t bracket = path.find('[');
-  const std::filesystem::path file = path.substr(0, bracket);
-  if (!file.is_absolute()) {
-    return path;
-  }
-  std::error_code ignored;
-  const auto here = std::filesystem::current_path(ignored);
-  const std::string shown = file.lexically_proximate(here).string();
-  return bracket == std::string::npos ? shown : shown + path.substr(bracket);
 }
 
 }  // namespace tenon::cli

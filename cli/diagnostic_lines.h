@@ -29,9 +29,6 @@ constexpr std::size_t kShownOfAKind = 10;
 /// The line of one finding, with the file as shown_path has it.
 std::string diagnostic_line(Diagnostic diagnostic, bool color);
 
-/// A file name as people read it: relative to the working folder.
-std::string shown_path(const std::string& path);
-
 /// "19,999".
 std::string grouped_digits(std::size_t number);
 

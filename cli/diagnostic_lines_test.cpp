@@ -51,10 +51,10 @@ TEST(DiagnosticLines, AMessageThatNamesItsOwnPrimIsTheSameForEach) {
 
 TEST(DiagnosticLines, FewStayAsTheyAre) {
   EXPECT_EQ(lines(warnings(3, [](std::size_t) { return "same"; })).size(), 3u);
-  EXPECT_EQ(lines(warnings(10, [](std::size_t i) {
-              return "no file \"" + std::to_string(i) + "\"";
-            })).size(),
-            10u);
+  EXPECT_EQ(
+      lines(warnings(10, [](std::size_t i) { return "no file \"" + std::to_string(i) + "\""; }))
+          .size(),
+      10u);
 }
 
 TEST(DiagnosticLines, OfAKindTheFirstStandForAll) {
@@ -67,8 +67,7 @@ TEST(DiagnosticLines, OfAKindTheFirstStandForAll) {
 TEST(DiagnosticLines, NothingActsOnATerminalButColours) {
   Diagnostic d;
   d.message = "evil \033]0;title\a\nnext";
-  EXPECT_EQ(diagnostic_line(d, true),
-            "\033[31merror:\033[0m evil \\x1b]0;title\\x07\\x0anext");
+  EXPECT_EQ(diagnostic_line(d, true), "\033[31merror:\033[0m evil \\x1b]0;title\\x07\\x0anext");
 }
 
 TEST(DiagnosticLines, DigitsAreGrouped) {

@@ -10,14 +10,15 @@
 #include "cli/output.h"
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/answers/difference_json.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset_policy.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/zip_archive.h"
 #include "tenon/diff/layer_difference.h"
-#include "tenon/diff/physics_difference.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/scene/scene_difference.h"
 #include "tenon/stage/flatten.h"
 #include "tenon/tenon.h"
 
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kNothing = "/dev/null";  ///< git's name of the side that is not there
 
-struct Options {
+struct DiffArguments {
   std::vector<std::string> inputs;
   double tolerance = 0;
   bool physics = false;
@@ -52,7 +53,7 @@ struct Found {
 
   template <class Difference>
   void add(const std::string& file, const Difference& difference) {
-    Json row = difference_json(difference);
+    Json row = answers::difference_json(difference);
     if (!file.empty()) {
       row["file"] = file;
     }
@@ -65,7 +66,7 @@ struct Found {
   }
 };
 
-OpenOptions open_options(const Options& options) {
+OpenOptions open_options(const DiffArguments& options) {
   OpenOptions open = options.files.open_options();
   open.physics_variant = options.variant;
   return open;
@@ -73,13 +74,13 @@ OpenOptions open_options(const Options& options) {
 
 layer::LayerPtr empty_layer() { return std::make_shared<const layer::Layer>("anon:nothing.usda"); }
 
-Result<layer::LayerPtr> read_side(const std::string& path, const Options& options,
+Result<layer::LayerPtr> read_side(const std::string& path, const DiffArguments& options,
                                   Diagnostics& diagnostics) {
   return path == kNothing ? Result<layer::LayerPtr>(empty_layer())
                           : open_layer(path, open_options(options), diagnostics);
 }
 
-Result<stage::Stage> open_side(const std::string& path, const Options& options,
+Result<stage::Stage> open_side(const std::string& path, const DiffArguments& options,
                                Diagnostics& diagnostics) {
   if (path != kNothing) {
     return open_stage(path, open_options(options), diagnostics);
@@ -90,8 +91,8 @@ Result<stage::Stage> open_side(const std::string& path, const Options& options,
   return stage::Stage::open(empty_layer(), nullptr, no_layers);
 }
 
-Result<void> compare_layers(const Sides& sides, const Options& options, Diagnostics& diagnostics,
-                            Found& found) {
+Result<void> compare_layers(const Sides& sides, const DiffArguments& options,
+                            Diagnostics& diagnostics, Found& found) {
   TENON_TRY(const layer::LayerPtr before, read_side(sides.before, options, diagnostics));
   TENON_TRY(const layer::LayerPtr after, read_side(sides.after, options, diagnostics));
   for (const auto& difference : diff::layer_differences(*before, *after, {options.tolerance})) {
@@ -100,14 +101,15 @@ Result<void> compare_layers(const Sides& sides, const Options& options, Diagnost
   return {};
 }
 
-Result<void> compare_stages(const Sides& sides, const Options& options, Diagnostics& diagnostics,
-                            Found& found) {
+Result<void> compare_stages(const Sides& sides, const DiffArguments& options,
+                            Diagnostics& diagnostics, Found& found) {
   TENON_TRY(const stage::Stage before, open_side(sides.before, options, diagnostics));
   TENON_TRY(const stage::Stage after, open_side(sides.after, options, diagnostics));
   if (options.physics) {
     const auto a = physics::read_physics(before, read_options(), diagnostics);
     const auto b = physics::read_physics(after, read_options(), diagnostics);
-    for (const auto& difference : diff::physics_differences(a, b, {options.tolerance})) {
+    for (const auto& difference :
+         scene::scene_differences(a, b, {.tolerance = options.tolerance})) {
       found.add("", difference);
     }
     return {};
@@ -130,13 +132,13 @@ bool is_package(const std::string& path) {
 }
 
 /// What may be read of a folder, whose files may be links, or of a package.
-bytes::ReadPolicy policy_of(const std::string& path, const Options& options) {
+bytes::ReadPolicy policy_of(const std::string& path, const DiffArguments& options) {
   return policy_for(is_folder(path) ? path + "/." : path, open_options(options));
 }
 
 /// Files of a package or folder: name below it -> identifier. Hidden ones are left out.
 Result<std::map<std::string, std::string>> files_of(const std::string& path,
-                                                    const Options& options) {
+                                                    const DiffArguments& options) {
   std::map<std::string, std::string> files;
   if (path == kNothing) {
     return files;
@@ -189,7 +191,7 @@ struct Policies {
 
 Result<void> compare_file(const std::string& name, const std::string& before,
                           const std::string& after, const Policies& policies,
-                          const Options& options, Diagnostics& diagnostics, Found& found) {
+                          const DiffArguments& options, Diagnostics& diagnostics, Found& found) {
   TENON_TRY(const auto a, open_file(policies.before, before, diagnostics));
   TENON_TRY(const auto b, open_file(policies.after, after, diagnostics));
   if (a == nullptr || b == nullptr) {
@@ -210,8 +212,8 @@ Result<void> compare_file(const std::string& name, const std::string& before,
   return {};
 }
 
-Result<void> compare_packages(const Sides& sides, const Options& options, Diagnostics& diagnostics,
-                              Found& found) {
+Result<void> compare_packages(const Sides& sides, const DiffArguments& options,
+                              Diagnostics& diagnostics, Found& found) {
   TENON_TRY(const auto before, files_of(sides.before, options));
   TENON_TRY(const auto after, files_of(sides.after, options));
   const Policies policies{policy_of(sides.before, options), policy_of(sides.after, options)};
@@ -235,7 +237,7 @@ Result<void> compare_packages(const Sides& sides, const Options& options, Diagno
   return {};
 }
 
-Result<Sides> sides_of(const Options& options) {
+Result<Sides> sides_of(const DiffArguments& options) {
   const std::vector<std::string>& inputs = options.inputs;
   if (inputs.size() == 2) {
     return Sides{inputs[0], inputs[1], {}};
@@ -245,13 +247,12 @@ Result<Sides> sides_of(const Options& options) {
     const std::string moved = inputs.size() == 9 ? " -> " + inputs[7] : "";
     return Sides{inputs[1], inputs[4], inputs[0] + moved};
   }
-  return Error(ErrorCode::Invalid,
-               "diff compares two files, and " + std::to_string(inputs.size()) +
-                   (inputs.size() == 1 ? " was" : " were") + " given")
+  return Error(ErrorCode::Invalid, "diff compares two files, and " + std::to_string(inputs.size()) +
+                                       (inputs.size() == 1 ? " was" : " were") + " given")
       .with_fix("tenon diff BEFORE AFTER; git hands over seven or nine arguments");
 }
 
-const char* mode_of(const Sides& sides, const Options& options) {
+const char* mode_of(const Sides& sides, const DiffArguments& options) {
   if (options.physics || options.composed) {
     return options.physics ? "physics" : "composed";
   }
@@ -261,7 +262,7 @@ const char* mode_of(const Sides& sides, const Options& options) {
   return packages ? "packages" : "layers";
 }
 
-int run_diff(const Globals& globals, const Options& options) {
+int run_diff(const Globals& globals, const DiffArguments& options) {
   Report report(globals, "diff", options.inputs.empty() ? "" : options.inputs.front());
   auto sides = sides_of(options);
   if (!sides) {
@@ -297,7 +298,7 @@ int run_diff(const Globals& globals, const Options& options) {
 
 /// `--physics` without a value is the older way to write `--show physics`; in `diff --physics A B`,
 /// also as git calls it, what stands behind it is the first input.
-void untangle_physics(Options& options, const Option& physics) {
+void untangle_physics(DiffArguments& options, const Option& physics) {
   const std::size_t count = options.inputs.size();
   if (!options.variant.empty() && (count == 1 || count == 6 || count == 8)) {
     options.inputs.insert(options.inputs.begin(), std::exchange(options.variant, {}));
@@ -309,7 +310,7 @@ void untangle_physics(Options& options, const Option& physics) {
   options.composed = options.composed || !options.variant.empty();
 }
 
-constexpr const char* kFooter =
+constexpr const char* kDiffFooter =
     "Two layers are compared as they are, two packages or folders file by file; --composed "
     "compares what they compose to, --show physics what an engine receives. A variant chosen with "
     "--physics means --composed. Exit codes: 0 equal, 1 different.\n\n"
@@ -327,7 +328,7 @@ constexpr const char* kFooter =
 void add_diff(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
       "diff", "What differs between two layers, packages, scenes or their physics");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiffArguments>();
   verb.add_option("inputs", options->inputs, "BEFORE AFTER; /dev/null is an empty layer")
       .required()
       .file_only();
@@ -347,7 +348,7 @@ void add_diff(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "Numbers a, b are equal when |a - b| <= T max(1, |a|, |b|)")
       .value_name("T");
   options->files.add_to(verb);
-  verb.footer(kFooter);
+  verb.footer(kDiffFooter);
   choose(verb, chosen, [&globals, options, physics] {
     untangle_physics(*options, physics);
     return run_diff(globals, *options);

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cli/list_item_text.h"
-#include "tenon/formats/text/value_text.h"
+#include "tenon/answers/difference_json.h"
+#include "tenon/answers/list_item_text.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/math/angle.h"
@@ -17,35 +17,10 @@ namespace {
 
 using layer::Value;
 
-constexpr std::size_t kLongest = 100;     ///< characters of a value in a line
 constexpr std::size_t kShownNumbers = 9;  ///< of a fact in a line
 
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.size() <= kLongest ? text : text.substr(0, kLongest) + " ...";
-}
-
-const char* mark_of(diff::Change change) {
-  return change == diff::Change::Added ? "+" : change == diff::Change::Removed ? "-" : "~";
-}
-
-const char* kind_name(layer::SpecKind kind) {
-  switch (kind) {
-    case layer::SpecKind::PseudoRoot:
-      return "layer";
-    case layer::SpecKind::Prim:
-      return "prim";
-    case layer::SpecKind::Attribute:
-      return "attribute";
-    case layer::SpecKind::Relationship:
-      return "relationship";
-    case layer::SpecKind::VariantSet:
-      return "variant set";
-    case layer::SpecKind::Variant:
-      return "variant";
-    default:
-      return "spec";
-  }
+const char* mark_of(Change change) {
+  return change == Change::Added ? "+" : change == Change::Removed ? "-" : "~";
 }
 
 /// "prepend + A, - B" of one of the lists of an edit.
@@ -60,10 +35,10 @@ void add_list(std::string& text, const char* word, const std::vector<T>& before,
   };
   std::string words;
   for (const T& item : before) {
-    words += has(after, item) ? "" : (words.empty() ? " - " : ", - ") + item_text(item);
+    words += has(after, item) ? "" : (words.empty() ? " - " : ", - ") + answers::item_text(item);
   }
   for (const T& item : after) {
-    words += has(before, item) ? "" : (words.empty() ? " + " : ", + ") + item_text(item);
+    words += has(before, item) ? "" : (words.empty() ? " + " : ", + ") + answers::item_text(item);
   }
   text += (text.empty() ? "" : "; ") + std::string(word) +
           (words.empty() ? " in another order" : words);
@@ -124,26 +99,18 @@ std::string value_words(const diff::Difference& difference) {
                : text;
   }
   const auto text = [](const Value& value) {
-    return value.empty() ? std::string() : one_line(formats::value_text(value));
+    return value.empty() ? std::string() : answers::shown_side(value);
   };
   switch (difference.change) {
-    case diff::Change::Added:
+    case Change::Added:
       return text(difference.after);
-    case diff::Change::Removed:
+    case Change::Removed:
       return text(difference.before);
-    case diff::Change::Changed:
+    case Change::Changed:
       break;
   }
   return text(difference.before) + " -> " + text(difference.after);
 }
-
-Json text_or_null(const Value& value) {
-  return value.empty() ? Json(nullptr) : Json(one_line(formats::value_text(value)));
-}
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json line_or_null(std::uint32_t line) { return line == 0 ? Json(nullptr) : Json(line); }
 
 struct ShownUnit {
   std::string name;
@@ -158,7 +125,7 @@ ShownUnit shown_unit(const std::string& unit) {
   return {unit, 1};
 }
 
-std::string numbers_text(const diff::Fact& fact, const char* format) {
+std::string numbers_text(const scene::Fact& fact, const char* format) {
   const ShownUnit unit = shown_unit(fact.unit);
   std::string text;
   for (const double number : fact.numbers) {
@@ -173,7 +140,7 @@ std::string numbers_text(const diff::Fact& fact, const char* format) {
   return unit.name.empty() ? text : text + " " + unit.name;
 }
 
-std::string fact_text(const diff::Fact& fact, const char* format) {
+std::string fact_text(const scene::Fact& fact, const char* format) {
   if (fact.numbers.empty()) {
     return fact.word.empty() ? "none" : fact.word;
   }
@@ -181,13 +148,13 @@ std::string fact_text(const diff::Fact& fact, const char* format) {
                                               : std::to_string(fact.numbers.size()) + " numbers";
 }
 
-std::string change_words(const diff::PhysicsDifference& difference) {
-  const diff::Fact& before = difference.before;
-  const diff::Fact& after = difference.after;
-  if (difference.change == diff::Change::Added) {
+std::string change_words(const scene::SceneDifference& difference) {
+  const scene::Fact& before = difference.before;
+  const scene::Fact& after = difference.after;
+  if (difference.change == Change::Added) {
     return after.name + " " + fact_text(after, "%.6g");
   }
-  if (difference.change == diff::Change::Removed) {
+  if (difference.change == Change::Removed) {
     return before.name + " " + fact_text(before, "%.6g");
   }
   std::string text = before.name + " ";
@@ -199,51 +166,14 @@ std::string change_words(const diff::PhysicsDifference& difference) {
   return text + fact_text(before, format) + " -> " + fact_text(after, format);
 }
 
-Json fact_json(const diff::Fact& fact) {
-  if (fact.name.empty()) {
-    return nullptr;
-  }
-  if (fact.numbers.empty()) {
-    return fact.word;
-  }
-  if (fact.numbers.size() == 1) {
-    return number_or_null(fact.numbers.front());
-  }
-  Json numbers = Json::array();
-  for (const double number : fact.numbers) {
-    numbers.push_back(number_or_null(number));
-  }
-  return numbers;
-}
-
 }  // namespace
-
-Json difference_json(const diff::Difference& difference) {
-  Json row = {{"change", std::string(diff::change_name(difference.change))},
-              {"path", difference.path.str()},
-              {"kind", kind_name(difference.kind)}};
-  row["field"] = difference.field.empty() ? Json(nullptr) : Json(difference.field.str());
-  row["key"] = difference.key.empty() ? Json(nullptr) : Json(difference.key);
-  row["before"] = text_or_null(difference.before);
-  row["after"] = text_or_null(difference.after);
-  row["beforeLine"] = line_or_null(difference.before_line);
-  row["afterLine"] = line_or_null(difference.after_line);
-  if (difference.field.empty()) {
-    row["specs"] = difference.count;
-  } else {
-    row["elements"] = difference.elements;
-    row["differentElements"] = difference.count;
-    row["largest"] = number_or_null(difference.largest);
-  }
-  return row;
-}
 
 std::string difference_text(const diff::Difference& difference) {
   std::string text = std::string(mark_of(difference.change)) + " " + difference.path.str() + "  ";
   if (difference.field.empty()) {
     const std::string value = value_words(difference);
-    text += kind_name(difference.kind) + std::string(" ") +
-            std::string(diff::change_name(difference.change));
+    text += answers::spec_kind_name(difference.kind) + std::string(" ") +
+            std::string(change_name(difference.change));
     text += value.empty() ? "" : ": " + value;
     return difference.count == 1
                ? text
@@ -257,24 +187,10 @@ std::string difference_text(const diff::Difference& difference) {
   return text + ": " + (words.empty() ? value_words(difference) : words);
 }
 
-Json difference_json(const diff::PhysicsDifference& difference) {
-  const bool object = difference.before.name.empty() && difference.after.name.empty();
-  const diff::Fact& named = difference.before.name.empty() ? difference.after : difference.before;
-  Json row = {{"change", std::string(diff::change_name(difference.change))},
-              {"object", difference.object},
-              {"path", difference.path}};
-  row["what"] = object ? Json(nullptr) : Json(named.name);
-  row["unit"] = named.unit.empty() ? Json(nullptr) : Json(named.unit);
-  row["before"] = fact_json(difference.before);
-  row["after"] = fact_json(difference.after);
-  row["largest"] = number_or_null(difference.largest);
-  return row;
-}
-
-std::string difference_text(const diff::PhysicsDifference& difference) {
+std::string difference_text(const scene::SceneDifference& difference) {
   std::string text =
       std::string(mark_of(difference.change)) + " " + difference.object + " " + difference.path;
-  const bool added = difference.change == diff::Change::Added;
+  const bool added = difference.change == Change::Added;
   if (difference.object == "pair") {
     return text + (added ? "  is kept apart" : "  may touch");
   }

@@ -55,7 +55,7 @@ Json listed(const Info& part, const Globals& globals) {
   const std::string how_to_get = part.available ? "" : part.how_to_get;
   if (!globals.json) {
     print("%-8s %-14s %s\n", part.name.c_str(),
-                part.available ? part.version.c_str() : "not available", how_to_get.c_str());
+          part.available ? part.version.c_str() : "not available", how_to_get.c_str());
   }
   return {{"name", part.name},
           {"available", part.available},

@@ -15,7 +15,7 @@
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct DumpIndexArguments {
   AssetArguments asset;
   std::vector<std::string> prims;
   std::string session;
@@ -33,7 +33,7 @@ Diagnostic missing(const compose::MissingArc& arc) {
   return finding;
 }
 
-Result<std::string> dump(const Options& options, Report& report) {
+Result<std::string> dump(const DumpIndexArguments& options, Report& report) {
   OpenOptions open = options.asset.open_options();
   open.session_path = options.session;
   TENON_TRY(open.variant_fallbacks, parse_variant_fallbacks(options.fallbacks));
@@ -59,7 +59,7 @@ Result<std::string> dump(const Options& options, Report& report) {
   return text;
 }
 
-int run_dump_index(const Globals& globals, const Options& options) {
+int run_dump_index(const Globals& globals, const DumpIndexArguments& options) {
   Report report(globals, "dump-index", options.asset.asset);
   auto text = dump(options, report);
   if (!text) {
@@ -82,7 +82,7 @@ void add_index_dump(const Command& parent, const std::string& name, const std::s
                     const Globals& globals, Chosen& chosen) {
   const Command verb =
       parent.add_subcommand(name, "How prims are composed: layers, specs, offsets, targets");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DumpIndexArguments>();
   options->fallbacks = fallbacks;
   options->is_record = name != "dump-index";
   options->asset.add_with_standard_input_to(verb);

@@ -3,24 +3,24 @@
 #include <sstream>
 #include <string>
 
-#include "cli/dump.h"
 #include "cli/output.h"
 #include "cli/report.h"
 #include "cli/variant_fallbacks.h"
 #include "cli/verb.h"
+#include "tenon/answers/dump/stage_dump.h"
 
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct DumpArguments {
   AssetArguments asset;
-  DumpOptions dump;
+  answers::DumpOptions dump;
   std::string session;
   std::string fallbacks;
   std::string output = "-";
 };
 
-int run_dump(const Globals& globals, const Options& options) {
+int run_dump(const Globals& globals, const DumpArguments& options) {
   Report report(globals, "dump", options.asset.asset);
   Outputs outputs;
   if (auto claimed = outputs.claim(OutputKind::Dump, options.output); !claimed) {
@@ -39,7 +39,7 @@ int run_dump(const Globals& globals, const Options& options) {
     return report.fail(stage.error());
   }
   std::ostringstream text;
-  write_stage_dump(*stage, options.dump, text);
+  answers::write_stage_dump(*stage, options.dump, text);
   outputs.put(options.output, text.str());
   if (auto written = outputs.commit(); !written) {
     return report.fail(written.error());
@@ -53,7 +53,7 @@ int run_dump(const Globals& globals, const Options& options) {
 void add_dump(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb =
       parent.add_subcommand("dump", "Canonical JSON of the composed stage, to compare");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DumpArguments>();
   options->asset.add_with_standard_input_to(verb);
   verb.add_option("-o,--output", options->output, "Where to write; - is standard output");
   verb.add_option("--session", options->session, "A session layer");

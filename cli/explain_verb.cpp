@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 
-#include "cli/explain.h"
+#include "cli/explain_text.h"
 #include "cli/output.h"
 #include "cli/reading_options.h"
 #include "cli/report.h"
 #include "cli/rule_numbers.h"
 #include "cli/verb.h"
+#include "tenon/answers/explain.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/check/rule.h"
 #include "tenon/physics/read_physics.h"
@@ -16,19 +17,19 @@
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct ExplainArguments {
   AssetArguments asset;
   std::string object;
   std::string other;
   std::vector<std::string> readings;
 };
 
-struct Object {
+struct ExplainedObject {
   stage::Prim prim;
   Token property;  ///< empty: the prim itself
 };
 
-Result<Object> find_object(const stage::Stage& stage, const std::string& text) {
+Result<ExplainedObject> find_object(const stage::Stage& stage, const std::string& text) {
   const Path path = Path::from(text);
   const Path prim_path = path.is_property() ? path.parent() : path;
   const stage::Prim prim =
@@ -37,7 +38,7 @@ Result<Object> find_object(const stage::Stage& stage, const std::string& text) {
     return Error(ErrorCode::NotFound, "there is no prim <" + text + ">")
         .with_fix("tenon tree lists all prims");
   }
-  Object object{prim, path.is_property() ? path.name() : Token()};
+  ExplainedObject object{prim, path.is_property() ? path.name() : Token()};
   const bool unknown = path.is_property() && !prim.has_property(object.property) &&
                        !prim.is_relationship(object.property) &&
                        prim.attribute(object.property).definition() == nullptr;
@@ -49,13 +50,13 @@ Result<Object> find_object(const stage::Stage& stage, const std::string& text) {
   return object;
 }
 
-int explain_two(Report& report, const Explained& explained, const Object& a,
-                const Options& options) {
+int explain_two(Report& report, const answers::Explained& explained, const ExplainedObject& a,
+                const ExplainArguments& options) {
   auto other = find_object(explained.stage, options.other);
   if (!other) {
     return report.fail(other.error());
   }
-  const Json answer = explain_pair(explained, a.prim, other->prim);
+  const Json answer = answers::explain_pair(explained, a.prim, other->prim);
   if (!report.json()) {
     print_text(explain_pair_text(answer));
   }
@@ -63,7 +64,7 @@ int explain_two(Report& report, const Explained& explained, const Object& a,
 }
 
 /// `tenon explain S-83`, `tenon explain joint.body-missing`: what a rule says.
-int explain_rule(const Globals& globals, const std::string& rule) {
+int explain_rule_or_finding(const Globals& globals, const std::string& rule) {
   Report report(globals, "explain", "");
   std::string text;
   if (is_rule_number(rule)) {
@@ -85,7 +86,7 @@ int explain_rule(const Globals& globals, const std::string& rule) {
   return report.finish(kOk, {{"rule", rule}, {"page", text}});
 }
 
-int run_explain(const Globals& globals, const Options& options) {
+int run_explain(const Globals& globals, const ExplainArguments& options) {
   Report report(globals, "explain", options.asset.asset);
   auto readings = chosen_readings(options.readings);
   if (!readings) {
@@ -101,15 +102,16 @@ int run_explain(const Globals& globals, const Options& options) {
   if (!object) {
     return report.fail(object.error());
   }
-  Explained explained{*stage, {}, {}};
+  answers::Explained explained{*stage, {}, {}};
   explained.scene = physics::read_physics(*stage, read_options(*readings), report.diagnostics,
                                           &explained.accounts);
   if (!options.other.empty()) {
     return explain_two(report, explained, *object, options);
   }
   const bool property = !object->property.empty();
-  const Json answer = property ? explain_property(explained, object->prim, object->property)
-                               : explain_prim(explained, object->prim);
+  const Json answer = property
+                          ? answers::explain_property(explained, object->prim, object->property)
+                          : answers::explain_prim(explained, object->prim);
   if (!report.json()) {
     print_text(property ? explain_property_text(answer) : explain_prim_text(answer));
   }
@@ -121,7 +123,7 @@ int run_explain(const Globals& globals, const Options& options) {
 void add_explain(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
       "explain", "Where a number comes from: layer and line, rule, and what lost to it");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExplainArguments>();
   options->asset.add_with_standard_input_to(verb);
   verb.option("asset").description("A USD file, - for standard input; or a rule alone");
   verb.add_option("object", options->object, "PRIM or PRIM.property; without it a rule is meant");
@@ -136,7 +138,7 @@ void add_explain(const Command& parent, const Globals& globals, Chosen& chosen) 
       "  tenon explain S-83                                    the numbered rule in a message\n"
       "  tenon explain joint.body-missing                      the rule in brackets behind one");
   choose(verb, chosen, [&globals, options] {
-    return options->object.empty() ? explain_rule(globals, options->asset.asset)
+    return options->object.empty() ? explain_rule_or_finding(globals, options->asset.asset)
                                    : run_explain(globals, *options);
   });
 }

@@ -21,8 +21,7 @@ std::string row(const std::string& name, const std::string& about, std::size_t w
   const std::size_t column = std::min(kNameColumn, width / 2);
   std::string line = "  " + name;
   const std::size_t used = columns(line);
-  line += used + 2 <= column ? std::string(column - used, ' ')
-                             : "\n" + std::string(column, ' ');
+  line += used + 2 <= column ? std::string(column - used, ' ') : "\n" + std::string(column, ' ');
   const std::size_t words = std::max(width, column + kLeastWords);
   return line + wrapped(std::string(column, ' ') + about, words, column).substr(column) + "\n";
 }

@@ -49,9 +49,8 @@ Json verbs_json(const std::vector<CommandInfo>& verbs) {
   for (const CommandInfo& verb : verbs) {
     Json below = Json::array();
     for (const CommandInfo& inner : verb.commands) {
-      below.push_back({{"name", inner.name},
-                       {"about", inner.about},
-                       {"options", options_json(inner.options)}});
+      below.push_back(
+          {{"name", inner.name}, {"about", inner.about}, {"options", options_json(inner.options)}});
     }
     list.push_back({{"name", verb.name},
                     {"about", verb.about},
@@ -72,8 +71,8 @@ int run_help(const Globals& globals, const std::vector<std::string>& path) {
             .with_fix(did_you_mean(path.front(), verb_names(), "`tenon help` lists all verbs")));
   }
   if (report.json()) {
-    return report.finish(kOk, {{"options", options_json(program.options)},
-                               {"verbs", verbs_json(program.commands)}});
+    return report.finish(
+        kOk, {{"options", options_json(program.options)}, {"verbs", verbs_json(program.commands)}});
   }
   print_text(help);
   return report.finish(kOk);

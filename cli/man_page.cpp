@@ -51,8 +51,7 @@ std::string man_page(const CommandInfo& program, const std::string& version) {
   std::string text = ".TH TENON 1 \"\" \"tenon " + roff(version) + "\"\n.SH NAME\n" +
                      "tenon \\- open, explain and simulate physics\\-ready USD assets\n" +
                      ".SH SYNOPSIS\n.B tenon\n.I VERB\n[\\fIOPTIONS\\fR] [\\fIARGUMENTS\\fR]\n" +
-                     ".SH OPTIONS OF EVERY VERB\n" + options_text(program.options) +
-                     ".SH VERBS\n";
+                     ".SH OPTIONS OF EVERY VERB\n" + options_text(program.options) + ".SH VERBS\n";
   for (const CommandInfo& verb : program.commands) {
     text += verb_text(verb, "tenon " + verb.name);
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tenon/base/nearest_name.h"
+
 namespace tenon::cli {
 namespace {
 
@@ -20,28 +22,6 @@ std::string lower(std::string_view text) {
 }
 
 }  // namespace
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before(b.size() + 1);  // two rows up
-  std::vector<std::size_t> above(b.size() + 1);
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) {
-    above[j] = j;
-  }
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t exchange = above[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u);
-      row[j] = std::min({exchange, above[j] + 1, row[j - 1] + 1});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-        row[j] = std::min(row[j], before[j - 2] + 1);
-      }
-    }
-    std::swap(before, above);
-    std::swap(above, row);
-  }
-  return above[b.size()];
-}
 
 std::string nearest_name(std::string_view text, const std::vector<std::string>& names) {
   if (text.empty() || text.size() > kLongestName) {

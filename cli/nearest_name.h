@@ -8,9 +8,6 @@
 
 namespace tenon::cli {
 
-/// Letters to insert, delete, exchange or swap with their neighbour to make one of the other.
-std::size_t edit_distance(std::string_view a, std::string_view b);
-
 /// The name that was probably meant by `text`: few edits away or begun with it; empty when none is
 /// near. Case does not count. Of equally near ones the first.
 std::string nearest_name(std::string_view text, const std::vector<std::string>& names);

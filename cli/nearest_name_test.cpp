@@ -7,15 +7,6 @@
 namespace tenon::cli {
 namespace {
 
-TEST(NearestName, CountsEdits) {
-  EXPECT_EQ(edit_distance("", ""), 0u);
-  EXPECT_EQ(edit_distance("info", "info"), 0u);
-  EXPECT_EQ(edit_distance("inof", "info"), 1u);  // neighbours swapped
-  EXPECT_EQ(edit_distance("check", "chek"), 1u);
-  EXPECT_EQ(edit_distance("abc", ""), 3u);
-  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
-}
-
 TEST(NearestName, TakesWhatIsNearAndNothingElse) {
   const std::vector<std::string> verbs = {"cat", "check", "convert", "info", "sim", "structure"};
   EXPECT_EQ(nearest_name("inof", verbs), "info");

@@ -175,8 +175,8 @@ Result<void> Outputs::commit() const {
       transaction.put(path, contents);
     }
   }
-  TENON_CHECK(transaction.commit(
-      {.in_place = in_place_, .make_folders = make_folders_, .check = check_}));
+  TENON_CHECK(
+      transaction.commit({.in_place = in_place_, .make_folders = make_folders_, .check = check_}));
   for (const auto& [path, contents] : files_) {
     if (path == "-") {
       print_data(contents);
@@ -187,12 +187,12 @@ Result<void> Outputs::commit() const {
 
 Result<void> check_layer_name(const std::string& path, LayerFormat format) {
   const std::string ending = ending_of(path);
-  const bool fits = (ending != ".usda" && ending != ".usdc" && ending != ".usdz" &&
-                     ending != ".usd") ||
-                    (ending == ".usda" && format == LayerFormat::Text) ||
-                    (ending == ".usdc" && format == LayerFormat::Crate) ||
-                    (ending == ".usdz" && format == LayerFormat::Package) ||
-                    (ending == ".usd" && format != LayerFormat::Package);
+  const bool fits =
+      (ending != ".usda" && ending != ".usdc" && ending != ".usdz" && ending != ".usd") ||
+      (ending == ".usda" && format == LayerFormat::Text) ||
+      (ending == ".usdc" && format == LayerFormat::Crate) ||
+      (ending == ".usdz" && format == LayerFormat::Package) ||
+      (ending == ".usd" && format != LayerFormat::Package);
   if (fits) {
     return {};
   }
@@ -202,8 +202,7 @@ Result<void> check_layer_name(const std::string& path, LayerFormat format) {
   const char* what = format == LayerFormat::Text    ? "text"
                      : format == LayerFormat::Crate ? "a binary layer"
                                                     : "a package";
-  return Error(ErrorCode::Invalid,
-               "a file that ends in " + ending + " cannot hold " + what)
+  return Error(ErrorCode::Invalid, "a file that ends in " + ending + " cannot hold " + what)
       .in_file(path)
       .with_rule("output.kind")
       .with_fix("name a file that ends in " + std::string(proper));

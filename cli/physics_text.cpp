@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/physics_text.h"
+
 #include <cmath>
 
-#include "cli/physics_json.h"
 #include "tenon/base/rounded_text.h"
 #include "tenon/math/angle.h"
 
 namespace tenon::cli {
 namespace {
 
-using physics::PhysicsScene;
+using scene::PhysicsScene;
 
 std::string text(double value) { return rounded_text(value); }
 
@@ -30,38 +31,38 @@ std::string range(double lower, double upper, bool angular) {
   return lower > upper ? "locked" : end(lower) + " to " + end(upper);
 }
 
-std::string shape_text(const PhysicsScene& scene, const physics::Shape& shape) {
-  std::string line(physics::shape_name(shape.kind));
+std::string shape_text(const PhysicsScene& scene, const scene::Shape& shape) {
+  std::string line(scene::shape_name(shape.kind));
   switch (shape.kind) {
-    case physics::ShapeKind::Box:
-    case physics::ShapeKind::Ellipsoid:
+    case scene::ShapeKind::Box:
+    case scene::ShapeKind::Ellipsoid:
       return line + ", half extents " + text(shape.half_extents) + " m";
-    case physics::ShapeKind::Sphere:
+    case scene::ShapeKind::Sphere:
       return line + ", radius " + text(shape.radius) + " m";
-    case physics::ShapeKind::Capsule:
-    case physics::ShapeKind::Cylinder:
-    case physics::ShapeKind::Cone:
+    case scene::ShapeKind::Capsule:
+    case scene::ShapeKind::Cylinder:
+    case scene::ShapeKind::Cone:
       return line + ", radius " + text(shape.radius) + " m, half height " +
              text(shape.half_height) + " m";
-    case physics::ShapeKind::ConvexHull:
-    case physics::ShapeKind::Mesh:
+    case scene::ShapeKind::ConvexHull:
+    case scene::ShapeKind::Mesh:
       return line + " of " + std::to_string(scene.meshes[shape.mesh].points.size()) + " points";
-    case physics::ShapeKind::Spheres:
+    case scene::ShapeKind::Spheres:
       return line + ", " + std::to_string(shape.sphere_radii.size());
-    case physics::ShapeKind::Plane:
+    case scene::ShapeKind::Plane:
       break;
   }
   return line;
 }
 
-std::string body_line(const physics::Body& body) {
+std::string body_line(const scene::Body& body) {
   return "  " + body.path.str() + (body.kinematic ? "  kinematic" : "") + "  mass " +
-         text(body.mass) + " kg (" + std::string(physics::mass_source_name(body.mass_source)) +
+         text(body.mass) + " kg (" + std::string(scene::mass_source_name(body.mass_source)) +
          "), at " + text(body.pose.position) + " m, centre of mass " + text(body.center_of_mass) +
          " m\n";
 }
 
-std::string collider_line(const PhysicsScene& scene, const physics::Collider& collider) {
+std::string collider_line(const PhysicsScene& scene, const scene::Collider& collider) {
   std::string line = "  " + collider.path.str() + "  " + shape_text(scene, collider.shape);
   line += collider.body ? ", of " + scene.bodies[*collider.body].path.str() : ", static";
   if (collider.material) {
@@ -70,27 +71,27 @@ std::string collider_line(const PhysicsScene& scene, const physics::Collider& co
   return line + (collider.enabled ? "\n" : ", disabled\n");
 }
 
-std::string side(const PhysicsScene& scene, const std::optional<physics::Index>& body) {
+std::string side(const PhysicsScene& scene, const std::optional<scene::Index>& body) {
   return body ? scene.bodies[*body].path.str() : std::string("world");
 }
 
-std::string joint_lines(const PhysicsScene& scene, const physics::Joint& joint) {
+std::string joint_lines(const PhysicsScene& scene, const scene::Joint& joint) {
   std::string lines = "  " + joint.path.str() + "  " +
-                      std::string(physics::joint_kind_name(joint.kind)) +
+                      std::string(scene::joint_kind_name(joint.kind)) +
                       (joint.enabled ? "" : " (disabled)") + "  " + side(scene, joint.body0) +
                       " - " + side(scene, joint.body1);
-  const bool angular = joint.kind == physics::JointKind::Revolute;
-  if (angular || joint.kind == physics::JointKind::Prismatic ||
-      joint.kind == physics::JointKind::Distance) {
+  const bool angular = joint.kind == scene::JointKind::Revolute;
+  if (angular || joint.kind == scene::JointKind::Prismatic ||
+      joint.kind == scene::JointKind::Distance) {
     lines += ", " + range(joint.lower, joint.upper, angular);
   }
   lines += "\n";
-  for (const physics::Limit& limit : joint.limits) {
-    lines += "    limit " + std::string(physics::dof_name(limit.dof)) + ": " +
-             range(limit.lower, limit.upper, physics::is_angular(limit.dof)) + "\n";
+  for (const scene::Limit& limit : joint.limits) {
+    lines += "    limit " + std::string(scene::dof_name(limit.dof)) + ": " +
+             range(limit.lower, limit.upper, scene::is_angular(limit.dof)) + "\n";
   }
-  for (const physics::Drive& drive : joint.drives) {
-    lines += "    drive " + std::string(physics::dof_name(drive.dof)) +
+  for (const scene::Drive& drive : joint.drives) {
+    lines += "    drive " + std::string(scene::dof_name(drive.dof)) +
              (drive.acceleration ? " (acceleration)" : "") + ": stiffness " +
              text(drive.stiffness) + ", damping " + text(drive.damping) + ", " +
              (std::isinf(drive.max_force) ? std::string("no force limit")
@@ -109,26 +110,26 @@ std::string joint_lines(const PhysicsScene& scene, const physics::Joint& joint) 
 
 std::string physics_text(const PhysicsScene& scene) {
   std::string out = plural(scene.scenes.size(), "scene", "scenes") + "\n";
-  for (const physics::Scene& s : scene.scenes) {
+  for (const scene::Scene& s : scene.scenes) {
     out += "  " + (s.path.empty() ? std::string("(implicit)") : s.path.str()) + "  gravity " +
            text(s.gravity) + " m/s^2\n";
   }
   out += plural(scene.bodies.size(), "body", "bodies") + "\n";
-  for (const physics::Body& body : scene.bodies) {
+  for (const scene::Body& body : scene.bodies) {
     out += body_line(body);
   }
   out += plural(scene.colliders.size(), "collider", "colliders") + "\n";
-  for (const physics::Collider& collider : scene.colliders) {
+  for (const scene::Collider& collider : scene.colliders) {
     out += collider_line(scene, collider);
   }
   out += plural(scene.joints.size(), "joint", "joints") +
          " (forces in N and N m, angles in radians "
          "unless marked)\n";
-  for (const physics::Joint& joint : scene.joints) {
+  for (const scene::Joint& joint : scene.joints) {
     out += joint_lines(scene, joint);
   }
   out += plural(scene.articulations.size(), "articulation", "articulations") + "\n";
-  for (const physics::Articulation& articulation : scene.articulations) {
+  for (const scene::Articulation& articulation : scene.articulations) {
     out += "  " + articulation.path.str() + "  root " + articulation.root.str() +
            (articulation.fixed_base ? ", fixed base, " : ", floating base, ") +
            plural(articulation.links.size(), "link", "links") + "\n";
@@ -138,7 +139,7 @@ std::string physics_text(const PhysicsScene& scene) {
       "\n";
   if (!scene.not_read.empty()) {
     out += "not taken over\n";
-    for (const physics::NotRead& row : scene.not_read) {
+    for (const scene::NotRead& row : scene.not_read) {
       out += "  " + row.prim.str() + "  " + row.property + ": " + row.why + "\n";
     }
   }

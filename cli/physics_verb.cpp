@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 
-#include "cli/mass_report.h"
+#include "cli/mass_text.h"
 #include "cli/output.h"
-#include "cli/physics_json.h"
+#include "cli/physics_text.h"
 #include "cli/reading_options.h"
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/answers/mass_json.h"
+#include "tenon/answers/scene_json_value.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/tenon.h"
@@ -15,14 +17,16 @@
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct PhysicsArguments {
   AssetArguments asset;
   std::vector<std::string> assets;
   std::vector<std::string> readings;  ///< --reading NAME=VALUE
   bool mass = false;                  ///< --mass
+  std::string geometry = "hash";      ///< --geometry
+  bool schema = false;                ///< --schema
 };
 
-int run_physics(const Globals& globals, const Options& options) {
+int run_physics(const Globals& globals, const PhysicsArguments& options) {
   Report report(globals, "physics", options.asset.asset);
   auto readings = chosen_readings(options.readings);
   if (!readings) {
@@ -35,10 +39,10 @@ int run_physics(const Globals& globals, const Options& options) {
     return report.fail(stage.error());
   }
   physics::Accounts accounts;
-  const physics::PhysicsScene scene = physics::read_physics(
+  const scene::PhysicsScene scene = physics::read_physics(
       *stage, read_options(*readings), report.diagnostics, options.mass ? &accounts : nullptr);
   if (options.mass) {
-    const Json table = mass_table_json(*stage, scene, accounts);
+    const Json table = answers::mass_table_json(*stage, scene, accounts);
     if (!globals.json) {
       print_text(mass_table_text(table));
     }
@@ -47,7 +51,22 @@ int run_physics(const Globals& globals, const Options& options) {
   if (!globals.json) {
     print_text(physics_text(scene));
   }
-  return report.finish(kOk, globals.json ? physics_json(scene) : Json::object());
+  const answers::Geometry geometry =
+      options.geometry == "inline" ? answers::Geometry::Inline : answers::Geometry::Hash;
+  return report.finish(kOk,
+                       globals.json ? answers::scene_json_value(scene, geometry) : Json::object());
+}
+
+int run(const Globals& globals, PhysicsArguments& options) {
+  if (options.schema) {
+    print_text(answers::scene_schema() + "\n");
+    return kOk;
+  }
+  return each_asset(globals, "physics", options.assets,
+                    [&](const Globals& inner, const auto& name) {
+                      options.asset.asset = name;
+                      return run_physics(inner, options);
+                    });
 }
 
 }  // namespace
@@ -55,21 +74,21 @@ int run_physics(const Globals& globals, const Options& options) {
 void add_physics(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
       "physics", "The neutral physics description that engines receive, in SI and radians");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PhysicsArguments>();
   options->asset.add_several_to(verb, options->assets);
+  verb.option("assets").required(false);
   add_readings(verb, options->readings);
   verb.add_flag("--mass", options->mass,
                 "A table of every body's mass, centre and inertia: authored, resolved, reason");
+  verb.add_option("--geometry", options->geometry,
+                  "With --json, of meshes: hash, or inline, points and triangles")
+      .one_of({"hash", "inline"})
+      .value_name("FORM");
+  verb.add_flag("--schema", options->schema, "Only print the JSON Schema of --json");
   verb.footer(readings_help() +
               "\n\nExample:\n  tenon physics hand.usda --physics physx --json\n"
               "  tenon physics hand.usda --mass");
-  choose(verb, chosen, [&globals, options] {
-    return each_asset(globals, "physics", options->assets,
-                      [&](const Globals& inner, const auto& name) {
-                        options->asset.asset = name;
-                        return run_physics(inner, *options);
-                      });
-  });
+  choose(verb, chosen, [&globals, options] { return run(globals, *options); });
 }
 
 }  // namespace tenon::cli

@@ -59,9 +59,8 @@ void print(const char* format, ...) {
 
 void print_text(std::string_view text) {
   clear_for_print();
-  const bool plain = std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 0x20 && c < 0x7F) || c == '\n';
-  });
+  const bool plain = std::all_of(text.begin(), text.end(),
+                                 [](char c) { return (c >= 0x20 && c < 0x7F) || c == '\n'; });
   plain ? print_bytes(text) : print_bytes(terminal_text(text, true));
 }
 

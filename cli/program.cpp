@@ -48,7 +48,7 @@ constexpr std::array kVerbs{
 
 constexpr const char* kAbout = "tenon: open, explain and simulate physics-ready USD assets";
 
-constexpr const char* kFooter =
+constexpr const char* kProgramFooter =
     "Examples:\n"
     "  tenon info hand.usda                    what the asset is, what is missing\n"
     "  tenon tree hand.usda --show physics     its bodies, joints and masses\n"
@@ -99,7 +99,7 @@ std::unique_ptr<CommandLine> make_command_line(std::string_view only, Globals& g
                                                Chosen& chosen) {
   auto line = std::make_unique<CommandLine>(kAbout, "tenon");
   const Command root = line->root();
-  root.footer(kFooter);
+  root.footer(kProgramFooter);
   add_global_options(root, globals);
   for (const Verb& verb : kVerbs) {
     if (only.empty() || verb.name == only) {

@@ -16,7 +16,7 @@ constexpr std::chrono::milliseconds kPeriod{200};
 
 std::atomic<Progress*> current = nullptr;
 
-std::string number(double value) {
+std::string short_number(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, value < 100 ? "%.3g" : "%.0f", value);
   return buffer;
@@ -100,13 +100,13 @@ std::string Progress::line() const {
   std::string text = what_;
   if (total_ > 0) {
     const double rate = done_ / seconds(part_);
-    text += ": " + number(100 * done_ / total_) + " %, " + number(done_) + " of " +
-            number(total_) + " " + unit_ + ", " + number(rate) + " " + unit_ + "/s";
+    text += ": " + short_number(100 * done_ / total_) + " %, " + short_number(done_) + " of " +
+            short_number(total_) + " " + unit_ + ", " + short_number(rate) + " " + unit_ + "/s";
     if (rate > 0) {
-      text += ", " + number((total_ - done_) / rate) + " s left";
+      text += ", " + short_number((total_ - done_) / rate) + " s left";
     }
   }
-  return text + " (" + number(seconds(start_)) + " s)";
+  return text + " (" + short_number(seconds(start_)) + " s)";
 }
 
 }  // namespace tenon::cli

@@ -43,7 +43,7 @@ class Progress {
   double total_ = 0;
   const char* unit_ = "";
   bool over_ = false;
-  bool drawn_ = false;  ///< the line stands on the terminal
+  bool drawn_ = false;                      ///< the line stands on the terminal
   Clock::time_point start_ = Clock::now();  ///< of the whole
   Clock::time_point part_ = start_;         ///< of this part
   std::thread thread_;

@@ -3,6 +3,7 @@
 #include "cli/reading_options.h"
 
 #include "cli/verb.h"
+#include "tenon/base/assignment.h"
 
 namespace tenon::cli {
 

@@ -11,6 +11,7 @@
 #include "cli/missing_input.h"
 #include "cli/print.h"
 #include "cli/terminal_text.h"
+#include "tenon/base/shown_path.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/formats/find_places.h"
 
@@ -115,6 +116,12 @@ int Report::fail(const Error& error) {
 
 int each_asset(const Globals& globals, const std::string& verb,
                const std::vector<std::string>& assets, const RunOne& run) {
+  if (assets.empty()) {
+    Report report(globals, verb, "");
+    return report.fail(Error(ErrorCode::Invalid, "tenon " + verb + ": no asset is given")
+                           .with_rule("usage.missing-argument")
+                           .with_fix("see `tenon " + verb + " --help`"));
+  }
   if (assets.size() == 1) {
     return run(globals, assets.front());
   }

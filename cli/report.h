@@ -7,18 +7,17 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/diagnostic_lines.h"
 #include "cli/exit_code.h"
 #include "cli/print.h"
 #include "cli/verb.h"
+#include "tenon/answers/json.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/error.h"
 
 namespace tenon::cli {
 
-using Json = nlohmann::ordered_json;
+using answers::Json;
 
 /// What one run of a verb has to say: diagnostics on stderr, or one JSON object on stdout.
 class Report {

@@ -26,8 +26,8 @@ std::string_view column(std::string_view row, std::size_t index) {
 }  // namespace
 
 bool is_rule_number(std::string_view text) {
-  const bool begins = text.size() > 2 && std::isalpha(static_cast<unsigned char>(text[0])) != 0 &&
-                      text[1] == '-';
+  const bool begins =
+      text.size() > 2 && std::isalpha(static_cast<unsigned char>(text[0])) != 0 && text[1] == '-';
   return begins && std::all_of(text.begin() + 2, text.end(),
                                [](unsigned char c) { return std::isdigit(c) != 0; });
 }

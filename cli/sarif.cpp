@@ -6,7 +6,8 @@
 #include <filesystem>
 #include <map>
 
-#include "cli/sha256.h"
+#include "tenon/base/sha256.h"
+#include "tenon/base/shown_path.h"
 #include "tenon/check/rule.h"
 #include "tenon/formats/character_columns.h"
 

@@ -7,16 +7,19 @@
 #include "cli/output.h"
 #include "cli/report.h"
 #include "cli/terminal_text.h"
-#include "cli/typed_edits.h"
 #include "cli/unified_diff.h"
 #include "cli/verb.h"
 #include "tenon/asset/edit_asset.h"
+#include "tenon/asset/typed_edits.h"
+#include "tenon/base/assignment.h"
+#include "tenon/base/shown_path.h"
+#include "tenon/property_value.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct SetArguments {
   std::string asset;
   std::vector<std::string> assignments;
   std::vector<std::string> clear;
@@ -35,7 +38,7 @@ struct Options {
   FileAccess files;
 };
 
-EditOptions edit_options(const Options& options) {
+EditOptions edit_options(const SetArguments& options) {
   EditOptions edit;
   edit.open.physics_variant = options.physics;
   options.files.apply_to(edit.open);
@@ -44,24 +47,20 @@ EditOptions edit_options(const Options& options) {
   return edit;
 }
 
-Result<Path> read_path(const std::string& text) {
+/// Whether it suits the edit is checked with the edit.
+Result<Path> read_path(const std::string& text, const std::string& kind) {
   auto path = Path::parse(text);
   if (path && path->is_absolute()) {
     return path;
   }
-  return Error(ErrorCode::Invalid, "\"" + text + "\" is not an absolute path")
-      .with_rule("edit.bad-path")
-      .with_fix("write it from the root, as in /hand/palm.physics:mass");
+  return not_a_path(text, kind);
 }
 
-Result<AssetEdit> assignment(const std::string& text, const Options& options) {
-  const auto parts = split_assignment(text);
-  if (!parts) {
-    return Error(parts.error()).with_fix("write PATH.attribute=VALUE");
-  }
+Result<AssetEdit> assignment(const std::string& text, const SetArguments& options) {
+  TENON_TRY(const PropertyAssignment parts, read_assignment(text));
   AssetEdit edit;
-  TENON_TRY(edit.object, read_path(parts->first));
-  edit.value = parts->second;
+  edit.object = parts.property;
+  edit.value = parts.value;
   edit.type_name = Token(options.type);
   return edit;
 }
@@ -73,13 +72,13 @@ Result<AssetEdit> api_edit(const std::string& text, AssetEdit::Kind kind) {
   }
   AssetEdit edit;
   edit.kind = kind;
-  TENON_TRY(edit.object, read_path(parts->first));
+  TENON_TRY(edit.object, read_path(parts->first, "prim"));
   edit.api = Token(parts->second);
   return edit;
 }
 
 /// The typed edits look at joints and units: at the scene with physics, whichever variant has it.
-Result<stage::Stage> scene_with_physics(const Options& options) {
+Result<stage::Stage> scene_with_physics(const SetArguments& options) {
   Diagnostics ignored;  // the edit composes again and reports
   const EditOptions edit = edit_options(options);
   TENON_TRY(stage::Stage stage, open_stage(options.asset, edit.open, ignored));
@@ -109,7 +108,7 @@ Result<void> add_typed(const std::vector<std::string>& texts, const ReadEdits& r
   return {};
 }
 
-Result<void> add_typed(const Options& options, std::vector<AssetEdit>& edits) {
+Result<void> add_typed(const SetArguments& options, std::vector<AssetEdit>& edits) {
   TENON_CHECK(add_typed(options.collider, collider_edits, edits));
   TENON_CHECK(add_typed(options.material, material_edits, edits));
   TENON_CHECK(add_typed(
@@ -126,7 +125,7 @@ Result<void> add_typed(const Options& options, std::vector<AssetEdit>& edits) {
 }
 
 /// Schemas first, so that the properties that they declare are known.
-Result<std::vector<AssetEdit>> edits_of(const Options& options) {
+Result<std::vector<AssetEdit>> edits_of(const SetArguments& options) {
   std::vector<AssetEdit> edits;
   for (const std::string& text : options.remove) {
     TENON_TRY(AssetEdit edit, api_edit(text, AssetEdit::Kind::RemoveApi));
@@ -144,7 +143,7 @@ Result<std::vector<AssetEdit>> edits_of(const Options& options) {
   for (const std::string& text : options.clear) {
     AssetEdit edit;
     edit.kind = AssetEdit::Kind::ClearProperty;
-    TENON_TRY(edit.object, read_path(text));
+    TENON_TRY(edit.object, read_path(text, "property"));
     edits.push_back(std::move(edit));
   }
   if (edits.empty()) {
@@ -217,7 +216,8 @@ void print_files(const Report& report, const EditedAsset& asset, bool dry_run) {
 }
 
 /// Reads the asset, edits it and writes it back; `edits` are those that were made.
-Result<EditedAsset> edit(const Options& options, Report& report, std::vector<AssetEdit>& edits) {
+Result<EditedAsset> edit(const SetArguments& options, Report& report,
+                         std::vector<AssetEdit>& edits) {
   return edit_files(report, [&]() -> Result<EditedAsset> {
     TENON_TRY(edits, edits_of(options));
     TENON_TRY(EditedAsset asset,
@@ -229,7 +229,7 @@ Result<EditedAsset> edit(const Options& options, Report& report, std::vector<Ass
   });
 }
 
-int run_set(const Globals& globals, const Options& options) {
+int run_set(const Globals& globals, const SetArguments& options) {
   Report report(globals, "set", options.asset);
   std::vector<AssetEdit> edits;
   const auto asset = edit(options, report, edits);
@@ -252,7 +252,7 @@ int run_set(const Globals& globals, const Options& options) {
       kOk, {{"dryRun", options.dry_run}, {"edits", places}, {"files", files_json(*asset)}});
 }
 
-constexpr const char* kFooter =
+constexpr const char* kSetFooter =
     "In an asset of the structure 3.0 each edit lands in the file that owns what it changes: "
     "drives\n"
     "and limits in physics.usda, physx attributes in physx.usda, metadata of the robot in "
@@ -271,7 +271,7 @@ constexpr const char* kFooter =
     "  tenon set hand.usda --apply /hand/palm=PhysxRigidBodyAPI\n"
     "Units of the typed edits: kilograms; else those of the schema, degrees for angles.";
 
-void add_edit_options(const Command& verb, Options& options) {
+void add_edit_options(const Command& verb, SetArguments& options) {
   verb.add_option("--clear", options.clear, "Remove the owning file's opinion on PATH.attr")
       .repeatable();
   verb.add_option("--apply", options.apply, "PRIM=SCHEMA: apply an API schema").repeatable();
@@ -289,7 +289,7 @@ void add_edit_options(const Command& verb, Options& options) {
 void add_set(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb =
       parent.add_subcommand("set", "Change properties of an asset, each in the file that owns it");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SetArguments>();
   verb.add_option("asset", options->asset, "A .usd, .usda or .usdc file").required().file_only();
   verb.add_option("assignments", options->assignments,
                   "PATH.attr=VALUE as text layers print it; PATH.rel=/a,/b for relationships");
@@ -302,7 +302,7 @@ void add_set(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "The variant of \"Physics\" in which the value has to count");
   verb.add_flag("--dry-run", options->dry_run, "Print the difference, write nothing");
   options->files.add_to(verb);
-  verb.footer(kFooter);
+  verb.footer(kSetFooter);
   choose(verb, chosen, [&globals, options] { return run_set(globals, *options); });
 }
 

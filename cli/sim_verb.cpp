@@ -12,14 +12,16 @@
 #include "cli/verb.h"
 #include "tenon/bake/stage_values.h"
 #include "tenon/bake/write_log.h"
+#include "tenon/base/rounded_text.h"
 
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct SimArguments {
   SimulateArguments simulate;
   std::string log;
   std::string format;
+  bool timing = false;  ///< --timing
   std::string bake;
 
   bool uses_standard_output() const { return log == "-" || bake == "-"; }
@@ -30,7 +32,7 @@ Json list(const Quatd& q) { return Json::array({q.w, q.x, q.y, q.z}); }
 
 Json bodies_json(const Simulated& s) {
   Json bodies = Json::object();
-  for (physics::Index i = 0; i < s.scene->bodies.size(); ++i) {
+  for (scene::Index i = 0; i < s.scene->bodies.size(); ++i) {
     const engines::BodyState state = bake::in_stage_units(s.simulation->body_state(i), *s.scene);
     bodies[s.scene->bodies[i].path.str()] = {{"position", list(state.pose.position)},
                                              {"orientation", list(state.pose.orientation)},
@@ -42,7 +44,7 @@ Json bodies_json(const Simulated& s) {
 
 Json joints_json(const Simulated& s) {
   Json joints = Json::object();
-  for (physics::Index i = 0; i < s.scene->joints.size(); ++i) {
+  for (scene::Index i = 0; i < s.scene->joints.size(); ++i) {
     const engines::JointState state =
         bake::in_stage_units(s.simulation->joint_state(i), s.scene->joints[i], *s.scene);
     joints[s.scene->joints[i].path.str()] = {{"position", state.position},
@@ -53,7 +55,7 @@ Json joints_json(const Simulated& s) {
 
 Json not_mapped_json(const Simulated& s) {
   Json items = Json::array();
-  for (const physics::NotRead& item : s.scene->not_read) {
+  for (const scene::NotRead& item : s.scene->not_read) {
     items.push_back({{"prim", item.prim.str()}, {"property", item.property}, {"why", item.why}});
   }
   for (const engines::NotMapped& item : s.simulation->not_mapped()) {
@@ -71,14 +73,16 @@ Json events_json(const Simulated& s) {
   return items;
 }
 
-Json end_state(const Simulated& s, const std::string& engine) {
+Json end_state(const Simulated& s, const std::string& engine, bool timing) {
   Json state = Json::object();
   state["engine"] = engine;
   state["engineVersion"] = s.engine_version;
   state["dt"] = s.simulation->time_step();
   state["steps"] = s.run.steps;
   state["time"] = s.run.time;
-  state["realTimeFactor"] = s.wall_seconds > 0 ? s.run.time / s.wall_seconds : 0.0;
+  if (timing) {
+    state["realTimeFactor"] = s.wall_seconds > 0 ? s.run.time / s.wall_seconds : 0.0;
+  }
   state["unstable"] = s.unstable();
   state["bodies"] = bodies_json(s);
   state["joints"] = joints_json(s);
@@ -102,7 +106,7 @@ constexpr std::size_t kMostRows = 50;  // more than that nobody reads
 void print_rows(const Json& states, const char* what, const char* title) {
   if (states.size() > kMostRows) {
     print("the positions of %s %s are not listed: --json has them, -o LOG all frames\n",
-        grouped_digits(states.size()).c_str(), what);
+          grouped_digits(states.size()).c_str(), what);
     return;
   }
   print("%s\n", title);
@@ -134,25 +138,28 @@ void print_not_mapped(const Json& items) {
 }
 
 void print_state(const Json& state) {
-  print(
-      "%s %s  %zu steps of %g s = %g s  %.1fx real time%s\n",
-      state["engine"].get<std::string>().c_str(), state["engineVersion"].get<std::string>().c_str(),
-      state["steps"].get<std::size_t>(), state["dt"].get<double>(), state["time"].get<double>(),
-      state["realTimeFactor"].get<double>(), state["unstable"].get<bool>() ? "  UNSTABLE" : "");
+  const std::string rate =
+      state.contains("realTimeFactor")
+          ? "  " + rounded_text(state["realTimeFactor"].get<double>()) + " times real time"
+          : "";
+  print("%s %s  %zu steps of %g s = %g s%s%s\n", state["engine"].get<std::string>().c_str(),
+        state["engineVersion"].get<std::string>().c_str(), state["steps"].get<std::size_t>(),
+        state["dt"].get<double>(), state["time"].get<double>(), rate.c_str(),
+        state["unstable"].get<bool>() ? "  UNSTABLE" : "");
   print("energy %.6g J -> %.6g J, %zu contacts\n", state["energy"]["initial"].get<double>(),
-              state["energy"]["final"].get<double>(), state["contacts"].get<std::size_t>());
+        state["energy"]["final"].get<double>(), state["contacts"].get<std::size_t>());
   if (!state["joints"].empty()) {
     print_rows(state["joints"], "joints", "joint positions (degrees or stage units)");
   }
   print_rows(state["bodies"], "bodies", "body positions (stage units)");
   for (const auto& event : state["events"]) {
     print("at %g s  <%s> %s\n", event["time"].get<double>(),
-                event["prim"].get<std::string>().c_str(), event["what"].get<std::string>().c_str());
+          event["prim"].get<std::string>().c_str(), event["what"].get<std::string>().c_str());
   }
   print_not_mapped(state["notMapped"]);
 }
 
-Result<void> claim(const Globals& globals, const Options& options, Outputs& outputs) {
+Result<void> claim(const Globals& globals, const SimArguments& options, Outputs& outputs) {
   if (globals.json && options.uses_standard_output()) {
     return Error(ErrorCode::Invalid, "--json and another output both want standard output")
         .with_fix("name an output file");
@@ -166,13 +173,13 @@ Result<void> claim(const Globals& globals, const Options& options, Outputs& outp
         .with_rule("output.kind")
         .with_fix("name a file that ends in " + wanted + ", or leave --format out");
   }
-  TENON_CHECK(outputs.claim(options.format.empty() ? OutputKind::Log : OutputKind::NamedLog,
-                            options.log));
+  TENON_CHECK(
+      outputs.claim(options.format.empty() ? OutputKind::Log : OutputKind::NamedLog, options.log));
   return outputs.claim(OutputKind::Overlay, options.bake);
 }
 
-Result<void> write_outputs(const Simulated& s, const Options& options, Outputs& outputs,
-                         Report& report) {
+Result<void> write_outputs(const Simulated& s, const SimArguments& options, Outputs& outputs,
+                           Report& report) {
   if (!options.log.empty()) {
     const std::string kind = !options.format.empty() ? "." + options.format
                              : options.log == "-"    ? ".csv"
@@ -186,15 +193,16 @@ Result<void> write_outputs(const Simulated& s, const Options& options, Outputs& 
   return outputs.commit();
 }
 
-int run_sim(const Globals& globals, const Options& options) {
+int run_sim(const Globals& globals, const SimArguments& options) {
   Report report(globals, "sim", options.simulate.asset.asset);
   Outputs outputs;
   if (auto claimed = claim(globals, options, outputs); !claimed) {
     return report.fail(claimed.error());
   }
   if (!options.bake.empty() && options.simulate.asset.asset == "-") {
-    return report.fail(Error(ErrorCode::Invalid, "--bake writes a layer over a file, and the asset "
-                                                 "comes from standard input")
+    return report.fail(Error(ErrorCode::Invalid,
+                             "--bake writes a layer over a file, and the asset "
+                             "comes from standard input")
                            .with_rule("usage.value")
                            .with_fix("name the file"));
   }
@@ -202,7 +210,7 @@ int run_sim(const Globals& globals, const Options& options) {
   if (!simulated) {
     return report.fail(simulated.error());
   }
-  const Json state = end_state(*simulated, options.simulate.engine);
+  const Json state = end_state(*simulated, options.simulate.engine, options.timing);
   if (!globals.json && !options.uses_standard_output()) {
     print_state(state);
   }
@@ -220,13 +228,14 @@ int run_sim(const Globals& globals, const Options& options) {
 
 void add_sim(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand("sim", "Simulate the asset on a real engine");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimArguments>();
   options->simulate.add_to(verb);
   verb.add_option("-o,--output", options->log,
                   "Write a log: .csv, .jsonl or .npz; - is standard output");
   verb.add_option("--format", options->format, "Format of the log: csv (as for -o -), jsonl, npz")
       .one_of({"csv", "jsonl", "npz"});
   verb.add_option("--bake", options->bake, "Also write the motion as a layer over the asset");
+  verb.add_flag("--timing", options->timing, "Also say how fast it ran");
   verb.footer(
       "Examples:\n"
       "  tenon sim hand.usda --physics physics --duration 5 -o run.csv\n"

@@ -13,6 +13,7 @@
 #include "tenon/asset/physics_options.h"
 #include "tenon/bake/write_time_samples.h"
 #include "tenon/base/run_limits.h"
+#include "tenon/base/shown_path.h"
 #include "tenon/base/text_number.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/physics/read_physics.h"
@@ -31,7 +32,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-double duration_of(const SimulateArguments& arguments, const physics::PhysicsScene& scene) {
+double duration_of(const SimulateArguments& arguments, const scene::PhysicsScene& scene) {
   if (arguments.duration) {
     return *arguments.duration;
   }
@@ -41,8 +42,7 @@ double duration_of(const SimulateArguments& arguments, const physics::PhysicsSce
 }
 
 /// Refuses what would take no step although time is to pass, and records that no memory holds.
-Result<void> check_run(const bake::RunOptions& run, double step,
-                       const physics::PhysicsScene& scene) {
+Result<void> check_run(const bake::RunOptions& run, double step, const scene::PhysicsScene& scene) {
   if (run.duration > 0 && run.duration < step * (1 - 1e-9)) {
     return Error(ErrorCode::Invalid, "a time step of " + shortest(step) + " s is longer than the " +
                                          shortest(run.duration) + " s to simulate")
@@ -63,12 +63,12 @@ Result<void> check_run(const bake::RunOptions& run, double step,
 
 /// MuJoCo prepares a model in a time that grows with the square of its bodies: 10,000 that are free
 /// took 15.7 s on the machine of the benchmarks. Who has to wait for it is told before.
-void announce_setup(const SimulateArguments& arguments, const physics::PhysicsScene& scene,
+void announce_setup(const SimulateArguments& arguments, const scene::PhysicsScene& scene,
                     Report& report) {
   constexpr double kSecondsPerPair = 1.5e-7;
   constexpr double kWorthTelling = 2;  // [s]
   const auto bodies = std::count_if(scene.bodies.begin(), scene.bodies.end(),
-                                    [](const physics::Body& body) { return !body.kinematic; });
+                                    [](const scene::Body& body) { return !body.kinematic; });
   const double seconds = kSecondsPerPair * std::pow(static_cast<double>(bodies), 2);
   if (arguments.engine != "mujoco" || seconds < kWorthTelling) {
     return;
@@ -124,7 +124,7 @@ Result<Simulated> simulate(const SimulateArguments& arguments, Report& report) {
   Progress progress(report.globals(), "reading " + shown_path(arguments.asset.asset));
   TENON_TRY(stage::Stage stage, open_stage(arguments.asset.asset, open, report.diagnostics));
   result.stage = std::make_unique<stage::Stage>(std::move(stage));
-  result.scene = std::make_unique<physics::PhysicsScene>(
+  result.scene = std::make_unique<scene::PhysicsScene>(
       physics::read_physics(*result.stage, read_options(readings), report.diagnostics));
   announce_setup(arguments, *result.scene, report);
   progress.next("building the model of " + std::to_string(result.scene->bodies.size()) + " bodies");

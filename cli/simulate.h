@@ -12,7 +12,7 @@
 #include "cli/verb.h"
 #include "tenon/bake/run_simulation.h"
 #include "tenon/engines/simulation.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
 /// What `sim` and `bake` share: open, read the physics, run.
@@ -33,7 +33,7 @@ struct SimulateArguments {
 /// A finished run and everything that it was made of; the simulation refers to the scene.
 struct Simulated {
   std::unique_ptr<stage::Stage> stage;
-  std::unique_ptr<physics::PhysicsScene> scene;
+  std::unique_ptr<scene::PhysicsScene> scene;
   std::unique_ptr<engines::Simulation> simulation;
   std::string engine_version;
   bake::Run run;

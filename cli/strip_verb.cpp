@@ -12,6 +12,7 @@
 #include "tenon/asset_policy.h"
 #include "tenon/bake/mute_layer.h"
 #include "tenon/base/file_finding.h"
+#include "tenon/base/shown_path.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/layer/metadata_fields.h"
@@ -21,7 +22,7 @@
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct StripArguments {
   AssetArguments asset;
   std::string output;
   bool in_place = false;
@@ -35,14 +36,14 @@ struct Stripped {
 };
 
 /// A folder is claimed by nothing but the files in it.
-Result<void> claim(const Options& options, Outputs& outputs) {
+Result<void> claim(const StripArguments& options, Outputs& outputs) {
   return options.in_place || names_folder(options.output)
              ? Result<void>()
              : outputs.claim(OutputKind::Layer, options.output);
 }
 
 /// Physics in layers that do not belong to the asset stays, which is no success.
-void report_outside(const AssetLayers& asset, const Options& options, Report& report) {
+void report_outside(const AssetLayers& asset, const StripArguments& options, Report& report) {
   report.diagnostics.append(asset.refused());
   for (const std::string& identifier : asset.outside()) {
     Diagnostics ignored;
@@ -66,7 +67,7 @@ void report_outside(const AssetLayers& asset, const Options& options, Report& re
   }
 }
 
-Result<Stripped> strip(const Options& options, Report& report) {
+Result<Stripped> strip(const StripArguments& options, Report& report) {
   TENON_TRY(AssetLayers asset,
             AssetLayers::open(options.asset.asset, options.asset.open_options()));
   report_outside(asset, options, report);
@@ -90,9 +91,8 @@ Result<Stripped> strip(const Options& options, Report& report) {
     part.edited = std::make_shared<layer::Layer>(std::move(edited));
   }
   Outputs outputs = options.in_place ? Outputs::in_place() : Outputs();
-  TENON_TRY(const std::vector<std::string> written, options.in_place
-                                                        ? asset.put_in_place(outputs)
-                                                        : asset.put_to(options.output, outputs));
+  TENON_TRY(const std::vector<std::string> written,
+            options.in_place ? asset.put_in_place(outputs) : asset.put_to(options.output, outputs));
   TENON_CHECK(outputs.commit());
   for (const std::string& file : asset.without_layout()) {
     report.note("comments and layout of " + shown_path(file) + " are not kept");
@@ -104,7 +104,7 @@ Result<Stripped> strip(const Options& options, Report& report) {
   return result;
 }
 
-int run_strip(Report& report, const Options& options) {
+int run_strip(Report& report, const StripArguments& options) {
   Outputs outputs;
   if (auto claimed = claim(options, outputs); !claimed) {
     return report.fail(claimed.error());
@@ -160,9 +160,9 @@ Result<void> write_muted(const layer::Layer& layer, bool in_place, const std::st
   return outputs.commit();
 }
 
-Result<bake::MuteCounts> mute(const Options& options, Report& report) {
-  TENON_TRY(const stage::Stage stage, open_stage(options.asset.asset, options.asset.open_options(),
-                                                 report.diagnostics));
+Result<bake::MuteCounts> mute(const StripArguments& options, Report& report) {
+  TENON_TRY(const stage::Stage stage,
+            open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics));
   const std::string output = root_output(options.output, stage.root_layer());
   std::error_code ignored;
   if (std::filesystem::equivalent(stage.root_layer().identifier(), output, ignored)) {
@@ -177,7 +177,7 @@ Result<bake::MuteCounts> mute(const Options& options, Report& report) {
   return counts;
 }
 
-int run_mute(Report& report, const Options& options) {
+int run_mute(Report& report, const StripArguments& options) {
   Outputs outputs;
   if (auto claimed = claim(options, outputs); !claimed) {
     return report.fail(claimed.error());
@@ -187,8 +187,8 @@ int run_mute(Report& report, const Options& options) {
     return report.fail(counts.error());
   }
   report.note("switched off " + std::to_string(counts->bodies) + " bodies, " +
-              std::to_string(counts->colliders) + " colliders, " +
-              std::to_string(counts->joints) + " joints");
+              std::to_string(counts->colliders) + " colliders, " + std::to_string(counts->joints) +
+              " joints");
   return report.finish(counts->out_of_reach == 0 ? kOk : kNo,
                        {{"bodies", counts->bodies},
                         {"colliders", counts->colliders},
@@ -201,7 +201,7 @@ int run_mute(Report& report, const Options& options) {
 void add_strip(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
       "strip", "Take all physics out of an asset, or mute it, and leave the rest as it is");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<StripArguments>();
   options->asset.add_to(verb);
   verb.add_option(
       "-o,--output", options->output,

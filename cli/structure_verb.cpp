@@ -8,11 +8,12 @@
 #include "cli/verb.h"
 #include "tenon/asset/structure_asset.h"
 #include "tenon/asset_policy.h"
+#include "tenon/base/shown_path.h"
 
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct StructureArguments {
   AssetArguments asset;
   structure::StructureOptions structure;
   std::string output;
@@ -69,7 +70,7 @@ structure::LinkNesting nesting_of(const std::string& name) {
                             : LinkNesting::AsAuthored;
 }
 
-Result<structure::StructuredAsset> make(const Options& options, Report& report) {
+Result<structure::StructuredAsset> make(const StructureArguments& options, Report& report) {
   TENON_TRY(structure::StructuredAsset asset,
             structure_asset(options.asset.asset, options.asset.open_options(), options.structure,
                             report.diagnostics));
@@ -79,7 +80,7 @@ Result<structure::StructuredAsset> make(const Options& options, Report& report) 
   return asset;
 }
 
-int run_structure(Report& report, const Options& options) {
+int run_structure(Report& report, const StructureArguments& options) {
   if (!options.dry_run && !options.write.in_place) {
     if (auto claimed = structure::check_folder(options.output, options.write); !claimed) {
       return report.fail(claimed.error());
@@ -107,7 +108,7 @@ int run_structure(Report& report, const Options& options) {
 void add_structure(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
       "structure", "Make an asset into Asset Structure 3.0, one file for each concern");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<StructureArguments>();
   options->asset.add_to(verb);
   verb.add_option("-o,--output", options->output,
                   "Folder of the new asset; an earlier one there is replaced in one step, unless "

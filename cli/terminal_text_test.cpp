@@ -29,8 +29,8 @@ TEST(TerminalText, EscapesWhatReordersText) {
 
 TEST(TerminalText, EscapesWhatIsNoUtf8) {
   EXPECT_EQ(terminal_text("\x9B", true), "\\x9b");
-  EXPECT_EQ(terminal_text("\xC0\x9B", true), "\\xc0\\x9b");          // overlong
-  EXPECT_EQ(terminal_text("\xE2\x80", true), "\\xe2\\x80");          // cut
+  EXPECT_EQ(terminal_text("\xC0\x9B", true), "\\xc0\\x9b");           // overlong
+  EXPECT_EQ(terminal_text("\xE2\x80", true), "\\xe2\\x80");           // cut
   EXPECT_EQ(terminal_text("\xED\xA0\x80", true), "\\xed\\xa0\\x80");  // surrogate
 }
 

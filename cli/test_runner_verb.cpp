@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "cli/json_writer.h"
-#include "cli/layer_json.h"
-#include "cli/list_op_json.h"
 #include "cli/output.h"
 #include "cli/report.h"
-#include "cli/schema_json.h"
 #include "cli/verb.h"
+#include "tenon/answers/dump/json_writer.h"
+#include "tenon/answers/dump/layer_json.h"
+#include "tenon/answers/dump/list_op_json.h"
+#include "tenon/answers/dump/schema_json.h"
 #include "tenon/base/text_number.h"
 #include "tenon/tenon.h"
 
@@ -43,13 +43,13 @@ Result<std::string> layer_text(const LayerOptions& options, Diagnostics& diagnos
   TENON_TRY(const layer::LayerPtr layer,
             open_layer(options.file, options.files.open_options(), diagnostics));
   std::ostringstream out;
-  write_layer_json(out, *layer);
+  answers::write_layer_json(out, *layer);
   return out.str();
 }
 
 Result<std::string> folded_list_ops(std::istream& in) {
   const std::string text(std::istreambuf_iterator<char>(in), {});
-  TENON_TRY(const auto folded, fold_list_ops(text));
+  TENON_TRY(const auto folded, answers::fold_list_ops(text));
   return folded.dump();
 }
 
@@ -81,12 +81,12 @@ Result<std::string> values_text(const ValueOptions& options, Diagnostics& diagno
   }
   std::ostringstream out;
   {
-    JsonWriter json(out);
+    answers::JsonWriter json(out);
     json.begin_object();
     for (const std::string& text : options.times) {
       TENON_TRY(const stage::Time time, parse_time(text));
       json.key(text);
-      write_plain_value(json, attribute.get(time));
+      answers::write_plain_value(json, attribute.get(time));
     }
     json.end_object();
   }
@@ -136,7 +136,7 @@ void add_schemas(const Command& runner, const Globals& globals, Chosen& chosen) 
   choose(verb, chosen, [&globals] {
     Report report(globals, kName, "");
     std::ostringstream out;
-    write_schemas_json(out);
+    answers::write_schemas_json(out);
     return answer(report, out.str());
   });
 }

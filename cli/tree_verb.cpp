@@ -5,11 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include "cli/kinematic_tree.h"
+#include "cli/forest_text.h"
 #include "cli/output.h"
-#include "cli/prim_walk.h"
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/answers/forest_json.h"
+#include "tenon/answers/specifier_word.h"
+#include "tenon/answers/tree_json.h"
+#include "tenon/asset/physics_options.h"
 #include "tenon/formats/text/value_text.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/tenon.h"
@@ -17,7 +20,7 @@
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct TreeArguments {
   AssetArguments asset;
   bool attributes = false;
   bool metadata = false;
@@ -26,20 +29,8 @@ struct Options {
   std::vector<std::string> assets;
 };
 
-std::string specifier_word(layer::Specifier specifier) {
-  switch (specifier) {
-    case layer::Specifier::Def:
-      return "def";
-    case layer::Specifier::Class:
-      return "class";
-    case layer::Specifier::Over:
-      break;
-  }
-  return "over";
-}
-
 std::string prim_words(const stage::Prim& prim) {
-  std::string words = specifier_word(prim.specifier());
+  std::string words = answers::specifier_word(prim.specifier());
   if (!prim.type_name().empty()) {
     words += " " + prim.type_name().str();
   }
@@ -63,7 +54,7 @@ void print_attributes(const stage::Prim& prim, const std::string& indent) {
   for (const Token& name : prim.authored_property_names()) {
     if (prim.is_relationship(name)) {
       print("%s  .%s -> %zu\n", indent.c_str(), name.str().c_str(),
-                  prim.relationship(name).targets().size());
+            prim.relationship(name).targets().size());
       continue;
     }
     const stage::Attribute attribute = prim.attribute(name);
@@ -71,20 +62,19 @@ void print_attributes(const stage::Prim& prim, const std::string& indent) {
     std::string text = value.size() > 8 ? "[" + std::to_string(value.size()) + " values]"
                                         : formats::value_text(value);
     print("%s  .%s %s = %s\n", indent.c_str(), name.str().c_str(),
-                attribute.type_name().str().c_str(), text.c_str());
+          attribute.type_name().str().c_str(), text.c_str());
   }
 }
 
 void print_metadata(const stage::Prim& prim, const std::string& indent) {
   for (const auto& [field, value] : prim.all_authored_metadata()) {
     if (field != "specifier" && field != "typeName") {
-      print("%s  (%s = %s)\n", indent.c_str(), field.c_str(),
-                  formats::value_text(value).c_str());
+      print("%s  (%s = %s)\n", indent.c_str(), field.c_str(), formats::value_text(value).c_str());
     }
   }
 }
 
-void print_tree(const stage::Stage& stage, const Options& options) {
+void print_tree(const stage::Stage& stage, const TreeArguments& options) {
   print("/\n");
   std::vector<Branch> open;
   auto push_children = [&](const stage::Prim& prim, const std::string& indent) {
@@ -98,7 +88,7 @@ void print_tree(const stage::Stage& stage, const Options& options) {
     const Branch branch = open.back();
     open.pop_back();
     print("%s%s%s [%s]\n", branch.indent.c_str(), branch.last ? "`--" : "|--",
-                branch.prim.name().str().c_str(), prim_words(branch.prim).c_str());
+          branch.prim.name().str().c_str(), prim_words(branch.prim).c_str());
     const std::string below = branch.indent + (branch.last ? "   " : "|  ");
     if (options.metadata) {
       print_metadata(branch.prim, below);
@@ -110,21 +100,7 @@ void print_tree(const stage::Stage& stage, const Options& options) {
   }
 }
 
-Json tree_json(const stage::Stage& stage) {
-  Json prims = Json::array();
-  walk_prims(stage.pseudo_root(), [&](const stage::Prim& prim) {
-    if (!prim.is_pseudo_root()) {
-      prims.push_back({{"path", prim.path().str()},
-                       {"specifier", specifier_word(prim.specifier())},
-                       {"type", prim.type_name().str()},
-                       {"active", prim.is_active()},
-                       {"instance", prim.is_instance()}});
-    }
-  });
-  return prims;
-}
-
-int run_tree(const Globals& globals, const Options& options) {
+int run_tree(const Globals& globals, const TreeArguments& options) {
   Report report(globals, "tree", options.asset.asset);
   auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
   if (!stage) {
@@ -132,16 +108,17 @@ int run_tree(const Globals& globals, const Options& options) {
   }
   Json body = Json::object();
   if (!options.kinematic && globals.json) {
-    body["prims"] = tree_json(*stage);
+    body["prims"] = answers::tree_json(*stage);
   } else if (!options.kinematic) {
     print_tree(*stage, options);
   }
   if (options.kinematic) {
-    const physics::PhysicsScene scene = physics::read_physics(*stage, {}, report.diagnostics);
-    const KinematicTree tree = make_kinematic_tree(scene);
-    body["kinematicTree"] = kinematic_json(scene, tree);
+    const scene::PhysicsScene scene =
+        physics::read_physics(*stage, read_options(), report.diagnostics);
+    const scene::JointForest forest = scene::joint_forest(scene);
+    body["kinematicTree"] = answers::forest_json(scene, forest);
     if (!globals.json) {
-      print_text(kinematic_text(scene, tree));
+      print_text(forest_text(scene, forest));
     }
   }
   return report.finish(kOk, body);
@@ -149,7 +126,7 @@ int run_tree(const Globals& globals, const Options& options) {
 
 /// `--physics` without a value is the older way to write `--show physics`. In `tree --physics A`
 /// what stands behind it is the asset.
-void untangle_physics(Options& options, const Option& physics) {
+void untangle_physics(TreeArguments& options, const Option& physics) {
   const bool bare = physics.given() && options.asset.physics.empty();
   options.kinematic = options.show == "physics" || bare;
   if (options.assets.empty() && !options.asset.physics.empty()) {
@@ -163,7 +140,7 @@ void untangle_physics(Options& options, const Option& physics) {
 void add_tree(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb =
       parent.add_subcommand("tree", "The prim tree, or with --show physics that of the bodies");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TreeArguments>();
   options->asset.add_several_to(verb, options->assets);
   verb.option("assets").required(false);
   const Option physics = verb.option("--physics");
@@ -180,12 +157,6 @@ void add_tree(const Command& parent, const Globals& globals, Chosen& chosen) {
       "  tenon tree hand.usda --show physics --physics physx");
   choose(verb, chosen, [&globals, options, physics] {
     untangle_physics(*options, physics);
-    if (options->assets.empty()) {
-      Report report(globals, "tree", "");
-      return report.fail(Error(ErrorCode::Invalid, "tenon tree: no asset is given")
-                             .with_rule("usage.missing-argument")
-                             .with_fix("see `tenon tree --help`"));
-    }
     return each_asset(globals, "tree", options->assets,
                       [&](const Globals& inner, const auto& name) {
                         options->asset.asset = name;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "cli/verb.h"
+#include "tenon/base/assignment.h"
 
 namespace tenon::cli {
 

@@ -6,10 +6,12 @@
 #include <optional>
 
 #include "cli/output.h"
-#include "cli/prim_walk.h"
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/answers/variants_json.h"
 #include "tenon/bake/over_specs.h"
+#include "tenon/base/assignment.h"
+#include "tenon/base/shown_path.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/save_layer.h"
@@ -19,7 +21,7 @@
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct VariantArguments {
   AssetArguments asset;
   std::string assignment;
   std::string prim;
@@ -27,23 +29,11 @@ struct Options {
   bool in_place = false;
 };
 
-Json variants_json(const stage::Stage& stage, const std::string& only) {
-  Json variants = Json::array();
-  walk_prims(stage.pseudo_root(), [&](const stage::Prim& prim) {
-    if (only.empty() || prim.path().str() == only) {
-      add_variants(prim, variants);
-    }
-  });
-  return variants;
-}
-
 void print_variants(const Json& variants) {
   for (const auto& v : variants) {
-    print("%s  %s\n", v["prim"].get<std::string>().c_str(),
-                v["set"].get<std::string>().c_str());
+    print("%s  %s\n", v["prim"].get<std::string>().c_str(), v["set"].get<std::string>().c_str());
     for (const auto& option : v["options"]) {
-      print("  %s %s\n", option == v["selection"] ? "*" : " ",
-                  option.get<std::string>().c_str());
+      print("  %s %s\n", option == v["selection"] ? "*" : " ", option.get<std::string>().c_str());
     }
   }
 }
@@ -55,7 +45,7 @@ struct Selection {
 };
 
 /// Checks that the prim, the set and the variant exist, and says what does exist otherwise.
-Result<Selection> find_selection(const stage::Stage& stage, const Options& options) {
+Result<Selection> find_selection(const stage::Stage& stage, const VariantArguments& options) {
   TENON_TRY(auto assignment, split_assignment(options.assignment));
   const stage::Prim prim =
       options.prim.empty() ? stage.default_prim() : stage.prim(Path::from(options.prim));
@@ -112,7 +102,7 @@ Result<std::optional<std::string>> edited_text(const layer::Layer& edited, Repor
 
 /// The contents of the file to be written.
 Result<std::string> with_selection_written(const layer::Layer& layer, const Selection& selection,
-                                           const Options& options, Report& report) {
+                                           const VariantArguments& options, Report& report) {
   namespace fs = std::filesystem;
   const std::string output = options.in_place ? layer.identifier() : options.output;
   const bool same_folder = output != "-" && fs::absolute(output).parent_path().lexically_normal() ==
@@ -157,9 +147,9 @@ Result<std::string> with_selection_written(const layer::Layer& layer, const Sele
   return formats::encode_layer(changed, wanted);
 }
 
-Result<Selection> select(const Options& options, Outputs& outputs, Report& report) {
-  TENON_TRY(const stage::Stage stage, open_stage(options.asset.asset, options.asset.open_options(),
-                                                 report.diagnostics));
+Result<Selection> select(const VariantArguments& options, Outputs& outputs, Report& report) {
+  TENON_TRY(const stage::Stage stage,
+            open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics));
   TENON_TRY(Selection selection, find_selection(stage, options));
   const layer::Layer& layer = stage.root_layer();
   TENON_TRY(std::string contents, with_selection_written(layer, selection, options, report));
@@ -168,19 +158,19 @@ Result<Selection> select(const Options& options, Outputs& outputs, Report& repor
   return selection;
 }
 
-int list_variants(Report& report, const Options& options) {
+int list_variants(Report& report, const VariantArguments& options) {
   auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }
-  const Json variants = variants_json(*stage, options.prim);
+  const Json variants = answers::variants_json(*stage, options.prim);
   if (!report.json()) {
     print_variants(variants);
   }
   return report.finish(kOk, {{"variants", variants}});
 }
 
-int run_variant(const Globals& globals, const Options& options) {
+int run_variant(const Globals& globals, const VariantArguments& options) {
   Report report(globals, "variant", options.asset.asset);
   if (options.assignment.empty()) {
     return list_variants(report, options);
@@ -214,7 +204,7 @@ int run_variant(const Globals& globals, const Options& options) {
 
 void add_variant(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand("variant", "List variant sets, or author a selection");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VariantArguments>();
   options->asset.add_to(verb);
   verb.add_option("selection", options->assignment, "SET=VARIANT; without it all sets are listed");
   verb.add_option("--prim", options->prim, "The prim with the set; without it the default prim");

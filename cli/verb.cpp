@@ -84,12 +84,4 @@ OpenOptions AssetArguments::open_options() const {
   return options;
 }
 
-Result<std::pair<std::string, std::string>> split_assignment(const std::string& text) {
-  const std::size_t at = text.find('=');
-  if (at == std::string::npos || at == 0) {
-    return Error(ErrorCode::Invalid, "\"" + text + "\" is not of the form NAME=VALUE");
-  }
-  return std::pair(text.substr(0, at), text.substr(at + 1));
-}
-
 }  // namespace tenon::cli

@@ -10,7 +10,6 @@
 
 #include "cli/command_line.h"
 #include "cli/file_access.h"
-#include "tenon/base/result.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/tenon.h"
 
@@ -95,8 +94,5 @@ AddVerb add_zip;
 /// The verb dump-index under the name `name`, with variant fallbacks for where none are given.
 void add_index_dump(const Command& parent, const std::string& name, const std::string& fallbacks,
                     const Globals& globals, Chosen& chosen);
-
-/// "NAME=VALUE" taken apart at the first '='.
-Result<std::pair<std::string, std::string>> split_assignment(const std::string& text);
 
 }  // namespace tenon::cli

@@ -5,7 +5,8 @@
 #include "cli/output.h"
 #include "cli/report.h"
 #include "cli/verb.h"
-#include "cli/where_opinions.h"
+#include "cli/where_text.h"
+#include "tenon/answers/where_opinions.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -13,28 +14,29 @@ namespace {
 
 constexpr const char* kPhysics = "Physics";
 
-struct Options {
+struct WhereArguments {
   AssetArguments asset;
   std::string object;
+  std::optional<double> time;
   bool variants = false;
 };
 
-struct Object {
+struct SoughtObject {
   Path prim;
   Token property;  ///< empty: the prim itself
 };
 
-Result<Object> parse_object(const std::string& text) {
+Result<SoughtObject> parse_object(const std::string& text) {
   const auto path = Path::parse(text);
   if (!path || !path->is_absolute() || path->has_variants() ||
       !(path->is_prim_or_root() || path->kind() == PathKind::Property)) {
     return Error(ErrorCode::Invalid, "\"" + text + "\" is not the path of a prim or property")
         .with_fix("write it from the root, as in /hand/palm.physics:mass");
   }
-  return path->is_property() ? Object{path->parent(), path->name()} : Object{*path, {}};
+  return path->is_property() ? SoughtObject{path->parent(), path->name()} : SoughtObject{*path, {}};
 }
 
-Result<stage::Prim> find(const stage::Stage& stage, const Object& object) {
+Result<stage::Prim> find(const stage::Stage& stage, const SoughtObject& object) {
   const stage::Prim prim = stage.prim(object.prim);
   if (!prim) {
     return Error(ErrorCode::NotFound, "there is no prim <" + object.prim.str() + ">")
@@ -52,8 +54,8 @@ Result<stage::Prim> find(const stage::Stage& stage, const Object& object) {
 }
 
 /// Opinions under the variants of "Physics" that are not selected.
-Result<void> add_variants(const stage::Stage& stage, const Object& object, const Options& options,
-                          Json& answer) {
+Result<void> add_variants(const stage::Stage& stage, const SoughtObject& object,
+                          const WhereArguments& options, Json& answer) {
   const stage::Prim root = stage.default_prim();
   if (!root) {
     return {};
@@ -67,14 +69,15 @@ Result<void> add_variants(const stage::Stage& stage, const Object& object, const
     Diagnostics known;  // the first stage has reported them
     TENON_TRY(const stage::Stage other, open_stage(options.asset.asset, open, known));
     if (const stage::Prim prim = other.prim(object.prim)) {
-      add_other_variant(answer, where_json(other, prim, object.property),
-                        std::string(kPhysics) + "=" + variant);
+      answers::add_other_variant(answer,
+                                 answers::where_json(other, prim, object.property, options.time),
+                                 std::string(kPhysics) + "=" + variant);
     }
   }
   return {};
 }
 
-int run_where(const Globals& globals, const Options& options) {
+int run_where(const Globals& globals, const WhereArguments& options) {
   Report report(globals, "where", options.asset.asset);
   const auto object = parse_object(options.object);
   if (!object) {
@@ -88,7 +91,7 @@ int run_where(const Globals& globals, const Options& options) {
   if (!prim) {
     return report.fail(prim.error());
   }
-  Json answer = where_json(*stage, *prim, object->property);
+  Json answer = answers::where_json(*stage, *prim, object->property, options.time);
   if (options.variants) {
     if (auto added = add_variants(*stage, *object, options, answer); !added) {
       return report.fail(added.error());
@@ -105,10 +108,12 @@ int run_where(const Globals& globals, const Options& options) {
 void add_where(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
       "where", "Every file that speaks about a property or prim, and which of them counts");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<WhereArguments>();
   options->asset.add_with_standard_input_to(verb);
   verb.add_option("object", options->object, "PRIM.property, or PRIM for its own fields")
       .required();
+  verb.add_option("--time", options->time, {-1e9, 1e9, false, false, ""},
+                  "The time code of what counts at times");
   verb.add_flag("--variants", options->variants,
                 "Also what other variants of \"Physics\" would bring in");
   verb.footer(

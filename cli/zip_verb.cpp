@@ -8,6 +8,7 @@
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/asset_policy.h"
+#include "tenon/base/shown_path.h"
 #include "tenon/bytes/zip_archive.h"
 #include "tenon/pack_asset.h"
 #include "tenon/stage_sources.h"
@@ -16,7 +17,7 @@
 namespace tenon::cli {
 namespace {
 
-struct Options {
+struct ZipArguments {
   std::string asset;
   std::string output;
   std::string folder;
@@ -42,11 +43,11 @@ void note_files(const Report& report, const std::vector<formats::PackedFile>& fi
   }
 }
 
-int pack(Report& report, const Options& options) {
+int pack(Report& report, const ZipArguments& options) {
   const OpenOptions open = options.files.open_options();
   if (options.output.empty()) {
-    return report.fail(Error(ErrorCode::Invalid, "say where to write the package")
-                           .with_fix("give -o NAME.usdz"));
+    return report.fail(
+        Error(ErrorCode::Invalid, "say where to write the package").with_fix("give -o NAME.usdz"));
   }
   Outputs outputs;
   if (auto claimed = outputs.claim(OutputKind::Package, options.output); !claimed) {
@@ -83,7 +84,7 @@ int pack(Report& report, const Options& options) {
                         {"files", std::move(files)}});
 }
 
-Result<std::shared_ptr<const bytes::FileBytes>> open_package(const Options& options) {
+Result<std::shared_ptr<const bytes::FileBytes>> open_package(const ZipArguments& options) {
   const bytes::AssetResolver resolver(resolver_options(options.files.open_options()));
   TENON_TRY(auto contents, resolver.open(options.asset));
   if (!bytes::ZipArchive::is_zip(contents->text())) {
@@ -94,7 +95,7 @@ Result<std::shared_ptr<const bytes::FileBytes>> open_package(const Options& opti
   return contents;
 }
 
-Result<bytes::ZipArchive> open_archive(const Options& options) {
+Result<bytes::ZipArchive> open_archive(const ZipArguments& options) {
   TENON_TRY(auto contents, open_package(options));
   auto archive = bytes::ZipArchive::open(std::move(contents));
   if (!archive) {
@@ -110,7 +111,7 @@ Result<std::size_t> data_offset(const bytes::FileBytes& file, const bytes::ZipAr
   return static_cast<std::size_t>(contents->text().data() - file.text().data());
 }
 
-int list(Report& report, const Options& options) {
+int list(Report& report, const ZipArguments& options) {
   const auto file = open_package(options);
   if (!file) {
     return report.fail(file.error());
@@ -126,9 +127,9 @@ int list(Report& report, const Options& options) {
     const bool aligned = offset && *offset % 64 == 0;
     if (!report.json()) {
       print("%12llu  %s%s\n", static_cast<unsigned long long>(entry.size), entry.name.c_str(),
-                  !stored    ? "  (not stored: readers reject it)"
-                  : !aligned ? "  (not at a multiple of 64 bytes)"
-                             : "");
+            !stored    ? "  (not stored: readers reject it)"
+            : !aligned ? "  (not at a multiple of 64 bytes)"
+                       : "");
     }
     entries.push_back({{"name", entry.name},
                        {"size", entry.size},
@@ -139,7 +140,7 @@ int list(Report& report, const Options& options) {
   return report.finish(kOk, {{"files", std::move(entries)}});
 }
 
-int extract(Report& report, const Options& options) {
+int extract(Report& report, const ZipArguments& options) {
   auto archive = open_archive(options);
   if (!archive) {
     return report.fail(archive.error());
@@ -155,10 +156,10 @@ int extract(Report& report, const Options& options) {
   return report.finish(kOk, {{"folder", options.folder}, {"files", std::move(files)}});
 }
 
-int run_zip(const Globals& globals, const Options& options) {
+int run_zip(const Globals& globals, const ZipArguments& options) {
   Report report(globals, "zip", options.asset);
-  const Progress progress(globals, (options.folder.empty() ? "packing " : "unpacking ") +
-                                       shown_path(options.asset));
+  const Progress progress(
+      globals, (options.folder.empty() ? "packing " : "unpacking ") + shown_path(options.asset));
   const int ways =
       (options.list ? 1 : 0) + (options.folder.empty() ? 0 : 1) + (options.output.empty() ? 0 : 1);
   if (ways > 1) {
@@ -175,7 +176,7 @@ int run_zip(const Globals& globals, const Options& options) {
 void add_zip(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
       "zip", "Pack an asset with all its variants into one .usdz; list, unpack");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ZipArguments>();
   verb.add_option("asset", options->asset, "A USD file; with --list or --extract a .usdz")
       .required()
       .file_only();

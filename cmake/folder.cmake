@@ -8,7 +8,7 @@
 # folders of their own). Its dependencies are read from tenon/folders.txt. With TENON_DEVELOPER it
 # also makes
 #   tenon_<folder>_test      all *_test.cpp, each TEST registered with ctest under the label `unit`
-#   tenon_<folder>_headers   compiles every header without a source file alone
+#   tenon_<folder>_headers   compiles every header without a source file alone, unless TENON_UNITY
 # A folder without any .cpp becomes an interface library.
 function(tenon_folder folder)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;WITHOUT")
@@ -34,6 +34,7 @@ function(tenon_folder folder)
     add_library(${library} STATIC ${sources})
     target_compile_options(${library} PRIVATE -fno-exceptions -fno-rtti)
     tenon_precompile(${library} folder)
+    tenon_unity(${library})
     target_link_libraries(${library} PUBLIC tenon_flags ${dependencies} ${arg_LIBRARIES})
   else()
     add_library(${library} INTERFACE)
@@ -76,6 +77,9 @@ endfunction()
 # One generated .cpp per header that includes only this header, compiled into an object library. A
 # header with a source file beside it needs none: the source includes it first, a test holds that.
 function(tenon_header_check library headers)
+  if(TENON_UNITY)
+    return()
+  endif()
   set(units)
   foreach(header IN LISTS headers)
     string(REGEX REPLACE "\\.h$" ".cpp" source ${header})

@@ -4,8 +4,14 @@
 # program gives false reports with standard containers.
 if(TENON_SANITIZE)
   # The library has no run-time type information, so its objects cannot be checked for it (vptr).
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize=vptr -fno-sanitize-recover=all
-                      -fno-omit-frame-pointer)
+  set(tenon_unchecked vptr)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # Two fifths of GCC's time for what the address sanitizer stops (null) or this processor allows
+    # (alignment). The preset `fuzz`, with clang, checks both.
+    string(APPEND tenon_unchecked ,null,alignment)
+  endif()
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize=${tenon_unchecked}
+                      -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
 endif()
 if(TENON_COVERAGE)

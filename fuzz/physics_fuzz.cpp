@@ -22,7 +22,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   tenon::Diagnostics diagnostics;
-  const tenon::physics::PhysicsScene scene = tenon::physics::read_physics(*stage, {}, diagnostics);
+  tenon::physics::ReadOptions options;
+  options.mesh_tools = tenon::scene::MeshTools{};  // libraries of others have fuzzers of their own
+  const tenon::scene::PhysicsScene scene =
+      tenon::physics::read_physics(*stage, options, diagnostics);
   for (const auto& body : scene.bodies) {
     if (!std::isfinite(body.mass)) {
       std::abort();

@@ -136,8 +136,7 @@ Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& opti
   TENON_TRY(auto stage, compose_stage(sources, options));
   if (!options.overrides.empty()) {
     // The types of the attributes are known only once the stage is composed.
-    TENON_TRY(sources.session,
-              with_overrides(sources.session, stage, options.overrides, formats::read_text));
+    TENON_TRY(sources.session, with_overrides(sources.session, stage, options.overrides));
     TENON_TRY(stage, compose_stage(sources, options));
   }
   if (options.layer_units) {

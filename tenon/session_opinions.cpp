@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
+
+#include "tenon/layer/field_values.h"
+#include "tenon/property_value.h"
 
 namespace tenon {
 namespace {
@@ -34,68 +38,29 @@ layer::Spec& over(layer::Layer& layer, Path path) {
   return layer.create(path, layer::SpecKind::Prim);
 }
 
-struct Assignment {
-  Path property;
-  std::string value;
-};
-
-Result<Assignment> read_assignment(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals != std::string::npos) {
-    auto path = Path::parse(text.substr(0, equals));
-    if (path && path->is_absolute() && path->kind() == PathKind::Property) {
-      return Assignment{*path, text.substr(equals + 1)};
-    }
+/// The spec that gives a property of the stage its value.
+Result<layer::Spec> override_of(const stage::Stage& stage, const PropertyAssignment& assignment) {
+  const Path owner = assignment.property.parent();
+  const stage::Prim prim = stage.prim(owner);
+  if (!prim) {
+    return Error(ErrorCode::NotFound, "there is no prim " + owner.str())
+        .with_rule("edit.no-prim")
+        .with_prim(owner.str())
+        .with_fix("look at `tenon tree` for what there is");
   }
-  return Error(ErrorCode::Invalid, "`" + text + "` does not say what to set")
-      .with_fix("write PATH.attribute=VALUE, as in /World/Scene.physics:gravityMagnitude=1.62");
-}
-
-std::string quoted(const std::string& type, const std::string& value) {
-  const bool text = type == "token" || type == "string";
-  if (text && !value.starts_with('"') && !value.starts_with('\'')) {
-    std::string result = "\"";
-    for (const char c : value) {
-      result += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
-    }
-    return result + "\"";
+  TENON_TRY(PropertyValue property, read_property_value(prim, assignment, nullptr));
+  layer::Spec spec;
+  spec.kind = property.is_relationship ? layer::SpecKind::Relationship : layer::SpecKind::Attribute;
+  if (property.is_relationship) {
+    spec.set(fields::targetPaths,
+             layer::Value(layer::ListOp<Path>::make_explicit(std::move(property.targets))));
+    return spec;
   }
-  return type == "asset" && !value.starts_with('@') ? "@" + value + "@" : value;
-}
-
-Result<std::string> declaration(const stage::Stage& stage, const Assignment& assignment) {
-  const Path path = assignment.property;
-  const stage::Prim prim = stage.prim(path.parent());
-  const Token name = path.name();
-  if (!prim || !prim.has_property(name)) {
-    return Error(ErrorCode::NotFound, prim ? "the prim has no property `" + name.str() + "`"
-                                           : "there is no prim " + path.parent().str())
-        .with_prim(path.parent().str())
-        .with_fix("look at `tenon tree --attributes` for what there is");
+  spec.set(fields::typeName, layer::Value(property.type_name));
+  if (property.variability != layer::Variability::Varying) {
+    spec.set(fields::variability, layer::Value(property.variability));
   }
-  if (prim.is_relationship(name)) {
-    return "rel " + name.str() + " = " + assignment.value;
-  }
-  const stage::Attribute attribute = prim.attribute(name);
-  const std::string type = attribute.type_name().str();
-  const bool uniform = attribute.variability() == layer::Variability::Uniform;
-  return (uniform ? "uniform " : "") + type + " " + name.str() + " = " +
-         quoted(type, assignment.value);
-}
-
-Result<layer::Spec> read_property(const Assignment& assignment, const std::string& text,
-                                  const TextReader& read_text) {
-  Diagnostics diagnostics;
-  auto snippet = read_text("#usda 1.0\nover \"P\"\n{\n    " + text + "\n}\n", "", diagnostics);
-  const Path path = Path::from("/P").property(assignment.property.name());
-  const layer::Spec* found = snippet ? snippet->find(path) : nullptr;
-  if (found == nullptr) {
-    return Error(ErrorCode::Invalid, "`" + assignment.value + "` cannot be read as a value of " +
-                                         assignment.property.str())
-        .with_fix("write it as a text layer would: " + text);
-  }
-  layer::Spec spec = *found;
-  spec.line = spec.column = 0;
+  spec.set(fields::default_value, std::move(property.value));
   return spec;
 }
 
@@ -119,13 +84,11 @@ Result<layer::LayerPtr> with_variant(const layer::LayerPtr& session, const layer
 }
 
 Result<layer::LayerPtr> with_overrides(const layer::LayerPtr& session, const stage::Stage& stage,
-                                       const std::vector<std::string>& assignments,
-                                       const TextReader& read_text) {
+                                       const std::vector<std::string>& assignments) {
   layer::Layer layer = copy_of(session);
   for (const std::string& text : assignments) {
-    TENON_TRY(const Assignment assignment, read_assignment(text));
-    TENON_TRY(const std::string declared, declaration(stage, assignment));
-    TENON_TRY(layer::Spec spec, read_property(assignment, declared, read_text));
+    TENON_TRY(const PropertyAssignment assignment, read_assignment(text));
+    TENON_TRY(layer::Spec spec, override_of(stage, assignment));
     const Path path = assignment.property;
     layer::Spec& prim = over(layer, path.parent());
     add_name(prim, fields::properties, path.name());

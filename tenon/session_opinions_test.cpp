@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/session_opinions.h"
 
-#include <gtest/gtest.h>
-
 #include <memory>
+
+#include <gtest/gtest.h>
 
 #include "tenon/formats/text/reader.h"
 
@@ -66,10 +66,10 @@ TEST(SessionOpinions, AVariantIsSelectedOnTheDefaultPrim) {
 TEST(SessionOpinions, OverridesAreReadInTheTypeOfTheAttribute) {
   const layer::LayerPtr root = read(kScene);
   const stage::Stage before = open(root, nullptr);
-  const std::vector<std::string> assignments{"/W.mode=y\"z", "/W.v=(1, 2, 3)",
+  const std::vector<std::string> assignments{"/W.mode=y\"z",  "/W.v=(1, 2, 3)",
                                              "/W.file=a.png", "/W.moving=5",
                                              "/W.to=</W>",    "/W.visibility=invisible"};
-  const auto session = with_overrides(nullptr, before, assignments, formats::read_text);
+  const auto session = with_overrides(nullptr, before, assignments);
   ASSERT_TRUE(session) << session.error().to_string();
   const stage::Stage stage = open(root, *session);
   const stage::Prim prim = stage.default_prim();
@@ -87,12 +87,12 @@ TEST(SessionOpinions, WhatCannotBeSetIsAnError) {
     const char* assignment;
     ErrorCode code;
   } cases[] = {
-      {"/W.v", ErrorCode::Invalid},        {"/W=3", ErrorCode::Invalid},
-      {"/W.v=wrong", ErrorCode::Invalid},  {"/X.v=3", ErrorCode::NotFound},
+      {"/W.v", ErrorCode::Invalid},          {"/W=3", ErrorCode::Invalid},
+      {"/W.v=wrong", ErrorCode::Invalid},    {"/X.v=3", ErrorCode::NotFound},
       {"/W.nothing=3", ErrorCode::NotFound}, {"W.v=(1,2,3)", ErrorCode::Invalid},
   };
   for (const auto& c : cases) {
-    const auto session = with_overrides(nullptr, stage, {c.assignment}, formats::read_text);
+    const auto session = with_overrides(nullptr, stage, {c.assignment});
     ASSERT_FALSE(session) << c.assignment;
     EXPECT_EQ(session.error().code(), c.code) << c.assignment;
     EXPECT_FALSE(session.error().diagnostic().fix.empty()) << c.assignment;

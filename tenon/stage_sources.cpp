@@ -35,10 +35,7 @@ Result<compose::ComposeOptions> compose_options(const OpenOptions& options,
   compose::ComposeOptions result;
   result.load_payloads = options.load_payloads && options.load.empty();
   result.variant_fallbacks = options.variant_fallbacks;
-  if (options.most_work != 0) {
-    result.most_work = options.most_work;
-    result.most_work_per_spec = 0;
-  }
+  result.set_most_work(options.most_work);
   for (const std::string& text : options.load) {
     TENON_TRY(const Path path, parse_prim_path(text, "the path to load"));
     result.loaded.insert(path);

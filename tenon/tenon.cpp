@@ -27,7 +27,7 @@ std::span<const engines::Engine> built_engines() {
 std::vector<engines::EngineInfo> list_engines() { return engines::list_engines(built_engines()); }
 
 Result<std::unique_ptr<engines::Simulation>> make_simulation(
-    const std::string& engine, const physics::PhysicsScene& scene,
+    const std::string& engine, const scene::PhysicsScene& scene,
     const engines::SimulationOptions& options, Diagnostics& diagnostics) {
   return engines::make_simulation(built_engines(), engine, scene, options, diagnostics);
 }

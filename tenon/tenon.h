@@ -15,7 +15,7 @@
 #include "tenon/engines/engines.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/layer/layer.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
 /// The short path for users: the only place that wires files, composition and engines together.
@@ -82,7 +82,7 @@ std::vector<engines::EngineInfo> list_engines();
 
 /// A simulation of `scene` (which must outlive it) on the engine of that name.
 Result<std::unique_ptr<engines::Simulation>> make_simulation(
-    const std::string& engine, const physics::PhysicsScene& scene,
+    const std::string& engine, const scene::PhysicsScene& scene,
     const engines::SimulationOptions& options, Diagnostics& diagnostics);
 
 }  // namespace tenon

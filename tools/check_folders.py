@@ -20,7 +20,7 @@ USERS = ("cli/", "worker/", "tests/", "bench/", "fuzz/")
 # Libraries that only some files may name: pattern of the include -> patterns of the files.
 LIBRARIES = {
     "tl/*": ["tenon/base/result.h"],
-    "Eigen/*": ["tenon/math/*.cpp", "tenon/physics/*.cpp"],
+    "Eigen/*": ["tenon/math/*.cpp"],
     "meshoptimizer.h": ["tenon/approximate/*.cpp"],
     "lz4*.h": ["tenon/bytes/*.cpp"],
     "mujoco/*": [
@@ -32,7 +32,7 @@ LIBRARIES = {
     "pugixml.hpp": ["tenon/asset/mjcf_files.cpp", "tenon/urdf/*"],
     "assimp/*": ["tenon/mesh/assimp_scene.cpp"],
     "CLI/*": ["cli/command_line.cpp"],
-    "nlohmann/*": ["cli/*", "tests/*", "bench/*"],
+    "nlohmann/*": ["tenon/answers/*", "cli/*", "tests/*", "bench/*"],
 }
 
 

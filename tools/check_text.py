@@ -24,7 +24,8 @@ ADDRESS = re.compile(r"\b(?!package:|model:)[a-z]+://([A-Za-z0-9.-]+)")  # ROS's
 # Hosts that a file may name. Where packages come from is the user's own configuration.
 HOSTS = {"www.apache.org", "spdx.org", "openusd.org", "aousd.org", "mujoco.org",
          "mujoco.readthedocs.io", "docs.isaacsim.omniverse.nvidia.com", "github.com",
-         "json.schemastore.org", "git-lfs.github.com"}
+         "json.schemastore.org", "git-lfs.github.com",
+         "json-schema.org"}
 
 
 def check_lines(path, text):

@@ -52,6 +52,8 @@ def mutants(name, program, start, more=()):
 
 def judgements():
     """All of them, in the order in which they are run."""
+    yield Judgement("separate_files", ["cmake", "-E", "echo", "every source compiles alone"],
+                    "separate")
     yield Judgement("kill_runs", ["{python}", "-B", "tests/output/kill_runs.py",
                                   ".", "build/release/bin/tenon", "--runs", "50", "--pairs", "20"],
                     "release")

@@ -125,8 +125,7 @@ void rest() { alarm(0); }
 void allow_more(std::uint64_t size) {
   size = std::min(size, limits::kGuardMemoryMost);
   if (kBoundsAddresses) {
-    set_limit(RLIMIT_AS, soft_limit(RLIMIT_AS) + size * limits::kGuardMemoryPerByte,
-              RLIM_INFINITY);
+    set_limit(RLIMIT_AS, soft_limit(RLIMIT_AS) + size * limits::kGuardMemoryPerByte, RLIM_INFINITY);
   }
   set_limit(RLIMIT_CPU, soft_limit(RLIMIT_CPU) + size / limits::kGuardBytesPerSecond,
             RLIM_INFINITY);

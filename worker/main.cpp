@@ -12,8 +12,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "tenon/base/wire.h"
 #include "tenon/guard/messages.h"
-#include "tenon/guard/wire.h"
 #include "tenon/mesh/assimp_scene.h"
 #include "tenon/robot/robot_model.h"
 #include "worker/confine.h"
@@ -96,7 +96,7 @@ guard::Task next_task() {
   }
   std::string bytes(size, '\0');
   read_all(bytes.data(), bytes.size());
-  std::optional<guard::Task> task = guard::decoded<guard::Task>(bytes);
+  std::optional<guard::Task> task = wire::decoded<guard::Task>(bytes);
   if (!task) {
     leave(WorkerExit::BadTask);
   }
@@ -124,13 +124,13 @@ void reply(Result<T> result, const Diagnostics& findings, const guard::Allowance
   answer.findings = taken(findings);
   answer.refused = take_refused();
   answer.opened = take_opened();
-  const std::uint64_t size = guard::encoded_size(answer);
+  const std::uint64_t size = wire::encoded_size(answer);
   if (size > allowance.reply_bytes) {
     leave(WorkerExit::LongReply);
   }
   ParentSink sink;
-  guard::encode(sink, size);
-  guard::encode(sink, answer);
+  wire::encode(sink, size);
+  wire::encode(sink, answer);
 }
 
 guard::AboutWorker about(const guard::Confinement& confinement) {

@@ -49,8 +49,8 @@ void* tenon_aligned_alloc(std::size_t alignment, std::size_t size) __asm__("alig
 void* tenon_aligned_alloc(std::size_t alignment, std::size_t size) {
   return there(__libc_memalign(alignment, size), size);
 }
-int tenon_posix_memalign(void** at, std::size_t alignment, std::size_t size) __asm__(
-    "posix_memalign");
+int tenon_posix_memalign(void** at, std::size_t alignment,
+                         std::size_t size) __asm__("posix_memalign");
 int tenon_posix_memalign(void** at, std::size_t alignment, std::size_t size) {
   *at = there(__libc_memalign(alignment, size), size);
   return 0;

@@ -32,8 +32,8 @@ struct Held {
   std::vector<std::string> roots;
   std::vector<std::string> refused;
   std::vector<std::string> opened;
-  std::set<std::string, std::less<>> allowed;    // names that were looked at
-  std::set<std::pair<dev_t, ino_t>> counted;     // files that memory and time were given for
+  std::set<std::string, std::less<>> allowed;  // names that were looked at
+  std::set<std::pair<dev_t, ino_t>> counted;   // files that memory and time were given for
 };
 
 Held& held() {
@@ -47,8 +47,7 @@ bool lies_in(std::string_view path, std::string_view root) {
 }
 
 int refuse(Held& all, const char* path) {
-  const bool is_new =
-      std::find(all.refused.begin(), all.refused.end(), path) == all.refused.end();
+  const bool is_new = std::find(all.refused.begin(), all.refused.end(), path) == all.refused.end();
   if (is_new && all.refused.size() < kMostRefused) {
     all.refused.emplace_back(path);
   }
@@ -74,13 +73,12 @@ int verdict(const char* path, int flags) {
   }
   const std::string real = resolved;
   std::free(resolved);
-  struct stat facts {};
+  struct stat facts{};
   if (stat(real.c_str(), &facts) != 0) {
     return errno;
   }
-  const bool inside =
-      std::any_of(all.roots.begin(), all.roots.end(),
-                  [&](const std::string& root) { return lies_in(real, root); });
+  const bool inside = std::any_of(all.roots.begin(), all.roots.end(),
+                                  [&](const std::string& root) { return lies_in(real, root); });
   if (S_ISDIR(facts.st_mode)) {
     return inside ? 0 : EACCES;  // looked for only, and no loss
   }

@@ -41,16 +41,14 @@ Ruleset all_of(int version) {
   return rules;
 }
 
-std::size_t size_of(int version) {
-  return version >= 6 ? 24 : version >= 4 ? 16 : 8;
-}
+std::size_t size_of(int version) { return version >= 6 ? 24 : version >= 4 ? 16 : 8; }
 
 bool allow_reading(int ruleset, const std::string& root) {
   const int folder = open(root.c_str(), O_PATH | O_CLOEXEC);
   if (folder < 0) {
     return false;
   }
-  struct stat facts {};
+  struct stat facts{};
   const bool known = fstat(folder, &facts) == 0;
   landlock_path_beneath_attr rule{};
   rule.allowed_access = known && S_ISDIR(facts.st_mode) ? kReadFile | kReadFolder : kReadFile;
@@ -69,8 +67,8 @@ int restrict_files(const std::vector<std::string>& roots) {
     return 0;
   }
   const Ruleset rules = all_of(version);
-  const auto ruleset = static_cast<int>(
-      syscall(SYS_landlock_create_ruleset, &rules, size_of(version), 0));
+  const auto ruleset =
+      static_cast<int>(syscall(SYS_landlock_create_ruleset, &rules, size_of(version), 0));
   if (ruleset < 0) {
     return 0;
   }

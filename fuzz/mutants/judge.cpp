@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/mutants/judge.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <csignal>
 #include <cstring>
@@ -12,6 +10,8 @@
 #include <iterator>
 #include <string_view>
 #include <utility>
+
+#include <sys/resource.h>
 
 namespace tenon::fuzz {
 namespace {

@@ -86,8 +86,8 @@ const Library& library() {
 }
 
 /// Points and triangles of one piece; empty where its numbers are not usable.
-physics::TriangleMesh piece_of(const CoacdMesh& raw) {
-  physics::TriangleMesh piece;
+scene::TriangleMesh piece_of(const CoacdMesh& raw) {
+  scene::TriangleMesh piece;
   for (std::uint64_t i = 0; i < raw.vertex_count; ++i) {
     const double* v = raw.vertices + 3 * i;
     if (!std::isfinite(v[0] + v[1] + v[2])) {
@@ -107,10 +107,10 @@ physics::TriangleMesh piece_of(const CoacdMesh& raw) {
   return piece;
 }
 
-std::vector<physics::TriangleMesh> pieces_of(const CoacdMeshes& raw) {
-  std::vector<physics::TriangleMesh> pieces;
+std::vector<scene::TriangleMesh> pieces_of(const CoacdMeshes& raw) {
+  std::vector<scene::TriangleMesh> pieces;
   for (std::uint64_t i = 0; i < raw.count; ++i) {
-    physics::TriangleMesh piece = piece_of(raw.meshes[i]);
+    scene::TriangleMesh piece = piece_of(raw.meshes[i]);
     if (piece.points.size() >= 4) {
       pieces.push_back(std::move(piece));
     }
@@ -128,8 +128,8 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:CoACD_run"; 
 
 bool coacd_is_there() { return library().run != nullptr && library().free != nullptr; }
 
-std::vector<physics::TriangleMesh> coacd_pieces(const physics::TriangleMesh& mesh, int most,
-                                                int vertices) {
+std::vector<scene::TriangleMesh> coacd_pieces(const scene::TriangleMesh& mesh, int most,
+                                              int vertices) {
   if (!coacd_is_there()) {
     return {};
   }
@@ -146,7 +146,7 @@ std::vector<physics::TriangleMesh> coacd_pieces(const physics::TriangleMesh& mes
     // The library's own defaults, but for the two limits and the removal of corners beyond them.
     const CoacdMeshes found = library().run(&raw, 0.05, most, 0, 50, 2000, 20, 150, 3, false, true,
                                             true, vertices, false, 0.01, 0, 0, false);
-    std::vector<physics::TriangleMesh> pieces = pieces_of(found);
+    std::vector<scene::TriangleMesh> pieces = pieces_of(found);
     library().free(found);
     return pieces;
   } catch (...) {

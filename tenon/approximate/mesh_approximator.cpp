@@ -15,14 +15,14 @@
 namespace tenon::approximate {
 namespace {
 
-using Pieces = std::vector<physics::TriangleMesh>;
+using Pieces = std::vector<scene::TriangleMesh>;
 
 /// Pieces by the content of meshes: in memory for this run, on disk for the next.
 struct Decomposer {
   PieceCache cache;
   std::map<std::string, Pieces> known{};
 
-  Pieces pieces(const physics::TriangleMesh& mesh, int most, int vertices) {
+  Pieces pieces(const scene::TriangleMesh& mesh, int most, int vertices) {
     const std::string key = piece_key(mesh, most, vertices);
     const auto [at, is_new] = known.try_emplace(key);
     if (!is_new) {
@@ -54,16 +54,19 @@ LibraryInfo decomposition_library() {
   return info;
 }
 
-physics::MeshTools mesh_tools(const ApproximateOptions& options) {
-  physics::MeshTools tools;
+scene::MeshTools mesh_tools(const ApproximateOptions& options) {
+  scene::MeshTools tools;
   tools.simplify = simplified;
-  if (coacd_is_there()) {
-    const auto decomposer =
-        std::make_shared<Decomposer>(Decomposer{PieceCache(options.cache_folder)});
-    tools.decompose = [decomposer](const physics::TriangleMesh& mesh, int most, int vertices) {
-      return decomposer->pieces(mesh, most, vertices);
-    };
-  }
+  // The library is loaded by the first mesh that asks: that costs more than most assets do.
+  const auto decomposer =
+      std::make_shared<Decomposer>(Decomposer{PieceCache(options.cache_folder)});
+  tools.decompose = [decomposer](const scene::TriangleMesh& mesh, int most,
+                                 int vertices) -> std::optional<Pieces> {
+    if (!coacd_is_there()) {
+      return std::nullopt;
+    }
+    return decomposer->pieces(mesh, most, vertices);
+  };
   return tools;
 }
 

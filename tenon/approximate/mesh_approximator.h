@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tenon/physics/mesh_tools.h"
+#include "tenon/scene/mesh_tools.h"
 
 /// Meshes taken apart into convex pieces and thinned out, by libraries (S-62).
 namespace tenon::approximate {
@@ -24,8 +24,8 @@ struct ApproximateOptions {
   std::string cache_folder;
 };
 
-/// The tools that there are: `decompose` is empty where CoACD is not available.
-physics::MeshTools mesh_tools(const ApproximateOptions& options);
+/// Both tools; `decompose` answers nothing where CoACD is not available.
+scene::MeshTools mesh_tools(const ApproximateOptions& options);
 
 /// $XDG_CACHE_HOME/tenon/pieces or ~/.cache/tenon/pieces; empty when neither is known.
 std::string default_cache_folder();

@@ -11,8 +11,8 @@
 #include <system_error>
 #include <utility>
 
-#include "tenon/bytes/file_transaction.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/file_transaction.h"
 
 namespace tenon::approximate {
 namespace {
@@ -27,7 +27,7 @@ void put(T number, std::string& bytes) {
   bytes.append(raw, sizeof(T));
 }
 
-void put_mesh(const physics::TriangleMesh& mesh, std::string& bytes) {
+void put_mesh(const scene::TriangleMesh& mesh, std::string& bytes) {
   put<std::uint64_t>(mesh.points.size(), bytes);
   put<std::uint64_t>(mesh.triangles.size(), bytes);
   for (const Vec3d& p : mesh.points) {
@@ -59,8 +59,8 @@ struct Reader {
     return number;
   }
 
-  physics::TriangleMesh mesh() {
-    physics::TriangleMesh result;
+  scene::TriangleMesh mesh() {
+    scene::TriangleMesh result;
     const auto points = take<std::uint64_t>();
     const auto triangles = take<std::uint64_t>();
     failed = failed || points > bytes.size() / 24 || triangles > bytes.size() / 12;
@@ -92,7 +92,7 @@ std::string name_of(const std::string& key) {
 
 }  // namespace
 
-std::string piece_key(const physics::TriangleMesh& mesh, int most, int vertices) {
+std::string piece_key(const scene::TriangleMesh& mesh, int most, int vertices) {
   static_assert(std::endian::native == std::endian::little);
   std::string key = kMethod;
   put<std::int32_t>(most, key);
@@ -101,7 +101,7 @@ std::string piece_key(const physics::TriangleMesh& mesh, int most, int vertices)
   return key;
 }
 
-std::optional<std::vector<physics::TriangleMesh>> PieceCache::find(const std::string& key) const {
+std::optional<std::vector<scene::TriangleMesh>> PieceCache::find(const std::string& key) const {
   if (folder_.empty()) {
     return std::nullopt;
   }
@@ -114,7 +114,7 @@ std::optional<std::vector<physics::TriangleMesh>> PieceCache::find(const std::st
     return std::nullopt;
   }
   Reader reader{bytes.substr(key.size())};
-  std::vector<physics::TriangleMesh> pieces;
+  std::vector<scene::TriangleMesh> pieces;
   for (auto count = reader.take<std::uint64_t>(); count > 0 && !reader.failed; --count) {
     pieces.push_back(reader.mesh());
   }
@@ -125,7 +125,7 @@ std::optional<std::vector<physics::TriangleMesh>> PieceCache::find(const std::st
 }
 
 void PieceCache::keep(const std::string& key,
-                      const std::vector<physics::TriangleMesh>& pieces) const {
+                      const std::vector<scene::TriangleMesh>& pieces) const {
   if (folder_.empty()) {
     return;
   }
@@ -133,7 +133,7 @@ void PieceCache::keep(const std::string& key,
   std::filesystem::create_directories(folder_, fault);
   std::string contents = key;
   put<std::uint64_t>(pieces.size(), contents);
-  for (const physics::TriangleMesh& piece : pieces) {
+  for (const scene::TriangleMesh& piece : pieces) {
     put_mesh(piece, contents);
   }
   // A folder that cannot be written costs time at the next run, nothing else.

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::approximate {
 
@@ -18,14 +18,14 @@ class PieceCache {
  public:
   explicit PieceCache(std::string folder) : folder_(std::move(folder)) {}
 
-  std::optional<std::vector<physics::TriangleMesh>> find(const std::string& key) const;
-  void keep(const std::string& key, const std::vector<physics::TriangleMesh>& pieces) const;
+  std::optional<std::vector<scene::TriangleMesh>> find(const std::string& key) const;
+  void keep(const std::string& key, const std::vector<scene::TriangleMesh>& pieces) const;
 
  private:
   std::string folder_;  // empty: nothing is kept
 };
 
 /// The bytes that tell meshes apart: how they are taken apart, then points and triangles.
-std::string piece_key(const physics::TriangleMesh& mesh, int most, int vertices);
+std::string piece_key(const scene::TriangleMesh& mesh, int most, int vertices);
 
 }  // namespace tenon::approximate

@@ -13,11 +13,10 @@ namespace {
 constexpr float kError = 0.01f;  // of the size of the mesh
 
 /// Drops points that no triangle uses.
-physics::TriangleMesh compact(const physics::TriangleMesh& mesh,
-                              const std::vector<unsigned>& corners) {
+scene::TriangleMesh compact(const scene::TriangleMesh& mesh, const std::vector<unsigned>& corners) {
   constexpr std::int32_t kUnused = -1;
   std::vector<std::int32_t> place(mesh.points.size(), kUnused);
-  physics::TriangleMesh result;
+  scene::TriangleMesh result;
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     Vec3i& t = result.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
@@ -34,7 +33,7 @@ physics::TriangleMesh compact(const physics::TriangleMesh& mesh,
 
 }  // namespace
 
-physics::TriangleMesh simplified(const physics::TriangleMesh& mesh) {
+scene::TriangleMesh simplified(const scene::TriangleMesh& mesh) {
   std::vector<float> points;
   std::vector<unsigned> corners;
   for (const Vec3d& p : mesh.points) {

@@ -57,7 +57,8 @@ Result<Run> run_once(const std::string& path, const CheckOptions& options,
     run.selection = prim.variant_selection(kPhysics);
   }
   run.found.variant = variant.empty() ? run.selection : variant;
-  run.found.findings = check::check_stage(stage, opening.items(), options.rules, options.readings);
+  run.found.findings =
+      check::check_stage(stage, opening.items(), options.rules, read_options(options.readings));
   if (!options.profile.empty()) {
     TENON_TRY(const structure::AssetFiles files, asset_files(path, options.open));
     add_findings(structure::check_files(files), options.rules, run.found.findings);

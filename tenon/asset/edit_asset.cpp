@@ -28,7 +28,7 @@ namespace fields = layer::fields;
 using Kind = AssetEdit::Kind;
 using StagePtr = std::shared_ptr<const stage::Stage>;
 
-constexpr const char* kPhysics = "Physics";
+constexpr const char* kVariantSet = "Physics";
 
 /// The asset under one selection of the set "Physics".
 struct Selection {
@@ -59,10 +59,7 @@ Result<void> check_object(const AssetEdit& edit) {
   if (fits && path.is_absolute() && !path.has_variants()) {
     return {};
   }
-  return Error(ErrorCode::Invalid, "<" + path.str() + "> is not a path of a " +
-                                       (edit.is_about_api() ? "prim" : "property"))
-      .with_rule("edit.bad-path")
-      .with_fix("write it from the root, as in /hand/palm.physics:mass");
+  return not_a_path(path.str(), edit.is_about_api() ? "prim" : "property");
 }
 
 /// One layer changed by one edit.
@@ -70,7 +67,7 @@ class Author {
  public:
   Author(layer::Layer& layer, const stage::LayerSite& site) : editor_(layer), site_(site) {}
 
-  Result<Path> run(const AssetEdit& edit, const TypedEdit& typed) {
+  Result<Path> run(const AssetEdit& edit, const PropertyValue& typed) {
     if (edit.kind == Kind::ClearProperty) {
       return clear(site_.path.property(edit.object.name()));
     }
@@ -86,7 +83,7 @@ class Author {
   }
 
  private:
-  Result<Path> set_value(Path path, const TypedEdit& typed) {
+  Result<Path> set_value(Path path, const PropertyValue& typed) {
     if (!editor_.layer().has(path)) {
       TENON_CHECK(editor_.create_attribute(path, typed.type_name, typed.variability, typed.custom));
     }
@@ -94,7 +91,7 @@ class Author {
     return path;
   }
 
-  Result<Path> set_targets(Path path, const TypedEdit& typed) {
+  Result<Path> set_targets(Path path, const PropertyValue& typed) {
     const std::string layer = editor_.layer().identifier();
     const edit::EditTarget target = edit::node_target(*site_.index, site_.node, layer);
     std::vector<Path> targets;
@@ -162,10 +159,7 @@ class Author {
 class AssetEditor {
  public:
   AssetEditor(const std::string& path, const EditOptions& options, Diagnostics& diagnostics)
-      : path_(path),
-        options_(options),
-        diagnostics_(diagnostics),
-        work_(options.open.most_work) {}
+      : path_(path), options_(options), diagnostics_(diagnostics), work_(options.open.most_work) {}
 
   /// Composes the asset under all variants, to know its files.
   Result<void> open() {
@@ -175,8 +169,8 @@ class AssetEditor {
     diagnostics_.append(first->diagnostics());  // an edit of what is not there counts for nothing
     const stage::Prim root = first->default_prim();
     if (root && options_.open.physics_variant.empty()) {
-      selections_.front().shown = root.variant_selection(kPhysics);
-      for (const std::string& variant : root.variant_names(kPhysics)) {
+      selections_.front().shown = root.variant_selection(kVariantSet);
+      for (const std::string& variant : root.variant_names(kVariantSet)) {
         if (variant != selections_.front().shown) {
           selections_.push_back({variant, variant});
         }
@@ -249,7 +243,8 @@ class AssetEditor {
     }
     TENON_TRY(sources.root, sources.registry->open_root(path_));
     if (!selection.variant.empty()) {
-      TENON_TRY(sources.session, with_variant(nullptr, *sources.root, kPhysics, selection.variant));
+      TENON_TRY(sources.session,
+                with_variant(nullptr, *sources.root, kVariantSet, selection.variant));
     }
     stage::StageOptions stage_options;
     TENON_TRY(stage_options.compose, compose_options(options_.open, *sources.root));
@@ -279,7 +274,7 @@ class AssetEditor {
                       const stage::Stage& stage, const stage::LayerSite& site) {
     const stage::Prim prim = stage.prim(edit.object.prim());
     auto changed = std::make_shared<layer::Layer>(*layers_.at(file.layer));
-    TypedEdit typed;
+    PropertyValue typed;
     EditedPlace place;
     if (!edit.is_about_api()) {
       TENON_TRY(typed,
@@ -299,7 +294,7 @@ class AssetEditor {
 
   /// Composes again and looks whether the scene is now as it was asked for, wherever the file
   /// counts: first as the asset opens, or else in the first variant that has the file.
-  Result<void> prove(const AssetEdit& edit, const TypedEdit& typed, EditedPlace& place) {
+  Result<void> prove(const AssetEdit& edit, const PropertyValue& typed, EditedPlace& place) {
     bool first = true;
     for (const Selection& selection : selections_) {
       TENON_TRY(const StagePtr stage, composed(selection));
@@ -328,7 +323,7 @@ class AssetEditor {
     return {};
   }
 
-  void warn_of_samples(const stage::Prim& prim, const AssetEdit& edit, const TypedEdit& typed) {
+  void warn_of_samples(const stage::Prim& prim, const AssetEdit& edit, const PropertyValue& typed) {
     const bool samples = !typed.is_relationship &&
                          prim.attribute(edit.object.name()).value_source(stage::Time(0.0)) !=
                              prim.attribute(edit.object.name()).value_source();

@@ -72,7 +72,7 @@ class ImageCopier {
 
 }  // namespace
 
-Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const physics::PhysicsScene& scene,
+Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const scene::PhysicsScene& scene,
                                  const std::string& folder, const bytes::ReadPolicy& policy,
                                  Diagnostics& diagnostics) {
   robot::RobotModel visuals = describe::describe_visuals(stage, scene, diagnostics);
@@ -94,7 +94,7 @@ Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const physics::Physi
   return result;
 }
 #else
-Result<ExportedMjcf> export_mjcf(const stage::Stage&, const physics::PhysicsScene&,
+Result<ExportedMjcf> export_mjcf(const stage::Stage&, const scene::PhysicsScene&,
                                  const std::string&, const bytes::ReadPolicy&, Diagnostics&) {
   return Error(ErrorCode::Missing, "MuJoCo writes MJCF, and this build is without it")
       .with_fix("build with -DTENON_WITH_MUJOCO=ON");

@@ -8,7 +8,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/read_policy.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon {
@@ -22,7 +22,7 @@ struct ExportedMjcf {
 /// (mjcf/write_model.h): images are copied into `folder`, a name relative to the text, as
 /// far as `policy` allows. What MJCF
 /// has no word for goes to `diagnostics`. ErrorCode::Missing in a build without MuJoCo.
-Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const physics::PhysicsScene& scene,
+Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const scene::PhysicsScene& scene,
                                  const std::string& folder, const bytes::ReadPolicy& policy,
                                  Diagnostics& diagnostics);
 

@@ -27,7 +27,7 @@ std::string obj_of(const robot::MeshFile& mesh) {
 
 Result<ExportedUrdf> export_urdf(const stage::Stage& stage, const std::string& folder,
                                  Diagnostics& diagnostics) {
-  const physics::PhysicsScene scene = physics::read_physics(stage, read_options(), diagnostics);
+  const scene::PhysicsScene scene = physics::read_physics(stage, read_options(), diagnostics);
   TENON_TRY(robot::RobotModel model, describe::describe_robot(stage, scene, diagnostics));
   ExportedUrdf result;
   std::map<std::string, std::string> name_of;  // by content

@@ -51,9 +51,9 @@ Result<structure::StructuredAsset> structure_asset(const std::string& path, cons
   plain.session_path.clear();
   TENON_TRY(const StageSources sources, open_sources(path, plain));
   const bytes::ReadPolicy policy = policy_for(path, open);
-  TENON_TRY(structure::StructuredAsset asset,
-            structure::make_package(source_of(sources, policy, open.most_work), options,
-                                    diagnostics));
+  TENON_TRY(
+      structure::StructuredAsset asset,
+      structure::make_package(source_of(sources, policy, open.most_work), options, diagnostics));
   for (const std::string& layer : sources.registry->opened()) {
     name_outside_layer(layer, sources.root->identifier(), policy, diagnostics);
   }

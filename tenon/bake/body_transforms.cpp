@@ -6,10 +6,10 @@
 
 namespace tenon::bake {
 
-BodyTransforms::BodyTransforms(const stage::Stage& stage, const physics::PhysicsScene& scene)
+BodyTransforms::BodyTransforms(const stage::Stage& stage, const scene::PhysicsScene& scene)
     : meters_per_unit_(scene.meters_per_unit) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const physics::Body& body = scene.bodies[i];
+    const scene::Body& body = scene.bodies[i];
     Placed placed;
     placed.prim = stage.prim(body.path);
     const Mat4d world = body.instance ? body.instance->world

@@ -7,7 +7,7 @@
 
 #include "tenon/bake/pose_recording.h"
 #include "tenon/math/matrix.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::bake {
@@ -18,7 +18,7 @@ namespace tenon::bake {
 /// or something above it is a body, moves the child's frame (S-25).
 class BodyTransforms {
  public:
-  BodyTransforms(const stage::Stage& stage, const physics::PhysicsScene& scene);
+  BodyTransforms(const stage::Stage& stage, const scene::PhysicsScene& scene);
 
   /// Local transform of body `i` so that all bodies stand at the poses of `frame`; stage units.
   /// `code` is the stage time of the frame, for what else is animated.

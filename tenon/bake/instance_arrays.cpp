@@ -31,12 +31,11 @@ void report(const stage::Prim& prim, const std::string& why, Diagnostics& diagno
 }
 
 /// Instancers with bodies that move, by path.
-std::map<Path, Instancer> instancers_of(const stage::Stage& stage,
-                                        const physics::PhysicsScene& scene,
+std::map<Path, Instancer> instancers_of(const stage::Stage& stage, const scene::PhysicsScene& scene,
                                         Diagnostics& diagnostics) {
   std::map<Path, Instancer> found;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const physics::Body& body = scene.bodies[i];
+    const scene::Body& body = scene.bodies[i];
     if (!body.instance || body.kinematic) {
       continue;
     }
@@ -60,18 +59,18 @@ std::map<Path, Instancer> instancers_of(const stage::Stage& stage,
 }
 
 /// The arrays of all instances, where they are drawn or not, at the start.
-struct Frame {
+struct Placement {
   std::vector<Vec3f> positions;
   std::vector<Quatf> orientations;
 };
 
-void put(const Pose& pose, std::size_t i, Frame& frame) {
+void put(const Pose& pose, std::size_t i, Placement& frame) {
   frame.positions[i] = to_float(pose.position);
   frame.orientations[i] = to_float(pose.orientation);
 }
 
-Frame start_of(const Instancer& instancer) {
-  Frame frame;
+Placement start_of(const Instancer& instancer) {
+  Placement frame;
   const std::vector<Pose>& poses = instancer.reading.poses;
   frame.positions.resize(poses.size());
   frame.orientations.resize(poses.size());
@@ -96,7 +95,7 @@ Pose placement_of(const Mat4d& body_to_top, const Mat4d& world, const Mat4d& ins
 
 class ArrayWriter {
  public:
-  ArrayWriter(const stage::Stage& stage, const physics::PhysicsScene& scene,
+  ArrayWriter(const stage::Stage& stage, const scene::PhysicsScene& scene,
               const PoseRecording& recording, const BodyTransforms& transforms, layer::Layer& layer)
       : stage_(stage),
         scene_(scene),
@@ -107,7 +106,7 @@ class ArrayWriter {
   void write(const Instancer& instancer) {
     layer::TimeSamples positions;
     layer::TimeSamples orientations;
-    Frame frame = start_of(instancer);
+    Placement frame = start_of(instancer);
     for (std::size_t i = 0; i < recording_.frame_count(); ++i) {
       const double code =
           scene_.start_time_code + recording_.times[i] * scene_.time_codes_per_second;
@@ -127,14 +126,14 @@ class ArrayWriter {
   }
 
  private:
-  void place(const Instancer& instancer, std::size_t at, double code, Frame& frame) const {
+  void place(const Instancer& instancer, std::size_t at, double code, Placement& frame) const {
     const Mat4d world = transforms_.world_of_prim(instancer.prim, recording_, at, code);
     for (const physics::ArrayInstance& instance : instancer.reading.instances) {
       const auto body = instancer.body_of.find(instance.index);
       if (body == instancer.body_of.end()) {
         continue;
       }
-      const physics::InstanceSource& source = *scene_.bodies[body->second].instance;
+      const scene::InstanceSource& source = *scene_.bodies[body->second].instance;
       const Mat4d in_instance =
           stage::local_to_ancestor(stage_.prim(source.prim), source.prototype.parent(), code);
       const Pose pose =
@@ -145,7 +144,7 @@ class ArrayWriter {
   }
 
   const stage::Stage& stage_;
-  const physics::PhysicsScene& scene_;
+  const scene::PhysicsScene& scene_;
   const PoseRecording& recording_;
   const BodyTransforms& transforms_;
   layer::Layer& layer_;
@@ -153,7 +152,7 @@ class ArrayWriter {
 
 }  // namespace
 
-void write_instance_arrays(const stage::Stage& stage, const physics::PhysicsScene& scene,
+void write_instance_arrays(const stage::Stage& stage, const scene::PhysicsScene& scene,
                            const PoseRecording& recording, const BodyTransforms& transforms,
                            layer::Layer& layer, Diagnostics& diagnostics) {
   Diagnostics said;  // while the scene was read

@@ -6,7 +6,7 @@
 #include "tenon/bake/pose_recording.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/layer/layer.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::bake {
@@ -15,7 +15,7 @@ namespace tenon::bake {
 /// samples of positions and orientationsf, scales left alone; velocities, which would move the
 /// positions between samples, are blocked (S-38). What arrays cannot hold is left out with a
 /// warning (bake.instanced-body): several bodies in one instance, instancers inside instances.
-void write_instance_arrays(const stage::Stage& stage, const physics::PhysicsScene& scene,
+void write_instance_arrays(const stage::Stage& stage, const scene::PhysicsScene& scene,
                            const PoseRecording& recording, const BodyTransforms& transforms,
                            layer::Layer& layer, Diagnostics& diagnostics);
 

@@ -10,7 +10,7 @@ namespace {
 using engines::BodyState;
 using engines::JointState;
 using engines::Simulation;
-using physics::Index;
+using scene::Index;
 
 /// States of everything at one time.
 struct Frame {
@@ -49,7 +49,7 @@ JointState mix(const JointState& a, const JointState& b, double t) {
 
 class Recorder {
  public:
-  Recorder(const Simulation& simulation, const physics::PhysicsScene& scene,
+  Recorder(const Simulation& simulation, const scene::PhysicsScene& scene,
            const RunOptions& options, StateRecording& recording)
       : simulation_(simulation), recording_(recording), rate_(options.frames_per_second) {
     recording_.body_count = scene.bodies.size();
@@ -134,12 +134,13 @@ PoseRecording StateRecording::poses() const {
   return result;
 }
 
-Run run_simulation(Simulation& simulation, const physics::PhysicsScene& scene,
+Run run_simulation(Simulation& simulation, const scene::PhysicsScene& scene,
                    const RunOptions& options) {
   Run run;
   const double step = simulation.time_step();
   const auto count = static_cast<std::size_t>(std::llround(options.duration / step));
   run.initial_energy = simulation.energy();
+  run.time = simulation.time();
   Recorder recorder(simulation, scene, options, run.recording);
   while (run.steps < count) {
     if (run.steps % kStepsBetweenQuestions == 0 && options.go_on &&
@@ -154,11 +155,11 @@ Run run_simulation(Simulation& simulation, const physics::PhysicsScene& scene,
     }
     recorder.after_step();
     ++run.steps;
+    run.time = simulation.time();
   }
   if (!run.failure) {
     recorder.finish();
   }
-  run.time = simulation.time();
   run.final_energy = simulation.energy();
   return run;
 }

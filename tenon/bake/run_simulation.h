@@ -8,7 +8,7 @@
 #include "tenon/bake/state_recording.h"
 #include "tenon/base/error.h"
 #include "tenon/engines/simulation.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::bake {
 
@@ -22,7 +22,7 @@ struct RunOptions {
 struct Run {
   StateRecording recording;
   std::size_t steps = 0;
-  double time = 0;  ///< [s] simulated
+  double time = 0;  ///< [s] after the last step that succeeded
   engines::Energy initial_energy;
   engines::Energy final_energy;
   bool interrupted = false;
@@ -31,7 +31,7 @@ struct Run {
 
 /// Steps the simulation for the duration and records frames at the given rate. A frame between two
 /// steps is interpolated (linear, slerp); the last frame is the exact final state.
-Run run_simulation(engines::Simulation& simulation, const physics::PhysicsScene& scene,
+Run run_simulation(engines::Simulation& simulation, const scene::PhysicsScene& scene,
                    const RunOptions& options);
 
 }  // namespace tenon::bake

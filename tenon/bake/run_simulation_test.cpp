@@ -24,11 +24,11 @@ class MadeUpMotion : public engines::Simulation {
   }
   double time() const override { return static_cast<double>(count_) * step_; }
   double time_step() const override { return step_; }
-  engines::BodyState body_state(physics::Index) const override {
+  engines::BodyState body_state(scene::Index) const override {
     const double t = time();
     return {{{{t * t, 0, 0}}, rotation_about({{0, 0, 1}}, t)}, {{2 * t, 0, 0}}, {{0, 0, 1}}};
   }
-  engines::JointState joint_state(physics::Index) const override { return {{time()}, {1}}; }
+  engines::JointState joint_state(scene::Index) const override { return {{time()}, {1}}; }
   engines::Energy energy() const override { return {time(), 1}; }
   std::size_t contact_count() const override { return 0; }
   std::size_t dof_count() const override { return 1; }
@@ -50,20 +50,20 @@ RunOptions options_of(double duration, double frames_per_second) {
   return options;
 }
 
-physics::PhysicsScene one_body() {
-  physics::PhysicsScene scene;
+scene::PhysicsScene one_body() {
+  scene::PhysicsScene scene;
   scene.bodies.resize(1);
   scene.bodies[0].path = Path::from("/A");
   scene.joints.resize(1);
   scene.joints[0].path = Path::from("/J");
-  scene.joints[0].kind = physics::JointKind::Revolute;
+  scene.joints[0].kind = scene::JointKind::Revolute;
   scene.meters_per_unit = 0.01;
   return scene;
 }
 
 TEST(RunSimulation, FramesStandAtMultiplesOfTheFrameTimeAndTheLastIsTheFinalState) {
   MadeUpMotion simulation(0.002);
-  const physics::PhysicsScene scene = one_body();
+  const scene::PhysicsScene scene = one_body();
   const bake::Run run = run_simulation(simulation, scene, options_of(0.5, 60));
   EXPECT_EQ(run.steps, 250u);
   ASSERT_EQ(run.recording.frame_count(), 31u);
@@ -81,7 +81,7 @@ TEST(RunSimulation, FramesStandAtMultiplesOfTheFrameTimeAndTheLastIsTheFinalStat
 
 TEST(RunSimulation, AnEndBetweenFramesIsRecordedToo) {
   MadeUpMotion simulation(0.01);
-  const physics::PhysicsScene scene = one_body();
+  const scene::PhysicsScene scene = one_body();
   const bake::Run run = run_simulation(simulation, scene, options_of(0.25, 10));
   ASSERT_EQ(run.recording.frame_count(), 4u);
   EXPECT_DOUBLE_EQ(run.recording.times.back(), 0.25);
@@ -89,16 +89,17 @@ TEST(RunSimulation, AnEndBetweenFramesIsRecordedToo) {
 
 TEST(RunSimulation, AFailureEndsTheRunAndIsKept) {
   MadeUpMotion simulation(0.01, 5);
-  const physics::PhysicsScene scene = one_body();
+  const scene::PhysicsScene scene = one_body();
   const bake::Run run = run_simulation(simulation, scene, options_of(1, 60));
   ASSERT_TRUE(run.failure.has_value());
   EXPECT_EQ(run.failure->code(), ErrorCode::Unstable);
   EXPECT_EQ(run.steps, 4u);
+  EXPECT_DOUBLE_EQ(run.time, 0.04) << "of the steps that succeeded";
 }
 
 TEST(RunSimulation, TheCallerMayStopIt) {
   MadeUpMotion simulation(0.01);
-  const physics::PhysicsScene scene = one_body();
+  const scene::PhysicsScene scene = one_body();
   RunOptions options;
   options.go_on = [](double seconds) { return seconds < 0.5; };
   const bake::Run run = run_simulation(simulation, scene, options);
@@ -108,7 +109,7 @@ TEST(RunSimulation, TheCallerMayStopIt) {
 
 TEST(WriteLog, ColumnsAreInStageUnitsAndDegrees) {
   MadeUpMotion simulation(0.5);
-  const physics::PhysicsScene scene = one_body();
+  const scene::PhysicsScene scene = one_body();
   const bake::Run run = run_simulation(simulation, scene, options_of(0.5, 2));
   const std::string csv = csv_log(scene, run.recording);
   EXPECT_EQ(csv.substr(0, csv.find('\n')),

@@ -8,9 +8,9 @@ namespace tenon::bake {
 namespace {
 
 /// Which coordinates of the joint are angles, in Dof order of its free axes.
-std::vector<bool> angular_axes(const physics::Joint& joint) {
-  using physics::Dof;
-  using physics::JointKind;
+std::vector<bool> angular_axes(const scene::Joint& joint) {
+  using scene::Dof;
+  using scene::JointKind;
   switch (joint.kind) {
     case JointKind::Revolute:
       return {true};
@@ -26,11 +26,11 @@ std::vector<bool> angular_axes(const physics::Joint& joint) {
   std::vector<bool> axes;
   for (const Dof dof : {Dof::TransX, Dof::TransY, Dof::TransZ, Dof::RotX, Dof::RotY, Dof::RotZ}) {
     bool free = true;
-    for (const physics::Limit& limit : joint.limits) {
+    for (const scene::Limit& limit : joint.limits) {
       free = free && !(limit.dof == dof && (limit.locked() || limit.lower == limit.upper));
     }
     if (free) {
-      axes.push_back(physics::is_angular(dof));
+      axes.push_back(scene::is_angular(dof));
     }
   }
   return axes;
@@ -39,7 +39,7 @@ std::vector<bool> angular_axes(const physics::Joint& joint) {
 }  // namespace
 
 engines::BodyState in_stage_units(const engines::BodyState& state,
-                                  const physics::PhysicsScene& scene) {
+                                  const scene::PhysicsScene& scene) {
   engines::BodyState result = state;
   result.pose.position *= 1 / scene.meters_per_unit;
   result.linear_velocity *= 1 / scene.meters_per_unit;
@@ -47,8 +47,8 @@ engines::BodyState in_stage_units(const engines::BodyState& state,
   return result;
 }
 
-engines::JointState in_stage_units(const engines::JointState& state, const physics::Joint& joint,
-                                   const physics::PhysicsScene& scene) {
+engines::JointState in_stage_units(const engines::JointState& state, const scene::Joint& joint,
+                                   const scene::PhysicsScene& scene) {
   engines::JointState result = state;
   const std::vector<bool> angular = angular_axes(joint);
   for (std::size_t i = 0; i < result.position.size(); ++i) {

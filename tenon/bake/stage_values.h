@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tenon/engines/simulation.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 /// States in the units that a stage is authored in, so that they can be put back (S-35): stage
 /// length units, degrees, seconds.
@@ -13,10 +13,10 @@ namespace tenon::bake {
 
 /// Positions in stage units, orientation as is, angular velocity in degrees per second.
 engines::BodyState in_stage_units(const engines::BodyState& state,
-                                  const physics::PhysicsScene& scene);
+                                  const scene::PhysicsScene& scene);
 
 /// Angular coordinates in degrees, linear ones in stage units.
-engines::JointState in_stage_units(const engines::JointState& state, const physics::Joint& joint,
-                                   const physics::PhysicsScene& scene);
+engines::JointState in_stage_units(const engines::JointState& state, const scene::Joint& joint,
+                                   const scene::PhysicsScene& scene);
 
 }  // namespace tenon::bake

@@ -12,7 +12,7 @@ namespace {
 
 using engines::BodyState;
 using engines::JointState;
-using physics::PhysicsScene;
+using scene::PhysicsScene;
 
 constexpr std::array<const char*, 3> kAxes = {".x", ".y", ".z"};
 
@@ -24,7 +24,7 @@ void name_columns(std::string& text, const std::string& path, const char* what) 
 
 std::string csv_header(const PhysicsScene& scene, const StateRecording& recording) {
   std::string text = "time";
-  for (const physics::Body& body : scene.bodies) {
+  for (const scene::Body& body : scene.bodies) {
     const std::string path = body.path.str();
     name_columns(text, path, ".position");
     text += "," + path + ".orientation.w";

@@ -6,27 +6,27 @@
 
 #include "tenon/bake/state_recording.h"
 #include "tenon/base/result.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::bake {
 
 /// One row per frame: time [s], then per body position, orientation (w, x, y, z), linear and
 /// angular velocity, then per joint its coordinates and their velocities; stage units and degrees.
 /// Columns are named PATH.position.x and so on.
-std::string csv_log(const physics::PhysicsScene& scene, const StateRecording& recording);
+std::string csv_log(const scene::PhysicsScene& scene, const StateRecording& recording);
 
 /// One JSON object per line: {"time", "bodies": {PATH: {...}}, "joints": {PATH: {...}}}, named as
 /// in the end state of `sim --json`.
-std::string jsonl_log(const physics::PhysicsScene& scene, const StateRecording& recording);
+std::string jsonl_log(const scene::PhysicsScene& scene, const StateRecording& recording);
 
 /// A NumPy archive: time (frame_count), body_paths, position (frame_count x body_count x 3),
 /// orientation (.. x 4), linear_velocity, angular_velocity (.. x 3), joint_paths, joint_offsets
 /// (joint_count + 1) into the second axis of joint_position and joint_velocity (frame_count x
 /// coordinate_count).
-Result<std::string> npz_log(const physics::PhysicsScene& scene, const StateRecording& recording);
+Result<std::string> npz_log(const scene::PhysicsScene& scene, const StateRecording& recording);
 
 /// The log for a file name ending in .csv, .jsonl or .npz; ErrorCode::Invalid for others.
-Result<std::string> log_for(const std::string& path, const physics::PhysicsScene& scene,
+Result<std::string> log_for(const std::string& path, const scene::PhysicsScene& scene,
                             const StateRecording& recording);
 
 }  // namespace tenon::bake

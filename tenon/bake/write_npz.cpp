@@ -79,7 +79,7 @@ void append(std::vector<double>& column, const Vec3d& v) {
   column.insert(column.end(), v.v.begin(), v.v.end());
 }
 
-BodyColumns body_columns(const physics::PhysicsScene& scene, const StateRecording& recording) {
+BodyColumns body_columns(const scene::PhysicsScene& scene, const StateRecording& recording) {
   BodyColumns columns;
   for (const engines::BodyState& state : recording.bodies) {
     const engines::BodyState s = in_stage_units(state, scene);
@@ -98,7 +98,7 @@ struct JointColumns {
   std::vector<std::int64_t> offsets = {0};
 };
 
-JointColumns joint_columns(const physics::PhysicsScene& scene, const StateRecording& recording) {
+JointColumns joint_columns(const scene::PhysicsScene& scene, const StateRecording& recording) {
   JointColumns columns;
   for (std::size_t i = 0; i < recording.joint_count; ++i) {
     const std::size_t count =
@@ -118,7 +118,7 @@ JointColumns joint_columns(const physics::PhysicsScene& scene, const StateRecord
 
 }  // namespace
 
-Result<std::string> npz_log(const physics::PhysicsScene& scene, const StateRecording& recording) {
+Result<std::string> npz_log(const scene::PhysicsScene& scene, const StateRecording& recording) {
   const std::size_t frames = recording.frame_count();
   const std::size_t bodies = recording.body_count;
   const BodyColumns body = body_columns(scene, recording);

@@ -13,7 +13,7 @@ namespace {
 
 using layer::Value;
 
-double code_of(const physics::PhysicsScene& scene, double seconds) {
+double code_of(const scene::PhysicsScene& scene, double seconds) {
   return scene.start_time_code + seconds * scene.time_codes_per_second;
 }
 
@@ -28,7 +28,7 @@ void copy_metadata(const stage::Stage& stage, Token name, layer::Spec& root) {
 }
 
 /// Metadata that a sublayer does not give to the stage on top of it.
-void write_metadata(const stage::Stage& stage, const physics::PhysicsScene& scene,
+void write_metadata(const stage::Stage& stage, const scene::PhysicsScene& scene,
                     const PoseRecording& recording, const BakeOptions& options,
                     layer::Layer& layer) {
   layer::Spec& root = layer.root();
@@ -61,7 +61,7 @@ void write_selections(const stage::Stage& stage, const BakeOptions& options, lay
 
 /// All samples of one body; false when its op stack cannot hold them.
 bool collect(const BodyTransforms& transforms, std::size_t body, const PoseRecording& recording,
-             const physics::PhysicsScene& scene, OpStack& stack) {
+             const scene::PhysicsScene& scene, OpStack& stack) {
   for (std::size_t frame = 0; frame < recording.frame_count(); ++frame) {
     const double code = code_of(scene, recording.times[frame]);
     if (!stack.add(code, transforms.local(body, recording, frame, code))) {
@@ -92,7 +92,7 @@ void take_apart(const stage::Prim& proxy, layer::Layer& layer) {
 
 }  // namespace
 
-layer::Layer write_time_samples(const stage::Stage& stage, const physics::PhysicsScene& scene,
+layer::Layer write_time_samples(const stage::Stage& stage, const scene::PhysicsScene& scene,
                                 const PoseRecording& recording, const BakeOptions& options,
                                 Diagnostics& diagnostics) {
   layer::Layer layer("bake.usda");

@@ -8,7 +8,7 @@
 #include "tenon/bake/pose_recording.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/layer/layer.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::bake {
@@ -27,7 +27,7 @@ struct BakeOptions {
 /// the asset is not touched. Bodies inside instances cannot be overridden (S-123): an error names
 /// them (bake.instanced-body), unless the instances are taken apart. Kinematic bodies keep their
 /// authored animation (S-27).
-layer::Layer write_time_samples(const stage::Stage& stage, const physics::PhysicsScene& scene,
+layer::Layer write_time_samples(const stage::Stage& stage, const scene::PhysicsScene& scene,
                                 const PoseRecording& recording, const BakeOptions& options,
                                 Diagnostics& diagnostics);
 

@@ -31,17 +31,17 @@ struct StatementPart {
 /// Empty strings and zero numbers mean "unknown".
 struct Diagnostic {
   Severity severity = Severity::Error;
-  std::string rule;      ///< stable dotted id, for example "joint.body-missing"
-  std::string message;   ///< one sentence that names the offending value
-  std::string file;      ///< layer identifier as the user would type it
-  std::uint32_t line = 0;    ///< 1-based
-  std::uint32_t column = 0;  ///< 1-based, in bytes
-  std::string prim;      ///< prim path
-  std::string property;  ///< property name without the prim path
-  std::string fix;       ///< what the user can do, an imperative phrase
+  std::string rule;              ///< stable dotted id, for example "joint.body-missing"
+  std::string message;           ///< one sentence that names the offending value
+  std::string file;              ///< layer identifier as the user would type it
+  std::uint32_t line = 0;        ///< 1-based
+  std::uint32_t column = 0;      ///< 1-based, in bytes
+  std::string prim;              ///< prim path
+  std::string property;          ///< property name without the prim path
+  std::string fix;               ///< what the user can do, an imperative phrase
   std::uint32_t end_line = 0;    ///< of the byte behind what the finding is about
   std::uint32_t end_column = 0;  ///< of the same
-  StatementPart part{};  ///< what to look up a closer place for
+  StatementPart part{};          ///< what to look up a closer place for
 
   /// `FILE:LINE:COL: severity: message [rule]` followed by prim and fix, unknown parts left out.
   std::string to_string() const;

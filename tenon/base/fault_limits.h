@@ -6,7 +6,7 @@
 
 namespace tenon::limits {
 
-inline constexpr std::size_t kTextFaults = 20;  ///< faults told about a text layer
+inline constexpr std::size_t kTextFaults = 20;         ///< faults told about a text layer
 inline constexpr std::size_t kStageFindings = 10'000;  ///< of composing a stage
 
 /// Bytes that are looked at again, to find the items that findings of one text layer are about.

@@ -140,22 +140,22 @@ class NodeTable {
   std::size_t count_ = 0;
 };
 
-constexpr std::size_t kShardCount = 16;
-constexpr std::size_t kRecentCount = 512;
+constexpr std::size_t kNodeShards = 16;
+constexpr std::size_t kRecentNodes = 512;
 constexpr std::uint32_t kDepthMask = (1u << 22u) - 1;
 
 /// Nodes below one parent are kept together.
 const PathNode* intern(const PathNode& node) {
-  static auto* tables = new std::array<NodeTable, kShardCount>();
-  const std::size_t shard = (mix(1, node.parent) >> 40) % kShardCount;
+  static auto* tables = new std::array<NodeTable, kNodeShards>();
+  const std::size_t shard = (mix(1, node.parent) >> 40) % kNodeShards;
   return (*tables)[shard].intern(node, hash_of(node));
 }
 
 /// The same for one who walks through what is below a parent: what this thread asked for last there
 /// and what was made after it are found without a look into the table.
 const PathNode* intern_below(const PathNode& node) {
-  thread_local std::array<const PathNode*, kRecentCount> recent{};
-  const PathNode*& last = recent[node.parent->number % kRecentCount];
+  thread_local std::array<const PathNode*, kRecentNodes> recent{};
+  const PathNode*& last = recent[node.parent->number % kRecentNodes];
   if (last != nullptr) {
     if (same(*last, node)) {
       return last;

@@ -108,7 +108,7 @@ std::string unescaped(std::string_view raw) {
   }
 }
 
-std::string quoted(std::string_view text) {
+std::string quoted_text(std::string_view text) {
   const bool has_double = text.find('"') != std::string_view::npos;
   const char quote = has_double && text.find('\'') == std::string_view::npos ? '\'' : '"';
   const bool triple = text.find('\n') != std::string_view::npos;

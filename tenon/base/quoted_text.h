@@ -10,7 +10,7 @@ namespace tenon {
 
 /// In quotes, escaped: single quotes when the text holds double ones only, three of them when it
 /// has several lines. Ends at a NUL.
-std::string quoted(std::string_view text);
+std::string quoted_text(std::string_view text);
 
 /// What stands between the quotes, with its escapes resolved.
 std::string unescaped(std::string_view raw);

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tl/expected.hpp>
 #include <type_traits>
 #include <utility>
+
+#include <tl/expected.hpp>
 
 #include "tenon/base/error.h"
 
@@ -36,11 +37,11 @@ class [[nodiscard]] Result : public tl::expected<T, Error> {
   TENON_TRY_NAMED(TENON_CONCAT(tenon_try_, __COUNTER__), declaration, expression)
 
 /// The same for Result<void>.
-#define TENON_CHECK(expression)                                              \
-  do {                                                                       \
-    if (auto tenon_check_result = (expression); !tenon_check_result) {       \
-      return std::move(tenon_check_result).error();                          \
-    }                                                                        \
+#define TENON_CHECK(expression)                                        \
+  do {                                                                 \
+    if (auto tenon_check_result = (expression); !tenon_check_result) { \
+      return std::move(tenon_check_result).error();                    \
+    }                                                                  \
   } while (false)
 
 }  // namespace tenon

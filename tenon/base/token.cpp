@@ -56,17 +56,17 @@ class TextTable {
   std::vector<Slot> slots_;
 };
 
-constexpr std::size_t kShardCount = 32;  // so that threads seldom wait for each other
-constexpr std::size_t kRecentCount = 512;
+constexpr std::size_t kTextShards = 32;  // so that threads seldom wait for each other
+constexpr std::size_t kRecentTexts = 512;
 
 const std::string* intern(std::string_view text) {
-  static auto* shards = new std::array<TextTable, kShardCount>();
+  static auto* shards = new std::array<TextTable, kTextShards>();
   // What this thread asked for lately is found without a lock.
-  thread_local std::array<const std::string*, kRecentCount> recent{};
+  thread_local std::array<const std::string*, kRecentTexts> recent{};
   const std::size_t hash = std::hash<std::string_view>{}(text);
-  const std::string*& last = recent[(hash >> 8) % kRecentCount];
+  const std::string*& last = recent[(hash >> 8) % kRecentTexts];
   if (last == nullptr || *last != text) {
-    last = (*shards)[(hash >> 40) % kShardCount].intern(text, hash);
+    last = (*shards)[(hash >> 40) % kTextShards].intern(text, hash);
   }
   return last;
 }

@@ -18,7 +18,7 @@ Decoded decode(std::string_view text);
 /// True when all of `text` is well-formed UTF-8.
 bool is_valid(std::string_view text);
 
-bool starts_identifier(char32_t code_point);      ///< XID_Start or '_'
-bool continues_identifier(char32_t code_point);   ///< XID_Continue
+bool starts_identifier(char32_t code_point);     ///< XID_Start or '_'
+bool continues_identifier(char32_t code_point);  ///< XID_Continue
 
 }  // namespace tenon::unicode

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = CommitStep::Kind;
 
-constexpr std::string_view kHeader = "tenon journal 1";
+constexpr std::string_view kJournalHeader = "tenon journal 1";
 constexpr off_t kJournalBytes = 64 << 20;
 
 bool take_step(const CommitStep& step) {
@@ -70,7 +70,7 @@ bool stays_inside(const std::string& home, const std::string& name) {
 /// The steps of a journal; empty for a text that is none.
 std::vector<CommitStep> steps_of(const std::string& home, std::string_view text) {
   const std::vector<std::string> pieces = pieces_of(text);
-  if (pieces.empty() || pieces.front() != kHeader || pieces.size() % 2 != 1) {
+  if (pieces.empty() || pieces.front() != kJournalHeader || pieces.size() % 2 != 1) {
     return {};
   }
   std::vector<CommitStep> steps;
@@ -84,8 +84,8 @@ std::vector<CommitStep> steps_of(const std::string& home, std::string_view text)
     if (!sound) {
       return {};
     }
-    steps.push_back({rename ? Kind::Rename : Kind::Remove, rename ? home + "/" + from : "",
-                     home + "/" + to});
+    steps.push_back(
+        {rename ? Kind::Rename : Kind::Remove, rename ? home + "/" + from : "", home + "/" + to});
   }
   return steps;
 }
@@ -188,7 +188,7 @@ std::string common_folder(const std::vector<std::string>& files) {
 }
 
 std::string journal_text(const std::string& home, const std::vector<CommitStep>& steps) {
-  std::string text(kHeader);
+  std::string text(kJournalHeader);
   text += '\0';
   for (const CommitStep& step : steps) {
     const auto to = name_in(home, step.to);

@@ -155,8 +155,7 @@ class Commit {
       return {};
     }
     const ReadRecord* record = ReadRecord::current();
-    if (!options_.in_place && record != nullptr &&
-        record->has(stamp_from(*place.old).identity)) {
+    if (!options_.in_place && record != nullptr && record->has(stamp_from(*place.old).identity)) {
       return is_input(place.path);
     }
     if ((place.old->st_mode & 0222u) == 0 || ::access(place.target.c_str(), W_OK) != 0) {
@@ -187,9 +186,9 @@ class Commit {
       }
     }
     for (std::size_t i = 0; i < files_.size(); ++i) {
-      const int error =
-          files_[i].name().empty() || i < kNamelessFiles ? files_[i].sync()
-                                                         : sync_file(files_[i].name());
+      const int error = files_[i].name().empty() || i < kNamelessFiles
+                            ? files_[i].sync()
+                            : sync_file(files_[i].name());
       if (error != 0) {
         return unwritable(places_[i].path, "file", error);
       }
@@ -287,8 +286,8 @@ class Commit {
   /// Where it cannot be written, an unkillable child is all there is.
   void add_journal(NewFile& journal, std::vector<CommitStep>& links,
                    std::vector<CommitStep>& steps) const {
-    if (home_.empty() || journal.open() != 0 ||
-        journal.write(journal_text(home_, steps)) != 0 || journal.sync() != 0) {
+    if (home_.empty() || journal.open() != 0 || journal.write(journal_text(home_, steps)) != 0 ||
+        journal.sync() != 0) {
       return;
     }
     const std::string name = home_ + "/" + std::string(kJournalName);

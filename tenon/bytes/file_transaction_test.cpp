@@ -15,9 +15,9 @@
 #include <unistd.h>
 
 #include "tenon/bytes/edit_journal.h"
+#include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/folder_lock.h"
 #include "tenon/bytes/killed_child.h"
-#include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/read_record.h"
 
 namespace tenon::bytes {
@@ -122,8 +122,8 @@ TEST_F(Transaction, AFileWithoutAFolderLeavesTheOthers) {
 TEST_F(Transaction, FoldersMadeForNothingGo) {
   Files more = kChanges;
   more["new/one.usda"] = "new";
-  const CommitOptions refuse{
-      .make_folders = true, .check = []() -> Result<void> { return Error(ErrorCode::Io, "no"); }};
+  const CommitOptions refuse{.make_folders = true,
+                             .check = []() -> Result<void> { return Error(ErrorCode::Io, "no"); }};
   EXPECT_FALSE(replace(more, refuse).has_value());
   EXPECT_FALSE(fs::exists(at("new")));
   EXPECT_EQ(read(), kOld);
@@ -152,11 +152,11 @@ TEST_F(Transaction, OnePlaceTwiceIsRefusedByAnyOfItsNames) {
   fs::create_symlink("payloads", at("link"));
   fs::create_hard_link(at("hand.usda"), at("same.usda"));
   const std::string unseen = at("payloads/new.usda");
-  for (const auto& [a, b] : std::map<std::string, std::string>{
-           {at("hand.usda"), at("payloads/../hand.usda")},
-           {at("payloads/base.usda"), at("link/base.usda")},
-           {at("hand.usda") + "", at("same.usda")},
-           {unseen, at("link/new.usda")}}) {
+  for (const auto& [a, b] :
+       std::map<std::string, std::string>{{at("hand.usda"), at("payloads/../hand.usda")},
+                                          {at("payloads/base.usda"), at("link/base.usda")},
+                                          {at("hand.usda") + "", at("same.usda")},
+                                          {unseen, at("link/new.usda")}}) {
     FileTransaction transaction;
     transaction.put(a, "one");
     transaction.put(b, "two");

@@ -17,14 +17,6 @@ namespace {
 
 constexpr int kLinks = 40;  // links that lead to links
 
-/// Has the system begin to write a file to its disk, so that syncing many files one after another
-/// is done in little more than the time for one. That it cannot is no error: they are synced later.
-void begin_to_store(int descriptor) {
-#ifdef SYNC_FILE_RANGE_WRITE
-  ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
-#endif
-}
-
 }  // namespace
 
 std::string follow_links(std::string path) {

@@ -16,14 +16,6 @@
 namespace tenon::bytes {
 namespace {
 
-/// Has the system begin to write a file to its disk, so that syncing many files one after another
-/// is done in little more than the time for one. That it cannot is no error: they are synced later.
-void begin_to_store(int descriptor) {
-#ifdef SYNC_FILE_RANGE_WRITE
-  ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
-#endif
-}
-
 /// The file must not exist.
 int write_new_file(const std::string& path, std::string_view contents) {
   const int descriptor = ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);

@@ -79,6 +79,14 @@ int sync(const std::string& path, int flags) {
 
 }  // namespace
 
+void begin_to_store(int descriptor) {
+#ifdef SYNC_FILE_RANGE_WRITE
+  ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
+#else
+  static_cast<void>(descriptor);
+#endif
+}
+
 int sync_file(const std::string& file) { return sync(file, 0); }
 
 int sync_folder(const std::string& folder) { return sync(folder, O_DIRECTORY); }

@@ -22,6 +22,9 @@ int write_all(int descriptor, std::string_view contents);
 /// Fills `contents` from the file, and shortens it to what there was.
 int read_up_to(int descriptor, std::string& contents);
 FileStamp stamp_from(const struct stat& info);
+/// Has the system begin to write a file to its disk, so that syncing many files one after another
+/// is done in little more than the time for one. That it cannot is no error: they are synced later.
+void begin_to_store(int descriptor);
 /// Makes what was written to a file survive a power cut.
 int sync_file(const std::string& file);
 /// Makes the names in a folder survive a power cut.

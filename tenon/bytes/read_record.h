@@ -32,10 +32,6 @@ struct FileStamp {
   }
 };
 
-/// A number for contents that differs where they differ; not made against those who look for two
-/// of the same.
-std::uint64_t content_digest(std::string_view contents);
-
 /// The file that `path` leads to; nothing when there is none.
 std::optional<FileStamp> stamp_of(const std::string& path);
 

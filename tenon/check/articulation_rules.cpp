@@ -21,9 +21,9 @@ bool is_judged(const Subject& subject, const stage::Prim& prim) {
 
 // The root has a rule of the reader (S-113).
 void check_kinematic_link(const Subject& subject, Reporter& report) {
-  for (const physics::Articulation& articulation : subject.scene.articulations) {
-    for (const physics::Index link : articulation.links) {
-      const physics::Body& body = subject.scene.bodies[link];
+  for (const scene::Articulation& articulation : subject.scene.articulations) {
+    for (const scene::Index link : articulation.links) {
+      const scene::Body& body = subject.scene.bodies[link];
       if (body.kinematic) {
         report.at(
             subject.stage.prim(body.path), "physics:kinematicEnabled",
@@ -37,9 +37,9 @@ void check_kinematic_link(const Subject& subject, Reporter& report) {
 
 // S-32: a link moves as the joints above it let it.
 void check_link_velocity(const Subject& subject, Reporter& report) {
-  for (const physics::Articulation& articulation : subject.scene.articulations) {
+  for (const scene::Articulation& articulation : subject.scene.articulations) {
     for (std::size_t i = articulation.fixed_base ? 0 : 1; i < articulation.links.size(); ++i) {
-      const physics::Body& body = subject.scene.bodies[articulation.links[i]];
+      const scene::Body& body = subject.scene.bodies[articulation.links[i]];
       if (!body.kinematic &&
           !(body.linear_velocity == Vec3d{} && body.angular_velocity == Vec3d{})) {
         report.at(subject.stage.prim(body.path), "physics:velocity",
@@ -58,10 +58,10 @@ void check_articulation_empty(const Subject& subject, Reporter& report) {
     }
     const bool known =
         std::any_of(subject.scene.articulations.begin(), subject.scene.articulations.end(),
-                    [&](const physics::Articulation& a) { return a.path == prim.path(); });
+                    [&](const scene::Articulation& a) { return a.path == prim.path(); });
     const bool below =
         std::any_of(subject.scene.bodies.begin(), subject.scene.bodies.end(),
-                    [&](const physics::Body& body) { return body.path.has_prefix(prim.path()); });
+                    [&](const scene::Body& body) { return body.path.has_prefix(prim.path()); });
     const bool joint = subject.joint_at(prim.path()).has_value();
     if (!known && !below && !joint) {
       report.at(prim, "the articulation root has no rigid bodies at or below it",
@@ -73,12 +73,12 @@ void check_articulation_empty(const Subject& subject, Reporter& report) {
 
 // A mechanism without any drive moves by gravity alone.
 void check_articulation_passive(const Subject& subject, Reporter& report) {
-  for (const physics::Articulation& articulation : subject.scene.articulations) {
+  for (const scene::Articulation& articulation : subject.scene.articulations) {
     std::size_t moving = 0;
     bool driven = false;
-    for (const physics::Index i : articulation.joints) {
-      const physics::Joint& joint = subject.scene.joints[i];
-      moving += joint.kind == physics::JointKind::Fixed ? 0 : 1;
+    for (const scene::Index i : articulation.joints) {
+      const scene::Joint& joint = subject.scene.joints[i];
+      moving += joint.kind == scene::JointKind::Fixed ? 0 : 1;
       driven = driven || std::any_of(joint.drives.begin(), joint.drives.end(), [](const auto& d) {
                  return d.stiffness != 0 || d.damping != 0;
                });
@@ -139,8 +139,8 @@ void check_group_several(const Subject& subject, Reporter& report) {
 void check_group_members(const Subject& subject, Reporter& report) {
   const auto& filter = subject.scene.filter;
   std::vector<bool> used(filter.group_paths.size(), false);
-  for (const std::vector<physics::Index>& groups : filter.groups_of_collider) {
-    for (const physics::Index group : groups) {
+  for (const std::vector<scene::Index>& groups : filter.groups_of_collider) {
+    for (const scene::Index group : groups) {
       used[group] = true;
     }
   }

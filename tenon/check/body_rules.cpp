@@ -23,7 +23,7 @@ double ratio_of(const Vec3d& scale) {
 }  // namespace
 
 void check_body_scale(const Subject& subject, Reporter& report) {
-  for (const physics::Body& body : subject.scene.bodies) {
+  for (const scene::Body& body : subject.scene.bodies) {
     const stage::Prim prim = subject.stage.prim(body.path);
     const Factored parts = factor(stage::local_to_world(prim, {}));
     // A shape that is the body itself is as good as a shape of other proportions.
@@ -39,7 +39,7 @@ void check_body_scale(const Subject& subject, Reporter& report) {
 
 // S-34
 void check_body_mirror(const Subject& subject, Reporter& report) {
-  for (const physics::Body& body : subject.scene.bodies) {
+  for (const scene::Body& body : subject.scene.bodies) {
     const stage::Prim prim = subject.stage.prim(body.path);
     if (determinant(upper_left(stage::local_to_world(prim, {}))) < 0) {
       report.at(prim,

@@ -11,7 +11,6 @@
 #include "tenon/check/rule.h"
 #include "tenon/check/subject.h"
 #include "tenon/layer/finding_place.h"
-#include "tenon/physics/read_physics.h"
 #include "tenon/stage/property_errors.h"
 
 namespace tenon::check {
@@ -80,11 +79,9 @@ bool Selection::takes(std::string_view rule) const {
 }
 
 std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Diagnostic>& opening,
-                                 const Selection& selection, const physics::Readings& readings) {
+                                 const Selection& selection, const physics::ReadOptions& reading) {
   Diagnostics read;
-  physics::ReadOptions options;
-  options.readings = readings;
-  const physics::PhysicsScene scene = physics::read_physics(stage, options, read);
+  const scene::PhysicsScene scene = physics::read_physics(stage, reading, read);
   std::vector<Diagnostic> found = opening;
   const Diagnostics properties = stage::property_errors(stage);
   found.insert(found.end(), properties.begin(), properties.end());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tenon/check/finding.h"
-#include "tenon/physics/readings.h"
+#include "tenon/physics/read_physics.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::check {
@@ -20,10 +20,11 @@ struct Selection {
 };
 
 /// Everything that the rules find on a stage, in the order of the rules: what was found while it
-/// was opened (`opening`), what the physics reader finds, then the rules of this folder.
+/// was opened (`opening`), what the physics reader finds when it reads as `reading` says, then the
+/// rules of this folder.
 std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Diagnostic>& opening,
                                  const Selection& selection,
-                                 const physics::Readings& readings = {});
+                                 const physics::ReadOptions& reading = {});
 
 /// Findings of one asset under one variant of its set "Physics".
 struct VariantFindings {

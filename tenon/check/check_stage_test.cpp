@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/base/nearest_name.h"
 #include "tenon/check/convex_overlap.h"
-#include "tenon/check/nearest_name.h"
 #include "tenon/check/rule.h"
 
 namespace tenon::check {
@@ -74,15 +74,15 @@ TEST(NearestName, FindsSlipsOfThePen) {
   EXPECT_EQ(nearest_name("radius", names), "");
 }
 
-ConvexSolid solid(const physics::Shape& shape, Vec3d at) {
+ConvexSolid solid(const scene::Shape& shape, Vec3d at) {
   return {&shape, nullptr, {at, kIdentityRotation}, {}, 1};
 }
 
 TEST(Overlap, OfBoxesAndBallsFollowsTheirDistance) {
-  physics::Shape box;
+  scene::Shape box;
   box.half_extents = {{1, 1, 1}};
-  physics::Shape ball;
-  ball.kind = physics::ShapeKind::Sphere;
+  scene::Shape ball;
+  ball.kind = scene::ShapeKind::Sphere;
   ball.radius = 0.5;
   const ConvexSolid a = solid(box, {});
   EXPECT_TRUE(overlap(a, solid(ball, {{1.4, 0, 0}})));
@@ -93,14 +93,14 @@ TEST(Overlap, OfBoxesAndBallsFollowsTheirDistance) {
 }
 
 TEST(Overlap, OfRoundShapesKnowsTheirAxis) {
-  physics::Shape rod;
-  rod.kind = physics::ShapeKind::Cylinder;
+  scene::Shape rod;
+  rod.kind = scene::ShapeKind::Cylinder;
   rod.radius = 0.1;
   rod.half_height = 2;
-  rod.axis = physics::Axis::X;
-  physics::Shape cone = rod;
-  cone.kind = physics::ShapeKind::Cone;
-  cone.axis = physics::Axis::Z;
+  rod.axis = scene::Axis::X;
+  scene::Shape cone = rod;
+  cone.kind = scene::ShapeKind::Cone;
+  cone.axis = scene::Axis::Z;
   EXPECT_TRUE(overlap(solid(rod, {}), solid(rod, {{3.9, 0, 0}})));
   EXPECT_FALSE(overlap(solid(rod, {}), solid(rod, {{0, 0.25, 0}})));
   EXPECT_TRUE(overlap(solid(cone, {}), solid(rod, {{0, 0, 2.05}})));     // at the apex

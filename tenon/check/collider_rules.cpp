@@ -12,9 +12,9 @@
 namespace tenon::check {
 namespace {
 
-using physics::Collider;
-using physics::Index;
-using physics::ShapeKind;
+using scene::Collider;
+using scene::Index;
+using scene::ShapeKind;
 
 /// The smaller of two solids may reach this part of its size into the other.
 constexpr double kDepth = 0.1;
@@ -23,7 +23,7 @@ constexpr double kDepth = 0.1;
 constexpr std::size_t kMostPairs = 200000;
 constexpr std::size_t kMostReports = 100;
 
-Pose world_pose(const physics::PhysicsScene& scene, const Collider& collider) {
+Pose world_pose(const scene::PhysicsScene& scene, const Collider& collider) {
   return collider.body ? scene.bodies[*collider.body].pose * collider.pose : collider.pose;
 }
 
@@ -46,7 +46,7 @@ struct Placed {
   Vec3d high;
 };
 
-std::vector<Placed> placed_solids(const physics::PhysicsScene& scene) {
+std::vector<Placed> placed_solids(const scene::PhysicsScene& scene) {
   std::vector<Placed> placed;
   for (Index i = 0; i < scene.colliders.size(); ++i) {
     const Collider& collider = scene.colliders[i];
@@ -68,7 +68,7 @@ std::vector<Placed> placed_solids(const physics::PhysicsScene& scene) {
   return placed;
 }
 
-bool is_dynamic(const physics::PhysicsScene& scene, const Collider& collider) {
+bool is_dynamic(const scene::PhysicsScene& scene, const Collider& collider) {
   return collider.body && !scene.bodies[*collider.body].kinematic;
 }
 
@@ -117,7 +117,7 @@ bool reach_into(Placed a, Placed b) {
 }  // namespace
 
 void check_overlap_at_start(const Subject& subject, Reporter& report) {
-  const physics::PhysicsScene& scene = subject.scene;
+  const scene::PhysicsScene& scene = subject.scene;
   const std::vector<Placed> placed = placed_solids(scene);
   std::size_t pairs = 0;
   std::size_t reports = 0;
@@ -169,7 +169,7 @@ void check_degenerate_mesh(const Subject& subject, Reporter& report) {
     if (!hull && collider.shape.kind != ShapeKind::Mesh) {
       continue;
     }
-    const physics::TriangleMesh& mesh = subject.scene.meshes[collider.shape.mesh];
+    const scene::TriangleMesh& mesh = subject.scene.meshes[collider.shape.mesh];
     const auto is_empty = [&](const Vec3i& t) {
       const Vec3d& a = mesh.points[static_cast<std::size_t>(t[0])];
       const Vec3d b = mesh.points[static_cast<std::size_t>(t[1])] - a;

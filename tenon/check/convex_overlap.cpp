@@ -12,8 +12,8 @@
 namespace tenon::check {
 namespace {
 
-using physics::Shape;
-using physics::ShapeKind;
+using scene::Shape;
+using scene::ShapeKind;
 
 constexpr int kSteps = 400;
 constexpr double kTouching = 1e-3;  ///< of the sizes: nearer than that is overlapping

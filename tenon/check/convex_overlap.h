@@ -3,13 +3,13 @@
 #pragma once
 
 #include "tenon/math/transform.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::check {
 
 /// A convex solid in the world, shrunk about its middle.
 struct ConvexSolid {
-  const physics::Shape* shape = nullptr;
+  const scene::Shape* shape = nullptr;
   const std::vector<Vec3d>* points = nullptr;  ///< of ConvexHull
   Pose pose;                                   ///< X_WC
   Vec3d middle;                                ///< in the shape's frame [m]
@@ -20,7 +20,7 @@ struct ConvexSolid {
 };
 
 /// The shape can be asked for its farthest point: all but planes, meshes and heaps of spheres.
-bool is_convex(const physics::Shape& shape);
+bool is_convex(const scene::Shape& shape);
 
 /// A world box around it: low and high corner [m].
 std::pair<Vec3d, Vec3d> bounds_of(const ConvexSolid& solid);

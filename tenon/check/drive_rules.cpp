@@ -9,12 +9,12 @@
 namespace tenon::check {
 namespace {
 
-using physics::Drive;
-using physics::Joint;
-using physics::JointKind;
+using scene::Drive;
+using scene::Joint;
+using scene::JointKind;
 
-constexpr double kAbsurdGain = 1e9;  ///< in the file's own unit
-constexpr double kSlack = 1e-3;      ///< [rad or m] beyond a limit
+constexpr double kAbsurdGain = 1e9;    ///< in the file's own unit
+constexpr double kTargetSlack = 1e-3;  ///< [rad or m] beyond a limit
 
 const Token kDriveApi("PhysicsDriveAPI");
 
@@ -84,7 +84,7 @@ void check_target_limits(const Subject& subject, Reporter& report) {
       return;
     }
     const double target = drive.target_position;
-    if (target < joint.lower - kSlack || target > joint.upper + kSlack) {
+    if (target < joint.lower - kTargetSlack || target > joint.upper + kTargetSlack) {
       const double unit = coordinate_unit(subject.scene, joint);
       report.at(prim,
                 "the drive's target " + digits(target * unit) + " lies outside of the limits " +
@@ -112,14 +112,14 @@ void check_target_state(const Subject& subject, Reporter& report) {
 
 // A robot of which some joints are driven and others hang loose.
 void check_drive_missing(const Subject& subject, Reporter& report) {
-  for (const physics::Articulation& articulation : subject.scene.articulations) {
-    const auto is_driven = [&](physics::Index i) {
+  for (const scene::Articulation& articulation : subject.scene.articulations) {
+    const auto is_driven = [&](scene::Index i) {
       const Joint& joint = subject.scene.joints[i];
       return std::any_of(joint.drives.begin(), joint.drives.end(), acts);
     };
     const bool some =
         std::any_of(articulation.joints.begin(), articulation.joints.end(), is_driven);
-    for (const physics::Index i : articulation.joints) {
+    for (const scene::Index i : articulation.joints) {
       const Joint& joint = subject.scene.joints[i];
       const bool loose = has_one_axis(joint) && joint.drives.empty() && !joint.mimic &&
                          joint.stiffness == 0 && joint.lower < joint.upper;

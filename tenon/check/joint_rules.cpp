@@ -3,19 +3,19 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "tenon/check/joint_state.h"
 #include "tenon/check/subject.h"
 #include "tenon/physics/attribute_values.h"
+#include "tenon/scene/joint_forest.h"
 
 namespace tenon::check {
 namespace {
 
-using physics::Index;
-using physics::Joint;
-using physics::JointKind;
+using scene::Index;
+using scene::Joint;
+using scene::JointKind;
 
 constexpr double kPi2 = 6.2831853071795865;
 
@@ -236,33 +236,21 @@ void check_physx_joint_api(const Subject& subject, Reporter& report) {
 
 // Isaac: robots have an articulation root.
 void check_articulation_missing(const Subject& subject, Reporter& report) {
-  const physics::PhysicsScene& scene = subject.scene;
-  std::vector<Index> parent(scene.bodies.size());
-  std::iota(parent.begin(), parent.end(), Index{0});
-  const auto find = [&](Index i) {
-    while (parent[i] != i) {
-      i = parent[i] = parent[parent[i]];
-    }
-    return i;
-  };
+  const scene::PhysicsScene& scene = subject.scene;
+  const scene::JointForest forest = scene::joint_forest(scene);
   std::set<Index> taken;
-  for (const physics::Articulation& articulation : scene.articulations) {
+  for (const scene::Articulation& articulation : scene.articulations) {
     taken.insert(articulation.links.begin(), articulation.links.end());
   }
-  for (const Joint& joint : scene.joints) {
-    if (joint.enabled && joint.body0 && joint.body1) {
-      parent[find(*joint.body0)] = find(*joint.body1);
-    }
-  }
-  std::map<Index, std::vector<Index>> driven;  // set of bodies -> its driven joints
+  std::map<Index, std::vector<Index>> driven;  // island -> its driven joints
   for (Index i = 0; i < scene.joints.size(); ++i) {
     const Joint& joint = scene.joints[i];
     const std::optional<Index> body = joint.body1 ? joint.body1 : joint.body0;
     if (joint.enabled && !joint.drives.empty() && body && !taken.contains(*body)) {
-      driven[find(*body)].push_back(i);
+      driven[forest.bodies[*body].island].push_back(i);
     }
   }
-  for (const auto& [set, joints] : driven) {
+  for (const auto& [island, joints] : driven) {
     if (joints.size() >= 3) {
       report.at(prim_of(subject, scene.joints[joints.front()]),
                 std::to_string(joints.size()) +

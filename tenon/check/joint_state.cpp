@@ -7,18 +7,18 @@
 namespace tenon::check {
 namespace {
 
-Pose in_world(const physics::PhysicsScene& scene, const std::optional<physics::Index>& body,
+Pose in_world(const scene::PhysicsScene& scene, const std::optional<scene::Index>& body,
               const Pose& frame) {
   return body ? scene.bodies[*body].pose * frame : frame;
 }
 
 }  // namespace
 
-double coordinate_from_poses(const physics::PhysicsScene& scene, const physics::Joint& joint) {
+double coordinate_from_poses(const scene::PhysicsScene& scene, const scene::Joint& joint) {
   const Pose relative = inverse(in_world(scene, joint.body0, joint.frame0)) *
                         in_world(scene, joint.body1, joint.frame1);
   const auto along = static_cast<std::size_t>(joint.axis);
-  if (joint.kind == physics::JointKind::Prismatic) {
+  if (joint.kind == scene::JointKind::Prismatic) {
     return relative.position[along];
   }
   const Quatd& q = relative.orientation;
@@ -27,7 +27,7 @@ double coordinate_from_poses(const physics::PhysicsScene& scene, const physics::
   return std::remainder(2 * std::atan2(imaginary[along], q.w), kTurn);
 }
 
-double start_coordinate(const physics::PhysicsScene& scene, const physics::Joint& joint) {
+double start_coordinate(const scene::PhysicsScene& scene, const scene::Joint& joint) {
   return joint.initial_position.value_or(coordinate_from_poses(scene, joint));
 }
 

@@ -6,13 +6,13 @@
 #include <cmath>
 
 #include "tenon/check/subject.h"
-#include "tenon/physics/shape_mass.h"
+#include "tenon/scene/shape_mass.h"
 
 namespace tenon::check {
 namespace {
 
-using physics::Body;
-using physics::Index;
+using scene::Body;
+using scene::Index;
 
 constexpr double kTinyMass = 1e-5;     ///< [kg]: ten milligrams
 constexpr double kHeaviest = 30000;    ///< [kg/m^3]: osmium has 22590
@@ -36,8 +36,8 @@ struct Extent {
 };
 
 /// The radius of a ball around the shape's origin that holds it; planes have none.
-double reach_of(const physics::PhysicsScene& scene, const physics::Shape& shape) {
-  using physics::ShapeKind;
+double reach_of(const scene::PhysicsScene& scene, const scene::Shape& shape) {
+  using scene::ShapeKind;
   switch (shape.kind) {
     case ShapeKind::Box:
     case ShapeKind::Ellipsoid:
@@ -67,8 +67,8 @@ double reach_of(const physics::PhysicsScene& scene, const physics::Shape& shape)
 Extent extent_of(const Subject& subject, Index body) {
   Extent extent;
   for (const Index i : subject.colliders_of_body[body]) {
-    const physics::Collider& collider = subject.scene.colliders[i];
-    extent.volume += physics::shape_integrals(collider.shape, subject.scene.meshes).volume;
+    const scene::Collider& collider = subject.scene.colliders[i];
+    extent.volume += scene::shape_integrals(collider.shape, subject.scene.meshes).volume;
     const double reach = reach_of(subject.scene, collider.shape);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       extent.low[axis] = std::fmin(extent.low[axis], collider.pose.position[axis] - reach);
@@ -108,7 +108,7 @@ void check_negative_mass(const Subject& subject, Reporter& report) {
 // S-42
 void check_default_mass(const Subject& subject, Reporter& report) {
   each_dynamic_body(subject, [&](Index i, const Body& body) {
-    if (body.mass_source == physics::MassSource::Default && subject.colliders_of_body[i].empty()) {
+    if (body.mass_source == scene::MassSource::Default && subject.colliders_of_body[i].empty()) {
       report.at(prim_of(subject, body.path),
                 "the body has neither mass nor colliders; it weighs 1 kg like a ball of 0.1 m",
                 "apply PhysicsMassAPI and author physics:mass, or add colliders");
@@ -118,7 +118,7 @@ void check_default_mass(const Subject& subject, Reporter& report) {
 
 void check_body_without_collider(const Subject& subject, Reporter& report) {
   each_dynamic_body(subject, [&](Index i, const Body& body) {
-    if (body.mass_source != physics::MassSource::Default && subject.colliders_of_body[i].empty()) {
+    if (body.mass_source != scene::MassSource::Default && subject.colliders_of_body[i].empty()) {
       report.at(prim_of(subject, body.path), "the body has no enabled collider: it touches nothing",
                 "apply PhysicsCollisionAPI to a shape below it");
     }
@@ -138,7 +138,7 @@ void check_tiny_mass(const Subject& subject, Reporter& report) {
 void check_density(const Subject& subject, Reporter& report) {
   each_dynamic_body(subject, [&](Index i, const Body& body) {
     const double volume = extent_of(subject, i).volume;
-    if (!(volume > 0) || body.mass_source == physics::MassSource::Default) {
+    if (!(volume > 0) || body.mass_source == scene::MassSource::Default) {
       return;
     }
     const double density = body.mass / volume;
@@ -188,7 +188,7 @@ void check_large_inertia(const Subject& subject, Reporter& report) {
 }
 
 void check_mass_ratio(const Subject& subject, Reporter& report) {
-  for (const physics::Joint& joint : subject.scene.joints) {
+  for (const scene::Joint& joint : subject.scene.joints) {
     if (!joint.enabled || !joint.body0 || !joint.body1) {
       continue;
     }

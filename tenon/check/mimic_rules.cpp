@@ -9,12 +9,12 @@
 namespace tenon::check {
 namespace {
 
-using physics::Joint;
-using physics::JointKind;
+using scene::Joint;
+using scene::JointKind;
 
-constexpr double kSlack = 2e-2;  ///< [rad or m]
+constexpr double kFollowerSlack = 2e-2;  ///< [rad or m]
 
-double value_of(const physics::Mimic& mimic, double leader) {
+double value_of(const scene::Mimic& mimic, double leader) {
   double value = mimic.offset + mimic.multiplier * leader;
   double power = leader;
   for (const double coefficient : mimic.higher) {
@@ -45,7 +45,7 @@ void check_mimic_limits(const Subject& subject, Reporter& report) {
     const double b = value_of(*joint.mimic, leader.upper);
     const double low = std::fmin(a, b);
     const double high = std::fmax(a, b);
-    if (low < joint.lower - kSlack || high > joint.upper + kSlack) {
+    if (low < joint.lower - kFollowerSlack || high > joint.upper + kFollowerSlack) {
       const double unit = coordinate_unit(subject.scene, joint);
       report.at(prim,
                 "over the leader's limits the follower goes from " + digits(low * unit) + " to " +
@@ -93,7 +93,7 @@ void check_mimic_start(const Subject& subject, Reporter& report) {
     const double start = start_coordinate(subject.scene, joint);
     const bool turns = joint.kind == JointKind::Revolute;
     const double gap = turns ? std::remainder(wanted - start, 6.2831853071795865) : wanted - start;
-    if (std::fabs(gap) > kSlack) {
+    if (std::fabs(gap) > kFollowerSlack) {
       const double unit = coordinate_unit(subject.scene, joint);
       report.at(prim,
                 "at the start the joint is at " + digits(start * unit) + ", the mimic wants " +

@@ -41,7 +41,7 @@ std::vector<stage::Prim> walk(const stage::Stage& stage) {
 
 }  // namespace
 
-Subject make_subject(const stage::Stage& stage, const physics::PhysicsScene& scene,
+Subject make_subject(const stage::Stage& stage, const scene::PhysicsScene& scene,
                      const std::vector<Diagnostic>& earlier) {
   Subject subject{stage, scene, walk(stage), {}, {}};
   for (const Diagnostic& diagnostic : earlier) {
@@ -49,8 +49,8 @@ Subject make_subject(const stage::Stage& stage, const physics::PhysicsScene& sce
     subject.earlier.insert(diagnostic.prim + ' ' + diagnostic.rule);
   }
   subject.colliders_of_body.resize(scene.bodies.size());
-  for (physics::Index i = 0; i < scene.colliders.size(); ++i) {
-    const physics::Collider& collider = scene.colliders[i];
+  for (scene::Index i = 0; i < scene.colliders.size(); ++i) {
+    const scene::Collider& collider = scene.colliders[i];
     if (collider.body && collider.enabled) {
       subject.colliders_of_body[*collider.body].push_back(i);
     }
@@ -66,14 +66,14 @@ bool Subject::has_finding(std::string_view rule, const std::string& prim) const 
   return earlier.contains(prim + ' ' + std::string(rule));
 }
 
-std::optional<physics::Index> Subject::joint_at(Path path) const {
+std::optional<scene::Index> Subject::joint_at(Path path) const {
   const auto found =
       std::lower_bound(scene.joints.begin(), scene.joints.end(), path,
-                       [](const physics::Joint& j, const Path& p) { return j.path < p; });
+                       [](const scene::Joint& j, const Path& p) { return j.path < p; });
   if (found == scene.joints.end() || !(found->path == path)) {
     return std::nullopt;
   }
-  return static_cast<physics::Index>(found - scene.joints.begin());
+  return static_cast<scene::Index>(found - scene.joints.begin());
 }
 
 void Reporter::add(Diagnostic diagnostic, const stage::Prim& prim, std::string fix) {

@@ -9,7 +9,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/check/rule.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::check {
@@ -17,11 +17,11 @@ namespace tenon::check {
 /// What the rules look at: a composed stage and the physics that was read from it.
 struct Subject {
   const stage::Stage& stage;
-  const physics::PhysicsScene& scene;
+  const scene::PhysicsScene& scene;
   /// Active, loaded, defined, non-abstract prims in traversal order; what instances share stands
   /// here once, as seen from the first of them.
   std::vector<stage::Prim> prims;
-  std::vector<std::vector<physics::Index>> colliders_of_body;  ///< enabled ones; (body_count)
+  std::vector<std::vector<scene::Index>> colliders_of_body;  ///< enabled ones; (body_count)
   /// "prim property" and "prim rule" of what was found before the rules run: while opening,
   /// composing and reading the physics.
   std::unordered_set<std::string> earlier;
@@ -30,10 +30,10 @@ struct Subject {
   bool is_reported(const std::string& prim, const std::string& property) const;
   /// Some finding of this rule on this prim is known already.
   bool has_finding(std::string_view rule, const std::string& prim) const;
-  std::optional<physics::Index> joint_at(Path path) const;
+  std::optional<scene::Index> joint_at(Path path) const;
 };
 
-Subject make_subject(const stage::Stage& stage, const physics::PhysicsScene& scene,
+Subject make_subject(const stage::Stage& stage, const scene::PhysicsScene& scene,
                      const std::vector<Diagnostic>& earlier);
 
 /// Takes what one rule finds and gives it the rule's id and severity.

@@ -66,8 +66,8 @@ class BatchBuilder {
     if (const PrimIndex* const found = known_.index(path)) {
       return found;
     }
-    if (batch_.indices.size() >= known_.most_indices ||
-        node_count_ >= known_.options->most_nodes || work_.exhausted()) {
+    if (batch_.indices.size() >= known_.most_indices || node_count_ >= known_.options->most_nodes ||
+        work_.exhausted()) {
       batch_.complete = false;
       batch_.full = true;
       return nullptr;

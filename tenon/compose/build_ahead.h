@@ -28,8 +28,8 @@ struct IndexBatch {
   std::deque<IndexAhead> indices;
   MapPool maps;
   std::unordered_map<const IndexAhead*, std::vector<ArcCost>> costs;  ///< of work for arcs, if any
-  bool complete = true;  ///< nothing was left out
-  bool full = false;     ///< it ended because as much is built as may be
+  bool complete = true;                                               ///< nothing was left out
+  bool full = false;  ///< it ended because as much is built as may be
 };
 
 /// What is known already. Called from several threads at once.

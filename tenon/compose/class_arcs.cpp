@@ -11,7 +11,7 @@
 namespace tenon::compose {
 namespace {
 
-constexpr std::size_t kLookedAtForUnit = 8;  // children compared by site
+constexpr std::size_t kSitesForUnit = 8;  // children compared by site
 
 Arc arc_of(Indexer& indexer, const ClassArcRequest& request) {
   Arc arc;
@@ -69,7 +69,7 @@ NodeId find_matching_child(const Indexer& indexer, NodeId parent, ArcKind parent
             : graph.site(id) == site;
     found = matches ? id : kNoNode;
   }
-  graph.count(looked_at / kLookedAtForUnit);
+  graph.count(looked_at / kSitesForUnit);
   return found;
 }
 

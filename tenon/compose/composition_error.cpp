@@ -7,12 +7,22 @@
 #include "tenon/layer/finding_place.h"
 
 namespace tenon::compose {
+namespace {
+
+std::string rule_of(std::string_view error_class) { return "compose." + std::string(error_class); }
+
+}  // namespace
+
+bool is_work_exceeded(const Diagnostic& found) {
+  static const std::string rule = rule_of(error_class::kWorkExceeded);
+  return found.rule == rule;
+}
 
 Diagnostic composition_error(std::string_view error_class, Severity severity, const AuthoredAt& at,
                              std::string message, std::string fix) {
   Diagnostic found;
   found.severity = severity;
-  found.rule = "compose." + std::string(error_class);
+  found.rule = rule_of(error_class);
   found.message = std::move(message);
   found.fix = std::move(fix);
   if (!at.prim.empty()) {

@@ -50,6 +50,9 @@ struct AuthoredAt {
 Diagnostic composition_error(std::string_view error_class, Severity severity, const AuthoredAt& at,
                              std::string message, std::string fix);
 
+/// Composition ended at its bound of work: what was composed is a part.
+bool is_work_exceeded(const Diagnostic& found);
+
 /// `<path>`, or `@layer@<path>` when a layer is given.
 std::string quoted(Path path);
 std::string quoted(const layer::Layer& layer, Path path);

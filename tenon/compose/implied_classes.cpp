@@ -57,7 +57,7 @@ Path implied_path(const Node& dest, Path class_path, const MapFunction& transfer
   return path.replace_prefix(variant.strip_variants(), variant, false);
 }
 
-constexpr std::size_t kLookedAtForUnit = 8;  // children compared by origin
+constexpr std::size_t kOriginsForUnit = 8;  // children compared by origin
 
 /// One step: the classes below `source` are to be implied below `dest`.
 struct Step {
@@ -127,7 +127,7 @@ class ClassTree {
       }
       ++looked_at;
     }
-    graph_.count(looked_at / kLookedAtForUnit);
+    graph_.count(looked_at / kOriginsForUnit);
     ClassArcRequest request;
     request.kind = graph_[child].arc;
     request.parent = step.dest;

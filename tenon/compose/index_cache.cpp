@@ -12,23 +12,20 @@
 #include "tenon/compose/composition_error.h"
 
 namespace tenon::compose {
-namespace {
-
-struct StackKey {
-  const layer::Layer* root = nullptr;
-  const LayerStack* variables = nullptr;
-  bool operator==(const StackKey&) const = default;
-};
-
-struct StackKeyHash {
-  std::size_t operator()(const StackKey& key) const {
-    return std::hash<const void*>{}(key.root) * 31 + std::hash<const void*>{}(key.variables);
-  }
-};
-
-}  // namespace
 
 struct IndexCache::State {
+  struct StackKey {
+    const layer::Layer* root = nullptr;
+    const LayerStack* variables = nullptr;
+    bool operator==(const StackKey&) const = default;
+  };
+
+  struct StackKeyHash {
+    std::size_t operator()(const StackKey& key) const {
+      return std::hash<const void*>{}(key.root) * 31 + std::hash<const void*>{}(key.variables);
+    }
+  };
+
   struct Entry {
     const PrimIndex* index = nullptr;
     const IndexAhead* ahead = nullptr;  // where it was built ahead and not asked for yet
@@ -243,7 +240,7 @@ IndexCache::IndexCache(layer::LayerPtr root, layer::LayerPtr session, LayerOpene
   }
   state.root_stack = state.build_stack(root, session, nullptr);
   if (session == nullptr && state.options.shares_root_stack) {
-    state.stacks.emplace(StackKey{root.get(), state.root_stack.get()}, state.root_stack);
+    state.stacks.emplace(State::StackKey{root.get(), state.root_stack.get()}, state.root_stack);
   }
   state.services.maps = &state.maps;
   state.services.options = &state.options;

@@ -39,6 +39,12 @@ struct ComposeOptions {
   /// beyond is left out with a diagnostic that names the arc which took most.
   std::size_t most_work = limits::kComposeWork;
   std::size_t most_work_per_spec = limits::kComposeWorkPerSpec;
+
+  /// `units` in place of both bounds of work; 0 leaves them.
+  void set_most_work(std::size_t units) {
+    most_work = units == 0 ? most_work : units;
+    most_work_per_spec = units == 0 ? most_work_per_spec : 0;
+  }
 };
 
 /// Path -> PrimIndex, computed on demand and kept; the only state of composition.

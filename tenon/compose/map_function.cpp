@@ -128,8 +128,7 @@ Path MapFunction::map_target_to_source(Path path) const {
   if (best == nullptr && !root_identity_) {
     return {};
   }
-  const Path image =
-      best == nullptr ? path : path.replace_prefix(best->second, best->first, false);
+  const Path image = best == nullptr ? path : path.replace_prefix(best->second, best->first, false);
   return leads_elsewhere(pairs_, image, best, true) ? Path() : image;
 }
 
@@ -154,8 +153,8 @@ MapFunction MapFunction::compose(const MapFunction& inner) const {
   for (const Pair& pair : pairs_) {
     const Path source = inner.map_target_to_source(pair.first);
     const auto end = pairs.begin() + static_cast<std::ptrdiff_t>(inner_count);
-    const bool known = std::any_of(pairs.begin(), end,
-                                   [&](const Pair& other) { return other.first == source; });
+    const bool known =
+        std::any_of(pairs.begin(), end, [&](const Pair& other) { return other.first == source; });
     if (!source.empty() && !known) {
       pairs.emplace_back(source, pair.second);
     }
@@ -190,8 +189,6 @@ MapFunction MapFunction::with_root_identity() const {
   return canonical(std::move(pairs), offset_);
 }
 
-MapFunction MapFunction::without_root_identity() const {
-  return canonical(pairs_, offset_);
-}
+MapFunction MapFunction::without_root_identity() const { return canonical(pairs_, offset_); }
 
 }  // namespace tenon::compose

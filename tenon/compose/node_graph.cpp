@@ -10,9 +10,9 @@
 namespace tenon::compose {
 namespace {
 
-constexpr std::size_t kNodeUnits = 8;      // of work to make a node
-constexpr std::size_t kNodesLookedAt = 4;  // for a unit, where nothing else is done with them
-constexpr std::size_t kKeptUnits = 16;     // for a node of the finished index
+constexpr std::size_t kNodeUnits = 8;         // of work to make a node
+constexpr std::size_t kNodesLookedAt = 4;     // for a unit, where nothing else is done with them
+constexpr std::size_t kKeptUnits = 16;        // for a node of the finished index
 constexpr std::size_t kElementsForUnit = 16;  // of paths
 
 /// To make such a map: each of its pairs is compared with all others.

@@ -47,8 +47,8 @@ void eval_payloads(Indexer& indexer, NodeId node) {
   if (!indexer.graph[node].can_contribute()) {
     return;
   }
-  const std::vector<AssetArc> arcs = composed_payloads(
-      *site.layer_stack, site.path, asset_identity(indexer), &indexer.errors);
+  const std::vector<AssetArc> arcs =
+      composed_payloads(*site.layer_stack, site.path, asset_identity(indexer), &indexer.errors);
   if (arcs.empty()) {
     return;
   }

@@ -34,7 +34,7 @@ struct Node {
   std::uint16_t namespace_depth = 0;  ///< depth of the parent node's path when the arc was added
   std::uint16_t sibling_number = 0;   ///< order among arcs of one kind at one site
   std::uint16_t restriction_depth =
-      0;  ///< contributes only above this depth of its path; 0: everywhere
+      0;                         ///< contributes only above this depth of its path; 0: everywhere
   std::uint16_t arcs_above = 0;  ///< to the root node of the index
   ArcKind arc = ArcKind::Root;
   bool inert = false;            ///< kept for structure, contributes no opinions

@@ -9,9 +9,9 @@ void eval_references(Indexer& indexer, NodeId node) {
   if (!indexer.graph[node].can_contribute()) {
     return;
   }
-  add_asset_arcs(indexer, node, ArcKind::Reference,
-                 composed_references(*site.layer_stack, site.path, asset_identity(indexer),
-                                     &indexer.errors));
+  add_asset_arcs(
+      indexer, node, ArcKind::Reference,
+      composed_references(*site.layer_stack, site.path, asset_identity(indexer), &indexer.errors));
 }
 
 }  // namespace tenon::compose

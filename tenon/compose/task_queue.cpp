@@ -14,9 +14,8 @@ bool is_implied(TaskKind kind) {
 }
 
 bool is_in_order_of_strength(TaskKind kind) {
-  return kind == TaskKind::AncestralVariantAuthored ||
-         kind == TaskKind::AncestralVariantFallback || kind == TaskKind::VariantAuthored ||
-         kind == TaskKind::VariantFallback;
+  return kind == TaskKind::AncestralVariantAuthored || kind == TaskKind::AncestralVariantFallback ||
+         kind == TaskKind::VariantAuthored || kind == TaskKind::VariantFallback;
 }
 
 }  // namespace

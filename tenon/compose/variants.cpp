@@ -9,8 +9,8 @@
 namespace tenon::compose {
 namespace {
 
-constexpr std::size_t kVisitUnits = 4;   // for a node that a path is carried to
-constexpr std::size_t kMapUnits = 20;    // for each path that is carried across an arc
+constexpr std::size_t kVisitUnits = 4;  // for a node that a path is carried to
+constexpr std::size_t kMapUnits = 20;   // for each path that is carried across an arc
 constexpr std::size_t kFindingUnits = 400;
 
 struct TranslatedPath {

@@ -15,7 +15,7 @@
 #include "tenon/compose/arc.h"
 
 /// Internal: composition counts what it does, so that a scene whose arcs multiply ends at a stated
-/// count and says which arc multiplied. A unit is about a visit of a node, 10 to 20 ns.
+/// count and says which arc multiplied. A unit is about a visit of a node (docs/limits.md).
 namespace tenon::compose {
 
 struct LayerStack;

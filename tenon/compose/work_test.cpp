@@ -124,7 +124,8 @@ std::string variant_chains(std::size_t length) {
         i + 1 < length ? " (\nreferences = " + numbered("</V", i + 1) + ">\n)" : "";
     text += "def \"" + numbered("V", i) +
             "\" (\nvariants = { string v = \"a\" }\nprepend variantSets = \"v\"\n)\n{\n"
-            "variantSet \"v\" = {\n\"a\"" + next + " {\ndouble x = 1\n}\n\"b\" {\n}\n}\n}\n";
+            "variantSet \"v\" = {\n\"a\"" +
+            next + " {\ndouble x = 1\n}\n\"b\" {\n}\n}\n}\n";
   }
   return text;
 }

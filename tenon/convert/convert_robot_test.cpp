@@ -39,12 +39,12 @@ std::string joint(const std::string& name, const std::string& type, const std::s
 /// What a robot becomes.
 struct Converted {
   std::shared_ptr<const layer::Layer> layer;
-  physics::PhysicsScene scene;
+  scene::PhysicsScene scene;
   Diagnostics findings;  // of reading and converting
   Diagnostics physics_findings;
 
-  const physics::Joint& joint(const std::string& name) const {
-    for (const physics::Joint& found : scene.joints) {
+  const scene::Joint& joint(const std::string& name) const {
+    for (const scene::Joint& found : scene.joints) {
       if (found.path.name().view() == name) {
         return found;
       }
@@ -52,8 +52,8 @@ struct Converted {
     ADD_FAILURE() << "no joint " << name;
     return scene.joints.at(0);
   }
-  const physics::Body& body(const std::string& name) const {
-    for (const physics::Body& found : scene.bodies) {
+  const scene::Body& body(const std::string& name) const {
+    for (const scene::Body& found : scene.bodies) {
       if (found.path.name().view() == name) {
         return found;
       }
@@ -98,7 +98,7 @@ std::string mimic_robot(const std::string& j_type, const std::string& k_type) {
 }
 
 void expect_settings(const Converted& robot, const std::string& mimic_schema) {
-  const physics::Joint& j = robot.joint("j");
+  const scene::Joint& j = robot.joint("j");
   EXPECT_NEAR(j.lower, -0.5, kFloat);
   EXPECT_NEAR(j.upper, 1.5, 2 * kFloat);
   EXPECT_NEAR(j.velocity_limit, 3, 3 * kFloat);
@@ -106,7 +106,7 @@ void expect_settings(const Converted& robot, const std::string& mimic_schema) {
   EXPECT_EQ(j.drives[0].max_force, 7);
   EXPECT_NEAR(j.damping, 0.25, kFloat);
   EXPECT_EQ(j.friction, 0.125);
-  const physics::Joint& k = robot.joint("k");
+  const scene::Joint& k = robot.joint("k");
   EXPECT_TRUE(k.drives.empty());
   ASSERT_TRUE(k.mimic);
   EXPECT_EQ(k.mimic->schema, mimic_schema);
@@ -158,7 +158,7 @@ TEST(ConvertRobot, GivesGainsPerRadianToMuJoCoAndPerDegreeToDrives) {
 TEST(ConvertRobot, KeepsMassesToTheLastBit) {
   const Converted robot =
       convert(link("base") + link("a") + joint("j", "continuous", "base", "a", ""));
-  const physics::Body& body = robot.body("a");
+  const scene::Body& body = robot.body("a");
   EXPECT_EQ(body.mass, 2);
   EXPECT_EQ(body.center_of_mass, to_double(Vec3f{{0.1f, 0.2f, 0.3f}}));
   EXPECT_EQ(body.inertia, (Mat3d{{{{1, 0.1, 0.2}, {0.1, 2, 0.3}, {0.2, 0.3, 2.5}}}}));
@@ -206,11 +206,11 @@ TEST(ConvertRobot, PlacesJointsWhereTheDescriptionDoes) {
                   "<origin xyz='1 0 0'/><axis xyz='0.6 0 0.8'/><limit lower='-1' "
                   "upper='1' effort='1' velocity='1'/>"),
         options);
-    const physics::Body& b = robot.body("b");
+    const scene::Body& b = robot.body("b");
     EXPECT_NEAR(b.pose.position[0], 1, 1e-15);
     EXPECT_NEAR(b.pose.position[1], 1, 1e-15);  // a is turned by a quarter about z
     EXPECT_EQ(b.path.str(), flat ? "/bot/b" : "/bot/Geometry/base/a/b");
-    for (const physics::Joint& joint : robot.scene.joints) {
+    for (const scene::Joint& joint : robot.scene.joints) {
       const Pose from0 = robot.scene.bodies[*joint.body0].pose * joint.frame0;
       const Pose from1 = robot.scene.bodies[*joint.body1].pose * joint.frame1;
       EXPECT_LT(length(from0.position - from1.position), 1e-6);
@@ -232,14 +232,14 @@ TEST(ConvertRobot, HoldsTheBaseWhereAsked) {
   options.fix_base = true;
   const std::string text = link("base") + link("a") + joint("j", "continuous", "base", "a", "");
   const Converted fixed = convert(text, options);
-  EXPECT_EQ(fixed.joint("fixed_base").kind, physics::JointKind::Fixed);
+  EXPECT_EQ(fixed.joint("fixed_base").kind, scene::JointKind::Fixed);
   EXPECT_TRUE(fixed.scene.articulations.at(0).fixed_base);
   // A root without mass stands still anyway.
   const Converted ghost = convert(link("world", "") + link("base") + link("a") +
                                   joint("hold", "fixed", "world", "base", "") +
                                   joint("j", "continuous", "base", "a", ""));
   EXPECT_EQ(ghost.scene.bodies.size(), 2u);
-  EXPECT_EQ(ghost.joint("hold").kind, physics::JointKind::Fixed);
+  EXPECT_EQ(ghost.joint("hold").kind, scene::JointKind::Fixed);
   EXPECT_TRUE(ghost.scene.articulations.at(0).fixed_base);
 }
 
@@ -274,7 +274,7 @@ TEST(ConvertRobot, MakesFramesOfLinksWithoutMass) {
   ASSERT_EQ(robot.scene.bodies.size(), 2u);
   ASSERT_EQ(robot.scene.colliders.size(), 1u);
   EXPECT_EQ(robot.scene.bodies[*robot.scene.colliders[0].body].path.name(), "base");
-  const physics::Joint& j = robot.joint("j");
+  const scene::Joint& j = robot.joint("j");
   EXPECT_EQ(robot.scene.bodies[*j.body0].path.name(), "base");
   EXPECT_EQ(j.frame0.position, (Vec3d{{0, 0, 3}}));
 }
@@ -295,8 +295,8 @@ TEST(ConvertRobot, LocksAllButThePlane) {
   const Converted robot =
       convert(link("base") + link("a") + joint("j", "planar", "base", "a", "<axis xyz='0 0 1'/>"));
   std::string locked;
-  for (const physics::Limit& limit : robot.joint("j").limits) {
-    locked += limit.locked() ? std::string(physics::dof_name(limit.dof)) + ";" : "";
+  for (const scene::Limit& limit : robot.joint("j").limits) {
+    locked += limit.locked() ? std::string(scene::dof_name(limit.dof)) + ";" : "";
   }
   EXPECT_EQ(locked, "transZ;rotX;rotY;");
 }
@@ -306,7 +306,7 @@ TEST(ConvertRobot, KnowsBallsAndFreeBodies) {
       convert(link("base") + link("a") + link("b") + joint("j", "spherical", "base", "a", "") +
               joint("k", "floating", "base", "b", "<origin xyz='0 0 5'/>"));
   EXPECT_EQ(robot.scene.joints.size(), 1u);
-  EXPECT_EQ(robot.joint("j").kind, physics::JointKind::Spherical);
+  EXPECT_EQ(robot.joint("j").kind, scene::JointKind::Spherical);
   EXPECT_EQ(robot.body("b").pose.position, (Vec3d{{0, 0, 5}}));
   EXPECT_EQ(robot.rules(), "convert.floating;");
 }
@@ -320,13 +320,13 @@ TEST(ConvertRobot, ShapesKeepTheirSizes) {
                                                    shape("<cylinder radius='0.1' length='0.5'/>") +
                                                    shape("<capsule radius='0.1' length='0.5'/>")));
   ASSERT_EQ(robot.scene.colliders.size(), 4u);
-  for (const physics::Collider& collider : robot.scene.colliders) {
+  for (const scene::Collider& collider : robot.scene.colliders) {
     EXPECT_EQ(collider.pose.position, (Vec3d{{0, 0, 1}}));
     switch (collider.shape.kind) {
-      case physics::ShapeKind::Box:
+      case scene::ShapeKind::Box:
         EXPECT_EQ(collider.shape.half_extents, (Vec3d{{0.5, 1, 1.5}}));
         break;
-      case physics::ShapeKind::Sphere:
+      case scene::ShapeKind::Sphere:
         EXPECT_EQ(collider.shape.radius, 0.1);
         break;
       default:
@@ -341,7 +341,7 @@ TEST(ConvertRobot, NamesEverythingLegally) {
                                   joint("a-b", "continuous", "1 base", "1_base", "") +
                                   joint("a.b", "continuous", "1 base", "Physics", ""));
   std::string names;
-  for (const physics::Body& body : robot.scene.bodies) {
+  for (const scene::Body& body : robot.scene.bodies) {
     names += body.path.str() + ";";
   }
   EXPECT_EQ(names,
@@ -359,7 +359,7 @@ TEST(ConvertRobot, FollowsTheLeaderOfAChain) {
               joint("c", "continuous", "l2", "l3", "<mimic joint='b' multiplier='3' offset='1'/>") +
               joint("b", "continuous", "l1", "l2", "<mimic joint='a' multiplier='2' offset='5'/>") +
               joint("a", "continuous", "l0", "l1", ""));
-  const physics::Mimic& mimic = *robot.joint("c").mimic;
+  const scene::Mimic& mimic = *robot.joint("c").mimic;
   EXPECT_EQ(robot.scene.joints[mimic.leader].path.name(), "a");
   EXPECT_NEAR(mimic.multiplier, 6, 1e-6);
   EXPECT_NEAR(mimic.offset, 16, 1e-5);

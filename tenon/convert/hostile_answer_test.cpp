@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/base/wire.h"
 #include "tenon/convert/convert_robot.h"
 #include "tenon/guard/messages.h"
-#include "tenon/guard/wire.h"
 #include "tenon/mesh/check_scene.h"
 #include "tenon/robot/check_model.h"
 
@@ -76,7 +76,7 @@ template <class T, class Use>
 void change_answers(const T& value, int rounds, const Use& use) {
   guard::Answer<T> answer;
   answer.value = value;
-  const std::string good = guard::encoded(answer);
+  const std::string good = wire::encoded(answer);
   std::mt19937 random(7);
   int decoded = 0;
   for (int round = 0; round < rounds; ++round) {
@@ -86,7 +86,7 @@ void change_answers(const T& value, int rounds, const Use& use) {
       bytes[random() % bytes.size()] =
           static_cast<char>(number % 3 == 0 ? number / 3 % 4 : number / 3 % 256);
     }
-    std::optional<guard::Answer<T>> changed = guard::decoded<guard::Answer<T>>(bytes);
+    std::optional<guard::Answer<T>> changed = wire::decoded<guard::Answer<T>>(bytes);
     if (changed && changed->value) {
       ++decoded;
       use(*std::move(changed->value));

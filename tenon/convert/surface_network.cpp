@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tenon/convert/conversion.h"
+#include "tenon/math/color.h"
 
 namespace tenon::convert {
 
@@ -15,13 +16,6 @@ using layer::Variability;
 using robot::ImageUse;
 
 namespace {
-
-double linear_of_srgb(double value) {
-  if (value <= 0.04045) {
-    return value / 12.92;
-  }
-  return value >= 1 ? value : std::pow((value + 0.055) / 1.055, 2.4);
-}
 
 Vec3f linear_color(const robot::Material& look, bool linear) {
   Vec3f color{{1, 1, 1}};

@@ -4,8 +4,8 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
-#include "tenon/physics/physics_scene.h"
 #include "tenon/robot/robot_model.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
 /// Robots back out of scenes, for formats that describe a robot as a tree of links.
@@ -22,7 +22,7 @@ namespace tenon::describe {
 /// drives, springs, armatures, surfaces, shapes of other kinds, networks of shaders.
 /// Errors: Invalid "urdf.no-robot" for a scene without bodies.
 Result<robot::RobotModel> describe_robot(const stage::Stage& stage,
-                                         const physics::PhysicsScene& scene,
+                                         const scene::PhysicsScene& scene,
                                          Diagnostics& diagnostics);
 
 }  // namespace tenon::describe

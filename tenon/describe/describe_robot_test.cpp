@@ -33,7 +33,7 @@ Described describe(const std::string& body) {
       root, nullptr, [](const std::string& asset, const layer::Layer&) -> Result<layer::LayerPtr> {
         return Error(ErrorCode::NotFound, "none").in_file(asset);
       });
-  const physics::PhysicsScene scene = physics::read_physics(*stage, {}, findings);
+  const scene::PhysicsScene scene = physics::read_physics(*stage, {}, findings);
   Described result{robot::RobotModel{}, {}};
   result.model = describe_robot(*stage, scene, result.findings);
   return result;

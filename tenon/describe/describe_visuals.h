@@ -3,8 +3,8 @@
 #pragma once
 
 #include "tenon/base/diagnostics.h"
-#include "tenon/physics/physics_scene.h"
 #include "tenon/robot/robot_model.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::describe {
@@ -13,7 +13,7 @@ namespace tenon::describe {
 /// in the order of the scene, in the body's frame, and one more for the world. Only visuals, meshes
 /// and materials are filled in; paths of images are as they resolve, empty where they do not.
 /// What has no word in a RobotModel goes to `diagnostics` as "mjcf.left-out" with the prim.
-robot::RobotModel describe_visuals(const stage::Stage& stage, const physics::PhysicsScene& scene,
+robot::RobotModel describe_visuals(const stage::Stage& stage, const scene::PhysicsScene& scene,
                                    Diagnostics& diagnostics);
 
 }  // namespace tenon::describe

@@ -6,6 +6,7 @@
 
 #include "tenon/describe/describe_visuals.h"
 #include "tenon/describe/scene_reader.h"
+#include "tenon/math/color.h"
 
 namespace tenon::describe {
 
@@ -13,11 +14,6 @@ using robot::ImageUse;
 using robot::Index;
 
 namespace {
-
-/// IEC 61966-2-1, from linear to as displayed.
-double srgb_of_linear(double value) {
-  return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-}
 
 bool has_id(const stage::Prim& shader, const char* id) {
   return shader && shader.attribute("info:id").get_as<Token>() == Token(id);
@@ -59,14 +55,14 @@ bool near(const Vec2d& a, const Vec2d& b) {
 
 }  // namespace
 
-robot::RobotModel describe_visuals(const stage::Stage& stage, const physics::PhysicsScene& scene,
+robot::RobotModel describe_visuals(const stage::Stage& stage, const scene::PhysicsScene& scene,
                                    Diagnostics& diagnostics) {
   return SceneReader(stage, scene, diagnostics).run_visuals();
 }
 
 robot::RobotModel SceneReader::run_visuals() {
   format_ = "mjcf";
-  for (const physics::Body& body : scene_.bodies) {
+  for (const scene::Body& body : scene_.bodies) {
     add_link(body.path, body.pose);
   }
   world_ = add_link({}, {});

@@ -22,9 +22,9 @@ Vec3d unit_vector(std::size_t axis) {
 }
 
 /// The normal of the plane in which a joint slides and turns, where it does just that.
-std::optional<std::size_t> plane_normal(const physics::Joint& joint) {
+std::optional<std::size_t> plane_normal(const scene::Joint& joint) {
   std::array<bool, 6> locked{};
-  for (const physics::Limit& limit : joint.limits) {
+  for (const scene::Limit& limit : joint.limits) {
     const auto dof = static_cast<std::size_t>(limit.dof);
     if (dof >= locked.size() || !limit.locked()) {
       return std::nullopt;
@@ -44,29 +44,29 @@ std::optional<std::size_t> plane_normal(const physics::Joint& joint) {
 
 }  // namespace
 
-JointKind SceneReader::kind_of(const physics::Joint& joint, Vec3d& axis) {
+JointKind SceneReader::kind_of(const scene::Joint& joint, Vec3d& axis) {
   axis = unit_vector(static_cast<std::size_t>(joint.axis));
   const bool limited = std::isfinite(joint.lower) || std::isfinite(joint.upper);
   switch (joint.kind) {
-    case physics::JointKind::Revolute:
-    case physics::JointKind::Prismatic:
+    case scene::JointKind::Revolute:
+    case scene::JointKind::Prismatic:
       if (joint.lower > joint.upper) {
         return JointKind::Fixed;  // locked at zero (S-98)
       }
-      if (joint.kind == physics::JointKind::Prismatic) {
+      if (joint.kind == scene::JointKind::Prismatic) {
         return JointKind::Prismatic;
       }
       return limited ? JointKind::Revolute : JointKind::Continuous;
-    case physics::JointKind::Fixed:
+    case scene::JointKind::Fixed:
       return JointKind::Fixed;
-    case physics::JointKind::Spherical:
+    case scene::JointKind::Spherical:
       if (std::isfinite(joint.cone_angle0) || std::isfinite(joint.cone_angle1)) {
         left_out(joint.path, "the ball has a cone");
       }
       return JointKind::Ball;
-    case physics::JointKind::Distance:
+    case scene::JointKind::Distance:
       break;
-    case physics::JointKind::D6:
+    case scene::JointKind::D6:
       if (const auto normal = plane_normal(joint)) {
         axis = unit_vector(*normal);
         return JointKind::Planar;
@@ -77,7 +77,7 @@ JointKind SceneReader::kind_of(const physics::Joint& joint, Vec3d& axis) {
   return JointKind::Floating;
 }
 
-void SceneReader::take_numbers(const physics::Joint& source, robot::Joint& joint) {
+void SceneReader::take_numbers(const scene::Joint& source, robot::Joint& joint) {
   if (!joint.has_one_axis()) {
     return;
   }
@@ -88,7 +88,7 @@ void SceneReader::take_numbers(const physics::Joint& source, robot::Joint& joint
     joint.limit = robot::Limit{std::isfinite(source.lower) ? source.lower : -kFar,
                                std::isfinite(source.upper) ? source.upper : kFar};
   }
-  for (const physics::Drive& drive : source.drives) {
+  for (const scene::Drive& drive : source.drives) {
     if (drive.stiffness != 0 || drive.damping != 0) {
       left_out(source.path, "the drive has gains");
     }
@@ -103,7 +103,7 @@ void SceneReader::take_numbers(const physics::Joint& source, robot::Joint& joint
 }
 
 /// Numbers of a description that no schema holds; convert_robot keeps them so.
-void SceneReader::take_description(const physics::Joint& source, robot::Joint& joint) {
+void SceneReader::take_description(const scene::Joint& source, robot::Joint& joint) {
   const stage::Prim prim = stage_.prim(source.path);
   if (!prim || !joint.has_one_axis()) {
     return;

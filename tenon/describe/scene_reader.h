@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tenon/describe/describe_robot.h"
+#include "tenon/scene/joint_forest.h"
 #include "tenon/stage/transform_at.h"
 
 /// Internal to this folder.
@@ -17,12 +18,12 @@ namespace tenon::describe {
 inline constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 /// The turn from Z, along which robot models have cylinders, to `axis`.
-Quatd turn_from_z(physics::Axis axis);
+Quatd turn_from_z(scene::Axis axis);
 
 /// From a scene and its stage to a robot: passes that add to a model.
 class SceneReader {
  public:
-  SceneReader(const stage::Stage& stage, const physics::PhysicsScene& scene,
+  SceneReader(const stage::Stage& stage, const scene::PhysicsScene& scene,
               Diagnostics& diagnostics);
 
   robot::RobotModel run();
@@ -49,26 +50,24 @@ class SceneReader {
   robot::Index add_link(Path prim, const Pose& pose);
   robot::Index add_body(std::size_t body, const Vec3d& anchor);
   robot::Index world(Path target);
-  bool joins_tree(const physics::Joint& joint) const;
-  void grow(std::optional<std::size_t> from);
+  void hang(const std::vector<scene::Index>& bodies);
   void place_trees();
-  void hang_up(const std::vector<std::size_t>& roots);
+  void hang_up(const std::vector<scene::Index>& roots);
   robot::Joint& add_fixed(robot::Index parent, robot::Index child, robot::JointKind kind);
-  void add_joint(std::size_t number, std::optional<std::size_t> from, std::size_t body,
-                 bool forward);
+  void add_joint(scene::Index body);
   void list_loops();
 
   // joints.cpp
-  robot::JointKind kind_of(const physics::Joint& joint, Vec3d& axis);
-  void take_numbers(const physics::Joint& source, robot::Joint& joint);
-  void take_description(const physics::Joint& source, robot::Joint& joint);
+  robot::JointKind kind_of(const scene::Joint& joint, Vec3d& axis);
+  void take_numbers(const scene::Joint& source, robot::Joint& joint);
+  void take_description(const scene::Joint& source, robot::Joint& joint);
   void add_mimics();
 
   // shapes.cpp
-  bool take_shape(const physics::Collider& source, robot::Collider& collider);
+  bool take_shape(const scene::Collider& source, robot::Collider& collider);
   void add_colliders();
-  void add_collider(const physics::Collider& source);
-  std::optional<robot::Index> link_above(Path prim, std::optional<physics::Index> body) const;
+  void add_collider(const scene::Collider& source);
+  std::optional<robot::Index> link_above(Path prim, std::optional<scene::Index> body) const;
 
   // visuals.cpp
   void walk();
@@ -95,16 +94,16 @@ class SceneReader {
 
   std::string format_ = "urdf";  // that is to be written
   const stage::Stage& stage_;
-  const physics::PhysicsScene& scene_;
+  const scene::PhysicsScene& scene_;
   Diagnostics& diagnostics_;
   stage::TransformCache cache_;
+  scene::JointForest forest_;
   robot::RobotModel robot_;
   std::vector<std::size_t> link_of_;   // (body_count)
   std::vector<std::size_t> joint_of_;  // (joint_count)
   std::vector<Pose> in_body_;          // (link_count) the link's frame in its body, or in the world
   std::vector<Pose> poses_;            // (link_count) of the links in the world, as on the stage
   std::map<Path, robot::Index> links_;
-  std::set<std::size_t> used_;  // joints
   std::optional<robot::Index> world_;
   mutable std::set<std::string> link_names_;
   mutable std::set<std::string> joint_names_;

@@ -8,20 +8,20 @@ using robot::GeometryKind;
 using robot::Index;
 
 /// Cyclic turns, so exact ones.
-Quatd turn_from_z(physics::Axis axis) {
+Quatd turn_from_z(scene::Axis axis) {
   switch (axis) {
-    case physics::Axis::X:
+    case scene::Axis::X:
       return {0.5, 0.5, 0.5, 0.5};
-    case physics::Axis::Y:
+    case scene::Axis::Y:
       return {-0.5, -0.5, -0.5, 0.5};
-    case physics::Axis::Z:
+    case scene::Axis::Z:
       break;
   }
   return kIdentityRotation;
 }
 
 /// The nearest link at or above a prim; else that of its body.
-std::optional<Index> SceneReader::link_above(Path prim, std::optional<physics::Index> body) const {
+std::optional<Index> SceneReader::link_above(Path prim, std::optional<scene::Index> body) const {
   for (Path at = prim; !at.empty() && !at.is_absolute_root(); at = at.parent()) {
     if (const auto found = links_.find(at); found != links_.end()) {
       return found->second;
@@ -30,27 +30,27 @@ std::optional<Index> SceneReader::link_above(Path prim, std::optional<physics::I
   return body ? static_cast<Index>(link_of_[*body]) : world_;
 }
 
-bool SceneReader::take_shape(const physics::Collider& source, robot::Collider& collider) {
-  const physics::Shape& shape = source.shape;
+bool SceneReader::take_shape(const scene::Collider& source, robot::Collider& collider) {
+  const scene::Shape& shape = source.shape;
   robot::Geometry& g = collider.geometry;
   g.half_extents = shape.half_extents;
   g.radius = shape.radius;
   g.half_height = shape.half_height;
   switch (shape.kind) {
-    case physics::ShapeKind::Box:
+    case scene::ShapeKind::Box:
       g.kind = GeometryKind::Box;
       return true;
-    case physics::ShapeKind::Sphere:
+    case scene::ShapeKind::Sphere:
       g.kind = GeometryKind::Sphere;
       return true;
-    case physics::ShapeKind::Cylinder:
-    case physics::ShapeKind::Capsule:
-      g.kind = shape.kind == physics::ShapeKind::Capsule ? GeometryKind::Capsule
-                                                         : GeometryKind::Cylinder;
+    case scene::ShapeKind::Cylinder:
+    case scene::ShapeKind::Capsule:
+      g.kind =
+          shape.kind == scene::ShapeKind::Capsule ? GeometryKind::Capsule : GeometryKind::Cylinder;
       collider.pose = collider.pose * Pose{{}, turn_from_z(shape.axis)};
       return true;
-    case physics::ShapeKind::ConvexHull:
-    case physics::ShapeKind::Mesh: {
+    case scene::ShapeKind::ConvexHull:
+    case scene::ShapeKind::Mesh: {
       g.kind = GeometryKind::Mesh;
       g.mesh = static_cast<Index>(robot_.meshes.size());
       robot::MeshFile& file = robot_.meshes.emplace_back();
@@ -60,18 +60,18 @@ bool SceneReader::take_shape(const physics::Collider& source, robot::Collider& c
       file.triangles = scene_.meshes[shape.mesh].triangles;
       return true;
     }
-    case physics::ShapeKind::Ellipsoid:
-    case physics::ShapeKind::Cone:
-    case physics::ShapeKind::Plane:
-    case physics::ShapeKind::Spheres:
+    case scene::ShapeKind::Ellipsoid:
+    case scene::ShapeKind::Cone:
+    case scene::ShapeKind::Plane:
+    case scene::ShapeKind::Spheres:
       break;
   }
   left_out(source.path,
-           "the collider is of the kind " + std::string(physics::shape_name(shape.kind)));
+           "the collider is of the kind " + std::string(scene::shape_name(shape.kind)));
   return false;
 }
 
-void SceneReader::add_collider(const physics::Collider& source) {
+void SceneReader::add_collider(const scene::Collider& source) {
   const std::optional<Index> link = link_above(source.path, source.body);
   if (!link) {
     left_out(source.path, "the collider stands still and belongs to no link");
@@ -93,7 +93,7 @@ void SceneReader::add_collider(const physics::Collider& source) {
   if (source.material) {
     left_out(source.path, "the collider has friction or restitution");
   }
-  if (source.shape.kind == physics::ShapeKind::Mesh || !source.shape.pieces.empty()) {
+  if (source.shape.kind == scene::ShapeKind::Mesh || !source.shape.pieces.empty()) {
     left_out(source.path, "the collider is more than the hull of its mesh");
   }
   if (take_shape(source, collider)) {
@@ -102,7 +102,7 @@ void SceneReader::add_collider(const physics::Collider& source) {
 }
 
 void SceneReader::add_colliders() {
-  for (const physics::Collider& source : scene_.colliders) {
+  for (const scene::Collider& source : scene_.colliders) {
     add_collider(source);
   }
 }

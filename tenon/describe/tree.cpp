@@ -5,9 +5,9 @@
 
 namespace tenon::describe {
 
-using physics::PhysicsScene;
 using robot::Index;
 using robot::JointKind;
+using scene::PhysicsScene;
 
 SceneReader::SceneReader(const stage::Stage& stage, const PhysicsScene& scene,
                          Diagnostics& diagnostics)
@@ -15,6 +15,7 @@ SceneReader::SceneReader(const stage::Stage& stage, const PhysicsScene& scene,
       scene_(scene),
       diagnostics_(diagnostics),
       cache_(stage::Time::default_time()),
+      forest_(scene::joint_forest(scene, scene::FloatingRoots::Directions)),
       link_of_(scene.bodies.size(), kNone),
       joint_of_(scene.joints.size(), kNone) {}
 
@@ -83,7 +84,7 @@ Index SceneReader::add_link(Path prim, const Pose& pose) {
 
 /// The link of a body whose frame stands at `anchor` in the body.
 Index SceneReader::add_body(std::size_t body, const Vec3d& anchor) {
-  const physics::Body& source = scene_.bodies[body];
+  const scene::Body& source = scene_.bodies[body];
   const Pose in_body{anchor, kIdentityRotation};
   const Index number = add_link(source.path, source.pose * in_body);
   in_body_[number] = in_body;
@@ -110,74 +111,44 @@ Index SceneReader::world(Path target) {
   return *world_;
 }
 
-bool SceneReader::joins_tree(const physics::Joint& joint) const {
-  return joint.enabled && !joint.exclude_from_articulation && joint.body1 != joint.body0 &&
-         joint.kind != physics::JointKind::Distance;
-}
-
-namespace {
-
-bool same(const std::optional<physics::Index>& a, const std::optional<std::size_t>& b) {
-  return a.has_value() == b.has_value() && (!a || *a == *b);
-}
-
-}  // namespace
-
-/// Joints from a body, or from the world, in path order: the other end comes into the tree.
-void SceneReader::grow(std::optional<std::size_t> from) {
-  std::vector<std::optional<std::size_t>> pending{from};
+/// Bodies on their parents or on the world, and all that hangs on them.
+void SceneReader::hang(const std::vector<scene::Index>& bodies) {
+  std::vector<scene::Index> pending;
+  const auto add = [&](const std::vector<scene::Index>& siblings) {
+    for (const scene::Index body : siblings) {
+      add_joint(body);
+      pending.push_back(body);
+    }
+  };
+  add(bodies);
   while (!pending.empty()) {
-    const std::optional<std::size_t> at = pending.back();
+    const scene::Index body = pending.back();
     pending.pop_back();
-    for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-      const physics::Joint& joint = scene_.joints[i];
-      if (used_.contains(i) || !joins_tree(joint)) {
-        continue;
-      }
-      const bool forward = same(joint.body0, at);
-      const auto& other = forward ? joint.body1 : joint.body0;
-      if ((!forward && !same(joint.body1, at)) || !other || link_of_[*other] != kNone) {
-        continue;
-      }
-      used_.insert(i);
-      add_joint(i, at, *other, forward);
-      pending.emplace_back(*other);
-    }
+    add(forest_.bodies[body].children);
   }
 }
 
-/// First what hangs on the world, then bodies that no joint carries, then circles.
+/// First what hangs on the world, then bodies that no joint carries.
 void SceneReader::place_trees() {
-  std::set<std::size_t> carried;
-  for (const physics::Joint& joint : scene_.joints) {
-    if (!joins_tree(joint)) {
-      continue;
-    }
-    if (joint.body1) {
-      carried.insert(*joint.body1);
-    }
-    if (!joint.body0 || !joint.body1) {
-      world(joint.body0 ? joint.target1 : joint.target0);
-    }
+  std::vector<scene::Index> hung;
+  std::vector<scene::Index> carried_by_none;
+  for (const scene::Index root : forest_.roots) {
+    (forest_.bodies[root].joint ? hung : carried_by_none).push_back(root);
   }
-  if (world_) {
-    grow(std::nullopt);
+  if (!hung.empty()) {
+    const scene::Joint& joint = scene_.joints[*forest_.bodies[hung.front()].joint];
+    world(joint.body0 ? joint.target1 : joint.target0);
+    hang(hung);
   }
-  std::vector<std::size_t> roots;
-  for (const bool any : {false, true}) {
-    for (std::size_t body = 0; body < scene_.bodies.size(); ++body) {
-      if (link_of_[body] == kNone && (any || !carried.contains(body))) {
-        roots.push_back(body);
-        add_body(body, {});
-        grow(body);
-      }
-    }
+  for (const scene::Index root : carried_by_none) {
+    add_body(root, {});
+    hang(forest_.bodies[root].children);
   }
-  hang_up(roots);
+  hang_up(carried_by_none);
 }
 
 /// A description has one root: the first tree's, or the world.
-void SceneReader::hang_up(const std::vector<std::size_t>& roots) {
+void SceneReader::hang_up(const std::vector<scene::Index>& roots) {
   const bool in_world = world_.has_value();
   for (std::size_t i = in_world ? 0 : 1; i < roots.size(); ++i) {
     const auto parent = static_cast<Index>(in_world ? *world_ : link_of_[roots[0]]);
@@ -199,15 +170,17 @@ robot::Joint& SceneReader::add_fixed(Index parent, Index child, JointKind kind) 
   return joint;
 }
 
-void SceneReader::add_joint(std::size_t number, std::optional<std::size_t> from, std::size_t body,
-                            bool forward) {
-  const physics::Joint& source = scene_.joints[number];
+/// A body with the joint that hangs it on its parent or on the world.
+void SceneReader::add_joint(scene::Index body) {
+  const scene::ForestBody& hung = forest_.bodies[body];
+  const scene::Joint& source = scene_.joints[*hung.joint];
+  const bool forward = !hung.reversed;
   const Pose& near = forward ? source.frame0 : source.frame1;
   const Pose& far = forward ? source.frame1 : source.frame0;
   const Index child = add_body(body, far.position);
   robot::Joint joint;
   joint.name = unique(joint_names_, source.path, "joint");
-  joint.parent = from ? static_cast<Index>(link_of_[*from]) : *world_;
+  joint.parent = hung.parent ? static_cast<Index>(link_of_[*hung.parent]) : *world_;
   joint.child = child;
   joint.origin = inverse(in_body_[joint.parent]) * near * inverse(Pose{{}, far.orientation});
   Vec3d axis;
@@ -217,13 +190,13 @@ void SceneReader::add_joint(std::size_t number, std::optional<std::size_t> from,
   }
   take_numbers(source, joint);
   take_description(source, joint);
-  joint_of_[number] = robot_.joints.size();
+  joint_of_[*hung.joint] = robot_.joints.size();
   robot_.joints.push_back(std::move(joint));
 }
 
 void SceneReader::list_loops() {
   for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-    if (!used_.contains(i)) {
+    if (forest_.joints[i] != scene::ForestRole::Tree) {
       left_out(scene_.joints[i].path, scene_.joints[i].enabled
                                           ? "the joint closes a loop or joins no two bodies"
                                           : "the joint is switched off");

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tenon/describe/scene_reader.h"
+#include "tenon/math/color.h"
 #include "tenon/stage/material_binding.h"
 
 namespace tenon::describe {
@@ -11,11 +12,6 @@ using robot::GeometryKind;
 using robot::Index;
 
 namespace {
-
-/// IEC 61966-2-1, from linear to as displayed.
-double srgb_of_linear(double value) {
-  return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-}
 
 bool is_unseen(const stage::Prim& prim) {
   const auto purpose = prim.attribute("purpose").get_as<Token>();
@@ -209,9 +205,9 @@ void SceneReader::take_plane(const stage::Prim& prim, const Vec3d& scale, robot:
                                      std::fabs(scale[1]) * number(prim, "length") / 2, 0}};
   }
   visual.pose = visual.pose * Pose{{},
-                                   turn_from_z(axis == "X"   ? physics::Axis::X
-                                               : axis == "Y" ? physics::Axis::Y
-                                                             : physics::Axis::Z)};
+                                   turn_from_z(axis == "X"   ? scene::Axis::X
+                                               : axis == "Y" ? scene::Axis::Y
+                                                             : scene::Axis::Z)};
 }
 
 bool SceneReader::take_gprim(const stage::Prim& prim, Index link, robot::Visual& visual) {
@@ -254,9 +250,9 @@ bool SceneReader::take_gprim(const stage::Prim& prim, Index link, robot::Visual&
   const Token axis = prim.attribute("axis").get_as<Token>().value_or(Token("Z"));
   g.kind = prim.is_a("Cylinder") ? GeometryKind::Cylinder : GeometryKind::Capsule;
   visual.pose = visual.pose * Pose{{},
-                                   turn_from_z(axis == "X"   ? physics::Axis::X
-                                               : axis == "Y" ? physics::Axis::Y
-                                                             : physics::Axis::Z)};
+                                   turn_from_z(axis == "X"   ? scene::Axis::X
+                                               : axis == "Y" ? scene::Axis::Y
+                                                             : scene::Axis::Z)};
   return true;
 }
 

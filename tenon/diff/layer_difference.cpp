@@ -240,11 +240,6 @@ class Comparison {
 
 }  // namespace
 
-std::string_view change_name(Change change) {
-  static constexpr std::string_view kNames[] = {"added", "removed", "changed"};
-  return kNames[static_cast<std::size_t>(change)];
-}
-
 std::vector<Difference> layer_differences(const layer::Layer& before, const layer::Layer& after,
                                           const DiffOptions& options) {
   return Comparison(before, after, options).run();

@@ -7,16 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "tenon/base/change.h"
 #include "tenon/base/path.h"
 #include "tenon/layer/layer.h"
 
 /// What differs between two layers as values: specs and fields, not text.
 namespace tenon::diff {
-
-enum class Change : std::uint8_t { Added, Removed, Changed };
-
-/// "added", "removed", "changed".
-std::string_view change_name(Change change);
 
 /// One thing that differs. For specs that came or went, `field` is empty and `count` tells how many
 /// specs there are with it and below it; these are not listed one by one.

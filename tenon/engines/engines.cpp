@@ -42,7 +42,7 @@ std::vector<EngineInfo> list_engines(std::span<const Engine> built) {
 
 Result<std::unique_ptr<Simulation>> make_simulation(std::span<const Engine> built,
                                                     const std::string& engine,
-                                                    const physics::PhysicsScene& scene,
+                                                    const scene::PhysicsScene& scene,
                                                     const SimulationOptions& options,
                                                     Diagnostics& diagnostics) {
   for (const Engine& candidate : built) {

@@ -10,13 +10,13 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/engines/simulation.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::engines {
 
 struct EngineInfo {
-  std::string name;        ///< "mujoco"
-  std::string version;     ///< of the library in use; empty when it is not available
+  std::string name;     ///< "mujoco"
+  std::string version;  ///< of the library in use; empty when it is not available
   bool available = false;
   std::string how_to_get;  ///< one sentence, when it is not available
 };
@@ -25,7 +25,7 @@ struct EngineInfo {
 /// that are built in; this folder knows none of them.
 struct Engine {
   EngineInfo (*info)() = nullptr;
-  Result<std::unique_ptr<Simulation>> (*make)(const physics::PhysicsScene& scene,
+  Result<std::unique_ptr<Simulation>> (*make)(const scene::PhysicsScene& scene,
                                               const SimulationOptions& options,
                                               Diagnostics& diagnostics) = nullptr;
 };
@@ -38,7 +38,7 @@ std::vector<EngineInfo> list_engines(std::span<const Engine> built);
 /// model can be made.
 Result<std::unique_ptr<Simulation>> make_simulation(std::span<const Engine> built,
                                                     const std::string& engine,
-                                                    const physics::PhysicsScene& scene,
+                                                    const scene::PhysicsScene& scene,
                                                     const SimulationOptions& options,
                                                     Diagnostics& diagnostics);
 

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/engines/engines.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
+
+#include <gtest/gtest.h>
 
 namespace tenon::engines {
 namespace {
 
 EngineInfo mujoco_info() { return {"mujoco", "9.9", true, ""}; }
 
-Result<std::unique_ptr<Simulation>> refuse(const physics::PhysicsScene&, const SimulationOptions&,
+Result<std::unique_ptr<Simulation>> refuse(const scene::PhysicsScene&, const SimulationOptions&,
                                            Diagnostics&) {
   return Error(ErrorCode::Invalid, "refused");
 }
@@ -42,11 +42,11 @@ struct NameCase {
 };
 
 TEST(Engines, MakesTheNamedOneOrSaysWhyNot) {
-  const physics::PhysicsScene scene;
+  const scene::PhysicsScene scene;
   Diagnostics diagnostics;
-  for (const NameCase& c : {NameCase{"mujoco", ErrorCode::Invalid},
-                            NameCase{"jolt", ErrorCode::Missing},
-                            NameCase{"bullet", ErrorCode::NotFound}}) {
+  for (const NameCase& c :
+       {NameCase{"mujoco", ErrorCode::Invalid}, NameCase{"jolt", ErrorCode::Missing},
+        NameCase{"bullet", ErrorCode::NotFound}}) {
     const auto made = make_simulation(kBuilt, c.name, scene, {}, diagnostics);
     ASSERT_FALSE(made.has_value()) << c.name;
     EXPECT_EQ(made.error().code(), c.code) << c.name;

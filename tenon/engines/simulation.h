@@ -9,7 +9,7 @@
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
 #include "tenon/math/transform.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 /// What every engine offers: a model made from a PhysicsScene that can be stepped and read.
 namespace tenon::engines {
@@ -60,8 +60,8 @@ class Simulation {
   virtual double time() const = 0;       ///< [s] since the start
   virtual double time_step() const = 0;  ///< [s]
 
-  virtual BodyState body_state(physics::Index body) const = 0;
-  virtual JointState joint_state(physics::Index joint) const = 0;
+  virtual BodyState body_state(scene::Index body) const = 0;
+  virtual JointState joint_state(scene::Index joint) const = 0;
   virtual Energy energy() const = 0;
   virtual std::size_t contact_count() const = 0;
   /// Degrees of freedom that the engine simulates.

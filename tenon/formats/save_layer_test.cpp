@@ -58,12 +58,11 @@ TEST(SaveLayer, RefusesTextThatCannotBeReadBack) {
   expect_no_text(from_crate([](layer::Spec&, layer::Spec& a) {
     a.set(fields::default_value, std::string("no number"));
   }));
-  expect_no_text(from_crate([](layer::Spec&, layer::Spec& a) {
-    a.set(fields::typeName, Token("fl\xffoat"));
-  }));
-  expect_no_text(from_crate([](layer::Spec& p, layer::Spec&) { p.set(Token("no word"), 1.0f); }));
   expect_no_text(from_crate(
-      [](layer::Spec& p, layer::Spec&) { p.set(fields::kind, layer::Specifier::Def); }));
+      [](layer::Spec&, layer::Spec& a) { a.set(fields::typeName, Token("fl\xffoat")); }));
+  expect_no_text(from_crate([](layer::Spec& p, layer::Spec&) { p.set(Token("no word"), 1.0f); }));
+  expect_no_text(
+      from_crate([](layer::Spec& p, layer::Spec&) { p.set(fields::kind, layer::Specifier::Def); }));
   Layer layer = from_crate([](layer::Spec&, layer::Spec&) {});
   layer.root().set(fields::specifier, layer::Specifier::Def);
   expect_no_text(layer);

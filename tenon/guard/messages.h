@@ -33,8 +33,8 @@ struct Request {
 
 /// What the worker may take of the machine for one file.
 struct Allowance {
-  std::uint64_t memory = limits::kGuardMemoryBase;      ///< bytes of address space
-  std::uint64_t seconds = limits::kGuardSeconds;        ///< of processor time
+  std::uint64_t memory = limits::kGuardMemoryBase;  ///< bytes of address space
+  std::uint64_t seconds = limits::kGuardSeconds;    ///< of processor time
   std::uint64_t wall_seconds = limits::kGuardWallSeconds;
   std::uint64_t reply_bytes = limits::kGuardReplyBase;
 };
@@ -46,7 +46,7 @@ struct Task {
 
 /// How a worker is held: what the kernel has of what is asked for.
 struct Confinement {
-  bool memory = false;      ///< address space is bounded; else by watching (sanitizers)
+  bool memory = false;        ///< address space is bounded; else by watching (sanitizers)
   std::int32_t landlock = 0;  ///< version in force, 0: none
   bool system_calls = false;  ///< seccomp: no network, no processes, no writing
   bool no_new_privileges = false;

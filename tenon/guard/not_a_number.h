@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tenon/guard/wire.h"
+#include "tenon/base/wire.h"
 
 namespace tenon::guard {
 
@@ -16,16 +16,16 @@ bool has_not_a_number(const T& value) {
   } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T> ||
                        std::is_same_v<T, std::string>) {
     return false;
-  } else if constexpr (kIsOptional<T>) {
+  } else if constexpr (wire::kIsOptional<T>) {
     return value && has_not_a_number(*value);
-  } else if constexpr (kIsMap<T>) {
+  } else if constexpr (wire::kIsMap<T>) {
     for (const auto& [key, item] : value) {
       if (has_not_a_number(item)) {
         return true;
       }
     }
     return false;
-  } else if constexpr (kIsVector<T> || kIsArray<T>) {
+  } else if constexpr (wire::kIsVector<T> || wire::kIsArray<T>) {
     for (const auto& item : value) {
       if (has_not_a_number(item)) {
         return true;
@@ -34,7 +34,7 @@ bool has_not_a_number(const T& value) {
     return false;
   } else {
     return std::apply([](const auto&... field) { return (has_not_a_number(field) || ...); },
-                      fields_of(value));
+                      wire::fields_of(value));
   }
 }
 

@@ -117,8 +117,7 @@ int WorkerProcess::end() {
 
 bool WorkerProcess::wait_until(Clock::time_point deadline, short events) const {
   for (;;) {
-    const auto left =
-        std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0) {
       return false;
     }

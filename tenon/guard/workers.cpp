@@ -3,8 +3,8 @@
 #include "tenon/guard/workers.h"
 
 #include <algorithm>
-#include <cstring>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 
 #include <sys/wait.h>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kCannotRun = 127;  // what the loader of programs ends with
+constexpr int kCannotRun = 127;          // what the loader of programs ends with
 constexpr std::size_t kIdleWorkers = 4;  // folders that a robot's files usually lie in, and more
 
 std::string in_megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MB"; }
@@ -32,8 +32,8 @@ Error limit(const std::string& file, const char* rule, std::string message) {
 
 Error out_of_memory(const std::string& file, const Allowance& allowance) {
   return limit(file, "guard.memory",
-               "reading the file takes more memory than it may, " +
-                   in_megabytes(allowance.memory) + " (kGuardMemoryBase)");
+               "reading the file takes more memory than it may, " + in_megabytes(allowance.memory) +
+                   " (kGuardMemoryBase)");
 }
 
 Error out_of_time(const std::string& file, const Allowance& allowance) {
@@ -55,9 +55,8 @@ Error too_long(const std::string& file, const Allowance& allowance) {
 }
 
 Error broken(const std::string& file, const std::string& how) {
-  return Error(ErrorCode::Corrupt,
-               "the library that reads this format broke down on the file (" + how +
-                   "); it ran in a process of its own, tenon-worker")
+  return Error(ErrorCode::Corrupt, "the library that reads this format broke down on the file (" +
+                                       how + "); it ran in a process of its own, tenon-worker")
       .in_file(file)
       .with_rule("guard.crashed")
       .with_fix("export the file again; it is damaged or made to do harm");
@@ -99,8 +98,7 @@ Error end_of_worker(int status, const std::string& file, const Allowance& allowa
 
 }  // namespace
 
-Workers::Workers(const Allowance& base)
-    : base_(base), answer_(std::make_unique<ReplyBuffer>()) {}
+Workers::Workers(const Allowance& base) : base_(base), answer_(std::make_unique<ReplyBuffer>()) {}
 Workers::~Workers() = default;
 
 /// The processor time of a command is for its first loss; after that, files get a second each.
@@ -112,8 +110,8 @@ Allowance Workers::allowance_for(const std::string& file) const {
   }
   size = std::min(size, limits::kGuardMemoryMost);
   Allowance allowance = base_;
-  allowance.memory = std::min(allowance.memory + size * limits::kGuardMemoryPerByte,
-                              limits::kGuardMemoryMost);
+  allowance.memory =
+      std::min(allowance.memory + size * limits::kGuardMemoryPerByte, limits::kGuardMemoryMost);
   if (lost_ > 0) {
     allowance.seconds = 1;
   }
@@ -158,7 +156,7 @@ Result<std::string_view> Workers::ask(const Request& request) {
   }
   const Allowance allowance = allowance_for(request.file);
   const Silence silence =
-      idle_[*at]->exchange(encoded(Task{request, allowance}), allowance, *answer_);
+      idle_[*at]->exchange(wire::encoded(Task{request, allowance}), allowance, *answer_);
   if (silence == Silence::None) {
     return answer_->bytes();
   }
@@ -195,8 +193,7 @@ Diagnostic refused_file(const std::string& file, const std::string& refused,
   }
   return file_finding(Severity::Error, "guard.outside",
                       "the file asks for \"" + refused +
-                          "\", which is no file in the folders that may be read (" + folders +
-                          ")",
+                          "\", which is no file in the folders that may be read (" + folders + ")",
                       file, 0, "put the file there, or name its folder as one that may be read");
 }
 

@@ -9,8 +9,8 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/base/wire.h"
 #include "tenon/guard/messages.h"
-#include "tenon/guard/wire.h"
 
 /// Files of strangers in formats that libraries of others read are read by another process, the
 /// program tenon-worker, which is held to what docs/limits.md says. Whatever happens to it, the
@@ -67,7 +67,7 @@ Result<T> read_guarded(Workers& workers, Request request, Diagnostics& diagnosti
     request.readable_roots = own_roots(request.file);
   }
   TENON_TRY(const std::string_view bytes, workers.ask(request));
-  std::optional<Answer<T>> answer = decoded<Answer<T>>(bytes);
+  std::optional<Answer<T>> answer = wire::decoded<Answer<T>>(bytes);
   if (!answer || answer->value.has_value() == answer->failure.has_value() ||
       answer->findings.size() > limits::kGuardFindings) {
     return bad_answer(request.file);

@@ -99,9 +99,9 @@ TEST_F(HostileWorker, ThatAnnouncesMoreThanItMayIsStopped) {
             "guard.reply");
   Allowance allowance;
   allowance.reply_bytes = 100;
-  EXPECT_EQ(rule_of(error_of(R"(printf '\000\020\000\000\000\000\000\000' >&0; sleep 9)",
-                             allowance)),
-            "guard.reply");
+  EXPECT_EQ(
+      rule_of(error_of(R"(printf '\000\020\000\000\000\000\000\000' >&0; sleep 9)", allowance)),
+      "guard.reply");
 }
 
 TEST_F(HostileWorker, LosesNoMoreThanTheCommandMay) {

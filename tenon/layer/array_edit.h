@@ -39,9 +39,9 @@ constexpr bool has_second_argument(ArrayEditOp op) {
 }
 /// The argument that is the number of a literal: 0, 1, or 2 where there is none.
 constexpr int literal_argument(ArrayEditOp op) {
-  return op == ArrayEditOp::Write || op == ArrayEditOp::Insert               ? 0
+  return op == ArrayEditOp::Write || op == ArrayEditOp::Insert             ? 0
          : op == ArrayEditOp::MinSizeFill || op == ArrayEditOp::ResizeFill ? 1
-                                                                             : 2;
+                                                                           : 2;
 }
 
 struct ArrayEditStep {

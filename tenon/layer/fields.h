@@ -7,6 +7,7 @@
 /// Names of the core fields (Core Spec 1.0.1 section 7), made once.
 namespace tenon::layer::fields {
 
+// clang-format off: it does not come to an end with this list.
 #define TENON_FIELDS(X)                                                                         \
   X(active) X(allowedTokens) X(allowedValues) X(apiSchemas) X(assetInfo) X(clips) X(clipSets)   \
   X(colorConfiguration) X(colorManagementSystem) X(colorSpace) X(comment) X(connectionChildren) \
@@ -21,6 +22,7 @@ namespace tenon::layer::fields {
   X(suffixSubstitutions) X(symmetryFunction) X(targetChildren) X(targetPaths) X(timeSamples)    \
   X(timeCodesPerSecond) X(typeName) X(upAxis) X(variability) X(variantChildren)                 \
   X(variantSelection) X(variantSetChildren) X(variantSetNames)
+// clang-format on
 
 #define TENON_DECLARE_FIELD(name) inline const Token name{#name};
 TENON_FIELDS(TENON_DECLARE_FIELD)

@@ -32,12 +32,12 @@ std::uint8_t home_of(SpecKind kind) {
   }
 }
 
-struct Table {
+struct FieldTable {
   std::vector<MetadataField> rows;
   std::unordered_map<Token, std::size_t> by_name;
   std::unordered_map<Token, std::uint8_t> structural;
 
-  Table() {
+  FieldTable() {
 #define TENON_METADATA(name, value_type, array, where) \
   rows.push_back({Token(#name), ValueType::value_type, array, where});
 #include "tenon/layer/metadata_fields.def"
@@ -65,19 +65,19 @@ struct Table {
   }
 };
 
-const Table& table() {
-  static const auto* table = new Table();
+const FieldTable& field_table() {
+  static const auto* table = new FieldTable();
   return *table;
 }
 
 }  // namespace
 
 const MetadataField* find_metadata_field(Token name, SpecKind kind) {
-  const auto it = table().by_name.find(name);
-  if (it == table().by_name.end()) {
+  const auto it = field_table().by_name.find(name);
+  if (it == field_table().by_name.end()) {
     return nullptr;
   }
-  const MetadataField& field = table().rows[it->second];
+  const MetadataField& field = field_table().rows[it->second];
   return (field.homes & home_of(kind)) == 0 ? nullptr : &field;
 }
 
@@ -87,10 +87,10 @@ bool is_value_of_metadata(Token name, SpecKind kind, const Value& value) {
 }
 
 bool is_structural_field(Token name, SpecKind kind) {
-  const auto it = table().structural.find(name);
-  return it != table().structural.end() && (it->second & home_of(kind)) != 0;
+  const auto it = field_table().structural.find(name);
+  return it != field_table().structural.end() && (it->second & home_of(kind)) != 0;
 }
 
-std::span<const MetadataField> all_metadata_fields() { return table().rows; }
+std::span<const MetadataField> all_metadata_fields() { return field_table().rows; }
 
 }  // namespace tenon::layer

@@ -9,7 +9,7 @@
 namespace tenon::layer {
 namespace {
 
-constexpr std::string_view kOperatorTexts[] = {"~", " ", " + ", " & ", " - "};
+constexpr std::string_view kSetOperators[] = {"~", " ", " + ", " & ", " - "};
 
 }  // namespace
 
@@ -197,7 +197,7 @@ std::string PathExpressionTree::text() const {
       nodes[i].left = static_cast<std::int32_t>(i);
     }
   }
-  return expression_text(nodes, root_, kOperatorTexts, [&](std::string& out, std::int32_t number) {
+  return expression_text(nodes, root_, kSetOperators, [&](std::string& out, std::int32_t number) {
     const ExpressionNode& node = nodes_[static_cast<std::size_t>(number)];
     if (const ExpressionReference* found = reference(node)) {
       append_reference(out, *found);

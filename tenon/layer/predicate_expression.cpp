@@ -11,7 +11,7 @@
 namespace tenon::layer {
 namespace {
 
-std::string_view kOperatorTexts[] = {"not ", " ", " and ", " or "};
+constexpr std::string_view kLogicOperators[] = {"not ", " ", " and ", " or "};
 
 bool is_reserved(std::string_view word) {
   return word == "not" || word == "and" || word == "or" || word == "inf" || word == "true" ||
@@ -35,7 +35,7 @@ std::string argument_text(const Value& value) {
     return layer_text(*number);
   }
   const auto* text = value.get<std::string>();
-  return quoted(text == nullptr ? std::string_view() : *text);
+  return quoted_text(text == nullptr ? std::string_view() : *text);
 }
 
 class PredicateReader {
@@ -303,7 +303,7 @@ std::string PredicateExpression::text() const {
       out += ')';
     }
   };
-  return expression_text(nodes, static_cast<std::int32_t>(nodes.size()) - 1, kOperatorTexts,
+  return expression_text(nodes, static_cast<std::int32_t>(nodes.size()) - 1, kLogicOperators,
                          append_call);
 }
 

@@ -43,7 +43,7 @@ struct SplineKnot {
 
 struct SplineEnd {
   SplineExtrapolation mode = SplineExtrapolation::Held;
-  double slope = 0;  ///< of Sloped
+  double slope = 0;                ///< of Sloped
   std::optional<double> boundary;  ///< of loops: a time; repeated is what lies inside of it
   bool operator==(const SplineEnd&) const = default;
 };

@@ -11,8 +11,8 @@ namespace tenon::layer {
 
 /// Values over time: `times` ascending without repeats, one value each (ValueBlock allowed).
 struct TimeSamples {
-  std::vector<double> times;   // (sample_count)
-  std::vector<Value> values;   // (sample_count)
+  std::vector<double> times;  // (sample_count)
+  std::vector<Value> values;  // (sample_count)
 
   bool operator==(const TimeSamples&) const = default;
   bool empty() const { return times.empty(); }

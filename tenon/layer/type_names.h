@@ -11,7 +11,7 @@ namespace tenon::layer {
 
 /// A type as attributes name it: "color3f[]" is an array of Float3 with the role "Color".
 struct TypeName {
-  Token name;   ///< with "[]" for arrays
+  Token name;  ///< with "[]" for arrays
   Token scalar_name;
   ValueType type = ValueType::None;
   bool is_array = false;

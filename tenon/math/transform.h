@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include "tenon/math/matrix.h"
 #include "tenon/math/quaternion.h"
 #include "tenon/math/vector.h"
@@ -15,6 +17,13 @@ struct Pose {
 
   bool operator==(const Pose&) const = default;
 };
+
+inline bool is_finite(const Quatd& q) {
+  return std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z) && std::isfinite(q.w);
+}
+inline bool is_finite(const Pose& pose) {
+  return is_finite(pose.position) && is_finite(pose.orientation);
+}
 
 /// X_AC = X_AB X_BC.
 inline Pose operator*(const Pose& ab, const Pose& bc) {

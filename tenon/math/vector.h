@@ -67,6 +67,16 @@ constexpr double dot(const Vec<double, N>& a, const Vec<double, N>& b) {
   return sum;
 }
 
+/// Written out, for a loop is not unrolled where this is called for every point of a mesh.
+template <class T>
+bool is_finite(const Vec<T, 2>& a) {
+  return std::isfinite(a[0]) && std::isfinite(a[1]);
+}
+template <class T>
+bool is_finite(const Vec<T, 3>& a) {
+  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
+
 inline Vec3d cross(const Vec3d& a, const Vec3d& b) {
   return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
 }

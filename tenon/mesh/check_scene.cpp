@@ -10,10 +10,6 @@
 namespace tenon::mesh {
 namespace {
 
-bool is_finite(const Vec3f& point) {
-  return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
-}
-
 /// What is wrong with a mesh; empty: nothing.
 std::string fault_of(const PolygonMesh& mesh, std::size_t appearances) {
   std::uint64_t corners = 0;
@@ -31,7 +27,8 @@ std::string fault_of(const PolygonMesh& mesh, std::size_t appearances) {
                   [&](std::int32_t at) { return at < 0 || at >= points; })) {
     return "a face names a point that is not there";
   }
-  if (!std::all_of(mesh.points.begin(), mesh.points.end(), is_finite)) {
+  if (!std::all_of(mesh.points.begin(), mesh.points.end(),
+                   [](const Vec3f& point) { return is_finite(point); })) {
     return "a point has a coordinate that is not a finite number";
   }
   if (!mesh.normals.empty() && mesh.normals.size() != corners) {

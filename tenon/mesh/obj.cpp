@@ -27,11 +27,6 @@ struct Corner {
   std::optional<std::size_t> normal;
 };
 
-template <std::size_t N>
-bool is_finite(const Vec<float, N>& values) {
-  return std::all_of(values.v.begin(), values.v.end(), [](float x) { return std::isfinite(x); });
-}
-
 /// Faces of one material, with numbers of points of the whole file.
 struct Group {
   std::string material;
@@ -181,10 +176,10 @@ class ObjReader {
     if (is_finite(values)) {
       return true;
     }
-    diagnostics_.add(file_finding(Severity::Warning, "mesh.not-finite",
-                                  std::string("the face has a ") + what +
-                                      " that is not a finite number; " + instead,
-                                  path_, scanner_.line(), "export the mesh again"));
+    diagnostics_.add(file_finding(
+        Severity::Warning, "mesh.not-finite",
+        std::string("the face has a ") + what + " that is not a finite number; " + instead, path_,
+        scanner_.line(), "export the mesh again"));
     return false;
   }
 

@@ -106,8 +106,8 @@ TEST_F(ReadMesh, RefusesStlsWithPointsThatAreNoNumbers) {
     EXPECT_EQ(scene.error().diagnostic().rule, "mesh.not-finite");
     EXPECT_NE(scene.error().message().find("triangle 2 has"), std::string::npos);
   }
-  const auto text = read_stl(
-      "solid x\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 nan 0\nendfacet\n", "x.stl");
+  const auto text =
+      read_stl("solid x\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 nan 0\nendfacet\n", "x.stl");
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().diagnostic().rule, "mesh.not-finite");
   EXPECT_EQ(text.error().diagnostic().line, 5u);
@@ -125,10 +125,10 @@ TEST_F(ReadMesh, RefusesObjWithPointsThatAreNoNumbers) {
 
 TEST_F(ReadMesh, DoesWithoutNormalsAndColoursThatAreNoNumbers) {
   write("n.mtl", "newmtl a\nKd nan 0.5 inf\nnewmtl b\nd nan\n");
-  const std::string path = write(
-      "n.obj",
-      "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 nan\nvn 0 0 1\nvt inf 0\nvt 0 0\n"
-      "usemtl a\nf 1/1/1 2/1/1 3/1/1\nusemtl b\nf 1/2/2 2/2/2 3/2/2\n");
+  const std::string path =
+      write("n.obj",
+            "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 nan\nvn 0 0 1\nvt inf 0\nvt 0 0\n"
+            "usemtl a\nf 1/1/1 2/1/1 3/1/1\nusemtl b\nf 1/2/2 2/2/2 3/2/2\n");
   const auto scene = read(path, findings_);
   ASSERT_TRUE(scene) << scene.error().to_string();
   ASSERT_EQ(scene->meshes.size(), 2u);

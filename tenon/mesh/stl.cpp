@@ -35,10 +35,6 @@ Vec3f read_point(const char* at) {
            std::bit_cast<float>(read_uint32(at + 8))}};
 }
 
-bool is_finite(const Vec3f& point) {
-  return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
-}
-
 /// About the first triangle that no engine and no renderer can use, counted from 1.
 Error not_finite(const std::string& path, std::size_t triangle, std::size_t further) {
   const std::string more =

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "tenon/mjcf/contact_defaults.h"
 #include "tenon/mjcf/mjcf_reader.h"
 
 // MuJoCo lets two geoms touch where the type of one meets the affinity of the other, or where a
@@ -42,9 +43,6 @@ bool are_near(const mjModel& model, int geom, int other) {
   return part(a) == part(b) || (above(a) == part(b) && part(b) != 0) ||
          (above(b) == part(a) && part(a) != 0);
 }
-
-constexpr std::array<double, mjNREF> kSolref{0.02, 1};
-constexpr std::array<double, mjNIMP> kSolimp{0.9, 0.95, 0.001, 0.5, 2};
 
 /// Numbers where they are not what MuJoCo takes by itself.
 template <std::size_t N>

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "tenon/engines/mujoco/model.h"
+#include "tenon/mjcf/contact_defaults.h"
 #include "tenon/mjcf/mjcf_reader.h"
 
 namespace tenon::mjcf {
@@ -11,14 +12,6 @@ namespace tenon::mjcf {
 using engines::mujoco::read_quaternion;
 using engines::mujoco::read_vector;
 using robot::JointKind;
-
-namespace {
-
-// MuJoCo's defaults.
-constexpr std::array<double, mjNREF> kSolref{0.02, 1};
-constexpr std::array<double, mjNIMP> kSolimp{0.9, 0.95, 0.001, 0.5, 2};
-
-}  // namespace
 
 /// Connects and welds hold two bodies, or two sites of bodies. False for other equalities.
 bool MjcfReader::read_loop(int equality) {

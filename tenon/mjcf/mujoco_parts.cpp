@@ -10,7 +10,6 @@
 namespace tenon::mjcf {
 
 using robot::Index;
-using robot::MujocoActuator;
 
 namespace {
 
@@ -26,9 +25,9 @@ std::string token_of(std::span<const char* const> tokens, int kind) {
   return kind >= 0 && at < tokens.size() ? tokens[at] : "";
 }
 
-constexpr const char* kGains[] = {"fixed", "affine", "muscle"};
-constexpr const char* kBiases[] = {"none", "affine", "muscle"};
-constexpr const char* kDynamics[] = {"none", "integrator", "filter", "filterexact", "muscle"};
+constexpr const char* kGainTokens[] = {"fixed", "affine", "muscle"};
+constexpr const char* kBiasTokens[] = {"none", "affine", "muscle"};
+constexpr const char* kDynamicsTokens[] = {"none", "integrator", "filter", "filterexact", "muscle"};
 static_assert(mjGAIN_MUSCLE == 2 && mjBIAS_MUSCLE == 2 && mjDYN_MUSCLE == 4);
 
 }  // namespace
@@ -38,7 +37,7 @@ static_assert(mjGAIN_MUSCLE == 2 && mjBIAS_MUSCLE == 2 && mjDYN_MUSCLE == 4);
 bool MjcfReader::read_motor(int number) {
   const auto at = static_cast<std::size_t>(number);
   const auto target = static_cast<std::size_t>(std::max(0, model_.actuator_trnid[2 * at]));
-  MujocoActuator actuator;
+  robot::MujocoActuator actuator;
   if (model_.actuator_trntype[at] == mjTRN_JOINT) {
     actuator.target = joint_of_joint_[target];
     const robot::Joint& joint = robot_.joints[actuator.target];
@@ -46,15 +45,15 @@ bool MjcfReader::read_motor(int number) {
       return false;
     }
   } else if (model_.actuator_trntype[at] == mjTRN_TENDON && tendon_of_tendon_[target]) {
-    actuator.kind = MujocoActuator::Target::Tendon;
+    actuator.kind = robot::MujocoActuator::Target::Tendon;
     actuator.target = *tendon_of_tendon_[target];
   } else {
     return false;
   }
   actuator.name = unique_name(mjOBJ_ACTUATOR, number, "actuator");
-  actuator.gain_type = token_of(kGains, model_.actuator_gaintype[at]);
-  actuator.bias_type = token_of(kBiases, model_.actuator_biastype[at]);
-  actuator.dyn_type = token_of(kDynamics, model_.actuator_dyntype[at]);
+  actuator.gain_type = token_of(kGainTokens, model_.actuator_gaintype[at]);
+  actuator.bias_type = token_of(kBiasTokens, model_.actuator_biastype[at]);
+  actuator.dyn_type = token_of(kDynamicsTokens, model_.actuator_dyntype[at]);
   if (actuator.gain_type.empty() || actuator.bias_type.empty() || actuator.dyn_type.empty()) {
     return false;
   }

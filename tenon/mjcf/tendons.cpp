@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tenon/mjcf/contact_defaults.h"
 #include "tenon/mjcf/mjcf_reader.h"
 
 namespace tenon::mjcf {
@@ -13,8 +14,6 @@ using robot::MujocoTendonStop;
 namespace {
 
 // MuJoCo's defaults.
-constexpr std::array<double, mjNREF> kSolref{0.02, 1};
-constexpr std::array<double, mjNIMP> kSolimp{0.9, 0.95, 0.001, 0.5, 2};
 constexpr double kWidth = 0.003;
 constexpr std::array<float, 4> kColor{0.5f, 0.5f, 0.5f, 1};
 

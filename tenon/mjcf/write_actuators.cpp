@@ -12,9 +12,9 @@ namespace tenon::mjcf {
 namespace {
 
 using engines::mujoco::guarded;
-using physics::MujocoActuator;
+using scene::MujocoActuator;
 using Target = MujocoActuator::Target;
-using Place = physics::TendonStop::Place;
+using Place = scene::TendonStop::Place;
 using Range = std::array<double, 2>;
 
 struct Word {
@@ -53,7 +53,7 @@ void set_range(const std::optional<Range>& range, mjtLimited& limited, double* t
 
 class ActuatorWriter {
  public:
-  ActuatorWriter(const physics::PhysicsScene& scene, const engines::mujoco::Model& model,
+  ActuatorWriter(const scene::PhysicsScene& scene, const engines::mujoco::Model& model,
                  mjSpec& spec)
       : scene_(scene), model_(model), spec_(spec) {}
 
@@ -112,8 +112,8 @@ class ActuatorWriter {
   }
 
   std::string set_joint(const MujocoActuator& from, mjsActuator& to) {
-    const physics::Joint& joint = scene_.joints[from.target];
-    const bool ball = joint.kind == physics::JointKind::Spherical;
+    const scene::Joint& joint = scene_.joints[from.target];
+    const bool ball = joint.kind == scene::JointKind::Spherical;
     if (ball && model_.joints[from.target].reversed) {
       return "its ball is reversed in the model";
     }
@@ -156,7 +156,7 @@ class ActuatorWriter {
     to.type = plain ? mjACTUATOR_MOTOR : mjACTUATOR_GENERAL;
   }
 
-  const physics::PhysicsScene& scene_;
+  const scene::PhysicsScene& scene_;
   const engines::mujoco::Model& model_;
   mjSpec& spec_;
 };
@@ -182,7 +182,7 @@ void report_left_out(Diagnostics& diagnostics, const Path& prim, const char* pro
   diagnostics.add(std::move(finding));
 }
 
-Result<std::vector<mjsActuator*>> write_actuators(const physics::PhysicsScene& scene,
+Result<std::vector<mjsActuator*>> write_actuators(const scene::PhysicsScene& scene,
                                                   const std::vector<MujocoActuator>& actuators,
                                                   const engines::mujoco::Model& model, mjSpec& spec,
                                                   Diagnostics& diagnostics) {

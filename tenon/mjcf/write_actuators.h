@@ -9,7 +9,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/engines/mujoco/model.h"
-#include "tenon/physics/mujoco_actuators.h"
+#include "tenon/scene/mujoco_actuators.h"
 
 /// Internal to this folder.
 namespace tenon::mjcf {
@@ -19,7 +19,7 @@ namespace tenon::mjcf {
 /// and listed. -> the elements, nullptr for each that is not there (actuator_count). Errors: those
 /// of MuJoCo.
 Result<std::vector<mjsActuator*>> write_actuators(
-    const physics::PhysicsScene& scene, const std::vector<physics::MujocoActuator>& actuators,
+    const scene::PhysicsScene& scene, const std::vector<scene::MujocoActuator>& actuators,
     const engines::mujoco::Model& model, mjSpec& spec, Diagnostics& diagnostics);
 
 /// One finding about a prim that is left out, or a part of it.

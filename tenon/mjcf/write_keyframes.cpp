@@ -11,13 +11,12 @@ namespace tenon::mjcf {
 namespace {
 
 using engines::mujoco::BodyBase;
-using engines::mujoco::BodyPlan;
 using engines::mujoco::guarded;
 using engines::mujoco::Model;
 using engines::mujoco::ModelPtr;
-using physics::Index;
-using physics::MujocoActuator;
-using physics::MujocoKeyframe;
+using scene::Index;
+using scene::MujocoActuator;
+using scene::MujocoKeyframe;
 
 /// A joint of the model, and where its numbers stand there.
 struct Slot {
@@ -34,34 +33,33 @@ struct Slot {
 /// All bodies as keyframes come to them: down the tree, side by side by when the stage comes first
 /// to them or to what hangs on them.
 std::vector<Index> keyframe_order(const Model& model, std::vector<Index> ranks) {
-  const std::vector<Index>& order = model.plan.order;
-  std::vector<std::vector<Index>> children(ranks.size());
-  std::vector<Index> open;  // the last one is next
-  for (auto at = order.rbegin(); at != order.rend(); ++at) {
-    const BodyPlan& plan = model.plan.bodies[*at];
-    if (plan.base == BodyBase::Jointed && plan.parent) {
-      children[*plan.parent].push_back(*at);
-      ranks[*plan.parent] = std::min(ranks[*plan.parent], ranks[*at]);
-    } else {
-      open.push_back(*at);
+  const scene::JointForest& forest = model.plan.forest;
+  for (auto at = forest.order.rbegin(); at != forest.order.rend(); ++at) {
+    if (const std::optional<Index>& parent = forest.bodies[*at].parent) {
+      ranks[*parent] = std::min(ranks[*parent], ranks[*at]);
     }
   }
-  const auto later = [&](Index a, Index b) { return ranks[a] > ranks[b]; };
-  std::stable_sort(open.begin(), open.end(), later);
+  std::vector<Index> open;  // the last one is next
+  const auto push = [&](std::vector<Index> bodies) {
+    std::reverse(bodies.begin(), bodies.end());
+    std::stable_sort(bodies.begin(), bodies.end(),
+                     [&](Index a, Index b) { return ranks[a] > ranks[b]; });
+    open.insert(open.end(), bodies.begin(), bodies.end());
+  };
+  push(forest.roots);
   std::vector<Index> result;
   while (!open.empty()) {
     const Index body = open.back();
     open.pop_back();
     result.push_back(body);
-    std::stable_sort(children[body].begin(), children[body].end(), later);
-    open.insert(open.end(), children[body].begin(), children[body].end());
+    push(forest.bodies[body].children);
   }
   return result;
 }
 
 class KeyframeWriter {
  public:
-  KeyframeWriter(const physics::PhysicsScene& scene, const physics::MujocoParts& parts,
+  KeyframeWriter(const scene::PhysicsScene& scene, const scene::MujocoParts& parts,
                  const std::vector<mjsActuator*>& made, const Model& model, const mjModel& compiled,
                  mjSpec& spec, Diagnostics& diagnostics)
       : scene_(scene),
@@ -121,15 +119,15 @@ class KeyframeWriter {
 
  private:
   void add_slots(Index body) {
-    const BodyPlan& plan = model_.plan.bodies[body];
     const engines::mujoco::BodyMap& map = model_.bodies[body];
-    if (plan.base == BodyBase::Free) {
+    if (model_.plan.bases[body] == BodyBase::Free) {
       slots_.push_back({Slot::Kind::Free, body, map.free_qpos, map.free_dof});
     }
-    if (plan.base != BodyBase::Jointed) {
+    const std::optional<Index>& above = model_.plan.forest.bodies[body].joint;
+    if (!above) {
       return;
     }
-    const engines::mujoco::JointMap& joint = model_.joints[plan.joint];
+    const engines::mujoco::JointMap& joint = model_.joints[*above];
     for (std::size_t i = 0; i < joint.qpos.size(); ++i) {
       const bool turns = is_angular(joint.dofs.free[i].dof);
       slots_.push_back(
@@ -264,8 +262,8 @@ class KeyframeWriter {
     }
   }
 
-  const physics::PhysicsScene& scene_;
-  const physics::MujocoParts& parts_;
+  const scene::PhysicsScene& scene_;
+  const scene::MujocoParts& parts_;
   const std::vector<mjsActuator*>& made_;
   const Model& model_;
   const mjModel& compiled_;
@@ -280,7 +278,7 @@ class KeyframeWriter {
 
 }  // namespace
 
-Result<void> write_keyframes(const physics::PhysicsScene& scene, const physics::MujocoParts& parts,
+Result<void> write_keyframes(const scene::PhysicsScene& scene, const scene::MujocoParts& parts,
                              const std::vector<mjsActuator*>& made, const Model& model,
                              mjSpec& spec, Diagnostics& diagnostics) {
   if (parts.keyframes.empty()) {

@@ -9,7 +9,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/engines/mujoco/model.h"
-#include "tenon/physics/mujoco_actuators.h"
+#include "tenon/scene/mujoco_actuators.h"
 
 /// Internal to this folder.
 namespace tenon::mjcf {
@@ -20,7 +20,7 @@ namespace tenon::mjcf {
 /// the asset was made from a model of it. Bodies that move freely have the pose of their prim [m in
 /// the world; real part first], joints count from where their frames meet [m or rad]. Lists of
 /// another length are left out and listed. Errors: those of MuJoCo.
-Result<void> write_keyframes(const physics::PhysicsScene& scene, const physics::MujocoParts& parts,
+Result<void> write_keyframes(const scene::PhysicsScene& scene, const scene::MujocoParts& parts,
                              const std::vector<mjsActuator*>& made,
                              const engines::mujoco::Model& model, mjSpec& spec,
                              Diagnostics& diagnostics);

@@ -75,7 +75,7 @@ class VisualWriter {
                Diagnostics& diagnostics)
       : visuals_(visuals), model_(model), spec_(spec), diagnostics_(diagnostics) {}
 
-  void run(const physics::PhysicsScene& scene) {
+  void run(const scene::PhysicsScene& scene) {
     for (mjsElement* at = mjs_firstElement(&spec_, mjOBJ_GEOM); at != nullptr;
          at = mjs_nextElement(&spec_, at)) {
       mjs_asGeom(at)->group = kColliderGroup;
@@ -271,10 +271,9 @@ class VisualWriter {
 
 }  // namespace
 
-Result<std::string> write_model(const physics::PhysicsScene& scene,
-                                const robot::RobotModel& visuals,
+Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::RobotModel& visuals,
                                 const std::map<std::string, std::string>& images,
-                                const physics::MujocoParts& parts, Diagnostics& diagnostics) {
+                                const scene::MujocoParts& parts, Diagnostics& diagnostics) {
   TENON_TRY(engines::mujoco::SpecAndModel built,
             engines::mujoco::writable_model(scene, {}, diagnostics));
   TENON_TRY(const std::vector<mjsActuator*> made,
@@ -296,11 +295,11 @@ Result<std::string> write_model(const physics::PhysicsScene& scene,
   if (!sees) {
     return Error(ErrorCode::Invalid, mjs_getError(built.spec.get())).with_rule("mujoco.write");
   }
-  diagnostics.add(file_finding(
-      Severity::Warning, "mjcf.left-out",
-      std::string("the visuals are left out, because MuJoCo refuses them: ") +
-          mjs_getError(built.spec.get()),
-      "", 0));
+  diagnostics.add(
+      file_finding(Severity::Warning, "mjcf.left-out",
+                   std::string("the visuals are left out, because MuJoCo refuses them: ") +
+                       mjs_getError(built.spec.get()),
+                   "", 0));
   Diagnostics again;
   return write_model(scene, {}, {}, parts, again);
 }

@@ -7,9 +7,9 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
-#include "tenon/physics/mujoco_actuators.h"
-#include "tenon/physics/physics_scene.h"
 #include "tenon/robot/robot_model.h"
+#include "tenon/scene/mujoco_actuators.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::mjcf {
 
@@ -22,9 +22,8 @@ namespace tenon::mjcf {
 /// `parts`, of the same stage, actuators that are no drives are added after the drives, and
 /// keyframes. Errors:
 /// those of making a model.
-Result<std::string> write_model(const physics::PhysicsScene& scene,
-                                const robot::RobotModel& visuals,
+Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::RobotModel& visuals,
                                 const std::map<std::string, std::string>& images,
-                                const physics::MujocoParts& parts, Diagnostics& diagnostics);
+                                const scene::MujocoParts& parts, Diagnostics& diagnostics);
 
 }  // namespace tenon::mjcf

@@ -11,7 +11,8 @@
 #include "tenon/base/path.h"
 #include "tenon/base/token.h"
 #include "tenon/physics/mass_properties.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/physics/scene_names.h"
+#include "tenon/scene/physics_scene.h"
 
 /// What a reading decided on the way, for those who ask "why": filled when asked for.
 namespace tenon::physics {

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "tenon/physics/articulation_tree.h"
 #include "tenon/physics/read_state.h"
+#include "tenon/scene/articulation_tree.h"
+#include "tenon/scene/joint_freedom.h"
 
 namespace tenon::physics {
 namespace {

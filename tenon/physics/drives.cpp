@@ -6,6 +6,7 @@
 
 #include "tenon/base/text_number.h"
 #include "tenon/physics/joint_limits.h"
+#include "tenon/scene/joint_freedom.h"
 
 namespace tenon::physics {
 namespace {

@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "tenon/physics/physics_scene.h"
 #include "tenon/physics/readings.h"
+#include "tenon/physics/scene_names.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::physics {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tenon/base/text_number.h"
+#include "tenon/scene/joint_freedom.h"
 
 namespace tenon::physics {
 namespace {
@@ -95,11 +96,6 @@ NamedLimit read_limit(const ReadState& state, const stage::Prim& prim, Token ins
   return named;
 }
 
-bool has_one_dof(const Joint& joint) {
-  return joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic ||
-         joint.kind == JointKind::Distance;
-}
-
 /// S-100: on a D6 joint every axis; on others only the joint's own one, where it narrows.
 void apply_limit(const ReadState& state, const stage::Prim& prim, const NamedLimit& named,
                  Joint& joint) {
@@ -126,19 +122,6 @@ void apply_limit(const ReadState& state, const stage::Prim& prim, const NamedLim
 
 }  // namespace
 
-std::optional<Dof> dof_of(std::string_view token) {
-  constexpr std::pair<std::string_view, Dof> kNames[] = {
-      {"transX", Dof::TransX},    {"transY", Dof::TransY}, {"transZ", Dof::TransZ},
-      {"rotX", Dof::RotX},        {"rotY", Dof::RotY},     {"rotZ", Dof::RotZ},
-      {"distance", Dof::Distance}};
-  for (const auto& [name, dof] : kNames) {
-    if (token == name) {
-      return dof;
-    }
-  }
-  return std::nullopt;
-}
-
 void read_joint_limits(const ReadState& state, const PhysicsPrim& found, Joint& joint) {
   switch (joint.kind) {
     case JointKind::Revolute:
@@ -163,38 +146,6 @@ void read_joint_limits(const ReadState& state, const PhysicsPrim& found, Joint& 
   }
   std::stable_sort(joint.limits.begin(), joint.limits.end(),
                    [](const Limit& a, const Limit& b) { return a.dof < b.dof; });
-}
-
-Limit limit_of(const Joint& joint, Dof dof) {
-  if (has_one_dof(joint) && joint.dof() == dof) {
-    return {dof, joint.lower, joint.upper};
-  }
-  for (const Limit& limit : joint.limits) {
-    if (limit.dof == dof) {
-      return limit;
-    }
-  }
-  return {dof, -kUnlimited, kUnlimited};
-}
-
-bool is_locked(const Joint& joint, Dof dof) {
-  const Limit limit = limit_of(joint, dof);
-  if (limit.locked() || limit.lower == limit.upper) {
-    return true;
-  }
-  switch (joint.kind) {
-    case JointKind::Revolute:
-    case JointKind::Prismatic:
-      return joint.dof() != dof;
-    case JointKind::Spherical:
-      return !is_angular(dof);
-    case JointKind::Fixed:
-      return true;
-    case JointKind::Distance:
-    case JointKind::D6:
-      return false;
-  }
-  return false;
 }
 
 }  // namespace tenon::physics

@@ -9,6 +9,7 @@
 #include "tenon/physics/joint_limits.h"
 #include "tenon/physics/mujoco_contacts.h"
 #include "tenon/physics/read_state.h"
+#include "tenon/scene/joint_freedom.h"
 
 namespace tenon::physics {
 namespace {

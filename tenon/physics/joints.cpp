@@ -28,7 +28,7 @@ JointKind kind_of(PrimKind kind) {
 }
 
 /// S-94
-Axis read_axis(const ReadState& state, const stage::Prim& prim) {
+Axis joint_axis(const ReadState& state, const stage::Prim& prim) {
   const Token axis = state.values.get<Token>(prim, state.tokens.joint_axis).value_or(Token("X"));
   if (axis == "Y") {
     return Axis::Y;
@@ -110,7 +110,7 @@ std::optional<Joint> read_joint(const ReadState& state, const PhysicsPrim& found
   const bool has_axis = joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic ||
                         joint.kind == JointKind::Spherical;
   if (has_axis) {
-    joint.axis = read_axis(state, found.prim);
+    joint.axis = joint_axis(state, found.prim);
   }
   read_joint_limits(state, found, joint);
   return joint;

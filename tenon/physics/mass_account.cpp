@@ -111,8 +111,7 @@ void account_inertia(const ReadState& state, const PhysicsPrim& found, CenterShi
     add_passed_over(found, state.tokens.diagonal_inertia, "S-45",
                     "unset: exactly zero, negative, blocked or of another type", chain);
     add_passed_over(found, state.tokens.principal_axes, "S-46",
-                    "axes without moments have no effect",
-                    chain);
+                    "axes without moments have no effect", chain);
   }
   const bool none = !(account.computed.mass > 0);
   // Without an authored inertia the result is the computed one.

@@ -7,9 +7,10 @@
 
 #include "tenon/math/inertia.h"
 #include "tenon/math/transform.h"
-#include "tenon/physics/mesh_inertia.h"
-#include "tenon/physics/physics_scene.h"
 #include "tenon/physics/readings.h"
+#include "tenon/physics/scene_names.h"
+#include "tenon/scene/mesh_inertia.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::physics {
 

@@ -10,7 +10,8 @@
 #include "tenon/math/matrix.h"
 #include "tenon/math/quaternion.h"
 #include "tenon/math/vector.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/physics/scene_names.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::physics {
 

@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include "tenon/base/physics_limits.h"
-#include "tenon/physics/convex_hull.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/physics/shapes.h"
 #include "tenon/physics/world_pose.h"
+#include "tenon/scene/convex_hull.h"
 #include "tenon/stage/material_binding.h"
 #include "tenon/stage/transform_at.h"
 
@@ -56,7 +56,7 @@ bool is_hole(const std::vector<std::int32_t>& holes, std::size_t face) {
 }
 
 /// What a mesh prim under the matrix `world` is in the collider's rigid frame, but for its arrays.
-MeshSource placed(const ReadState& state, const ShapeSource& source, const Mat4d& world) {
+MeshSource placed_source(const ReadState& state, const ShapeSource& source, const Mat4d& world) {
   MeshSource mesh;
   mesh.linear = upper_left(world);
   mesh.offset = Vec3d{{world[3][0], world[3][1], world[3][2]}} - source.parts.translation;
@@ -131,7 +131,7 @@ layer::Array<std::int32_t> integers(const ReadState& state, const stage::Prim& p
 
 MeshSource read_source(const ReadState& state, const ShapeSource& source, const stage::Prim& prim,
                        const Mat4d& world) {
-  MeshSource mesh = placed(state, source, world);
+  MeshSource mesh = placed_source(state, source, world);
   mesh.points = state.values.get<layer::Array<Vec3f>>(prim, state.tokens.points)
                     .value_or(layer::Array<Vec3f>());
   const bool left_handed =
@@ -287,10 +287,11 @@ int most_of(const ReadState& state, const ShapeSource& source, const char* name,
 /// S-62: convex pieces of a mesh, into the scene; none when it is left whole, said why.
 std::vector<Index> decompose(ReadState& state, const ShapeSource& source,
                              const TriangleMesh& mesh) {
+  const char* const left_out = "convexDecomposition is not carried out; one convex hull is used";
   const char* fault = nullptr;
-  std::vector<TriangleMesh> pieces;
+  std::optional<std::vector<TriangleMesh>> pieces;
   if (state.mesh_tools == nullptr || !state.mesh_tools->decompose) {
-    fault = "convexDecomposition is not carried out; one convex hull is used";
+    fault = left_out;
   } else if (mesh.flat) {
     return {};  // one polygon, said as such
   } else if (!is_closed(mesh)) {
@@ -302,14 +303,20 @@ std::vector<Index> decompose(ReadState& state, const ShapeSource& source,
     pieces = state.mesh_tools->decompose(
         mesh, most_of(state, source, (space + "maxConvexHulls").c_str(), 32),
         std::max(4, most_of(state, source, (space + "hullVertexLimit").c_str(), 64)));
-    fault = pieces.empty() ? "convexDecomposition failed; one convex hull is used" : nullptr;
+    if (!pieces) {
+      fault = left_out;
+    } else if (pieces->empty()) {
+      fault = "convexDecomposition failed; one convex hull is used";
+    }
   }
   if (fault != nullptr) {
     not_carried_out(state, source, fault);
   }
   std::vector<Index> indices;
-  for (TriangleMesh& piece : pieces) {
-    indices.push_back(add_mesh(state, std::move(piece)));
+  if (pieces) {
+    for (TriangleMesh& piece : *pieces) {
+      indices.push_back(add_mesh(state, std::move(piece)));
+    }
   }
   return indices;
 }
@@ -445,7 +452,7 @@ std::optional<ShapeReading> read_points_shape(ReadState& state, const ShapeSourc
       std::fmax(std::fabs(s[0]), std::fmax(std::fabs(s[1]), std::fabs(s[2]))) * state.units.length;
   ShapeReading reading;
   reading.shape.kind = ShapeKind::Spheres;
-  MeshSource centers = placed(state, source, source.found.world);
+  MeshSource centers = placed_source(state, source, source.found.world);
   centers.points = *points;
   reading.shape.sphere_centers = placed_points(centers);
   for (std::size_t i = 0; i < points->size(); ++i) {

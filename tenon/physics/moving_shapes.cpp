@@ -17,7 +17,7 @@
 namespace tenon::physics {
 namespace {
 
-constexpr double kSamplesPerFrame = 4;  ///< between authored samples
+constexpr double kShapesPerFrame = 4;  ///< between authored samples
 
 /// Sample times of the prim's own transform ops.
 std::vector<double> own_samples(const stage::Prim& prim) {
@@ -96,7 +96,7 @@ class MovingShapes {
     const double fps = state_.stage.frames_per_second();
     const double frame = fps > 0 ? state_.scene.time_codes_per_second / fps : 1;
     const double step =
-        std::max(frame / kSamplesPerFrame, span / static_cast<double>(limits::kShapeSamples));
+        std::max(frame / kShapesPerFrame, span / static_cast<double>(limits::kShapeSamples));
     for (std::size_t i = 1; i <= limits::kShapeSamples; ++i) {
       const double code = first + static_cast<double>(i) * step;
       if (!(code < last)) {

@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "tenon/physics/mujoco_parts.h"
+#include "tenon/physics/scene_names.h"
+#include "tenon/scene/mujoco_parts.h"
 #include "tenon/stage/prim.h"
 
 namespace tenon::physics {

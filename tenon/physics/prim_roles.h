@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "tenon/base/token.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/physics/scene_names.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/prim.h"
 
 namespace tenon::physics {

@@ -12,8 +12,8 @@
 #include "tenon/physics/mass_account.h"
 #include "tenon/physics/mass_properties.h"
 #include "tenon/physics/read_state.h"
-#include "tenon/physics/shape_mass.h"
 #include "tenon/physics/world_pose.h"
+#include "tenon/scene/shape_mass.h"
 
 namespace tenon::physics {
 namespace {

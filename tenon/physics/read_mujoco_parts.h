@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tenon/physics/mujoco_actuators.h"
+#include "tenon/physics/scene_names.h"
+#include "tenon/scene/mujoco_actuators.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::physics {

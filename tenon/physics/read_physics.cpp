@@ -11,8 +11,10 @@
 #include <string>
 #include <unordered_set>
 
+#include "tenon/approximate/mesh_approximator.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/weighed_bodies.h"
+#include "tenon/scene/canonical_scene.h"
 
 namespace tenon::physics {
 namespace {
@@ -92,11 +94,13 @@ PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
   Diagnostics found;
   ReadState state = begin(stage, options, found);
   state.accounts = accounts;
-  state.mesh_tools = &options.mesh_tools;
+  const MeshTools own = options.mesh_tools ? MeshTools() : approximate::mesh_tools({});
+  state.mesh_tools = options.mesh_tools ? &*options.mesh_tools : &own;
   state.mesh_cache = options.mesh_cache;
   state.integrals = options.integrals ? &options.integrals : nullptr;
   state.walk = walk_stage(stage, state.values, options.readings);
   PhysicsScene scene = read_walked(state);
+  make_canonical(scene);
   if (state.walk.instances.empty()) {
     diagnostics.append(found);
   } else {

@@ -11,10 +11,11 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/physics/accounts.h"
 #include "tenon/physics/mesh_cache.h"
-#include "tenon/physics/mesh_inertia.h"
-#include "tenon/physics/mesh_tools.h"
-#include "tenon/physics/physics_scene.h"
 #include "tenon/physics/readings.h"
+#include "tenon/physics/scene_names.h"
+#include "tenon/scene/mesh_inertia.h"
+#include "tenon/scene/mesh_tools.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::physics {
@@ -25,7 +26,9 @@ struct ReadOptions {
   double start_time_code = std::numeric_limits<double>::quiet_NaN();
   /// Which reading counts where the proposal, OpenUSD and engines disagree.
   Readings readings;
-  MeshTools mesh_tools;
+  /// What takes meshes apart and simplifies them (S-62). Nothing: the library's own, without files
+  /// of pieces; empty functions: meshes stay whole, said as such.
+  std::optional<MeshTools> mesh_tools;
   /// Where not null: meshes that were made in other readings with it are not made again.
   MeshCache* mesh_cache = nullptr;
   /// Integrals of enabled colliders for those who know better (M-20): asked once per collider, in

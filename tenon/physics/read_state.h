@@ -12,13 +12,14 @@
 #include "tenon/physics/accounts.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/mesh_cache.h"
-#include "tenon/physics/mesh_inertia.h"
-#include "tenon/physics/mesh_tools.h"
-#include "tenon/physics/physics_scene.h"
 #include "tenon/physics/physics_tokens.h"
 #include "tenon/physics/readings.h"
+#include "tenon/physics/scene_names.h"
 #include "tenon/physics/stage_walk.h"
 #include "tenon/physics/units.h"
+#include "tenon/scene/mesh_inertia.h"
+#include "tenon/scene/mesh_tools.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::physics {

@@ -9,8 +9,8 @@
 #include <array>
 #include <cmath>
 
-#include "tenon/physics/convex_hull.h"
 #include "tenon/physics/world_pose.h"
+#include "tenon/scene/convex_hull.h"
 
 namespace tenon::physics {
 namespace {
@@ -32,7 +32,7 @@ bool is_uniform(double a, double b) {
   return std::fabs(std::fabs(a) - std::fabs(b)) <= kUniform * std::fmax(std::fabs(a), std::fabs(b));
 }
 
-Axis read_axis(const ReadState& state, const stage::Prim& prim) {
+Axis shape_axis(const ReadState& state, const stage::Prim& prim) {
   const Token axis = state.values.get<Token>(prim, state.tokens.axis).value_or(Token("Z"));
   if (axis == "X") {
     return Axis::X;
@@ -149,7 +149,7 @@ std::optional<ShapeReading> read_round(ReadState& state, const ShapeSource& sour
   const stage::Prim& prim = source.found.prim;
   ShapeReading reading;
   reading.shape.kind = kind;
-  reading.shape.axis = read_axis(state, prim);
+  reading.shape.axis = shape_axis(state, prim);
   const Sizes sizes = sizes_for(state, source, reading.shape.axis);
   report_scale_across(state, source, sizes);
   reading.shape.radius =
@@ -200,7 +200,7 @@ Quatd z_to_axis(Axis axis) {
 /// Capsule_1 and Cylinder_1: two radii (M-6, M-7). Equal radii are the plain shapes.
 std::optional<ShapeReading> read_tapered(ReadState& state, const ShapeSource& source, bool capped) {
   const stage::Prim& prim = source.found.prim;
-  const Axis axis = read_axis(state, prim);
+  const Axis axis = shape_axis(state, prim);
   const Sizes sizes = sizes_for(state, source, axis);
   report_scale_across(state, source, sizes);
   const double fallback = capped ? 0.5 : 1;
@@ -247,7 +247,7 @@ std::optional<ShapeReading> read_plane(ReadState& state, const ShapeSource& sour
   }
   ShapeReading reading;
   reading.shape.kind = ShapeKind::Plane;
-  reading.shape.axis = read_axis(state, source.found.prim);
+  reading.shape.axis = shape_axis(state, source.found.prim);
   const Sizes sizes = sizes_for(state, source, reading.shape.axis);
   if (!source.parts.sheared) {
     reading.pose.orientation = flip_of(sizes);

@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "tenon/physics/read_state.h"
-#include "tenon/physics/shape_mass.h"
+#include "tenon/physics/scene_names.h"
+#include "tenon/scene/shape_mass.h"
 
 namespace tenon::physics {
 

@@ -251,6 +251,8 @@ class TendonReader {
         }
       }
     }
+    std::sort(tendon_.settings.begin(), tendon_.settings.end(),
+              [](const MujocoSetting& a, const MujocoSetting& b) { return a.name < b.name; });
   }
 
   ReadState& state_;

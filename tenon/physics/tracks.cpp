@@ -16,7 +16,7 @@
 namespace tenon::physics {
 namespace {
 
-constexpr double kSamplesPerFrame = 4;  ///< between authored poses, whose rotation is not linear
+constexpr double kPosesPerFrame = 4;  ///< between authored poses, whose rotation is not linear
 
 class TrackReader {
  public:
@@ -43,8 +43,8 @@ class TrackReader {
       state_.scene.not_read.push_back(
           {Path::absolute_root(), "timeSamples",
            "poses between the authored samples of motions are taken further apart than four in a "
-           "frame: there are more than " + std::to_string(limits::kTrackSamples) +
-               " (kTrackSamples)"});
+           "frame: there are more than " +
+               std::to_string(limits::kTrackSamples) + " (kTrackSamples)"});
     }
   }
 
@@ -61,12 +61,11 @@ class TrackReader {
     }
     const double fps = state_.stage.frames_per_second();
     const double frame = fps > 0 ? state_.scene.time_codes_per_second / fps : 1;
-    const double step =
-        std::max(frame / kSamplesPerFrame, span / static_cast<double>(samples_left_));
+    const double step = std::max(frame / kPosesPerFrame, span / static_cast<double>(samples_left_));
     const double first = authored.front();
     const std::size_t count =
         std::min(static_cast<std::size_t>(std::max(span / step, 0.0)), samples_left_);
-    is_coarse_ = is_coarse_ || step > frame / kSamplesPerFrame || count == samples_left_;
+    is_coarse_ = is_coarse_ || step > frame / kPosesPerFrame || count == samples_left_;
     samples_left_ -= count;
     authored.reserve(authored.size() + count);
     for (std::size_t i = 1; i <= count; ++i) {
@@ -123,8 +122,7 @@ class TrackReader {
   }
 
   /// World poses of a prim, followed by the constant pose `X_PC` of what hangs on it.
-  PoseTrack poses(const stage::Prim& prim, const std::vector<double>& codes,
-                  const Pose& fixed) {
+  PoseTrack poses(const stage::Prim& prim, const std::vector<double>& codes, const Pose& fixed) {
     PoseTrack track;
     track.held = state_.readings.held_samples == HeldSamples::Held;
     for (const double code : track.held ? codes : dense(codes)) {

@@ -6,13 +6,11 @@
 #include <limits>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/math/angle.h"
 #include "tenon/math/vector.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::physics {
-
-inline constexpr double kPi = 3.14159265358979323846;
-inline constexpr double kRadians = kPi / 180;  ///< of one degree
 
 /// From the stage's units to SI: multiply (S-12).
 struct Units {

@@ -17,14 +17,6 @@ inline Pose world_pose(const Mat4d& world, const Units& units) {
   return pose;
 }
 
-inline bool is_finite(const Vec3d& v) {
-  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-}
-inline bool is_finite(const Pose& pose) {
-  const Quatd& q = pose.orientation;
-  return is_finite(pose.position) && std::isfinite(q.w + q.x + q.y + q.z);
-}
-
 /// A point of the prim's space (stage units), exactly, in metres in the frame X_WF.
 inline Vec3d point_in_frame(const Vec3d& point, const Mat4d& world, const Pose& frame,
                             const Units& units) {

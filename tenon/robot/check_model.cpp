@@ -124,10 +124,10 @@ class Checks {
 
   void check_mujoco(const MujocoParts& parts) {
     for (const MujocoActuator& actuator : parts.actuators) {
-      expect(actuator.target < (actuator.kind == MujocoActuator::Target::Joint
-                                    ? model_.joints.size()
-                                    : parts.tendons.size()),
-             "an actuator names a joint or a tendon that is not there");
+      expect(
+          actuator.target < (actuator.kind == MujocoActuator::Target::Joint ? model_.joints.size()
+                                                                            : parts.tendons.size()),
+          "an actuator names a joint or a tendon that is not there");
       expect_numbers(actuator.gain, kActuatorNumbers);
       expect_numbers(actuator.bias, kActuatorNumbers);
       expect_numbers(actuator.dynamics, kActuatorNumbers);

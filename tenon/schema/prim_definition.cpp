@@ -90,6 +90,26 @@ void PrimDefinition::add_properties(const Schema& schema, Token instance, bool t
   }
 }
 
+Token PrimDefinition::declaring_schema(Token property) const {
+  std::vector<Token> names = applied_;
+  if (schema_ != nullptr) {
+    names.insert(names.end(), schema_->chain.begin(), schema_->chain.end());
+  }
+  for (const Token name : names) {
+    const auto [base, instance] = split_api_name(name);
+    const Schema* schema = Registry::instance().find(base);
+    if (schema == nullptr) {
+      continue;
+    }
+    for (const PropertyDefinition& declared : schema->properties) {
+      if (with_instance(declared.name, instance) == property) {
+        return name;
+      }
+    }
+  }
+  return {};
+}
+
 std::vector<Token> PrimDefinition::property_names(bool with_vendor) const {
   std::vector<Token> names;
   for (const auto& [name, property] : properties_) {
@@ -97,9 +117,8 @@ std::vector<Token> PrimDefinition::property_names(bool with_vendor) const {
       names.push_back(name);
     }
   }
-  std::sort(names.begin(), names.end(), [](const Token& a, const Token& b) {
-    return dictionary_less(a.view(), b.view());
-  });
+  std::sort(names.begin(), names.end(),
+            [](const Token& a, const Token& b) { return dictionary_less(a.view(), b.view()); });
   return names;
 }
 

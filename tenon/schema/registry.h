@@ -96,6 +96,9 @@ class PrimDefinition {
     const PropertyDefinition* found = find(property);
     return found == nullptr || !found->vendor ? found : nullptr;
   }
+  /// The schema that declares a property, with its instance; applied ones before those of the
+  /// type. Empty when none does.
+  Token declaring_schema(Token property) const;
   /// Names of all declared properties, in dictionary order.
   std::vector<Token> property_names(bool with_vendor) const;
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 
 #include "tenon/stage/compose_array_edits.h"
-#include "tenon/stage/compose_expression.h"
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/evaluate_spline.h"
 #include "tenon/stage/property_facts.h"
 #include "tenon/stage/resolve_value.h"
 #include "tenon/stage/stage_data.h"
+#include "tenon/stage/trace_value.h"
 
 namespace tenon::stage {
 
@@ -84,12 +84,11 @@ bool Attribute::is_custom() const {
 }
 
 Value Attribute::get(Time time) const {
-  if (prim_ == nullptr) {
-    return {};
-  }
-  const Asked asked = time.is_default() ? Asked::DefaultTime : Asked::AnyTime;
-  Value value = read_value(*stage_, *prim_, name_, resolve_value(*prim_, name_, asked), time);
-  return compose_expression(*stage_, *prim_, proxy_path_, name_, std::move(value), time);
+  return prim_ == nullptr ? Value() : read_attribute(*stage_, *prim_, proxy_path_, name_, time);
+}
+
+ValueTrace Attribute::trace(Time time) const {
+  return prim_ == nullptr ? ValueTrace() : trace_value(*stage_, *prim_, proxy_path_, name_, time);
 }
 
 Value Attribute::fallback() const {
@@ -98,8 +97,7 @@ Value Attribute::fallback() const {
 }
 
 ValueSource Attribute::value_source(Time time) const {
-  const Asked asked = time.is_default() ? Asked::DefaultTime : Asked::AnyTime;
-  return prim_ == nullptr ? ValueSource::None : resolve_value(*prim_, name_, asked).source;
+  return prim_ == nullptr ? ValueSource::None : resolve_value(*prim_, name_, asked_at(time)).source;
 }
 
 bool Attribute::has_authored_value() const {
@@ -111,8 +109,7 @@ bool Attribute::has_authored_value() const {
 }
 
 bool Attribute::is_blocked(Time time) const {
-  const Asked asked = time.is_default() ? Asked::DefaultTime : Asked::AnyTime;
-  return prim_ != nullptr && resolve_value(*prim_, name_, asked).blocked;
+  return prim_ != nullptr && resolve_value(*prim_, name_, asked_at(time)).blocked;
 }
 
 std::vector<double> Attribute::time_samples() const {

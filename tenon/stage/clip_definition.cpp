@@ -25,7 +25,6 @@ namespace fields = layer::fields;
 using Opinions = std::span<const compose::Opinion>;
 
 constexpr std::string_view kAssetPaths = "assetPaths";
-constexpr std::string_view kTemplate = "templateAssetPath";
 
 constexpr std::string_view kTimeKeys[] = {"active", "times"};
 
@@ -91,7 +90,7 @@ void add_layer_info(const compose::Opinion& opinion, const Dictionary& authored,
   ComposedSet stronger;
   stronger.info = authored;
   if (get<std::vector<layer::AssetPath>>(authored, kAssetPaths) != nullptr ||
-      get<std::string>(authored, kTemplate) != nullptr) {
+      get<std::string>(authored, kTemplateKey) != nullptr) {
     set.anchor = &opinion;
   } else if (set.anchor != nullptr) {
     for (const std::string_view key : kTimeKeys) {
@@ -199,7 +198,7 @@ Result<void> read_assets(const ComposedSet& set, const ClipFiles& files,
     definition.times = anchor_times(set, kTimeKeys[1]);
     return {};
   }
-  const auto* asset = get<std::string>(set.info, kTemplate);
+  const auto* asset = get<std::string>(set.info, kTemplateKey);
   const auto* stride = get<double>(set.info, "templateStride");
   const auto* start = get<double>(set.info, "templateStartTime");
   const auto* end = get<double>(set.info, "templateEndTime");

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
@@ -14,6 +15,9 @@
 
 /// What the `clips` and `clipSets` metadata of a prim say. Internal to tenon/stage.
 namespace tenon::stage {
+
+/// The key of a clip set that stands for the names of many clips.
+inline constexpr std::string_view kTemplateKey = "templateAssetPath";
 
 /// One clip set as composed, templates written out, times in those of `layer`.
 struct ClipDefinition {

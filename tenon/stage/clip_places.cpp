@@ -8,6 +8,7 @@
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/finding_place.h"
+#include "tenon/stage/clip_definition.h"
 
 namespace tenon::stage {
 namespace {
@@ -15,8 +16,6 @@ namespace {
 namespace fields = layer::fields;
 using layer::AssetPath;
 using layer::Dictionary;
-
-constexpr std::string_view kTemplate = "templateAssetPath";
 
 const Dictionary* clips_at(const layer::Layer& layer, Path site) {
   const layer::Spec* spec = layer.find(site);
@@ -53,7 +52,7 @@ std::string key_of_asset(const Dictionary& set, const std::string& asset) {
 
 void place_clip_finding(Diagnostic& finding, const compose::LayerStack& stack, Path site,
                         const std::string& set, std::string_view message) {
-  for (const std::string& key : {first_word(message), std::string(kTemplate), std::string()}) {
+  for (const std::string& key : {first_word(message), std::string(kTemplateKey), std::string()}) {
     for (const compose::StackedLayer& stacked : stack.layers) {
       const Dictionary* authored = set_at(*stacked.layer, site, set);
       if (authored != nullptr && (key.empty() || authored->find(key) != nullptr)) {
@@ -83,8 +82,8 @@ void place_clip_asset(Diagnostic& finding, const layer::Layer& layer, Path site,
         part = layer::entry_part(fields::clips, {name, key}, layer::item_text(asset, Path()));
         break;
       }
-      if (set->find(kTemplate) != nullptr) {
-        part = layer::entry_part(fields::clips, {name, std::string(kTemplate)});
+      if (set->find(kTemplateKey) != nullptr) {
+        part = layer::entry_part(fields::clips, {name, std::string(kTemplateKey)});
       }
     }
   }

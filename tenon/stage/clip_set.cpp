@@ -102,6 +102,7 @@ std::shared_ptr<const ClipSet> ClipSet::make(const ClipDefinition& definition, C
     return nullptr;
   }
   std::shared_ptr<ClipSet> set(new ClipSet());
+  set->name_ = definition.name;
   set->layer_stack_ = definition.layer_stack;
   set->layer_ = definition.layer;
   set->site_ = definition.site;

@@ -84,7 +84,10 @@ class ClipSet {
   ClipSet(const ClipSet&) = delete;
   ClipSet& operator=(const ClipSet&) = delete;
 
+  const std::string& name() const { return name_; }
   const layer::Layer& layer() const { return *layer_; }
+  /// The prim spec in that layer that names the clips.
+  Path site() const { return site_; }
   /// From the times of that layer, and of time codes in values, to the stage's.
   const layer::LayerOffset& offset() const { return offset_; }
   /// Comes in at this node or above it in namespace.
@@ -102,6 +105,13 @@ class ClipSet {
     layer::Value value;                    ///< empty when blocked or nowhere
     const layer::Layer* anchor = nullptr;  ///< what asset paths in it start from; may be null
   };
+  /// The clip in force at a time.
+  struct Active {
+    const layer::Layer* layer = nullptr;  ///< nullptr when it cannot be opened
+    Path attribute;                       ///< in that layer
+    double time = 0;                      ///< there
+  };
+  Active active_at(Path attribute, double time) const;
   Found value_at(Path attribute, double time, Interpolation interpolation) const;
 
  private:
@@ -129,6 +139,7 @@ class ClipSet {
   layer::Value sample(const Query& query, double time) const;
   layer::Value resolve(const Query& query, double time) const;
 
+  std::string name_;
   const compose::LayerStack* layer_stack_ = nullptr;
   const layer::Layer* layer_ = nullptr;
   layer::LayerOffset offset_;

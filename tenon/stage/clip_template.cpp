@@ -127,9 +127,9 @@ Result<void> check(const ClipTemplate& pattern) {
                                        " clips (kTemplateClips)");
   }
   if (pattern.start < pattern.end && !advances(pattern)) {
-    return Error(ErrorCode::Limit,
-                 "templateStride " + shortest(pattern.stride) +
-                     " is too small to tell times near " + shortest(pattern.end) + " apart");
+    return Error(ErrorCode::Limit, "templateStride " + shortest(pattern.stride) +
+                                       " is too small to tell times near " + shortest(pattern.end) +
+                                       " apart");
   }
   return {};
 }

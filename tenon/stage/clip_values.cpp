@@ -261,6 +261,11 @@ Value ClipSet::resolve(const Query& query, double time) const {
              : interpolate(lower, upper, (time - bracket.lower) / (bracket.upper - bracket.lower));
 }
 
+ClipSet::Active ClipSet::active_at(Path attribute, double time) const {
+  const double at = layer_time(offset_, time);
+  return {clips_[active(at)].layer->get(), in_clip(attribute), times_.to_clip(at)};
+}
+
 ClipSet::Found ClipSet::value_at(Path attribute, double time, Interpolation interpolation) const {
   const Query query{in_clip(attribute), interpolation};
   const double at = layer_time(offset_, time);

@@ -274,8 +274,7 @@ bool Collection::included_by_rules(Path path) const {
 }
 
 void Collection::add_by_rule(const Stage& stage, Path path, Rule rule,
-                             std::unordered_set<Path>& visited,
-                             std::vector<Path>& members) const {
+                             std::unordered_set<Path>& visited, std::vector<Path>& members) const {
   const Prim prim = stage.prim(path.is_property() ? path.parent() : path);
   if (!prim) {
     return;

@@ -18,7 +18,21 @@ struct Question {
   const PrimData& prim;
   Token name;
   AssetForm form;
+  ReadTrace* trace = nullptr;
 };
+
+/// Tells who asks what became of a source; what is on the way to another time counts less.
+void note(const Question& question, std::size_t source, ReadTrace::Use use, bool on_the_way) {
+  if (question.trace == nullptr) {
+    return;
+  }
+  ReadTrace::Use& known = question.trace->sources[source];
+  if (!on_the_way) {
+    known = use;
+  } else if (known == ReadTrace::Use::NotRead && use != ReadTrace::Use::OtherType) {
+    known = ReadTrace::Use::MovedTowards;
+  }
+}
 
 /// What one source says at a time without interpolation: an array, an edit, a block, or nothing.
 Value said_at(const Question& question, const ResolvedValue& source, Time time) {
@@ -90,6 +104,7 @@ Value composed_at(const Question& question, const ValueSources& sources, Time ti
     const ResolvedValue& source = sources[i];
     if (source.source == ValueSource::None || source.source == ValueSource::Fallback) {
       if (source.blocked && time.is_default()) {
+        note(question, i, ReadTrace::Use::Gives, false);
         return {};
       }
       break;  // a block of the default lets the fallback through at other times
@@ -98,14 +113,20 @@ Value composed_at(const Question& question, const ValueSources& sources, Time ti
                        : said_at(question, source, time);
     const auto* edit = value.get<ArrayEdit>();
     if (edit == nullptr) {
+      note(question, i, ReadTrace::Use::Gives, from.has_value());
       const Value weaker = is_none(value) ? Value() : std::move(value);
       return edits.empty() ? weaker : applied(edits, weaker);
     }
     if (!edits.empty() &&
         edit->literals.type() != edits.front().get<ArrayEdit>()->literals.type()) {
+      note(question, i, ReadTrace::Use::OtherType, from.has_value());
       break;
     }
+    note(question, i, ReadTrace::Use::Edits, from.has_value());
     edits.push_back(std::move(value));
+  }
+  if (question.trace != nullptr) {
+    question.trace->fallback = true;
   }
   const Value fallback = fallback_of(question);
   return edits.empty() ? fallback : applied(edits, fallback);
@@ -162,10 +183,12 @@ bool may_edit(const ResolvedValue& source) {
 }
 
 Value compose_array_edits(const StageData& stage, const PrimData& prim, Token name, Time time,
-                          AssetForm form) {
-  const Question question{stage, prim, name, form};
-  const Asked asked = time.is_default() ? Asked::DefaultTime : Asked::AnyTime;
-  const ValueSources sources = value_sources(prim, name, asked);
+                          AssetForm form, ReadTrace* trace) {
+  const Question question{stage, prim, name, form, trace};
+  const ValueSources sources = value_sources(prim, name, asked_at(time));
+  if (trace != nullptr) {
+    trace->sources.assign(sources.size(), ReadTrace::Use::NotRead);
+  }
   if (time.is_default()) {
     return composed_at(question, sources, time);
   }

@@ -12,9 +12,6 @@
 /// the block), and arrays of assets and of path expressions are edited, too.
 namespace tenon::stage {
 
-/// The opinions of an attribute that its value may be made of, strongest first: each but the last
-/// may be an edit.
-using ValueSources = std::vector<ResolvedValue>;
 ValueSources value_sources(const PrimData& prim, Token name, Asked asked);
 
 /// Whether the value or one of the samples is an edit.
@@ -23,7 +20,7 @@ bool may_edit(const ResolvedValue& source);
 /// The value at `time`. Each source holds until its next sample; what they make together is
 /// interpolated between the samples of all of them that are no blocks.
 layer::Value compose_array_edits(const StageData& stage, const PrimData& prim, Token name,
-                                 Time time, AssetForm form);
+                                 Time time, AssetForm form, ReadTrace* trace = nullptr);
 
 /// The samples that change the value, in stage time, ascending: those of a weaker source count
 /// while all stronger ones are edits.

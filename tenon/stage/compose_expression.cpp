@@ -3,7 +3,6 @@
 #include "tenon/stage/compose_expression.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "tenon/layer/path_expression.h"
@@ -24,16 +23,23 @@ Value held_at(const layer::TimeSamples& samples, double time) {
   return samples.values[index == 0 ? 0 : index - 1];
 }
 
+struct Said {
+  compose::Opinion opinion;
+  ValueSource kind = ValueSource::None;
+  Value value;
+};
+
 /// What each layer says at a time, strongest first: its samples before its default. Ends at a
 /// block; an animation block hides the samples below it.
-std::vector<std::pair<compose::Opinion, Value>> values_at(const PrimData& prim, Token name,
-                                                          Time time) {
-  std::vector<std::pair<compose::Opinion, Value>> result;
+std::vector<Said> values_at(const PrimData& prim, Token name, Time time) {
+  std::vector<Said> result;
   bool animation_blocked = time.is_default();
   visit_property_opinions(prim, name, [&](const compose::Opinion& opinion) {
     const auto* samples = opinion.spec->get<layer::TimeSamples>(fields::timeSamples);
     Value value;
+    ValueSource kind = ValueSource::Default;
     if (!animation_blocked && samples != nullptr && !samples->empty()) {
+      kind = ValueSource::TimeSamples;
       value = held_at(*samples, opinion.offset.inverse().apply(time.code()));
     } else if (const Value* authored = opinion.spec->find(fields::default_value)) {
       value = *authored;
@@ -41,7 +47,7 @@ std::vector<std::pair<compose::Opinion, Value>> values_at(const PrimData& prim, 
     if (value.holds<layer::AnimationBlock>()) {
       animation_blocked = true;
     } else if (!value.empty() && !value.is_block()) {
-      result.emplace_back(opinion, value);
+      result.push_back({opinion, kind, value});
     }
     return value.is_block();
   });
@@ -56,10 +62,13 @@ PathExpressionTree tree_of(const Value& value) {
 }
 
 PathExpressionTree composed(const StageData& stage, const PrimData& prim, Token name,
-                            PathExpressionTree tree, Time time) {
+                            PathExpressionTree tree, Time time, ReadTrace* trace) {
   const auto values = values_at(prim, name, time);
   for (std::size_t i = 1; i < values.size() && tree.has_weaker_reference(); ++i) {
-    const Value weaker = localize(stage, prim, values[i].first, values[i].second);
+    if (trace != nullptr) {
+      trace->put_in.push_back({values[i].opinion, values[i].kind});
+    }
+    const Value weaker = localize(stage, prim, values[i].opinion, values[i].value);
     tree = tree.composed_over(tree_of(weaker)).value_or(PathExpressionTree());
   }
   return tree.has_weaker_reference()
@@ -70,10 +79,7 @@ PathExpressionTree composed(const StageData& stage, const PrimData& prim, Token 
 }  // namespace
 
 Value compose_expression(const StageData& stage, const PrimData& prim, Path proxy_path, Token name,
-                         Value value, Time time) {
-  if (value.type() != layer::ValueType::PathExpression) {
-    return value;
-  }
+                         Value value, Time time, ReadTrace* trace) {
   const auto* one = value.get<PathExpression>();
   const bool refers_to_weaker = one != nullptr && one->text.find("%_") != std::string::npos;
   if (!refers_to_weaker && !prim.in_prototype) {
@@ -84,7 +90,7 @@ Value compose_expression(const StageData& stage, const PrimData& prim, Path prox
     return PathExpression{tree.mapped([&map](Path path) { return translated(map, path); }).text()};
   };
   if (one != nullptr) {
-    return seen(refers_to_weaker ? composed(stage, prim, name, tree_of(value), time)
+    return seen(refers_to_weaker ? composed(stage, prim, name, tree_of(value), time, trace)
                                  : tree_of(value));
   }
   layer::Array<PathExpression> result;

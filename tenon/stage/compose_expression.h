@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tenon/stage/resolve_value.h"
 #include "tenon/stage/stage_data.h"
 #include "tenon/stage/time.h"
 
@@ -9,9 +10,10 @@
 namespace tenon::stage {
 
 /// `value`, the strongest opinion of an attribute at `time` in the stage's namespace, as the prim
-/// (in its prototype, or under an instance at `proxy_path`) sees it: where it is a path expression
-/// that refers to weaker ones (`%_`), these are put in. Other values come back as they are.
+/// (in its prototype, or under an instance at `proxy_path`) sees it: a path expression, or an array
+/// of these. Where one alone refers to weaker ones (`%_`), these are put in.
 layer::Value compose_expression(const StageData& stage, const PrimData& prim, Path proxy_path,
-                                Token name, layer::Value value, Time time);
+                                Token name, layer::Value value, Time time,
+                                ReadTrace* trace = nullptr);
 
 }  // namespace tenon::stage

@@ -3,6 +3,7 @@
 #include "tenon/stage/composed_fields.h"
 
 #include <filesystem>
+#include <optional>
 #include <unordered_set>
 
 #include "tenon/compose/variable_expression.h"
@@ -104,6 +105,12 @@ Value localize_array(const Place& place, const Value& value) {
   return value;
 }
 
+void note_used(UsedSpecs* used, const compose::Opinion& opinion) {
+  if (used != nullptr) {
+    used->push_back(opinion.spec);
+  }
+}
+
 // Nested dictionaries are as deep as the reader allows (limits::kTextNestingDepth).
 layer::Dictionary localize_dictionary(const Place& place, const layer::Dictionary& dictionary) {
   layer::Dictionary result;
@@ -116,20 +123,20 @@ layer::Dictionary localize_dictionary(const Place& place, const layer::Dictionar
 // Legacy edits (add, reorder) do not combine with others: they are passed over, and alone count
 // where the strongest is one. As OpenUSD combines list-valued metadata.
 template <class T>
-std::vector<T> combined_list(const std::vector<compose::Opinion>& opinions, Token field) {
+std::vector<T> combined_list(const std::vector<compose::Opinion>& opinions, Token field,
+                             UsedSpecs* used) {
   std::vector<const layer::ListOp<T>*> edits;
-  for (const compose::Opinion& opinion : opinions) {
-    const auto* edit = opinion.spec->get<layer::ListOp<T>>(field);
+  bool ends = false;
+  for (auto opinion = opinions.begin(); opinion != opinions.end() && !ends; ++opinion) {
+    const auto* edit = opinion->spec->get<layer::ListOp<T>>(field);
     if (edit == nullptr) {
       continue;
     }
     const bool legacy = !edit->is_explicit && !(edit->added.empty() && edit->ordered.empty());
-    if (edits.empty() && legacy) {
+    ends = edit->is_explicit || (legacy && edits.empty());
+    if (!legacy || edits.empty()) {
       edits.push_back(edit);
-      break;
-    }
-    if (!legacy) {
-      edits.push_back(edit);
+      note_used(used, *opinion);
     }
   }
   std::vector<T> result;
@@ -139,27 +146,58 @@ std::vector<T> combined_list(const std::vector<compose::Opinion>& opinions, Toke
   return result;
 }
 
+/// A field whose opinions combine, and who asks which of them do.
+struct Combination {
+  const std::vector<compose::Opinion>& opinions;
+  Token field;
+  UsedSpecs* used = nullptr;
+};
+
 template <class T>
-bool fold_list(const std::vector<compose::Opinion>& opinions, Token field, const Value& strongest,
-               Value& result) {
+bool fold_list(const Combination& of, const Value& strongest, Value& result) {
   if (!strongest.holds<layer::ListOp<T>>()) {
     return false;
   }
-  result = layer::ListOp<T>::make_explicit(combined_list<T>(opinions, field));
+  result = layer::ListOp<T>::make_explicit(combined_list<T>(of.opinions, of.field, of.used));
   return true;
 }
 
-bool fold_any_list(const std::vector<compose::Opinion>& opinions, Token field,
-                   const Value& strongest, Value& result) {
-  return fold_list<Token>(opinions, field, strongest, result) ||
-         fold_list<std::string>(opinions, field, strongest, result) ||
-         fold_list<std::int32_t>(opinions, field, strongest, result) ||
-         fold_list<std::int64_t>(opinions, field, strongest, result) ||
-         fold_list<std::uint32_t>(opinions, field, strongest, result) ||
-         fold_list<std::uint64_t>(opinions, field, strongest, result);
+bool fold_any_list(const Combination& of, const Value& strongest, Value& result) {
+  return fold_list<Token>(of, strongest, result) || fold_list<std::string>(of, strongest, result) ||
+         fold_list<std::int32_t>(of, strongest, result) ||
+         fold_list<std::int64_t>(of, strongest, result) ||
+         fold_list<std::uint32_t>(of, strongest, result) ||
+         fold_list<std::uint64_t>(of, strongest, result);
+}
+
+template <class T>
+std::optional<FieldEffect> list_effect(const Value& value) {
+  const auto* edit = value.get<layer::ListOp<T>>();
+  return edit == nullptr ? std::nullopt
+                         : std::optional(edit->is_explicit ? FieldEffect::ReplacesList
+                                                           : FieldEffect::EditsList);
 }
 
 }  // namespace
+
+FieldEffect field_effect(const Value& value) {
+  if (value.holds<layer::Dictionary>() || value.holds<layer::VariantSelections>()) {
+    return FieldEffect::MergesKeys;
+  }
+  const auto* specifier = value.get<layer::Specifier>();
+  if (specifier != nullptr && *specifier == layer::Specifier::Over) {
+    return FieldEffect::Declares;
+  }
+  for (const auto effect :
+       {list_effect<Path>, list_effect<Token>, list_effect<std::string>,
+        list_effect<layer::Reference>, list_effect<layer::Payload>, list_effect<std::int32_t>,
+        list_effect<std::int64_t>, list_effect<std::uint32_t>, list_effect<std::uint64_t>}) {
+    if (const std::optional<FieldEffect> found = effect(value)) {
+      return *found;
+    }
+  }
+  return FieldEffect::Decides;
+}
 
 bool is_structure(Token field) {
   using namespace layer::fields;
@@ -239,7 +277,8 @@ Value localize(const StageData& stage, const PrimData& prim, const compose::Opin
 }
 
 Value compose_field(const StageData& stage, const PrimData& prim,
-                    const std::vector<compose::Opinion>& opinions, Token field, AssetForm form) {
+                    const std::vector<compose::Opinion>& opinions, Token field, AssetForm form,
+                    UsedSpecs* used) {
   Value result;
   for (const compose::Opinion& opinion : opinions) {
     const Value* value = opinion.spec->find(field);
@@ -247,14 +286,16 @@ Value compose_field(const StageData& stage, const PrimData& prim,
       continue;
     }
     if (result.empty()) {
-      if (fold_any_list(opinions, field, *value, result)) {
+      if (fold_any_list({opinions, field, used}, *value, result)) {
         return result;
       }
+      note_used(used, opinion);
       result = localize(stage, prim, opinion, *value, form);
       if (!result.holds<layer::Dictionary>()) {
         return result;
       }
     } else if (const auto* weaker = value->get<layer::Dictionary>()) {
+      note_used(used, opinion);
       result = layer::merge(*result.get<layer::Dictionary>(),
                             localize_dictionary({stage, prim, opinion, form}, *weaker));
     }

@@ -51,11 +51,17 @@ std::string anchored_asset(const StageData& stage, const layer::Layer& layer,
 /// Opinions on the stage itself: of the session layer and the root layer.
 std::vector<compose::Opinion> root_opinions(const StageData& stage);
 
+/// What one opinion does with what weaker ones say about the same field.
+enum class FieldEffect : unsigned char { Decides, Declares, EditsList, ReplacesList, MergesKeys };
+FieldEffect field_effect(const layer::Value& value);
+
 /// The composed value of a field; empty when no opinion has it. Dictionaries are merged, list edits
-/// combined to an explicit list, else the strongest opinion wins.
+/// combined to an explicit list, else the strongest opinion wins. `used` receives the specs that
+/// have a part in it, strongest first.
+using UsedSpecs = std::vector<const layer::Spec*>;
 layer::Value compose_field(const StageData& stage, const PrimData& prim,
                            const std::vector<compose::Opinion>& opinions, Token field,
-                           AssetForm form = AssetForm::Resolved);
+                           AssetForm form = AssetForm::Resolved, UsedSpecs* used = nullptr);
 
 /// True for fields that say what is there (values, arcs, lists of children), not how it is meant.
 bool is_structure(Token field);

@@ -60,9 +60,9 @@ bool is_collection_binding(std::string_view name, Token purpose) {
   }
   const std::string_view rest = name.substr(kCollectionBinding.size() + 1);
   const std::size_t colon = rest.find(':');
-  return purpose.empty() ? colon == std::string_view::npos
-                         : colon != std::string_view::npos &&
-                               rest.substr(0, colon) == purpose.view();
+  return purpose.empty()
+             ? colon == std::string_view::npos
+             : colon != std::string_view::npos && rest.substr(0, colon) == purpose.view();
 }
 
 struct Search {
@@ -95,8 +95,7 @@ struct Search {
       if (!found.material.empty() && !direct_here && !is_stronger(binding)) {
         continue;
       }
-      const auto material =
-          collection_material(at, property, prim.path(), found.cut_collection);
+      const auto material = collection_material(at, property, prim.path(), found.cut_collection);
       if (material) {
         take(at, binding, *material);
         return;

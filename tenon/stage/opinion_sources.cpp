@@ -75,28 +75,6 @@ std::vector<ArcStep> arcs_to(const compose::PrimIndex& index, std::uint32_t id) 
   return steps;
 }
 
-/// The record of a prim; for instance proxies that of the prim in the prototype.
-const PrimData* record_of(const Stage& stage, Path path) {
-  const Prim prim = stage.prim(path);
-  if (!prim) {
-    return nullptr;
-  }
-  const Path own = prim.is_instance_proxy() ? prim.prim_in_prototype().path() : prim.path();
-  const auto found = stage.data().by_path.find(own);
-  return found == stage.data().by_path.end() ? nullptr : found->second;
-}
-
-OpinionSource source_of(const compose::PrimIndex& index, const compose::Opinion& opinion) {
-  OpinionSource source;
-  source.layer = opinion.layer;
-  source.spec = opinion.spec;
-  source.path = opinion.path;
-  source.stack = index.nodes[opinion.node].layer_stack->identifier();
-  source.arcs = arcs_to(index, opinion.node);
-  source.offset = opinion.offset;
-  return source;
-}
-
 bool has_layer(const compose::LayerStack& stack, const std::string& identifier) {
   return std::any_of(stack.layers.begin(), stack.layers.end(),
                      [&](const compose::StackedLayer& stacked) {
@@ -109,6 +87,17 @@ bool same_place(const OpinionSource& a, const OpinionSource& b) {
 }
 
 }  // namespace
+
+OpinionSource source_of(const compose::PrimIndex& index, const compose::Opinion& opinion) {
+  OpinionSource source;
+  source.layer = opinion.layer;
+  source.spec = opinion.spec;
+  source.path = opinion.path;
+  source.stack = index.nodes[opinion.node].layer_stack->identifier();
+  source.arcs = arcs_to(index, opinion.node);
+  source.offset = opinion.offset;
+  return source;
+}
 
 std::vector<OpinionSource> opinion_sources(const Stage& stage, Path prim, Token property) {
   std::vector<OpinionSource> sources;

@@ -38,6 +38,9 @@ struct OpinionSource {
   layer::LayerOffset offset;  ///< stage time = offset(layer time)
 };
 
+/// The way to one opinion of a prim's index.
+OpinionSource source_of(const compose::PrimIndex& index, const compose::Opinion& opinion);
+
 /// Every opinion in force on the prim at `prim` (instance proxies included) or, where `property` is
 /// not empty, on that property of it; strongest first. Empty when there is no such prim.
 std::vector<OpinionSource> opinion_sources(const Stage& stage, Path prim, Token property = {});

@@ -8,6 +8,7 @@
 
 #include "tenon/base/fault_limits.h"
 #include "tenon/base/parallel.h"
+#include "tenon/compose/composition_error.h"
 #include "tenon/schema/kinds.h"
 #include "tenon/stage/composed_type.h"
 #include "tenon/stage/instance_bound.h"
@@ -35,7 +36,7 @@ class Populator {
     data_.root->source_path = data_.root->path;
     data_.root->index = &data_.cache->index(data_.root->path);
     data_.root->specifier = Specifier::Def;
-    data_.root->definition = data_.definitions.get(Token(), {});
+    data_.root->definition = &data_.definitions.get(Token(), {});
     data_.by_path.emplace(data_.root->path, data_.root);
     add_findings(data_.root->index->errors);
     pending_.push_back(data_.root);
@@ -101,8 +102,7 @@ class Populator {
   void add_findings(const Diagnostics& found) {
     for (const Diagnostic& one : found.items()) {
       // That the stage is not whole is said in any case.
-      if (data_.diagnostics.size() < limits::kStageFindings ||
-          one.rule == "compose.work-exceeded") {
+      if (data_.diagnostics.size() < limits::kStageFindings || compose::is_work_exceeded(one)) {
         data_.diagnostics.add(one);
       } else if (!too_many_findings_reported_) {
         too_many_findings_reported_ = true;
@@ -147,7 +147,7 @@ class Populator {
       root.path = Path::absolute_root().child(Token(name));
       root.source_path = source_of(key, instance);
       root.index = &empty_index();
-      root.definition = data_.definitions.get(Token(), {});
+      root.definition = &data_.definitions.get(Token(), {});
       root.parent = data_.root;
       root.specifier = Specifier::Def;
       root.is_prototype_root = true;
@@ -185,7 +185,7 @@ class Populator {
     prim.clips = add_clips(own_clip_definitions(data_, *prim.index, data_.diagnostics),
                            parent.clips, path, data_.diagnostics);
     prim.type_name = composed_type_name(*prim.index);
-    prim.definition = data_.definitions.get(prim.type_name, composed_api_schemas(*prim.index));
+    prim.definition = &data_.definitions.get(prim.type_name, composed_api_schemas(*prim.index));
   }
 
   const ClipSets* add_clips(const std::vector<ClipDefinition>& definitions,
@@ -228,23 +228,6 @@ class Populator {
 };
 
 }  // namespace
-
-std::size_t DefinitionCache::KeyHash::operator()(const Key& key) const noexcept {
-  std::size_t hash = std::hash<Token>()(key.type);
-  for (const Token api : key.apis) {
-    hash = hash * 1000003u ^ std::hash<Token>()(api);
-  }
-  return hash;
-}
-
-const schema::PrimDefinition* DefinitionCache::get(Token type, const std::vector<Token>& apis) {
-  std::unique_ptr<schema::PrimDefinition>& slot =
-      apis.empty() ? plain_[type] : with_apis_[Key{type, apis}];
-  if (slot == nullptr) {
-    slot = std::make_unique<schema::PrimDefinition>(type, apis);
-  }
-  return slot.get();
-}
 
 void populate(StageData& data) {
   Populator(data).run();

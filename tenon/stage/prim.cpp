@@ -59,8 +59,7 @@ std::vector<Prim> Prim::children() const {
   const PrimData* source = data_->is_instance() ? data_->prototype : data_;
   const bool proxies = is_instance_proxy() || data_->is_instance();
   const Path here = path();
-  for (const PrimData* child = source->first_child; child != nullptr;
-       child = child->next_sibling) {
+  for (const PrimData* child = source->first_child; child != nullptr; child = child->next_sibling) {
     result.push_back(Prim(stage_, child, proxies ? here.child(child->path.name()) : Path()));
   }
   return result;
@@ -79,13 +78,9 @@ Prim Prim::child(Token name) const {
   return Prim(stage_, it->second, proxies ? path().child(name) : Path());
 }
 
-Prim Prim::prototype() const {
-  return is_instance() ? Prim(stage_, data_->prototype) : Prim();
-}
+Prim Prim::prototype() const { return is_instance() ? Prim(stage_, data_->prototype) : Prim(); }
 
-Prim Prim::prim_in_prototype() const {
-  return is_instance_proxy() ? Prim(stage_, data_) : Prim();
-}
+Prim Prim::prim_in_prototype() const { return is_instance_proxy() ? Prim(stage_, data_) : Prim(); }
 
 Prim Prim::prim_at(Path path) const { return data_ == nullptr ? Prim() : stage_->find(path); }
 
@@ -124,9 +119,7 @@ const schema::PrimDefinition* Prim::definition() const {
   return data_ == nullptr ? nullptr : data_->definition;
 }
 
-Attribute Prim::attribute(Token name) const {
-  return Attribute(stage_, data_, proxy_path_, name);
-}
+Attribute Prim::attribute(Token name) const { return Attribute(stage_, data_, proxy_path_, name); }
 
 Relationship Prim::relationship(Token name) const {
   return Relationship(stage_, data_, proxy_path_, name);

@@ -97,8 +97,8 @@ Result<Stage> Stage::open(layer::LayerPtr root, layer::LayerPtr session,
   data->options = std::move(options);
   data->options.compose.shares_root_stack = false;
   data->clip_layers = std::make_unique<ClipLayers>(opener);
-  data->cache = std::make_unique<compose::IndexCache>(
-      std::move(root), std::move(session), std::move(opener), data->options.compose);
+  data->cache = std::make_unique<compose::IndexCache>(std::move(root), std::move(session),
+                                                      std::move(opener), data->options.compose);
   populate(*data);
   Diagnostics all = data->cache->errors();
   all.append(data->diagnostics);
@@ -206,6 +206,16 @@ bool Stage::has_authored_metadata(Token field) const {
 
 std::map<std::string, Value> Stage::all_authored_metadata() const {
   return compose_metadata(*data_, *data_->root, root_opinions(*data_));
+}
+
+const PrimData* record_of(const Stage& stage, Path path) {
+  const Prim prim = stage.prim(path);
+  if (!prim) {
+    return nullptr;
+  }
+  const Path own = prim.is_instance_proxy() ? prim.prim_in_prototype().path() : prim.path();
+  const auto found = stage.data().by_path.find(own);
+  return found == stage.data().by_path.end() ? nullptr : found->second;
 }
 
 }  // namespace tenon::stage

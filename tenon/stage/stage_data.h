@@ -11,7 +11,7 @@
 
 #include "tenon/compose/index_cache.h"
 #include "tenon/layer/field_values.h"
-#include "tenon/schema/registry.h"
+#include "tenon/schema/definition_cache.h"
 #include "tenon/stage/clip_set.h"
 #include "tenon/stage/stage.h"
 
@@ -44,24 +44,6 @@ struct PrimData {
   bool is_instance() const { return prototype != nullptr; }
 };
 
-/// Definitions shared by all prims of one type and one list of API schemas.
-class DefinitionCache {
- public:
-  const schema::PrimDefinition* get(Token type, const std::vector<Token>& apis);
-
- private:
-  struct Key {
-    Token type;
-    std::vector<Token> apis;
-    bool operator==(const Key&) const = default;
-  };
-  struct KeyHash {
-    std::size_t operator()(const Key& key) const noexcept;
-  };
-  std::unordered_map<Token, std::unique_ptr<schema::PrimDefinition>> plain_;
-  std::unordered_map<Key, std::unique_ptr<schema::PrimDefinition>, KeyHash> with_apis_;
-};
-
 struct StageData {
   StageOptions options;
   std::unique_ptr<compose::IndexCache> cache;
@@ -70,7 +52,7 @@ struct StageData {
   PrimData* root = nullptr;
   std::vector<PrimData*> prototypes;
   std::unordered_map<std::string, PrimData*> prototype_of_key;
-  DefinitionCache definitions;
+  schema::DefinitionCache definitions;
   std::unique_ptr<ClipLayers> clip_layers;
   std::deque<ClipSets> clip_sets;
   mutable std::size_t template_files_left = limits::kTemplateFiles;  ///< while it is populated
@@ -79,6 +61,9 @@ struct StageData {
   /// The handle at an absolute prim path, proxies included; invalid when there is none.
   Prim find(Path path) const;
 };
+
+/// The record of the prim at a path; for instance proxies that of the prim in the prototype.
+const PrimData* record_of(const Stage& stage, Path path);
 
 /// Fills `data` from its cache: every prim that the mask includes, prototypes once each.
 void populate(StageData& data);

@@ -28,7 +28,7 @@ Diagnostic diagnostic_at(const Stage& stage, Token field, std::string rule, std:
   return diagnostic;
 }
 
-std::optional<double> number(const layer::Value& value) {
+std::optional<double> any_number(const layer::Value& value) {
   if (const auto* x = value.get<double>()) {
     return *x;
   }
@@ -40,15 +40,15 @@ std::optional<double> number(const layer::Value& value) {
 
 double positive(const Stage& stage, Token field, double fallback, const char* rule,
                 Diagnostics& diagnostics) {
-  const std::optional<double> value = number(stage.metadata(field));
+  const std::optional<double> value = any_number(stage.metadata(field));
   if (value && *value > 0 && std::isfinite(*value)) {
     return *value;
   }
-  diagnostics.add(diagnostic_at(
-      stage, field, rule,
-      field.str() + " is " + (value ? shortest(*value) : std::string("no number")) +
-          ", which no scene can be measured in; " + shortest(fallback) + " is taken",
-      "author a positive number"));
+  diagnostics.add(
+      diagnostic_at(stage, field, rule,
+                    field.str() + " is " + (value ? shortest(*value) : std::string("no number")) +
+                        ", which no scene can be measured in; " + shortest(fallback) + " is taken",
+                    "author a positive number"));
   return fallback;
 }
 
@@ -66,10 +66,10 @@ StageUnits read_stage_units(const Stage& stage, Diagnostics& diagnostics) {
   } else if (axis == "Z") {
     units.up_axis = UpAxis::Z;
   } else if (axis != "Y") {
-    diagnostics.add(diagnostic_at(
-        stage, fields::upAxis, "units.up-axis",
-        "upAxis is \"" + axis.str() + "\", which is none of X, Y, Z; Y is taken",
-        "author \"Y\" or \"Z\""));
+    diagnostics.add(
+        diagnostic_at(stage, fields::upAxis, "units.up-axis",
+                      "upAxis is \"" + axis.str() + "\", which is none of X, Y, Z; Y is taken",
+                      "author \"Y\" or \"Z\""));
   }
   return units;
 }

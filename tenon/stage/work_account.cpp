@@ -6,24 +6,20 @@
 #include <string>
 
 #include "tenon/base/work_limits.h"
+#include "tenon/compose/composition_error.h"
 
 namespace tenon::stage {
-namespace {
-
-constexpr const char* kRule = "compose.work-exceeded";
-
-}  // namespace
 
 WorkAccount::WorkAccount(std::size_t most_work)
     : most_(std::max(most_work, 2 * limits::kComposeWork)) {}
 
 Result<void> WorkAccount::spend(const Stage& stage) {
   for (const Diagnostic& found : stage.diagnostics().items()) {
-    if (found.rule == kRule) {
+    if (compose::is_work_exceeded(found)) {
       return Error(ErrorCode::Limit, found.message)
           .in_file(found.file)
           .with_prim(found.prim)
-          .with_rule(kRule)
+          .with_rule(found.rule)
           .with_fix(found.fix);
     }
   }
@@ -35,7 +31,7 @@ Result<void> WorkAccount::spend(const Stage& stage) {
     return Error(ErrorCode::Limit, "composing the asset in all its variants takes more than " +
                                        std::to_string(allowed_ + most_) + " units of work")
         .in_file(stage.root_layer().identifier())
-        .with_rule(kRule)
+        .with_rule("compose.work-exceeded")
         .with_fix("reduce the arcs that multiply with each other, or allow more with --most-work");
   }
   return {};

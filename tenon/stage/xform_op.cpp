@@ -183,12 +183,11 @@ Mat4d xform_op_matrix(const Prim& prim, const XformOp& op, Time time, Diagnostic
   const bool silent = attribute.is_defined() && value.empty();
   if (!result && !silent && diagnostics != nullptr) {
     const std::string item = (op.inverted ? "!invert!" : "") + op.attribute.str();
-    Diagnostic diagnostic =
-        prim.attribute("xformOpOrder")
-            .located(Severity::Warning, "xform.op",
-                     "`" + op.attribute.str() +
-                         "` is not a transform operation that has a value here",
-                     layer::item_part(layer::fields::default_value, item));
+    Diagnostic diagnostic = prim.attribute("xformOpOrder")
+                                .located(Severity::Warning, "xform.op",
+                                         "`" + op.attribute.str() +
+                                             "` is not a transform operation that has a value here",
+                                         layer::item_part(layer::fields::default_value, item));
     diagnostic.property = op.attribute.str();
     diagnostic.fix = "remove it from xformOpOrder or author the attribute";
     diagnostics->add(std::move(diagnostic));

@@ -8,7 +8,7 @@
 #include "tenon/layer/fields.h"
 #include "tenon/layer/time_samples.h"
 #include "tenon/layer/type_names.h"
-#include "tenon/schema/registry.h"
+#include "tenon/schema/definition_cache.h"
 #include "tenon/stage/flatten.h"
 #include "tenon/structure/layer_tree.h"
 #include "tenon/structure/written_note.h"
@@ -143,12 +143,14 @@ void tidy_property(Spec& property, const schema::PropertyDefinition* declared) {
 }
 
 void tidy(Layer& content) {
+  schema::DefinitionCache definitions;
   for (const Path& prim : prims_below(content)) {
     tidy_prim(*content.find(prim));
     if (content.find(prim)->has(fields::apiSchemas)) {
       set_apis(*content.find(prim), apis_of(content, prim));  // one form of several
     }
-    const schema::PrimDefinition definition(type_of(content, prim), apis_of(content, prim));
+    const schema::PrimDefinition& definition =
+        definitions.get(type_of(content, prim), apis_of(content, prim));
     for (const Path& property : properties_of(content, prim)) {
       Spec& spec = *content.find(property);
       tidy_property(spec, definition.find(property.name()));

@@ -14,6 +14,7 @@
 #include "tenon/math/matrix.h"
 #include "tenon/math/transform.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/scene/joint_forest.h"
 #include "tenon/stage/transform_at.h"
 #include "tenon/structure/layer_tree.h"
 #include "tenon/structure/robot_metadata.h"
@@ -60,12 +61,12 @@ std::string handed_down(const Layer& content, Path prim) {
 
 class Planner {
  public:
-  Planner(const Layer& content, LinkNesting wanted)
+  Planner(const Layer& content, const scene::PhysicsScene& scene, LinkNesting wanted)
       : content_(content),
-        links_(kinematic_order(content).links),
+        links_(kinematic_order(content, scene).links),
         is_link_(links_.begin(), links_.end()) {
     if (wanted == LinkNesting::Nested) {
-      find_carriers();
+      find_carriers(scene);
     }
   }
 
@@ -112,33 +113,18 @@ class Planner {
     return found;
   }
 
-  /// The link that a joint's target is or lies in; empty for the world.
-  Path link_of(Path target) const {
-    return target.empty() || is_link_.contains(target) ? target : link_above(target);
-  }
-
-  /// By joints that are no loops, the first one of each link.
-  void find_carriers() {
-    for (const JointEnds& joint : joint_ends(content_)) {
-      const Path from = link_of(joint.from);
-      const Path to = link_of(joint.to);
-      const Spec* excluded = content_.find(joint.joint.property("physics:excludeFromArticulation"));
-      const bool loop = excluded != nullptr && excluded->get_or(fields::default_value, false);
-      if (!loop && !from.empty() && !to.empty() && !carriers_.contains(to) && !carries(to, from)) {
-        carriers_.emplace(to, from);
+  /// Bodies of the scene that are links on the ones that their trees hang them on. The root of a
+  /// floating articulation stays its root, as what lies above all its other links (S-109).
+  void find_carriers(const scene::PhysicsScene& scene) {
+    const scene::JointForest forest =
+        scene::joint_forest(scene, scene::FloatingRoots::ArticulationsOrDirections);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const std::optional<scene::Index>& parent = forest.bodies[i].parent;
+      if (parent && is_link_.contains(scene.bodies[i].path) &&
+          is_link_.contains(scene.bodies[*parent].path)) {
+        carriers_.emplace(scene.bodies[i].path, scene.bodies[*parent].path);
       }
     }
-  }
-
-  bool carries(Path link, Path other) const {
-    while (other != link) {
-      const auto next = carriers_.find(other);
-      if (next == carriers_.end()) {
-        return false;
-      }
-      other = next->second;
-    }
-    return true;
   }
 
   std::vector<Path> carriers_first() const {
@@ -277,17 +263,17 @@ void set_transform(Layer& content, Path prim, const Mat4d& local) {
 }
 
 /// Paths of the objects of a scene as they are after the move.
-physics::PhysicsScene renamed(physics::PhysicsScene scene, const LinkMoves& moves) {
-  for (physics::Body& body : scene.bodies) {
+scene::PhysicsScene renamed(scene::PhysicsScene scene, const LinkMoves& moves) {
+  for (scene::Body& body : scene.bodies) {
     body.path = moves.moved(body.path);
   }
-  for (physics::Collider& collider : scene.colliders) {
+  for (scene::Collider& collider : scene.colliders) {
     collider.path = moves.moved(collider.path);
   }
-  for (physics::Joint& joint : scene.joints) {
+  for (scene::Joint& joint : scene.joints) {
     joint.path = moves.moved(joint.path);
   }
-  for (physics::Articulation& articulation : scene.articulations) {
+  for (scene::Articulation& articulation : scene.articulations) {
     articulation.path = moves.moved(articulation.path);
     articulation.root = moves.moved(articulation.root);
   }
@@ -296,8 +282,9 @@ physics::PhysicsScene renamed(physics::PhysicsScene scene, const LinkMoves& move
 
 }  // namespace
 
-LinkMoves::LinkMoves(const Layer& united, LinkNesting wanted, Diagnostics& diagnostics) {
-  Planner planner(united, wanted);
+LinkMoves::LinkMoves(const Layer& united, const scene::PhysicsScene& scene, LinkNesting wanted,
+                     Diagnostics& diagnostics) {
+  Planner planner(united, scene, wanted);
   if (const std::string why = planner.run(); !why.empty()) {
     diagnostics.add({Severity::Warning, "structure.links-kept",
                      "the links stay where they are: " + why, "", 0, 0, "", "",
@@ -357,9 +344,12 @@ std::optional<Disagreement> LinkMoves::compare(const Layer& content, const stage
       return Disagreement{prim.str(), "", "the prim stands elsewhere in the world"};
     }
   }
+  physics::ReadOptions options;
+  options.mesh_tools = scene::MeshTools{};  // both sides have the same meshes
   Diagnostics ignored;
-  return compare_physics(renamed(physics::read_physics(before, {}, ignored), *this),
-                         physics::read_physics(after, {}, ignored), [](Path path) { return path; });
+  return compare_physics(renamed(physics::read_physics(before, options, ignored), *this),
+                         physics::read_physics(after, options, ignored),
+                         [](Path path) { return path; });
 }
 
 }  // namespace tenon::structure

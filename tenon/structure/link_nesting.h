@@ -8,6 +8,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/path.h"
 #include "tenon/layer/layer.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 #include "tenon/structure/make_package.h"
 #include "tenon/structure/proof.h"
@@ -18,10 +19,12 @@ namespace tenon::structure {
 /// joints. What lies below a link and is no link goes with it; places in the world stay.
 class LinkMoves {
  public:
-  /// Decided on all views of an asset laid over each other, so that all of them move alike. No link
+  /// Decided on all views of an asset laid over each other, and on the physics that this is read
+  /// as, so that all of them move alike: links go below their parents in its joint forest. No link
   /// moves where one of them could not stay what it is (Warning "structure.links-kept" says why):
   /// it is animated, has a start velocity, or would lose or win what prims above hand down.
-  LinkMoves(const layer::Layer& united, LinkNesting wanted, Diagnostics& diagnostics);
+  LinkMoves(const layer::Layer& united, const scene::PhysicsScene& scene, LinkNesting wanted,
+            Diagnostics& diagnostics);
 
   bool empty() const { return places_.empty(); }
   /// Old place and new place of each link that moves.

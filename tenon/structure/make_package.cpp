@@ -72,7 +72,7 @@ class Maker {
     TENON_CHECK(change_generation());
     TENON_CHECK(move_links());
     make_views();
-    give_wrappers();
+    TENON_CHECK(give_wrappers());
     make_base();
     make_overs();
     make_other_variants();
@@ -148,8 +148,8 @@ class Maker {
       if (widened.contains(after.variant)) {
         continue;
       }
-      TENON_TRY(const physics::PhysicsScene was, physics_of(before[i].content));
-      TENON_TRY(const physics::PhysicsScene is, physics_of(after.content));
+      TENON_TRY(const scene::PhysicsScene was, physics_of(before[i].content));
+      TENON_TRY(const scene::PhysicsScene is, physics_of(after.content));
       if (const auto where = compare_physics(was, is, [](Path path) { return path; })) {
         return differs("Physics=" + after.variant, *where, "the physics in other schemas");
       }
@@ -167,7 +167,9 @@ class Maker {
     for (const SourceView& view : sources_.physics) {
       contents.push_back(&view.content);
     }
-    const LinkMoves& moves = links_.emplace(unite(contents), options_.links, diagnostics_);
+    const Layer united = unite(contents);
+    TENON_TRY(const scene::PhysicsScene scene, physics_of(united));
+    const LinkMoves& moves = links_.emplace(united, scene, options_.links, diagnostics_);
     if (moves.empty()) {
       return {};
     }
@@ -197,14 +199,15 @@ class Maker {
     return stage::Stage::open(std::make_shared<Layer>(content), nullptr, source_.open_layer);
   }
 
-  Result<physics::PhysicsScene> physics_of(const Layer& content) const {
+  Result<scene::PhysicsScene> physics_of(const Layer& content) const {
     TENON_TRY(const stage::Stage stage, stage_of(content));
     return physics_of(stage);
   }
 
-  physics::PhysicsScene physics_of(const stage::Stage& stage) const {
+  scene::PhysicsScene physics_of(const stage::Stage& stage) const {
     physics::ReadOptions options;
     options.mesh_cache = &meshes_;
+    options.mesh_tools = scene::MeshTools{};  // both sides have the same meshes
     Diagnostics ignored;
     return physics::read_physics(stage, options, ignored);
   }
@@ -227,19 +230,21 @@ class Maker {
     return all;
   }
 
-  void give_wrappers() {
+  Result<void> give_wrappers() {
     moves_.emplace(unite(contents()));
     for (View& view : views_) {
       prepare(view.content);
     }
     const View* physics = views_.size() > 1 ? &views_[1] : nullptr;
     if (physics == nullptr) {
-      return;
+      return {};
     }
-    order_ = kinematic_order(physics->content);
+    TENON_TRY(const scene::PhysicsScene scene, physics_of(physics->content));
+    order_ = kinematic_order(physics->content, scene);
     for (View& view : views_) {
       add_robot_metadata(view.content, order_);
     }
+    return {};
   }
 
   // What all share, and what each lays over it.
@@ -467,7 +472,7 @@ class Maker {
     if (view.role == Role::Base) {
       return {};  // has none
     }
-    TENON_TRY(const physics::PhysicsScene before, physics_of(view.plain));
+    TENON_TRY(const scene::PhysicsScene before, physics_of(view.plain));
     const auto where = compare_physics(before, physics_of(stage),
                                        [this](Path path) { return moves_->moved(path); });
     return where ? Result<void>(differs("Physics=" + view.variant, *where, "the physics"))

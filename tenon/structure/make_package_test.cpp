@@ -104,7 +104,7 @@ std::size_t count(const std::string& text, const std::string& part) {
   return n;
 }
 
-physics::PhysicsScene physics_of(const StructuredAsset& asset, const std::string& variant) {
+scene::PhysicsScene physics_of(const StructuredAsset& asset, const std::string& variant) {
   Diagnostics ignored;
   const auto stage = open_package(asset.package, {{"Physics", variant}});
   EXPECT_TRUE(stage.has_value());
@@ -257,7 +257,7 @@ TEST(MakePackage, NoneHasNothingToCollideWith) {
 }
 
 TEST(MakePackage, AnArcComposesTheScene) {
-  const physics::PhysicsScene scene = physics_of(made(source_of(monolith())), "physics");
+  const scene::PhysicsScene scene = physics_of(made(source_of(monolith())), "physics");
   ASSERT_EQ(scene.scenes.size(), 1u);
   EXPECT_EQ(scene.scenes[0].path, Path::from("/robot/Scene"));
   EXPECT_DOUBLE_EQ(scene.scenes[0].gravity[2], -3);
@@ -266,7 +266,7 @@ TEST(MakePackage, AnArcComposesTheScene) {
 TEST(MakePackage, EnginesTuneCollidersOfTheirOwn) {
   const StructuredAsset asset = made(source_of(monolith()));
   const auto limit = [&](const char* variant) {
-    for (const physics::Collider& collider : physics_of(asset, variant).colliders) {
+    for (const scene::Collider& collider : physics_of(asset, variant).colliders) {
       if (collider.path.name() == "both") {
         return collider.max_hull_vertices;
       }
@@ -323,7 +323,7 @@ TEST(MakePackage, AMeshThatIsABodyStaysOneAtItsPath) {
            "            uniform token[] xformOpOrder = [\"xformOp:translate\"]") +
       "}\n";
   const StructuredAsset asset = made(source_of(text));
-  const physics::PhysicsScene scene = physics_of(asset, "physics");
+  const scene::PhysicsScene scene = physics_of(asset, "physics");
   ASSERT_EQ(scene.bodies.size(), 1u);
   EXPECT_EQ(scene.bodies[0].path, Path::from("/robot/rock"));
   EXPECT_EQ(scene.colliders.at(0).path, Path::from("/robot/rock/rock/rock"));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/structure/package.h"
 
+#include "tenon/base/content_digest.h"
 #include "tenon/bytes/read_record.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/layer/field_values.h"
@@ -108,7 +109,7 @@ Result<void> store_layers(Package& package) {
     if (file.layer != nullptr) {
       TENON_CHECK(store_layer(name, file, nullptr));
     }
-    digests.emplace(name, bytes::content_digest(file.bytes->text()));
+    digests.emplace(name, content_digest(file.bytes->text()));
   }
   return store_layer(package.interface, package.files.at(package.interface), &digests);
 }

@@ -55,7 +55,7 @@ struct WriteOptions {
   /// Edits of what was written are overwritten. Files that were not written as part of an asset
   /// stay, but for those that have the name of a new one or a place of the structure.
   bool force = false;
-  bool in_place = false;  ///< the folder may be that of the asset that is read
+  bool in_place = false;         ///< the folder may be that of the asset that is read
   bool can_be_in_place = false;  ///< messages may name --in-place
 };
 

@@ -8,7 +8,7 @@
 
 #include "tenon/base/path.h"
 #include "tenon/layer/layer.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::structure {
 
@@ -27,8 +27,8 @@ std::optional<Disagreement> compare_contents(const layer::Layer& expected,
 
 /// The first difference of two physics scenes: objects are matched by path, `moved` gives the path
 /// in `found` of a collider of `expected`. Numbers may differ by one part in 10^9.
-std::optional<Disagreement> compare_physics(const physics::PhysicsScene& expected,
-                                            const physics::PhysicsScene& found,
+std::optional<Disagreement> compare_physics(const scene::PhysicsScene& expected,
+                                            const scene::PhysicsScene& found,
                                             const std::function<Path(Path)>& moved);
 
 }  // namespace tenon::structure

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tenon/layer/fields.h"
+#include "tenon/scene/joint_forest.h"
 #include "tenon/schema/registry.h"
 #include "tenon/structure/layer_tree.h"
 
@@ -14,12 +15,6 @@ namespace tenon::structure {
 namespace {
 
 using layer::Layer;
-
-Path first_target(const Layer& content, Path prim, const char* name) {
-  const layer::Spec* spec = content.find(prim.property(Token(name)));
-  const std::vector<Path> targets = spec == nullptr ? std::vector<Path>() : targets_of(*spec);
-  return targets.empty() ? Path() : targets.front();
-}
 
 void add_list(Layer& content, Path property, const std::vector<Path>& all) {
   std::vector<Path> targets;
@@ -34,93 +29,86 @@ void add_list(Layer& content, Path property, const std::vector<Path>& all) {
   put_property(content, property, spec);
 }
 
+/// Depth first from the roots of the forest; joints are listed with the body that they hang others
+/// on. Roots and children are taken as their prims stand in the content.
 class Orderer {
  public:
-  explicit Orderer(const Layer& content) : joints_(joint_ends(content)) {
+  Orderer(const Layer& content, const scene::PhysicsScene& scene)
+      : scene_(scene), forest_(scene::joint_forest(scene, scene::FloatingRoots::Directions)) {
+    const auto& registry = schema::Registry::instance();
     for (const Path& prim : prims_below(content)) {
+      ranks_.emplace(prim, ranks_.size());
       if (has_api(content, prim, "PhysicsRigidBodyAPI")) {
         bodies_.push_back(prim);
       }
-    }
-    is_body_.insert(bodies_.begin(), bodies_.end());
-    for (std::size_t i = 0; i < joints_.size(); ++i) {
-      by_parent_[joints_[i].from].push_back(i);
-      if (is_body_.contains(joints_[i].from)) {
-        carried_.insert(joints_[i].to);
+      if (registry.is_a(type_of(content, prim), "PhysicsJoint")) {
+        joints_.push_back(prim);
       }
     }
   }
 
   KinematicOrder run() {
-    for (const bool carried : {false, true}) {  // those in circles last
-      for (const Path& body : bodies_) {
-        if (carried || !carried_.contains(body)) {
-          follow(body);
-        }
-      }
+    follow(sorted(forest_.roots, [this](Index body) { return scene_.bodies[body].path; }));
+    for (const Path& body : bodies_) {
+      add(order_.links, body);
     }
-    for (const JointEnds& joint : joints_) {
-      add(order_.joints, joint.joint);
+    for (const Path& joint : joints_) {
+      add(order_.joints, joint);
     }
     return std::move(order_);
   }
 
  private:
-  void follow(Path root) {
-    std::vector<Path> pending{root};
+  using Index = scene::Index;
+
+  template <class PathOf>
+  std::vector<Index> sorted(std::vector<Index> bodies, PathOf path_of) const {
+    const auto rank = [&](Index body) {
+      const auto found = ranks_.find(path_of(body));
+      return found == ranks_.end() ? ranks_.size() : found->second;
+    };
+    std::stable_sort(bodies.begin(), bodies.end(),
+                     [&](Index a, Index b) { return rank(a) < rank(b); });
+    return bodies;
+  }
+
+  Path joint_of(Index body) const { return scene_.joints[*forest_.bodies[body].joint].path; }
+
+  void follow(const std::vector<Index>& roots) {
+    std::vector<Index> pending(roots.rbegin(), roots.rend());
     while (!pending.empty()) {
-      const Path body = pending.back();
+      const Index body = pending.back();
       pending.pop_back();
-      if (!add(order_.links, body)) {
-        continue;
-      }
-      const auto found = by_parent_.find(body);
-      if (found == by_parent_.end()) {
-        continue;
-      }
-      std::vector<Path> next;
-      for (const std::size_t joint : found->second) {
-        add(order_.joints, joints_[joint].joint);
-        if (is_body_.contains(joints_[joint].to)) {
-          next.push_back(joints_[joint].to);
-        }
+      add(order_.links, scene_.bodies[body].path);
+      const std::vector<Index> next =
+          sorted(forest_.bodies[body].children, [this](Index child) { return joint_of(child); });
+      for (const Index child : next) {
+        add(order_.joints, joint_of(child));
       }
       pending.insert(pending.end(), next.rbegin(), next.rend());
     }
   }
 
-  bool add(std::vector<Path>& list, Path path) {
-    if (!known_.insert(path).second) {
-      return false;
+  void add(std::vector<Path>& list, Path path) {
+    if (known_.insert(path).second) {
+      list.push_back(path);
     }
-    list.push_back(path);
-    return true;
   }
 
+  const scene::PhysicsScene& scene_;
+  scene::JointForest forest_;
+  std::map<Path, std::size_t> ranks_;  // of the prims in the content
   std::vector<Path> bodies_;
-  std::vector<JointEnds> joints_;
-  std::map<Path, std::vector<std::size_t>> by_parent_;
-  std::set<Path> is_body_;
-  std::set<Path> carried_;  // by a joint from another body
+  std::vector<Path> joints_;
   std::set<Path> known_;
   KinematicOrder order_;
 };
 
 }  // namespace
 
-std::vector<JointEnds> joint_ends(const Layer& content) {
-  const auto& registry = schema::Registry::instance();
-  std::vector<JointEnds> joints;
-  for (const Path& prim : prims_below(content)) {
-    if (registry.is_a(type_of(content, prim), "PhysicsJoint")) {
-      joints.push_back({prim, first_target(content, prim, "physics:body0"),
-                        first_target(content, prim, "physics:body1")});
-    }
-  }
-  return joints;
+KinematicOrder kinematic_order(const Layer& content, const scene::PhysicsScene& scene) {
+  return Orderer(content, scene).run();
 }
-
-KinematicOrder kinematic_order(const Layer& content) { return Orderer(content).run(); }
 
 void add_robot_metadata(Layer& content, const KinematicOrder& order) {
   const Path robot = Path::absolute_root().child(content.default_prim());

@@ -24,14 +24,11 @@ class Composer {
   Result<stage::Stage> open(const Selections& selections) {
     stage::StageOptions options;
     options.resolve_asset = source_.resolve_asset;
-    if (source_.most_work != 0) {
-      options.compose.most_work = source_.most_work;
-      options.compose.most_work_per_spec = 0;
-    }
-    TENON_TRY(stage::Stage stage,
-              stage::Stage::open(source_.root,
-                                 selections_layer(source_.root->default_prim(), selections),
-                                 source_.open_layer, options));
+    options.compose.set_most_work(source_.most_work);
+    TENON_TRY(
+        stage::Stage stage,
+        stage::Stage::open(source_.root, selections_layer(source_.root->default_prim(), selections),
+                           source_.open_layer, options));
     TENON_CHECK(work_.spend(stage));
     report(stage);
     return stage;

@@ -87,13 +87,14 @@ Error edited(const std::string& folder, const std::vector<std::string>& names) {
 }
 
 Error unknown(const std::string& folder, const std::vector<std::string>& names) {
-  return Error(ErrorCode::Invalid,
-               "the folder holds files that were not written as part of an asset: " +
-                   list_of(names))
+  return Error(
+             ErrorCode::Invalid,
+             "the folder holds files that were not written as part of an asset: " + list_of(names))
       .in_file(folder)
       .with_rule("output.unknown")
-      .with_fix("name a new folder, move those files elsewhere, or give --force: it overwrites "
-                "what has the name of a new file, and leaves the rest");
+      .with_fix(
+          "name a new folder, move those files elsewhere, or give --force: it overwrites "
+          "what has the name of a new file, and leaves the rest");
 }
 
 Error holds_input(const std::string& file, bool known) {

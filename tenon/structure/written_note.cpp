@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "tenon/base/content_digest.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/read_record.h"
 #include "tenon/bytes/zip_archive.h"
@@ -92,11 +93,11 @@ std::optional<Place> place_of_digest(std::string_view contents, const std::strin
 std::uint64_t masked_digest(std::string_view contents, const std::string& own) {
   const std::optional<Place> place = place_of_digest(contents, own);
   if (!place) {
-    return bytes::content_digest(contents);
+    return content_digest(contents);
   }
   std::string masked(contents);
   masked.replace(place->at, place->size, place->size, '0');
-  return bytes::content_digest(masked);
+  return content_digest(masked);
 }
 
 std::optional<std::uint64_t> noted_digest(const Dictionary& note, const std::string& name) {
@@ -139,7 +140,7 @@ std::optional<Dictionary> note_in(std::shared_ptr<const bytes::FileBytes> conten
   return note == nullptr ? std::nullopt : std::optional(*note);
 }
 
-std::string list_of(const std::vector<std::string>& names) {
+std::string all_of(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) {
     list += (list.empty() ? "" : ", ") + name;
@@ -149,8 +150,7 @@ std::string list_of(const std::vector<std::string>& names) {
 
 Error edited(const std::string& file, const WrittenState& state) {
   return Error(ErrorCode::Invalid,
-               state.noted ? "the asset was edited since it was written: " +
-                                 list_of(state.edited) +
+               state.noted ? "the asset was edited since it was written: " + all_of(state.edited) +
                                  (state.edited.size() == 1 ? " differs" : " differ")
                            : std::string("there is a file already, and it does not say that it is "
                                          "as this program has written it"))
@@ -202,9 +202,9 @@ std::uint64_t own_digest(std::string_view contents, const std::string& own) {
     const bytes::ZipEntry& entry = archive->entries()[i];
     const auto inside = archive->read(entry);
     const std::string_view text = inside ? (*inside)->text() : std::string_view();
-    digests += entry.name + hex_of(i == 0 ? masked_digest(text, own) : bytes::content_digest(text));
+    digests += entry.name + hex_of(i == 0 ? masked_digest(text, own) : content_digest(text));
   }
-  return bytes::content_digest(digests);
+  return content_digest(digests);
 }
 
 void seal(std::string& contents, const std::string& own) {
@@ -213,7 +213,7 @@ void seal(std::string& contents, const std::string& own) {
     return;
   }
   contents.replace(place->at, place->size, place->size, '0');
-  const std::uint64_t digest = bytes::content_digest(contents);
+  const std::uint64_t digest = content_digest(contents);
   if (place->size == kDigestDigits) {
     contents.replace(place->at, place->size, hex_of(digest));
   } else {
@@ -237,9 +237,8 @@ WrittenState written_state(const std::string& file) {
     const auto other =
         is_self ? contents : contents_of((fs::path(file).parent_path() / name).string());
     const bool same =
-        other != nullptr && noted_digest(*note, name) ==
-                                (is_self ? own_digest(other->text(), own)
-                                         : bytes::content_digest(other->text()));
+        other != nullptr && noted_digest(*note, name) == (is_self ? own_digest(other->text(), own)
+                                                                  : content_digest(other->text()));
     (same ? state.written : state.edited).push_back(shown);
   }
   return state;
@@ -263,9 +262,9 @@ Result<void> check_not_edited(const std::string& file, const Digests& beside) {
   std::vector<std::string> strange;
   for (const auto& [name, digest] : beside) {
     const auto there = contents_of((fs::path(file).parent_path() / name).string());
-    const bool known = std::find(state.written.begin(), state.written.end(), name) !=
-                       state.written.end();
-    if (there != nullptr && !known && bytes::content_digest(there->text()) != digest) {
+    const bool known =
+        std::find(state.written.begin(), state.written.end(), name) != state.written.end();
+    if (there != nullptr && !known && content_digest(there->text()) != digest) {
       strange.push_back(name);
     }
   }
@@ -273,7 +272,7 @@ Result<void> check_not_edited(const std::string& file, const Digests& beside) {
     return {};
   }
   return Error(ErrorCode::Invalid,
-               "files stand in the way that were not written with it: " + list_of(strange))
+               "files stand in the way that were not written with it: " + all_of(strange))
       .in_file(file)
       .with_rule("output.unknown")
       .with_fix("name another place, or give --force to overwrite them");

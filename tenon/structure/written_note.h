@@ -49,9 +49,9 @@ std::string noted_description(std::string text, const Digests& others);
 
 /// How the files of an asset are beside what was written.
 struct WrittenState {
-  bool noted = false;                 ///< there is a note
-  std::vector<std::string> written;   ///< names of files that are as they were written
-  std::vector<std::string> edited;    ///< names of those that differ, or are gone
+  bool noted = false;                ///< there is a note
+  std::vector<std::string> written;  ///< names of files that are as they were written
+  std::vector<std::string> edited;   ///< names of those that differ, or are gone
 };
 /// Of the asset that `file` opens; of a file that is none, or has no note, nothing is said.
 WrittenState written_state(const std::string& file);

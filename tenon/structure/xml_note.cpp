@@ -29,8 +29,8 @@ std::string escaped(std::string_view name) {
 std::string unescaped(std::string_view text) {
   std::string name;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const std::size_t high = text[i] == '%' && i + 2 < text.size() ? kHex.find(text[i + 1])
-                                                                   : std::string_view::npos;
+    const std::size_t high =
+        text[i] == '%' && i + 2 < text.size() ? kHex.find(text[i + 1]) : std::string_view::npos;
     const std::size_t low =
         high != std::string_view::npos ? kHex.find(text[i + 2]) : std::string_view::npos;
     if (low != std::string_view::npos) {

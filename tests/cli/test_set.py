@@ -174,7 +174,7 @@ class Refusals(Case):
                 (("--in", "nosuch.usda", f"{JOINT}.physics:upperLimit=1"), "choose one of"),
                 (("--apply", f"{R}/r_base_link=PhysicsMassApi"), "did you mean PhysicsMassAPI?"),
                 (("--apply", f"{JOINT}=PhysicsDriveAPI"), "PhysicsDriveAPI:angular"),
-                (("nonsense",), "NAME=VALUE")):
+                (("nonsense",), "PATH.attribute=VALUE")):
             self.assertIn(words, self.refused(*arguments), arguments)
 
     def test_all_or_nothing(self):

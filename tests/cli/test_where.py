@@ -101,6 +101,66 @@ class Where(unittest.TestCase):
                          [("timeSamples", "wins at times"),
                           ("default", "wins at the default time")])
 
+    def clip_scene(self):
+        """Samples and a default below a clip set with two clips."""
+        for i, value in enumerate((5, 7)):
+            self.write(f"clip{i}.usda", f'def "M"\n{{\n    double a.timeSamples = {{\n'
+                                        f'        {10 * i}: {value},\n    }}\n}}\n')
+        self.write("manifest.usda", 'over "M"\n{\n    double a\n}\n')
+        self.write("weak.usda", 'over "A"\n{\n    double a = 1\n    double a.timeSamples = {\n'
+                                '        0: 100,\n    }\n}\n')
+        return self.write("root.usda", """(
+    subLayers = [@./weak.usda@]
+)
+def "A" (
+    clips = {
+        dictionary default = {
+            asset[] assetPaths = [@./clip0.usda@, @./clip1.usda@]
+            string primPath = "/M"
+            double2[] active = [(0, 0), (10, 1)]
+            asset manifestAssetPath = @./manifest.usda@
+        }
+    }
+)
+{
+}
+""")
+
+    def test_samples_below_value_clips_lose(self):
+        root = self.clip_scene()
+        answer = self.where(root, "/A.a")
+        rows = answer["opinions"]
+        self.assertEqual([(row["what"], row["verdict"]) for row in rows],
+                         [("valueClips", "wins at times"), ("timeSamples", "loses"),
+                          ("default", "wins at the default time")])
+        self.assertEqual((rows[0]["line"], rows[0]["path"], rows[0]["clipSet"]),
+                         (self.line_of(root, 'def "A"'), "/A", "default"))
+        self.assertTrue(rows[0]["clip"].endswith("clip0.usda"), rows[0])
+        self.assertIn("root.usda", rows[1]["why"])
+        self.assertIn("the clips of", rows[2]["why"])
+        self.assertNotIn("time", answer)
+
+    def test_a_time_chooses_the_clip(self):
+        root = self.clip_scene()
+        answer = self.where(root, "/A.a", "--time", 12)
+        self.assertEqual((answer["time"], answer["value"], answer["valueAtTime"]), (12, "1", "7"))
+        self.assertTrue(answer["opinions"][0]["clip"].endswith("clip1.usda"))
+        text = tenon("where", root, "/A.a", "--time", 12).stdout
+        self.assertIn("at time 12: 7  (valueClips)", text)
+        self.assertIn("clip1.usda", text)
+
+    def test_explain_names_the_clips_that_give_the_value(self):
+        process = tenon("explain", self.clip_scene(), "/A.a", "--json")
+        rows = json.loads(process.stdout)["opinions"]
+        self.assertEqual([row["what"] for row in rows if row["used"]], ["valueClips"])
+
+    def test_arcs_of_each_layer_stack_count(self):
+        self.write("c.usda", 'def "C"\n{\n}\n')
+        self.write("b.usda", 'def "B" (\n    references = @./c.usda@</C>\n)\n{\n}\n')
+        root = self.write("root.usda", 'def "A" (\n    references = @./b.usda@</B>\n)\n{\n}\n')
+        rows = [row for row in self.where(root, "/A")["opinions"] if row["what"] == "references"]
+        self.assertEqual([row["verdict"] for row in rows], ["wins", "wins"])
+
     def test_list_edits_are_combined_and_explicit_lists_replace(self):
         self.write("weakest.usda", 'def "A" (\n    prepend apiSchemas = ["X"]\n)\n{\n'
                                    '    rel r = </C>\n}\n')

@@ -132,7 +132,7 @@ int compare(const std::string& path, convert::SchemaGeneration schema) {
   }
   const auto stage = stage::Stage::open(
       std::make_shared<const layer::Layer>(std::move(converted->layer)), nullptr, {});
-  const physics::PhysicsScene scene = physics::read_physics(*stage, {}, findings);
+  const scene::PhysicsScene scene = physics::read_physics(*stage, {}, findings);
   const auto simulation = MujocoSimulation::make(scene, {}, findings);
   const ModelPtr theirs = read_with_mujoco(path, [](mjSpec&) {});
   if (!simulation || theirs == nullptr) {

@@ -130,7 +130,7 @@ int compare(const std::string& path) {
   }
   const auto stage = stage::Stage::open(
       std::make_shared<const layer::Layer>(std::move(converted->layer)), nullptr, {});
-  physics::PhysicsScene scene = physics::read_physics(*stage, {}, findings);
+  scene::PhysicsScene scene = physics::read_physics(*stage, {}, findings);
   scene.colliders.clear();
   scene.filter = {};
   engines::SimulationOptions options;

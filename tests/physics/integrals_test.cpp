@@ -55,7 +55,7 @@ def Xform "B" (
 }
 )";
 
-physics::PhysicsScene read(const physics::ReadOptions& options) {
+scene::PhysicsScene read(const physics::ReadOptions& options) {
   Diagnostics diagnostics;
   auto layer = formats::read_text(kScene, "scene.usda", diagnostics);
   EXPECT_TRUE(layer.has_value());
@@ -71,17 +71,17 @@ physics::PhysicsScene read(const physics::ReadOptions& options) {
 TEST(MassCallback, GivesIntegralsOncePerEnabledCollider) {
   std::map<std::string, int> asked;
   physics::ReadOptions options;
-  options.integrals = [&](const stage::Prim& prim) -> std::optional<physics::SolidIntegrals> {
+  options.integrals = [&](const stage::Prim& prim) -> std::optional<scene::SolidIntegrals> {
     ++asked[prim.path().str()];
     if (prim.name() == Token("Box")) {
       return std::nullopt;  // as the shape says: 1 m^3
     }
-    physics::SolidIntegrals solid;
+    scene::SolidIntegrals solid;
     solid.volume = prim.name() == Token("Turned") ? 2 : 1;
     solid.center = {{0, 0, 0.5}};
     return solid;
   };
-  const physics::PhysicsScene scene = read(options);
+  const scene::PhysicsScene scene = read(options);
   const std::map<std::string, int> once{{"/B/Box", 1}, {"/B/Foreign", 1}, {"/B/Turned", 1}};
   EXPECT_EQ(asked, once);
   ASSERT_EQ(scene.bodies.size(), 1u);
@@ -93,7 +93,7 @@ TEST(MassCallback, GivesIntegralsOncePerEnabledCollider) {
 }
 
 TEST(MassCallback, WithoutItForeignShapesWeighNothing) {
-  const physics::PhysicsScene scene = read({});
+  const scene::PhysicsScene scene = read({});
   EXPECT_EQ(scene.colliders.size(), 3u);
   EXPECT_LT(scene.bodies[0].mass, 1000.01);
 }

@@ -20,7 +20,7 @@ class SceneRun {
   explicit SceneRun(const std::string& path) { open(path); }
 
   bool ready() const { return simulation_ != nullptr; }
-  const physics::PhysicsScene& scene() const { return *scene_; }
+  const scene::PhysicsScene& scene() const { return *scene_; }
   engines::Simulation& simulation() { return *simulation_; }
   double time() const { return simulation_->time(); }
   double energy() const { return simulation_->energy().total(); }
@@ -39,7 +39,7 @@ class SceneRun {
   engines::BodyState state(const std::string& path) const {
     return simulation_->body_state(body_index(path));
   }
-  const physics::Body& body(const std::string& path) const {
+  const scene::Body& body(const std::string& path) const {
     return scene_->bodies[body_index(path)];
   }
   Vec3d position(const std::string& path) const {
@@ -54,7 +54,7 @@ class SceneRun {
            (1 / scene_->meters_per_unit);
   }
   engines::JointState joint(std::size_t index) const {
-    return simulation_->joint_state(static_cast<physics::Index>(index));
+    return simulation_->joint_state(static_cast<scene::Index>(index));
   }
   bool mentions(const std::string& prim, const std::string& property) const {
     for (const engines::NotMapped& entry : simulation_->not_mapped()) {
@@ -70,16 +70,16 @@ class SceneRun {
     auto stage = open_stage(path, {}, diagnostics_);
     ASSERT_TRUE(stage.has_value()) << stage.error().to_string();
     stage_ = std::make_unique<stage::Stage>(*std::move(stage));
-    scene_ = std::make_unique<physics::PhysicsScene>(
-        physics::read_physics(*stage_, {}, diagnostics_));
+    scene_ =
+        std::make_unique<scene::PhysicsScene>(physics::read_physics(*stage_, {}, diagnostics_));
     auto made = make_simulation("mujoco", *scene_, {}, diagnostics_);
     ASSERT_TRUE(made.has_value()) << made.error().to_string();
     simulation_ = *std::move(made);
   }
-  physics::Index body_index(const std::string& path) const {
+  scene::Index body_index(const std::string& path) const {
     for (std::size_t i = 0; i < scene_->bodies.size(); ++i) {
       if (scene_->bodies[i].path.str() == path) {
-        return static_cast<physics::Index>(i);
+        return static_cast<scene::Index>(i);
       }
     }
     ADD_FAILURE() << "no body " << path;
@@ -88,7 +88,7 @@ class SceneRun {
 
   Diagnostics diagnostics_;
   std::unique_ptr<stage::Stage> stage_;
-  std::unique_ptr<physics::PhysicsScene> scene_;
+  std::unique_ptr<scene::PhysicsScene> scene_;
   std::unique_ptr<engines::Simulation> simulation_;
 };
 

@@ -427,8 +427,8 @@ TEST(OddCrate, RowsOfPathsInAnotherOrder) {
   std::swap(parts.paths[4], parts.paths[5]);  // C and D
   std::swap(parts.path_tokens[4], parts.path_tokens[5]);
   parts.path_jumps = {jump(-1), jump(3), jump(3), jump(-2), jump(-2), jump(-2)};
-  const auto back = formats::read_layer(bytes::FileBytes::own(put_together(parts)), "odd.usdc",
-                                        diagnostics);
+  const auto back =
+      formats::read_layer(bytes::FileBytes::own(put_together(parts)), "odd.usdc", diagnostics);
   ASSERT_TRUE(back) << back.error().to_string();
   EXPECT_TRUE(back->has(Path::from("/A/C")));
   EXPECT_TRUE(back->has(Path::from("/A/B/X")));

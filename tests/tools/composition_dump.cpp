@@ -219,7 +219,7 @@ int dump(const Arguments& arguments) {
   };
   build_ahead(cache, {&cache.index(Path::absolute_root())});
   const std::string text = arguments.work           ? work_of_all(cache)
-                           : !arguments.nodes         ? compose::dump_indices(cache, label)
+                           : !arguments.nodes       ? compose::dump_indices(cache, label)
                            : arguments.prim.empty() ? nodes_of_all(cache, label)
                                                     : nodes_of_one(cache, arguments.prim, label);
   std::fwrite(text.data(), 1, text.size(), stdout);

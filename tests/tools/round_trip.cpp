@@ -14,7 +14,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/layer_json.h"
+#include "tenon/answers/dump/layer_json.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/open_layer.h"
@@ -34,7 +34,7 @@ Result<Layer> read(const std::string& bytes, const Layer& original) {
 
 std::string json(const Layer& layer) {
   std::ostringstream out;
-  tenon::cli::write_layer_json(out, layer);
+  tenon::answers::write_layer_json(out, layer);
   return out.str();
 }
 

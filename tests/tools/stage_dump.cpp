@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// Prints the dump of a composed stage (cli/dump.h) with the stacks of all specs, on one line, for
-// tests/differential.
+// Prints the dump of a composed stage (tenon/answers/dump/stage_dump.h) with the stacks of all
+// specs, on one line, for tests/differential.
 //
 // usage: stage_dump LAYER [--session LAYER] [--mask PRIM]... [OPTION OF COMPOSITION]...
 //        stage_dump --batch
 // Options of composition and --batch: see tests/tools/compose_options.h.
 // Exit: 0 printed; 2 wrong usage; 3 a layer could not be opened.
+#include "tenon/answers/dump/stage_dump.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
 #include <string>
 
-#include "cli/dump.h"
 #include "tenon/formats/open_layer.h"
 #include "tests/tools/compose_options.h"
 
@@ -64,10 +65,10 @@ int dump(Arguments arguments) {
   if (!stage) {
     return fail(stage.error());
   }
-  cli::DumpOptions options;
+  answers::DumpOptions options;
   options.stacks = true;
   std::ostringstream out;
-  cli::write_stage_dump(*stage, options, out);
+  answers::write_stage_dump(*stage, options, out);
   std::string text = out.str();
   std::replace(text.begin(), text.end(), '\n', ' ');
   std::printf("%s\n", text.c_str());

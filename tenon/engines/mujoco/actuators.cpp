@@ -10,7 +10,7 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-mjsActuator* add_drive(Build& build, const physics::Joint& joint, const physics::Drive& drive,
+mjsActuator* add_drive(Build& build, const scene::Joint& joint, const scene::Drive& drive,
                        mjsJoint* target) {
   mjsActuator* actuator = mjs_addActuator(build.spec.get(), nullptr);
   const std::string name = joint.path.str() + ".drive." + std::string(dof_name(drive.dof));
@@ -20,8 +20,8 @@ mjsActuator* add_drive(Build& build, const physics::Joint& joint, const physics:
   double damping = drive.damping;
   mjs_setToPID(actuator, drive.stiffness, &damping, nullptr, nullptr, nullptr, nullptr, 0,
                mjINPUT_POS | mjINPUT_VEL);
-  actuator->forcelimited = drive.max_force < physics::kUnlimited ? mjLIMITED_TRUE : mjLIMITED_FALSE;
-  if (drive.max_force < physics::kUnlimited) {
+  actuator->forcelimited = drive.max_force < scene::kUnlimited ? mjLIMITED_TRUE : mjLIMITED_FALSE;
+  if (drive.max_force < scene::kUnlimited) {
     actuator->forcerange[0] = -drive.max_force;
     actuator->forcerange[1] = drive.max_force;
   }
@@ -29,8 +29,8 @@ mjsActuator* add_drive(Build& build, const physics::Joint& joint, const physics:
   return actuator;
 }
 
-bool is_animated(const physics::PhysicsScene& scene, physics::Index joint, std::size_t drive) {
-  for (const physics::ScalarTrack& track : scene.scalar_tracks) {
+bool is_animated(const scene::PhysicsScene& scene, scene::Index joint, std::size_t drive) {
+  for (const scene::ScalarTrack& track : scene.scalar_tracks) {
     if (track.joint == joint && track.drive == drive) {
       return true;
     }
@@ -42,10 +42,10 @@ bool is_animated(const physics::PhysicsScene& scene, physics::Index joint, std::
 
 void add_actuators(Build& build) {
   build.actuators.assign(build.scene.joints.size(), {});
-  for (physics::Index j = 0; j < build.scene.joints.size(); ++j) {
-    const physics::Joint& joint = build.scene.joints[j];
+  for (scene::Index j = 0; j < build.scene.joints.size(); ++j) {
+    const scene::Joint& joint = build.scene.joints[j];
     for (std::size_t i = 0; i < joint.drives.size(); ++i) {
-      const physics::Drive& drive = joint.drives[i];
+      const scene::Drive& drive = joint.drives[i];
       build.actuators[j].push_back(nullptr);
       const bool acts =
           drive.stiffness != 0 || drive.damping != 0 || is_animated(build.scene, j, i);

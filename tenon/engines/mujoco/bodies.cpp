@@ -21,7 +21,7 @@ struct Inertial {
   Vec3d moments;
 };
 
-Inertial inertial_of(Build& build, const physics::Body& body) {
+Inertial inertial_of(Build& build, const scene::Body& body) {
   const PrincipalInertia principal = principal_inertia(body.inertia);
   Inertial result{body.mass, {body.center_of_mass, principal.axes}, principal.moments};
   if (!(result.mass >= kLeastMass)) {
@@ -50,9 +50,9 @@ void set_inertial(mjsBody* target, const Inertial& inertial) {
 }
 
 // All dynamic mass: what a driven body must outweigh.
-double total_mass(const physics::PhysicsScene& scene) {
+double total_mass(const scene::PhysicsScene& scene) {
   double sum = 0;
-  for (const physics::Body& body : scene.bodies) {
+  for (const scene::Body& body : scene.bodies) {
     sum += body.kinematic ? 0 : body.mass;
   }
   return std::max(sum, 1e-3);
@@ -63,8 +63,8 @@ void add_free_joint(mjsBody* body, const std::string& name) {
   mjs_setName(joint->element, name.c_str());
 }
 
-void add_free_body(Build& build, physics::Index index) {
-  const physics::Body& body = build.scene.bodies[index];
+void add_free_body(Build& build, scene::Index index) {
+  const scene::Body& body = build.scene.bodies[index];
   Inertial inertial = inertial_of(build, body);
   build.engine_frames[index] = inertial.frame;
   mjsBody* target = mjs_addBody(mjs_findBody(build.spec.get(), "world"), nullptr);
@@ -78,8 +78,8 @@ void add_free_body(Build& build, physics::Index index) {
 // Kinematic bodies with a pose track: so heavy that nothing turns them aside, weightless, and
 // pulled along the track by force, so that contacts and joints feel velocity and acceleration
 // (S-27).
-void add_driven_body(Build& build, physics::Index index) {
-  const physics::Body& body = build.scene.bodies[index];
+void add_driven_body(Build& build, scene::Index index) {
+  const scene::Body& body = build.scene.bodies[index];
   mjsBody* target = mjs_addBody(mjs_findBody(build.spec.get(), "world"), nullptr);
   place(target, body.path.str(), body.pose);
   set_inertial(target, {build.driven_mass, {}, Vec3d{{1, 1, 1}} * build.driven_mass});
@@ -88,8 +88,8 @@ void add_driven_body(Build& build, physics::Index index) {
   build.bodies[index] = target;
 }
 
-void add_fixed_body(Build& build, physics::Index index) {
-  const physics::Body& body = build.scene.bodies[index];
+void add_fixed_body(Build& build, scene::Index index) {
+  const scene::Body& body = build.scene.bodies[index];
   mjsBody* target = mjs_addBody(mjs_findBody(build.spec.get(), "world"), nullptr);
   place(target, body.path.str(), body.pose);
   set_inertial(target, inertial_of(build, body));
@@ -98,18 +98,18 @@ void add_fixed_body(Build& build, physics::Index index) {
 
 // The body stands where its joint's frames coincide (all free coordinates zero), so that MuJoCo's
 // joint coordinates are those of UsdPhysics.
-void add_jointed_body(Build& build, physics::Index index) {
-  const physics::Body& body = build.scene.bodies[index];
-  const BodyPlan& plan = build.plan.bodies[index];
-  const physics::Joint& joint = build.scene.joints[plan.joint];
-  const Pose& child_frame = plan.reversed ? joint.frame0 : joint.frame1;
-  const Pose parent_frame = plan.reversed ? side_frame(build, joint.body1, joint.frame1)
+void add_jointed_body(Build& build, scene::Index index) {
+  const scene::Body& body = build.scene.bodies[index];
+  const scene::ForestBody& link = build.plan.forest.bodies[index];
+  const scene::Joint& joint = build.scene.joints[*link.joint];
+  const Pose& child_frame = link.reversed ? joint.frame0 : joint.frame1;
+  const Pose parent_frame = link.reversed ? side_frame(build, joint.body1, joint.frame1)
                                           : side_frame(build, joint.body0, joint.frame0);
-  const Pose locked = build.dofs[plan.joint].locked;
-  mjsBody* parent = side_body(build, plan.parent);
+  const Pose locked = build.dofs[*link.joint].locked;
+  mjsBody* parent = side_body(build, link.parent);
   mjsBody* target = mjs_addBody(parent, nullptr);
   place(target, body.path.str(),
-        parent_frame * (plan.reversed ? inverse(locked) : locked) * inverse(child_frame));
+        parent_frame * (link.reversed ? inverse(locked) : locked) * inverse(child_frame));
   set_inertial(target, inertial_of(build, body));
   build.bodies[index] = target;
 }
@@ -117,16 +117,16 @@ void add_jointed_body(Build& build, physics::Index index) {
 void add_sleep(Build& build) {
   const auto& bodies = build.scene.bodies;
   if (std::none_of(bodies.begin(), bodies.end(),
-                   [](const physics::Body& body) { return body.starts_asleep; })) {
+                   [](const scene::Body& body) { return body.starts_asleep; })) {
     return;
   }
   build.spec->option.enableflags |= mjENBL_SLEEP;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const BodyPlan& plan = build.plan.bodies[b];
+    const BodyBase base = build.plan.bases[b];
+    const scene::ForestBody& link = build.plan.forest.bodies[b];
     // A body that a joint without freedom holds to the world does not move: no policy for it.
-    const bool is_root = plan.base == BodyBase::Free ||
-                         (plan.base == BodyBase::Jointed && !plan.parent.has_value() &&
-                          build.dofs[plan.joint].count() > 0);
+    const bool is_root = base == BodyBase::Free || (base == BodyBase::Jointed && !link.parent &&
+                                                    build.dofs[*link.joint].count() > 0);
     if (is_root) {
       build.bodies[b]->sleep = bodies[b].starts_asleep ? mjSLEEP_INIT : mjSLEEP_NEVER;
     } else if (bodies[b].starts_asleep) {
@@ -144,21 +144,21 @@ void place(mjsBody* body, const std::string& name, const Pose& pose) {
   write_quaternion(body->quat, normalized(pose.orientation));
 }
 
-mjsBody* side_body(Build& build, const std::optional<physics::Index>& body) {
+mjsBody* side_body(Build& build, const std::optional<scene::Index>& body) {
   return body.has_value() ? build.bodies[*body] : mjs_findBody(build.spec.get(), "world");
 }
 
-Pose side_frame(const Build& build, const std::optional<physics::Index>& body, const Pose& frame) {
+Pose side_frame(const Build& build, const std::optional<scene::Index>& body, const Pose& frame) {
   return body.has_value() ? inverse(build.engine_frames[*body]) * frame : frame;
 }
 
 void add_bodies(Build& build) {
-  const physics::PhysicsScene& scene = build.scene;
+  const scene::PhysicsScene& scene = build.scene;
   build.bodies.assign(scene.bodies.size(), nullptr);
   build.engine_frames.assign(scene.bodies.size(), Pose{});
   build.driven_mass = kDrivenMassRatio * total_mass(scene);
-  for (const physics::Index index : build.plan.order) {
-    switch (build.plan.bodies[index].base) {
+  for (const scene::Index index : build.plan.forest.order) {
+    switch (build.plan.bases[index]) {
       case BodyBase::Free:
         add_free_body(build, index);
         break;
@@ -172,7 +172,7 @@ void add_bodies(Build& build) {
         add_jointed_body(build, index);
         break;
     }
-    const physics::Body& body = scene.bodies[index];
+    const scene::Body& body = scene.bodies[index];
     if (!body.kinematic) {
       build.bodies[index]->gravcomp = 1 - body.gravity_scale;
     }

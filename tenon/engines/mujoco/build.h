@@ -20,15 +20,15 @@ inline constexpr double kGhostRatio = 1e-3;  ///< mass of an auxiliary body to t
 struct Ghost {
   mjsBody* body = nullptr;
   mjsBody* welded_to = nullptr;
-  physics::Index joint = 0;
+  scene::Index joint = 0;
 };
 
 /// What the passes share until the model is compiled.
 struct Build {
-  Build(const physics::PhysicsScene& source, Diagnostics& findings)
+  Build(const scene::PhysicsScene& source, Diagnostics& findings)
       : scene(source), diagnostics(findings), spec(mj_makeSpec()) {}
 
-  const physics::PhysicsScene& scene;
+  const scene::PhysicsScene& scene;
   Diagnostics& diagnostics;
   SpecPtr spec;
   double time_step = 0.002;  ///< [s]
@@ -37,7 +37,7 @@ struct Build {
   std::vector<Pose> engine_frames;           ///< X_BE (body_count)
   std::vector<std::vector<mjsGeom*>> geoms;  ///< (collider_count)
   /// Materials of these (collider_count), into PhysicsScene::materials.
-  std::vector<std::vector<std::optional<physics::Index>>> geom_materials;
+  std::vector<std::vector<std::optional<scene::Index>>> geom_materials;
   std::vector<mjsBody*> static_bodies;               ///< (collider_count), nullptr for moving ones
   std::vector<JointDofs> dofs;                       ///< (joint_count)
   std::vector<std::vector<mjsJoint*>> joints;        ///< (joint_count), in the order of dofs.free
@@ -82,12 +82,12 @@ void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces);
 enum class Begin : std::uint8_t { Start, Middle };
 
 /// qpos, qvel, controls and constant forces at time 0.
-Result<void> set_initial_state(const physics::PhysicsScene& scene, Begin begin, Model& model,
+Result<void> set_initial_state(const scene::PhysicsScene& scene, Begin begin, Model& model,
                                Diagnostics& diagnostics);
 /// Forces that bring the gravity of the first scene to that of others.
-void set_other_gravities(const physics::PhysicsScene& scene, Model& model);
+void set_other_gravities(const scene::PhysicsScene& scene, Model& model);
 /// Colliders that overlap at the start and may touch: MuJoCo pushes them apart.
-void report_overlaps(const physics::PhysicsScene& scene, const Model& model,
+void report_overlaps(const scene::PhysicsScene& scene, const Model& model,
                      Diagnostics& diagnostics);
 
 /// A model and what it was compiled from.
@@ -97,11 +97,10 @@ struct SpecAndModel {
 };
 
 /// All passes. A part that MuJoCo refuses is left out with a warning.
-Result<SpecAndModel> build_spec(const physics::PhysicsScene& scene,
-                                const SimulationOptions& options, Diagnostics& diagnostics,
-                                Begin begin = Begin::Start);
+Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const SimulationOptions& options,
+                                Diagnostics& diagnostics, Begin begin = Begin::Start);
 /// The same where only the model is wanted.
-Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOptions& options,
+Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOptions& options,
                           Diagnostics& diagnostics, Begin begin = Begin::Start);
 
 // ---- shared by the passes
@@ -109,17 +108,17 @@ Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOp
 /// Makes a limit or an equality as hard as the time step allows.
 void make_hard(double time_step, mjtNum* solref, mjtNum* solimp);
 /// How far from the anchor the two points of a loop hinge stand: the size of what hangs on it [m].
-double hinge_arm(const physics::PhysicsScene& scene, const physics::Joint& joint);
+double hinge_arm(const scene::PhysicsScene& scene, const scene::Joint& joint);
 /// Joints that carry `dofs` between MuJoCo body `child` and its parent; see joints.cpp.
-void add_chain(Build& build, physics::Index joint, mjsBody* child, const Pose& joint_in_child,
+void add_chain(Build& build, scene::Index joint, mjsBody* child, const Pose& joint_in_child,
                bool reversed);
 /// The MuJoCo body of a joint side; the world for none.
-mjsBody* side_body(Build& build, const std::optional<physics::Index>& body);
+mjsBody* side_body(Build& build, const std::optional<scene::Index>& body);
 /// A joint frame seen from the MuJoCo body of that side.
-Pose side_frame(const Build& build, const std::optional<physics::Index>& body, const Pose& frame);
+Pose side_frame(const Build& build, const std::optional<scene::Index>& body, const Pose& frame);
 /// Sets name, position and orientation.
 void place(mjsBody* body, const std::string& name, const Pose& pose);
 /// The scene's coordinate of a dof is this MuJoCo joint; nullptr when it has none.
-mjsJoint* scalar_joint(const Build& build, physics::Index joint, physics::Dof dof);
+mjsJoint* scalar_joint(const Build& build, scene::Index joint, scene::Dof dof);
 
 }  // namespace tenon::engines::mujoco

@@ -20,7 +20,7 @@ constexpr double kDefaultTimeStep = 0.002;  // [s]
 constexpr std::size_t kMostRefused = 100;   // parts that are left out before the model is given up
 constexpr double kLargestTimeStep = 0.004;  // [s] an asset's own step is divided until it is below
 
-double choose_time_step(const physics::PhysicsScene& scene, const SimulationOptions& options,
+double choose_time_step(const scene::PhysicsScene& scene, const SimulationOptions& options,
                         Diagnostics& diagnostics) {
   if (options.time_step > 0) {
     return options.time_step;
@@ -41,8 +41,8 @@ double choose_time_step(const physics::PhysicsScene& scene, const SimulationOpti
 }
 
 Result<void> check_sizes(const Build& build) {
-  if (build.plan.depth > limits::kKinematicChain) {
-    return Error(ErrorCode::Limit, "a chain of " + std::to_string(build.plan.depth) +
+  if (build.plan.forest.depth > limits::kKinematicChain) {
+    return Error(ErrorCode::Limit, "a chain of " + std::to_string(build.plan.forest.depth) +
                                        " jointed bodies is longer than " +
                                        std::to_string(limits::kKinematicChain))
         .with_rule("mujoco.chain-too-long");
@@ -54,7 +54,7 @@ Result<void> check_sizes(const Build& build) {
 }
 
 /// The collider or joint that MuJoCo's words name as an element, or an empty path.
-Path refused_part(const physics::PhysicsScene& scene, const std::string& words) {
+Path refused_part(const scene::PhysicsScene& scene, const std::string& words) {
   constexpr std::string_view kBefore = "Element name '";
   const std::size_t at = words.find(kBefore);
   const std::size_t end = at == std::string::npos ? at : words.find('\'', at + kBefore.size());
@@ -65,12 +65,12 @@ Path refused_part(const physics::PhysicsScene& scene, const std::string& words) 
   const auto names = [&](const Path& path) {
     return name == path.str() || name.starts_with(path.str() + ".");
   };
-  for (const physics::Collider& collider : scene.colliders) {
+  for (const scene::Collider& collider : scene.colliders) {
     if (names(collider.path)) {
       return collider.path;
     }
   }
-  for (const physics::Joint& joint : scene.joints) {
+  for (const scene::Joint& joint : scene.joints) {
     if (names(joint.path)) {
       return joint.path;
     }
@@ -79,11 +79,11 @@ Path refused_part(const physics::PhysicsScene& scene, const std::string& words) 
 }
 
 Result<Model> build_once(Build& build, Begin begin) {
-  const physics::PhysicsScene& scene = build.scene;
+  const scene::PhysicsScene& scene = build.scene;
   TENON_CHECK(check_scene_size(scene));
   build.plan = plan_tree(scene);
   TENON_CHECK(check_sizes(build));
-  for (const physics::Joint& joint : scene.joints) {
+  for (const scene::Joint& joint : scene.joints) {
     build.dofs.push_back(joint_dofs(joint));
   }
   build.joints.assign(scene.joints.size(), {});
@@ -105,11 +105,25 @@ Result<Model> build_once(Build& build, Begin begin) {
   return model;
 }
 
+/// Who read the scene from a stage has said where frames are apart, in words of the file.
+void append_untold(const Diagnostics& findings, Diagnostics& diagnostics) {
+  std::set<std::string> told;
+  for (const Diagnostic& found : diagnostics) {
+    if (found.rule == "joint.frames-apart") {
+      told.insert(found.prim);
+    }
+  }
+  for (const Diagnostic& found : findings) {
+    if (found.rule != "joint.frames-apart" || !told.contains(found.prim)) {
+      diagnostics.add(found);
+    }
+  }
+}
+
 }  // namespace
 
-Result<SpecAndModel> build_spec(const physics::PhysicsScene& scene,
-                                const SimulationOptions& options, Diagnostics& diagnostics,
-                                Begin begin) {
+Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const SimulationOptions& options,
+                                Diagnostics& diagnostics, Begin begin) {
   const double time_step = choose_time_step(scene, options, diagnostics);
   std::set<Path> refused;
   while (true) {
@@ -119,13 +133,13 @@ Result<SpecAndModel> build_spec(const physics::PhysicsScene& scene,
     build.refused = refused;
     Result<Model> model = build_once(build, begin);
     if (model.has_value()) {
-      diagnostics.append(findings);
+      append_untold(findings, diagnostics);
       return SpecAndModel{std::move(build.spec), std::move(*model)};
     }
     // MuJoCo refuses whole models: what it names is left out, and said.
     const Path part = refused_part(scene, model.error().message());
     if (part.empty() || refused.size() >= kMostRefused || !refused.insert(part).second) {
-      diagnostics.append(findings);
+      append_untold(findings, diagnostics);
       return model.error();
     }
     diagnostics.add(
@@ -135,7 +149,7 @@ Result<SpecAndModel> build_spec(const physics::PhysicsScene& scene,
   }
 }
 
-Result<Model> build_model(const physics::PhysicsScene& scene, const SimulationOptions& options,
+Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOptions& options,
                           Diagnostics& diagnostics, Begin begin) {
   TENON_TRY(SpecAndModel built, build_spec(scene, options, diagnostics, begin));
   return std::move(built.model);

@@ -5,12 +5,12 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::JointKind;
-using physics::Switch;
+using scene::JointKind;
+using scene::Switch;
 
 constexpr double kDt = 0.001;
 
-physics::SwitchTrack at_one_second(Switch what, physics::Index object, bool before) {
+scene::SwitchTrack at_one_second(Switch what, scene::Index object, bool before) {
   const char first = before ? 1 : 0;
   return {what, object, {0, 1}, {first, static_cast<char>(1 - first)}};
 }
@@ -67,13 +67,13 @@ struct Nested : TestScene {
     bodies[inner].linear_velocity = {{0, 3, 0}};
     switch_tracks.push_back({Switch::BodyEnabled, inner, {0, 1, 2}, {1, 0, 1}});
     switch_tracks.push_back({Switch::BodyKinematic, inner, {0}, {0}});
-    const physics::BodyMass one{1, {}, diagonal({{0.1, 0.1, 0.1}})};
+    const scene::BodyMass one{1, {}, diagonal({{0.1, 0.1, 0.1}})};
     nesting_states.push_back({0, {}, {}});
     nesting_states.push_back({1, {{inner, outer}}, {{outer, one}, {inner, one}}});
     nesting_states.push_back({2, {}, {}});
   }
-  physics::Index outer = 0;
-  physics::Index inner = 0;
+  scene::Index outer = 0;
+  scene::Index inner = 0;
 };
 
 TEST(Changes, BodySwitchedOffInAnotherIsPartOfItWithItsMomentum) {
@@ -127,7 +127,7 @@ TEST(Changes, SwitchedOffColliderLetsTheBodyThrough) {
 TEST(Changes, JointSwitchedOffLetsGoAlongTheTangent) {
   TestScene scene(0);
   const auto body = scene.add_body("Body", {{1, 0, 0}});
-  physics::Joint& joint = scene.add_joint("Pivot", JointKind::Revolute, {}, body);
+  scene::Joint& joint = scene.add_joint("Pivot", JointKind::Revolute, {}, body);
   joint.frame1.position = {{-1, 0, 0}};
   scene.bodies[body].linear_velocity = {{0, M_PI / 2, 0}};
   scene.bodies[body].angular_velocity = {{0, 0, M_PI / 2}};
@@ -159,12 +159,11 @@ TEST(Changes, OtherJointsKeepTheirTurnsThroughAChange) {
 TEST(Changes, LimitsMoveWhatRestsOnThem) {
   TestScene scene;
   const auto body = scene.add_body("Body", {});
-  physics::Joint& joint =
-      scene.add_joint("Slide", JointKind::Prismatic, {}, body, physics::Axis::Z);
+  scene::Joint& joint = scene.add_joint("Slide", JointKind::Prismatic, {}, body, scene::Axis::Z);
   joint.lower = -0.3;
-  physics::JointBounds low;
+  scene::JointBounds low;
   low.lower = -0.3;
-  physics::JointBounds high;
+  scene::JointBounds high;
   high.lower = -0.1;
   scene.bounds_tracks.push_back({0, {0, 1, 2}, {low, low, high}, false});
   auto sim = simulation(scene, kDt);
@@ -177,14 +176,13 @@ TEST(Changes, LimitsMoveWhatRestsOnThem) {
 TEST(Changes, LockedJointIsSetFreeByItsLimits) {
   TestScene scene;
   const auto body = scene.add_body("Body", {});
-  physics::Joint& joint =
-      scene.add_joint("Slide", JointKind::Prismatic, {}, body, physics::Axis::Z);
+  scene::Joint& joint = scene.add_joint("Slide", JointKind::Prismatic, {}, body, scene::Axis::Z);
   joint.lower = 0;
   joint.upper = 0;
-  physics::JointBounds locked;
+  scene::JointBounds locked;
   locked.lower = 0;
   locked.upper = 0;
-  scene.bounds_tracks.push_back({0, {0, 1}, {locked, physics::JointBounds{}}, true});
+  scene.bounds_tracks.push_back({0, {0, 1}, {locked, scene::JointBounds{}}, true});
   auto sim = simulation(scene, kDt);
   run(*sim, 1);
   EXPECT_NEAR(sim->body_state(body).pose.position[2], 0, 1e-9);
@@ -235,9 +233,9 @@ TEST(Changes, GroupsThatStopTouchingLetTheBodyThrough) {
 TEST(Changes, AnchorOnAMovingPrimCarriesTheBody) {
   TestScene scene;
   const auto body = scene.add_body("Body", {{0, 0, -1}});
-  physics::Joint& joint = scene.add_joint("Held", JointKind::Fixed, {}, body);
+  scene::Joint& joint = scene.add_joint("Held", JointKind::Fixed, {}, body);
   joint.frame1.position = {{0, 0, 1}};
-  physics::PoseTrack track{{}, {}, {0, 2}, {Pose{}, Pose{{{4, 0, 0}}}}, false};
+  scene::PoseTrack track{{}, {}, {0, 2}, {Pose{}, Pose{{{4, 0, 0}}}}, false};
   track.joint = 0;
   scene.pose_tracks.push_back(track);
   auto sim = simulation(scene, kDt);
@@ -251,7 +249,7 @@ TEST(Changes, AnchorOnAMovingPrimCarriesTheBody) {
 TestScene hanging(JointKind kind, double break_force) {
   TestScene scene;
   const auto body = scene.add_body("Body", {{0, 0, -1}}, 10);
-  physics::Joint& joint = scene.add_joint("Hook", kind, {}, body);
+  scene::Joint& joint = scene.add_joint("Hook", kind, {}, body);
   joint.frame1.position = {{0, 0, 1}};
   joint.break_force = break_force;
   return scene;
@@ -262,7 +260,7 @@ TestScene body_with_moving_ball(double gravity, const Vec3d& end) {
   TestScene scene(gravity);
   const auto body = scene.add_body("Body", {{0, 0, 1}}, 2, {{0.02, 0.02, 0.02}});
   const auto ball = scene.add_collider("Ball", body, sphere(0.1));
-  physics::ShapesTrack track;
+  scene::ShapesTrack track;
   track.body = body;
   track.colliders = {ball};
   track.times = {0, 0.2};
@@ -320,7 +318,7 @@ TEST(Breaking, TorqueIsThatAboutTheAnchor) {
   for (const double limit : {9.0, 10.0}) {
     TestScene scene;
     const auto bar = scene.add_body("Bar", {{0.5, 0, 0}}, 2);
-    physics::Joint& joint = scene.add_joint("Clamp", JointKind::Fixed, {}, bar);
+    scene::Joint& joint = scene.add_joint("Clamp", JointKind::Fixed, {}, bar);
     joint.frame1.position = {{-0.5, 0, 0}};
     joint.break_torque = limit;
     auto sim = simulation(scene, kDt);
@@ -334,7 +332,7 @@ TEST(Breaking, RopeTearsInTheFall) {
   for (const double limit : {20.0, 1e6}) {
     TestScene scene;
     const auto ball = scene.add_body("Ball", {{0, 0, -0.5}}, 1, {{0.01, 0.01, 0.01}});
-    physics::Joint& joint = scene.add_joint("Rope", JointKind::Distance, {}, ball);
+    scene::Joint& joint = scene.add_joint("Rope", JointKind::Distance, {}, ball);
     joint.upper = 1;
     joint.break_force = limit;
     auto sim = simulation(scene, kDt);
@@ -349,10 +347,10 @@ TEST(Breaking, LoopsBreakToo) {
   for (const double limit : {15.0, 35.0}) {
     TestScene scene;
     const auto bar = scene.add_body("Bar", {}, 4);
-    scene.add_joint("Left", JointKind::Revolute, {}, bar, physics::Axis::Y);
+    scene.add_joint("Left", JointKind::Revolute, {}, bar, scene::Axis::Y);
     scene.joints[0].frame0.position = {{-1, 0, 0}};
     scene.joints[0].frame1.position = {{-1, 0, 0}};
-    scene.add_joint("Right", JointKind::Spherical, {}, bar, physics::Axis::Y);
+    scene.add_joint("Right", JointKind::Spherical, {}, bar, scene::Axis::Y);
     scene.joints[1].frame0.position = {{1, 0, 0}};
     scene.joints[1].frame1.position = {{1, 0, 0}};
     scene.joints[1].break_force = limit;
@@ -367,7 +365,7 @@ TEST(Breaking, WeldsInLoopsCarryTorque) {
   for (const double limit : {15.0, 25.0}) {
     TestScene scene;
     const auto rod = scene.add_body("Rod", {{0.5, 0, 0}}, 4, {{0.01, 0.33, 0.33}});
-    scene.add_joint("Hinge", JointKind::Revolute, {}, rod, physics::Axis::Y);
+    scene.add_joint("Hinge", JointKind::Revolute, {}, rod, scene::Axis::Y);
     scene.joints[0].frame1.position = {{-0.5, 0, 0}};
     scene.add_joint("Weld", JointKind::Fixed, {}, rod);
     scene.joints[1].frame1.position = {{-0.5, 0, 0}};
@@ -387,7 +385,7 @@ TEST(Breaking, ConeLimitsCarryTorque) {
     const auto rod = scene.add_body("Rod", {{0.5 * std::cos(tilt), 0, -0.5 * std::sin(tilt)}}, 4,
                                     {{0.01, 0.33, 0.33}});
     scene.bodies[rod].pose.orientation = rotation_about({{0, 1, 0}}, tilt);
-    scene.add_joint("Ball", JointKind::Spherical, {}, rod, physics::Axis::X);
+    scene.add_joint("Ball", JointKind::Spherical, {}, rod, scene::Axis::X);
     scene.joints[0].frame1.position = {{-0.5, 0, 0}};
     scene.joints[0].cone_angle0 = tilt;
     scene.joints[0].cone_angle1 = tilt;
@@ -403,7 +401,7 @@ TEST(Breaking, WhatAJointKeptApartMayTouchWhenItIsBroken) {
   const auto body = scene.add_body("Body", {{0, 0, 0.05}}, 10, {{0.1, 0.1, 0.1}});
   const auto shape = scene.add_collider("Shape", body, sphere(0.1));
   const auto floor = scene.add_collider("Floor", {}, ground());
-  physics::Joint& joint = scene.add_joint("Hook", JointKind::Fixed, {}, body);
+  scene::Joint& joint = scene.add_joint("Hook", JointKind::Fixed, {}, body);
   joint.frame0.position = {{0, 0, 0.05}};
   joint.break_force = 50;
   scene.filter.joint_pairs.push_back({0, {{shape, floor}}});

@@ -59,18 +59,19 @@ void map_joints(const Build& build, Model& result) {
     }
     result.joints.push_back(std::move(map));
   }
-  for (const BodyPlan& plan : build.plan.bodies) {
-    if (plan.base == BodyBase::Jointed && plan.reversed) {
-      result.joints[plan.joint].reversed = true;
-      result.joints[plan.joint].child_frame = build.scene.joints[plan.joint].frame0.orientation;
+  for (const scene::ForestBody& link : build.plan.forest.bodies) {
+    if (link.joint && link.reversed) {
+      JointMap& map = result.joints[*link.joint];
+      map.reversed = true;
+      map.child_frame = build.scene.joints[*link.joint].frame0.orientation;
     }
   }
 }
 
 void map_drives(const Build& build, Model& result) {
   const mjModel& m = *result.model;
-  for (physics::Index j = 0; j < build.actuators.size(); ++j) {
-    for (physics::Index i = 0; i < build.actuators[j].size(); ++i) {
+  for (scene::Index j = 0; j < build.actuators.size(); ++j) {
+    for (scene::Index i = 0; i < build.actuators[j].size(); ++i) {
       DriveMap map{j, i, -1, -1, -1};
       if (const mjsActuator* actuator = build.actuators[j][i]; actuator != nullptr) {
         map.actuator = mjs_getId(actuator->element);
@@ -118,7 +119,7 @@ void set_free_damping(const Build& build, Model& result) {
   mjModel& m = *result.model;
   for (std::size_t b = 0; b < result.bodies.size(); ++b) {
     const BodyMap& map = result.bodies[b];
-    const physics::Body& body = build.scene.bodies[b];
+    const scene::Body& body = build.scene.bodies[b];
     for (int i = 0; map.free_dof >= 0 && !body.kinematic && i < 3; ++i) {
       m.dof_damping[map.free_dof + i] = map.mass * body.linear_damping;
       m.dof_damping[map.free_dof + 3 + i] = m.body_inertia[3 * map.id + i] * body.angular_damping;
@@ -132,7 +133,7 @@ void set_mean_inertia(const Build& build, Model& result) {
   std::vector<char> driven(static_cast<std::size_t>(m.nv), 0);
   bool any = false;
   for (std::size_t b = 0; b < result.bodies.size(); ++b) {
-    if (build.plan.bodies[b].base == BodyBase::Driven) {
+    if (build.plan.bases[b] == BodyBase::Driven) {
       any = true;
       std::fill_n(driven.begin() + result.bodies[b].free_dof, 6, 1);
     }
@@ -186,7 +187,7 @@ void choose_integrator(const Build& build, Model& result) {
     if (map.actuator < 0) {
       continue;
     }
-    const physics::Drive& drive = build.scene.joints[map.joint].drives[map.drive];
+    const scene::Drive& drive = build.scene.joints[map.joint].drives[map.drive];
     const double per_inertia = drive.acceleration ? 1 : m.dof_invweight0[map.dof];
     if (drive.stiffness * squared_step * per_inertia > kStiffDrive) {
       m.opt.integrator = mjINT_DISCRETE;
@@ -270,7 +271,7 @@ void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces) {
   model.surfaces = std::move(surfaces);
 }
 
-void report_overlaps(const physics::PhysicsScene& scene, const Model& model,
+void report_overlaps(const scene::PhysicsScene& scene, const Model& model,
                      Diagnostics& diagnostics) {
   constexpr double kNoticed = 1e-4;  // [m]
   std::vector<std::pair<std::pair<int, int>, double>> deepest;

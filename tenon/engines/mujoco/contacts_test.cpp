@@ -8,15 +8,15 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-physics::Index add_material(TestScene& scene, const std::string& name, double friction,
-                            double restitution = 0) {
-  physics::Material material;
+scene::Index add_material(TestScene& scene, const std::string& name, double friction,
+                          double restitution = 0) {
+  scene::Material material;
   material.path = named(name);
   material.static_friction = friction;
   material.dynamic_friction = friction;
   material.restitution = restitution;
   scene.materials.push_back(material);
-  return static_cast<physics::Index>(scene.materials.size() - 1);
+  return static_cast<scene::Index>(scene.materials.size() - 1);
 }
 
 // A flat box on the ground plane.
@@ -113,15 +113,15 @@ TEST(Contacts, TwoFrictionsOfOneMaterialAreReported) {
 
 struct ShapeCase {
   const char* name;
-  physics::ShapeKind kind;
-  physics::Axis axis;
+  scene::ShapeKind kind;
+  scene::Axis axis;
   Vec3d size;     // half extents, or radius and half height
   double height;  // centre above the ground at rest
 };
 
 TEST(Contacts, EveryShapeRestsAtItsHeight) {
-  using physics::Axis;
-  using physics::ShapeKind;
+  using scene::Axis;
+  using scene::ShapeKind;
   const ShapeCase cases[] = {
       {"box", ShapeKind::Box, Axis::Z, {{0.2, 0.2, 0.1}}, 0.1},
       {"sphere", ShapeKind::Sphere, Axis::Z, {{0.1, 0, 0}}, 0.1},
@@ -134,7 +134,7 @@ TEST(Contacts, EveryShapeRestsAtItsHeight) {
   for (const ShapeCase& c : cases) {
     TestScene scene;
     const auto body = scene.add_body("Body", {{0, 0, 0.15}}, 1, {{0.01, 0.01, 0.01}});
-    physics::Shape shape;
+    scene::Shape shape;
     shape.kind = c.kind;
     shape.axis = c.axis;
     shape.half_extents = c.size;
@@ -150,8 +150,8 @@ TEST(Contacts, EveryShapeRestsAtItsHeight) {
 }
 
 // A 2 m quad in the plane z = 0.
-physics::TriangleMesh quad() {
-  physics::TriangleMesh mesh;
+scene::TriangleMesh quad() {
+  scene::TriangleMesh mesh;
   mesh.points = {{{-1, -1, 0}}, {{1, -1, 0}}, {{1, 1, 0}}, {{-1, 1, 0}}};
   mesh.triangles = {{{0, 1, 2}}, {{0, 2, 3}}};
   mesh.flat = true;
@@ -159,12 +159,12 @@ physics::TriangleMesh quad() {
 }
 
 TEST(Contacts, SphereRestsOnAFlatQuadAtItsRadius) {
-  for (const physics::ShapeKind kind : {physics::ShapeKind::ConvexHull, physics::ShapeKind::Mesh}) {
+  for (const scene::ShapeKind kind : {scene::ShapeKind::ConvexHull, scene::ShapeKind::Mesh}) {
     TestScene scene;
     const auto ball = scene.add_body("Ball", {{0.3, 0.1, 0.5}}, 1, {{0.004, 0.004, 0.004}});
     scene.add_collider("BallShape", ball, sphere(0.1));
     scene.meshes.push_back(quad());
-    physics::Shape shape;
+    scene::Shape shape;
     shape.kind = kind;
     scene.add_collider("Quad", {}, shape);
     auto sim = simulation(scene);
@@ -179,12 +179,12 @@ TEST(Contacts, BallLiesInAnOpenTrough) {
   const auto ball = scene.add_body("Ball", {{0.2, 0, 0.6}}, 1, {{0.004, 0.004, 0.004}});
   scene.bodies[ball].linear_damping = 2;
   scene.add_collider("BallShape", ball, sphere(0.1));
-  physics::TriangleMesh mesh;  // two slopes of 45 degrees that meet in the line x = z = 0
+  scene::TriangleMesh mesh;  // two slopes of 45 degrees that meet in the line x = z = 0
   mesh.points = {{{-1, -1, 1}}, {{0, -1, 0}}, {{1, -1, 1}}, {{-1, 1, 1}}, {{0, 1, 0}}, {{1, 1, 1}}};
   mesh.triangles = {{{0, 1, 4}}, {{0, 4, 3}}, {{1, 2, 5}}, {{1, 5, 4}}};
   scene.meshes.push_back(mesh);
-  physics::Shape shape;
-  shape.kind = physics::ShapeKind::Mesh;
+  scene::Shape shape;
+  shape.kind = scene::ShapeKind::Mesh;
   scene.add_collider("Trough", {}, shape);
   auto sim = simulation(scene);
   run(*sim, 5);
@@ -196,12 +196,12 @@ TEST(Contacts, BallLiesInAnOpenTrough) {
 TEST(Contacts, MovingTriangleMeshIsReportedAsHull) {
   TestScene scene;
   const auto body = scene.add_body("Body", {{0, 0, 1}});
-  physics::TriangleMesh mesh;
+  scene::TriangleMesh mesh;
   mesh.points = {{{0, 0, 0}}, {{0.2, 0, 0}}, {{0, 0.2, 0}}, {{0, 0, 0.2}}};
   mesh.triangles = {{{0, 2, 1}}, {{0, 1, 3}}, {{0, 3, 2}}, {{1, 2, 3}}};
   scene.meshes.push_back(mesh);
-  physics::Shape shape;
-  shape.kind = physics::ShapeKind::Mesh;
+  scene::Shape shape;
+  shape.kind = scene::ShapeKind::Mesh;
   scene.add_collider("Shape", body, shape);
   scene.add_collider("Ground", {}, ground());
   auto sim = simulation(scene);
@@ -228,7 +228,7 @@ TEST(Contacts, OverlapAtTheStartIsReportedAndLeftGently) {
 }
 
 TEST(Contacts, CombineModesOfMaterialsDecideFriction) {
-  using physics::CombineMode;
+  using scene::CombineMode;
   struct Case {
     CombineMode ground;
     double friction;  // of 0.5 on the box, averaging, and 0.1 on the ground
@@ -248,8 +248,8 @@ TEST(Contacts, CombineModesOfMaterialsDecideFriction) {
 }
 
 // A flat slab of 4 m by 8 m, its half with y > 0 of another material.
-physics::TriangleMesh slab_of_two() {
-  physics::TriangleMesh slab;
+scene::TriangleMesh slab_of_two() {
+  scene::TriangleMesh slab;
   slab.points = {{{-2, -4, 0}}, {{2, -4, 0}}, {{-2, 0, 0}}, {{2, 0, 0}}, {{-2, 4, 0}}, {{2, 4, 0}}};
   slab.triangles = {{{0, 1, 3}}, {{0, 3, 2}}, {{2, 3, 5}}, {{2, 5, 4}}};
   slab.flat = true;
@@ -262,8 +262,8 @@ TEST(Contacts, FacesOfAMeshHaveMaterialsOfTheirOwn) {
     const auto body = scene.add_body("Box", {{0, side, 0.1}}, 2, {{0.03, 0.03, 0.05}});
     scene.add_collider("BoxShape", body, box({{0.2, 0.2, 0.1}}));
     scene.meshes.push_back(slab_of_two());
-    physics::Shape mesh;
-    mesh.kind = physics::ShapeKind::Mesh;
+    scene::Shape mesh;
+    mesh.kind = scene::ShapeKind::Mesh;
     scene.add_collider("Slab", {}, mesh);
     scene.colliders[0].material = add_material(scene, "Wood", 0.5);
     scene.colliders[1].material = add_material(scene, "Tar", 1.1);
@@ -284,11 +284,11 @@ TEST(Contacts, PiecesOfAMeshLeaveItsHollowOpen) {
   TestScene scene;
   const auto body = scene.add_body("Ball", {{0, 0, 1}}, 1, {{0.004, 0.004, 0.004}});
   scene.add_collider("BallShape", body, sphere(0.1));
-  physics::Shape cup;
-  cup.kind = physics::ShapeKind::ConvexHull;
-  physics::TriangleMesh whole;
+  scene::Shape cup;
+  cup.kind = scene::ShapeKind::ConvexHull;
+  scene::TriangleMesh whole;
   for (const double left : {-1.0, 0.3}) {  // two blocks with a gap of 0.6 m, 0.5 m high
-    physics::TriangleMesh block;
+    scene::TriangleMesh block;
     for (const double x : {left, left + 0.7}) {
       for (const double y : {-1.0, 1.0}) {
         for (const double z : {0.0, 0.5}) {
@@ -297,10 +297,10 @@ TEST(Contacts, PiecesOfAMeshLeaveItsHollowOpen) {
       }
     }
     whole.points.insert(whole.points.end(), block.points.begin(), block.points.end());
-    cup.pieces.push_back(static_cast<physics::Index>(scene.meshes.size()));
+    cup.pieces.push_back(static_cast<scene::Index>(scene.meshes.size()));
     scene.meshes.push_back(block);
   }
-  cup.mesh = static_cast<physics::Index>(scene.meshes.size());
+  cup.mesh = static_cast<scene::Index>(scene.meshes.size());
   scene.meshes.push_back(whole);
   scene.add_collider("Cup", {}, cup);
   scene.add_collider("Ground", {}, ground());
@@ -323,7 +323,7 @@ TEST(Contacts, ManyStaticCollidersCollide) {
   scene.add_collider("ball", rests, sphere(0.1));
   const auto falls = scene.add_body("falls", {{40, 40, 0.1}});
   const auto ghost = scene.add_collider("ghost", falls, sphere(0.1));
-  for (physics::Index i = 0; i < kAcross * kAcross; ++i) {
+  for (scene::Index i = 0; i < kAcross * kAcross; ++i) {
     if (length(scene.colliders[i].pose.position - Vec3d{{40, 40, -0.5}}) < 5) {
       scene.filter.pairs_off.emplace_back(i, ghost);
     }
@@ -339,13 +339,13 @@ TEST(Contacts, ManyStaticCollidersCollide) {
 TEST(Contacts, HullsOfVeryManyCornersAreThinned) {
   TestScene scene;
   const auto body = scene.add_body("drum", {{0, 0, 0.5}});
-  physics::TriangleMesh mesh;
+  scene::TriangleMesh mesh;
   for (std::size_t i = 0; i < 50'000; ++i) {
     const double angle = 2 * M_PI * static_cast<double>(i) / 50'000;
     mesh.points.push_back({{std::cos(angle), std::sin(angle), i % 2 == 0 ? -0.5 : 0.5}});
   }
-  physics::Shape hull;
-  hull.kind = physics::ShapeKind::ConvexHull;
+  scene::Shape hull;
+  hull.kind = scene::ShapeKind::ConvexHull;
   scene.meshes.push_back(std::move(mesh));
   scene.add_collider("hull", body, hull);
   scene.add_collider("ground", std::nullopt, ground());

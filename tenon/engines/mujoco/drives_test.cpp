@@ -5,12 +5,12 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::Axis;
-using physics::Dof;
-using physics::JointKind;
+using scene::Axis;
+using scene::Dof;
+using scene::JointKind;
 
 // 1 kg on a rail along x, driven.
-TestScene rail(const physics::Drive& x_drive, double start = 0, double mass = 1) {
+TestScene rail(const scene::Drive& x_drive, double start = 0, double mass = 1) {
   TestScene scene(0);
   const auto body = scene.add_body("Mass", {{start, 0, 0}}, mass);
   auto& joint = scene.add_joint("Rail", JointKind::Prismatic, {}, body, Axis::X);
@@ -27,7 +27,7 @@ TEST(Drives, UndampedDriveIsASpring) {
 }
 
 TEST(Drives, StepResponseOfACriticallyDampedDrive) {
-  physics::Drive d = drive(Dof::TransX, 100, 20);
+  scene::Drive d = drive(Dof::TransX, 100, 20);
   d.target_position = 1;
   TestScene scene = rail(d);
   auto sim = simulation(scene, 0.0002);
@@ -37,7 +37,7 @@ TEST(Drives, StepResponseOfACriticallyDampedDrive) {
 }
 
 TEST(Drives, VelocityDriveApproachesItsTarget) {
-  physics::Drive d = drive(Dof::TransX, 0, 5);
+  scene::Drive d = drive(Dof::TransX, 0, 5);
   d.target_velocity = 2;
   TestScene scene = rail(d, 0, 2);
   auto sim = simulation(scene, 0.0002);
@@ -47,7 +47,7 @@ TEST(Drives, VelocityDriveApproachesItsTarget) {
 }
 
 TEST(Drives, SpringAndDamperAreClampedAsOneForce) {
-  physics::Drive d = drive(Dof::TransX, 1000, 1000);
+  scene::Drive d = drive(Dof::TransX, 1000, 1000);
   d.target_position = 100;
   d.target_velocity = -50;
   d.max_force = 3;
@@ -76,7 +76,7 @@ TEST(Drives, WeakDriveCannotCarryTheWeight) {
 
 TEST(Drives, AccelerationDriveDoesNotDependOnTheInertia) {
   for (const double mass : {0.01, 1.0, 50.0}) {
-    physics::Drive d = drive(Dof::TransX, 100, 20);
+    scene::Drive d = drive(Dof::TransX, 100, 20);
     d.acceleration = true;
     d.target_position = 1;
     TestScene scene = rail(d, 0, mass);
@@ -114,7 +114,7 @@ TEST(Drives, StiffDriveOnALightLinkStaysStable) {
 TEST(Drives, TargetsFollowTheirTimeSamples) {
   TestScene scene = rail(drive(Dof::TransX, 10000, 200));
   scene.scalar_tracks.push_back(
-      {physics::Animated::DriveTargetPosition, 0, 0, {0, 1, 2}, {0, 0.5, 0.5}, false});
+      {scene::Animated::DriveTargetPosition, 0, 0, {0, 1, 2}, {0, 0.5, 0.5}, false});
   auto sim = simulation(scene);
   run(*sim, 0.8);
   // A ramp of 0.5 m/s is followed with the lag d / k v = 0.01 m.
@@ -124,11 +124,11 @@ TEST(Drives, TargetsFollowTheirTimeSamples) {
 }
 
 TEST(Drives, GainsFollowTheirTimeSamples) {
-  physics::Drive d = drive(Dof::TransX, 0, 0);
+  scene::Drive d = drive(Dof::TransX, 0, 0);
   d.target_position = 1;
   TestScene scene = rail(d);
-  scene.scalar_tracks.push_back({physics::Animated::DriveStiffness, 0, 0, {0, 1}, {0, 1000}, true});
-  scene.scalar_tracks.push_back({physics::Animated::DriveDamping, 0, 0, {0, 1}, {0, 60}, true});
+  scene.scalar_tracks.push_back({scene::Animated::DriveStiffness, 0, 0, {0, 1}, {0, 1000}, true});
+  scene.scalar_tracks.push_back({scene::Animated::DriveDamping, 0, 0, {0, 1}, {0, 60}, true});
   auto sim = simulation(scene);
   run(*sim, 0.9);
   EXPECT_EQ(sim->joint_state(0).position[0], 0);
@@ -137,7 +137,7 @@ TEST(Drives, GainsFollowTheirTimeSamples) {
 }
 
 TEST(Drives, LimitsBeatDrives) {
-  physics::Drive d = drive(Dof::TransX, 1000, 50);
+  scene::Drive d = drive(Dof::TransX, 1000, 50);
   d.target_position = 2;
   TestScene scene = rail(d);
   scene.joints[0].upper = 1;

@@ -5,6 +5,7 @@
 
 #include "tenon/engines/mujoco/build.h"
 #include "tenon/math/inertia.h"
+#include "tenon/scene/joint_freedom.h"
 
 // What is not a degree of freedom of the tree: loop joints (connect and weld between sites), bounds
 // of distances (limited tendons), cones (a tendon between the tips of the two axes), and mimics
@@ -12,8 +13,8 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::Joint;
-using physics::kUnlimited;
+using scene::Joint;
+using scene::kUnlimited;
 
 constexpr double kRecoverySpeed = 0.9;  // [m/s] at most, out of a violated distance bound
 constexpr double kMimicImpedance[mjNIMP] = {0.9999, 0.9999, 1e-3, 0.5, 2};
@@ -72,11 +73,11 @@ void hold_frames(Build& build, const std::string& name, mjsBody* body0, const Po
 
 // A light body carries the joint's degrees of freedom from body0 and is welded to body1, so that
 // limits, drives and mimics have a coordinate.
-void add_ghost(Build& build, physics::Index index) {
+void add_ghost(Build& build, scene::Index index) {
   const Joint& joint = build.scene.joints[index];
   const Sides sides = sides_of(build, joint);
-  const physics::Index measure = joint.body1.has_value() ? *joint.body1 : *joint.body0;
-  const physics::Body& body = build.scene.bodies[measure];
+  const scene::Index measure = joint.body1.has_value() ? *joint.body1 : *joint.body0;
+  const scene::Body& body = build.scene.bodies[measure];
   mjsBody* ghost = mjs_addBody(sides.body0, nullptr);
   const std::string name = joint.path.str() + ".loop";
   place(ghost, name, sides.frame0 * build.dofs[index].locked);
@@ -96,7 +97,7 @@ void add_ghost(Build& build, physics::Index index) {
       "mass of body1, welded to it");
 }
 
-void add_loop(Build& build, physics::Index index) {
+void add_loop(Build& build, scene::Index index) {
   const Joint& joint = build.scene.joints[index];
   switch (build.plan.joints[index]) {
     case JointRole::Weld: {
@@ -144,7 +145,7 @@ void soften(mjsTendon* tendon, double violation) {
 }
 
 void add_distance(Build& build, const Joint& joint) {
-  const physics::Limit limit = distance_limit(joint);
+  const scene::Limit limit = distance_limit(joint);
   if (limit.lower == -kUnlimited && limit.upper == kUnlimited) {
     return;
   }
@@ -152,7 +153,7 @@ void add_distance(Build& build, const Joint& joint) {
   const std::string name = joint.path.str() + ".distance";
   const std::string site0 = add_site(sides.body0, name + ".0", sides.frame0);
   const std::string site1 = add_site(sides.body1, name + ".1", sides.frame1);
-  const auto world = [&](const std::optional<physics::Index>& body, const Pose& frame) {
+  const auto world = [&](const std::optional<scene::Index>& body, const Pose& frame) {
     return body.has_value() ? (build.scene.bodies[*body].pose * frame).position : frame.position;
   };
   const double start = length(world(joint.body1, joint.frame1) - world(joint.body0, joint.frame0));
@@ -180,13 +181,13 @@ void add_cone(Build& build, const Joint& joint) {
 }
 
 // The loose spring of a mimic is a time constant: w = 1 / (T zeta).
-void add_mimic(Build& build, physics::Index index) {
+void add_mimic(Build& build, scene::Index index) {
   const Joint& joint = build.scene.joints[index];
-  const physics::Mimic& mimic = *joint.mimic;
+  const scene::Mimic& mimic = *joint.mimic;
   const Joint& leader = build.scene.joints[mimic.leader];
-  const auto scalar = [&](physics::Index j, const Joint& side) -> mjsJoint* {
+  const auto scalar = [&](scene::Index j, const Joint& side) -> mjsJoint* {
     const bool single =
-        side.kind == physics::JointKind::Revolute || side.kind == physics::JointKind::Prismatic;
+        side.kind == scene::JointKind::Revolute || side.kind == scene::JointKind::Prismatic;
     return single ? scalar_joint(build, j, side.dof()) : nullptr;
   };
   mjsJoint* follower_joint = scalar(index, joint);
@@ -216,8 +217,8 @@ void add_mimic(Build& build, physics::Index index) {
 
 }  // namespace
 
-double hinge_arm(const physics::PhysicsScene& scene, const Joint& joint) {
-  const physics::Index body = joint.body1.has_value() ? *joint.body1 : *joint.body0;
+double hinge_arm(const scene::PhysicsScene& scene, const Joint& joint) {
+  const scene::Index body = joint.body1.has_value() ? *joint.body1 : *joint.body0;
   const Pose& frame = joint.body1.has_value() ? joint.frame1 : joint.frame0;
   const double reach = length(scene.bodies[body].center_of_mass - frame.position);
   return std::clamp(reach, 0.01, 1.0);
@@ -233,7 +234,7 @@ void make_hard(double time_step, mjtNum* solref, mjtNum* solimp) {
 }
 
 void add_equalities(Build& build) {
-  for (physics::Index j = 0; j < build.scene.joints.size(); ++j) {
+  for (scene::Index j = 0; j < build.scene.joints.size(); ++j) {
     const Joint& joint = build.scene.joints[j];
     if (!joint.enabled || joint.body0 == joint.body1) {
       continue;

@@ -41,16 +41,16 @@ TEST(Errors, GuardsNest) {
 }
 
 /// A ball with a hull of 1e-6 m, in which MuJoCo finds no volume, and a cone of that kind.
-physics::Index add_body_with_refused_parts(TestScene& scene) {
+scene::Index add_body_with_refused_parts(TestScene& scene) {
   const auto body = scene.add_body("Body", {{0, 0, 2}});
-  physics::TriangleMesh speck;
+  scene::TriangleMesh speck;
   speck.points = {{{0, 0, 0}}, {{1e-6, 0, 0}}, {{0, 1e-6, 0}}, {{0, 0, 1e-6}}};
   scene.meshes.push_back(speck);
-  physics::Shape shape;
-  shape.kind = physics::ShapeKind::ConvexHull;
+  scene::Shape shape;
+  shape.kind = scene::ShapeKind::ConvexHull;
   scene.add_collider("Speck", body, shape);
-  physics::Shape cone;
-  cone.kind = physics::ShapeKind::Cone;
+  scene::Shape cone;
+  cone.kind = scene::ShapeKind::Cone;
   cone.radius = 1e-7;
   cone.half_height = 1e-7;
   scene.add_collider("Cone", body, cone);
@@ -93,15 +93,15 @@ TEST(Errors, WrittenModelLeavesOutTheSameParts) {
 }
 
 TEST(Errors, DegenerateLimitsDoNotSpoilTheModel) {
-  constexpr double kInf = physics::kUnlimited;
+  constexpr double kInf = scene::kUnlimited;
   for (const auto& [lower, upper] :
        {std::pair(kInf, kInf), std::pair(-kInf, -kInf), std::pair(kInf, -kInf),
         std::pair(0.0, 1e-8), std::pair(1e12, 2e12), std::pair(0.0, 0.0)}) {
     TestScene scene;
     const auto body = scene.add_body("Body", {});
-    physics::Joint& joint = scene.add_joint("Joint", physics::JointKind::D6, {}, body);
-    joint.limits.push_back({physics::Dof::RotX, lower, upper});
-    joint.limits.push_back({physics::Dof::TransX, lower, upper});
+    scene::Joint& joint = scene.add_joint("Joint", scene::JointKind::D6, {}, body);
+    joint.limits.push_back({scene::Dof::RotX, lower, upper});
+    joint.limits.push_back({scene::Dof::TransX, lower, upper});
     auto sim = simulation(scene);
     ASSERT_NE(sim, nullptr) << lower << " " << upper;
     run(*sim, 0.01);
@@ -125,7 +125,7 @@ TEST(Errors, UnstableSimulationNamesTimeAndBody) {
 
 TEST(Errors, SceneWithoutSceneIsInvalid) {
   Diagnostics findings;
-  const auto made = make_simulation(physics::PhysicsScene{}, {}, findings);
+  const auto made = make_simulation(scene::PhysicsScene{}, {}, findings);
   ASSERT_FALSE(made.has_value());
   EXPECT_EQ(made.error().code(), ErrorCode::Invalid);
 }
@@ -158,14 +158,14 @@ TEST(Errors, LargeStepsOfAnAssetAreDivided) {
 TEST(Errors, ModelsHaveASize) {
   const Path last = *Path::parse("/World/Last");
   EXPECT_TRUE(check_model_size({limits::kModelGeoms, limits::kModelMeshPoints}, last));
-  for (const ModelSize& size : {ModelSize{limits::kModelGeoms + 1, 0},
-                                ModelSize{0, limits::kModelMeshPoints + 1}}) {
+  for (const ModelSize& size :
+       {ModelSize{limits::kModelGeoms + 1, 0}, ModelSize{0, limits::kModelMeshPoints + 1}}) {
     const Result<void> checked = check_model_size(size, last);
     ASSERT_FALSE(checked);
     EXPECT_EQ(checked.error().code(), ErrorCode::Limit);
     EXPECT_EQ(checked.error().diagnostic().prim, "/World/Last");
   }
-  physics::PhysicsScene scene;
+  scene::PhysicsScene scene;
   scene.joints.resize(limits::kModelBodies);
   EXPECT_TRUE(check_scene_size(scene));
   scene.joints.resize(limits::kModelBodies + 1);

@@ -15,7 +15,7 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::Index;
+using scene::Index;
 
 constexpr std::size_t kBits = 31;
 
@@ -26,12 +26,12 @@ struct ClassKey {
   auto operator<=>(const ClassKey&) const = default;
 };
 
-bool moves(const physics::PhysicsScene& scene, const physics::Collider& collider) {
+bool moves(const scene::PhysicsScene& scene, const scene::Collider& collider) {
   return collider.body.has_value() && !scene.bodies[*collider.body].kinematic;
 }
 
-ClassKey key_of(const physics::PhysicsScene& scene, std::size_t collider) {
-  const physics::Collider& c = scene.colliders[collider];
+ClassKey key_of(const scene::PhysicsScene& scene, std::size_t collider) {
+  const scene::Collider& c = scene.colliders[collider];
   ClassKey key{moves(scene, c), c.body.has_value() ? scene.bodies[*c.body].scene : c.scene, {}};
   if (collider < scene.filter.groups_of_collider.size()) {
     key.groups = scene.filter.groups_of_collider[collider];
@@ -39,7 +39,7 @@ ClassKey key_of(const physics::PhysicsScene& scene, std::size_t collider) {
   return key;
 }
 
-bool groups_off(const physics::CollisionFilter& filter, const std::vector<Index>& a,
+bool groups_off(const scene::CollisionFilter& filter, const std::vector<Index>& a,
                 const std::vector<Index>& b) {
   const std::size_t count = filter.group_paths.size();
   if (a.empty() != b.empty()) {
@@ -57,7 +57,7 @@ bool groups_off(const physics::CollisionFilter& filter, const std::vector<Index>
   return false;
 }
 
-bool classes_off(const physics::CollisionFilter& filter, const ClassKey& a, const ClassKey& b) {
+bool classes_off(const scene::CollisionFilter& filter, const ClassKey& a, const ClassKey& b) {
   return (!a.moves && !b.moves) || a.scene != b.scene || groups_off(filter, a.groups, b.groups);
 }
 
@@ -67,7 +67,7 @@ struct Classes {
   std::vector<char> off;
 };
 
-Classes classify(const physics::PhysicsScene& scene) {
+Classes classify(const scene::PhysicsScene& scene) {
   Classes classes;
   std::map<ClassKey, int> numbers;
   for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
@@ -106,7 +106,7 @@ void set_bits(Build& build, const Classes& classes) {
 // Colliders of one MuJoCo body: those of a body, or one static collider.
 using BodyKey = std::pair<bool, Index>;  // {is static, body or collider}
 
-BodyKey body_key(const physics::PhysicsScene& scene, Index collider) {
+BodyKey body_key(const scene::PhysicsScene& scene, Index collider) {
   const std::optional<Index>& body = scene.colliders[collider].body;
   return body.has_value() ? BodyKey{false, *body} : BodyKey{true, collider};
 }
@@ -118,7 +118,7 @@ mjsBody* body_of(Build& build, const BodyKey& key) {
 using ColliderPairs = std::set<std::pair<Index, Index>>;
 
 // Pairs of all rules that name bodies or colliders one by one.
-ColliderPairs explicit_pairs(const physics::PhysicsScene& scene) {
+ColliderPairs explicit_pairs(const scene::PhysicsScene& scene) {
   ColliderPairs pairs(scene.filter.pairs_off.begin(), scene.filter.pairs_off.end());
   std::vector<std::vector<Index>> colliders(scene.bodies.size());
   for (Index i = 0; i < scene.colliders.size(); ++i) {
@@ -126,7 +126,7 @@ ColliderPairs explicit_pairs(const physics::PhysicsScene& scene) {
       colliders[*scene.colliders[i].body].push_back(i);
     }
   }
-  for (const physics::Articulation& articulation : scene.articulations) {
+  for (const scene::Articulation& articulation : scene.articulations) {
     if (articulation.self_collision) {
       continue;
     }

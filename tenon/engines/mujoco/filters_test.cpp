@@ -7,7 +7,7 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::Index;
+using scene::Index;
 
 // Balls on one spot: every pair that may touch has a contact at once.
 TestScene heap(int count) {
@@ -88,7 +88,7 @@ TEST(Filters, MoreGroupsThanBits) {
 
 TEST(Filters, JointedNeighboursTouchUnlessFiltered) {
   TestScene scene = heap(2);
-  scene.add_joint("Hinge", physics::JointKind::Revolute, 0, 1);
+  scene.add_joint("Hinge", scene::JointKind::Revolute, 0, 1);
   EXPECT_EQ(touching(scene), (Pairs{{0, 1}}));  // collisionEnabled = true: no pair in the scene
   scene.filter.pairs_off = {{0, 1}};
   EXPECT_EQ(touching(scene), Pairs{});  // S-92
@@ -96,7 +96,7 @@ TEST(Filters, JointedNeighboursTouchUnlessFiltered) {
 
 TEST(Filters, ArticulationWithoutSelfCollision) {
   TestScene scene = heap(4);
-  physics::Articulation articulation;
+  scene::Articulation articulation;
   articulation.links = {0, 1, 2};
   articulation.self_collision = false;
   scene.articulations.push_back(articulation);

@@ -135,7 +135,7 @@ TEST(FreeBodies, SleepsBesideABodyThatIsFixedToTheWorld) {
   const auto asleep = scene.add_body("Asleep", {{0, 0, 5}});
   const auto held = scene.add_body("Held", {{3, 0, 5}});
   scene.bodies[asleep].starts_asleep = true;
-  scene.add_joint("Weld", physics::JointKind::Fixed, {}, held).frame0.position = {{3, 0, 5}};
+  scene.add_joint("Weld", scene::JointKind::Fixed, {}, held).frame0.position = {{3, 0, 5}};
   auto sim = simulation(scene);
   run(*sim, 0.2);
   EXPECT_EQ(sim->body_state(asleep).pose.position[2], 5);

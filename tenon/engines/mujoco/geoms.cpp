@@ -14,21 +14,21 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::Collider;
-using physics::Shape;
-using physics::ShapeKind;
+using scene::Collider;
+using scene::Shape;
+using scene::ShapeKind;
 
 constexpr int kConeSides = 48;
 constexpr double kSmallestSize = 1e-9;  // [m]
 
 // Rotation that brings MuJoCo's z to the shape's axis.
-Quatd axis_rotation(physics::Axis axis) {
+Quatd axis_rotation(scene::Axis axis) {
   switch (axis) {
-    case physics::Axis::X:
+    case scene::Axis::X:
       return rotation_about({{0, 1, 0}}, M_PI / 2);
-    case physics::Axis::Y:
+    case scene::Axis::Y:
       return rotation_about({{1, 0, 0}}, -M_PI / 2);
-    case physics::Axis::Z:
+    case scene::Axis::Z:
       break;
   }
   return kIdentityRotation;
@@ -36,14 +36,14 @@ Quatd axis_rotation(physics::Axis axis) {
 
 // Triangles of one material, in a mesh of their own.
 struct MaterialPart {
-  std::optional<physics::Index> material;
-  physics::TriangleMesh mesh;
+  std::optional<scene::Index> material;
+  scene::TriangleMesh mesh;
 };
 
-physics::TriangleMesh part_of(const physics::TriangleMesh& mesh, const std::vector<int>& kinds,
-                              int kind) {
+scene::TriangleMesh part_of(const scene::TriangleMesh& mesh, const std::vector<int>& kinds,
+                            int kind) {
   std::vector<int> place(mesh.points.size(), -1);
-  physics::TriangleMesh part;
+  scene::TriangleMesh part;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (kinds[i] != kind) {
       continue;
@@ -63,7 +63,7 @@ physics::TriangleMesh part_of(const physics::TriangleMesh& mesh, const std::vect
 
 // A mesh whose faces have several materials, one part per material (S-70).
 std::vector<MaterialPart> parts_by_material(const Collider& collider,
-                                            const physics::TriangleMesh& mesh) {
+                                            const scene::TriangleMesh& mesh) {
   if (collider.face_materials.empty()) {
     return {{collider.material, mesh}};
   }
@@ -71,14 +71,14 @@ std::vector<MaterialPart> parts_by_material(const Collider& collider,
   std::vector<MaterialPart> parts;
   const int count = static_cast<int>(collider.face_materials.size());
   for (int i = 0; i < count; ++i) {
-    for (const physics::Index t : collider.face_materials[static_cast<std::size_t>(i)].triangles) {
+    for (const scene::Index t : collider.face_materials[static_cast<std::size_t>(i)].triangles) {
       if (t < kinds.size() && kinds[t] < 0) {
         kinds[t] = i;
       }
     }
   }
   for (int i = -1; i < count; ++i) {
-    physics::TriangleMesh part = part_of(mesh, kinds, i);
+    scene::TriangleMesh part = part_of(mesh, kinds, i);
     if (!part.triangles.empty()) {
       parts.push_back({i < 0 ? collider.material
                              : collider.face_materials[static_cast<std::size_t>(i)].material,
@@ -88,7 +88,7 @@ std::vector<MaterialPart> parts_by_material(const Collider& collider,
   return parts;
 }
 
-void set_contact(mjsGeom& geom, const physics::MujocoContact& contact) {
+void set_contact(mjsGeom& geom, const scene::MujocoContact& contact) {
   geom.condim = contact.condim.value_or(geom.condim);
   geom.priority = contact.priority.value_or(geom.priority);
   geom.solmix = contact.solmix.value_or(geom.solmix);
@@ -102,7 +102,7 @@ constexpr std::size_t kRoomPerPair = 8;  // [bytes]
 
 /// Which static colliders have a body of their own: pairs that are switched off are told by their
 /// bodies, and what moves along a track is one.
-std::vector<char> own_static_bodies(const physics::PhysicsScene& scene) {
+std::vector<char> own_static_bodies(const scene::PhysicsScene& scene) {
   std::vector<char> own(scene.colliders.size(), 1);
   const auto is_static = [](const Collider& c) { return c.enabled && !c.body.has_value(); };
   const auto count = std::count_if(scene.colliders.begin(), scene.colliders.end(), is_static);
@@ -113,7 +113,7 @@ std::vector<char> own_static_bodies(const physics::PhysicsScene& scene) {
   for (const auto& [first, second] : scene.filter.pairs_off) {
     own[first] = own[second] = 1;
   }
-  for (const physics::PoseTrack& track : scene.pose_tracks) {
+  for (const scene::PoseTrack& track : scene.pose_tracks) {
     if (track.collider.has_value()) {
       own[*track.collider] = 1;
     }
@@ -123,7 +123,7 @@ std::vector<char> own_static_bodies(const physics::PhysicsScene& scene) {
 
 class ColliderPass {
  public:
-  ColliderPass(Build& build, physics::Index index, bool own_body)
+  ColliderPass(Build& build, scene::Index index, bool own_body)
       : build_(build),
         own_body_(own_body),
         index_(index),
@@ -159,7 +159,7 @@ class ColliderPass {
     if (collider_.body.has_value()) {
       body_ = build_.bodies[*collider_.body];
       pose_ = inverse(build_.engine_frames[*collider_.body]) * collider_.pose;
-      is_static_ = build_.plan.bodies[*collider_.body].base == BodyBase::Fixed;
+      is_static_ = build_.plan.bases[*collider_.body] == BodyBase::Fixed;
       moves_freely_ = !build_.scene.bodies[*collider_.body].kinematic;
       world_ = build_.scene.bodies[*collider_.body].pose * collider_.pose;
       return;
@@ -175,7 +175,7 @@ class ColliderPass {
     body_ = mjs_addBody(world, nullptr);
     place(body_, collider_.path.str() + ".static", collider_.pose);
     build_.static_bodies[index_] = body_;
-    for (const physics::PoseTrack& track : build_.scene.pose_tracks) {
+    for (const scene::PoseTrack& track : build_.scene.pose_tracks) {
       if (track.collider == index_ && !track.times.empty()) {
         body_->mocap = 1;
       }
@@ -283,7 +283,7 @@ class ColliderPass {
 
   void add_hulls() {
     const Shape& shape = collider_.shape;
-    for (const physics::Index piece : shape.pieces) {
+    for (const scene::Index piece : shape.pieces) {
       add_pieces(hull_pieces(build_.scene.meshes[piece].points, up()));
     }
     if (shape.pieces.empty()) {
@@ -292,7 +292,7 @@ class ColliderPass {
   }
 
   void add_mesh() {
-    const physics::TriangleMesh& mesh = build_.scene.meshes[collider_.shape.mesh];
+    const scene::TriangleMesh& mesh = build_.scene.meshes[collider_.shape.mesh];
     if (!moves_freely_) {
       for (const MaterialPart& part : parts_by_material(collider_, mesh)) {
         material_ = part.material;
@@ -300,7 +300,7 @@ class ColliderPass {
       }
       return;
     }
-    for (const physics::FaceMaterial& faces : collider_.face_materials) {
+    for (const scene::FaceMaterial& faces : collider_.face_materials) {
       build_.report(faces.subset, "material:binding",
                     "the hull that stands for the moving mesh has one material, that of the mesh");
     }
@@ -342,9 +342,9 @@ class ColliderPass {
 
   Build& build_;
   bool own_body_;  // of a static collider
-  physics::Index index_;
+  scene::Index index_;
   const Collider& collider_;
-  std::optional<physics::Index> material_;  // of the geoms made next
+  std::optional<scene::Index> material_;  // of the geoms made next
   mjsBody* body_ = nullptr;
   Pose pose_;   // of the collider in the MuJoCo body
   Pose world_;  // of the collider at the start
@@ -365,7 +365,7 @@ Result<void> add_geoms(Build& build) {
   std::size_t own_bodies = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (build.scene.colliders[i].enabled) {
-      ColliderPass pass(build, static_cast<physics::Index>(i), own_body[i] != 0);
+      ColliderPass pass(build, static_cast<scene::Index>(i), own_body[i] != 0);
       pass.add();
       size.geoms += build.geoms[i].size();
       size.mesh_points += pass.mesh_points();

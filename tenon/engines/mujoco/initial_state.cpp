@@ -11,8 +11,8 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::Index;
-using physics::PhysicsScene;
+using scene::Index;
+using scene::PhysicsScene;
 
 constexpr double kNoticedGap = 1e-4;   // [m]
 constexpr double kNoticedTurn = 1e-3;  // [rad]
@@ -21,13 +21,13 @@ Pose world_frame(const PhysicsScene& scene, const std::optional<Index>& body, co
   return body.has_value() ? scene.bodies[*body].pose * frame : frame;
 }
 
-Pose relative_frames(const PhysicsScene& scene, const physics::Joint& joint) {
+Pose relative_frames(const PhysicsScene& scene, const scene::Joint& joint) {
   return inverse(world_frame(scene, joint.body0, joint.frame0)) *
          world_frame(scene, joint.body1, joint.frame1);
 }
 
 // Frames that do not meet are brought together by the coordinates of the tree (S-90).
-void report_gap(const physics::Joint& joint, const Pose& wanted, const Pose& possible,
+void report_gap(const scene::Joint& joint, const Pose& wanted, const Pose& possible,
                 Diagnostics& diagnostics) {
   const double gap = length(wanted.position - possible.position);
   const double turn =
@@ -45,7 +45,7 @@ void report_gap(const physics::Joint& joint, const Pose& wanted, const Pose& pos
                    "correct localPos and localRot, or the poses of the bodies"});
 }
 
-void set_coordinates(const physics::Joint& joint, const JointMap& map, const Pose& relative,
+void set_coordinates(const scene::Joint& joint, const JointMap& map, const Pose& relative,
                      Diagnostics& diagnostics, double* qpos) {
   std::vector<double> coordinates = coordinates_at(map.dofs, relative);
   report_gap(joint, relative, relative_pose_at(map.dofs, coordinates), diagnostics);
@@ -72,7 +72,7 @@ void set_positions(const PhysicsScene& scene, Model& model, Diagnostics& diagnos
   }
 }
 
-void set_free_velocity(const physics::Body& body, const BodyMap& map, mjData* data) {
+void set_free_velocity(const scene::Body& body, const BodyMap& map, mjData* data) {
   write_vector(data->qvel + map.free_dof, body.linear_velocity);
   const Quatd world = body.pose.orientation * map.engine_frame.orientation;
   write_vector(data->qvel + map.free_dof + 3, rotate(conjugate(world), body.angular_velocity));
@@ -109,7 +109,7 @@ std::vector<double> least_squares(const std::vector<std::array<double, 6>>& colu
 }
 
 // The joint velocities that give a body on a joint its authored velocity, as far as they can.
-Result<void> set_joint_velocity(const physics::Body& body, const BodyMap& map, Model& model) {
+Result<void> set_joint_velocity(const scene::Body& body, const BodyMap& map, Model& model) {
   mjModel* m = model.model.get();
   mjData* d = model.data.get();
   const auto nv = static_cast<std::size_t>(m->nv);
@@ -140,26 +140,26 @@ Result<void> set_joint_velocity(const physics::Body& body, const BodyMap& map, M
   return {};
 }
 
-bool moves_at_start(const physics::Body& body) {
+bool moves_at_start(const scene::Body& body) {
   return body.linear_velocity != Vec3d{} || body.angular_velocity != Vec3d{};
 }
 
 Result<void> set_velocities(const PhysicsScene& scene, Begin begin, Model& model) {
-  for (const Index b : model.plan.order) {
-    const physics::Body& body = scene.bodies[b];
-    const BodyPlan& plan = model.plan.bodies[b];
-    if (plan.base == BodyBase::Free) {
+  for (const Index b : model.plan.forest.order) {
+    const scene::Body& body = scene.bodies[b];
+    const scene::ForestBody& link = model.plan.forest.bodies[b];
+    if (model.plan.bases[b] == BodyBase::Free) {
       set_free_velocity(body, model.bodies[b], model.data.get());
     }
-    if (plan.base != BodyBase::Jointed) {
+    if (!link.joint) {
       continue;
     }
-    const physics::Joint& joint = scene.joints[plan.joint];
-    const JointMap& map = model.joints[plan.joint];
+    const scene::Joint& joint = scene.joints[*link.joint];
+    const JointMap& map = model.joints[*link.joint];
     const bool is_link =
-        begin == Begin::Start && joint.articulation.has_value() && plan.parent.has_value();  // S-32
+        begin == Begin::Start && joint.articulation.has_value() && link.parent.has_value();  // S-32
     const bool moving = moves_at_start(body) ||
-                        (plan.parent.has_value() && moves_at_start(scene.bodies[*plan.parent]));
+                        (link.parent.has_value() && moves_at_start(scene.bodies[*link.parent]));
     if (joint.initial_velocity.has_value() && map.dof.size() == 1) {
       model.data->qvel[map.dof[0]] = *joint.initial_velocity;
     } else if (moving && !is_link) {
@@ -172,7 +172,7 @@ Result<void> set_velocities(const PhysicsScene& scene, Begin begin, Model& model
 void set_controls(const PhysicsScene& scene, Model& model) {
   for (const DriveMap& map : model.drives) {
     if (map.actuator >= 0) {
-      const physics::Drive& drive = scene.joints[map.joint].drives[map.drive];
+      const scene::Drive& drive = scene.joints[map.joint].drives[map.drive];
       model.data->ctrl[map.control] = drive.target_position;
       model.data->ctrl[map.control + 1] = drive.target_velocity;
     }
@@ -185,7 +185,7 @@ void set_controls(const PhysicsScene& scene, Model& model) {
 // force at their centre of mass.
 void set_other_gravities(const PhysicsScene& scene, Model& model) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const physics::Body& body = scene.bodies[b];
+    const scene::Body& body = scene.bodies[b];
     if (body.scene == 0 || body.kinematic) {
       continue;
     }

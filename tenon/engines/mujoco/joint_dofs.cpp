@@ -6,13 +6,15 @@
 #include <array>
 #include <cmath>
 
+#include "tenon/scene/joint_freedom.h"
+
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::Dof;
-using physics::Joint;
-using physics::JointKind;
-using physics::kUnlimited;
+using scene::Dof;
+using scene::Joint;
+using scene::JointKind;
+using scene::kUnlimited;
 
 constexpr double kSameValue = 1e-9;  // a limit this narrow [m or rad] is a lock at its value
 
@@ -45,7 +47,7 @@ Link make_link(Dof dof, double lower, double upper) {
 }
 
 Link limited_link(const Joint& joint, Dof dof, double lower, double upper) {
-  for (const physics::Limit& limit : joint.limits) {
+  for (const scene::Limit& limit : joint.limits) {
     if (limit.dof == dof) {
       if (limit.locked()) {
         return make_link(dof, 1, -1);
@@ -59,7 +61,7 @@ Link limited_link(const Joint& joint, Dof dof, double lower, double upper) {
 
 bool has_rotation_drive(const Joint& joint) {
   return std::any_of(joint.drives.begin(), joint.drives.end(),
-                     [](const physics::Drive& drive) { return is_angular(drive.dof); });
+                     [](const scene::Drive& drive) { return is_angular(drive.dof); });
 }
 
 Dof rotation(std::size_t axis) {
@@ -116,13 +118,7 @@ bool is_ball(const std::vector<Link>& links) {
 
 }  // namespace
 
-Vec3d unit_axis(physics::Axis axis) { return unit(static_cast<std::size_t>(axis)); }
-
-bool JointDofs::holds_nothing() const {
-  return count() == 6 && std::all_of(free.begin(), free.end(), [](const FreeDof& dof) {
-           return dof.lower == -kUnlimited && dof.upper == kUnlimited;
-         });
-}
+Vec3d unit_axis(scene::Axis axis) { return unit(static_cast<std::size_t>(axis)); }
 
 JointDofs joint_dofs(const Joint& joint) {
   const std::vector<Link> links = links_of(joint);
@@ -150,13 +146,13 @@ JointDofs joint_dofs(const Joint& joint) {
   return result;
 }
 
-physics::Limit distance_limit(const Joint& joint) {
-  physics::Limit result{Dof::Distance, -kUnlimited, kUnlimited};
+scene::Limit distance_limit(const Joint& joint) {
+  scene::Limit result{Dof::Distance, -kUnlimited, kUnlimited};
   if (joint.kind == JointKind::Distance) {
     result.lower = joint.lower;
     result.upper = joint.upper;
   }
-  for (const physics::Limit& limit : joint.limits) {
+  for (const scene::Limit& limit : joint.limits) {
     if (limit.dof == Dof::Distance) {
       result.lower = std::max(result.lower, limit.lower);
       result.upper = std::min(result.upper, limit.upper);
@@ -170,12 +166,6 @@ physics::Limit distance_limit(const Joint& joint) {
   }
   result.lower = std::min(result.lower, result.upper);
   return result;
-}
-
-double circular_cone(const Joint& joint) {
-  const bool circular = joint.kind == JointKind::Spherical && joint.cone_angle0 < kUnlimited &&
-                        std::fabs(joint.cone_angle0 - joint.cone_angle1) < kSameValue;
-  return circular ? joint.cone_angle0 : kUnlimited;
 }
 
 namespace {

@@ -5,18 +5,18 @@
 #include <vector>
 
 #include "tenon/math/transform.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 /// Joints of every kind as a chain of single degrees of freedom.
 namespace tenon::engines::mujoco {
 
 /// One free degree of freedom of a chain.
 struct FreeDof {
-  physics::Dof dof = physics::Dof::RotX;
-  Vec3d axis0;                          ///< unit axis in frame 0 when all coordinates are zero
-  Vec3d axis1;                          ///< the same axis in frame 1
-  double lower = -physics::kUnlimited;  ///< [m or rad]
-  double upper = physics::kUnlimited;
+  scene::Dof dof = scene::Dof::RotX;
+  Vec3d axis0;                        ///< unit axis in frame 0 when all coordinates are zero
+  Vec3d axis1;                        ///< the same axis in frame 1
+  double lower = -scene::kUnlimited;  ///< [m or rad]
+  double upper = scene::kUnlimited;
 };
 
 /// What one joint leaves free. X_J0J1 is the product of translations along frame 0 and then of
@@ -27,21 +27,16 @@ struct JointDofs {
   Pose locked;        ///< X_J0J1 when every free coordinate is zero
 
   std::size_t count() const { return free.size() + (ball ? 3u : 0u); }
-  /// Six free and unlimited: the joint holds nothing.
-  bool holds_nothing() const;
 };
 
 /// Degrees of freedom of any joint but a distance joint (that one leaves all free), limits of the
 /// joint and of LimitAPI intersected (S-95, S-98, S-100). A drive on a rotation makes hinges of
 /// what would be a ball.
-JointDofs joint_dofs(const physics::Joint& joint);
+JointDofs joint_dofs(const scene::Joint& joint);
 
 /// Bounds of the distance between the two frame origins [m], min and max (S-97); both infinite when
 /// there are none. min > max: both are max.
-physics::Limit distance_limit(const physics::Joint& joint);
-
-/// A spherical joint's cone with one angle for both directions, or kUnlimited [rad].
-double circular_cone(const physics::Joint& joint);
+scene::Limit distance_limit(const scene::Joint& joint);
 
 /// Coordinates of `dofs.free` (and of a ball as rotation vector, last) at a relative pose X_J0J1.
 /// What the joint holds locked is not looked at.
@@ -50,8 +45,8 @@ std::vector<double> coordinates_at(const JointDofs& dofs, const Pose& relative);
 /// X_J0J1 at the given coordinates, the inverse of `coordinates_at`.
 Pose relative_pose_at(const JointDofs& dofs, const std::vector<double>& coordinates);
 
-Vec3d unit_axis(physics::Axis axis);
+Vec3d unit_axis(scene::Axis axis);
 /// Axis of a degree of freedom, 0..2 for x, y, z.
-inline std::size_t axis_of(physics::Dof dof) { return static_cast<std::size_t>(dof) % 3; }
+inline std::size_t axis_of(scene::Dof dof) { return static_cast<std::size_t>(dof) % 3; }
 
 }  // namespace tenon::engines::mujoco

@@ -11,11 +11,11 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::kUnlimited;
+using scene::kUnlimited;
 
 constexpr double kOpenEnd = 1e10;  // MuJoCo's largest number; "no bound" of a one-sided limit
 
-void set_limit(mjsJoint* joint, const FreeDof& dof, const physics::MujocoSoftness& softness,
+void set_limit(mjsJoint* joint, const FreeDof& dof, const scene::MujocoSoftness& softness,
                double time_step) {
   const bool limited = dof.lower > -kUnlimited || dof.upper < kUnlimited;
   joint->limited = limited ? mjLIMITED_TRUE : mjLIMITED_FALSE;
@@ -29,13 +29,13 @@ void set_limit(mjsJoint* joint, const FreeDof& dof, const physics::MujocoSoftnes
   std::copy(softness.solimp_limit.begin(), softness.solimp_limit.end(), joint->solimp_limit);
 }
 
-void set_passive(mjsJoint* target, const physics::Joint& joint) {
+void set_passive(mjsJoint* target, const scene::Joint& joint) {
   target->armature = joint.armature;
   target->frictionloss = joint.friction;
   target->damping[0] = joint.damping;
   target->stiffness[0] = joint.stiffness;
   target->springref = joint.spring_reference;
-  const physics::MujocoSoftness& softness = joint.mujoco;
+  const scene::MujocoSoftness& softness = joint.mujoco;
   std::copy(softness.solref_friction.begin(), softness.solref_friction.end(),
             target->solref_friction);
   std::copy(softness.solimp_friction.begin(), softness.solimp_friction.end(),
@@ -44,9 +44,9 @@ void set_passive(mjsJoint* target, const physics::Joint& joint) {
 
 }  // namespace
 
-void add_chain(Build& build, physics::Index index, mjsBody* child, const Pose& joint_in_child,
+void add_chain(Build& build, scene::Index index, mjsBody* child, const Pose& joint_in_child,
                bool reversed) {
-  const physics::Joint& joint = build.scene.joints[index];
+  const scene::Joint& joint = build.scene.joints[index];
   const JointDofs& dofs = build.dofs[index];
   std::vector<mjsJoint*>& made = build.joints[index];
   made.assign(dofs.free.size(), nullptr);
@@ -86,7 +86,7 @@ void add_chain(Build& build, physics::Index index, mjsBody* child, const Pose& j
   }
 }
 
-mjsJoint* scalar_joint(const Build& build, physics::Index joint, physics::Dof dof) {
+mjsJoint* scalar_joint(const Build& build, scene::Index joint, scene::Dof dof) {
   const JointDofs& dofs = build.dofs[joint];
   for (std::size_t i = 0; i < build.joints[joint].size(); ++i) {
     if (dofs.free[i].dof == dof) {
@@ -97,14 +97,14 @@ mjsJoint* scalar_joint(const Build& build, physics::Index joint, physics::Dof do
 }
 
 void add_joints(Build& build) {
-  for (const physics::Index index : build.plan.order) {
-    const BodyPlan& plan = build.plan.bodies[index];
-    if (plan.base != BodyBase::Jointed) {
+  for (const scene::Index index : build.plan.forest.order) {
+    const scene::ForestBody& link = build.plan.forest.bodies[index];
+    if (!link.joint) {
       continue;
     }
-    const physics::Joint& joint = build.scene.joints[plan.joint];
-    add_chain(build, plan.joint, build.bodies[index], plan.reversed ? joint.frame0 : joint.frame1,
-              plan.reversed);
+    const scene::Joint& joint = build.scene.joints[*link.joint];
+    add_chain(build, *link.joint, build.bodies[index], link.reversed ? joint.frame0 : joint.frame1,
+              link.reversed);
   }
 }
 

@@ -5,9 +5,9 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::JointKind;
+using scene::JointKind;
 
-void move_along_x(TestScene& scene, physics::Index body, double speed, double seconds) {
+void move_along_x(TestScene& scene, scene::Index body, double speed, double seconds) {
   scene.bodies[body].kinematic = true;
   Pose end = scene.bodies[body].pose;
   end.position[0] += speed * seconds;
@@ -46,12 +46,12 @@ TEST(Kinematic, PendulumFeelsTheAccelerationOfItsPivot) {
   TestScene scene;
   const auto cart = scene.add_body("Cart", {});
   const auto bob = scene.add_body("Bob", {{0, 0, -1}}, 1, {{1e-4, 1e-4, 1e-4}});
-  auto& joint = scene.add_joint("Pivot", JointKind::Revolute, cart, bob, physics::Axis::Y);
+  auto& joint = scene.add_joint("Pivot", JointKind::Revolute, cart, bob, scene::Axis::Y);
   joint.frame1.position = {{0, 0, 1}};
   joint.damping = 3;
   scene.bodies[cart].kinematic = true;
   // x = a t^2 / 2 with a = 2 m/s^2, sampled densely.
-  physics::PoseTrack track{cart, {}, {}, {}, false};
+  scene::PoseTrack track{cart, {}, {}, {}, false};
   for (int i = 0; i <= 4000; ++i) {
     const double t = 0.001 * i;
     track.times.push_back(t);

@@ -5,8 +5,8 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::Axis;
-using physics::JointKind;
+using scene::Axis;
+using scene::JointKind;
 
 // A four-bar parallelogram in the xz plane: crank 1 m up from the origin, coupler 2 m along x,
 // rocker 1 m up from (2, 0, 0). The last joint closes the loop.
@@ -90,8 +90,8 @@ TEST(Loops, PlanPutsExcludedJointsLast) {
   const TreePlan plan = plan_tree(scene);
   EXPECT_EQ(plan.joints, (std::vector<JointRole>{JointRole::Tree, JointRole::Tree, JointRole::Tree,
                                                  JointRole::Hinge}));
-  EXPECT_EQ(plan.order.size(), 3u);
-  EXPECT_EQ(plan.depth, 2u);
+  EXPECT_EQ(plan.forest.order.size(), 3u);
+  EXPECT_EQ(plan.forest.depth, 2u);
 }
 
 TEST(Loops, PlanRootsAFloatingArticulationAtItsRoot) {
@@ -101,15 +101,37 @@ TEST(Loops, PlanRootsAFloatingArticulationAtItsRoot) {
   }
   scene.add_joint("J1", JointKind::Revolute, 0, 1);
   scene.add_joint("J2", JointKind::Revolute, 2, 1);
-  physics::Articulation articulation;
+  scene::Articulation articulation;
   articulation.links = {1, 0, 2};
   articulation.joints = {0, 1};
   scene.articulations.push_back(articulation);
   const TreePlan plan = plan_tree(scene);
-  EXPECT_EQ(plan.bodies[1].base, BodyBase::Free);
-  EXPECT_TRUE(plan.bodies[0].reversed);  // body0 of J1 hangs on body1
-  EXPECT_TRUE(plan.bodies[2].reversed);
-  EXPECT_EQ(plan.order, (std::vector<physics::Index>{1, 0, 2}));
+  EXPECT_EQ(plan.bases[1], BodyBase::Free);
+  EXPECT_TRUE(plan.forest.bodies[0].reversed);  // body0 of J1 hangs on body1
+  EXPECT_TRUE(plan.forest.bodies[2].reversed);
+  EXPECT_EQ(plan.forest.order, (std::vector<scene::Index>{1, 0, 2}));
+}
+
+// S-110, E-125: the base of a floating articulation is held by a constraint, not by the tree.
+TEST(Loops, ExcludedJointToTheWorldHoldsAFloatingArticulation) {
+  TestScene scene;
+  const auto base = scene.add_body("Base", {{0, 0, 1}});
+  const auto arm = scene.add_body("Arm", {{1, 0, 1}});
+  scene.add_joint("Hold", JointKind::Fixed, {}, base).frame0.position = {{0, 0, 1}};
+  scene.joints[0].exclude_from_articulation = true;
+  scene.add_joint("Turn", JointKind::Revolute, base, arm, Axis::Z).frame0.position = {{1, 0, 0}};
+  scene::Articulation articulation;
+  articulation.links = {base, arm};
+  articulation.joints = {1};
+  articulation.loop_joints = {0};
+  scene.joints[1].articulation = 0;
+  scene.articulations.push_back(articulation);
+  const TreePlan plan = plan_tree(scene);
+  EXPECT_EQ(plan.joints, (std::vector<JointRole>{JointRole::Weld, JointRole::Tree}));
+  EXPECT_EQ(plan.bases[base], BodyBase::Free);
+  auto sim = simulation(scene);
+  run(*sim, 1);
+  EXPECT_LT(length(sim->body_state(base).pose.position - Vec3d{{0, 0, 1}}), 1e-3);
 }
 
 TEST(Loops, PlanKeepsTwoKinematicBodiesApart) {

@@ -9,7 +9,7 @@
 
 #include "tenon/base/limits.h"
 #include "tenon/base/physics_limits.h"
-#include "tenon/physics/convex_hull.h"
+#include "tenon/scene/convex_hull.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -91,7 +91,7 @@ std::vector<Vec3d> thicken(const std::vector<Vec3d>& points, const Thickness& th
   return result;
 }
 
-double double_area(const physics::TriangleMesh& mesh, const Vec3i& t) {
+double double_area(const scene::TriangleMesh& mesh, const Vec3i& t) {
   const Vec3d& a = mesh.points[static_cast<std::size_t>(t[0])];
   return length(cross(mesh.points[static_cast<std::size_t>(t[1])] - a,
                       mesh.points[static_cast<std::size_t>(t[2])] - a));
@@ -128,7 +128,7 @@ double double_hull_area(const std::vector<Vec3d>& points, const Plane& plane) {
   return std::fabs(area);
 }
 
-bool is_convex_polygon(const physics::TriangleMesh& mesh, const Plane& plane) {
+bool is_convex_polygon(const scene::TriangleMesh& mesh, const Plane& plane) {
   double covered = 0;
   for (const Vec3i& t : mesh.triangles) {
     covered += double_area(mesh, t);
@@ -137,7 +137,7 @@ bool is_convex_polygon(const physics::TriangleMesh& mesh, const Plane& plane) {
   return std::fabs(covered - hull) < 1e-4 * hull;
 }
 
-bool is_closed(const physics::TriangleMesh& mesh) {
+bool is_closed(const scene::TriangleMesh& mesh) {
   std::vector<std::pair<int, int>> edges;
   for (const Vec3i& t : mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -155,7 +155,7 @@ bool is_closed(const physics::TriangleMesh& mesh) {
 }
 
 // Every point lies behind every triangle (either winding); only asked for closed meshes.
-bool is_convex(const physics::TriangleMesh& mesh, double size) {
+bool is_convex(const scene::TriangleMesh& mesh, double size) {
   if (mesh.triangles.size() * mesh.points.size() > limits::kConvexityChecks || !is_closed(mesh)) {
     return false;
   }
@@ -178,7 +178,7 @@ bool is_convex(const physics::TriangleMesh& mesh, double size) {
   return true;
 }
 
-std::vector<Vec3d> prism(const physics::TriangleMesh& mesh, const Vec3i& t, const Vec3d& down,
+std::vector<Vec3d> prism(const scene::TriangleMesh& mesh, const Vec3i& t, const Vec3d& down,
                          double depth) {
   std::vector<Vec3d> result;
   const Vec3d& a = mesh.points[static_cast<std::size_t>(t[0])];
@@ -195,7 +195,7 @@ std::vector<Vec3d> prism(const physics::TriangleMesh& mesh, const Vec3i& t, cons
 
 /// One hull of points in space: MuJoCo makes it with Qhull, whose time has no other bound.
 MeshPieces one_hull(const std::vector<Vec3d>& points, std::string note) {
-  physics::HullPoints hull = physics::hull_points(points);
+  scene::HullPoints hull = scene::hull_points(points);
   if (hull.thinned) {
     note += std::string(note.empty() ? "" : "; ") + "the hull has more than " +
             std::to_string(limits::kHullPoints) +
@@ -218,7 +218,7 @@ MeshPieces hull_pieces(const std::vector<Vec3d>& points, const Vec3d& up) {
   return one_hull(thicken(points, thickness), thickness.note);
 }
 
-MeshPieces triangle_pieces(const physics::TriangleMesh& mesh, const Vec3d& up) {
+MeshPieces triangle_pieces(const scene::TriangleMesh& mesh, const Vec3d& up) {
   const Plane plane = plane_of(mesh.points);
   if (plane.normal == Vec3d{}) {
     return hull_pieces(mesh.points, up);

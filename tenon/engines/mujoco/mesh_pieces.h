@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tenon/math/vector.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 /// Meshes as convex pieces, the only meshes whose contacts MuJoCo makes reliably.
 namespace tenon::engines::mujoco {
@@ -22,6 +22,6 @@ MeshPieces hull_pieces(const std::vector<Vec3d>& points, const Vec3d& up);
 
 /// The triangles themselves, of a collider that does not move: one hull when the mesh is convex or
 /// a convex flat polygon, else one thin prism per triangle, below its front side.
-MeshPieces triangle_pieces(const physics::TriangleMesh& mesh, const Vec3d& up);
+MeshPieces triangle_pieces(const scene::TriangleMesh& mesh, const Vec3d& up);
 
 }  // namespace tenon::engines::mujoco

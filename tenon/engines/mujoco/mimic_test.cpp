@@ -5,16 +5,16 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::Axis;
-using physics::Dof;
-using physics::JointKind;
+using scene::Axis;
+using scene::Dof;
+using scene::JointKind;
 
 constexpr double kHalfDegree = 0.5 * M_PI / 180;
 
 // A finger of light links (5 g, 1e-7 kg m^2, 2 cm long) hanging sideways on a fixed palm.
 TestScene finger(int links) {
   TestScene scene;
-  std::optional<physics::Index> parent;
+  std::optional<scene::Index> parent;
   for (int i = 0; i < links; ++i) {
     const auto link =
         scene.add_body("Link" + std::to_string(i), {{0.02 * i, 0, 0}}, 0.005, {{1e-7, 1e-7, 1e-7}});
@@ -29,9 +29,9 @@ TestScene finger(int links) {
   return scene;
 }
 
-void follow(TestScene& scene, physics::Index follower, physics::Index leader, double multiplier,
+void follow(TestScene& scene, scene::Index follower, scene::Index leader, double multiplier,
             double offset = 0) {
-  physics::Mimic mimic;
+  scene::Mimic mimic;
   mimic.schema = "NewtonMimicAPI";
   mimic.leader = leader;
   mimic.multiplier = multiplier;
@@ -58,11 +58,11 @@ TEST(Mimic, DrivenChainClosesAndOpens) {
   TestScene scene = finger(3);
   follow(scene, 1, 0, 0.7508, 0.001745);
   follow(scene, 2, 0, 0.5);
-  physics::Drive d = drive(Dof::RotY, 0.5, 0.02);
+  scene::Drive d = drive(Dof::RotY, 0.5, 0.02);
   d.max_force = 1;
   scene.joints[0].drives.push_back(d);
   scene.scalar_tracks.push_back(
-      {physics::Animated::DriveTargetPosition, 0, 0, {0, 1, 2}, {0, 1.0, 0.1}, false});
+      {scene::Animated::DriveTargetPosition, 0, 0, {0, 1, 2}, {0, 1.0, 0.1}, false});
   auto sim = simulation(scene);
   for (int i = 0; i < 1500; ++i) {
     ASSERT_TRUE(sim->step().has_value());

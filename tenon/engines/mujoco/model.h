@@ -15,7 +15,7 @@
 #include "tenon/engines/mujoco/tree_plan.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/math/transform.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 /// A compiled MuJoCo model and what connects its numbers with those of the neutral scene.
 namespace tenon::engines::mujoco {
@@ -69,10 +69,10 @@ struct JointMap {
 };
 
 struct DriveMap {
-  physics::Index joint = 0;
-  physics::Index drive = 0;  ///< into Joint::drives
-  int actuator = -1;         ///< -1: not expressible
-  int control = -1;          ///< first of two controls: position and velocity target
+  scene::Index joint = 0;
+  scene::Index drive = 0;  ///< into Joint::drives
+  int actuator = -1;       ///< -1: not expressible
+  int control = -1;        ///< first of two controls: position and velocity target
   int dof = -1;
 };
 

@@ -18,7 +18,7 @@ Error too_large(const std::string& what, std::size_t most, const char* name) {
 
 }  // namespace
 
-Result<void> check_scene_size(const physics::PhysicsScene& scene) {
+Result<void> check_scene_size(const scene::PhysicsScene& scene) {
   if (std::max(scene.bodies.size(), scene.joints.size()) > limits::kModelBodies) {
     return too_large("bodies or joints", limits::kModelBodies, "kModelBodies");
   }

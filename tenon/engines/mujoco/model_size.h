@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "tenon/base/result.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::engines::mujoco {
 
@@ -17,7 +17,7 @@ struct ModelSize {
 };
 
 /// Whether bodies and joints are not too many. Errors: Limit.
-Result<void> check_scene_size(const physics::PhysicsScene& scene);
+Result<void> check_scene_size(const scene::PhysicsScene& scene);
 /// Whether a model may have this; `last` is what was added last. Errors: Limit with that prim.
 Result<void> check_model_size(const ModelSize& size, const Path& last);
 

@@ -8,7 +8,7 @@ namespace tenon::engines::mujoco {
 
 EngineInfo info() { return {"mujoco", mj_versionString(), true, ""}; }
 
-Result<std::unique_ptr<Simulation>> make_simulation(const physics::PhysicsScene& scene,
+Result<std::unique_ptr<Simulation>> make_simulation(const scene::PhysicsScene& scene,
                                                     const SimulationOptions& options,
                                                     Diagnostics& diagnostics) {
   TENON_TRY(auto simulation, MujocoSimulation::make(scene, options, diagnostics));

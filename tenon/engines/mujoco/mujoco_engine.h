@@ -8,7 +8,7 @@
 #include "tenon/base/result.h"
 #include "tenon/engines/engines.h"
 #include "tenon/engines/simulation.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 /// The MuJoCo adapter: PhysicsScene -> mjSpec -> mjModel and mjData, stepped and read back.
 namespace tenon::engines::mujoco {
@@ -18,7 +18,7 @@ EngineInfo info();
 
 /// A simulation of `scene`, which must outlive it. Errors: Invalid with MuJoCo's own words when it
 /// rejects the model, Limit when the scene is too large.
-Result<std::unique_ptr<Simulation>> make_simulation(const physics::PhysicsScene& scene,
+Result<std::unique_ptr<Simulation>> make_simulation(const scene::PhysicsScene& scene,
                                                     const SimulationOptions& options,
                                                     Diagnostics& diagnostics);
 

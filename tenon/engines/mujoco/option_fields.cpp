@@ -111,7 +111,7 @@ const Field* find(const Field (&fields)[count], std::string_view name) {
   return found == std::end(fields) ? nullptr : found;
 }
 
-bool apply_whole(const WholeField& field, const physics::MujocoSetting& setting, int& value) {
+bool apply_whole(const WholeField& field, const scene::MujocoSetting& setting, int& value) {
   if (!field.words.empty()) {
     const auto word = std::find(field.words.begin(), field.words.end(), setting.token);
     value = word == field.words.end() ? value : static_cast<int>(word - field.words.begin());
@@ -136,7 +136,7 @@ bool apply_groups(const std::vector<double>& groups, mjOption& option) {
 
 }  // namespace
 
-bool apply_setting(const physics::MujocoSetting& setting, mjOption& option) {
+bool apply_setting(const scene::MujocoSetting& setting, mjOption& option) {
   if (const NumberField* field = find(kNumbers, setting.name)) {
     if (setting.numbers.size() != static_cast<std::size_t>(field->count)) {
       return false;
@@ -169,7 +169,7 @@ class Differences {
     mj_defaultOption(&usual_);
   }
 
-  std::vector<physics::MujocoSetting> run() {
+  std::vector<scene::MujocoSetting> run() {
     add_numbers();
     add_whole();
     add_flags();
@@ -234,13 +234,13 @@ class Differences {
   mjOption option_;
   mjOption usual_;
   std::vector<std::string>& unnamed_;
-  std::vector<physics::MujocoSetting> settings_;
+  std::vector<scene::MujocoSetting> settings_;
 };
 
 }  // namespace
 
-std::vector<physics::MujocoSetting> settings_of(const mjOption& option,
-                                                std::vector<std::string>& unnamed) {
+std::vector<scene::MujocoSetting> settings_of(const mjOption& option,
+                                              std::vector<std::string>& unnamed) {
   return Differences(option, unnamed).run();
 }
 

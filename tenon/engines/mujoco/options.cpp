@@ -5,6 +5,7 @@
 
 #include "tenon/engines/mujoco/build.h"
 #include "tenon/engines/mujoco/option_fields.h"
+#include "tenon/scene/joint_freedom.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -16,13 +17,13 @@ constexpr std::size_t kMostMemory = std::size_t{4} << 30u;
 constexpr double kFrictionToNormal =
     10;  // impratio: friction this much harder than normal, less creep
 
-void report_joint(Build& build, const physics::Joint& joint) {
-  if (joint.velocity_limit < physics::kUnlimited) {
+void report_joint(Build& build, const scene::Joint& joint) {
+  if (joint.velocity_limit < scene::kUnlimited) {
     build.report(joint.path, "velocityLimit", "MuJoCo has no bound on joint velocities");
   }
   const bool elliptic =
-      joint.kind == physics::JointKind::Spherical && circular_cone(joint) == physics::kUnlimited &&
-      joint.cone_angle0 < physics::kUnlimited && joint.cone_angle1 < physics::kUnlimited;
+      joint.kind == scene::JointKind::Spherical && circular_cone(joint) == scene::kUnlimited &&
+      joint.cone_angle0 < scene::kUnlimited && joint.cone_angle1 < scene::kUnlimited;
   if (elliptic) {
     build.report(joint.path, "physics:coneAngle0Limit",
                  "an elliptic cone is bounded per axis: tilts in both directions at once may go "
@@ -30,20 +31,20 @@ void report_joint(Build& build, const physics::Joint& joint) {
   }
 }
 
-bool names_own_dof(const physics::Joint& joint, const physics::Limit& limit) {
+bool names_own_dof(const scene::Joint& joint, const scene::Limit& limit) {
   switch (joint.kind) {
-    case physics::JointKind::Revolute:
-    case physics::JointKind::Prismatic:
-      return limit.dof == joint.dof() || limit.dof == physics::Dof::Distance;
-    case physics::JointKind::D6:
+    case scene::JointKind::Revolute:
+    case scene::JointKind::Prismatic:
+      return limit.dof == joint.dof() || limit.dof == scene::Dof::Distance;
+    case scene::JointKind::D6:
       return true;
-    case physics::JointKind::Distance:
-      return limit.dof == physics::Dof::Distance;
-    case physics::JointKind::Spherical:
-    case physics::JointKind::Fixed:
+    case scene::JointKind::Distance:
+      return limit.dof == scene::Dof::Distance;
+    case scene::JointKind::Spherical:
+    case scene::JointKind::Fixed:
       break;
   }
-  return limit.dof == physics::Dof::Distance;
+  return limit.dof == scene::Dof::Distance;
 }
 
 }  // namespace
@@ -52,11 +53,11 @@ namespace {
 
 /// What the asset asks for counts before what is good for robots in general.
 void apply_settings(Build& build) {
-  const physics::Scene& scene = build.scene.scenes.front();
+  const scene::Scene& scene = build.scene.scenes.front();
   if (!scene.mujoco) {
     return;
   }
-  for (const physics::MujocoSetting& setting : *scene.mujoco) {
+  for (const scene::MujocoSetting& setting : *scene.mujoco) {
     if (!apply_setting(setting, build.spec->option)) {
       build.report(scene.path, "mjc:" + setting.name, "MuJoCo has no such setting or value");
     }
@@ -90,12 +91,12 @@ void add_options(Build& build) {
 }
 
 void report_unmapped(Build& build) {
-  for (const physics::Joint& joint : build.scene.joints) {
+  for (const scene::Joint& joint : build.scene.joints) {
     if (!joint.enabled) {
       continue;
     }
     report_joint(build, joint);
-    for (const physics::Limit& limit : joint.limits) {
+    for (const scene::Limit& limit : joint.limits) {
       if (!names_own_dof(joint, limit)) {
         build.report(joint.path, "limit:" + std::string(dof_name(limit.dof)),
                      "this kind of joint has no such coordinate on MuJoCo here");

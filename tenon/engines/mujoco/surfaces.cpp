@@ -26,8 +26,8 @@ constexpr double kMostDamping = 0.9;       // damping times time step: below 1, 
 struct Surface {
   double friction = 0;
   double restitution = 0;
-  physics::CombineMode friction_combine = physics::CombineMode::Average;
-  physics::CombineMode restitution_combine = physics::CombineMode::Average;
+  scene::CombineMode friction_combine = scene::CombineMode::Average;
+  scene::CombineMode restitution_combine = scene::CombineMode::Average;
   auto operator<=>(const Surface&) const = default;
 };
 
@@ -60,19 +60,19 @@ double mean_rebound(double stiffness, double damping, double time_step) {
   return sum / kPhases;
 }
 
-const physics::Material& material_of(const physics::PhysicsScene& scene,
-                                     const std::optional<physics::Index>& index) {
+const scene::Material& material_of(const scene::PhysicsScene& scene,
+                                   const std::optional<scene::Index>& index) {
   return index ? scene.materials[*index] : scene.unbound;
 }
 
-void set_friction(mjsGeom& geom, const physics::Material& material) {
+void set_friction(mjsGeom& geom, const scene::Material& material) {
   geom.friction[0] = material.dynamic_friction;
   geom.friction[1] = material.torsional_friction.value_or(geom.friction[1]);
   geom.friction[2] = material.rolling_friction.value_or(geom.friction[2]);
 }
 
-Surface surface_of(const physics::PhysicsScene& scene, const std::optional<physics::Index>& index) {
-  const physics::Material& material = material_of(scene, index);
+Surface surface_of(const scene::PhysicsScene& scene, const std::optional<scene::Index>& index) {
+  const scene::Material& material = material_of(scene, index);
   return {material.dynamic_friction, std::clamp(material.restitution, 0.0, 1.0),
           material.friction_combine, material.restitution_combine};
 }
@@ -82,14 +82,14 @@ void tabulate(Surfaces& surfaces, const std::vector<Surface>& kinds, double time
   std::map<double, std::array<double, 2>> known;
   for (const Surface& a : kinds) {
     for (const Surface& b : kinds) {
-      const double restitution = physics::combine(a.restitution, a.restitution_combine,
-                                                  b.restitution, b.restitution_combine);
+      const double restitution = scene::combine(a.restitution, a.restitution_combine, b.restitution,
+                                                b.restitution_combine);
       const auto [entry, is_new] = known.try_emplace(restitution);
       if (is_new) {
         entry->second = contact_solref(restitution, time_step);
       }
       surfaces.friction.push_back(
-          physics::combine(a.friction, a.friction_combine, b.friction, b.friction_combine));
+          scene::combine(a.friction, a.friction_combine, b.friction, b.friction_combine));
       surfaces.solref.push_back(entry->second);
     }
   }
@@ -98,18 +98,18 @@ void tabulate(Surfaces& surfaces, const std::vector<Surface>& kinds, double time
 
 void report_materials(Build& build) {
   std::vector<char> used(build.scene.materials.size(), 0);
-  for (const physics::Collider& collider : build.scene.colliders) {
+  for (const scene::Collider& collider : build.scene.colliders) {
     if (collider.material.has_value() && collider.enabled) {
       used[*collider.material] = 1;
     }
-    for (const physics::FaceMaterial& faces : collider.face_materials) {
+    for (const scene::FaceMaterial& faces : collider.face_materials) {
       if (faces.material && collider.enabled) {
         used[*faces.material] = 1;
       }
     }
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
-    const physics::Material& material = build.scene.materials[i];
+    const scene::Material& material = build.scene.materials[i];
     if (used[i] != 0 && material.static_friction != material.dynamic_friction) {
       build.report(material.path, "physics:staticFriction",
                    "MuJoCo has one coefficient per contact; the dynamic one is used");
@@ -143,7 +143,7 @@ Surfaces add_surfaces(Build& build) {
   std::vector<Surface> kinds;
   surfaces.of_collider.resize(build.geoms.size());
   for (std::size_t i = 0; i < build.geoms.size(); ++i) {
-    for (const std::optional<physics::Index>& material : build.geom_materials[i]) {
+    for (const std::optional<scene::Index>& material : build.geom_materials[i]) {
       const Surface surface = surface_of(build.scene, material);
       auto found = std::find(kinds.begin(), kinds.end(), surface);
       if (found == kinds.end()) {
@@ -154,7 +154,7 @@ Surfaces add_surfaces(Build& build) {
   }
   tabulate(surfaces, kinds, build.time_step);
   for (std::size_t i = 0; i < build.geoms.size(); ++i) {
-    const physics::MujocoContact& contact = build.scene.colliders[i].mujoco;
+    const scene::MujocoContact& contact = build.scene.colliders[i].mujoco;
     surfaces.keeps_solref.push_back(contact.solref.empty() ? 0 : 1);
     for (std::size_t g = 0; g < build.geoms[i].size(); ++g) {
       const auto kind = static_cast<std::size_t>(surfaces.of_collider[i][g]);

@@ -11,8 +11,8 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::Tendon;
-using physics::TendonStop;
+using scene::Tendon;
+using scene::TendonStop;
 
 class TendonPass {
  public:
@@ -40,7 +40,7 @@ class TendonPass {
     if (tendon.range) {
       std::copy(tendon.range->begin(), tendon.range->end(), result->range);
     }
-    for (const physics::MujocoSetting& setting : tendon.settings) {
+    for (const scene::MujocoSetting& setting : tendon.settings) {
       if (!apply(setting, *result)) {
         build_.report(tendon.path, "mjc:" + setting.name, "MuJoCo has no such setting or value");
       }
@@ -54,12 +54,12 @@ class TendonPass {
  private:
   static std::string name_of(mjsElement* element) { return mjs_getString(mjs_getName(element)); }
 
-  mjsJoint* joint(physics::Index index) const {
+  mjsJoint* joint(scene::Index index) const {
     return scalar_joint(build_, index, build_.scene.joints[index].dof());
   }
 
   bool joints_are_there(const Tendon& tendon) {
-    for (const physics::Index index : tendon.joints) {
+    for (const scene::Index index : tendon.joints) {
       if (joint(index) == nullptr) {
         build_.report(tendon.path, "mjc:path",
                       "<" + build_.scene.joints[index].path.str() +
@@ -127,7 +127,7 @@ class TendonPass {
     return true;
   }
 
-  static bool apply(const physics::MujocoSetting& setting, mjsTendon& tendon) {
+  static bool apply(const scene::MujocoSetting& setting, mjsTendon& tendon) {
     const std::string_view name = setting.name;
     const std::vector<double>& numbers = setting.numbers;
     if (name == "actuatorfrclimited") {

@@ -9,9 +9,9 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using physics::TendonStop;
+using scene::TendonStop;
 
-TendonStop at_site(const char* name, std::optional<physics::Index> body, const Vec3d& position) {
+TendonStop at_site(const char* name, std::optional<scene::Index> body, const Vec3d& position) {
   TendonStop stop;
   stop.place = {named(name), body, {position}};
   return stop;
@@ -21,7 +21,7 @@ TendonStop at_site(const char* name, std::optional<physics::Index> body, const V
 TestScene hanging_weight() {
   TestScene scene;
   const auto weight = scene.add_body("Weight", {{0, 0, -0.6}}, 2);
-  physics::Tendon tendon;
+  scene::Tendon tendon;
   tendon.path = named("Rope");
   tendon.stops = {at_site("Hook", {}, {}), at_site("Eye", weight, {})};
   tendon.stiffness = 100;
@@ -61,8 +61,8 @@ TEST(Tendons, GoAroundShapesThatNothingTouches) {
   around.side = TendonStop::Place{named("Right"), {}, {{{0.2, 0, -0.3}}}};
   std::vector<TendonStop>& stops = scene.tendons[0].stops;
   stops.insert(stops.begin() + 1, around);
-  physics::Shape ball;
-  ball.kind = physics::ShapeKind::Sphere;
+  scene::Shape ball;
+  ball.kind = scene::ShapeKind::Sphere;
   ball.radius = 0.05;
   scene.add_collider("Ball", {}, ball, {{{0, 0, -0.3}}});  // in the cylinder
   Diagnostics findings;
@@ -92,7 +92,7 @@ TEST(Options, AreReadBackUnderTheirNames) {
   ASSERT_EQ(settings.size(), 6u);
   mjOption again;
   mj_defaultOption(&again);
-  for (const physics::MujocoSetting& setting : settings) {
+  for (const scene::MujocoSetting& setting : settings) {
     EXPECT_TRUE(apply_setting(setting, again)) << setting.name;
   }
   EXPECT_EQ(again.integrator, mjINT_RK4);

@@ -11,7 +11,7 @@
 
 #include "tenon/engines/mujoco/build.h"
 #include "tenon/engines/mujoco/mujoco_simulation.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 /// Neutral scenes made by hand, for the tests of this folder only.
 namespace tenon::engines::mujoco {
@@ -20,37 +20,36 @@ inline constexpr double kG = 9.81;  // [m/s^2]
 
 inline Path named(const std::string& name) { return Path::from("/" + name); }
 
-struct TestScene : physics::PhysicsScene {
+struct TestScene : scene::PhysicsScene {
   explicit TestScene(double g = kG) { scenes.push_back({named("Scene"), {{0, 0, -g}}, {}}); }
 
-  physics::Index add_body(const std::string& name, const Vec3d& position, double mass = 1,
-                          const Vec3d& inertia = {{0.1, 0.1, 0.1}}) {
-    physics::Body body;
+  scene::Index add_body(const std::string& name, const Vec3d& position, double mass = 1,
+                        const Vec3d& inertia = {{0.1, 0.1, 0.1}}) {
+    scene::Body body;
     body.path = named(name);
     body.pose.position = position;
     body.mass = mass;
     body.inertia = diagonal(inertia);
     bodies.push_back(body);
-    return static_cast<physics::Index>(bodies.size() - 1);
+    return static_cast<scene::Index>(bodies.size() - 1);
   }
 
-  physics::Index add_collider(const std::string& name, std::optional<physics::Index> body,
-                              const physics::Shape& shape, const Pose& pose = {}) {
-    physics::Collider collider;
+  scene::Index add_collider(const std::string& name, std::optional<scene::Index> body,
+                            const scene::Shape& shape, const Pose& pose = {}) {
+    scene::Collider collider;
     collider.path = named(name);
     collider.body = body;
     collider.shape = shape;
     collider.pose = pose;
     colliders.push_back(collider);
     filter.groups_of_collider.emplace_back();
-    return static_cast<physics::Index>(colliders.size() - 1);
+    return static_cast<scene::Index>(colliders.size() - 1);
   }
 
-  physics::Joint& add_joint(const std::string& name, physics::JointKind kind,
-                            std::optional<physics::Index> body0,
-                            std::optional<physics::Index> body1,
-                            physics::Axis axis = physics::Axis::Z) {
-    physics::Joint joint;
+  scene::Joint& add_joint(const std::string& name, scene::JointKind kind,
+                          std::optional<scene::Index> body0, std::optional<scene::Index> body1,
+                          scene::Axis axis = scene::Axis::Z) {
+    scene::Joint joint;
     joint.path = named(name);
     joint.kind = kind;
     joint.body0 = body0;
@@ -69,28 +68,28 @@ struct TestScene : physics::PhysicsScene {
   }
 };
 
-inline physics::Shape box(const Vec3d& half_extents) {
-  physics::Shape shape;
-  shape.kind = physics::ShapeKind::Box;
+inline scene::Shape box(const Vec3d& half_extents) {
+  scene::Shape shape;
+  shape.kind = scene::ShapeKind::Box;
   shape.half_extents = half_extents;
   return shape;
 }
 
-inline physics::Shape sphere(double radius) {
-  physics::Shape shape;
-  shape.kind = physics::ShapeKind::Sphere;
+inline scene::Shape sphere(double radius) {
+  scene::Shape shape;
+  shape.kind = scene::ShapeKind::Sphere;
   shape.radius = radius;
   return shape;
 }
 
-inline physics::Shape ground() {
-  physics::Shape shape;
-  shape.kind = physics::ShapeKind::Plane;
+inline scene::Shape ground() {
+  scene::Shape shape;
+  shape.kind = scene::ShapeKind::Plane;
   return shape;
 }
 
-inline physics::Drive drive(physics::Dof dof, double stiffness, double damping) {
-  physics::Drive result;
+inline scene::Drive drive(scene::Dof dof, double stiffness, double damping) {
+  scene::Drive result;
   result.dof = dof;
   result.stiffness = stiffness;
   result.damping = damping;
@@ -98,7 +97,7 @@ inline physics::Drive drive(physics::Dof dof, double stiffness, double damping) 
 }
 
 /// A simulation that is known to be possible; a failed test and nullptr otherwise.
-inline std::unique_ptr<MujocoSimulation> simulation(const physics::PhysicsScene& scene,
+inline std::unique_ptr<MujocoSimulation> simulation(const scene::PhysicsScene& scene,
                                                     double time_step = 0.002,
                                                     Diagnostics* findings = nullptr) {
   Diagnostics own;

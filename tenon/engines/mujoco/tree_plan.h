@@ -3,13 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/joint_forest.h"
 
-/// MuJoCo wants a forest: every body hangs on the world or on one other body. This decides which
-/// joints make the forest and how the others are closed, from the neutral scene alone.
+/// MuJoCo wants a forest: every body hangs on the world or on one other body. The scene's own is
+/// that forest; this decides how bodies without a joint stand and how loops are closed.
 namespace tenon::engines::mujoco {
 
 /// How one joint reaches MuJoCo.
@@ -27,25 +26,15 @@ enum class BodyBase : std::uint8_t {
   Free,     ///< six degrees of freedom in the world
   Fixed,    ///< a kinematic body that does not move
   Driven,   ///< a kinematic body that follows a pose track
-  Jointed,  ///< hangs on `parent` by `joint`
-};
-
-struct BodyPlan {
-  BodyBase base = BodyBase::Free;
-  std::optional<physics::Index> parent;  ///< of Jointed bodies; none: the world
-  physics::Index joint = 0;              ///< of Jointed bodies
-  bool reversed = false;                 ///< the body is body0 of `joint`
+  Jointed,  ///< hangs on its parent by a joint
 };
 
 struct TreePlan {
-  std::vector<BodyPlan> bodies;       ///< (body_count)
-  std::vector<JointRole> joints;      ///< (joint_count)
-  std::vector<physics::Index> order;  ///< all bodies, parents before children
-  std::size_t depth = 0;              ///< bodies on the longest chain
+  scene::JointForest forest;
+  std::vector<BodyBase> bases;    ///< (body_count)
+  std::vector<JointRole> joints;  ///< (joint_count)
 };
 
-/// Spanning forest over the enabled joints: joints of articulations first, declared loop joints and
-/// excluded ones last; among equals, those that are easy to close as a loop come last.
-TreePlan plan_tree(const physics::PhysicsScene& scene);
+TreePlan plan_tree(const scene::PhysicsScene& scene);
 
 }  // namespace tenon::engines::mujoco

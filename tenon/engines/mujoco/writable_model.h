@@ -10,7 +10,7 @@
 namespace tenon::engines::mujoco {
 
 /// The model with the options that text has: those of the asset, not of simulations.
-Result<SpecAndModel> writable_model(const physics::PhysicsScene& scene,
+Result<SpecAndModel> writable_model(const scene::PhysicsScene& scene,
                                     const SimulationOptions& options, Diagnostics& diagnostics);
 
 /// A compiled model as text.

@@ -28,7 +28,7 @@ void report_not_mapped(const Model& model, Diagnostics& diagnostics) {
 
 /// Where the asset speaks of MuJoCo's options, what it does not say is MuJoCo's default, not that
 /// of simulations.
-Result<void> restore_options(const physics::PhysicsScene& scene, mjSpec& spec) {
+Result<void> restore_options(const scene::PhysicsScene& scene, mjSpec& spec) {
   if (!scene.scenes.front().mujoco) {
     return {};
   }
@@ -36,7 +36,7 @@ Result<void> restore_options(const physics::PhysicsScene& scene, mjSpec& spec) {
   mj_defaultOption(&option);
   option.timestep = spec.option.timestep;
   std::copy_n(spec.option.gravity, 3, option.gravity);
-  for (const physics::MujocoSetting& setting : *scene.scenes.front().mujoco) {
+  for (const scene::MujocoSetting& setting : *scene.scenes.front().mujoco) {
     apply_setting(setting, option);  // what it does not take is reported by now
   }
   spec.option = option;
@@ -70,7 +70,7 @@ Result<std::string> text_of(const mjSpec& spec) {
   return text;
 }
 
-Result<SpecAndModel> writable_model(const physics::PhysicsScene& scene,
+Result<SpecAndModel> writable_model(const scene::PhysicsScene& scene,
                                     const SimulationOptions& options, Diagnostics& diagnostics) {
   SimulationOptions exact = options;
   if (exact.time_step <= 0 && !scene.scenes.empty()) {
@@ -82,7 +82,7 @@ Result<SpecAndModel> writable_model(const physics::PhysicsScene& scene,
   return built;
 }
 
-Result<std::string> write_mjcf(const physics::PhysicsScene& scene, const SimulationOptions& options,
+Result<std::string> write_mjcf(const scene::PhysicsScene& scene, const SimulationOptions& options,
                                Diagnostics& diagnostics) {
   TENON_TRY(const SpecAndModel built, writable_model(scene, options, diagnostics));
   return text_of(*built.spec);

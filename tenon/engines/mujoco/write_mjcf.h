@@ -7,7 +7,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/engines/simulation.h"
-#include "tenon/physics/physics_scene.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::engines::mujoco {
 
@@ -17,7 +17,7 @@ namespace tenon::engines::mujoco {
 /// cannot express goes to `diagnostics`, each as an Info named "mujoco.not-mapped". Averaged
 /// friction of two materials is worked out at run time and not in it. Errors: those of making a
 /// model.
-Result<std::string> write_mjcf(const physics::PhysicsScene& scene, const SimulationOptions& options,
+Result<std::string> write_mjcf(const scene::PhysicsScene& scene, const SimulationOptions& options,
                                Diagnostics& diagnostics);
 
 }  // namespace tenon::engines::mujoco

@@ -137,8 +137,8 @@ Result<void> unpack(const CrateFile& file, std::uint64_t size) {
   const std::uint64_t before = file.unpacked.fetch_add(size, std::memory_order_relaxed);
   if (before + size > most) {
     file.unpacked.fetch_sub(size, std::memory_order_relaxed);
-    return Error(ErrorCode::Limit, "the arrays of the file unpack to more than " +
-                                       std::to_string(most >> 20) + " MB")
+    return Error(ErrorCode::Limit,
+                 "the arrays of the file unpack to more than " + std::to_string(most >> 20) + " MB")
         .with_rule("crate.too-much")
         .with_fix("save the file as text, or in several files");
   }

@@ -80,8 +80,7 @@ class LayerBuilder {
     TENON_CHECK(plain);
     TENON_CHECK(read_values(true));
     report_findings();
-    TENON_TRY(list_of_set_,
-              crate::ZeroedArray<std::uint32_t>::make(tables_.field_sets.size()));
+    TENON_TRY(list_of_set_, crate::ZeroedArray<std::uint32_t>::make(tables_.field_sets.size()));
     for (std::size_t i = 0; i < specs_.size(); ++i) {
       TENON_CHECK(add_fields(tables_.specs[i].field_set, *specs_[i]));
     }
@@ -187,8 +186,7 @@ class LayerBuilder {
     const auto is_name = [&](Token name) {
       return field == layer::fields::primChildren ? is_identifier(name.view())
              : field == layer::fields::properties ? is_namespaced_identifier(name.view())
-             : field == layer::fields::variantChildren ||
-                     field == layer::fields::variantSetChildren
+             : field == layer::fields::variantChildren || field == layer::fields::variantSetChildren
                  ? is_variant_name(name.view())
                  : true;
     };
@@ -231,9 +229,9 @@ class LayerBuilder {
   Diagnostics& diagnostics_;
   Diagnostics findings_;
   layer::Layer layer_;
-  std::vector<layer::Spec*> specs_;              // of tables_.specs
-  std::vector<layer::Value> values_;             // by index of the field
-  std::vector<layer::FieldList> field_lists_;    // of the sets that specs have
+  std::vector<layer::Spec*> specs_;                // of tables_.specs
+  std::vector<layer::Value> values_;               // by index of the field
+  std::vector<layer::FieldList> field_lists_;      // of the sets that specs have
   crate::ZeroedArray<std::uint32_t> list_of_set_;  // by where the set starts: 1 + its list
   bool root_seen_ = false;
 };

@@ -241,8 +241,8 @@ namespace {
 /// What row `at` says, noted by its path.
 Result<void> note_spec(const Tables& tables, std::uint64_t at, std::uint32_t path,
                        std::uint32_t set, std::uint32_t kind, ZeroedArray<SpecOfPath>& specs) {
-  const bool starts_run = set < tables.field_sets.size() &&
-                          (set == 0 || tables.field_sets[set - 1] == kEndOfSet);
+  const bool starts_run =
+      set < tables.field_sets.size() && (set == 0 || tables.field_sets[set - 1] == kEndOfSet);
   if (path >= tables.paths.size() || tables.paths[path].empty() || !starts_run || kind == 0 ||
       kind >= std::size(kSpecKinds)) {
     return corrupt("spec " + std::to_string(at) + " has an impossible path, kind or set of fields");

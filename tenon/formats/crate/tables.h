@@ -24,7 +24,7 @@ struct CrateFile {
   std::shared_ptr<const bytes::FileBytes> bytes;
   Version version;
   std::vector<Token> tokens;
-  std::vector<std::uint32_t> strings;  ///< index of a token
+  std::vector<std::uint32_t> strings;              ///< index of a token
   mutable std::atomic<std::uint64_t> unpacked{0};  ///< bytes of arrays that were asked for
 
   bytes::ByteReader reader() const { return bytes::ByteReader(bytes->span()); }

@@ -72,7 +72,7 @@ bool append_source(Cursor& cursor, std::string& text, std::size_t depth) {
       if (!read_string(cursor, piece)) {
         return false;
       }
-      text += quoted(piece);
+      text += quoted_text(piece);
       return true;
     case '@':
       if (!read_asset_path(cursor, piece)) {

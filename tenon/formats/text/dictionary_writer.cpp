@@ -25,7 +25,7 @@ bool is_plain_key(std::string_view key) {
 
 void append_entry(std::string& out, const std::string& key, const Value& value, std::size_t indent,
                   Lines lines) {
-  const std::string name = is_plain_key(key) ? key : quoted(key);
+  const std::string name = is_plain_key(key) ? key : quoted_text(key);
   if (const auto* inner = value.get<Dictionary>()) {
     out += "dictionary " + name + " = ";
     append_dictionary(out, *inner, indent, lines);

@@ -6,15 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "tenon/formats/text/text_scanner.h"
+
 namespace tenon::formats::text {
 namespace {
 
 constexpr std::size_t kNone = std::string_view::npos;
-
-bool is_word(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-         c == ':' || static_cast<unsigned char>(c) >= 0x80;
-}
 
 bool starts(std::string_view text, std::size_t at, std::string_view with) {
   return text.substr(at, with.size()) == with;
@@ -124,8 +121,8 @@ class Walk {
                                       : after_mark(text_, at_, close, "@");
     } else if (c == '<') {
       end = after_mark(text_, at_, line_.end_at(at_), ">");
-    } else if (is_word(c)) {
-      while (end < text_.size() && is_word(text_[end])) {
+    } else if (Scanner::is_word(c)) {
+      while (end < text_.size() && Scanner::is_word(text_[end])) {
         ++end;
       }
     }
@@ -190,7 +187,7 @@ class Brackets {
 /// The word at `at` begins a prim or closes a block.
 bool begins_or_ends_block(std::string_view text, std::size_t at) {
   std::size_t end = at;
-  while (end < text.size() && is_word(text[end])) {
+  while (end < text.size() && Scanner::is_word(text[end])) {
     ++end;
   }
   const std::string_view word = text.substr(at, end - at);
@@ -217,7 +214,7 @@ std::size_t next_token(std::string_view text, std::size_t at, bool same_line) {
 
 /// A statement may begin or a block end here.
 bool may_go_on(std::string_view text, std::size_t at) {
-  return at >= text.size() || is_word(text[at]) ||
+  return at >= text.size() || Scanner::is_word(text[at]) ||
          std::string_view("\"'})").find(text[at]) != kNone;
 }
 

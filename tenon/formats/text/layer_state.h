@@ -24,8 +24,8 @@ struct LayerState {
   layer::Layer layer;
   Diagnostics& diagnostics;
   std::size_t warnings = 0;
-  layer::TimeSamples samples_buffer{};  ///< kept between attributes to spare allocations
-  SourceMap* sources = nullptr;         ///< filled where somebody wants to know
+  layer::TimeSamples samples_buffer{};      ///< kept between attributes to spare allocations
+  SourceMap* sources = nullptr;             ///< filled where somebody wants to know
   Path open_block = Path::absolute_root();  ///< the innermost one, for errors
   std::vector<Error> faults{};              ///< behind which reading went on, to find more
   bool finds_all_faults = false;

@@ -45,8 +45,10 @@ void append_target(std::string& out, const Arc& arc) {
   }
 }
 
-void append_item(std::string& out, std::size_t, Token item) { out += quoted(item.view()); }
-void append_item(std::string& out, std::size_t, const std::string& item) { out += quoted(item); }
+void append_item(std::string& out, std::size_t, Token item) { out += quoted_text(item.view()); }
+void append_item(std::string& out, std::size_t, const std::string& item) {
+  out += quoted_text(item);
+}
 void append_item(std::string& out, std::size_t, Path item) { append_path(out, item); }
 template <class Int>
   requires std::is_integral_v<Int>

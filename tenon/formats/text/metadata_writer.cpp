@@ -51,7 +51,7 @@ void append_comment(std::string& out, const Spec& spec, std::size_t indent) {
   const auto* comment = spec.get<std::string>(fields::comment);
   if (comment != nullptr && !comment->empty()) {
     append_indent(out, indent);
-    out += quoted(*comment) + '\n';
+    out += quoted_text(*comment) + '\n';
   }
 }
 
@@ -93,7 +93,8 @@ void append_substitutions(std::string& out, Token name, const Dictionary& dictio
   for (const auto& [from, to] : dictionary.items) {
     --left;
     append_indent(out, indent + 1);
-    out += quoted(from) + ": " + quoted(to.get_or(std::string())) + (left > 0 ? ", \n" : "\n");
+    out += quoted_text(from) + ": " + quoted_text(to.get_or(std::string())) +
+           (left > 0 ? ", \n" : "\n");
   }
   append_indent(out, indent);
   out += "}\n";

@@ -46,8 +46,8 @@ bool are_unique(const std::vector<T>& items) {
 
 template <class T, class IsPlain>
 bool is_plain_list(const layer::ListOp<T>& op, const IsPlain& is_plain) {
-  for (const auto* items : {&op.explicit_items, &op.prepended, &op.appended, &op.deleted,
-                            &op.added, &op.ordered}) {
+  for (const auto* items :
+       {&op.explicit_items, &op.prepended, &op.appended, &op.deleted, &op.added, &op.ordered}) {
     if (!are_unique(*items) || !std::all_of(items->begin(), items->end(), is_plain)) {
       return false;
     }
@@ -62,9 +62,8 @@ bool is_plain_target(Path path) {
 
 bool is_plain_asset(const Value& value) {
   const auto* asset = value.get<layer::AssetPath>();
-  return asset != nullptr &&
-         std::all_of(asset->authored.begin(), asset->authored.end(),
-                     [](char c) { return c >= ' ' && c <= '~' && c != '@'; });
+  return asset != nullptr && std::all_of(asset->authored.begin(), asset->authored.end(),
+                                         [](char c) { return c >= ' ' && c <= '~' && c != '@'; });
 }
 
 /// Of a type that has a name; numbers and strings of any contents have a text.
@@ -75,14 +74,16 @@ bool is_plain_value(const Value& value) {
 
 bool is_plain_dictionary(const layer::Dictionary& dictionary, int depth) {
   return depth < kDepth &&
-         std::all_of(dictionary.items.begin(), dictionary.items.end(), [&](const auto& item) {
-           const Value& value = item.second;
-           if (const auto* inner = value.template get<layer::Dictionary>()) {
-             return is_plain_dictionary(*inner, depth + 1);
-           }
-           return layer::type_name_of(value.type(), value.is_array()) != nullptr &&
-                  is_plain_value(value);
-         });
+         std::all_of(
+             dictionary.items.begin(), dictionary.items.end(),
+             [&](const auto& item) {
+               const Value& value = item.second;
+               if (const auto* inner = value.template get<layer::Dictionary>()) {
+                 return is_plain_dictionary(*inner, depth + 1);
+               }
+               return layer::type_name_of(value.type(), value.is_array()) != nullptr &&
+                      is_plain_value(value);
+             });
 }
 
 bool is_plain_word(std::string_view word) {

@@ -6,14 +6,10 @@
 
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/metadata_word.h"
+#include "tenon/formats/text/text_scanner.h"
 
 namespace tenon::formats::text {
 namespace {
-
-bool is_word(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-         c == ':' || static_cast<unsigned char>(c) >= 0x80;
-}
 
 bool is_string(std::string_view token) {
   return !token.empty() && (token.front() == '"' || token.front() == '\'');
@@ -62,10 +58,10 @@ Words take_words(std::string_view text, std::size_t offset) {
   std::size_t at = offset;
   while (found.words.size() <= kMostWords && at < text.size()) {
     const std::size_t begin = at;
-    if (is_word(text[at])) {
-      at = static_cast<std::size_t>(
-          std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(at), text.end(), is_word) -
-          text.begin());
+    if (Scanner::is_word(text[at])) {
+      at = static_cast<std::size_t>(std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(at),
+                                                     text.end(), Scanner::is_word) -
+                                    text.begin());
       if (is_suffix) {
         found.suffix = text.substr(begin, at - begin);
         found.end = at;
@@ -102,10 +98,10 @@ std::optional<StatementText> block_statement(std::string_view text, std::size_t 
   std::string_view token = scanner.next();
   if (token == "def" || token == "over" || token == "class" || token == "variantSet") {
     token = scanner.next();
-    if (!token.empty() && is_word(token.front())) {
+    if (!token.empty() && Scanner::is_word(token.front())) {
       found.type = range_of(text, token);
     }
-    while (!token.empty() && (is_word(token.front()) || token == ".")) {
+    while (!token.empty() && (Scanner::is_word(token.front()) || token == ".")) {
       found.type.end = range_of(text, token).end;
       token = scanner.next();
     }
@@ -176,7 +172,7 @@ std::optional<MetadataText> take_metadata(std::string_view text, Scanner& scanne
     token = scanner.next();
   }
   found.word = token;
-  if (token.empty() || !is_word(token.front()) || scanner.next() != "=") {
+  if (token.empty() || !Scanner::is_word(token.front()) || scanner.next() != "=") {
     return std::nullopt;
   }
   found.value = take_value(text, scanner);

@@ -10,14 +10,14 @@ namespace {
 
 bool is_inline_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-std::size_t skip_blanks(std::string_view text, std::size_t at) {
+std::size_t skip_inline_blanks(std::string_view text, std::size_t at) {
   while (at < text.size() && is_inline_blank(text[at])) {
     ++at;
   }
   return at;
 }
 
-bool ends_line(std::string_view text, std::size_t at) {
+bool is_line_end(std::string_view text, std::size_t at) {
   return at >= text.size() || text[at] == '\n';
 }
 
@@ -33,20 +33,20 @@ std::size_t TextPatch::line_start(std::size_t at) const {
 }
 
 bool TextPatch::starts_line(std::size_t at) const {
-  return skip_blanks(text_, line_start(at)) >= at;
+  return skip_inline_blanks(text_, line_start(at)) >= at;
 }
 
 std::string TextPatch::indent_at(std::size_t at) const {
   const std::size_t start = line_start(at);
-  return std::string(text_.substr(start, std::min(at, skip_blanks(text_, start)) - start));
+  return std::string(text_.substr(start, std::min(at, skip_inline_blanks(text_, start)) - start));
 }
 
 /// Behind the separator and a comment that may follow a statement; at the end of the line when
 /// nothing else stands there, else at what does.
 std::size_t TextPatch::skip_rest(std::size_t at, char separator) const {
-  std::size_t next = skip_blanks(text_, at);
+  std::size_t next = skip_inline_blanks(text_, at);
   if (next < text_.size() && text_[next] == separator) {
-    next = skip_blanks(text_, next + 1);
+    next = skip_inline_blanks(text_, next + 1);
   }
   if (next < text_.size() && (text_[next] == '#' || text_.substr(next, 2) == "//")) {
     next = std::min(text_.find('\n', next), text_.size());
@@ -56,14 +56,14 @@ std::size_t TextPatch::skip_rest(std::size_t at, char separator) const {
 
 void TextPatch::remove(SourceRange statement, char separator) {
   const std::size_t after = skip_rest(statement.end, separator);
-  if (starts_line(statement.begin) && ends_line(text_, after)) {
+  if (starts_line(statement.begin) && is_line_end(text_, after)) {
     std::size_t start = line_start(statement.begin);
     if (separator == '\0' && start > 1 && text_.substr(start - 2, 2) == "\n\n") {
       --start;  // the empty line in front of a block
     }
     replace({start, std::min(after + 1, text_.size())}, {});
   } else {
-    replace({statement.begin, ends_line(text_, after) ? statement.end : after}, {});
+    replace({statement.begin, is_line_end(text_, after) ? statement.end : after}, {});
   }
 }
 

@@ -64,12 +64,14 @@ class Scanner {
     return depth == 0;
   }
 
- private:
-  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+  /// A byte of names and numbers.
   static bool is_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == ':' || static_cast<unsigned char>(c) >= 0x80;
   }
+
+ private:
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
   bool starts(std::string_view word) const { return text_.substr(at_, word.size()) == word; }
   void to_after(std::string_view end, std::size_t from) {
     const std::size_t found = text_.find(end, at_ + from);

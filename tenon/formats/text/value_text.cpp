@@ -211,7 +211,7 @@ void append_quoted(std::string& out, std::string_view text) {
     out += text;
     out += '"';
   } else {
-    out += quoted(text);
+    out += quoted_text(text);
   }
 }
 

@@ -21,7 +21,7 @@ Result<layer::Value> parse_value(std::string_view text, const layer::TypeName& t
 
 namespace text {
 
-/// `quoted(text)` at the end of `out`.
+/// `quoted_text(text)` at the end of `out`.
 void append_quoted(std::string& out, std::string_view text);
 /// `@path@`, or `@@@path@@@` when the path holds an '@'.
 std::string asset_path_text(std::string_view path);

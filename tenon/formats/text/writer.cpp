@@ -90,13 +90,12 @@ class LayerWriter {
   }
 
   void append_variant_set(Path path, std::size_t indent) {
-    const std::vector<Token> variants =
-        sorted(layer_.children(path, fields::variantChildren));
+    const std::vector<Token> variants = sorted(layer_.children(path, fields::variantChildren));
     if (variants.empty()) {
       return;
     }
     append_indent(out_, indent);
-    out_ += "variantSet " + quoted(path.name().view()) + " = {\n";
+    out_ += "variantSet " + quoted_text(path.name().view()) + " = {\n";
     for (const Token& variant : variants) {
       append_variant(path.parent().variant_selection(path.name(), variant), indent + 1);
     }
@@ -110,7 +109,7 @@ class LayerWriter {
       return;
     }
     append_indent(out_, indent);
-    out_ += quoted(path.variant().view());
+    out_ += quoted_text(path.variant().view());
     add_metadata(*spec, indent);
     out_ += " {\n";
     append_body(path, *spec, indent);

@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "tenon/answers/explain.h"
+#include "tenon/answers/mass_json.h"
+#include "tenon/answers/opinions.h"
+#include "tenon/answers/scene_json_value.h"
+#include "tenon/formats/text/value_text.h"
+#include "tenon/stage/material_binding.h"
+
+namespace tenon::answers {
+namespace {
+
+/// The row of a list of the description that has this path; null when there is none.
+Json row_with_path(const Json& list, const std::string& path) {
+  for (const Json& row : list) {
+    if (row.contains("path") && row["path"] == path) {
+      return row;
+    }
+  }
+  return nullptr;
+}
+
+bool matters(std::string_view name) {
+  for (const char* prefix : {"physics:", "drive:", "limit:", "state:", "physx", "newton:", "mjc:",
+                             "material:binding", "collection:colliders:", "xformOp"}) {
+    if (name.starts_with(prefix)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Json spoken_properties_json(const Explained& explained, const stage::Prim& prim) {
+  Json rows = Json::array();
+  for (const Token& name : prim.authored_property_names()) {
+    if (matters(name.view())) {
+      rows.push_back({{"name", name.str()},
+                      {"opinions", opinions_json(explained.stage, prim, name, explained.start())}});
+    }
+  }
+  return rows;
+}
+
+const physics::MassAccount* account_of(const Explained& explained, Path path) {
+  for (const physics::MassAccount& account : explained.accounts.masses) {
+    if (explained.scene.bodies[account.body].path == path) {
+      return &account;
+    }
+  }
+  return nullptr;
+}
+
+void add_body(const Explained& explained, const Json& physics, Path path, Json& answer) {
+  Json body = row_with_path(physics["bodies"], path.str());
+  const physics::MassAccount* account = account_of(explained, path);
+  if (body.is_null() || account == nullptr) {
+    return;
+  }
+  Json colliders = Json::array();
+  for (const Json& row : physics["colliders"]) {
+    if (row["body"] == path.str()) {
+      colliders.push_back(row["path"]);
+    }
+  }
+  Json joints = Json::array();
+  for (const Json& row : physics["joints"]) {
+    if (row["body0"] == path.str() || row["body1"] == path.str()) {
+      joints.push_back(row["path"]);
+    }
+  }
+  body["colliders"] = std::move(colliders);
+  body["joints"] = std::move(joints);
+  body["massAccount"] = mass_json(explained.stage, explained.scene, *account);
+  answer["body"] = std::move(body);
+}
+
+/// The material that a collider has, and why.
+Json binding_json(const Explained& explained, const scene::Collider& collider) {
+  const stage::Prim prim = explained.stage.prim(collider.path);
+  Json row = {{"material", nullptr}, {"bound", nullptr}, {"relationship", nullptr}};
+  if (collider.material) {
+    row["material"] = explained.scene.materials[*collider.material].path.str();
+  }
+  const stage::MaterialBinding found = stage::find_material_binding(prim, Token("physics"));
+  std::string why;
+  row["opinions"] = Json::array();
+  if (found.material.empty()) {
+    why = "nothing binds a material here or above: friction and restitution of the unbound [S-71]";
+  } else {
+    row["bound"] = found.material.str();
+    row["relationship"] = found.relationship.str();
+    const Path owner = found.relationship.parent();
+    row["opinions"] = opinions_json(explained.stage, explained.stage.prim(owner),
+                                    found.relationship.name(), explained.start());
+    const bool physics = found.relationship.name().view().find(":physics") != std::string::npos;
+    why = std::string(owner == prim.path() ? "bound on the prim itself" : "inherited from above") +
+          (physics ? ", for physics [S-67]" : ", for all purposes [S-67]");
+    if (!collider.material) {
+      why += "; the winning material has no PhysicsMaterialAPI: none [S-68]";
+    }
+  }
+  row["why"] = why;
+  return row;
+}
+
+void add_collider(const Explained& explained, const Json& physics, Path path, Json& answer) {
+  for (std::size_t i = 0; i < explained.scene.colliders.size(); ++i) {
+    const scene::Collider& collider = explained.scene.colliders[i];
+    if (!(collider.path == path)) {
+      continue;
+    }
+    Json row = row_with_path(physics["colliders"], path.str());
+    row["binding"] = binding_json(explained, collider);
+    row["groups"] = Json::array();
+    for (const scene::Index group : explained.scene.filter.groups_of_collider[i]) {
+      row["groups"].push_back(explained.scene.filter.group_paths[group].str());
+    }
+    answer["collider"] = std::move(row);
+  }
+}
+
+}  // namespace
+
+Json explain_prim(const Explained& explained, const stage::Prim& prim) {
+  const Path path = prim.path();
+  const Json physics = scene_json_value(explained.scene, Geometry::Hash);
+  Json answer = {{"prim", path.str()}, {"type", prim.type_name().str()}};
+  answer["apis"] = Json::array();
+  for (const Token& api : prim.authored_api_schemas()) {
+    answer["apis"].push_back(api.str());
+  }
+  answer["specs"] = specs_json(prim);
+  add_body(explained, physics, path, answer);
+  add_collider(explained, physics, path, answer);
+  for (std::size_t j = 0; j < explained.scene.joints.size(); ++j) {
+    if (explained.scene.joints[j].path == path) {
+      answer["joint"] = joint_json(explained, static_cast<scene::Index>(j));
+    }
+  }
+  static constexpr std::pair<const char*, const char*> kLists[] = {
+      {"scene", "scenes"}, {"material", "materials"}, {"articulation", "articulations"}};
+  for (const auto& [name, list] : kLists) {
+    const Json row = row_with_path(physics[list], path.str());
+    if (!row.is_null()) {
+      answer[name] = row;
+    }
+  }
+  answer["properties"] = spoken_properties_json(explained, prim);
+  return answer;
+}
+
+Json explain_property(const Explained& explained, const stage::Prim& prim, Token property) {
+  Json answer = {{"prim", prim.path().str()}, {"property", property.str()}};
+  if (prim.is_relationship(property)) {
+    answer["type"] = "rel";
+    answer["value"] = Json::array();
+    for (const Path& target : prim.relationship(property).targets()) {
+      answer["value"].push_back(target.str());
+    }
+    answer["source"] = prim.relationship(property).has_authored_targets() ? "authored" : "none";
+    answer["fallback"] = nullptr;
+  } else {
+    const stage::Attribute attribute = prim.attribute(property);
+    const layer::Value value = attribute.get(explained.start());
+    const layer::Value fallback = attribute.fallback();
+    answer["type"] = attribute.type_name().str();
+    answer["value"] = value.empty() ? Json(nullptr) : Json(formats::value_text(value));
+    answer["source"] = source_name(attribute.value_source(explained.start()));
+    answer["fallback"] = fallback.empty() ? Json(nullptr) : Json(formats::value_text(fallback));
+  }
+  answer["opinions"] = opinions_json(explained.stage, prim, property, explained.start());
+  static constexpr std::string_view kOfMass[] = {"physics:mass",          "physics:density",
+                                                 "physics:centerOfMass",  "physics:diagonalInertia",
+                                                 "physics:principalAxes", "newton:inertia"};
+  const physics::MassAccount* account = account_of(explained, prim.path());
+  for (const std::string_view name : kOfMass) {
+    if (property == name && account != nullptr) {
+      answer["mass"] = mass_json(explained.stage, explained.scene, *account);
+    }
+  }
+  return answer;
+}
+
+}  // namespace tenon::answers

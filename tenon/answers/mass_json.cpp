@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/answers/mass_json.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "tenon/answers/opinions.h"
+
+namespace tenon::answers {
+namespace {
+
+using physics::MassAccount;
+
+Json vector_json(const Vec3d& v) { return Json::array({v[0], v[1], v[2]}); }
+
+Json matrix_json(const Mat3d& m) {
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      rows.push_back(m[i][j]);
+    }
+  }
+  return rows;
+}
+
+Json mass_properties_json(const physics::MassProperties& properties) {
+  return {{"mass", properties.mass},
+          {"centerOfMass", vector_json(properties.center)},
+          {"inertia", matrix_json(properties.inertia)}};
+}
+
+template <class T, class ToJson>
+Json or_null(const std::optional<T>& value, ToJson to_json) {
+  return value ? Json(to_json(*value)) : Json(nullptr);
+}
+
+Json authored_json(const physics::AuthoredMass& authored) {
+  const auto number = [](double x) { return x; };
+  return {{"mass", or_null(authored.mass, number)},
+          {"density", or_null(authored.density, number)},
+          {"centerOfMass", or_null(authored.center, vector_json)},
+          {"inertia", or_null(authored.inertia, matrix_json)}};
+}
+
+Json candidate_json(const stage::Stage& stage, const physics::MassCandidate& candidate,
+                    stage::Time start) {
+  Json row = Json::object();
+  row["quantity"] = physics::mass_quantity_name(candidate.quantity);
+  row["used"] = candidate.used;
+  row["value"] = candidate.value.empty() ? Json(nullptr) : Json(candidate.value);
+  row["prim"] = candidate.prim.empty() ? Json(nullptr) : Json(candidate.prim.str());
+  row["property"] = candidate.property.empty() ? Json(nullptr) : Json(candidate.property.str());
+  row["rule"] = candidate.rule;
+  row["why"] = candidate.why;
+  row["opinions"] = candidate.property.empty() ? Json::array()
+                                               : opinions_json(stage, stage.prim(candidate.prim),
+                                                               candidate.property, start);
+  return row;
+}
+
+/// One used candidate in a few words: "authored, scene.usda:4:5" or the rule's own.
+std::string reason_of(const Json& mass, const char* quantity) {
+  for (const Json& row : mass["candidates"]) {
+    if (row["quantity"] != quantity || !row["used"].get<bool>()) {
+      continue;
+    }
+    if (row["property"].is_null() || row["opinions"].empty()) {
+      return row["why"].get<std::string>();
+    }
+    return "authored, " + place_text(row["opinions"][0]);
+  }
+  return "";
+}
+
+}  // namespace
+
+Json mass_json(const stage::Stage& stage, const scene::PhysicsScene& scene,
+               const MassAccount& account) {
+  Json mass = Json::object();
+  mass["authored"] = authored_json(account.authored);
+  mass["computed"] =
+      account.computed.mass > 0 ? mass_properties_json(account.computed) : Json(nullptr);
+  mass["resolved"] = mass_properties_json(account.result);
+  mass["candidates"] = Json::array();
+  for (const physics::MassCandidate& candidate : account.candidates) {
+    mass["candidates"].push_back(candidate_json(stage, candidate, scene.start_time_code));
+  }
+  mass["colliders"] = Json::array();
+  for (const physics::ColliderMass& part : account.colliders) {
+    Json row = {{"path", scene.colliders[part.collider].path.str()},
+                {"counted", part.counted},
+                {"volume", part.volume}};
+    row.update(mass_properties_json(part.properties));
+    row["candidates"] = Json::array();
+    for (const physics::MassCandidate& candidate : part.candidates) {
+      row["candidates"].push_back(candidate_json(stage, candidate, scene.start_time_code));
+    }
+    mass["colliders"].push_back(std::move(row));
+  }
+  return mass;
+}
+
+Json mass_table_json(const stage::Stage& stage, const scene::PhysicsScene& scene,
+                     const physics::Accounts& accounts) {
+  Json table = Json::array();
+  for (const MassAccount& account : accounts.masses) {
+    Json row = {{"path", scene.bodies[account.body].path.str()}};
+    const Json mass = mass_json(stage, scene, account);
+    row["authored"] = mass["authored"];
+    row["resolved"] = mass["resolved"];
+    row["reason"] = {{"mass", reason_of(mass, "mass")},
+                     {"centerOfMass", reason_of(mass, "centerOfMass")},
+                     {"inertia", reason_of(mass, "inertia")}};
+    table.push_back(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace tenon::answers

@@ -1,0 +1,332 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The way back: each struct is filled by its table from an object of JSON. A first look at the
+// lists finds which path is which index, so that references may point ahead. What the text may cost
+// is bounded by its length and depth; what it means is checked by check_scene.
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "tenon/answers/scene_json.h"
+#include "tenon/base/reading_limits.h"
+#include "tenon/base/wire.h"
+#include "tenon/scene/check_scene.h"
+#include "tenon/scene/enum_names.h"
+#include "tenon/scene/list_of.h"
+#include "tenon/scene/scene_fields.h"
+
+namespace tenon::answers {
+namespace {
+
+using Parsed = nlohmann::json;
+using scene::FieldInfo;
+using scene::Index;
+using scene::List;
+using scene::PhysicsScene;
+
+constexpr int kDepth = 16;  // of the form itself: 7
+
+class Reader {
+ public:
+  Result<PhysicsScene> read(const Parsed& json) {
+    find_paths(json);
+    PhysicsScene scene;
+    object(json, scene, "");
+    if (fault_) {
+      return *std::move(fault_);
+    }
+    TENON_CHECK(check_scene(scene));
+    return scene;
+  }
+
+ private:
+  void fault(const std::string& at, const std::string& what) {
+    if (!fault_) {
+      fault_ = Error(ErrorCode::Invalid, "`" + at + "` of a physics scene " + what);
+    }
+  }
+
+  void find_paths(const Parsed& json) {
+    static constexpr std::pair<List, const char*> kLists[] = {
+        {List::Scenes, "scenes"},       {List::Bodies, "bodies"},
+        {List::Colliders, "colliders"}, {List::Materials, "materials"},
+        {List::Joints, "joints"},       {List::Articulations, "articulations"}};
+    for (const auto& [list, key] : kLists) {
+      const auto rows = json.find(key);
+      if (rows == json.end() || !rows->is_array()) {
+        continue;
+      }
+      Index index = 0;
+      for (const Parsed& row : *rows) {
+        const auto path = row.is_object() ? row.find("path") : row.end();
+        const bool has_path = row.is_object() && path != row.end() && path->is_string();
+        indices_.emplace(std::pair(list, has_path ? path->get<std::string>() : std::string()),
+                         index++);
+      }
+    }
+  }
+
+  template <class T>
+  void object(const Parsed& json, T& value, const std::string& at) {
+    if (!json.is_object()) {
+      fault(at, "is no object");
+      return;
+    }
+    each_field(value, [&](const FieldInfo& info, auto& member) {
+      if (!fault_) {
+        field(json, value, info, member, at);
+      }
+    });
+  }
+
+  template <class Owner, class T>
+  void field(const Parsed& json, const Owner& owner, const FieldInfo& info, T& member,
+             const std::string& at) {
+    if constexpr (std::is_same_v<T, Pose>) {
+      if (info.inlined) {
+        pose(json, member, at);
+        return;
+      }
+    } else if constexpr (scene::HasTable<T>) {
+      if (info.inlined) {
+        object(json, member, at);
+        return;
+      }
+    }
+    const auto found = json.find(std::string(info.name));
+    if (found == json.end() || (found->is_null() && !is_reference<T>(info))) {
+      return;  // its default
+    }
+    read(*found, owner, info, member, (at.empty() ? "" : at + ".") + std::string(info.name));
+  }
+
+  template <class T>
+  static bool is_reference(const FieldInfo& info) {
+    return std::is_same_v<T, Index> && info.refers != List::None;
+  }
+
+  void pose(const Parsed& json, Pose& pose, const std::string& at) {
+    static constexpr FieldInfo kPosition{.name = "position", .meaning = ""};
+    static constexpr FieldInfo kOrientation{.name = "orientation", .meaning = ""};
+    field(json, pose, kPosition, pose.position, at);
+    field(json, pose, kOrientation, pose.orientation, at);
+  }
+
+  template <class Owner, class T>
+  void read(const Parsed& json, const Owner& owner, const FieldInfo& info, T& value,
+            const std::string& at) {
+    if constexpr (std::is_same_v<T, bool>) {
+      flag(json, info, value, at);
+    } else if constexpr (std::is_same_v<T, Index>) {
+      const List list = list_of(owner, info.refers);
+      list == List::None ? integer(json, value, at) : reference(json, list, value, at);
+    } else if constexpr (std::is_enum_v<T>) {
+      const std::optional<T> named =
+          json.is_string() ? scene::named<T>(json.template get<std::string>()) : std::nullopt;
+      named ? value = *named : (fault(at, "is none of its words"), value);
+    } else if constexpr (std::is_same_v<T, double>) {
+      number(json, value, at);
+    } else if constexpr (std::is_integral_v<T>) {
+      integer(json, value, at);
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      json.is_string() ? value = json.template get<std::string>()
+                       : (fault(at, "is no text"), value);
+    } else if constexpr (std::is_same_v<T, Path>) {
+      path(json, value, at);
+    } else if constexpr (wire::kIsOptional<T>) {
+      if (!json.is_null()) {
+        read(json, owner, info, value.emplace(), at);
+      }
+    } else if constexpr (std::is_same_v<T, std::vector<scene::MujocoSetting>>) {
+      settings(json, value, at);
+    } else if constexpr (scene::HasTable<T>) {
+      object(json, value, at);
+    } else {
+      list(json, owner, info, value, at);
+    }
+  }
+
+  template <class Owner, class T>
+  void list(const Parsed& json, const Owner& owner, const FieldInfo& info, T& value,
+            const std::string& at) {
+    if constexpr (std::is_same_v<T, Pose>) {
+      json.is_object() ? pose(json, value, at) : fault(at, "is no object");
+    } else if (!json.is_array()) {
+      fault(at, "is no array");
+    } else if constexpr (wire::kIsVector<T>) {
+      value.resize(json.size());
+      for (std::size_t i = 0; i < json.size() && !fault_; ++i) {
+        read(json[i], owner, info, value[i], at + "[" + std::to_string(i) + "]");
+      }
+    } else if constexpr (wire::kIsPair<T>) {
+      if (json.size() != 2) {
+        fault(at, "is no pair");
+        return;
+      }
+      read(json[0], owner, info, value.first, at + "[0]");
+      read(json[1], owner, info, value.second, at + "[1]");
+    } else {
+      fixed(json, value, at);
+    }
+  }
+
+  /// Vectors, rotations, matrices, arrays.
+  template <class T>
+  void fixed(const Parsed& json, T& value, const std::string& at) {
+    std::vector<double> numbers(json.size());
+    for (std::size_t i = 0; i < json.size() && !fault_; ++i) {
+      number(json[i], numbers[i], at);
+    }
+    const auto take = [&](auto& to, std::size_t from) {
+      for (auto& x : to) {
+        x = static_cast<std::remove_reference_t<decltype(x)>>(numbers[from++]);
+      }
+    };
+    const auto has = [&](std::size_t count) {
+      if (!fault_ && numbers.size() != count) {
+        fault(at, "does not have " + std::to_string(count) + " numbers");
+      }
+      return !fault_;
+    };
+    if constexpr (std::is_same_v<T, Quatd>) {
+      if (has(4)) {
+        value = {numbers[1], numbers[2], numbers[3], numbers[0]};
+      }
+    } else if constexpr (wire::kIsArray<T>) {
+      if (has(value.size())) {
+        take(value, 0);
+      }
+    } else if constexpr (std::is_same_v<T, Vec3i>) {
+      const bool whole = std::all_of(numbers.begin(), numbers.end(), [](double x) {
+        return std::fabs(x) <= std::numeric_limits<int>::max() && x == std::trunc(x);
+      });
+      if (!whole) {
+        fault(at, "is no whole number");
+      } else if (has(3)) {
+        take(value.v, 0);
+      }
+    } else if constexpr (requires { value.v; }) {
+      if (has(value.v.size())) {
+        take(value.v, 0);
+      }
+    } else {
+      const std::size_t rows = value.m.size();
+      for (std::size_t row = 0; row < rows && has(rows * rows); ++row) {
+        take(value.m[row], row * rows);
+      }
+    }
+  }
+
+  void flag(const Parsed& json, const FieldInfo& info, bool& value, const std::string& at) {
+    if (info.on.empty()) {
+      json.is_boolean() ? value = json.get<bool>()
+                        : (fault(at, "is neither true nor false"), false);
+      return;
+    }
+    const std::string word = json.is_string() ? json.get<std::string>() : std::string();
+    if (word != info.on && word != info.off) {
+      fault(at, "is none of its words");
+    }
+    value = word == info.on;
+  }
+
+  void number(const Parsed& json, double& value, const std::string& at) {
+    const std::string word = json.is_string() ? json.get<std::string>() : std::string();
+    if (json.is_number()) {
+      value = json.get<double>();
+    } else if (word == "inf" || word == "-inf") {
+      value = word == "inf" ? INFINITY : -INFINITY;
+    } else if (word == "nan") {
+      value = NAN;
+    } else {
+      fault(at, "is no number");
+    }
+  }
+
+  template <class T>
+  void integer(const Parsed& json, T& value, const std::string& at) {
+    const bool whole = json.is_number_integer() || json.is_number_unsigned();
+    const bool fits = whole && json.get<double>() >= double{std::numeric_limits<T>::min()} &&
+                      json.get<double>() <= double{std::numeric_limits<T>::max()};
+    if (!fits) {
+      fault(at, "is no whole number of its range");
+      return;
+    }
+    value = static_cast<T>(json.get<std::int64_t>());
+  }
+
+  void path(const Parsed& json, Path& value, const std::string& at) {
+    if (!json.is_string()) {
+      fault(at, "is no path");
+      return;
+    }
+    const Result<Path> read = Path::parse(json.get<std::string>());
+    if (!read) {
+      fault(at, "is no path");
+      return;
+    }
+    value = *read;
+  }
+
+  void reference(const Parsed& json, List list, Index& value, const std::string& at) {
+    if (json.is_number()) {
+      integer(json, value, at);
+      return;
+    }
+    const auto found = indices_.find({list, json.is_string() ? json.get<std::string>() : ""});
+    if (found == indices_.end()) {
+      fault(at, "leads to nothing in the scene");
+      return;
+    }
+    value = found->second;
+  }
+
+  void settings(const Parsed& json, std::vector<scene::MujocoSetting>& all, const std::string& at) {
+    if (!json.is_object()) {
+      fault(at, "is no object");
+      return;
+    }
+    for (const auto& [name, setting] : json.items()) {
+      scene::MujocoSetting& made = all.emplace_back();
+      made.name = name;
+      if (setting.is_string()) {
+        made.token = setting.get<std::string>();
+        continue;
+      }
+      made.numbers.resize(setting.is_array() ? setting.size() : 0);
+      for (std::size_t i = 0; i < made.numbers.size(); ++i) {
+        number(setting[i], made.numbers[i], at + "." + name);
+      }
+    }
+  }
+
+  std::map<std::pair<List, std::string>, Index> indices_;
+  std::optional<Error> fault_;
+};
+
+}  // namespace
+
+Result<PhysicsScene> read_scene_json(std::string_view text) {
+  if (text.size() > limits::kSceneJson) {
+    return Error(ErrorCode::Limit, "the JSON of a physics scene is longer than " +
+                                       std::to_string(limits::kSceneJson) + " bytes");
+  }
+  bool too_deep = false;
+  const auto shallow = [&](int depth, Parsed::parse_event_t, Parsed&) {
+    too_deep = too_deep || depth > kDepth;
+    return depth <= kDepth;
+  };
+  const Parsed json = Parsed::parse(text.begin(), text.end(), shallow, false);
+  if (json.is_discarded() || too_deep) {
+    return Error(ErrorCode::Parse, "this is no JSON of a physics scene");
+  }
+  return Reader().read(json);
+}
+
+}  // namespace tenon::answers

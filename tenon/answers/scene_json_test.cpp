@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/answers/scene_json.h"
+
+#include <gtest/gtest.h>
+
+#include "tenon/answers/json.h"
+#include "tenon/scene/filled_scene.h"
+#include "tenon/scene/same_fields.h"
+
+namespace tenon::answers {
+namespace {
+
+using scene::PhysicsScene;
+
+TEST(SceneJson, ASceneComesBackInEveryField) {
+  const PhysicsScene scene = scene::filled_scene();
+  const std::string text = scene_json(scene, Geometry::Inline);
+  const auto back = read_scene_json(text);
+  ASSERT_TRUE(back.has_value()) << back.error().to_string();
+  EXPECT_EQ(scene_json(*back, Geometry::Inline), text);
+}
+
+TEST(SceneJson, NoLeafIsLeftOut) {
+  const PhysicsScene scene = scene::filled_scene();
+  const std::string text = scene_json(scene, Geometry::Inline);
+  int leaves = 0;
+  scene::each_changed_leaf(scene, [&](const PhysicsScene& changed, const scene::Leaf& leaf) {
+    const std::string other = scene_json(changed, Geometry::Inline);
+    EXPECT_NE(other, text) << leaf.name;
+    if (++leaves % 7 != 0) {
+      return;
+    }
+    if (const auto back = read_scene_json(other)) {  // else the change contradicts the rest
+      EXPECT_EQ(scene_json(*back, Geometry::Inline), other) << leaf.name;
+    }
+  });
+}
+
+TEST(SceneJson, AHashTellsMeshesApart) {
+  const PhysicsScene scene = scene::filled_scene();
+  PhysicsScene moved = scene;
+  moved.meshes[1].points[0][1] += 1e-12;
+  EXPECT_NE(scene_json(scene, Geometry::Hash), scene_json(moved, Geometry::Hash));
+}
+
+TEST(SceneJson, DefaultsComeBackToo) {
+  PhysicsScene scene;
+  scene.scenes.emplace_back();
+  scene::Body& body = scene.bodies.emplace_back();
+  body.path = Path::from("/b");
+  scene::Joint& joint = scene.joints.emplace_back();
+  joint.path = Path::from("/j");
+  joint.upper = -scene::kUnlimited;
+  joint.break_force = std::nan("");
+  scene.filter.groups_of_collider.clear();
+  const auto back = read_scene_json(scene_json(scene, Geometry::Inline));
+  ASSERT_TRUE(back.has_value()) << back.error().to_string();
+  EXPECT_TRUE(same_fields(scene, *back));
+}
+
+TEST(SceneJson, ObjectsOfOnePathAreToldApart) {
+  PhysicsScene scene;
+  scene.scenes.emplace_back();
+  scene.bodies.resize(2);
+  scene.bodies[0].path = scene.bodies[1].path = Path::from("/b");
+  scene.joints.emplace_back().path = Path::from("/j");
+  scene.joints[0].body0 = 1;
+  const auto back = read_scene_json(scene_json(scene, Geometry::Inline));
+  ASSERT_TRUE(back.has_value()) << back.error().to_string();
+  EXPECT_EQ(back->joints[0].body0, scene::Index{1});
+}
+
+TEST(SceneJson, WhatCannotBeReadIsNamed) {
+  const std::string text = scene_json(scene::filled_scene(), Geometry::Inline);
+  const auto broken = [&](const char* list, const char* key, const Json& value) {
+    Json json = Json::parse(text);
+    json[list][1][key] = value;
+    const auto read = read_scene_json(json.dump());
+    return read ? std::string("read") : read.error().to_string();
+  };
+  EXPECT_NE(broken("bodies", "mass", "heavy").find("bodies[1].mass"), std::string::npos);
+  EXPECT_NE(broken("bodies", "scene", "/none").find("bodies[1].scene"), std::string::npos);
+  EXPECT_NE(broken("joints", "type", "hinge").find("joints[1].type"), std::string::npos);
+  EXPECT_NE(broken("colliders", "position", {1, 2}).find("colliders[1].position"),
+            std::string::npos);
+  EXPECT_FALSE(read_scene_json("").has_value());
+  EXPECT_FALSE(read_scene_json("[]").has_value());
+  EXPECT_FALSE(read_scene_json(std::string(100'000, '[')).has_value());
+}
+
+/// Every key that is written stands in the schema.
+void expect_described(const Json& schema, const Json& described, const Json& json,
+                      const std::string& at) {
+  const Json* form = &described;
+  while (form->contains("$ref") || form->contains("anyOf")) {
+    form = form->contains("anyOf") ? &(*form)["anyOf"][0]
+                                   : &schema["$defs"][(*form)["$ref"].get<std::string>().substr(8)];
+  }
+  if (json.is_object() && form->contains("properties")) {
+    for (const auto& [key, value] : json.items()) {
+      ASSERT_TRUE((*form)["properties"].contains(key)) << at << "." << key;
+      expect_described(schema, (*form)["properties"][key], value, at + "." + key);
+    }
+  } else if (json.is_array() && form->contains("items")) {
+    for (const Json& item : json) {
+      expect_described(schema, (*form)["items"], item, at + "[]");
+    }
+  }
+}
+
+TEST(SceneSchema, DescribesEveryKey) {
+  const Json schema = Json::parse(scene_schema());
+  for (const Geometry geometry : {Geometry::Hash, Geometry::Inline}) {
+    expect_described(schema, schema, Json::parse(scene_json(scene::filled_scene(), geometry)), "");
+  }
+}
+
+}  // namespace
+}  // namespace tenon::answers

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <set>
+#include <string>
+#include <type_traits>
+
+#include "tenon/answers/json.h"
+#include "tenon/answers/json_form.h"
+#include "tenon/answers/scene_json.h"
+#include "tenon/base/wire.h"
+#include "tenon/scene/enum_names.h"
+
+namespace tenon::answers {
+namespace {
+
+using scene::FieldInfo;
+using scene::List;
+
+Json numbers(std::size_t count) {
+  return {{"type", "array"},
+          {"items", {{"$ref", "#/$defs/number"}}},
+          {"minItems", count},
+          {"maxItems", count}};
+}
+
+class SchemaWriter {
+ public:
+  Json whole() {
+    Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                   {"$id", "urn:tenon:physics:" + std::string(kSceneSchemaVersion)},
+                   {"title",
+                    "A physics scene as engines receive it: metres, kilograms, seconds, "
+                    "radians"}};
+    schema.update(object<scene::PhysicsScene>());
+    schema["additionalProperties"] = true;  // of the answer around it
+    defs_["number"] = {{"anyOf", {{{"type", "number"}}, {{"enum", {"inf", "-inf", "nan"}}}}}};
+    defs_["reference"] = {{"description", "a path, or an index where several have that path"},
+                          {"type", {"string", "integer", "null"}}};
+    schema["$defs"] = defs_;
+    return schema;
+  }
+
+ private:
+  template <class T>
+  Json object() {
+    Json row = {
+        {"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+    add_properties<T>(row["properties"]);
+    return row;
+  }
+
+  template <class T>
+  void add_properties(Json& properties) {
+    scene::each_field_type<T>([&](const FieldInfo& info, auto type) {
+      using Member = typename decltype(type)::type;
+      if constexpr (std::is_same_v<Member, Pose>) {
+        if (info.inlined) {
+          add_pose(properties);
+          return;
+        }
+      } else if constexpr (scene::HasTable<Member>) {
+        if (info.inlined) {
+          add_properties<Member>(properties);
+          return;
+        }
+      }
+      Json property = schema_of<Member>(info);
+      std::string meaning(info.meaning);
+      const std::string_view unit = unit_text(info.unit, true);
+      const std::string_view other = unit_text(info.unit, false);
+      if (!unit.empty()) {
+        meaning +=
+            " [" + std::string(unit) + (unit == other ? "" : " or " + std::string(other)) + "]";
+      }
+      properties[std::string(info.name)] = {{"description", meaning},
+                                            {"anyOf", {std::move(property), {{"type", "null"}}}}};
+    });
+    for (const DerivedKey& key : kDerived<T>) {
+      Json& property = properties[std::string(key.name)];
+      const std::string meaning(key.meaning);
+      if (property.is_null()) {
+        property = {{"description", meaning}, {"type", {std::string(key.type), "null"}}};
+      }
+    }
+  }
+
+  static void add_pose(Json& properties) {
+    properties["position"] = numbers(3);
+    properties["position"]["description"] = "[m]";
+    properties["orientation"] = numbers(4);
+    properties["orientation"]["description"] = "w, x, y, z; w is not negative";
+  }
+
+  template <class T>
+  Json schema_of(const FieldInfo& info) {
+    if constexpr (std::is_same_v<T, bool>) {
+      return info.on.empty() ? Json{{"type", "boolean"}}
+                             : Json{{"enum", {std::string(info.off), std::string(info.on)}}};
+    } else if constexpr (std::is_enum_v<T>) {
+      Json words = Json::array();
+      for (const std::string_view name : scene::EnumNames<T>::kNames) {
+        words.push_back(std::string(name));
+      }
+      return {{"enum", words}};
+    } else if constexpr (std::is_same_v<T, scene::Index>) {
+      return info.refers == List::None || info.refers == List::Meshes
+                 ? Json{{"type", "integer"}}
+                 : Json{{"$ref", "#/$defs/reference"}};
+    } else if constexpr (std::is_same_v<T, double>) {
+      return {{"$ref", "#/$defs/number"}};
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      return {{"type", "integer"}};
+    } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, Path>) {
+      return {{"type", "string"}};
+    } else if constexpr (wire::kIsOptional<T>) {
+      return schema_of<typename T::value_type>(info);
+    } else if constexpr (std::is_same_v<T, std::vector<scene::MujocoSetting>>) {
+      return {{"type", "object"}, {"additionalProperties", {{"type", {"array", "string"}}}}};
+    } else {
+      return schema_of_many<T>(info);
+    }
+  }
+
+  template <class T>
+  Json schema_of_many(const FieldInfo& info) {
+    if constexpr (scene::HasTable<T>) {
+      const std::string name = definition<T>();
+      return {{"$ref", "#/$defs/" + name}};
+    } else if constexpr (wire::kIsPair<T>) {
+      return {
+          {"type", "array"},
+          {"prefixItems",
+           {schema_of<typename T::first_type>(info), schema_of<typename T::second_type>(info)}}};
+    } else if constexpr (wire::kIsVector<T>) {
+      return {{"type", "array"}, {"items", schema_of<typename T::value_type>(info)}};
+    } else if constexpr (wire::kIsArray<T>) {
+      return numbers(std::tuple_size_v<T>);
+    } else if constexpr (std::is_same_v<T, Pose>) {
+      Json row = {{"type", "object"}, {"properties", Json::object()}};
+      add_pose(row["properties"]);
+      return row;
+    } else {
+      return numbers(sizeof(T) / sizeof(typename Component<T>::type));
+    }
+  }
+
+  template <class T>
+  struct Component {
+    using type = double;
+  };
+  template <class T, std::size_t N>
+  struct Component<Vec<T, N>> {
+    using type = T;
+  };
+
+  /// The name of the struct's definition, which is made the first time.
+  template <class T>
+  std::string definition() {
+    std::string name;
+    for (const char c : scene::Table<T>::kWord) {
+      name += c == ' ' ? '_' : c;
+    }
+    name = name.empty() ? "limit" : name;
+    if (made_.insert(name).second) {
+      Json row = object<T>();
+      defs_[name] = std::move(row);
+    }
+    return name;
+  }
+
+  std::set<std::string> made_;
+  Json defs_ = Json::object();
+};
+
+}  // namespace
+
+std::string scene_schema() { return SchemaWriter().whole().dump(2); }
+
+}  // namespace tenon::answers

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tenon/asset/edit_asset.h"
+#include "tenon/base/result.h"
+#include "tenon/stage/stage.h"
+
+/// What people want of physics, as edits of properties and API schemas. `text` is "PRIM=...".
+/// Errors: Invalid (edit.bad-argument), with the form that was expected.
+namespace tenon {
+
+/// "PRIM=KILOGRAMS": the mass of a body.
+Result<std::vector<AssetEdit>> mass_edits(const stage::Stage& stage, const std::string& text);
+/// "PRIM=convexHull": how a mesh collides; "PRIM=on" for shapes that are no meshes.
+Result<std::vector<AssetEdit>> collider_edits(const std::string& text);
+/// "PRIM=/path/of/Material": the physics material that a collider, or all below a prim, has.
+Result<std::vector<AssetEdit>> material_edits(const std::string& text);
+/// "JOINT=stiffness:10,damping:1": stiffness, damping, maxForce, targetPosition, targetVelocity,
+/// type, in the units of UsdPhysics (degrees). A joint of many degrees of freedom is named with
+/// the one that is driven: "JOINT:rotX=...".
+Result<std::vector<AssetEdit>> drive_edits(const stage::Stage& stage, const std::string& text);
+/// "FOLLOWER=LEADER,MULTIPLIER[,OFFSET]": q = offset + multiplier * leader, offset in degrees or
+/// units of length. As NewtonMimicAPI, which every engine is to read; for the engine "physx" as
+/// PhysxMimicJointAPI, whose signs are the other way round.
+Result<std::vector<AssetEdit>> mimic_edits(const std::string& text, const std::string& engine);
+
+}  // namespace tenon

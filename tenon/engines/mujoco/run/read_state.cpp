@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/mujoco/run/read_state.h"
+
+namespace tenon::engines::mujoco {
+namespace {
+
+struct Velocity {
+  Vec3d linear;
+  Vec3d angular;
+};
+
+Pose body_pose(const Model& model, scene::Index body) {
+  const BodyMap& map = model.bodies[body];
+  const Pose engine{read_vector(model.data->xpos + 3 * map.id),
+                    read_quaternion(model.data->xquat + 4 * map.id)};
+  return engine * inverse(map.engine_frame);
+}
+
+/// Of a point of a body, in world axes; the world stands still.
+Velocity velocity_of(const Model& model, const std::optional<scene::Index>& body,
+                     const Vec3d& point) {
+  if (!body.has_value()) {
+    return {};
+  }
+  const int id = model.bodies[*body].id;
+  double velocity[6];
+  mj_objectVelocity(model.model.get(), model.data.get(), mjOBJ_BODY, id, velocity, 0);
+  const Vec3d angular = read_vector(velocity);
+  const Vec3d arm = point - read_vector(model.data->xipos + 3 * id);
+  return {read_vector(velocity + 3) + cross(angular, arm), angular};
+}
+
+JointState tree_joint_state(const Model& model, scene::Index joint) {
+  const JointMap& map = model.joints[joint];
+  const mjData* d = model.data.get();
+  JointState state;
+  for (std::size_t i = 0; i < map.qpos.size(); ++i) {
+    state.position.push_back(d->qpos[map.qpos[i]]);
+    state.velocity.push_back(d->qvel[map.dof[i]]);
+  }
+  if (map.ball_qpos >= 0) {
+    const Quatd back = conjugate(map.child_frame);
+    Quatd turn = back * read_quaternion(d->qpos + map.ball_qpos) * map.child_frame;
+    Vec3d velocity =
+        rotate(back, read_vector(d->qvel + map.ball_dof));  // in the child's joint frame
+    if (map.reversed) {
+      turn = conjugate(turn);
+      velocity = -velocity;
+    } else {
+      velocity = rotate(turn, velocity);
+    }
+    const Vec3d position = rotation_vector(turn);
+    state.position.insert(state.position.end(), position.v.begin(), position.v.end());
+    state.velocity.insert(state.velocity.end(), velocity.v.begin(), velocity.v.end());
+  }
+  return state;
+}
+
+// Joints outside the tree have their coordinates in the relative pose: angles within one turn.
+JointState loop_joint_state(const scene::PhysicsScene& scene, const Model& model,
+                            scene::Index joint) {
+  const scene::Joint& source = scene.joints[joint];
+  const Pose frame0 = frame_in_world(model, source.body0, source.frame0);
+  const Pose frame1 = frame_in_world(model, source.body1, source.frame1);
+  JointState state;
+  const Velocity side0 = velocity_of(model, source.body0, frame1.position);
+  const Velocity side1 = velocity_of(model, source.body1, frame1.position);
+  const Vec3d linear = side1.linear - side0.linear;
+  const Vec3d angular = side1.angular - side0.angular;
+  if (source.kind == scene::JointKind::Distance) {
+    const Velocity anchor0 = velocity_of(model, source.body0, frame0.position);
+    const Vec3d apart = frame1.position - frame0.position;
+    return {{length(apart)}, {dot(normalized(apart), side1.linear - anchor0.linear)}};
+  }
+  const JointDofs& dofs = model.joints[joint].dofs;
+  state.position = coordinates_at(dofs, inverse(frame0) * frame1);
+  for (const FreeDof& dof : dofs.free) {
+    const Vec3d axis = rotate(frame0.orientation, dof.axis0);
+    state.velocity.push_back(is_angular(dof.dof) ? dot(axis, angular) : dot(axis, linear));
+  }
+  if (dofs.ball) {
+    const Vec3d turn = rotate(conjugate(frame0.orientation), angular);
+    state.velocity.insert(state.velocity.end(), turn.v.begin(), turn.v.end());
+  }
+  return state;
+}
+
+}  // namespace
+
+void derive_motion(const Model& model) {
+  mj_kinematics(model.model.get(), model.data.get());
+  mj_comPos(model.model.get(), model.data.get());
+  mj_comVel(model.model.get(), model.data.get());
+}
+
+BodyState read_body_state(const scene::PhysicsScene& scene, const Model& model, scene::Index body) {
+  BodyState state;
+  state.pose = body_pose(model, body);
+  state.pose.orientation = normalized(state.pose.orientation);
+  const Velocity velocity =
+      velocity_of(model, body, transform_point(state.pose, scene.bodies[body].center_of_mass));
+  state.linear_velocity = velocity.linear;
+  state.angular_velocity = velocity.angular;
+  return state;
+}
+
+JointState read_joint_state(const scene::PhysicsScene& scene, const Model& model,
+                            scene::Index joint) {
+  return model.joints[joint].in_tree ? tree_joint_state(model, joint)
+                                     : loop_joint_state(scene, model, joint);
+}
+
+Energy read_energy(const scene::PhysicsScene& scene, const Model& model) {
+  const mjModel* m = model.model.get();
+  const mjData* d = model.data.get();
+  Energy energy;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const scene::Body& body = scene.bodies[b];
+    if (body.kinematic) {
+      continue;
+    }
+    const BodyMap& map = model.bodies[b];
+    double v[6];
+    mj_objectVelocity(m, d, mjOBJ_BODY, map.id, v, 1);
+    energy.kinetic += map.mass * (v[3] * v[3] + v[4] * v[4] + v[5] * v[5]) / 2;
+    for (int i = 0; i < 3; ++i) {
+      energy.kinetic += m->body_inertia[3 * map.id + i] * v[i] * v[i] / 2;
+    }
+    const Vec3d gravity = scene.scenes[body.scene].gravity * body.gravity_scale;
+    energy.potential -= map.mass * dot(gravity, read_vector(d->xipos + 3 * map.id));
+  }
+  for (int i = 0; i < m->nv; ++i) {
+    energy.kinetic += m->dof_armature[i] * d->qvel[i] * d->qvel[i] / 2;
+  }
+  for (int j = 0; j < m->njnt; ++j) {
+    if (m->jnt_stiffness[j] != 0 &&
+        (m->jnt_type[j] == mjJNT_HINGE || m->jnt_type[j] == mjJNT_SLIDE)) {
+      const int q = m->jnt_qposadr[j];
+      const double stretch = d->qpos[q] - m->qpos_spring[q];
+      energy.potential += m->jnt_stiffness[j] * stretch * stretch / 2;
+    }
+  }
+  return energy;
+}
+
+std::size_t read_contact_count(const Model& model) {
+  std::size_t count = 0;
+  for (int i = 0; i < model.data->ncon; ++i) {
+    count += model.data->contact[i].efc_address >= 0 ? 1 : 0;
+  }
+  return count;
+}
+
+Pose frame_in_world(const Model& model, const std::optional<scene::Index>& body,
+                    const Pose& frame) {
+  return body.has_value() ? body_pose(model, *body) * frame : frame;
+}
+
+}  // namespace tenon::engines::mujoco

@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/mujoco/run/step_inputs.h"
+
+#include <algorithm>
+
+namespace tenon::engines::mujoco {
+
+StepInputs::StepInputs(const scene::PhysicsScene& scene, Model& model)
+    : unit_(static_cast<std::size_t>(model.model->nv), 0), response_(unit_) {
+  collect_drives(scene, model);
+  collect_tracks(scene, model);
+  collect_damped_bodies(scene, model);
+  start_driven_bodies(model);
+}
+
+bool StepInputs::empty() const {
+  return tracked_drives_.empty() && driven_bodies_.empty() && moved_colliders_.empty() &&
+         damped_bodies_.empty() && acceleration_drives_.empty();
+}
+
+void StepInputs::before_step(Model& model) {
+  follow_drive_tracks(model);
+  scale_acceleration_drives(model);
+  move_colliders(model);
+  damp_bodies(model);
+  push_driven_bodies(model);
+}
+
+void StepInputs::take_constant_forces(const Model& model) {
+  for (DampedBody& damped : damped_bodies_) {
+    damped.constant_force = read_vector(model.data->xfrc_applied + 6 * damped.id);
+  }
+}
+
+void StepInputs::collect_drives(const scene::PhysicsScene& scene, const Model& model) {
+  for (std::size_t i = 0; i < model.drives.size(); ++i) {
+    const DriveMap& map = model.drives[i];
+    drives_.push_back(scene.joints[map.joint].drives[map.drive]);
+    if (map.actuator >= 0 && drives_.back().acceleration) {
+      acceleration_drives_.push_back(i);
+    }
+  }
+}
+
+void StepInputs::collect_tracks(const scene::PhysicsScene& scene, const Model& model) {
+  for (const scene::ScalarTrack& track : scene.scalar_tracks) {
+    for (std::size_t i = 0; i < model.drives.size(); ++i) {
+      const DriveMap& map = model.drives[i];
+      if (map.joint == track.joint && map.drive == track.drive && map.actuator >= 0 &&
+          !track.times.empty()) {
+        tracked_drives_.push_back({&track, i});
+      }
+    }
+  }
+  for (const scene::PoseTrack& track : scene.pose_tracks) {
+    if (track.times.empty()) {
+      continue;
+    }
+    if (track.body.has_value() && model.plan.bases[*track.body] == BodyBase::Driven) {
+      DrivenBody driven;
+      driven.track = &track;
+      driven.body = model.bodies[*track.body];
+      driven_bodies_.push_back(driven);
+    } else if (track.collider.has_value() && model.mocap_of_collider[*track.collider] >= 0) {
+      moved_colliders_.push_back({&track, model.mocap_of_collider[*track.collider]});
+    }
+  }
+}
+
+void StepInputs::collect_damped_bodies(const scene::PhysicsScene& scene, const Model& model) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const scene::Body& body = scene.bodies[b];
+    const bool damped = body.linear_damping > 0 || body.angular_damping > 0;
+    if (damped && !body.kinematic && model.plan.bases[b] == BodyBase::Jointed) {
+      const BodyMap& map = model.bodies[b];
+      const double* force = model.data->xfrc_applied + 6 * map.id;
+      damped_bodies_.push_back(
+          {map.id, body.linear_damping, body.angular_damping, read_vector(force)});
+    }
+  }
+}
+
+void StepInputs::follow_drive_tracks(Model& model) {
+  const double now = model.data->time;
+  for (const TrackedDrive& tracked : tracked_drives_) {
+    const double value = tracked.track->at(now);
+    const DriveMap& map = model.drives[tracked.drive];
+    scene::Drive& drive = drives_[tracked.drive];
+    switch (tracked.track->what) {
+      case scene::Animated::DriveTargetPosition:
+        model.data->ctrl[map.control] = value;
+        break;
+      case scene::Animated::DriveTargetVelocity:
+        model.data->ctrl[map.control + 1] = value;
+        break;
+      case scene::Animated::DriveStiffness:
+        drive.stiffness = value;
+        model.model->actuator_biasprm[mjNBIAS * map.actuator + 1] = -value;
+        break;
+      case scene::Animated::DriveDamping:
+        drive.damping = value;
+        model.model->actuator_biasprm[mjNBIAS * map.actuator + 2] = -value;
+        break;
+      case scene::Animated::DriveMaxForce:
+        model.model->actuator_forcelimited[map.actuator] = value < scene::kUnlimited ? 1 : 0;
+        model.model->actuator_forcerange[2 * map.actuator] = -value;
+        model.model->actuator_forcerange[2 * map.actuator + 1] = value;
+        break;
+    }
+  }
+}
+
+// Effective inertia of a coordinate: what a unit force on it meets, 1 / (e M^-1 e). M is factored
+// in every step; here that of the pose one step ago is used.
+void StepInputs::scale_acceleration_drives(Model& model) {
+  mjModel* m = model.model.get();
+  mjData* d = model.data.get();
+  for (const std::size_t i : acceleration_drives_) {
+    const DriveMap& map = model.drives[i];
+    const auto dof = static_cast<std::size_t>(map.dof);
+    unit_[dof] = 1;
+    mj_solveM(m, d, response_.data(), unit_.data(), 1);
+    unit_[dof] = 0;
+    const double inertia = 1 / response_[dof];
+    m->actuator_biasprm[mjNBIAS * map.actuator + 1] = -drives_[i].stiffness * inertia;
+    m->actuator_biasprm[mjNBIAS * map.actuator + 2] = -drives_[i].damping * inertia;
+  }
+}
+
+void StepInputs::move_colliders(Model& model) const {
+  mjData* d = model.data.get();
+  for (const MovedCollider& moved : moved_colliders_) {
+    const Pose pose = moved.track->at(d->time);
+    write_vector(d->mocap_pos + 3 * moved.mocap, pose.position);
+    write_quaternion(d->mocap_quat + 4 * moved.mocap, normalized(pose.orientation));
+  }
+}
+
+// F = -m c v and T = -I c w at the centre of mass; a rate above 1 / dt stops within one step.
+void StepInputs::damp_bodies(Model& model) const {
+  const mjModel* m = model.model.get();
+  mjData* d = model.data.get();
+  const double most = 1 / m->opt.timestep;
+  for (const DampedBody& damped : damped_bodies_) {
+    const int id = damped.id;
+    double velocity[6];
+    mj_objectVelocity(m, d, mjOBJ_BODY, id, velocity, 1);
+    const Quatd principal = read_quaternion(d->xiquat + 4 * id);
+    Vec3d force = read_vector(velocity + 3) * (-m->body_mass[id] * std::min(damped.linear, most));
+    Vec3d torque;
+    for (std::size_t i = 0; i < 3; ++i) {
+      torque[i] = -m->body_inertia[3 * static_cast<std::size_t>(id) + i] * velocity[i] *
+                  std::min(damped.angular, most);
+    }
+    force = rotate(principal, force) + damped.constant_force;
+    write_vector(d->xfrc_applied + 6 * id, force);
+    write_vector(d->xfrc_applied + 6 * id + 3, rotate(principal, torque));
+  }
+}
+
+// The force that brings a driven body's velocity to (next pose - pose) / dt within this step; the
+// inertia of what hangs on it is a millionth of its own.
+void StepInputs::push_driven_bodies(Model& model) {
+  const mjModel* m = model.model.get();
+  mjData* d = model.data.get();
+  const double dt = m->opt.timestep;
+  for (DrivenBody& driven : driven_bodies_) {
+    const BodyMap& body = driven.body;
+    const Vec3d position = read_vector(d->qpos + body.free_qpos);
+    const Quatd orientation = read_quaternion(d->qpos + body.free_qpos + 3);
+    driven.next = driven.track->at(d->time + dt);
+    driven.next.orientation = normalized(driven.next.orientation);
+    driven.linear_velocity = (driven.next.position - position) * (1 / dt);
+    driven.angular_velocity =
+        rotation_vector(conjugate(orientation) * driven.next.orientation) * (1 / dt);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<int>(i);
+      const int dof = body.free_dof + axis;
+      d->qfrc_applied[dof] =
+          m->body_mass[body.id] * (driven.linear_velocity[i] - d->qvel[dof]) / dt;
+      d->qfrc_applied[dof + 3] = m->body_inertia[3 * body.id + axis] *
+                                 (driven.angular_velocity[i] - d->qvel[dof + 3]) / dt;
+    }
+  }
+}
+
+void StepInputs::after_step(Model& model) const {
+  mjData* d = model.data.get();
+  for (const DrivenBody& driven : driven_bodies_) {
+    write_vector(d->qpos + driven.body.free_qpos, driven.next.position);
+    write_quaternion(d->qpos + driven.body.free_qpos + 3, driven.next.orientation);
+    write_vector(d->qvel + driven.body.free_dof, driven.linear_velocity);
+    write_vector(d->qvel + driven.body.free_dof + 3, driven.angular_velocity);
+  }
+}
+
+void StepInputs::start_driven_bodies(Model& model) {
+  if (driven_bodies_.empty()) {
+    return;
+  }
+  mjData* d = model.data.get();
+  for (DrivenBody& driven : driven_bodies_) {
+    const Pose start = driven.track->at(d->time);
+    write_vector(d->qpos + driven.body.free_qpos, start.position);
+    write_quaternion(d->qpos + driven.body.free_qpos + 3, normalized(start.orientation));
+  }
+  push_driven_bodies(model);
+  for (const DrivenBody& driven : driven_bodies_) {
+    write_vector(d->qvel + driven.body.free_dof, driven.linear_velocity);
+    write_vector(d->qvel + driven.body.free_dof + 3, driven.angular_velocity);
+  }
+}
+
+}  // namespace tenon::engines::mujoco

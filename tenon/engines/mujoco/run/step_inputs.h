@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tenon/engines/mujoco/model.h"
+
+namespace tenon::engines::mujoco {
+
+/// What is written into a model before every step: drives, bodies and colliders that follow the
+/// asset's time samples, and forces that MuJoCo does not know, which are acceleration drives and
+/// the damping of bodies on joints. Nothing in most scenes.
+class StepInputs {
+ public:
+  StepInputs() = default;
+  /// Also gives driven bodies their poses and velocities of now. Both must stay where they are.
+  StepInputs(const scene::PhysicsScene& scene, Model& model);
+
+  bool empty() const;
+  /// Velocities are asked for, so that derive_motion() must have run.
+  bool needs_motion() const { return !damped_bodies_.empty(); }
+  void before_step(Model& model);
+  void after_step(Model& model) const;
+  /// The constant forces of the model are other ones.
+  void take_constant_forces(const Model& model);
+
+ private:
+  struct TrackedDrive {
+    const scene::ScalarTrack* track = nullptr;
+    std::size_t drive = 0;  ///< into Model::drives
+  };
+  struct DrivenBody {
+    const scene::PoseTrack* track = nullptr;
+    BodyMap body;
+    Pose next;
+    Vec3d linear_velocity;   ///< over the step that is under way, world axes
+    Vec3d angular_velocity;  ///< own axes
+  };
+  struct MovedCollider {
+    const scene::PoseTrack* track = nullptr;
+    int mocap = -1;
+  };
+  struct DampedBody {
+    int id = 0;  ///< MuJoCo body
+    double linear = 0;
+    double angular = 0;
+    Vec3d constant_force;
+  };
+  void collect_drives(const scene::PhysicsScene& scene, const Model& model);
+  void collect_tracks(const scene::PhysicsScene& scene, const Model& model);
+  void collect_damped_bodies(const scene::PhysicsScene& scene, const Model& model);
+  void start_driven_bodies(Model& model);
+  void follow_drive_tracks(Model& model);
+  void scale_acceleration_drives(Model& model);
+  void move_colliders(Model& model) const;
+  void damp_bodies(Model& model) const;
+  void push_driven_bodies(Model& model);
+
+  std::vector<TrackedDrive> tracked_drives_;
+  std::vector<DrivenBody> driven_bodies_;
+  std::vector<MovedCollider> moved_colliders_;
+  std::vector<DampedBody> damped_bodies_;
+  std::vector<scene::Drive> drives_;              ///< in force now, as Model::drives
+  std::vector<std::size_t> acceleration_drives_;  ///< into Model::drives
+  std::vector<double> unit_;                      ///< scratch (dof_count)
+  std::vector<double> response_;                  ///< scratch (dof_count)
+};
+
+}  // namespace tenon::engines::mujoco

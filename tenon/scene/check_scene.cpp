@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What engines and exporters take for granted about a scene. The reader makes it so; here it is
+// checked of scenes that come as JSON or as bytes. Indices are found by the tables: a field that
+// refers to a list is looked at wherever it lies. Which lists go together stands below.
+#include "tenon/scene/check_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "tenon/base/wire.h"
+#include "tenon/scene/list_of.h"
+#include "tenon/scene/scene_fields.h"
+
+namespace tenon::scene {
+namespace {
+
+bool is_finite(double value) { return std::isfinite(value); }
+using tenon::is_finite;
+bool is_finite(const Mat3d& m) {
+  return std::all_of(m.m.begin(), m.m.end(), [](const auto& row) {
+    return std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); });
+  });
+}
+
+/// Looks at every index, as deep as it lies.
+class Check {
+ public:
+  explicit Check(const PhysicsScene& scene) : scene_(scene) {}
+
+  /// The first fault.
+  const std::optional<Error>& fault() const { return fault_; }
+
+  void whole() {
+    each_field(scene_, [this](const FieldInfo& info, const auto& member) {
+      place_ = std::string(info.name);
+      visit(scene_, info, member);
+    });
+    place_ = "scenes";
+    require(!scene_.scenes.empty(), "there is no scene");
+    filter();
+  }
+
+ private:
+  void require(bool holds, const char* what) {
+    if (!holds && !fault_) {
+      fault_ =
+          Error(ErrorCode::Corrupt, "a physics scene contradicts itself: " + place_ + ": " + what);
+    }
+  }
+
+  template <class Owner, class T>
+  void visit(const Owner& owner, const FieldInfo& info, const T& value) {
+    if (fault_) {
+      return;
+    }
+    if constexpr (std::is_same_v<T, Index>) {
+      if (info.refers != List::None && info.refers != List::Meshes) {
+        require(value < size_of(scene_, list_of(owner, info.refers)), "an index leads nowhere");
+      }
+    } else if constexpr (wire::kIsOptional<T>) {
+      if (value) {
+        visit(owner, info, *value);
+      }
+    } else if constexpr (wire::kIsPair<T>) {
+      visit(owner, info, value.first);
+      visit(owner, info, value.second);
+    } else if constexpr (wire::kIsVector<T>) {
+      if constexpr (!std::is_arithmetic_v<typename T::value_type> ||
+                    std::is_same_v<typename T::value_type, Index>) {
+        for (const auto& item : value) {
+          visit(owner, info, item);
+        }
+      }
+    } else if constexpr (HasTable<T>) {
+      object(value);
+    } else if constexpr (std::is_same_v<T, Pose> || std::is_same_v<T, Vec3d>) {
+      require(is_finite(value), "a number is not finite");
+    }
+  }
+
+  template <class T>
+  void object(const T& value) {
+    own(value);
+    const std::string around = place_;
+    if constexpr (requires { value.path.str(); }) {
+      place_ += " <" + (value.path.empty() ? std::string() : value.path.str()) + ">";
+    }
+    each_field(value, [this, &value](const FieldInfo& info, const auto& member) {
+      visit(value, info, member);
+    });
+    place_ = around;
+  }
+
+  // What belongs together in one struct; most have nothing to hold but their indices.
+  template <class T>
+  void own(const T&) {}
+
+  void own(const Body& body) {
+    require(body.mass >= 0 && is_finite(body.mass), "a mass is negative or not finite");
+    require(is_finite(body.inertia), "an inertia is not finite");
+  }
+  void own(const TriangleMesh& mesh) {
+    for (const Vec3i& triangle : mesh.triangles) {
+      for (const int corner : triangle.v) {
+        require(corner >= 0 && static_cast<std::size_t>(corner) < mesh.points.size(),
+                "a corner of a triangle leads nowhere");
+      }
+    }
+  }
+  void own(const Shape& shape) {
+    require(shape.sphere_centers.size() == shape.sphere_radii.size(), "spheres lack a radius");
+    const bool has_mesh = shape.kind == ShapeKind::ConvexHull || shape.kind == ShapeKind::Mesh;
+    require((!has_mesh || shape.mesh < scene_.meshes.size()) &&
+                std::all_of(shape.pieces.begin(), shape.pieces.end(),
+                            [this](Index i) { return i < scene_.meshes.size(); }),
+            "a shape has no mesh");
+    require(is_finite(shape.radius) && is_finite(shape.half_height), "a size is not finite");
+  }
+  void own(const Collider& collider) {
+    const Shape& shape = collider.shape;
+    for (const FaceMaterial& faces : collider.face_materials) {
+      require(shape.kind == ShapeKind::Mesh && shape.mesh < scene_.meshes.size() &&
+                  std::all_of(
+                      faces.triangles.begin(), faces.triangles.end(),
+                      [&](Index i) { return i < scene_.meshes[shape.mesh].triangles.size(); }),
+              "triangles with a material of their own are not there");
+    }
+  }
+  void own(const Tendon& tendon) {
+    require(tendon.joints.size() == tendon.coefficients.size(), "a tendon lacks coefficients");
+  }
+
+  void times(const std::vector<double>& all, std::size_t values) {
+    require(!all.empty() && all.size() == values, "times and values are not as many");
+    require(std::is_sorted(all.begin(), all.end()) &&
+                std::all_of(all.begin(), all.end(), [](double t) { return std::isfinite(t); }),
+            "times do not ascend");
+  }
+  void own(const ScalarTrack& track) {
+    times(track.times, track.values.size());
+    require(track.joint < scene_.joints.size() &&
+                track.drive < scene_.joints[track.joint].drives.size(),
+            "a drive that changes is not there");
+  }
+  void own(const SwitchTrack& track) { times(track.times, track.values.size()); }
+  void own(const BoundsTrack& track) { times(track.times, track.bounds.size()); }
+  void own(const GravityTrack& track) { times(track.times, track.gravity.size()); }
+  void own(const PoseTrack& track) {
+    times(track.times, track.poses.size());
+    require(track.body || track.collider || track.joint, "a track of poses is of nothing");
+    require(track.side == 0 || track.side == 1, "a joint has two sides");
+  }
+  void own(const ShapesTrack& track) {
+    times(track.times, track.shapes.size());
+    for (const BodyShapes& shapes : track.shapes) {
+      require(shapes.poses.size() == track.colliders.size() &&
+                  shapes.shapes.size() == track.colliders.size(),
+              "shapes that move are not as many as their colliders");
+    }
+  }
+  void own(const GroupState& state) {
+    const std::size_t groups = scene_.filter.group_paths.size();
+    require(is_finite(state.time) && state.group_pair_off.size() == groups * groups &&
+                state.ungrouped_off.size() == groups,
+            "a table of groups has another size");
+  }
+
+  void colliders(const std::vector<std::pair<Index, Index>>& pairs) {
+    const std::size_t count = scene_.colliders.size();
+    require(std::all_of(
+                pairs.begin(), pairs.end(),
+                [count](const auto& pair) { return pair.first < count && pair.second < count; }),
+            "a pair of colliders leads nowhere");
+  }
+
+  void filter() {
+    place_ = "filter";
+    const CollisionFilter& filter = scene_.filter;
+    const std::size_t groups = filter.group_paths.size();
+    // Without groups the lists of them may be absent.
+    require(filter.groups_of_collider.size() == scene_.colliders.size() ||
+                (groups == 0 && filter.groups_of_collider.empty()),
+            "not every collider has a list of groups");
+    for (const std::vector<Index>& of : filter.groups_of_collider) {
+      require(std::all_of(of.begin(), of.end(), [groups](Index i) { return i < groups; }),
+              "a group leads nowhere");
+    }
+    require(
+        filter.group_pair_off.size() == groups * groups && filter.ungrouped_off.size() == groups,
+        "a table of groups has another size");
+    colliders(filter.pairs_off);
+    colliders(filter.permanent_pairs);
+    for (const JointPairs& pairs : filter.joint_pairs) {
+      colliders(pairs.pairs);
+    }
+  }
+
+  const PhysicsScene& scene_;
+  std::string place_;
+  std::optional<Error> fault_;
+};
+
+}  // namespace
+
+Result<void> check_scene(const PhysicsScene& scene) {
+  Check check(scene);
+  check.whole();
+  if (check.fault()) {
+    return *check.fault();
+  }
+  return {};
+}
+
+}  // namespace tenon::scene

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <type_traits>
+
+#include "tenon/base/fill_fields.h"
+#include "tenon/base/wire.h"
+#include "tenon/scene/list_of.h"
+#include "tenon/scene/scene_fields.h"
+
+/// For tests that walk every field: a scene in which each has a value of its own, and the same
+/// scene with one of them changed.
+namespace tenon::scene {
+
+/// Sound by check_scene.
+inline PhysicsScene filled_scene() {
+  PhysicsScene scene;
+  wire::FillFields{}(scene);
+  // Tables of two groups by two.
+  scene.filter.group_pair_off = {0, 1, 1, 0};
+  for (GroupState& state : scene.group_states) {
+    state.group_pair_off = {1, 0, 0, 1};
+  }
+  for (Collider& collider : scene.colliders) {
+    collider.shape.kind = ShapeKind::Mesh;
+  }
+  for (ShapesTrack& track : scene.shapes_tracks) {
+    for (BodyShapes& shapes : track.shapes) {
+      for (Shape& shape : shapes.shapes) {
+        shape.kind = ShapeKind::Mesh;
+      }
+    }
+  }
+  for (Tendon& tendon : scene.tendons) {
+    for (MujocoSetting& setting : tendon.settings) {
+      setting.numbers.clear();
+    }
+  }
+  for (Scene& one : scene.scenes) {
+    for (MujocoSetting& setting : *one.mujoco) {
+      setting.token.clear();
+    }
+  }
+  return scene;
+}
+
+/// What a changed leaf is: its path in the tables, and whether a difference of it is one of motion.
+struct Leaf {
+  std::string name;
+  Role role = Role::Physics;
+};
+
+/// Changes the leaf with a number.
+class ChangeLeaf {
+ public:
+  explicit ChangeLeaf(int at) : at_(at) {}
+
+  int seen() const { return seen_; }
+  const Leaf& leaf() const { return leaf_; }
+
+  template <class T>
+  void walk(T& of, const Leaf& around) {
+    each_field(of, [&](const FieldInfo& info, auto& value) {
+      Leaf inner{around.name + "." + std::string(info.name), around.role};
+      if (inner.role != Role::Provenance) {
+        inner.role = info.role;
+      }
+      visit(value, inner);
+    });
+  }
+
+ private:
+  template <class T>
+  void visit(T& value, const Leaf& place) {
+    if constexpr (HasTable<T>) {
+      walk(value, place);
+    } else if constexpr (wire::kIsOptional<T>) {
+      if (is_it(place)) {
+        value.reset();
+      } else if (value) {
+        visit(*value, place);
+      }
+    } else if constexpr (wire::kIsPair<T>) {
+      visit(value.first, place);
+      visit(value.second, place);
+    } else if constexpr (wire::kIsVector<T> || wire::kIsArray<T>) {
+      for (auto& item : value) {
+        visit(item, place);
+      }
+    } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T> ||
+                         std::is_same_v<T, std::string> || std::is_same_v<T, Path>) {
+      if (is_it(place)) {
+        change(value);
+      }
+    } else {
+      std::apply([&](auto&... field) { (visit(field, place), ...); }, wire::fields_of(value));
+    }
+  }
+
+  template <class T>
+  static void change(T& value) {
+    if constexpr (std::is_same_v<T, bool>) {
+      value = !value;
+    } else if constexpr (std::is_enum_v<T>) {
+      value = static_cast<T>(value == static_cast<T>(0) ? 1 : 0);
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      value += "!";
+    } else if constexpr (std::is_same_v<T, Path>) {
+      value = Path::from(value.str() + "_changed");
+    } else if constexpr (std::is_floating_point_v<T>) {
+      value += 0.125;
+    } else {
+      value = static_cast<T>(value == 0 ? 1 : 0);
+    }
+  }
+
+  bool is_it(const Leaf& place) {
+    if (seen_++ != at_) {
+      return false;
+    }
+    leaf_ = place;
+    return true;
+  }
+
+  int at_;
+  int seen_ = 0;
+  Leaf leaf_;
+};
+
+/// Calls `visit(changed scene, leaf)` for each leaf of `scene` in turn.
+template <class Visit>
+void each_changed_leaf(const PhysicsScene& scene, Visit&& visit) {
+  int count = 1;
+  for (int at = 0; at < count; ++at) {
+    PhysicsScene changed = scene;
+    ChangeLeaf change(at);
+    change.walk(changed, {});
+    count = change.seen();
+    visit(changed, change.leaf());
+  }
+}
+
+}  // namespace tenon::scene

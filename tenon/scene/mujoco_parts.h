@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tenon/base/path.h"
+#include "tenon/math/transform.h"
+
+/// What MuJoCo's schemas say that has no neutral meaning, for engines that have it.
+namespace tenon::scene {
+
+/// An authored attribute of these schemas without its "mjc:", as MuJoCo counts (SI, radians).
+struct MujocoSetting {
+  std::string name;             ///< for example "option:iterations"
+  std::vector<double> numbers;  ///< one for each component; flags 0 or 1
+  std::string token;            ///< of settings that are words
+};
+
+/// What MjcCollisionAPI says of a collider's contacts; none, empty: not authored.
+struct MujocoContact {
+  std::optional<int> condim;     ///< 1, 3, 4 or 6 directions that resist
+  std::optional<int> priority;   ///< the collider with the higher one decides about a contact
+  std::optional<double> solmix;  ///< weight where priorities are equal
+  std::vector<double> solref;    ///< (2)
+  std::vector<double> solimp;    ///< (5)
+};
+
+/// What MjcJointAPI says of the constraints of a joint; empty: not authored.
+struct MujocoSoftness {
+  std::vector<double> solref_limit;     ///< (2)
+  std::vector<double> solimp_limit;     ///< (5)
+  std::vector<double> solref_friction;  ///< (2)
+  std::vector<double> solimp_friction;  ///< (5)
+};
+
+/// What the path of a spatial tendon meets.
+struct TendonStop {
+  enum class Kind : std::uint8_t {
+    Site,      ///< goes through a point
+    Sphere,    ///< goes around
+    Cylinder,  ///< goes around, along Z and without end
+    Pulley,    ///< ends; what follows is another branch
+  };
+  /// A point of the tendon's surroundings.
+  struct Place {
+    Path path;                          ///< of the prim
+    std::optional<std::uint32_t> body;  ///< into PhysicsScene::bodies; none: the world
+    Pose pose;                          ///< in the body, or in the world [m]
+  };
+
+  Kind kind = Kind::Site;
+  Place place;
+  double radius = 0;          ///< [m]
+  std::optional<Place> side;  ///< where the path goes past a shape; none: on the shorter way
+  double divisor = 1;         ///< of Pulley: of the length of what follows
+};
+
+/// A tendon (MjcTendon): its length is the sum of coefficient and coordinate of joints, or that of
+/// a path. Numbers are for metres, or for radians where all joints turn.
+struct Tendon {
+  Path path;
+  std::vector<std::uint32_t> joints;  ///< into PhysicsScene::joints
+  std::vector<double> coefficients;   ///< (joint_count)
+  std::vector<TendonStop> stops;      ///< of a spatial tendon, which has no joints
+  double stiffness = 0;
+  double damping = 0;
+  double friction = 0;
+  double armature = 0;
+  std::array<double, 2> spring_length{-1, -1};  ///< no force between the two; -1: as it stands
+  std::optional<std::array<double, 2>> range;
+  std::vector<MujocoSetting> settings;  ///< others: limits of force, solver
+};
+
+}  // namespace tenon::scene

@@ -1,0 +1,460 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tenon/base/path.h"
+#include "tenon/math/matrix.h"
+#include "tenon/math/transform.h"
+#include "tenon/math/vector.h"
+#include "tenon/scene/mujoco_parts.h"
+
+/// The neutral description of a physics scene: what every engine receives. Plain structs; metres,
+/// kilograms, seconds, radians; world axes as the stage has them. Knows neither USD composition nor
+/// any engine. Objects refer to each other by index; every list is sorted by path.
+namespace tenon::scene {
+
+inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+using Index = std::uint32_t;
+
+struct Scene {
+  Path path;      ///< empty: made up because the stage has none (S-18)
+  Vec3d gravity;  ///< [m/s^2]
+  std::optional<double>
+      time_step;  ///< [s] asked for by the asset (Newton, PhysX or MuJoCo scene API)
+  /// What MjcSceneAPI authors, but for the time step; none without that API.
+  std::optional<std::vector<MujocoSetting>> mujoco{};
+};
+
+enum class MassSource : std::uint8_t { Authored, Density, Default };
+
+/// "authored", "density" or "default".
+std::string_view mass_source_name(MassSource source);
+
+/// The instance of a UsdGeomPointInstancer that a body comes from (S-38). The path of such a body
+/// is made up: it names no prim of the stage.
+struct InstanceSource {
+  Path instancer;
+  Path prototype;                   ///< the target of the instancer
+  Path prim;                        ///< the body's prim at or below the prototype
+  Index index = 0;                  ///< into the instancer's arrays
+  Mat4d world = Mat4d::identity();  ///< of the prim at the start, stage units
+  bool nested = false;              ///< the instancer itself is in an instance of another
+};
+
+struct Body {
+  Path path;
+  bool kinematic = false;  ///< pose is given, never computed (S-27); so while not `enabled`
+  bool enabled = true;     ///< false: stands still, until a SwitchTrack says otherwise (S-28)
+  bool starts_asleep = false;
+  Index scene = 0;                    ///< into PhysicsScene::scenes
+  Pose pose;                          ///< X_WB at the start: world <- body, unscaled
+  Vec3d linear_velocity;              ///< of the centre of mass, world axes [m/s]
+  Vec3d angular_velocity;             ///< world axes [rad/s]
+  double mass = 1;                    ///< [kg]
+  Vec3d center_of_mass;               ///< in the body frame [m]
+  Mat3d inertia = Mat3d::identity();  ///< about the centre of mass, body axes [kg m^2], symmetric
+  MassSource mass_source = MassSource::Default;
+  double linear_damping = 0;   ///< [1/s]
+  double angular_damping = 0;  ///< [1/s]
+  double gravity_scale = 1;
+  std::optional<InstanceSource> instance;
+};
+
+enum class ShapeKind : std::uint8_t {
+  Box,         ///< half_extents
+  Sphere,      ///< radius
+  Ellipsoid,   ///< half_extents are the semi-axes (a sphere under non-uniform scale, S-53)
+  Capsule,     ///< radius, half_height without the caps, along `axis`
+  Cylinder,    ///< radius, half_height, along `axis`
+  Cone,        ///< radius of the base, half_height; apex at +axis
+  Plane,       ///< solid below the plane through the origin with normal +axis
+  ConvexHull,  ///< hull of mesh points
+  Mesh,        ///< the triangles themselves
+  Spheres,     ///< sphere_centers and sphere_radii (UsdGeomPoints)
+};
+
+/// "box", "sphere", "ellipsoid", "capsule", "cylinder", "cone", "plane", "convexHull", "mesh",
+/// "spheres".
+std::string_view shape_name(ShapeKind kind);
+
+enum class Axis : std::uint8_t { X, Y, Z };
+
+/// Triangles in the collider's frame, scale included [m]; outward winding is counter-clockwise.
+struct TriangleMesh {
+  std::vector<Vec3d> points;     // (point_count)
+  std::vector<Vec3i> triangles;  // (triangle_count), indices into points
+  bool flat = false;             ///< all points in one plane: no volume, touched from both sides
+};
+
+struct Shape {
+  ShapeKind kind = ShapeKind::Box;
+  Vec3d half_extents;      ///< [m]
+  double radius = 0;       ///< [m]
+  double half_height = 0;  ///< [m]
+  Axis axis = Axis::Z;
+  Index mesh = 0;  ///< into PhysicsScene::meshes, of ConvexHull and Mesh
+  /// Of ConvexHull: the hulls that it is taken apart into (S-62), into PhysicsScene::meshes; empty:
+  /// the one hull of `mesh`.
+  std::vector<Index> pieces;
+  std::vector<Vec3d> sphere_centers;  ///< [m], in the collider frame
+  std::vector<double> sphere_radii;   ///< [m]
+};
+
+/// How a mesh asks to collide (S-62). `Collider::shape` is what it does collide as.
+enum class Approximation : std::uint8_t {
+  None,
+  ConvexHull,
+  ConvexDecomposition,
+  MeshSimplification,
+  BoundingSphere,
+  BoundingCube,
+};
+
+/// The schema's token.
+std::string_view approximation_name(Approximation approximation);
+
+/// Triangles of a Mesh shape that have another material than the collider (S-70).
+struct FaceMaterial {
+  Path subset;                    ///< the GeomSubset
+  std::optional<Index> material;  ///< into PhysicsScene::materials; none: no physics material
+  std::vector<Index> triangles;   ///< into TriangleMesh::triangles, ascending
+};
+
+struct Collider {
+  Path path;
+  std::optional<Index> body;  ///< none: static
+  Index scene = 0;
+  Shape shape;
+  Pose pose;                      ///< X_BC relative to the body, or X_WC for a static one
+  std::optional<Index> material;  ///< into PhysicsScene::materials
+  std::vector<FaceMaterial> face_materials;    ///< where shape is a Mesh, by subset path
+  std::optional<Approximation> approximation;  ///< of meshes: what the asset asks for
+  bool enabled = true;
+  std::optional<double> contact_offset;  ///< distance at which contacts begin to be made [m]
+  std::optional<double> rest_offset;     ///< [m]
+  std::optional<int> max_hull_vertices;
+  MujocoContact mujoco;
+};
+
+/// How the coefficients of two materials become that of a contact; of two modes the later one in
+/// this list counts, as PhysX has it (S-72).
+enum class CombineMode : std::uint8_t { Average, Min, Multiply, Max };
+
+/// The coefficient of a pair.
+double combine(double a, CombineMode mode_a, double b, CombineMode mode_b);
+/// "average", "min", "multiply" or "max".
+std::string_view combine_name(CombineMode mode);
+
+struct Material {
+  Path path;
+  double static_friction = 0;
+  double dynamic_friction = 0;
+  double restitution = 0;
+  double density = 0;                          ///< [kg/m^3]; 0: none given
+  std::optional<double> torsional_friction{};  ///< about the normal of a contact [m]
+  std::optional<double> rolling_friction{};    ///< [m]
+  CombineMode friction_combine = CombineMode::Average;
+  CombineMode restitution_combine = CombineMode::Average;
+};
+
+enum class JointKind : std::uint8_t { Revolute, Prismatic, Spherical, Fixed, Distance, D6 };
+
+/// "revolute", "prismatic", "spherical", "fixed", "distance", "d6".
+std::string_view joint_kind_name(JointKind kind);
+
+/// Degrees of freedom in the joint frame. Revolute and prismatic joints use the one that their axis
+/// names: RotX..RotZ, TransX..TransZ.
+enum class Dof : std::uint8_t { TransX, TransY, TransZ, RotX, RotY, RotZ, Distance };
+
+/// "transX" ... "rotZ", "distance".
+std::string_view dof_name(Dof dof);
+inline bool is_angular(Dof dof) { return dof >= Dof::RotX && dof <= Dof::RotZ; }
+
+/// Bounds of one degree of freedom [m or rad]; lower > upper: locked at zero (S-98).
+struct Limit {
+  Dof dof = Dof::RotX;
+  double lower = -kUnlimited;
+  double upper = kUnlimited;
+  bool locked() const { return lower > upper; }
+};
+
+/// force = stiffness (target_position - q) + damping (target_velocity - v), clamped to +-max_force
+/// (S-102). [N, m] or [N m, rad]; with `acceleration` the gains are per unit of effective inertia.
+struct Drive {
+  Path source;  ///< the prim that authors it: the joint, or an actuator prim
+  Dof dof = Dof::RotX;
+  bool acceleration = false;
+  double stiffness = 0;
+  double damping = 0;
+  double max_force = kUnlimited;
+  double target_position = 0;
+  double target_velocity = 0;
+};
+
+/// q = offset + multiplier * leader (+ higher powers) [m or rad]. The compliance is that of a
+/// spring of `natural_frequency` [rad/s] and `damping_ratio`; both 0 means rigid.
+struct Mimic {
+  std::string schema;  ///< the API that says so, for example "NewtonMimicAPI"
+  Index leader = 0;    ///< into PhysicsScene::joints
+  double multiplier = 1;
+  double offset = 0;
+  std::array<double, 3> higher{};  ///< coefficients of leader^2..leader^4
+  double natural_frequency = 0;
+  double damping_ratio = 0;
+  std::vector<double> mujoco_solref;  ///< mjc:solref when authored
+  std::vector<double> mujoco_solimp;
+};
+
+struct Joint {
+  Path path;
+  JointKind kind = JointKind::D6;
+  std::optional<Index> body0;  ///< none: world
+  std::optional<Index> body1;  ///< none: world
+  Path target0;                ///< prim named by the relationship (may be static), empty: world
+  Path target1;
+  Pose frame0;  ///< X_B0J in body0, or X_WJ [m]
+  Pose frame1;  ///< X_B1J in body1, or X_WJ [m]
+  Axis axis = Axis::X;
+  double lower = -kUnlimited;  ///< of revolute and prismatic; min distance of Distance (S-97)
+  double upper = kUnlimited;   ///< max distance of Distance
+  double cone_angle0 =
+      kUnlimited;  ///< spherical: tilt of the axis toward the next axis [rad] (S-96)
+  double cone_angle1 = kUnlimited;  ///< toward the one after
+  std::vector<Limit> limits;        ///< of D6 joints, and LimitAPI on others (S-100)
+  std::vector<Drive> drives;
+  std::optional<Mimic> mimic;
+  bool enabled = true;
+  bool collision_enabled = false;
+  bool exclude_from_articulation = false;
+  double break_force = kUnlimited;   ///< [N]
+  double break_torque = kUnlimited;  ///< [N m]
+  std::optional<Index> articulation;
+  double armature = 0;                 ///< added to the joint's inertia [kg m^2] or [kg]
+  double friction = 0;                 ///< Coulomb friction [N m] or [N]
+  double damping = 0;                  ///< passive [N m s/rad] or [N s/m]
+  double stiffness = 0;                ///< passive spring [N m/rad] or [N/m]
+  double spring_reference = 0;         ///< rest position of the passive spring [rad or m]
+  double velocity_limit = kUnlimited;  ///< [rad/s] or [m/s]
+  /// Initial coordinate and velocity from the joint state API [rad or m]; none: from the poses.
+  std::optional<double> initial_position;
+  std::optional<double> initial_velocity;
+  MujocoSoftness mujoco;
+
+  /// The one degree of freedom of revolute and prismatic joints.
+  Dof dof() const;
+};
+
+struct Articulation {
+  Path path;  ///< prim with the articulation root API
+  Path root;  ///< root body, or the joint that fixes it to the world
+  bool fixed_base = false;
+  std::vector<Index> links;  ///< bodies, root first, then in path order
+  std::vector<Index> joints;
+  std::vector<Index> loop_joints;  ///< closed by constraints, not part of the tree
+  bool self_collision = true;
+};
+
+/// Pairs of colliders that one joint keeps apart while it is enabled (S-91, S-92).
+struct JointPairs {
+  Index joint = 0;
+  std::vector<std::pair<Index, Index>> pairs;
+};
+
+/// Which colliders may touch. Only ever removes pairs.
+struct CollisionFilter {
+  /// Groups of each collider (indices into `group_paths`); empty for ungrouped ones.
+  /// (collider_count)
+  std::vector<std::vector<Index>> groups_of_collider;
+  std::vector<Path> group_paths;
+  /// (group_count x group_count) row-major: 1 where contacts between the groups are off.
+  std::vector<char> group_pair_off;
+  /// (group_count): 1 where the group does not touch ungrouped colliders (S-78).
+  std::vector<char> ungrouped_off;
+  /// Explicit collider pairs, first < second, sorted, unique: filtered pairs, joints (S-81, S-92).
+  std::vector<std::pair<Index, Index>> pairs_off;
+  /// Those of them that hold whatever becomes of the joints below.
+  std::vector<std::pair<Index, Index>> permanent_pairs;
+  /// What single joints keep apart: of those that may break or be switched.
+  std::vector<JointPairs> joint_pairs;
+};
+
+/// A scalar that follows authored time samples during the simulation.
+enum class Animated : std::uint8_t {
+  DriveTargetPosition,
+  DriveTargetVelocity,
+  DriveStiffness,
+  DriveDamping,
+  DriveMaxForce,
+};
+
+struct ScalarTrack {
+  Animated what = Animated::DriveTargetPosition;
+  Index joint = 0;
+  Index drive = 0;             ///< into Joint::drives
+  std::vector<double> times;   ///< [s] from the start, ascending (sample_count)
+  std::vector<double> values;  ///< SI (sample_count)
+  bool held = false;           ///< stage interpolation: held instead of linear
+  double at(double seconds) const;
+};
+
+/// What can be switched on and off while a simulation runs.
+enum class Switch : std::uint8_t {
+  BodyEnabled,
+  BodyKinematic,
+  ColliderEnabled,
+  JointEnabled,
+  JointCollision,  ///< `collision_enabled` of a joint
+};
+
+/// A switch that follows authored samples; each holds until the next (S-28, S-91).
+struct SwitchTrack {
+  Switch what = Switch::BodyKinematic;
+  Index object = 0;           ///< into bodies, colliders or joints
+  std::vector<double> times;  ///< [s] from the start, ascending (sample_count)
+  std::vector<char> values;   ///< 1: on (sample_count)
+  bool at(double seconds) const;
+};
+
+/// The bounds of one joint, as in Joint.
+struct JointBounds {
+  double lower = -kUnlimited;
+  double upper = kUnlimited;
+  double cone_angle0 = kUnlimited;
+  double cone_angle1 = kUnlimited;
+  std::vector<Limit> limits;
+};
+
+/// Bounds that follow authored samples; open ends are not interpolated.
+struct BoundsTrack {
+  Index joint = 0;
+  std::vector<double> times;        ///< [s], ascending (sample_count)
+  std::vector<JointBounds> bounds;  ///< (sample_count)
+  bool held = false;
+  JointBounds at(double seconds) const;
+};
+
+/// Gravity of one scene over time.
+struct GravityTrack {
+  Index scene = 0;
+  std::vector<double> times;   ///< [s], ascending (sample_count)
+  std::vector<Vec3d> gravity;  ///< [m/s^2] (sample_count)
+  bool held = false;
+  Vec3d at(double seconds) const;
+};
+
+/// The tables of CollisionFilter from a time on, where collision groups are animated.
+struct GroupState {
+  double time = 0;  ///< [s] from the start
+  std::vector<char> group_pair_off;
+  std::vector<char> ungrouped_off;
+};
+
+/// World pose of a kinematic body, or of a static collider that is animated, over time. With
+/// `joint`: the world frame of that side of a joint, whose target is animated and no body (S-86).
+struct PoseTrack {
+  std::optional<Index> body;      ///< a kinematic body
+  std::optional<Index> collider;  ///< else a static collider
+  std::vector<double> times;      ///< [s], ascending (sample_count)
+  std::vector<Pose> poses;        ///< (sample_count)
+  bool held = false;
+  std::optional<Index> joint{};  ///< else a side of a joint
+  int side = 0;                  ///< of `joint`: 0 or 1
+  /// Linear in position, slerp in orientation; the first and last pose outside.
+  Pose at(double seconds) const;
+};
+
+/// The shapes of one body that move in it, and what that makes of its mass, at one time.
+struct BodyShapes {
+  std::vector<Pose> poses;            ///< in the body frame (collider_count of the track) [m]
+  std::vector<Shape> shapes;          ///< (collider_count of the track)
+  double mass = 1;                    ///< [kg]
+  Vec3d center_of_mass;               ///< in the body frame [m]
+  Mat3d inertia = Mat3d::identity();  ///< as Body::inertia [kg m^2]
+};
+
+/// Animation of prims inside a body (S-37). Each sample holds until the next; the change itself
+/// gives the body neither velocity nor momentum.
+struct ShapesTrack {
+  Index body = 0;
+  std::vector<Index> colliders;    ///< those that move, ascending
+  std::vector<double> times;       ///< [s] from the start, ascending (sample_count)
+  std::vector<BodyShapes> shapes;  ///< (sample_count)
+  /// The sample in force; the first one before all of them.
+  std::size_t at(double seconds) const;
+};
+
+/// Mass, centre of mass and inertia of a body, as in Body.
+struct BodyMass {
+  double mass = 1;                    ///< [kg]
+  Vec3d center_of_mass;               ///< in the body frame [m]
+  Mat3d inertia = Mat3d::identity();  ///< [kg m^2]
+};
+
+/// A body that samples switch off inside another one: while it is off it moves as a part of that.
+struct CarriedBody {
+  Index body = 0;
+  Index carrier = 0;  ///< the nearest body around it that is on
+};
+
+/// Which bodies are parts of others from a time on (S-23).
+struct NestingState {
+  double time = 0;                   ///< [s] from the start; the first one holds before, too
+  std::vector<CarriedBody> carried;  ///< ascending
+  /// What carried bodies and their carriers weigh in that state, ascending by body; what a carried
+  /// body adds, or nothing where the carrier's own mass API speaks for all of it.
+  std::vector<std::pair<Index, BodyMass>> masses;
+};
+
+/// What this description could not take over from the stage; never silent.
+struct NotRead {
+  Path prim;
+  std::string property;
+  std::string why;
+};
+
+struct PhysicsScene {
+  std::vector<Scene> scenes;  ///< at least one
+  std::vector<Body> bodies;
+  std::vector<Collider> colliders;
+  std::vector<TriangleMesh> meshes;
+  std::vector<Material> materials;
+  Material unbound{{}, 0.5, 0.5, 0, 0};  ///< of colliders without a material (S-71)
+  std::vector<Joint> joints;
+  std::vector<Articulation> articulations;
+  std::vector<Tendon> tendons;
+  CollisionFilter filter;
+  std::vector<ScalarTrack> scalar_tracks;
+  std::vector<PoseTrack> pose_tracks;
+  std::vector<SwitchTrack> switch_tracks;
+  std::vector<BoundsTrack> bounds_tracks;
+  std::vector<GravityTrack> gravity_tracks;
+  std::vector<ShapesTrack> shapes_tracks;
+  std::vector<GroupState> group_states;  ///< ascending in time; empty: `filter` holds throughout
+  std::vector<NestingState> nesting_states;  ///< ascending in time; empty: no body is ever carried
+  std::vector<NotRead> not_read;
+
+  double meters_per_unit = 0.01;  ///< of the stage, to go back to its units
+  double kilograms_per_unit = 1;
+  Vec3d up{{0, 1, 0}};
+  double start_time_code = 0;  ///< stage time of the start of the simulation
+  double time_codes_per_second = 24;
+  double end_time_code = 0;  ///< authored end, or the start when none is authored
+
+  /// Brings filter.pairs_off up to date with what the joints are now (enabled, collision_enabled).
+  void update_joint_pairs();
+  /// Contacts between two colliders are possible: different bodies, enabled, same scene, not
+  /// filtered.
+  bool may_collide(Index collider_a, Index collider_b) const;
+  /// All filtered collider pairs (groups expanded), sorted; for reports.
+  std::vector<std::pair<Index, Index>> disabled_pairs() const;
+};
+
+}  // namespace tenon::scene
