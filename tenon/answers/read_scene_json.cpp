@@ -99,16 +99,21 @@ class Reader {
         return;
       }
     }
-    const auto found = json.find(std::string(info.name));
-    if (found == json.end() || (found->is_null() && !is_reference<T>(info))) {
-      return;  // its default
+    const List refers = list_of(owner, info.refers);
+    if (const Parsed* found = find(json, info, std::is_same_v<T, Index> && refers != List::None)) {
+      read(*found, refers, info, member, place(at, info));
     }
-    read(*found, owner, info, member, (at.empty() ? "" : at + ".") + std::string(info.name));
   }
 
-  template <class T>
-  static bool is_reference(const FieldInfo& info) {
-    return std::is_same_v<T, Index> && info.refers != List::None;
+  /// Null where the field has its default.
+  static const Parsed* find(const Parsed& json, const FieldInfo& info, bool is_reference) {
+    const auto found = json.find(std::string(info.name));
+    const bool has_default = found == json.end() || (found->is_null() && !is_reference);
+    return has_default ? nullptr : &*found;
+  }
+
+  static std::string place(const std::string& at, const FieldInfo& info) {
+    return (at.empty() ? "" : at + ".") + std::string(info.name);
   }
 
   void pose(const Parsed& json, Pose& pose, const std::string& at) {
@@ -118,14 +123,14 @@ class Reader {
     field(json, pose, kOrientation, pose.orientation, at);
   }
 
-  template <class Owner, class T>
-  void read(const Parsed& json, const Owner& owner, const FieldInfo& info, T& value,
+  /// `refers`: into which list an index does.
+  template <class T>
+  void read(const Parsed& json, List refers, const FieldInfo& info, T& value,
             const std::string& at) {
     if constexpr (std::is_same_v<T, bool>) {
       flag(json, info, value, at);
     } else if constexpr (std::is_same_v<T, Index>) {
-      const List list = list_of(owner, info.refers);
-      list == List::None ? integer(json, value, at) : reference(json, list, value, at);
+      refers == List::None ? integer(json, value, at) : reference(json, refers, value, at);
     } else if constexpr (std::is_enum_v<T>) {
       const std::optional<T> named =
           json.is_string() ? scene::named<T>(json.template get<std::string>()) : std::nullopt;
@@ -141,19 +146,19 @@ class Reader {
       path(json, value, at);
     } else if constexpr (wire::kIsOptional<T>) {
       if (!json.is_null()) {
-        read(json, owner, info, value.emplace(), at);
+        read(json, refers, info, value.emplace(), at);
       }
     } else if constexpr (std::is_same_v<T, std::vector<scene::MujocoSetting>>) {
       settings(json, value, at);
     } else if constexpr (scene::HasTable<T>) {
       object(json, value, at);
     } else {
-      list(json, owner, info, value, at);
+      list(json, refers, info, value, at);
     }
   }
 
-  template <class Owner, class T>
-  void list(const Parsed& json, const Owner& owner, const FieldInfo& info, T& value,
+  template <class T>
+  void list(const Parsed& json, List refers, const FieldInfo& info, T& value,
             const std::string& at) {
     if constexpr (std::is_same_v<T, Pose>) {
       json.is_object() ? pose(json, value, at) : fault(at, "is no object");
@@ -162,15 +167,15 @@ class Reader {
     } else if constexpr (wire::kIsVector<T>) {
       value.resize(json.size());
       for (std::size_t i = 0; i < json.size() && !fault_; ++i) {
-        read(json[i], owner, info, value[i], at + "[" + std::to_string(i) + "]");
+        read(json[i], refers, info, value[i], at + "[" + std::to_string(i) + "]");
       }
     } else if constexpr (wire::kIsPair<T>) {
       if (json.size() != 2) {
         fault(at, "is no pair");
         return;
       }
-      read(json[0], owner, info, value.first, at + "[0]");
-      read(json[1], owner, info, value.second, at + "[1]");
+      read(json[0], refers, info, value.first, at + "[0]");
+      read(json[1], refers, info, value.second, at + "[1]");
     } else {
       fixed(json, value, at);
     }

@@ -108,7 +108,7 @@ class Writer {
       }
       return;
     }
-    Json written = json(of, info, value);
+    Json written = json(list_of(of, info.refers), info, value);
     if constexpr (std::is_same_v<T, double>) {
       written = !std::isfinite(value) && value == plain ? Json(nullptr) : written;
     }
@@ -125,13 +125,13 @@ class Writer {
     append(row, "orientation", rotation(pose.orientation));
   }
 
-  template <class Owner, class T>
-  Json json(const Owner& of, const FieldInfo& info, const T& value) {
+  /// `refers`: into which list an index does.
+  template <class T>
+  Json json(List refers, const FieldInfo& info, const T& value) {
     if constexpr (std::is_same_v<T, bool>) {
       return info.on.empty() ? Json(value) : Json(std::string(value ? info.on : info.off));
     } else if constexpr (std::is_same_v<T, Index>) {
-      const List list = list_of(of, info.refers);
-      return list == List::None ? Json(value) : reference(list, value);
+      return refers == List::None ? Json(value) : reference(refers, value);
     } else if constexpr (std::is_enum_v<T>) {
       return std::string(name_of(value));
     } else if constexpr (std::is_same_v<T, double>) {
@@ -143,24 +143,24 @@ class Writer {
     } else if constexpr (std::is_same_v<T, Path>) {
       return value.empty() ? Json(nullptr) : Json(value.str());
     } else if constexpr (wire::kIsOptional<T>) {
-      return value ? json(of, info, *value) : Json(nullptr);
+      return value ? json(refers, info, *value) : Json(nullptr);
     } else if constexpr (std::is_same_v<T, std::vector<scene::MujocoSetting>>) {
       return settings(value);
     } else if constexpr (wire::kIsPair<T>) {
-      return {json(of, info, value.first), json(of, info, value.second)};
+      return {json(refers, info, value.first), json(refers, info, value.second)};
     } else if constexpr (wire::kIsVector<T> || wire::kIsArray<T>) {
       Json list = Json::array();
       for (const auto& item : value) {
-        list.push_back(json(of, info, item));
+        list.push_back(json(refers, info, item));
       }
       return list;
     } else {
-      return composite(of, info, value);
+      return composite(refers, info, value);
     }
   }
 
-  template <class Owner, class T>
-  Json composite(const Owner& of, const FieldInfo& info, const T& value) {
+  template <class T>
+  Json composite(List refers, const FieldInfo& info, const T& value) {
     if constexpr (scene::HasTable<T>) {
       return object(value);
     } else if constexpr (std::is_same_v<T, Quatd>) {
@@ -170,7 +170,7 @@ class Writer {
       add_pose(value, row);
       return row;
     } else if constexpr (requires { value.v; }) {
-      return json(of, info, value.v);
+      return json(refers, info, value.v);
     } else {
       Json list = Json::array();  // matrices, by rows
       for (const auto& row : value.m) {
@@ -307,7 +307,7 @@ class Writer {
       using T = std::remove_cvref_t<decltype(value)>;
       if constexpr (!wire::kIsVector<T>) {
         if (!wire::kIsOptional<T> || !scene::same_fields(value, T{})) {
-          row[std::string(info.name)] = json(track, info, value);
+          row[std::string(info.name)] = json(list_of(track, info.refers), info, value);
         }
       }
     });

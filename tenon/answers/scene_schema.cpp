@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <set>
+#include <span>
 #include <string>
 #include <type_traits>
 
@@ -23,6 +24,44 @@ Json numbers(std::size_t count) {
           {"maxItems", count}};
 }
 
+Json of_type(std::string_view type) { return {{"type", std::string(type)}}; }
+
+Json reference_to(const std::string& definition) { return {{"$ref", "#/$defs/" + definition}}; }
+
+// What is the same for all fields is not in a template, which would be compiled for each of them.
+
+void add_property(Json& properties, const FieldInfo& info, Json property) {
+  std::string meaning(info.meaning);
+  const std::string_view unit = unit_text(info.unit, true);
+  const std::string_view other = unit_text(info.unit, false);
+  if (!unit.empty()) {
+    meaning += " [" + std::string(unit) + (unit == other ? "" : " or " + std::string(other)) + "]";
+  }
+  properties[std::string(info.name)] = {{"description", meaning},
+                                        {"anyOf", {std::move(property), {{"type", "null"}}}}};
+}
+
+void add_derived(Json& properties, std::span<const DerivedKey> keys) {
+  for (const DerivedKey& key : keys) {
+    Json& property = properties[std::string(key.name)];
+    const std::string meaning(key.meaning);
+    if (property.is_null()) {
+      property = {{"description", meaning}, {"type", {std::string(key.type), "null"}}};
+    }
+  }
+}
+
+void add_pose(Json& properties) {
+  properties["position"] = numbers(3);
+  properties["position"]["description"] = "[m]";
+  properties["orientation"] = numbers(4);
+  properties["orientation"]["description"] = "w, x, y, z; w is not negative";
+}
+
+Json empty_object() {
+  return {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+}
+
 class SchemaWriter {
  public:
   Json whole() {
@@ -43,8 +82,7 @@ class SchemaWriter {
  private:
   template <class T>
   Json object() {
-    Json row = {
-        {"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+    Json row = empty_object();
     add_properties<T>(row["properties"]);
     return row;
   }
@@ -64,37 +102,15 @@ class SchemaWriter {
           return;
         }
       }
-      Json property = schema_of<Member>(info);
-      std::string meaning(info.meaning);
-      const std::string_view unit = unit_text(info.unit, true);
-      const std::string_view other = unit_text(info.unit, false);
-      if (!unit.empty()) {
-        meaning +=
-            " [" + std::string(unit) + (unit == other ? "" : " or " + std::string(other)) + "]";
-      }
-      properties[std::string(info.name)] = {{"description", meaning},
-                                            {"anyOf", {std::move(property), {{"type", "null"}}}}};
+      add_property(properties, info, schema_of<Member>(info));
     });
-    for (const DerivedKey& key : kDerived<T>) {
-      Json& property = properties[std::string(key.name)];
-      const std::string meaning(key.meaning);
-      if (property.is_null()) {
-        property = {{"description", meaning}, {"type", {std::string(key.type), "null"}}};
-      }
-    }
-  }
-
-  static void add_pose(Json& properties) {
-    properties["position"] = numbers(3);
-    properties["position"]["description"] = "[m]";
-    properties["orientation"] = numbers(4);
-    properties["orientation"]["description"] = "w, x, y, z; w is not negative";
+    add_derived(properties, kDerived<T>);
   }
 
   template <class T>
   Json schema_of(const FieldInfo& info) {
     if constexpr (std::is_same_v<T, bool>) {
-      return info.on.empty() ? Json{{"type", "boolean"}}
+      return info.on.empty() ? of_type("boolean")
                              : Json{{"enum", {std::string(info.off), std::string(info.on)}}};
     } else if constexpr (std::is_enum_v<T>) {
       Json words = Json::array();
@@ -103,15 +119,14 @@ class SchemaWriter {
       }
       return {{"enum", words}};
     } else if constexpr (std::is_same_v<T, scene::Index>) {
-      return info.refers == List::None || info.refers == List::Meshes
-                 ? Json{{"type", "integer"}}
-                 : Json{{"$ref", "#/$defs/reference"}};
+      return info.refers == List::None || info.refers == List::Meshes ? of_type("integer")
+                                                                      : reference_to("reference");
     } else if constexpr (std::is_same_v<T, double>) {
-      return {{"$ref", "#/$defs/number"}};
+      return reference_to("number");
     } else if constexpr (std::is_arithmetic_v<T>) {
-      return {{"type", "integer"}};
+      return of_type("integer");
     } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, Path>) {
-      return {{"type", "string"}};
+      return of_type("string");
     } else if constexpr (wire::kIsOptional<T>) {
       return schema_of<typename T::value_type>(info);
     } else if constexpr (std::is_same_v<T, std::vector<scene::MujocoSetting>>) {
@@ -124,8 +139,7 @@ class SchemaWriter {
   template <class T>
   Json schema_of_many(const FieldInfo& info) {
     if constexpr (scene::HasTable<T>) {
-      const std::string name = definition<T>();
-      return {{"$ref", "#/$defs/" + name}};
+      return reference_to(definition<T>());
     } else if constexpr (wire::kIsPair<T>) {
       return {
           {"type", "array"},

@@ -30,27 +30,36 @@ struct ArrayHeader {
   bool packed = false;
 };
 
+/// How the elements of a type lie; what follows from it alone is not compiled for each type.
+struct Storage {
+  bool is_integer = false;
+  bool is_real = false;
+  std::uint64_t size = 0;    ///< of an element in memory
+  std::uint64_t stride = 0;  ///< of one in the file, where they are not packed
+};
+
 template <class T>
-bool is_packed(const Version& version, ValueWord word) {
-  const bool known =
-      (kIsInteger<T> && version >= kPackedIntegers) || (kIsReal<T> && version >= kPackedFloats);
+constexpr Storage kStorage{kIsInteger<T>, kIsReal<T>, sizeof(T),
+                           kIsText<T> ? sizeof(std::uint32_t) : sizeof(T)};
+
+bool is_packed(const Storage& storage, const Version& version, ValueWord word) {
+  const bool known = (storage.is_integer && version >= kPackedIntegers) ||
+                     (storage.is_real && version >= kPackedFloats);
   return known && word.is_packed();
 }
 
 /// The fewest bytes that so many elements can take.
-template <class T>
-Result<void> check_room(bytes::ByteReader in, const ArrayHeader& header) {
+Result<void> check_room(const Storage& storage, bytes::ByteReader in, const ArrayHeader& header) {
   if (!header.packed) {
-    const std::uint64_t stride = kIsText<T> ? sizeof(std::uint32_t) : sizeof(T);
-    return header.count <= in.remaining() / stride
+    return header.count <= in.remaining() / storage.stride
                ? Result<void>()
                : bytes::out_of_bounds(header.offset, header.count, in.size());
   }
-  if constexpr (kIsReal<T>) {
+  if (storage.is_real) {
     TENON_TRY(const char code, in.read<char>());
     if (code == 't') {
       TENON_TRY(const std::uint32_t distinct, in.read<std::uint32_t>());
-      TENON_CHECK(in.take(std::uint64_t{distinct} * sizeof(T)));
+      TENON_CHECK(in.take(std::uint64_t{distinct} * storage.size));
     } else if (code != 'i') {
       return corrupt("an array is packed in an unknown way");
     }
@@ -62,8 +71,7 @@ Result<void> check_room(bytes::ByteReader in, const ArrayHeader& header) {
              : corrupt("an array claims more elements than its bytes can hold");
 }
 
-template <class T>
-Result<ArrayHeader> read_header(const CrateFile& file, ValueWord word) {
+Result<ArrayHeader> read_header(const Storage& storage, const CrateFile& file, ValueWord word) {
   bytes::ByteReader in = file.reader();
   TENON_CHECK(in.seek(word.payload()));
   if (file.version < kPackedIntegers) {
@@ -76,8 +84,8 @@ Result<ArrayHeader> read_header(const CrateFile& file, ValueWord word) {
     TENON_TRY(header.count, in.read<std::uint64_t>());
   }
   header.offset = in.offset();
-  header.packed = is_packed<T>(file.version, word) && header.count >= kSmallestPacked;
-  TENON_CHECK(check_room<T>(in, header));
+  header.packed = is_packed(storage, file.version, word) && header.count >= kSmallestPacked;
+  TENON_CHECK(check_room(storage, in, header));
   return header;
 }
 
@@ -226,7 +234,7 @@ Result<Value> read_array_of(const std::shared_ptr<const CrateFile>& file, ValueW
   if (word.payload() == 0) {
     return Value(Array<T>());
   }
-  TENON_TRY(const ArrayHeader header, read_header<T>(*file, word));
+  TENON_TRY(const ArrayHeader header, read_header(kStorage<T>, *file, word));
   TENON_CHECK(budget.spend(1));
   if (!header.packed && header.count <= kSmallArray / sizeof(T)) {
     return decode<T>(*file, header);
