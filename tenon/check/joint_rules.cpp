@@ -9,6 +9,7 @@
 #include "tenon/check/subject.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/scene/joint_forest.h"
+#include "tenon/scene/joint_freedom.h"
 
 namespace tenon::check {
 namespace {
@@ -186,8 +187,7 @@ void check_joint_moves_something(const Subject& subject, Reporter& report) {
 // S-93
 void check_break_in_articulation(const Subject& subject, Reporter& report) {
   for (const Joint& joint : subject.scene.joints) {
-    if (joint.articulation &&
-        (std::isfinite(joint.break_force) || std::isfinite(joint.break_torque))) {
+    if (joint.articulation && can_break(joint)) {
       report.at(prim_of(subject, joint),
                 "the joint can break and is part of an articulation, where PhysX ignores that",
                 "author excludeFromArticulation if it is to break in every engine");

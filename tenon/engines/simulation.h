@@ -9,6 +9,7 @@
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
 #include "tenon/math/transform.h"
+#include "tenon/scene/body_state.h"
 #include "tenon/scene/physics_scene.h"
 
 /// What every engine offers: a model made from a PhysicsScene that can be stepped and read.
@@ -18,11 +19,7 @@ struct SimulationOptions {
   double time_step = 0;  ///< [s]; 0: what the asset asks for, else the engine's default
 };
 
-struct BodyState {
-  Pose pose;               ///< X_WB [m]
-  Vec3d linear_velocity;   ///< of the centre of mass, world axes [m/s]
-  Vec3d angular_velocity;  ///< world axes [rad/s]
-};
+using BodyState = scene::BodyState;
 
 /// Coordinates of the free degrees of freedom of one joint, in Dof order [m, rad].
 struct JointState {

@@ -4,11 +4,11 @@
 // Pairs of colliders that never touch: named by the filtered pairs API, joined by a joint, or links
 // of an articulation without self collision (S-81, S-82, S-92, S-115).
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "tenon/physics/joint_frames.h"
 #include "tenon/physics/read_state.h"
+#include "tenon/scene/joint_freedom.h"
 
 namespace tenon::physics {
 namespace {
@@ -49,10 +49,9 @@ class PairFilter {
   bool may_change(Index i) const {
     const Joint& joint = state_.scene.joints[i];
     const stage::Prim& prim = state_.prim_of_joint(i).prim;
-    const bool breaks = std::isfinite(joint.break_force) || std::isfinite(joint.break_torque);
-    return breaks || (state_.values.stage_is_animated() &&
-                      (prim.attribute(state_.tokens.joint_enabled).is_animated() ||
-                       prim.attribute(state_.tokens.collision_enabled).is_animated()));
+    return can_break(joint) || (state_.values.stage_is_animated() &&
+                                (prim.attribute(state_.tokens.joint_enabled).is_animated() ||
+                                 prim.attribute(state_.tokens.collision_enabled).is_animated()));
   }
 
   /// Remembers the pairs of a joint apart from the others.

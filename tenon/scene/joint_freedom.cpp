@@ -71,6 +71,10 @@ bool is_plain(const Joint& joint) {
          joint.friction == 0 && joint.damping == 0 && joint.stiffness == 0;
 }
 
+bool can_break(const Joint& joint) {
+  return joint.break_force < kUnlimited || joint.break_torque < kUnlimited;
+}
+
 double circular_cone(const Joint& joint) {
   const bool circular = joint.kind == JointKind::Spherical && joint.cone_angle0 < kUnlimited &&
                         std::fabs(joint.cone_angle0 - joint.cone_angle1) < kSameAngle;

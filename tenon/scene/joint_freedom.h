@@ -23,6 +23,8 @@ bool is_locked(const Joint& joint, Dof dof);
 bool is_reducible(const Joint& joint);
 /// Without drives, mimic, limits by LimitAPI, armature, friction, damping and spring.
 bool is_plain(const Joint& joint);
+/// A load on the joint ends it (S-93).
+bool can_break(const Joint& joint);
 /// A spherical joint's cone with one angle for both directions, or kUnlimited [rad].
 double circular_cone(const Joint& joint);
 /// What the joint does is all in how its two frames may stand: nothing of it acts on a coordinate,

@@ -99,12 +99,11 @@ Result<void> MujocoSimulation::follow_changes() {
 }
 
 Result<void> MujocoSimulation::rebuild() {
-  std::vector<scene::BodyMotion> motions;
+  std::vector<BodyState> states;
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
-    const BodyState state = body_state(static_cast<scene::Index>(b));
-    motions.push_back({state.pose, state.linear_velocity, state.angular_velocity});
+    states.push_back(body_state(static_cast<scene::Index>(b)));
   }
-  const std::vector<scene::CarriedBody> joined = timeline_->restart(motions);
+  const std::vector<scene::CarriedBody> joined = timeline_->restart(states);
   Diagnostics silent;  // what there is to say was said at the start
   TENON_TRY(Model next, build_model(*scene_, {.time_step = time_step()}, silent, Begin::Middle));
   carry_joints_over(model_, next);

@@ -10,14 +10,12 @@
 #include <string>
 #include <utility>
 
+#include "tenon/scene/joint_freedom.h"
+
 namespace tenon::scene {
 namespace {
 
 constexpr double kSameTime = 1e-9;  // [s] a sample this much ahead counts already
-
-bool can_break(const Joint& joint) {
-  return joint.break_force < kUnlimited || joint.break_torque < kUnlimited;
-}
 
 // A joint side that moves by itself hangs on a kinematic body of its own (S-86).
 PhysicsScene with_anchors(PhysicsScene scene) {
@@ -101,16 +99,16 @@ void Timeline::break_joint(Index joint) {
   broken_[joint] = 1;
 }
 
-std::vector<CarriedBody> Timeline::restart(const std::vector<BodyMotion>& motions) {
+std::vector<CarriedBody> Timeline::restart(const std::vector<BodyState>& states) {
   for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
     Body& body = scene_.bodies[b];
-    const BodyMotion& motion = motions[b];
-    const bool moved = length(motion.pose.position - body.pose.position) > 1e-9 ||
-                       length(motion.linear_velocity) + length(motion.angular_velocity) > 1e-9;
+    const BodyState& state = states[b];
+    const bool moved = length(state.pose.position - body.pose.position) > 1e-9 ||
+                       length(state.linear_velocity) + length(state.angular_velocity) > 1e-9;
     body.starts_asleep = body.starts_asleep && !moved;
-    body.pose = motion.pose;
-    body.linear_velocity = motion.linear_velocity;
-    body.angular_velocity = motion.angular_velocity;
+    body.pose = state.pose;
+    body.linear_velocity = state.linear_velocity;
+    body.angular_velocity = state.angular_velocity;
   }
   for (Joint& joint : scene_.joints) {
     joint.initial_position.reset();

@@ -5,17 +5,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "tenon/scene/body_state.h"
 #include "tenon/scene/physics_scene.h"
 #include "tenon/scene/timeline/body_nesting.h"
 
 namespace tenon::scene {
-
-/// Where a body is and how it moves, as a simulation has it.
-struct BodyMotion {
-  Pose pose;               ///< X_WB [m]
-  Vec3d linear_velocity;   ///< of the centre of mass, world axes [m/s]
-  Vec3d angular_velocity;  ///< world axes [rad/s]
-};
 
 /// What Timeline::advance() changed.
 struct SceneChange {
@@ -50,7 +44,7 @@ class Timeline {
   /// What a simulation reached (body_count) becomes the start of the scene, so that a model can be
   /// made from it in the middle of a run. Gives bodies that became parts of others since the last
   /// call: they bring their momentum along.
-  std::vector<CarriedBody> restart(const std::vector<BodyMotion>& motions);
+  std::vector<CarriedBody> restart(const std::vector<BodyState>& states);
 
  private:
   struct SwitchState {

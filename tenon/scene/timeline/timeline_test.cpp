@@ -151,7 +151,7 @@ TEST(Timeline, ABodyThatIsOffInsideAnotherHangsOnItWhereItIs) {
   EXPECT_EQ(timeline.scene().bodies[0].mass, 2);
   EXPECT_EQ(timeline.scene().bodies[1].mass, 1e-9);
   // The engine brings it to where it has moved: 4 m from its carrier.
-  std::vector<BodyMotion> motions(2);
+  std::vector<BodyState> motions(2);
   motions[0].pose.position = {{1, 0, 0}};
   motions[1].pose.position = {{5, 0, 0}};
   motions[1].linear_velocity = {{0, 0, -1}};
@@ -169,7 +169,7 @@ TEST(Timeline, WhatHasMovedDoesNotStartAsleep) {
   scene.bodies[1].starts_asleep = true;
   scene.joints[0].initial_position = 1;
   Timeline timeline(scene);
-  std::vector<BodyMotion> motions(2);
+  std::vector<BodyState> motions(2);
   motions[1].pose = scene.bodies[1].pose;
   motions[0].linear_velocity = {{1, 0, 0}};
   timeline.restart(motions);

@@ -12,6 +12,7 @@
 #include "tenon/engines/mujoco/build.h"
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/run/read_state.h"
+#include "tenon/scene/joint_freedom.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -55,9 +56,7 @@ Breaking::Breaking(const scene::PhysicsScene& scene, const Model& model) {
   const mjModel* m = model.model.get();
   for (Index j = 0; j < scene.joints.size(); ++j) {
     const scene::Joint& joint = scene.joints[j];
-    const bool can_break =
-        joint.break_force < scene::kUnlimited || joint.break_torque < scene::kUnlimited;
-    if (!can_break || !joint.enabled) {
+    if (!scene::can_break(joint) || !joint.enabled) {
       continue;
     }
     Breakable breakable;
