@@ -13,7 +13,7 @@ missing=()
 # need_package PACKAGE...: Debian packages that must be installed.
 need_package() {
   for package in "$@"; do
-    dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -q '^installed$' ||
+    dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null | grep -q '^installed$' ||
       missing+=("$package")
   done
 }
@@ -65,6 +65,12 @@ need_for_test() {
 need_for_judge() {
   need_tool clang-19 clang++-19 --version
   need_package libclang-rt-19-dev
+  if [ "$(dpkg --print-architecture)" = amd64 ]; then # of the preset bits32
+    need_package g++-multilib
+    for library in liblz4-dev libqhull-dev libpugixml-dev libgtest-dev libmeshoptimizer-dev; do
+      need_package "$library:i386"
+    done
+  fi
 }
 
 install_missing() {
@@ -78,7 +84,9 @@ install_missing() {
   fi
   echo "bootstrap: installing ${missing[*]}"
   local quiet=(-qq -o Dpkg::Use-Pty=0)
-  "${root[@]}" apt-get "${quiet[@]}" update
+  [[ "${missing[*]}" != *:i386* ]] || "${root[@]}" dpkg --add-architecture i386
+  # A list that cannot be fetched just now is no reason to stop: the older one may do.
+  "${root[@]}" apt-get "${quiet[@]}" update || true
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get "${quiet[@]}" install -y --no-install-recommends "${missing[@]}" >/dev/null
 }

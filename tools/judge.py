@@ -54,6 +54,8 @@ def judgements():
     """All of them, in the order in which they are run."""
     yield Judgement("separate_files", ["cmake", "-E", "echo", "every source compiles alone"],
                     "separate")
+    yield Judgement("bits32", ["ctest", "--preset", "bits32", "-L", "unit", "-j", "{jobs}",
+                               "--no-tests=error"], "bits32")
     yield Judgement("kill_runs", ["{python}", "-B", "tests/output/kill_runs.py",
                                   ".", "build/release/bin/tenon", "--runs", "50", "--pairs", "20"],
                     "release")
@@ -61,6 +63,8 @@ def judgements():
     yield mutants("mutants_sanitizers", "build/dev/bin/tenon", 50000, ["--sanitized"])
     yield Judgement("labelled", ["ctest", "--preset", "dev", "-L", "judge", "-j", "{jobs}",
                                  "--no-tests=error"], "dev")
+    yield Judgement("bench", ["ctest", "--test-dir", "build/bench", "-R", "^bench[.]",
+                              "--no-tests=error"], "bench")
     yield Judgement("structure_sweep", ["{python}", "-B", "tests/structure/sweep.py", ".",
                                         "build/release/bin/tenon", "--all"], "release")
     yield Judgement("random_scenes", ["{python}", "-B", "tests/differential/compose_random.py",

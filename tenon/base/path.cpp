@@ -18,13 +18,14 @@
 namespace tenon {
 namespace {
 
-std::size_t mix(std::size_t seed, const void* pointer) {
-  const auto bits = reinterpret_cast<std::size_t>(pointer) >> 4;
+// 64 bits on every machine: shards, tags and slots each take some of them.
+std::uint64_t mix(std::uint64_t seed, const void* pointer) {
+  const std::uint64_t bits = reinterpret_cast<std::uintptr_t>(pointer) >> 4;
   return (seed ^ bits) * 0x9E3779B97F4A7C15ull + (seed >> 29);
 }
 
-std::size_t hash_of(const PathNode& node) {
-  std::size_t hash = mix(static_cast<std::size_t>(node.kind) + 1, node.parent);
+std::uint64_t hash_of(const PathNode& node) {
+  std::uint64_t hash = mix(static_cast<std::size_t>(node.kind) + 1, node.parent);
   hash = mix(hash, node.name.id());
   hash = mix(hash, node.variant.id());
   return mix(hash, node.target);
@@ -83,13 +84,13 @@ std::uint32_t next_number() {
 /// node, so that most others are told apart without a look at them.
 class NodeTable {
  public:
-  const PathNode* intern(const PathNode& node, std::size_t hash) {
+  const PathNode* intern(const PathNode& node, std::uint64_t hash) {
     const std::lock_guard lock(mutex_);
     if (4 * (count_ + 1) > 3 * slots_.size()) {
       grow();
     }
     const std::uint32_t tag = tag_of(hash);
-    std::size_t at = hash & (slots_.size() - 1);
+    std::size_t at = slot_of(hash);
     while (slots_[at].number != 0) {
       if (slots_[at].tag == tag && same(node_at(slots_[at].number - 1), node)) {
         return &node_at(slots_[at].number - 1);
@@ -105,7 +106,10 @@ class NodeTable {
     std::uint32_t number = 0;  // of the node, from 1 on; 0 in an empty slot
   };
 
-  static std::uint32_t tag_of(std::size_t hash) { return static_cast<std::uint32_t>(hash >> 32); }
+  std::size_t slot_of(std::uint64_t hash) const {
+    return static_cast<std::size_t>(hash) & (slots_.size() - 1);
+  }
+  static std::uint32_t tag_of(std::uint64_t hash) { return static_cast<std::uint32_t>(hash >> 32); }
   const PathNode& node_at(std::size_t number) const {
     return (*chunks_[number / NodeChunk::kNodes])[number % NodeChunk::kNodes];
   }
@@ -125,8 +129,8 @@ class NodeTable {
   void grow() {
     slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), Slot());
     for (std::size_t i = 0; i < count_; ++i) {
-      const std::size_t hash = hash_of(node_at(i));
-      std::size_t at = hash & (slots_.size() - 1);
+      const std::uint64_t hash = hash_of(node_at(i));
+      std::size_t at = slot_of(hash);
       while (slots_[at].number != 0) {
         at = (at + 1) & (slots_.size() - 1);
       }

@@ -44,7 +44,7 @@ struct PathNode {
   bool has_variant : 1 = false;  ///< this or any element above is a variant selection
   std::uint32_t depth : 22 = 0;  ///< elements below the root
 };
-static_assert(sizeof(PathNode) == 40);
+static_assert(sizeof(PathNode) == 4 * sizeof(void*) + 8);
 
 /// Where something is in a scene or a layer. Interned: copying, equality and hashing cost one
 /// pointer. Core Spec 1.0.1 section 6 gives the grammar.

@@ -283,7 +283,7 @@ bool ArrayEdit::is_well_formed() const {
 }
 
 void ArrayEditBuilder::add(const ArrayEditStep& step) {
-  const auto code = static_cast<std::size_t>(step.op);
+  const auto code = static_cast<std::uint64_t>(step.op);
   if (instructions_.empty() || ArrayEditRun(instructions_[run_]).code != code) {
     run_ = instructions_.size();
     instructions_.push_back(static_cast<std::int64_t>(code << ArrayEditRun::kCountBits));

@@ -66,7 +66,8 @@ class ItemPositions {
   /// The slot that holds an equal item, or the free one where it belongs.
   std::size_t slot_of(const T& item) const {
     constexpr std::uint64_t kSpread = 0x9e3779b97f4a7c15;  // neighbouring hashes go far apart
-    std::size_t slot = ((item_hash(item) * kSpread) >> 32) & (table_.size() - 1);
+    const std::uint64_t spread = item_hash(item) * kSpread;
+    std::size_t slot = static_cast<std::size_t>(spread >> 32) & (table_.size() - 1);
     while (table_[slot] != kFree && !(list_[table_[slot]] == item)) {
       slot = (slot + 1) & (table_.size() - 1);
     }
