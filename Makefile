@@ -23,9 +23,9 @@ demo: build
 
 # Some tests are of the program that users run.
 test: test-packages oracle build/dev/build.ninja build/release/build.ninja
-	@cmake --build build/dev -j $(JOBS)
-	@cmake --build build/release -j $(JOBS)
-	@ctest --preset dev -LE judge -j $(JOBS)
+	@tools/quiet_build.sh dev $(JOBS) all
+	@tools/quiet_build.sh release $(JOBS) all
+	@tools/quiet_tests.sh dev -LE judge -j $(JOBS)
 
 ifdef BASE
 bench: test-packages build/bench/build.ninja

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 # Headers of the standard library that most files include, compiled once: a third less to compile
-# for who builds the program. Not in the developer's builds, which prove that every file includes
-# what it uses, and not with ccache, which precompiled headers would only disturb.
+# for who builds the program. Only where sources are joined (cmake/unity.cmake): the preset
+# `separate` proves that every file includes what it uses, and ccache would only be disturbed.
 set(TENON_PRECOMPILED_HEADERS <algorithm> <array> <cstdint> <functional> <map> <memory> <optional>
                               <set> <span> <string> <string_view> <unordered_map> <utility>
                               <variant> <vector>)
@@ -10,7 +10,7 @@ set(TENON_PRECOMPILED_HEADERS <algorithm> <array> <cstdint> <functional> <map> <
 # Gives <target> the headers, compiled with the options <kind>: what has been compiled with the same
 # is used again.
 function(tenon_precompile target kind)
-  if(TENON_DEVELOPER OR TENON_CCACHE OR TENON_TIDY)
+  if(TENON_CCACHE OR NOT TENON_UNITY)
     return()
   endif()
   get_property(first GLOBAL PROPERTY tenon_precompiled_${kind})

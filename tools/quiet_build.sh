@@ -26,8 +26,8 @@ show() { # show WORDS: replaces the line on a terminal
 }
 
 show "Configuring $folder ..."
+[ -t 2 ] || echo "Building $folder ..." >&2
 if [ ! -e "$folder/build.ninja" ]; then
-  [ -t 2 ] || echo "Building $folder ..." >&2
   cmake --preset "$preset" >>"$log" 2>&1 || fail
 fi
 
@@ -41,3 +41,4 @@ build "$@" | while IFS= read -r line; do
   fi
 done || fail
 show ""
+[ -t 2 ] || echo "Built $folder in $((SECONDS / 60)) min $((SECONDS % 60)) s" >&2
