@@ -134,6 +134,7 @@ function(tenon_unit_tests library tests)
     # Half the compile time; what is tested keeps its optimisation and its lines.
     target_compile_options(${library}_test PRIVATE -O0 -g0)
   endif()
+  tenon_unity(${library}_test)
   tenon_precompiled_gtest(precompiled)
   if(precompiled)
     target_precompile_headers(${library}_test REUSE_FROM ${precompiled})

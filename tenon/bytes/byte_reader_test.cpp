@@ -5,13 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "tenon/bytes/byte_writer.h"
+#include "tenon/bytes/test_bytes.h"
 
 namespace tenon::bytes {
 namespace {
-
-std::span<const std::byte> bytes_of(const std::string& text) {
-  return std::as_bytes(std::span(text));
-}
 
 TEST(ByteReader, ReadsWhatTheWriterWrote) {
   ByteWriter out;

@@ -8,13 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "tenon/bytes/lz4_block.h"
+#include "tenon/bytes/test_bytes.h"
 
 namespace tenon::bytes {
 namespace {
-
-std::span<const std::byte> bytes_of(const std::string& text) {
-  return std::as_bytes(std::span(text));
-}
 
 template <class T>
 void expect_round_trip(const std::vector<T>& integers) {

@@ -92,9 +92,9 @@ def "Robot" (
 }
 )";
 
-class Scene {
+class Robot {
  public:
-  explicit Scene(std::size_t most_nodes = limits::kCacheNodes) {
+  explicit Robot(std::size_t most_nodes = limits::kCacheNodes) {
     for (const auto& [name, text] :
          std::map<std::string, std::string>{{"root", kRoot}, {"robot", kRobot}}) {
       Diagnostics diagnostics;
@@ -141,7 +141,7 @@ class Scene {
 };
 
 TEST(BuildAhead, BuildsWhatNeedsNoFurtherLayer) {
-  Scene scene;
+  Robot scene;
   EXPECT_TRUE(scene.build_below({"/World/Local", "/World/_class"}));
   const std::size_t opened = scene.opened;
   EXPECT_EQ(scene.cache->index(Path::from("/World/Local/a/b")).opinions.size(), 1u);
@@ -150,20 +150,20 @@ TEST(BuildAhead, BuildsWhatNeedsNoFurtherLayer) {
 }
 
 TEST(BuildAhead, StopsAtTheLimit) {
-  Scene scene;
+  Robot scene;
   EXPECT_FALSE(scene.build_below({"/World/Local", "/World/_class"}, 1));
-  EXPECT_EQ(scene.dump(), Scene().dump());
+  EXPECT_EQ(scene.dump(), Robot().dump());
 }
 
 TEST(BuildAhead, OpensNothing) {
-  Scene scene;
+  Robot scene;
   EXPECT_FALSE(scene.build_below({"/World"}));
   EXPECT_EQ(scene.opened, 0u);
   EXPECT_TRUE(scene.cache->missing_arcs().empty());
 }
 
 TEST(BuildAhead, ChangesNoAnswer) {
-  Scene plain;
+  Robot plain;
   const std::string expected = plain.dump();
   const std::vector<const char*> asked[] = {
       {"/World"},
@@ -172,7 +172,7 @@ TEST(BuildAhead, ChangesNoAnswer) {
       {"/World/Local", "/World/Robot2"},
       {"/World/Lost", "/World/Instance", "/World/Robot2", "/World/Robot1"}};
   for (const std::vector<const char*>& roots : asked) {
-    Scene scene;
+    Robot scene;
     // In the order of the dump, which decides what is found missing first.
     scene.build_below(roots);
     EXPECT_EQ(scene.cache->index(Path::from("/World/Robot1/arm")).opinions.size(), 1u);
@@ -182,10 +182,10 @@ TEST(BuildAhead, ChangesNoAnswer) {
 }
 
 TEST(BuildAhead, KeepsToTheLimitOfNodes) {
-  Scene plain(4);
+  Robot plain(4);
   const std::string expected = plain.dump();
-  EXPECT_NE(expected, Scene().dump());
-  Scene scene(4);
+  EXPECT_NE(expected, Robot().dump());
+  Robot scene(4);
   EXPECT_FALSE(scene.build_below({"/World/Local", "/World/_class"}));
   EXPECT_EQ(scene.dump(), expected);
 }

@@ -18,14 +18,14 @@ MapFunction map_of(const std::vector<std::pair<const char*, const char*>>& pairs
   return MapFunction::make(std::move(result), offset);
 }
 
-struct Row {
+struct Mapping {
   std::vector<std::pair<const char*, const char*>> pairs;
   const char* source;
   const char* target;  // "" when the source has no image
 };
 
 TEST(MapFunction, TakesTheLongestPrefixThatLeadsBack) {
-  const Row rows[] = {
+  const Mapping rows[] = {
       {{{"/Model", "/Model_1"}}, "/Model/a.b", "/Model_1/a.b"},
       {{{"/Model", "/Model_1"}}, "/Other", ""},
       {{{"/", "/"}, {"/Class", "/Model"}}, "/Class/x", "/Model/x"},
@@ -37,7 +37,7 @@ TEST(MapFunction, TakesTheLongestPrefixThatLeadsBack) {
       {{{"/A", "/B"}, {"/A/x", "/B/r"}}, "/A/x/y", "/B/r/y"},
       {{{"/A", "/B"}, {"/A/x", "/B/r"}}, "/A/r", ""},
   };
-  for (const Row& row : rows) {
+  for (const Mapping& row : rows) {
     const MapFunction map = map_of(row.pairs);
     EXPECT_EQ(map.map_source_to_target(path(row.source)), path(row.target)) << row.source;
     if (*row.target != '\0') {

@@ -23,7 +23,7 @@ Names letters(const char* text) {
   return names;
 }
 
-struct Row {
+struct Edits {
   const char* deleted;
   const char* added;
   const char* prepended;
@@ -35,7 +35,7 @@ struct Row {
 
 TEST(ListOp, EditsApplyInTheirOrder) {
   // Results as OpenUSD 26.11 gives them.
-  const Row rows[] = {
+  const Edits rows[] = {
       {"", "", "", "", "", "abc", "abc"},     {"b", "", "", "", "", "abc", "ac"},
       {"", "bd", "", "", "", "abc", "abcd"},  {"", "", "dc", "", "", "abc", "dcab"},
       {"", "", "", "ad", "", "abc", "bcad"},  {"", "", "d", "e", "", "abc", "dabce"},
@@ -43,7 +43,7 @@ TEST(ListOp, EditsApplyInTheirOrder) {
       {"", "", "", "", "cb", "abcd", "acdb"}, {"", "", "", "", "xda", "abcd", "dabc"},
       {"", "", "", "", "", "", ""},           {"abc", "x", "y", "z", "zy", "abc", "zyx"},
   };
-  for (const Row& row : rows) {
+  for (const Edits& row : rows) {
     ListOp<std::string> op;
     op.deleted = letters(row.deleted);
     op.added = letters(row.added);

@@ -4,20 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/formats/text/reader.h"
+#include "tenon/stage/test_stage.h"
 
 namespace tenon::stage {
 namespace {
-
-Stage open_text(const std::string& text) {
-  Diagnostics diagnostics;
-  auto layer = formats::read_text("#usda 1.0\n" + text, "root", diagnostics);
-  EXPECT_TRUE(layer) << layer.error().to_string();
-  const auto none = [](const std::string& path, const layer::Layer&) -> Result<layer::LayerPtr> {
-    return Error(ErrorCode::NotFound, "no " + path);
-  };
-  return *Stage::open(std::make_shared<const layer::Layer>(*std::move(layer)), nullptr, none);
-}
 
 constexpr const char* kScene = R"(
 def Xform "W" (

@@ -2,37 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/stage/field_trace.h"
 
-#include <algorithm>
-#include <map>
-
 #include <gtest/gtest.h>
 
-#include "tenon/formats/text/reader.h"
+#include "tenon/stage/test_stage.h"
 
 namespace tenon::stage {
 namespace {
-
-/// Layers given as text, by name, with `;` for line ends; "root" is the root layer.
-Stage open_text(const std::map<std::string, std::string>& texts) {
-  std::map<std::string, layer::LayerPtr> layers;
-  for (const auto& [name, text] : texts) {
-    std::string lines = "#usda 1.0\n" + text + "\n";
-    std::replace(lines.begin(), lines.end(), ';', '\n');
-    Diagnostics diagnostics;
-    auto layer = formats::read_text(lines, name, diagnostics);
-    EXPECT_TRUE(layer) << (layer ? name : layer.error().to_string());
-    layers[name] =
-        std::make_shared<const layer::Layer>(layer ? *std::move(layer) : layer::Layer(name));
-  }
-  auto opener = [layers](const std::string& path, const layer::Layer&) -> Result<layer::LayerPtr> {
-    const auto it = layers.find(path);
-    return it != layers.end() ? Result<layer::LayerPtr>(it->second)
-                              : Error(ErrorCode::NotFound, "no " + path);
-  };
-  auto stage = Stage::open(layers.at("root"), nullptr, opener);
-  EXPECT_TRUE(stage);
-  return *std::move(stage);
-}
 
 using Lines = std::vector<std::string>;
 

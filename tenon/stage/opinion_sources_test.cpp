@@ -6,30 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/formats/text/reader.h"
+#include "tenon/stage/test_stage.h"
 
 namespace tenon::stage {
 namespace {
-
-/// Layers given as text, by name; "root" is the root layer.
-Stage open_text(const std::map<std::string, std::string>& texts) {
-  std::map<std::string, layer::LayerPtr> layers;
-  for (const auto& [name, text] : texts) {
-    Diagnostics diagnostics;
-    auto layer = formats::read_text("#usda 1.0\n" + text, name, diagnostics);
-    EXPECT_TRUE(layer) << name;
-    layers[name] =
-        std::make_shared<const layer::Layer>(layer ? *std::move(layer) : layer::Layer(name));
-  }
-  auto opener = [layers](const std::string& path, const layer::Layer&) -> Result<layer::LayerPtr> {
-    const auto it = layers.find(path);
-    return it != layers.end() ? Result<layer::LayerPtr>(it->second)
-                              : Error(ErrorCode::NotFound, "no " + path);
-  };
-  auto stage = Stage::open(layers.at("root"), nullptr, opener);
-  EXPECT_TRUE(stage);
-  return *std::move(stage);
-}
 
 // The shape of a structured robot: a base, and physics in a payload of a variant.
 const std::map<std::string, std::string>& robot() {

@@ -2,35 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "tenon/formats/text/reader.h"
-#include "tenon/stage/stage.h"
+#include "tenon/stage/test_stage.h"
 
 namespace tenon::stage {
 namespace {
-
-// Braces on lines of their own, as text layers want them.
-std::string spread(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    result += c == '{' ? "{\n" : c == '}' ? "\n}\n" : std::string(1, c);
-  }
-  return result;
-}
-
-Stage open_text(const std::string& text, StageOptions options = {}) {
-  Diagnostics diagnostics;
-  auto layer = formats::read_text("#usda 1.0\n" + spread(text), "root", diagnostics);
-  EXPECT_TRUE(layer) << (layer ? "" : layer.error().to_string());
-  const auto no_other = [](const std::string& path, const layer::Layer&) {
-    return Result<layer::LayerPtr>(Error(ErrorCode::NotFound, "no " + path));
-  };
-  auto stage = Stage::open(std::make_shared<const layer::Layer>(*std::move(layer)), nullptr,
-                           no_other, std::move(options));
-  EXPECT_TRUE(stage);
-  return *std::move(stage);
-}
-
-Prim at(const Stage& stage, const char* path) { return stage.prim(Path::from(path)); }
 
 // Options of a stage with instances /A and /B of one class with children x and y.
 Stage two_instances(StageOptions options) {

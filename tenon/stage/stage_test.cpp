@@ -6,52 +6,15 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/formats/text/reader.h"
 #include "tenon/stage/collection.h"
 #include "tenon/stage/flatten.h"
 #include "tenon/stage/material_binding.h"
 #include "tenon/stage/stage_units.h"
+#include "tenon/stage/test_stage.h"
 #include "tenon/stage/transform_at.h"
 
 namespace tenon::stage {
 namespace {
-
-// Braces on lines of their own, as text layers want them.
-std::string spread(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    result += c == '{' ? "{\n" : c == '}' ? "\n}\n" : std::string(1, c);
-  }
-  return result;
-}
-
-// Layers given as text, by name; "root" is the root layer.
-Stage open_text(const std::map<std::string, std::string>& texts, StageOptions options = {}) {
-  std::map<std::string, layer::LayerPtr> layers;
-  for (const auto& [name, text] : texts) {
-    Diagnostics diagnostics;
-    auto layer = formats::read_text("#usda 1.0\n" + spread(text), name, diagnostics);
-    if (!layer) {
-      ADD_FAILURE() << layer.error().to_string();
-      layer = layer::Layer(name);
-    }
-    layers[name] = std::make_shared<const layer::Layer>(*std::move(layer));
-  }
-  auto opener = [layers](const std::string& path, const layer::Layer&) -> Result<layer::LayerPtr> {
-    const auto it = layers.find(path);
-    if (it == layers.end()) {
-      return Error(ErrorCode::NotFound, "no " + path);
-    }
-    return it->second;
-  };
-  auto stage = Stage::open(layers.at("root"), nullptr, opener, std::move(options));
-  EXPECT_TRUE(stage);
-  return *std::move(stage);
-}
-
-Stage open_text(const std::string& text) { return open_text({{"root", text}}); }
-
-Prim at(const Stage& stage, const char* path) { return stage.prim(Path::from(path)); }
 
 TEST(Stage, FlagsFollowSpecifiersActivityAndKinds) {
   const Stage stage = open_text(R"(

@@ -1,44 +1,14 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <map>
-
 #include <gtest/gtest.h>
 
-#include "tenon/formats/text/reader.h"
 #include "tenon/formats/text/value_text.h"
 #include "tenon/stage/clip_times.h"
 #include "tenon/stage/stage.h"
+#include "tenon/stage/test_stage.h"
 
 namespace tenon::stage {
 namespace {
-
-using Texts = std::map<std::string, std::string>;
-
-// Layers given as text, by name; "root" is the root layer. An asset exists when it is among them.
-Stage open_layers(const Texts& texts) {
-  std::map<std::string, layer::LayerPtr> layers;
-  for (const auto& [name, text] : texts) {
-    Diagnostics diagnostics;
-    auto layer = formats::read_text("#usda 1.0\n" + text, name, diagnostics);
-    EXPECT_TRUE(layer) << (layer ? "" : layer.error().to_string());
-    layers[name] =
-        std::make_shared<const layer::Layer>(layer ? *std::move(layer) : layer::Layer(name));
-  }
-  auto opener = [layers](const std::string& path, const layer::Layer&) -> Result<layer::LayerPtr> {
-    const auto it = layers.find(path);
-    if (it == layers.end()) {
-      return Error(ErrorCode::NotFound, "no " + path);
-    }
-    return it->second;
-  };
-  StageOptions options;
-  options.resolve_asset = [layers](const std::string& path, const layer::Layer&) {
-    return layers.contains(path) ? path : std::string();
-  };
-  auto stage = Stage::open(layers.at("root"), nullptr, opener, std::move(options));
-  EXPECT_TRUE(stage);
-  return *std::move(stage);
-}
 
 // A prim /M with attributes x and y and one clip set of the given entries.
 std::string root_with(const std::string& entries) {
@@ -87,9 +57,9 @@ TEST(ClipTimes, TwoPairsOfOneStageTimeAreAJump) {
 }
 
 TEST(ValueClips, TheActiveClipGivesTheValue) {
-  const Stage stage = open_layers({{"root", root_with(kTwoClips)},
-                                   {"a", clip_of("double x.timeSamples = { 0: 1, 5: 6 }")},
-                                   {"b", clip_of("double x.timeSamples = { 10: 20, 15: 30 }")}});
+  const Stage stage = open_text({{"root", root_with(kTwoClips)},
+                                 {"a", clip_of("double x.timeSamples = { 0: 1, 5: 6 }")},
+                                 {"b", clip_of("double x.timeSamples = { 10: 20, 15: 30 }")}});
   EXPECT_EQ(value(stage, "x", 2.5), 3.5);
   EXPECT_EQ(value(stage, "x", 10), 20);
   EXPECT_EQ(value(stage, "x", 12.5), 25);
@@ -109,10 +79,10 @@ TEST(ClipTimes, AJumpAtTheBeginningHasNothingInFront) {
 
 TEST(ValueClips, ABlockInAClipIsNoValue) {
   const std::string entries = std::string(kTwoClips) + "asset manifestAssetPath = @m@\n";
-  const Stage stage = open_layers({{"root", root_with(entries)},
-                                   {"a", clip_of("double x.timeSamples = { 5: None, 8: 1 }")},
-                                   {"b", clip_of("")},
-                                   {"m", clip_of("double x = 77")}});
+  const Stage stage = open_text({{"root", root_with(entries)},
+                                 {"a", clip_of("double x.timeSamples = { 5: None, 8: 1 }")},
+                                 {"b", clip_of("")},
+                                 {"m", clip_of("double x = 77")}});
   EXPECT_TRUE(attribute(stage, "x").get(0).empty());
   EXPECT_TRUE(attribute(stage, "x").get(6).empty());
   EXPECT_EQ(value(stage, "x", 8), 1);
@@ -121,19 +91,19 @@ TEST(ValueClips, ABlockInAClipIsNoValue) {
 TEST(ValueClips, OpinionsOfTheLayerThatNamesTheClipsAreStronger) {
   std::string root = root_with(kTwoClips);
   root.replace(root.find("double x"), 8, "double x = 7");
-  const Stage stage = open_layers({{"root", root},
-                                   {"a", clip_of("double x.timeSamples = { 0: 1 }")},
-                                   {"b", clip_of("double x.timeSamples = { 10: 2 }")}});
+  const Stage stage = open_text({{"root", root},
+                                 {"a", clip_of("double x.timeSamples = { 0: 1 }")},
+                                 {"b", clip_of("double x.timeSamples = { 10: 2 }")}});
   EXPECT_EQ(value(stage, "x", 1), 7);
 }
 
 TEST(ValueClips, ClipsAreStrongerThanWeakerLayersAndMoveWithTheirOffset) {
   const std::string weak = "def \"M\"\n{\n double x = 7\n}\n";
-  const Stage stage = open_layers({{"root", "(\n subLayers = [@s@ (offset = 100)]\n)\n"},
-                                   {"s", "(\n subLayers = [@w@]\n)\n" + root_with(kTwoClips)},
-                                   {"w", weak},
-                                   {"a", clip_of("double x.timeSamples = { 0: 1, 5: 6 }")},
-                                   {"b", clip_of("double x.timeSamples = { 10: 20 }")}});
+  const Stage stage = open_text({{"root", "(\n subLayers = [@s@ (offset = 100)]\n)\n"},
+                                 {"s", "(\n subLayers = [@w@]\n)\n" + root_with(kTwoClips)},
+                                 {"w", weak},
+                                 {"a", clip_of("double x.timeSamples = { 0: 1, 5: 6 }")},
+                                 {"b", clip_of("double x.timeSamples = { 10: 20 }")}});
   EXPECT_EQ(attribute(stage, "x").value_source(100), ValueSource::ValueClips);
   // Without `times` a clip's time is that of the layer that names it.
   EXPECT_EQ(attribute(stage, "x").time_samples(), (std::vector<double>{100, 105, 110}));
@@ -142,7 +112,7 @@ TEST(ValueClips, ClipsAreStrongerThanWeakerLayersAndMoveWithTheirOffset) {
 TEST(ValueClips, EditsOfArraysChangeWhatWeakerLayersSay) {
   std::string clips = root_with(kTwoClips);
   clips.replace(clips.find("double x"), 8, "float[] x");
-  const Stage stage = open_layers(
+  const Stage stage = open_text(
       {{"root", "(\n subLayers = [@s@, @w@]\n)\n"},
        {"s", clips},
        {"w", "def \"M\"\n{\n float[] x = [50, 60]\n}\n"},
@@ -165,7 +135,7 @@ TEST(ValueClips, AClipWithoutSamplesGivesTheManifestsDefault) {
                     {"b", clip_of("")},
                     {"m", clip_of("double x = 77\n double y")},
                     {"root", root_with(entries)}};
-  const Stage stage = open_layers(texts);
+  const Stage stage = open_text(texts);
   EXPECT_EQ(value(stage, "x", 12), 77);
   EXPECT_EQ(attribute(stage, "y").value_source(1), ValueSource::ValueClips);
   EXPECT_TRUE(attribute(stage, "y").get(1).empty());
@@ -175,10 +145,10 @@ TEST(ValueClips, MissingValuesAreInterpolatedWhereThatIsAskedFor) {
   const std::string entries =
       "asset[] assetPaths = [@a@, @b@, @c@]\n string primPath = \"/C\"\n"
       "double2[] active = [(0, 0), (10, 1), (20, 2)]\n bool interpolateMissingClipValues = true\n";
-  const Stage stage = open_layers({{"root", root_with(entries)},
-                                   {"a", clip_of("double x.timeSamples = { 0: 0 }")},
-                                   {"b", clip_of("")},
-                                   {"c", clip_of("double x.timeSamples = { 20: 20 }")}});
+  const Stage stage = open_text({{"root", root_with(entries)},
+                                 {"a", clip_of("double x.timeSamples = { 0: 0 }")},
+                                 {"b", clip_of("")},
+                                 {"c", clip_of("double x.timeSamples = { 20: 20 }")}});
   EXPECT_EQ(value(stage, "x", 15), 15);
   EXPECT_EQ(attribute(stage, "x").time_samples(), (std::vector<double>{0, 20}));
 }
@@ -188,7 +158,7 @@ TEST(ValueClips, DescendantsLookIntoTheClipsOfTheirAncestors) {
   const std::string child = " def \"K\"\n {\n  double x\n }\n}\n";
   const std::string clip =
       "def \"C\"\n{\n def \"K\"\n {\n double x.timeSamples = { 0: 4 }\n }\n}\n";
-  const Stage stage = open_layers(
+  const Stage stage = open_text(
       {{"root", root.substr(0, root.size() - 2) + child}, {"a", clip}, {"b", clip_of("")}});
   const Attribute x = stage.prim(Path::from("/M/K")).attribute("x");
   EXPECT_EQ(x.get_as<double>(1.0), 4.0);
@@ -199,9 +169,9 @@ TEST(ValueClips, ATemplateFindsTheFilesThatExist) {
       "string templateAssetPath = \"./clip.##.#.usd\"\n string primPath = \"/C\"\n"
       "double templateStartTime = 1\n double templateEndTime = 3\n double templateStride = 0.5\n";
   const Stage stage =
-      open_layers({{"root", root_with(entries)},
-                   {"./clip.01.0.usd", clip_of("double x.timeSamples = { 1: 10 }")},
-                   {"./clip.02.5.usd", clip_of("double x.timeSamples = { 2.5: 25 }")}});
+      open_text({{"root", root_with(entries)},
+                 {"./clip.01.0.usd", clip_of("double x.timeSamples = { 1: 10 }")},
+                 {"./clip.02.5.usd", clip_of("double x.timeSamples = { 2.5: 25 }")}});
   EXPECT_EQ(attribute(stage, "x").time_samples(), (std::vector<double>{1, 2.5}));
   EXPECT_EQ(value(stage, "x", 2.5), 25);
 }
@@ -211,13 +181,13 @@ TEST(ValueClips, AnEndlessTemplateIsAWarning) {
       "string templateAssetPath = \"./clip.#.usd\"\n string primPath = \"/C\"\n"
       "double templateStartTime = 0\n double templateEndTime = 1e9\n double templateStride = "
       "1e-9\n";
-  const Stage stage = open_layers({{"root", root_with(entries)}});
+  const Stage stage = open_text({{"root", root_with(entries)}});
   EXPECT_EQ(clip_warnings(stage), 1u);
   EXPECT_EQ(attribute(stage, "x").value_source(1), ValueSource::None);
 }
 
 TEST(ValueClips, AMissingClipIsAWarningOnceAndHasNoSamples) {
-  const Stage stage = open_layers(
+  const Stage stage = open_text(
       {{"root", root_with(kTwoClips)}, {"a", clip_of("double x.timeSamples = { 0: 1 }")}});
   EXPECT_TRUE(attribute(stage, "x").get(12).empty());
   EXPECT_EQ(clip_warnings(stage), 1u);
@@ -234,7 +204,7 @@ TEST(ValueClips, BrokenSetsAreLeftOut) {
       "double2[] times = [(0, 0), (0, 1), (0, 2)]",
   };
   for (const char* const entries : broken) {
-    const Stage stage = open_layers(
+    const Stage stage = open_text(
         {{"root", root_with(entries)}, {"a", clip_of("double x.timeSamples = { 0: 1 }")}});
     EXPECT_EQ(attribute(stage, "x").value_source(1), ValueSource::None) << entries;
     EXPECT_EQ(clip_warnings(stage), 1u) << entries;
@@ -247,7 +217,7 @@ TEST(ValueClips, TimeCodesAreTimesOfTheClip) {
       "double2[] times = [(100, 0), (110, 10)]");
   root.replace(root.find("double x"), 8, "timecode x");
   const Stage stage =
-      open_layers({{"root", root}, {"a", clip_of("timecode x.timeSamples = { 0: 3, 10: 13 }")}});
+      open_text({{"root", root}, {"a", clip_of("timecode x.timeSamples = { 0: 3, 10: 13 }")}});
   EXPECT_EQ(attribute(stage, "x").get_as<layer::TimeCode>(105.0)->value, 108);
 }
 

@@ -6,39 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/formats/text/reader.h"
+#include "tenon/stage/test_stage.h"
 
 namespace tenon::stage {
 namespace {
-
-/// A text layer; `;` stands for a line end.
-std::string layer_text(const std::string& text) {
-  std::string result = "#usda 1.0\n";
-  for (const char c : text) {
-    result += c == ';' ? '\n' : c;
-  }
-  return result + "\n";
-}
-
-/// Layers given as text, by name, with `;` for line ends; "root" is the root layer.
-Stage open_text(const std::map<std::string, std::string>& texts) {
-  std::map<std::string, layer::LayerPtr> layers;
-  for (const auto& [name, text] : texts) {
-    Diagnostics diagnostics;
-    auto layer = formats::read_text(layer_text(text), name, diagnostics);
-    EXPECT_TRUE(layer) << (layer ? name : layer.error().to_string());
-    layers[name] =
-        std::make_shared<const layer::Layer>(layer ? *std::move(layer) : layer::Layer(name));
-  }
-  auto opener = [layers](const std::string& path, const layer::Layer&) -> Result<layer::LayerPtr> {
-    const auto it = layers.find(path);
-    return it != layers.end() ? Result<layer::LayerPtr>(it->second)
-                              : Error(ErrorCode::NotFound, "no " + path);
-  };
-  auto stage = Stage::open(layers.at("root"), nullptr, opener);
-  EXPECT_TRUE(stage);
-  return *std::move(stage);
-}
 
 /// "root Default wins 2", one per opinion; of clips also the clip's layer.
 std::vector<std::string> lines_of(const ValueTrace& trace) {

@@ -17,7 +17,7 @@ using Files = std::map<std::string, std::string>;
 
 const std::string kPixels = "\x89PNG\r\n\x1a\n";  // as much of an image as is looked at
 
-layer::LayerPtr layer_of(std::string text, const std::string& identifier) {
+layer::LayerPtr source_layer(std::string text, const std::string& identifier) {
   for (std::size_t at = text.find('}'); at != std::string::npos; at = text.find('}', at + 3)) {
     text.replace(at, 1, "\n}\n");  // short sources on few lines
   }
@@ -30,7 +30,7 @@ layer::LayerPtr layer_of(std::string text, const std::string& identifier) {
 /// A source of one layer; `assets` are what lies beside it.
 AssetSource source_of(const std::string& text, const Files& assets = {}) {
   AssetSource source;
-  source.root = layer_of(text, "/in/robot.usda");
+  source.root = source_layer(text, "/in/robot.usda");
   source.open_layer = [](const std::string&, const layer::Layer&) -> Result<layer::LayerPtr> {
     return Error(ErrorCode::NotFound, "no other layer");
   };

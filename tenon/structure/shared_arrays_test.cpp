@@ -9,7 +9,7 @@ namespace {
 
 using layer::Layer;
 
-Layer layer_of(std::vector<Vec3f> points) {
+Layer layer_with(std::vector<Vec3f> points) {
   Layer layer("anon:points.usda");
   layer.create(Path::from("/Mesh.points"), layer::SpecKind::Attribute)
       .set(layer::fields::default_value, layer::Value(std::move(points)));
@@ -29,16 +29,16 @@ std::vector<Vec3f> many(float last) {
 }
 
 TEST(SharedArrays, EqualArraysBecomeOne) {
-  const Layer original = layer_of(many(0));
-  Layer layer = layer_of(many(0));
+  const Layer original = layer_with(many(0));
+  Layer layer = layer_with(many(0));
   EXPECT_NE(body_of(layer), body_of(original));
   share_arrays(original, layer);
   EXPECT_EQ(body_of(layer), body_of(original));
 }
 
 TEST(SharedArrays, OneBitKeepsThemApart) {
-  const Layer original = layer_of(many(0));
-  Layer layer = layer_of(many(-0.0f));
+  const Layer original = layer_with(many(0));
+  Layer layer = layer_with(many(-0.0f));
   const layer::SharedBody* const before = body_of(layer);
   share_arrays(original, layer);
   EXPECT_EQ(body_of(layer), before);
@@ -48,10 +48,10 @@ TEST(SharedArrays, OtherPlacesAndLengthsAreLeft) {
   Layer original("anon:other.usda");
   original.create(Path::from("/Other.points"), layer::SpecKind::Attribute)
       .set(layer::fields::default_value, layer::Value(many(0)));
-  Layer layer = layer_of(many(0));
+  Layer layer = layer_with(many(0));
   const layer::SharedBody* const before = body_of(layer);
   share_arrays(original, layer);
-  share_arrays(layer_of(std::vector<Vec3f>(999, Vec3f{{1, 2, 3}})), layer);
+  share_arrays(layer_with(std::vector<Vec3f>(999, Vec3f{{1, 2, 3}})), layer);
   EXPECT_EQ(body_of(layer), before);
 }
 

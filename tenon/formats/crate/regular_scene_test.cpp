@@ -28,7 +28,7 @@ constexpr std::size_t kSide = 100;
 constexpr std::size_t kSide = 320;
 #endif
 
-Result<Layer> read_back(const std::string& bytes) {
+Result<Layer> read_any(const std::string& bytes) {
   Diagnostics diagnostics;
   return read_layer(bytes::FileBytes::own(bytes), "back", diagnostics);
 }
@@ -86,10 +86,10 @@ TEST(RegularScene, ReadsBackAsCrateAndAsText) {
     const auto crate = write_crate(made);
     ASSERT_TRUE(crate);
     EXPECT_LT(crate->size(), made.spec_count());
-    const auto back = read_back(*crate);
+    const auto back = read_any(*crate);
     ASSERT_TRUE(back) << back.error().to_string();
     expect_same(made, *back);
-    const auto from_text = read_back(write_text(made));
+    const auto from_text = read_any(write_text(made));
     ASSERT_TRUE(from_text) << from_text.error().to_string();
     expect_same(made, *from_text);
   }
@@ -111,7 +111,7 @@ void expect_value_back(const char* type, const Value& value) {
   const auto crate = write_crate(with_default(type, value));
   ASSERT_TRUE(crate);
   EXPECT_LT(crate->size(), 1'000'000u);
-  const auto back = read_back(*crate);
+  const auto back = read_any(*crate);
   ASSERT_TRUE(back) << back.error().to_string();
   const auto decoded = back->find(Path::from("/A.a"))->find("default")->decoded();
   ASSERT_TRUE(decoded) << decoded.error().to_string();
@@ -133,7 +133,7 @@ TEST(RegularScene, ArraysBeyondTheLimitAreNamedWhenTheyAreWritten) {
   made.find(Path::from("/A.a"))->set("other", many(4));
   const auto crate = write_crate(made);
   ASSERT_TRUE(crate);
-  const auto back = read_back(*crate);
+  const auto back = read_any(*crate);
   ASSERT_TRUE(back) << back.error().to_string();
   const auto text = encode_layer(*back, LayerFormat::Text);
   ASSERT_FALSE(text);

@@ -21,7 +21,7 @@ using layer::Value;
 namespace fields = layer::fields;
 
 // An asset as people write them, two blanks a step.
-const char kText[] = R"(#usda 1.0
+const char kLaidOut[] = R"(#usda 1.0
 # head
 (
   defaultPrim = "A"   # which
@@ -63,7 +63,7 @@ def Xform "A" (
 // the end
 )";
 
-Layer read(std::string_view text) {
+Layer read_text_layer(std::string_view text) {
   Diagnostics ignored;
   return *read_text(text, "test.usda", ignored);
 }
@@ -175,27 +175,27 @@ const Case kCases[] = {
 
 TEST(LayoutEdit, ChangesNothingElse) {
   for (const Case& c : kCases) {
-    std::string expected = kText;
+    std::string expected = kLaidOut;
     const std::size_t at = expected.find(c.from);
     ASSERT_NE(at, std::string::npos) << c.name;
     expected.replace(at, std::string(c.from).size(), c.to);
-    Layer layer = read(kText);
+    Layer layer = read_text_layer(kLaidOut);
     c.edit(layer);
-    const EditedText edited = edit_text(kText, layer);
+    const EditedText edited = edit_text(kLaidOut, layer);
     EXPECT_TRUE(edited.kept_layout) << c.name;
     EXPECT_EQ(edited.text, expected) << c.name;
   }
 }
 
 TEST(LayoutEdit, AllAtOnce) {
-  Layer layer = read(kText);
+  Layer layer = read_text_layer(kLaidOut);
   for (const Case& c : kCases) {
     const std::string name = c.name;
     if (name != "a value that goes" && name != "a value" && name != "a property that goes") {
       c.edit(layer);
     }
   }
-  const EditedText edited = edit_text(kText, layer);
+  const EditedText edited = edit_text(kLaidOut, layer);
   EXPECT_TRUE(edited.kept_layout);
   for (const char* comment : {"# head", "# which", "# the robot", "# one", "# sizes", "# start",
                               "/* a block */", "// the end"}) {
@@ -204,15 +204,15 @@ TEST(LayoutEdit, AllAtOnce) {
 }
 
 TEST(LayoutEdit, NoChangeKeepsEveryByte) {
-  const EditedText edited = edit_text(kText, read(kText));
+  const EditedText edited = edit_text(kLaidOut, read_text_layer(kLaidOut));
   EXPECT_TRUE(edited.kept_layout);
-  EXPECT_EQ(edited.text, kText);
+  EXPECT_EQ(edited.text, kLaidOut);
 }
 
 TEST(LayoutEdit, WhatCannotBeDoneInPlaceIsToldAndWrittenAnew) {
-  Layer layer = read(kText);
+  Layer layer = read_text_layer(kLaidOut);
   spec(layer, "/A{look=red}").set("typeName", Token("Cube"));  // which no text can say
-  const EditedText edited = edit_text(kText, layer);
+  const EditedText edited = edit_text(kLaidOut, layer);
   EXPECT_FALSE(edited.kept_layout);
   EXPECT_EQ(edited.text, write_text(layer));
   EXPECT_FALSE(edit_text("no layer", layer).kept_layout);
@@ -221,7 +221,7 @@ TEST(LayoutEdit, WhatCannotBeDoneInPlaceIsToldAndWrittenAnew) {
 TEST(LayoutEdit, PrimsChangePlaces) {
   const char text[] =
       "#usda 1.0\n# a\ndef \"A\"\n{\n}\n# b\ndef \"B\"\n{\n}\n# c\ndef \"C\" # C\n{\n}\n";
-  Layer layer = read(text);
+  Layer layer = read_text_layer(text);
   layer.root().set(fields::primChildren, std::vector<Token>{"B", "A", "C"});
   const EditedText edited = edit_text(text, layer);
   EXPECT_TRUE(edited.kept_layout);
@@ -229,13 +229,13 @@ TEST(LayoutEdit, PrimsChangePlaces) {
 }
 
 TEST(LayoutEdit, OneLineTextsAndEmptyOnes) {
-  Layer layer = read("#usda 1.0\n");
+  Layer layer = read_text_layer("#usda 1.0\n");
   list(layer, "/", fields::primChildren, "A");
   layer.create(Path::from("/A"), SpecKind::Prim).set("specifier", layer::Specifier::Def);
   EXPECT_EQ(edit_text("#usda 1.0\n", layer).text, "#usda 1.0\n\ndef \"A\"\n{\n}\n");
 
   const char text[] = "#usda 1.0\ndef \"A\" (kind = \"x\"; hidden = true) { int a = 1; int b; }\n";
-  layer = read(text);
+  layer = read_text_layer(text);
   spec(layer, "/A").set("active", false);
   spec(layer, "/A.a").set("default", Value(2));
   const EditedText edited = edit_text(text, layer);
