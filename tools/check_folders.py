@@ -75,6 +75,11 @@ def library_breach(path, target):
     return None
 
 
+def is_of_tests(path):
+    """A test, or a header for tests: test_*.h."""
+    return path.endswith("_test.cpp") or os.path.basename(path).startswith("test_")
+
+
 def folder_breach(path, quote, target, folders, tests):
     """Why `path`, a file under tenon/, may not include `target`; None where it may."""
     if target.startswith(USERS):
@@ -84,8 +89,10 @@ def folder_breach(path, quote, target, folders, tests):
     own = folder_of(path, folders)
     other = folder_of(target, folders)
     allowed = {own} | folders[own]
-    if path.endswith("_test.cpp"):
+    if is_of_tests(path):
         allowed |= tests.get(own, set())
+    elif is_of_tests(target):
+        return "only tests may include what is for tests"
     if other not in allowed:
         return f"`{own}` may not include `{other}` (tenon/folders.txt)"
     return None
