@@ -32,7 +32,7 @@ constexpr bool is_enumerator(std::underlying_type_t<Enum> number) {
   constexpr auto kNamed = named<Enum>(std::make_index_sequence<kMostEnumerators>());
   static_assert(!kNamed.back(), "raise kMostEnumerators");
   const auto at = static_cast<std::uint64_t>(number);
-  return at < kNamed.size() && kNamed[at];
+  return at < kNamed.size() && kNamed[static_cast<std::size_t>(at)];
 }
 
 }  // namespace tenon::wire

@@ -4,6 +4,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -44,7 +45,7 @@ bool dictionary_less(std::string_view a, std::string_view b);
 template <>
 struct std::hash<tenon::Token> {
   std::size_t operator()(const tenon::Token& token) const noexcept {
-    auto bits = reinterpret_cast<std::size_t>(token.id());
-    return (bits >> 4) * 0x9E3779B97F4A7C15ull;
+    const std::uint64_t bits = reinterpret_cast<std::uintptr_t>(token.id());
+    return static_cast<std::size_t>((bits >> 4) * 0x9E3779B97F4A7C15ull);
   }
 };

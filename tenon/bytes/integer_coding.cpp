@@ -31,7 +31,7 @@ class DifferenceCounts {
   void add(Signed difference) {
     const std::uint64_t index = static_cast<std::uint64_t>(difference) + kSmall;
     if (index < small_.size()) {
-      ++small_[index];
+      ++small_[static_cast<std::size_t>(index)];
     } else {
       note(difference, ++others_[difference]);
     }

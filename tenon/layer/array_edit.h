@@ -68,7 +68,7 @@ struct ArrayEdit {
 /// A word in front of a run of instructions.
 struct ArrayEditRun {
   static constexpr int kCountBits = 56;
-  std::size_t code;
+  std::uint64_t code;
   std::uint64_t count;
   explicit ArrayEditRun(std::int64_t word)
       : code(static_cast<std::uint64_t>(word) >> kCountBits),

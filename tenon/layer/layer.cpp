@@ -11,7 +11,7 @@ namespace {
 /// eights are scattered, so that long runs of numbers do not pile up.
 std::size_t home_of(std::uint32_t number, std::size_t slot_count) {
   const std::uint64_t scattered = (std::uint64_t{number >> 3u} * 0x9E3779B97F4A7C15ull) >> 32u;
-  return (scattered << 3u | (number & 7u)) & (slot_count - 1);
+  return static_cast<std::size_t>(scattered << 3u | (number & 7u)) & (slot_count - 1);
 }
 
 }  // namespace

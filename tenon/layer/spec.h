@@ -158,6 +158,6 @@ class Spec {
   FieldList fields_;
 };
 
-static_assert(sizeof(Spec) == 16, "many of them are in memory");
+static_assert(sizeof(Spec) == 8 + sizeof(void*), "many of them are in memory");
 
 }  // namespace tenon::layer
