@@ -86,11 +86,11 @@ RoleFinder::RoleFinder() {
 }
 
 std::size_t RoleFinder::KeyHash::operator()(const Key& key) const {
-  std::size_t hash = std::hash<Token>()(key.type);
+  std::uint64_t hash = std::hash<Token>()(key.type);
   for (const Token& schema : key.schemas) {
     hash = hash * 0x100000001B3ull ^ std::hash<Token>()(schema);
   }
-  return hash;
+  return static_cast<std::size_t>(hash);
 }
 
 const Roles& RoleFinder::roles_of(const stage::Prim& prim) {

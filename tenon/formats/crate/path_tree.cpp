@@ -194,8 +194,8 @@ class PathTree {
   }
 
   Result<Path> append(Path parent, std::int32_t column) {
-    const std::uint64_t index = column < 0 ? static_cast<std::uint64_t>(-std::int64_t{column})
-                                           : static_cast<std::uint64_t>(column);
+    const auto index =
+        static_cast<std::size_t>(column < 0 ? -std::int64_t{column} : std::int64_t{column});
     if (index >= tokens_.size()) {
       return corrupt("an element of a path is not there");
     }
@@ -219,7 +219,7 @@ class PathTree {
     return corrupt("\"" + token.str() + "\" cannot follow " + parent.str() + " in a path");
   }
 
-  TokenUse use_of(std::uint64_t index) {
+  TokenUse use_of(std::size_t index) {
     TokenUse& use = uses_[index];
     if (use == TokenUse::Unknown) {
       const std::string& text = tokens_[index].str();

@@ -249,7 +249,7 @@ std::uint64_t ValueWriter::place(std::string_view data, std::size_t alignment) {
   for (auto it = first; it != last; ++it) {
     const Placed& placed = it->second;
     const std::string_view there =
-        std::string_view(out_.bytes()).substr(placed.offset, placed.size);
+        std::string_view(out_.bytes()).substr(static_cast<std::size_t>(placed.offset), placed.size);
     if (there == data && placed.offset % alignment == 0) {
       return placed.offset;
     }
