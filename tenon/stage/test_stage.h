@@ -16,11 +16,12 @@
 namespace tenon::stage {
 
 /// Texts of layers by name, without their first line; "root" is the root layer. They may be written
-/// on few lines: `;` ends one, and braces get lines of their own.
+/// on few lines: braces get lines of their own, and in a text of one line `;` ends one.
 using Texts = std::map<std::string, std::string>;
 
 inline std::string on_lines(const std::string& text) {
   std::string result = "#usda 1.0\n";
+  const bool is_one_line = text.find('\n') == std::string::npos;
   char quote = 0;  // the one that ends the string that is being read
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -32,7 +33,7 @@ inline std::string on_lines(const std::string& text) {
     if (c == '}' && result[result.find_last_not_of(' ')] != '\n') {
       result += '\n';
     }
-    result += c == ';' ? '\n' : c;
+    result += c == ';' && is_one_line ? '\n' : c;
     if ((c == '{' || c == '}') && text.substr(i + 1, 1) != "\n") {
       result += '\n';
     }
