@@ -14,3 +14,7 @@ target_compile_options(
             $<$<BOOL:${TENON_WERROR}>:-Werror>)
 target_include_directories(tenon_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_features(tenon_flags INTERFACE cxx_std_20)
+if(CMAKE_SIZEOF_VOID_P EQUAL 4)
+  # Files of 2 GB and more have their size there, too.
+  target_compile_definitions(tenon_flags INTERFACE _FILE_OFFSET_BITS=64)
+endif()
