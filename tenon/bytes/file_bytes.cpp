@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/bytes/file_bytes.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -104,13 +105,15 @@ Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path
   if (!S_ISREG(info.st_mode)) {
     return Error(ErrorCode::Io, "not a regular file").in_file(path).with_rule("file.unreadable");
   }
-  const auto size = static_cast<std::size_t>(info.st_size);
-  if (size > rules.most_bytes) {
-    return Error(ErrorCode::Limit, "the file has " + std::to_string(size) + " bytes, more than " +
-                                       std::to_string(rules.most_bytes))
+  const std::uint64_t most = std::min<std::uint64_t>(rules.most_bytes, PTRDIFF_MAX);
+  const auto claimed = static_cast<std::uint64_t>(info.st_size);
+  if (claimed > most) {
+    return Error(ErrorCode::Limit, "the file has " + std::to_string(claimed) +
+                                       " bytes, more than " + std::to_string(most))
         .in_file(path)
         .with_rule("file.too-large");
   }
+  const auto size = static_cast<std::size_t>(claimed);
   if (size < kMapFrom || !rules.may_map) {
     TENON_TRY(std::string contents, read_all(file.descriptor, size, path));
     return noted(own(std::move(contents)), path, info, rules);

@@ -34,7 +34,8 @@ std::optional<std::uint64_t> digest_of_file(const std::string& path) {
   }
   struct stat info = {};
   std::optional<std::uint64_t> digest;
-  if (::fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode)) {
+  if (::fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode) &&
+      std::in_range<std::size_t>(info.st_size)) {
     std::string contents(static_cast<std::size_t>(info.st_size), '\0');
     if (read_up_to(descriptor, contents) == 0) {
       digest = content_digest(contents);
