@@ -33,7 +33,7 @@ SEEDS = ["fuzz/seeds", "fuzz/corpus", "examples", "tests"]
 FUZZ_SECONDS = 120
 # What is to run on any machine: the folders up to the reading of physics.
 CORE = ("base", "math", "bytes", "layer", "formats", "schema", "compose", "scene", "stage", "edit",
-        "physics")
+        "approximate", "physics")
 LOGS = os.path.join(ROOT, "build/judge")
 
 

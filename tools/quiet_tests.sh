@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 preset=$1
 shift
 
-begun=' +Start +[0-9]+: '
+begun='^ +Start +[0-9]+: '
 ended='^ *([0-9]+)/([0-9]+) Test .* Passed '
 ctest --preset "$preset" "$@" 2>&1 | tee "build/$preset/tests.log" |
   while IFS= read -r line; do

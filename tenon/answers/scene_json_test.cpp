@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "tenon/answers/json.h"
-#include "tenon/scene/filled_scene.h"
 #include "tenon/scene/same_fields.h"
+#include "tenon/scene/test_filled_scene.h"
 
 namespace tenon::answers {
 namespace {

@@ -108,8 +108,8 @@ TEST_F(PieceFiles, DamagedFilesAreAsGoodAsNone) {
   const std::string key = piece_key(l_prism(), 32, 64);
   const PieceCache cache(folder_.string());
   cache.keep(key, {l_prism()});
-  const auto size = std::filesystem::file_size(only_file());
-  for (const std::uintmax_t cut : {size - 1, size - 40, key.size() + 8, key.size(), size / 4}) {
+  const auto size = static_cast<std::size_t>(std::filesystem::file_size(only_file()));
+  for (const std::size_t cut : {size - 1, size - 40, key.size() + 8, key.size(), size / 4}) {
     std::filesystem::resize_file(only_file(), cut);
     EXPECT_FALSE(cache.find(key).has_value()) << cut;
     cache.keep(key, {l_prism()});

@@ -58,7 +58,8 @@ class TextTable {
 };
 
 constexpr std::size_t kTextShards = 32;  // so that threads seldom wait for each other
-constexpr int kShardBits = std::numeric_limits<std::size_t>::digits - 24;  // of the hash, from here
+constexpr int kShardShift =
+    std::numeric_limits<std::size_t>::digits - 24;  // bits of the hash above
 constexpr std::size_t kRecentTexts = 512;
 
 const std::string* intern(std::string_view text) {
@@ -68,7 +69,7 @@ const std::string* intern(std::string_view text) {
   const std::size_t hash = std::hash<std::string_view>{}(text);
   const std::string*& last = recent[(hash >> 8) % kRecentTexts];
   if (last == nullptr || *last != text) {
-    last = (*shards)[(hash >> kShardBits) % kTextShards].intern(text, hash);
+    last = (*shards)[(hash >> kShardShift) % kTextShards].intern(text, hash);
   }
   return last;
 }

@@ -8,7 +8,6 @@
 
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
-#include "tenon/math/transform.h"
 #include "tenon/scene/body_state.h"
 #include "tenon/scene/physics_scene.h"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/scene/filled_scene.h"
+#include "tenon/scene/test_filled_scene.h"
 
 namespace tenon::scene {
 namespace {

@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "tenon/formats/text/reader.h"
-#include "tenon/stage/stage.h"
+#include "tenon/stage/test_stage.h"
 
 namespace tenon::stage {
 namespace {
 
 /// `levels` prims; each holds two instances of the one before.
 Stage doubling(int levels, StageOptions options = {}) {
-  std::string text = "#usda 1.0\ndef \"L0\" {\n    def \"leaf\" {}\n}\n";
+  std::string text = "def \"L0\" {\n    def \"leaf\" {}\n}\n";
   for (int level = 1; level <= levels; ++level) {
     const std::string below = std::to_string(level - 1);
     text += "def \"L" + std::to_string(level) + "\" {\n";
@@ -20,16 +19,7 @@ Stage doubling(int levels, StageOptions options = {}) {
     }
     text += "}\n";
   }
-  Diagnostics diagnostics;
-  auto layer = formats::read_text(text, "root", diagnostics);
-  EXPECT_TRUE(layer) << (layer ? "" : layer.error().to_string());
-  const auto no_other = [](const std::string& path, const layer::Layer&) {
-    return Result<layer::LayerPtr>(Error(ErrorCode::NotFound, "no " + path));
-  };
-  auto stage = Stage::open(std::make_shared<const layer::Layer>(*std::move(layer)), nullptr,
-                           no_other, std::move(options));
-  EXPECT_TRUE(stage);
-  return *std::move(stage);
+  return open_text(text, std::move(options));
 }
 
 std::size_t walked(const Prim& prim) {

@@ -41,7 +41,7 @@ inline std::string on_lines(const std::string& text) {
   return result + "\n";
 }
 
-/// An asset exists when it is among the layers.
+/// Assets are looked for among the layers.
 inline Stage open_text(const Texts& texts, StageOptions options = {}) {
   std::map<std::string, layer::LayerPtr> layers;
   for (const auto& [name, text] : texts) {

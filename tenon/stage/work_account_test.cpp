@@ -5,32 +5,23 @@
 #include <gtest/gtest.h>
 
 #include "tenon/base/work_limits.h"
-#include "tenon/formats/text/reader.h"
+#include "tenon/stage/test_stage.h"
 
 namespace tenon::stage {
 namespace {
 
 Stage stage_of(std::size_t most_work) {
-  std::string text = "#usda 1.0\ndef \"L0\" {\n    def \"leaf\" {}\n}\n";
+  std::string text = "def \"L0\" {\n    def \"leaf\" {}\n}\n";
   for (int level = 1; level <= 12; ++level) {
     const std::string below = std::to_string(level - 1);
     text += "def \"L" + std::to_string(level) + "\" {\n    def \"a\" (\n        references = </L" +
             below + ">\n    ) {}\n    def \"b\" (\n        references = </L" + below +
             ">\n    ) {}\n}\n";
   }
-  Diagnostics diagnostics;
-  auto layer = formats::read_text(text, "root", diagnostics);
-  EXPECT_TRUE(layer) << (layer ? "" : layer.error().to_string());
   StageOptions options;
   options.compose.most_work = most_work;
   options.compose.most_work_per_spec = 0;
-  const auto no_other = [](const std::string& path, const layer::Layer&) {
-    return Result<layer::LayerPtr>(Error(ErrorCode::NotFound, "no " + path));
-  };
-  auto stage = Stage::open(std::make_shared<const layer::Layer>(*std::move(layer)), nullptr,
-                           no_other, std::move(options));
-  EXPECT_TRUE(stage);
-  return *std::move(stage);
+  return open_text(text, std::move(options));
 }
 
 TEST(WorkAccount, RefusesWhatWasNotComposedToItsEnd) {

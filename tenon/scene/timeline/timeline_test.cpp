@@ -151,16 +151,16 @@ TEST(Timeline, ABodyThatIsOffInsideAnotherHangsOnItWhereItIs) {
   EXPECT_EQ(timeline.scene().bodies[0].mass, 2);
   EXPECT_EQ(timeline.scene().bodies[1].mass, 1e-9);
   // The engine brings it to where it has moved: 4 m from its carrier.
-  std::vector<BodyState> motions(2);
-  motions[0].pose.position = {{1, 0, 0}};
-  motions[1].pose.position = {{5, 0, 0}};
-  motions[1].linear_velocity = {{0, 0, -1}};
-  const std::vector<CarriedBody> joined = timeline.restart(motions);
+  std::vector<BodyState> states(2);
+  states[0].pose.position = {{1, 0, 0}};
+  states[1].pose.position = {{5, 0, 0}};
+  states[1].linear_velocity = {{0, 0, -1}};
+  const std::vector<CarriedBody> joined = timeline.restart(states);
   ASSERT_EQ(joined.size(), 1u);
   EXPECT_EQ(joined[0].body, 1u);
   EXPECT_EQ(timeline.scene().joints[1].frame0.position, (Vec3d{{4, 0, 0}}));
   EXPECT_EQ(timeline.scene().bodies[1].linear_velocity, (Vec3d{{0, 0, -1}}));
-  EXPECT_TRUE(timeline.restart(motions).empty());
+  EXPECT_TRUE(timeline.restart(states).empty());
 }
 
 TEST(Timeline, WhatHasMovedDoesNotStartAsleep) {
@@ -169,10 +169,10 @@ TEST(Timeline, WhatHasMovedDoesNotStartAsleep) {
   scene.bodies[1].starts_asleep = true;
   scene.joints[0].initial_position = 1;
   Timeline timeline(scene);
-  std::vector<BodyState> motions(2);
-  motions[1].pose = scene.bodies[1].pose;
-  motions[0].linear_velocity = {{1, 0, 0}};
-  timeline.restart(motions);
+  std::vector<BodyState> states(2);
+  states[1].pose = scene.bodies[1].pose;
+  states[0].linear_velocity = {{1, 0, 0}};
+  timeline.restart(states);
   EXPECT_FALSE(timeline.scene().bodies[0].starts_asleep);
   EXPECT_TRUE(timeline.scene().bodies[1].starts_asleep);
   EXPECT_FALSE(timeline.scene().joints[0].initial_position.has_value());
