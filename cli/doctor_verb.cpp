@@ -54,7 +54,7 @@ template <class Info>
 Json listed(const Info& part, const Globals& globals) {
   const std::string how_to_get = part.available ? "" : part.how_to_get;
   if (!globals.json) {
-    print("%-8s %-14s %s\n", part.name.c_str(),
+    print("%-13s %-14s %s\n", part.name.c_str(),
           part.available ? part.version.c_str() : "not available", how_to_get.c_str());
   }
   return {{"name", part.name},
@@ -74,7 +74,7 @@ int run_doctor(const Globals& globals) {
   Json libraries = Json::array();
   const Result<guard::AboutWorker> worker = about_worker();
   for (const approximate::LibraryInfo& library :
-       {approximate::decomposition_library(), mesh_library(worker), worker_program(worker)}) {
+       {approximate::decomposition_library(), approximate::simplification_library(), mesh_library(worker), worker_program(worker)}) {
     libraries.push_back(listed(library, globals));
   }
   return report.finish(all ? kOk : kMissing, {{"engines", engines}, {"libraries", libraries}});

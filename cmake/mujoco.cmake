@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-# Imported target mujoco::mujoco.
+# Imported targets mujoco::headers, with which tenon is built (it opens the library when it needs it),
+# and mujoco::mujoco, for programs that are linked to it.
 #
 # Default: the official binary wheel, pinned by hash in thirdparty/mujoco-requirements.txt, fetched
 # once with pip into build/_deps/mujoco-<version> (shared by all presets), 10 MB.
@@ -56,12 +57,14 @@ endif()
 list(GET tenon_mujoco_library 0 tenon_mujoco_library)
 file(GLOB tenon_mujoco_licences ${tenon_mujoco_root}/licences/*)
 get_filename_component(tenon_mujoco_soname ${tenon_mujoco_library} NAME)
+# What mujoco_library.cpp looks for.
+set(tenon_mujoco_names TENON_MUJOCO_SONAME="${tenon_mujoco_soname}"
+                       TENON_MUJOCO_LIBRARY="${tenon_mujoco_library}")
 
 list(APPEND CMAKE_INSTALL_RPATH ${tenon_mujoco_root}/lib)  # of all that is built and not installed
 add_library(mujoco::mujoco SHARED IMPORTED GLOBAL)
-set_target_properties(
-  mujoco::mujoco
-  PROPERTIES IMPORTED_LOCATION ${tenon_mujoco_library}
-             IMPORTED_SONAME ${tenon_mujoco_soname}
-             INTERFACE_INCLUDE_DIRECTORIES ${tenon_mujoco_root}/include
-             INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${tenon_mujoco_root}/include)
+set_target_properties(mujoco::mujoco PROPERTIES IMPORTED_LOCATION ${tenon_mujoco_library}
+                                                IMPORTED_SONAME ${tenon_mujoco_soname})
+add_library(mujoco::headers INTERFACE IMPORTED GLOBAL)
+target_include_directories(mujoco::headers SYSTEM INTERFACE ${tenon_mujoco_root}/include)
+target_link_libraries(mujoco::mujoco INTERFACE mujoco::headers)

@@ -59,7 +59,16 @@ endif()
 add_library(tenon_meshoptimizer INTERFACE)
 target_include_directories(tenon_meshoptimizer SYSTEM
                            INTERFACE ${TENON_MESHOPTIMIZER_INCLUDE_DIR})
-target_link_libraries(tenon_meshoptimizer INTERFACE ${TENON_MESHOPTIMIZER_LIBRARY})
+# Opened at run time too, by the name that programs are linked to.
+execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${TENON_MESHOPTIMIZER_LIBRARY}
+                OUTPUT_VARIABLE tenon_dynamic ERROR_QUIET)
+string(REGEX MATCH "SONAME +([^ \n]+)" tenon_dynamic "${tenon_dynamic}")
+if(NOT CMAKE_MATCH_1)
+  message(FATAL_ERROR "`${TENON_MESHOPTIMIZER_LIBRARY}` is no shared library with a name of its own "
+                      "(SONAME): install libmeshoptimizer-dev (tools/bootstrap.sh).")
+endif()
+target_compile_definitions(tenon_meshoptimizer
+                           INTERFACE TENON_MESHOPTIMIZER_SONAME="${CMAKE_MATCH_1}")
 
 if(TENON_DEVELOPER)
   find_package(GTest REQUIRED)

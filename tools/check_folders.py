@@ -24,9 +24,7 @@ LIBRARIES = {
     "meshoptimizer.h": ["tenon/approximate/*.cpp"],
     "lz4*.h": ["tenon/bytes/*.cpp"],
     "mujoco/*": [
-        "tenon/engines/mujoco/*",
-        "tenon/mjcf/*",
-        "worker/main.cpp",
+        "tenon/engines/mujoco/mujoco_library.h",
         "bench/step_mujoco.cpp",
     ],
     "pugixml.hpp": ["tenon/asset/mjcf_files.cpp", "tenon/urdf/*"],

@@ -53,7 +53,8 @@ class Folders(unittest.TestCase):
         ("tenon/unlisted/a.h", "", False),
         ("tenon/layer/a.cpp", "#include <lz4.h>", False),
         ("tenon/layer/a.h", "#include <Eigen/Core>", False),
-        ("tenon/engines/mujoco/a.cpp", "#include <mujoco/mujoco.h>", True),
+        ("tenon/engines/mujoco/mujoco_library.h", "#include <mujoco/mujoco.h>", True),
+        ("tenon/engines/mujoco/a.cpp", "#include <mujoco/mujoco.h>", False),
         ("cli/a.cpp", '#include "tenon/layer/b.h"', True),
         ("cli/a.cpp", "#include <mujoco/mujoco.h>", False),
     ]

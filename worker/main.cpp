@@ -20,8 +20,7 @@
 #include "worker/open_files.h"
 
 #if TENON_WITH_MUJOCO
-#include <mujoco/mujoco.h>
-
+#include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/mjcf/read_mjcf.h"
 #endif
 
@@ -137,7 +136,9 @@ guard::AboutWorker about(const guard::Confinement& confinement) {
   guard::AboutWorker parts;
   parts.assimp = mesh::assimp_version();
 #if TENON_WITH_MUJOCO
-  parts.mujoco = mj_versionString();
+  if (engines::mujoco::open_mujoco()) {
+    parts.mujoco = mj_versionString();
+  }
 #endif
   parts.confinement = confinement;
   return parts;
@@ -171,12 +172,22 @@ void serve(const guard::Task& task, const guard::Confinement& confinement) {
   }
 }
 
+/// Opens what the reader works with, while libraries may still be read.
+void open_libraries(Reader reader) {
+  if (reader != Reader::Mjcf) {
+    mesh::has_assimp();
+  }
+#if TENON_WITH_MUJOCO
+  if (reader != Reader::Mesh) {
+    static_cast<void>(engines::mujoco::open_mujoco());  // who reads says why it was not
+  }
+#endif
+}
+
 [[noreturn]] void run() {
   prepare();
   guard::Task task = next_task();
-  if (task.request.reader != Reader::Mjcf) {
-    mesh::has_assimp();  // loads it while libraries may still be read
-  }
+  open_libraries(task.request.reader);
   const guard::Confinement confinement = confine(task.request.readable_roots);
   for (;;) {
     hold_to(task.request.readable_roots);

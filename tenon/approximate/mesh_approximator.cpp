@@ -54,6 +54,13 @@ LibraryInfo decomposition_library() {
   return info;
 }
 
+LibraryInfo simplification_library() {
+  LibraryInfo info{"meshoptimizer", meshoptimizer_version(), false, ""};
+  info.available = !info.version.empty();
+  info.how_to_get = info.available ? "" : "Install " TENON_MESHOPTIMIZER_SONAME " (libmeshoptimizer2d).";
+  return info;
+}
+
 scene::MeshTools mesh_tools(const ApproximateOptions& options) {
   scene::MeshTools tools;
   tools.simplify = simplified;

@@ -18,13 +18,15 @@ struct LibraryInfo {
 };
 /// CoACD, loaded when first needed.
 LibraryInfo decomposition_library();
+/// meshoptimizer, the same.
+LibraryInfo simplification_library();
 
 struct ApproximateOptions {
   /// Folder that keeps the pieces of meshes by their content; empty: none are kept.
   std::string cache_folder;
 };
 
-/// Both tools; `decompose` answers nothing where CoACD is not available.
+/// Both tools; each answers nothing where its library is not available.
 scene::MeshTools mesh_tools(const ApproximateOptions& options);
 
 /// $XDG_CACHE_HOME/tenon/pieces or ~/.cache/tenon/pieces; empty when neither is known.

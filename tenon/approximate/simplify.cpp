@@ -1,16 +1,56 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// meshoptimizer is opened when the first mesh asks: it needs the C++ library of the system, which
+// takes longer to open than most assets.
 #include "tenon/approximate/simplify.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include <dlfcn.h>
 #include <meshoptimizer.h>
 
 namespace tenon::approximate {
 namespace {
 
 constexpr float kError = 0.01f;  // of the size of the mesh
+
+#if MESHOPTIMIZER_VERSION >= 180
+using Simplify = std::size_t (*)(unsigned* fewer, const unsigned* corners, std::size_t corner_count,
+                                 const float* points, std::size_t point_count, std::size_t stride,
+                                 std::size_t wanted_count, float error, unsigned options,
+                                 float* reached_error);
+#else
+using Simplify = std::size_t (*)(unsigned* fewer, const unsigned* corners, std::size_t corner_count,
+                                 const float* points, std::size_t point_count, std::size_t stride,
+                                 std::size_t wanted_count, float error, float* reached_error);
+#endif
+// Does not compile where the library's function has another type.
+static_assert(sizeof(static_cast<Simplify>(&::meshopt_simplify)) == sizeof(Simplify));
+
+/// nullptr where there is no such library.
+Simplify simplify_function() {
+  static const Simplify found = [] {
+    void* library = dlopen(TENON_MESHOPTIMIZER_SONAME, RTLD_NOW | RTLD_LOCAL);
+    return library == nullptr ? nullptr
+                              : reinterpret_cast<Simplify>(dlsym(library, "meshopt_simplify"));
+  }();
+  return found;
+}
+
+std::size_t simplify(std::vector<unsigned>& fewer, const std::vector<unsigned>& corners,
+                     const std::vector<float>& points) {
+  const std::size_t stride = 3 * sizeof(float);
+#if MESHOPTIMIZER_VERSION >= 180
+  return simplify_function()(fewer.data(), corners.data(), corners.size(), points.data(),
+                             points.size() / 3, stride, 0, kError, 0, nullptr);
+#else
+  return simplify_function()(fewer.data(), corners.data(), corners.size(), points.data(),
+                             points.size() / 3, stride, 0, kError, nullptr);
+#endif
+}
 
 /// Drops points that no triangle uses.
 scene::TriangleMesh compact(const scene::TriangleMesh& mesh, const std::vector<unsigned>& corners) {
@@ -33,7 +73,18 @@ scene::TriangleMesh compact(const scene::TriangleMesh& mesh, const std::vector<u
 
 }  // namespace
 
-scene::TriangleMesh simplified(const scene::TriangleMesh& mesh) {
+std::string meshoptimizer_version() {
+  if (simplify_function() == nullptr) {
+    return "";
+  }
+  return std::to_string(MESHOPTIMIZER_VERSION / 1000) + "." +
+         std::to_string(MESHOPTIMIZER_VERSION % 1000 / 10);
+}
+
+std::optional<scene::TriangleMesh> simplified(const scene::TriangleMesh& mesh) {
+  if (simplify_function() == nullptr) {
+    return std::nullopt;
+  }
   std::vector<float> points;
   std::vector<unsigned> corners;
   for (const Vec3d& p : mesh.points) {
@@ -47,9 +98,7 @@ scene::TriangleMesh simplified(const scene::TriangleMesh& mesh) {
     }
   }
   std::vector<unsigned> fewer(corners.size());
-  const std::size_t count =
-      meshopt_simplify(fewer.data(), corners.data(), corners.size(), points.data(),
-                       mesh.points.size(), 3 * sizeof(float), 0, kError);
+  const std::size_t count = simplify(fewer, corners, points);
   fewer.resize(count);
   return count < 3 ? mesh : compact(mesh, fewer);
 }

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include <mujoco/mujoco.h>
+#include "tenon/engines/mujoco/mujoco_library.h"
 
 /// What MuJoCo takes for the softness of constraints where MJCF says nothing.
 namespace tenon::mjcf {

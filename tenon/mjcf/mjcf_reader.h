@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <mujoco/mujoco.h>
-
 #include "tenon/base/diagnostics.h"
+#include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/robot/robot_model.h"
 
 /// Internal to this folder.

@@ -4,11 +4,10 @@
 
 #include <vector>
 
-#include <mujoco/mujoco.h>
-
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/engines/mujoco/model.h"
+#include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/scene/mujoco_actuators.h"
 
 /// Internal to this folder.

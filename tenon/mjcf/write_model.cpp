@@ -7,11 +7,10 @@
 #include <map>
 #include <tuple>
 
-#include <mujoco/mujoco.h>
-
 #include "tenon/base/file_finding.h"
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/model.h"
+#include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/engines/mujoco/writable_model.h"
 #include "tenon/mjcf/write_actuators.h"
 #include "tenon/mjcf/write_keyframes.h"

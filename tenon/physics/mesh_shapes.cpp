@@ -266,15 +266,16 @@ void not_carried_out(ReadState& state, const ShapeSource& source, const char* wh
 
 /// S-62: the triangles of a mesh, fewer where they can be.
 void simplify(ReadState& state, const ShapeSource& source, TriangleMesh& mesh) {
-  if (state.mesh_tools == nullptr || !state.mesh_tools->simplify) {
+  std::optional<TriangleMesh> fewer;
+  if (state.mesh_tools != nullptr && state.mesh_tools->simplify) {
+    fewer = state.mesh_tools->simplify(mesh);
+  }
+  if (!fewer) {
     not_carried_out(state, source,
                     "meshSimplification is not carried out; the mesh itself is used");
-    return;
-  }
-  TriangleMesh fewer = state.mesh_tools->simplify(mesh);
-  if (!fewer.triangles.empty()) {
-    fewer.flat = mesh.flat;
-    mesh = std::move(fewer);
+  } else if (!fewer->triangles.empty()) {
+    fewer->flat = mesh.flat;
+    mesh = *std::move(fewer);
   }
 }
 

@@ -18,8 +18,8 @@ struct MeshTools {
   std::function<std::optional<std::vector<TriangleMesh>>(const TriangleMesh& mesh, int most,
                                                          int vertices)>
       decompose;
-  /// The mesh with fewer triangles, within one hundredth of its size.
-  std::function<TriangleMesh(const TriangleMesh& mesh)> simplify;
+  /// The mesh with fewer triangles, within one hundredth of its size. Nothing: as above.
+  std::function<std::optional<TriangleMesh>(const TriangleMesh& mesh)> simplify;
 };
 
 }  // namespace tenon::scene

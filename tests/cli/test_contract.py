@@ -258,7 +258,7 @@ class Contract(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if tenon("doctor").stdout.find("mujoco   not") >= 0:
+    if tenon("doctor").stdout.find("mujoco        not") >= 0:
         print("skipped: this build has no MuJoCo")
         sys.exit(77)
     unittest.main(argv=sys.argv[:1], verbosity=1)

@@ -124,6 +124,7 @@ void append_untold(const Diagnostics& findings, Diagnostics& diagnostics) {
 
 Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const SimulationOptions& options,
                                 Diagnostics& diagnostics, Begin begin) {
+  TENON_CHECK(open_mujoco());
   const double time_step = choose_time_step(scene, options, diagnostics);
   std::set<Path> refused;
   while (true) {

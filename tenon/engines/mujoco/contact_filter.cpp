@@ -39,8 +39,8 @@ int filter_pair(const mjModel* m, mjData* d, int a, int b) {
 void install() {
   static std::once_flag installed;
   std::call_once(installed, [] {
-    previous_filter = mjcb_contactfilter;
-    mjcb_contactfilter = &filter_pair;
+    previous_filter = contact_filter_callback();
+    contact_filter_callback() = &filter_pair;
   });
 }
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <mutex>
 
-#include <mujoco/mujoco.h>
+#include "tenon/engines/mujoco/mujoco_library.h"
 
 namespace tenon::engines::mujoco {
 namespace {

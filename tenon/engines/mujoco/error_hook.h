@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tenon/base/result.h"
+#include "tenon/engines/mujoco/mujoco_library.h"
 
 /// MuJoCo ends the process on a fatal error unless its log handler leaves it. Ours jumps back to
 /// the call that was guarded on this thread and collects warnings instead of printing them.
@@ -30,9 +31,10 @@ struct ErrorTrap {
 bool run_trapped(ErrorTrap& trap, void (*call)(const void*), const void* context);
 
 /// Runs `call`, which must own nothing that has a destructor: a fatal error leaves it by longjmp.
-/// Errors: Invalid with MuJoCo's words. The process lives on.
+/// Errors: Invalid with MuJoCo's words, and those of open_mujoco. The process lives on.
 template <class Call>
 Result<void> guarded(const Call& call, std::vector<std::string>* warnings = nullptr) {
+  TENON_CHECK(open_mujoco());
   ErrorTrap trap;
   trap.warnings = warnings;
   const auto run = [](const void* context) { (*static_cast<const Call*>(context))(); };

@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <mujoco/mujoco.h>
-
 #include "tenon/engines/mujoco/joint_dofs.h"
+#include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/engines/mujoco/tree_plan.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/math/transform.h"

@@ -6,7 +6,13 @@
 
 namespace tenon::engines::mujoco {
 
-EngineInfo info() { return {"mujoco", mj_versionString(), true, ""}; }
+EngineInfo info() {
+  const Result<void> opened = open_mujoco();
+  if (!opened) {
+    return {"mujoco", "", false, opened.error().diagnostic().fix};
+  }
+  return {"mujoco", mj_versionString(), true, ""};
+}
 
 Result<std::unique_ptr<Simulation>> make_simulation(const scene::PhysicsScene& scene,
                                                     const SimulationOptions& options,

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <mujoco/mujoco.h>
-
+#include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/scene/mujoco_parts.h"
 
 /// MuJoCo's options under the names of MjcSceneAPI ("option:iterations", "flag:contact").
