@@ -74,7 +74,8 @@ int run_doctor(const Globals& globals) {
   Json libraries = Json::array();
   const Result<guard::AboutWorker> worker = about_worker();
   for (const approximate::LibraryInfo& library :
-       {approximate::decomposition_library(), approximate::simplification_library(), mesh_library(worker), worker_program(worker)}) {
+       {approximate::decomposition_library(), approximate::simplification_library(),
+        mesh_library(worker), worker_program(worker)}) {
     libraries.push_back(listed(library, globals));
   }
   return report.finish(all ? kOk : kMissing, {{"engines", engines}, {"libraries", libraries}});

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-# Imported targets mujoco::headers, with which tenon is built (it opens the library when it needs it),
-# and mujoco::mujoco, for programs that are linked to it.
+# Imported targets mujoco::headers, with which tenon is built (it opens the library when it needs
+# it), and mujoco::mujoco, for programs that are linked to it.
 #
 # Default: the official binary wheel, pinned by hash in thirdparty/mujoco-requirements.txt, fetched
 # once with pip into build/_deps/mujoco-<version> (shared by all presets), 10 MB.

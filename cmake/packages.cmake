@@ -64,8 +64,8 @@ execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${TENON_MESHOPTIMIZER_LIBRARY}
                 OUTPUT_VARIABLE tenon_dynamic ERROR_QUIET)
 string(REGEX MATCH "SONAME +([^ \n]+)" tenon_dynamic "${tenon_dynamic}")
 if(NOT CMAKE_MATCH_1)
-  message(FATAL_ERROR "`${TENON_MESHOPTIMIZER_LIBRARY}` is no shared library with a name of its own "
-                      "(SONAME): install libmeshoptimizer-dev (tools/bootstrap.sh).")
+  message(FATAL_ERROR "`${TENON_MESHOPTIMIZER_LIBRARY}` is no shared library with a name "
+                      "of its own (SONAME): install libmeshoptimizer-dev (tools/bootstrap.sh).")
 endif()
 target_compile_definitions(tenon_meshoptimizer
                            INTERFACE TENON_MESHOPTIMIZER_SONAME="${CMAKE_MATCH_1}")

@@ -57,7 +57,8 @@ LibraryInfo decomposition_library() {
 LibraryInfo simplification_library() {
   LibraryInfo info{"meshoptimizer", meshoptimizer_version(), false, ""};
   info.available = !info.version.empty();
-  info.how_to_get = info.available ? "" : "Install " TENON_MESHOPTIMIZER_SONAME " (libmeshoptimizer2d).";
+  info.how_to_get =
+      info.available ? "" : "Install " TENON_MESHOPTIMIZER_SONAME " (libmeshoptimizer2d).";
   return info;
 }
 
