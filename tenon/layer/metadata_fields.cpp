@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/layer/metadata_fields.h"
 
+#include <array>
+#include <limits>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -35,7 +37,10 @@ std::uint8_t home_of(SpecKind kind) {
 struct FieldTable {
   std::vector<MetadataField> rows;
   std::unordered_map<Token, std::size_t> by_name;
-  std::unordered_map<Token, std::uint8_t> structural;
+  // By the upper bits of the hash, the next free row where one is taken. Asked for each field of
+  // each spec that is written.
+  static constexpr std::size_t kSlots = 64;
+  std::array<std::pair<const void*, std::uint8_t>, kSlots> structural{};
 
   FieldTable() {
 #define TENON_METADATA(name, value_type, array, where) \
@@ -60,8 +65,20 @@ struct FieldTable {
 
   void add_structural(std::uint8_t homes, std::initializer_list<Token> names) {
     for (const Token& name : names) {
-      structural[name] = static_cast<std::uint8_t>(structural[name] | homes);
+      auto& slot = structural[slot_of(name)];
+      slot.first = name.id();
+      slot.second = static_cast<std::uint8_t>(slot.second | homes);
     }
+  }
+
+  /// Where the name stands, or the free row where it would.
+  std::size_t slot_of(Token name) const {
+    constexpr int kShift = std::numeric_limits<std::size_t>::digits - 6;
+    std::size_t at = std::hash<Token>()(name) >> kShift;
+    while (structural[at].first != nullptr && structural[at].first != name.id()) {
+      at = (at + 1) % kSlots;
+    }
+    return at;
   }
 };
 
@@ -87,8 +104,8 @@ bool is_value_of_metadata(Token name, SpecKind kind, const Value& value) {
 }
 
 bool is_structural_field(Token name, SpecKind kind) {
-  const auto it = field_table().structural.find(name);
-  return it != field_table().structural.end() && (it->second & home_of(kind)) != 0;
+  const FieldTable& table = field_table();
+  return (table.structural[table.slot_of(name)].second & home_of(kind)) != 0;
 }
 
 std::span<const MetadataField> all_metadata_fields() { return field_table().rows; }

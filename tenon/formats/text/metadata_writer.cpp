@@ -153,11 +153,6 @@ void append_field(std::string& out, const Field& field, std::size_t indent) {
   }
 }
 
-bool has_comment(const Spec& spec) {
-  const auto* comment = spec.get<std::string>(fields::comment);
-  return comment != nullptr && !comment->empty();
-}
-
 void append_sublayers(std::string& out, const Spec& root) {
   const auto* paths = root.get<std::vector<std::string>>(fields::subLayers);
   const auto* offsets = root.get<std::vector<layer::LayerOffset>>(fields::subLayerOffsets);
@@ -198,10 +193,17 @@ void append_relocates(std::string& out, const layer::Relocates& relocates) {
 
 }  // namespace
 
+bool is_metadata(const Field& field, SpecKind kind) {
+  if (field.name == fields::comment) {
+    const auto* comment = field.value.get<std::string>();
+    return comment != nullptr && !comment->empty();
+  }
+  return stands_in_metadata(field.name, kind);
+}
+
 bool has_metadata(const Spec& spec) {
-  return has_comment(spec) ||
-         std::any_of(spec.fields().begin(), spec.fields().end(),
-                     [&](const Field& field) { return stands_in_metadata(field.name, spec.kind); });
+  return std::any_of(spec.fields().begin(), spec.fields().end(),
+                     [&](const Field& field) { return is_metadata(field, spec.kind); });
 }
 
 bool stands_in_parentheses(Token field, SpecKind kind) {

@@ -13,6 +13,8 @@ namespace tenon::formats::text {
 bool append_metadata(std::string& out, const layer::Spec& spec, std::size_t indent);
 /// True when `append_metadata` would write something.
 bool has_metadata(const layer::Spec& spec);
+/// True when it would write something for this field of a spec of that kind.
+bool is_metadata(const layer::Field& field, layer::SpecKind kind);
 
 /// The statements of one field in parentheses, each on lines of its own, `indent` steps in; those
 /// of a layer stand one step in. Empty for fields that are written elsewhere. The comment of a spec

@@ -25,6 +25,49 @@ using layer::Value;
 using layer::Variability;
 namespace fields = layer::fields;
 
+/// What the spec of an attribute says, from one walk over its fields; nullptr, false: nothing.
+struct AttributeParts {
+  explicit AttributeParts(const Spec& spec) {
+    for (const layer::Field& field : spec.fields()) {
+      if (field.name == fields::typeName) {
+        if (const auto* name = field.value.get<Token>()) {
+          type_name = *name;
+        }
+      } else if (field.name == fields::default_value) {
+        value = &field.value;
+      } else if (field.name == fields::variability) {
+        const auto* variability = field.value.get<Variability>();
+        is_uniform = variability != nullptr && *variability == Variability::Uniform;
+      } else if (field.name == fields::custom) {
+        const auto* flag = field.value.get<bool>();
+        is_custom = flag != nullptr && *flag;
+      } else if (field.name == fields::timeSamples) {
+        samples = field.value.get<layer::TimeSamples>();
+      } else if (field.name == fields::spline) {
+        spline = field.value.get<layer::Spline>();
+      } else if (field.name == fields::connectionPaths) {
+        connections = field.value.get<layer::ListOp<Path>>();
+      } else {
+        has_metadata = has_metadata || is_metadata(field, SpecKind::Attribute);
+      }
+    }
+  }
+  /// True when something has to be declared before, or instead of, samples and connections.
+  bool needs_declaration() const {
+    return value != nullptr || is_custom || has_metadata ||
+           (samples == nullptr && spline == nullptr && connections == nullptr);
+  }
+
+  Token type_name;
+  const Value* value = nullptr;
+  const layer::TimeSamples* samples = nullptr;
+  const layer::Spline* spline = nullptr;
+  const layer::ListOp<Path>* connections = nullptr;
+  bool is_uniform = false;
+  bool is_custom = false;
+  bool has_metadata = false;
+};
+
 class LayerWriter {
  public:
   explicit LayerWriter(const Layer& layer) : layer_(layer) {}
@@ -211,51 +254,50 @@ class LayerWriter {
   // Attributes
 
   void append_attribute(Token name, const Spec& spec, std::size_t indent) {
-    const bool uniform =
-        spec.get_or(fields::variability, Variability::Varying) == Variability::Uniform;
-    const Token type = layer::written_type_name(spec.get_or(fields::typeName, Token()));
+    const AttributeParts parts(spec);
     std::string& declaration = declaration_;
-    declaration = uniform ? "uniform " : "";
-    declaration += type.view();
+    declaration = parts.is_uniform ? "uniform " : "";
+    declaration += layer::written_type_name(parts.type_name).view();
     declaration += ' ';
     declaration += name.view();
-    const Value* value = spec.find(fields::default_value);
-    const auto* samples = spec.get<layer::TimeSamples>(fields::timeSamples);
-    const auto* spline = spec.get<layer::Spline>(fields::spline);
-    const auto* connections = spec.get<layer::ListOp<Path>>(fields::connectionPaths);
-    const bool custom = spec.get_or(fields::custom, false);
-    const bool nothing_else = samples == nullptr && spline == nullptr && connections == nullptr;
-    if (value != nullptr || custom || nothing_else || has_metadata(spec)) {
+    if (parts.needs_declaration()) {
       append_indent(out_, indent);
-      out_ += custom ? "custom " : "";
+      out_ += parts.is_custom ? "custom " : "";
       out_ += declaration;
-      if (value != nullptr) {
+      if (parts.value != nullptr) {
         out_ += " = ";
-        append_value_text(out_, *value);
-        need(minor_version_of(*value));
+        append_value_text(out_, *parts.value);
+        need(minor_version_of(*parts.value));
       }
-      add_metadata(spec, indent);
+      if (parts.has_metadata) {
+        add_metadata(spec, indent);
+      }
       out_ += '\n';
     }
-    if (samples != nullptr) {
-      append_time_samples(declaration, *samples, indent);
+    if (parts.samples != nullptr) {
+      append_time_samples(declaration, *parts.samples, indent);
     }
-    if (spline != nullptr) {
-      need(minor_version_of(*spline));
-      append_indent(out_, indent);
-      out_ += declaration + ".spline = {\n";
-      append_spline(out_, *spline, indent);
-      append_indent(out_, indent);
-      out_ += "}\n";
+    if (parts.spline != nullptr) {
+      append_spline_statement(declaration, *parts.spline, indent);
     }
-    if (connections != nullptr) {
-      for_each_edit(*connections, [&](const char* word, const std::vector<Path>& paths) {
+    if (parts.connections != nullptr) {
+      for_each_edit(*parts.connections, [&](const char* word, const std::vector<Path>& paths) {
         append_indent(out_, indent);
         out_ += word + declaration + ".connect = ";
         append_targets(paths, indent);
         out_ += '\n';
       });
     }
+  }
+
+  void append_spline_statement(const std::string& declaration, const layer::Spline& spline,
+                               std::size_t indent) {
+    need(minor_version_of(spline));
+    append_indent(out_, indent);
+    out_ += declaration + ".spline = {\n";
+    append_spline(out_, spline, indent);
+    append_indent(out_, indent);
+    out_ += "}\n";
   }
 
   void append_time_samples(const std::string& declaration, const layer::TimeSamples& samples,
