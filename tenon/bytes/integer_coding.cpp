@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <unordered_map>
+#include <vector>
 
 #include "tenon/base/limits.h"
 #include "tenon/bytes/integer_stream.h"
@@ -22,7 +22,7 @@ Error too_short() {
 }
 
 /// The commonest of many differences, the largest of several. The small ones, which are nearly all
-/// in meshes, are counted by index.
+/// in meshes, are counted by index; the others are sorted: no choice of numbers makes that slow.
 template <class Signed>
 class DifferenceCounts {
  public:
@@ -33,12 +33,18 @@ class DifferenceCounts {
     if (index < small_.size()) {
       ++small_[static_cast<std::size_t>(index)];
     } else {
-      note(difference, ++others_[difference]);
+      others_.push_back(difference);
     }
   }
   Signed commonest() {
     for (std::size_t i = 0; i < small_.size(); ++i) {
       note(static_cast<Signed>(i) - static_cast<Signed>(kSmall), small_[i]);
+    }
+    std::sort(others_.begin(), others_.end());
+    for (auto first = others_.begin(); first != others_.end();) {
+      const auto last = std::find_if(first, others_.end(), [&](Signed x) { return x != *first; });
+      note(*first, static_cast<std::size_t>(last - first));
+      first = last;
     }
     return common_;
   }
@@ -54,7 +60,7 @@ class DifferenceCounts {
   static constexpr std::uint64_t kSmall = 2048;
   static constexpr std::size_t kFew = 512;
   std::vector<std::size_t> small_;
-  std::unordered_map<Signed, std::size_t> others_;
+  std::vector<Signed> others_;
   Signed common_ = 0;
   std::size_t common_count_ = 0;
 };

@@ -24,17 +24,9 @@ class PointWelder {
   }
 
   std::int32_t number(const Vec3f& point) {
-    if (points_.size() >= most_points_) {
-      grow();
-    }
     const Vec3f plain{{point[0] + 0.0f, point[1] + 0.0f, point[2] + 0.0f}};  // -0 becomes 0
-    const Bits bits(plain);
-    const std::size_t at = find(bits);
-    if (slots_[at] < 0) {
-      slots_[at] = static_cast<std::int32_t>(points_.size());
-      points_.push_back(plain);
-    }
-    return slots_[at];
+    const std::size_t at = find(Bits(plain));
+    return slots_[at] < 0 ? add(plain, at) : slots_[at];
   }
 
   std::vector<Vec3f> take_points() { return std::move(points_); }
@@ -57,11 +49,22 @@ class PointWelder {
                                     (64u - bits_));
   }
   std::size_t find(const Bits& bits) const {
+    const std::int32_t* const slots = slots_.data();
+    const Vec3f* const points = points_.data();
     std::size_t at = first_slot(bits);
-    while (slots_[at] >= 0 && !(Bits(points_[static_cast<std::size_t>(slots_[at])]) == bits)) {
-      at = (at + 1) & (slots_.size() - 1);
+    while (slots[at] >= 0 && !(Bits(points[slots[at]]) == bits)) {
+      at = (at + 1) & (slot_count() - 1);
     }
     return at;
+  }
+  std::int32_t add(const Vec3f& point, std::size_t at) {
+    const auto number = static_cast<std::int32_t>(points_.size());
+    slots_[at] = number;
+    points_.push_back(point);
+    if (points_.size() >= most_points_) {
+      grow();
+    }
+    return number;
   }
   void clear_slots() {
     slots_.assign(slot_count(), -1);
