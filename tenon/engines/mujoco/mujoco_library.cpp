@@ -19,23 +19,26 @@ namespace {
 
 mjfConFilt* contact_filter = nullptr;
 
-/// "": opened; else why not.
+template <class Symbol>
+bool find_symbol(void* library, const char* name, Symbol& symbol) {
+  symbol = reinterpret_cast<Symbol>(dlsym(library, name));
+  return symbol != nullptr;
+}
+
+/// "": all found; else what is wrong with the library.
 std::string find_symbols(void* library) {
-  std::string missing;
-  const auto find = [&](const char* name, auto& symbol) {
-    symbol = reinterpret_cast<std::remove_reference_t<decltype(symbol)>>(dlsym(library, name));
-    if (symbol == nullptr) {
-      missing += (missing.empty() ? "it has no " : ", ") + std::string(name);
-    }
-  };
-#define TENON_FIND_FUNCTION(name) find(#name, tenon::name);
+  if (!find_symbol(library, "mj_version", mj_version) || mj_version() != mjVERSION_HEADER) {
+    return "it is another version than " + std::to_string(mjVERSION_HEADER);
+  }
+#define TENON_FIND_FUNCTION(name)                  \
+  if (!find_symbol(library, #name, tenon::name)) { \
+    return "it has no " #name;                     \
+  }
   TENON_MUJOCO_FUNCTIONS(TENON_FIND_FUNCTION)
 #undef TENON_FIND_FUNCTION
-  find("mjcb_contactfilter", contact_filter);
-  if (missing.empty() && mj_version() != mjVERSION_HEADER) {
-    missing = std::string("it is version ") + mj_versionString();
-  }
-  return missing;
+  return find_symbol(library, "mjcb_contactfilter", contact_filter)
+             ? ""
+             : "it has no mjcb_contactfilter";
 }
 
 std::string open_library() {

@@ -11,7 +11,8 @@
 /// link.
 #define TENON_MUJOCO_FUNCTIONS(X)                                                                  \
   X(mj_addBufferVFS)                                                                               \
-  X(mj_comPos) X(mj_comVel) X(mj_compile) X(mj_defaultOption) X(mj_defaultVFS) X(mj_deleteData) X( \
+  X(mj_comPos)                                                                                     \
+  X(mj_comVel) X(mj_compile) X(mj_defaultOption) X(mj_defaultVFS) X(mj_deleteData) X(              \
       mj_deleteModel) X(mj_deleteSpec) X(mj_deleteVFS) X(mj_forward) X(mj_id2name) X(mj_island)    \
       X(mj_jac) X(mj_jacBodyCom) X(mj_kinematics) X(mj_makeConstraint) X(mj_makeData) X(           \
           mj_makeSpec) X(mj_name2id) X(mj_objectVelocity) X(mj_parseXML) X(mj_projectConstraint)   \
