@@ -8,9 +8,9 @@
 
 namespace tenon {
 
-#define TENON_DEFINE_FUNCTION(name) decltype(&::name) name = nullptr;
-TENON_MUJOCO_FUNCTIONS(TENON_DEFINE_FUNCTION)
-#undef TENON_DEFINE_FUNCTION
+#define TENON_MUJOCO_FUNCTION(name) decltype(&::name) name = nullptr;
+#include "tenon/engines/mujoco/mujoco_functions.def"
+#undef TENON_MUJOCO_FUNCTION
 
 }  // namespace tenon
 
@@ -30,12 +30,12 @@ std::string find_symbols(void* library) {
   if (!find_symbol(library, "mj_version", mj_version) || mj_version() != mjVERSION_HEADER) {
     return "it is another version than " + std::to_string(mjVERSION_HEADER);
   }
-#define TENON_FIND_FUNCTION(name)                  \
+#define TENON_MUJOCO_FUNCTION(name)                \
   if (!find_symbol(library, #name, tenon::name)) { \
     return "it has no " #name;                     \
   }
-  TENON_MUJOCO_FUNCTIONS(TENON_FIND_FUNCTION)
-#undef TENON_FIND_FUNCTION
+#include "tenon/engines/mujoco/mujoco_functions.def"
+#undef TENON_MUJOCO_FUNCTION
   return find_symbol(library, "mjcb_contactfilter", contact_filter)
              ? ""
              : "it has no mjcb_contactfilter";
