@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/check/rule.h"
 
 namespace tenon::cli {
 namespace {
@@ -36,7 +37,7 @@ Result<Baseline> Baseline::read(const std::string& path) {
   Baseline baseline;
   baseline.folder_ = folder_of(path);
   for (const Json& item : json["findings"]) {
-    const std::string key = text_at(item, "rule") + "\n" + text_at(item, "file") + "\n" +
+    const std::string key = std::string(check::current_id(text_at(item, "rule"))) + "\n" + text_at(item, "file") + "\n" +
                             text_at(item, "prim") + "\n" + text_at(item, "property");
     const bool counted =
         item.is_object() && item.contains("count") && item["count"].is_number_unsigned();

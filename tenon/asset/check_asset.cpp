@@ -92,7 +92,7 @@ std::set<std::string> used_files(const std::string& path, const OpenOptions& opt
   return used;
 }
 
-/// Files that nothing else names; of a circle that nothing leads to, the first.
+/// Files that nothing else names; of a cycle that nothing leads to, the first.
 std::vector<std::string> roots_of(const std::vector<std::string>& files,
                                   const OpenOptions& options) {
   std::map<std::string, std::set<std::string>> uses;
@@ -114,9 +114,9 @@ std::vector<std::string> roots_of(const std::vector<std::string>& files,
     }
   };
   std::vector<std::string> roots;
-  for (const bool circles : {false, true}) {
+  for (const bool cycles : {false, true}) {
     for (const std::string& file : files) {
-      if (!reached.contains(file) && (circles || !used.contains(file))) {
+      if (!reached.contains(file) && (cycles || !used.contains(file))) {
         roots.push_back(file);
         reach(file);
       }

@@ -18,7 +18,7 @@ namespace {
 
 bool names(const std::vector<std::string>& list, std::string_view rule) {
   return std::any_of(list.begin(), list.end(), [&](const std::string& name) {
-    return rule == name || rule.substr(0, rule.find('.')) == name;
+    return rule == current_id(name) || rule.substr(0, rule.find('.')) == name;
   });
 }
 

@@ -31,6 +31,10 @@ TEST(Rules, AreSortedUniqueAndHavePagesWithTheirFacts) {
     EXPECT_EQ(find_rule(all[i].id), &all[i]);
   }
   EXPECT_EQ(find_rule("mass"), nullptr);
+  EXPECT_EQ(find_rule("mimic.circle"), find_rule("mimic.cycle"));
+  EXPECT_NE(find_rule("mimic.circle"), nullptr);
+  EXPECT_TRUE(page_of("mimic.circle").starts_with("# mimic.cycle\n"));
+  EXPECT_TRUE((Selection{{"joint.moves-nothing"}, {}}.takes("joint.no-dynamic-body")));
 }
 
 TEST(Rules, OfAFamilyWithoutPagesOfTheirOwnAreExplainedByTheFamilysPage) {

@@ -125,7 +125,7 @@ void check_drive_missing(const Subject& subject, Reporter& report) {
                          joint.stiffness == 0 && joint.lower < joint.upper;
       const std::string path = joint.path.str();
       const bool judged = subject.has_finding("mimic.leader-missing", path) ||
-                          subject.has_finding("mimic.circle", path);
+                          subject.has_finding("mimic.cycle", path);
       if (some && loose && !judged) {
         report.at(subject.stage.prim(joint.path),
                   "the joint has neither drive nor mimic, other joints of the robot have",

@@ -33,7 +33,9 @@ struct Rule {
 
 /// All rules, sorted by id.
 const std::vector<Rule>& rules();
-/// Null when there is no such rule.
+/// The id of the rule that had the id `id` before, else `id` itself.
+std::string_view current_id(std::string_view id);
+/// By its id, or one that it had before. Null when there is no such rule.
 const Rule* find_rule(std::string_view id);
 
 /// The Markdown page of a rule, or of its family ("text" for "text.syntax"); empty when there is

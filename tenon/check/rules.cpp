@@ -10,6 +10,7 @@ namespace tenon::check {
 #define TENON_RULE(id, severity, numbers, check, fix) CheckFunction check;
 #define TENON_RULE_IN_ALL(id, severity, numbers, check, fix) CheckFunction check;
 #define TENON_FOUND(id, severity, numbers, fix)
+#define TENON_FORMER_ID(former, id)
 #include "tenon/check/rules.def"
 
 namespace {
@@ -22,11 +23,20 @@ std::vector<Rule> sorted_rules() {
   {id, Severity::severity, numbers, check, fix, Holds::InAllVariants},
 #define TENON_FOUND(id, severity, numbers, fix) \
   {id, Severity::severity, numbers, nullptr, fix, Holds::InAnyVariant},
+#define TENON_FORMER_ID(former, id)
 #include "tenon/check/rules.def"
   };
   std::sort(table.begin(), table.end(), [](const Rule& a, const Rule& b) { return a.id < b.id; });
   return table;
 }
+
+constexpr std::pair<std::string_view, std::string_view> kFormerIds[] = {
+#define TENON_RULE(id, severity, numbers, check, fix)
+#define TENON_RULE_IN_ALL(id, severity, numbers, check, fix)
+#define TENON_FOUND(id, severity, numbers, fix)
+#define TENON_FORMER_ID(former, id) {former, id},
+#include "tenon/check/rules.def"
+};
 
 std::string_view exact_page(std::string_view id) {
   const std::vector<Page>& all = pages();
@@ -42,7 +52,17 @@ const std::vector<Rule>& rules() {
   return table;
 }
 
-const Rule* find_rule(std::string_view id) {
+std::string_view current_id(std::string_view id) {
+  for (const auto& [former, current] : kFormerIds) {
+    if (id == former) {
+      return current;
+    }
+  }
+  return id;
+}
+
+const Rule* find_rule(std::string_view asked) {
+  const std::string_view id = current_id(asked);
   const std::vector<Rule>& all = rules();
   const auto found = std::lower_bound(
       all.begin(), all.end(), id, [](const Rule& rule, std::string_view i) { return rule.id < i; });
@@ -50,7 +70,7 @@ const Rule* find_rule(std::string_view id) {
 }
 
 std::string_view page_of(std::string_view id) {
-  const std::string_view own = exact_page(id);
+  const std::string_view own = exact_page(current_id(id));
   return own.empty() ? exact_page(id.substr(0, id.find('.'))) : own;
 }
 

@@ -168,7 +168,7 @@ void break_circles(ReadState& state) {
     for (std::size_t steps = 0; joints[at].mimic && steps <= joints.size(); ++steps) {
       at = joints[at].mimic->leader;
       if (at == i) {
-        state.report(state.prim_of_joint(i).prim, Severity::Error, "mimic.circle",
+        state.report(state.prim_of_joint(i).prim, Severity::Error, "mimic.cycle",
                      "the joint follows itself through others; it follows none",
                      "let one joint of the cycle lead");
         joints[i].mimic.reset();

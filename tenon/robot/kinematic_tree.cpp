@@ -62,7 +62,7 @@ Result<Index> find_root(const RobotModel& model, const KinematicTree& tree) {
     root = link;
   }
   if (!root) {
-    return fault(model, model.links.front().place, "robot.circle",
+    return fault(model, model.links.front().place, "robot.cycle",
                  "every link has a parent: the joints form a cycle", "remove one joint");
   }
   return *root;
@@ -102,7 +102,7 @@ Result<KinematicTree> kinematic_tree(const RobotModel& model) {
     }
     for (Index link = 0; link < model.links.size(); ++link) {
       if (reached[link] == 0) {
-        return fault(model, model.links[link].place, "robot.circle",
+        return fault(model, model.links[link].place, "robot.cycle",
                      "the link \"" + model.links[link].name +
                          "\" is its own ancestor: the joints form a cycle",
                      "remove one joint of the cycle");

@@ -21,11 +21,11 @@ struct KinematicTree {
 };
 
 /// The tree of a model. Errors (Invalid, with the line): no links, a link with two parents, links
-/// in a circle, more than one root; duplicate names of links or of joints.
+/// in a cycle, more than one root; duplicate names of links or of joints.
 Result<KinematicTree> kinematic_tree(const RobotModel& model);
 
 /// What is wrong with a model whose tree is sound and can be mended: numbers that are not finite,
-/// masses and inertias that no body can have, zero axes, mimics in a circle or of unfit joints,
+/// masses and inertias that no body can have, zero axes, mimics in a cycle or of unfit joints,
 /// limits upside down. Each finding goes to `diagnostics`, and what it names is made harmless: left
 /// out or unlimited, as its message says.
 void mend_model(RobotModel& model, Diagnostics& diagnostics);

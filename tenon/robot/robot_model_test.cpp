@@ -94,10 +94,10 @@ TEST(KinematicTree, RefusesWhatIsNoTree) {
   EXPECT_EQ(rule_of(model), "robot.two-roots");
   model = four_links();
   model.joints.push_back(joint_of("ca", JointKind::Fixed, 2, 0));
-  EXPECT_EQ(rule_of(model), "robot.circle");
+  EXPECT_EQ(rule_of(model), "robot.cycle");
   model = four_links();
   model.joints[0].parent = 2;  // b and c hold each other, a stands alone
-  EXPECT_EQ(rule_of(model), "robot.circle");
+  EXPECT_EQ(rule_of(model), "robot.cycle");
 }
 
 TEST(KinematicTree, WalksChainsOfAnyLength) {

@@ -28,7 +28,7 @@ class JointGraph {
     std::vector<Index> loops;   ///< closed by constraints, ascending
   };
   /// Spanning tree of a component: `root_joint` first, then joints in traversal order; a joint that
-  /// would close a circle is a loop, so circles break at their last joint (S-111). Further joints
+  /// would close a cycle is a loop, so cycles break at their last joint (S-111). Further joints
   /// to the world close loops (S-110).
   Tree tree(const std::vector<Index>& component, std::optional<Index> root_joint) const;
 

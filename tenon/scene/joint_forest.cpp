@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Kruskal's algorithm over a graph whose nodes are the bodies and the world: joints come in the
-// order in which trees want them, and one that would close a circle is a loop. The world and every
+// order in which trees want them, and one that would close a cycle is a loop. The world and every
 // kinematic body are rooted nodes: two of them never meet in one tree, so a joint between their
 // trees is a loop as well. Then each tree is walked breadth first from its root to give parents.
 //

@@ -32,7 +32,7 @@ KNOWN = {
 AS_WRITTEN = {
     "01_box_on_box_proposal": {"attribute.moved-input", "collider.default-size"},
     "02_box_on_quad_asis": {"text.syntax"},
-    "02_box_on_quad_proposal": {"collider.subdivision-ignored", "collider.normals-turned",
+    "02_box_on_quad_proposal": {"collider.subdivision-ignored", "collider.normals-flipped",
                                 "mass.center-moved"},
     "03_spheres_with_materials_asis": {"text.syntax"},
     "03_spheres_with_materials_proposal": {"attribute.unprefixed", "material.binding-api-missing",
