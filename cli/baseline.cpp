@@ -37,8 +37,9 @@ Result<Baseline> Baseline::read(const std::string& path) {
   Baseline baseline;
   baseline.folder_ = folder_of(path);
   for (const Json& item : json["findings"]) {
-    const std::string key = std::string(check::current_id(text_at(item, "rule"))) + "\n" + text_at(item, "file") + "\n" +
-                            text_at(item, "prim") + "\n" + text_at(item, "property");
+    const std::string key = std::string(check::current_id(text_at(item, "rule"))) + "\n" +
+                            text_at(item, "file") + "\n" + text_at(item, "prim") + "\n" +
+                            text_at(item, "property");
     const bool counted =
         item.is_object() && item.contains("count") && item["count"].is_number_unsigned();
     baseline.count_[key] += counted ? item["count"].get<std::size_t>() : 1;

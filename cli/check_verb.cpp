@@ -387,7 +387,8 @@ Result<void> check_arguments(const CheckArguments& options, bool json) {
     for (const std::string& name : *list) {
       const bool known =
           std::any_of(check::rules().begin(), check::rules().end(), [&](const check::Rule& rule) {
-            return rule.id == check::current_id(name) || rule.id.substr(0, rule.id.find('.')) == name;
+            return rule.id == check::current_id(name) ||
+                   rule.id.substr(0, rule.id.find('.')) == name;
           });
       if (!known && check::page_of(name).empty()) {
         return Error(ErrorCode::NotFound, "there is no rule or family of rules \"" + name + "\"")

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/physics/prim_roles.h"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
+
+#include "tenon/schema/registry.h"
 
 namespace tenon::physics {
 namespace {
@@ -67,6 +70,14 @@ Token meant_type_of(std::string_view type) {
   return Token("Physics" + std::string(type.substr(0, type.size() - kOld.size())) + "Joint");
 }
 
+bool is_of_vendor(Token type, const std::vector<Token>& schemas) {
+  const schema::Registry& registry = schema::Registry::instance();
+  return registry.is_vendor(type) ||
+         std::any_of(schemas.begin(), schemas.end(), [&](Token applied) {
+           return registry.is_vendor(schema::split_api_name(applied).first);
+         });
+}
+
 }  // namespace
 
 bool Roles::matters() const {
@@ -113,6 +124,7 @@ Roles RoleFinder::find(const stage::Prim& prim, const std::vector<Token>& schema
   roles.kind = kind_of(prim);
   roles.xformable = prim.is_a(Token("Xformable"));
   roles.meant_type = meant_type_of(prim.type_name().view());
+  roles.vendor = is_of_vendor(prim.type_name(), schemas);
   for (std::size_t i = 0; i < api_names_.size(); ++i) {
     const std::string prefix = api_names_[i].str() + ":";
     bool has = prim.has_api(api_names_[i]);

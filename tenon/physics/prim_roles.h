@@ -57,6 +57,7 @@ struct Roles {
   std::uint64_t apis = 0;
   PrimKind kind = PrimKind::Other;
   bool xformable = false;
+  bool vendor = false;  ///< its type or an API of it is a vendor's (physx, newton, mjc, isaac)
   /// The joint type that an unknown type name such as "DistancePhysicsJoint" seems to mean, or "".
   Token meant_type;
 

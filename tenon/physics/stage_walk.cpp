@@ -88,6 +88,9 @@ class Walker {
     if (!is_joint(roles.kind)) {
       report_stray_properties(values_, prim, roles);
     }
+    if (roles.vendor) {
+      walk_.vendor_prims.push_back(prim);
+    }
     if (roles.matters()) {
       add(prim, roles, state);
     }

@@ -57,6 +57,9 @@ struct Walk {
   std::vector<PhysicsPrim> prims;
   std::unordered_map<Path, std::uint32_t> index_of;  ///< by path
   std::vector<PointInstance> instances;
+  /// Prims of a vendor's type or with a vendor's API, also those that mean nothing else to physics.
+  /// A prototype of a point instancer stands here for each instance.
+  std::vector<stage::Prim> vendor_prims;
 
   const PhysicsPrim* find(Path path) const {
     const auto found = index_of.find(path);

@@ -109,6 +109,11 @@ const Schema* Registry::find(Token name) const {
   return found == nullptr ? nullptr : &schema_of(*found);
 }
 
+bool Registry::is_vendor(Token name) const {
+  const Slot* found = slot(name.view());
+  return found != nullptr && found->vendor;
+}
+
 std::vector<const Schema*> Registry::schemas() const {
   std::vector<const Schema*> result;
   for (const auto& [name, slot] : slots_) {

@@ -55,6 +55,8 @@ class Registry {
 
   /// nullptr when no schema has that name.
   const Schema* find(Token name) const;
+  /// A schema of that name that stock OpenUSD does not know: Schema::vendor.
+  bool is_vendor(Token name) const;
   /// `type` is `base` or derives from it.
   bool is_a(Token type, Token base) const;
   /// Sorted by name.

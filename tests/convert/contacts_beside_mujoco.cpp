@@ -15,9 +15,9 @@
 #include "tenon/tenon.h"
 #include "tests/convert/read_with_mujoco.h"
 
+namespace tenon {
 namespace {
 
-using namespace tenon;
 using engines::mujoco::ModelPtr;
 using engines::mujoco::MujocoSimulation;
 
@@ -145,10 +145,11 @@ int compare(const std::string& path, convert::SchemaGeneration schema) {
 }
 
 }  // namespace
+}  // namespace tenon
 
 int main() {
   const std::string path = "tests/convert/mjcf/contacts.xml";
-  const int current = compare(path, convert::SchemaGeneration::Current);
-  const int legacy = compare(path, convert::SchemaGeneration::Legacy);
+  const int current = tenon::compare(path, tenon::convert::SchemaGeneration::Current);
+  const int legacy = tenon::compare(path, tenon::convert::SchemaGeneration::Legacy);
   return current != 0 || legacy != 0 ? 1 : 0;
 }

@@ -20,9 +20,9 @@
 #include "tenon/tenon.h"
 #include "tests/convert/read_with_mujoco.h"
 
+namespace tenon {
 namespace {
 
-using namespace tenon;
 using engines::mujoco::ModelPtr;
 using engines::mujoco::MujocoSimulation;
 
@@ -169,12 +169,13 @@ int compare(const std::string& path) {
 }
 
 }  // namespace
+}  // namespace tenon
 
 int main() {
-  const std::string path = hand();
+  const std::string path = tenon::hand();
   if (!std::filesystem::exists(path)) {
     std::printf("skipped: %s is not there\n", path.c_str());
     return 77;
   }
-  return compare(path);
+  return tenon::compare(path);
 }

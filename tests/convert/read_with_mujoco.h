@@ -7,10 +7,16 @@
 
 #include "tenon/engines/mujoco/model.h"
 
+namespace tenon {
+
 /// MuJoCo's own reading of a description, after `adjust` has had its specification; null with a
 /// printed reason where MuJoCo refuses it.
 template <class Adjust>
-tenon::engines::mujoco::ModelPtr read_with_mujoco(const std::string& path, Adjust adjust) {
+engines::mujoco::ModelPtr read_with_mujoco(const std::string& path, Adjust adjust) {
+  if (const Result<void> opened = engines::mujoco::open_mujoco(); !opened) {
+    std::printf("%s\n", opened.error().message().c_str());
+    return nullptr;
+  }
   char error[1000] = "";
   mjSpec* spec = mj_parseXML(path.c_str(), nullptr, error, sizeof(error));
   if (spec == nullptr) {
@@ -18,10 +24,12 @@ tenon::engines::mujoco::ModelPtr read_with_mujoco(const std::string& path, Adjus
     return nullptr;
   }
   adjust(*spec);
-  tenon::engines::mujoco::ModelPtr model(mj_compile(spec, nullptr));
+  engines::mujoco::ModelPtr model(mj_compile(spec, nullptr));
   if (model == nullptr) {
     std::printf("MuJoCo: %s\n", mjs_getError(spec));
   }
   mj_deleteSpec(spec);
   return model;
 }
+
+}  // namespace tenon

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/physics/vendor_attributes.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+#include "tenon/schema/registry.h"
+
+namespace tenon::physics {
+namespace {
+
+struct VendorRow {
+  std::string_view name;
+  VendorUse use = VendorUse::Read;
+};
+
+constexpr VendorRow kVendorRows[] = {
+#define TENON_READ(name) {name, VendorUse::Read},
+#define TENON_HARMLESS(name, why) {name, VendorUse::Harmless},
+#include "tenon/physics/vendor_attributes.def"
+};
+
+constexpr bool comes_first(const VendorRow& a, const VendorRow& b) { return a.name < b.name; }
+static_assert(std::is_sorted(std::begin(kVendorRows), std::end(kVendorRows), comes_first));
+
+const VendorRow* find_vendor_row(std::string_view name) {
+  const VendorRow wanted{name};
+  const VendorRow* found =
+      std::lower_bound(std::begin(kVendorRows), std::end(kVendorRows), wanted, comes_first);
+  return found != std::end(kVendorRows) && found->name == name ? found : nullptr;
+}
+
+}  // namespace
+
+VendorUse use_of_vendor_attribute(std::string_view name) {
+  const VendorRow* row = find_vendor_row(name);
+  for (std::size_t at = name.find(':'); row == nullptr && at != std::string_view::npos;
+       at = name.find(':', at + 1)) {
+    const std::string before(name.substr(0, at + 1));
+    const std::size_t next = name.find(':', at + 1);
+    if (next != std::string_view::npos) {
+      row = find_vendor_row(before + "*" + std::string(name.substr(next)));
+    }
+    row = row == nullptr ? find_vendor_row(before + "*") : row;
+  }
+  return row == nullptr ? VendorUse::NotRead : row->use;
+}
+
+bool is_vendor_attribute(const stage::Prim& prim, Token name) {
+  const std::string_view text = name.view();
+  if (text.starts_with("physx") || text.starts_with("newton:") || text.starts_with("mjc:")) {
+    return true;
+  }
+  const schema::PrimDefinition* definition = prim.definition();
+  const schema::PropertyDefinition* declared =
+      definition == nullptr ? nullptr : definition->find(name);
+  return declared != nullptr && declared->vendor;
+}
+
+}  // namespace tenon::physics
