@@ -21,6 +21,7 @@ USERS = ("cli/", "worker/", "tests/", "bench/", "fuzz/")
 LIBRARIES = {
     "tl/*": ["tenon/base/result.h"],
     "Eigen/*": ["tenon/math/*.cpp"],
+    "fast_float/*": ["tenon/base/number_from_text.h"],
     "meshoptimizer.h": ["tenon/approximate/*.cpp"],
     "lz4*.h": ["tenon/bytes/*.cpp"],
     "mujoco/*": [

@@ -3,7 +3,11 @@
 #include "tenon/base/parallel.h"
 
 #include <pthread.h>
+#if defined(__linux__)
 #include <sched.h>
+#else
+#include <thread>
+#endif
 
 #include "tenon/base/heap.h"
 
@@ -19,12 +23,13 @@ void* run(void* call) {
 }  // namespace
 
 std::size_t usable_processors() {
+#if defined(__linux__)  // those that this process may use, not those of the machine
   cpu_set_t set;
   CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof(set), &set) != 0) {
-    return 1;
-  }
-  const int count = CPU_COUNT(&set);
+  const int count = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 1;
+#else
+  const unsigned count = std::thread::hardware_concurrency();
+#endif
   return count < 1 ? 1 : static_cast<std::size_t>(count);
 }
 

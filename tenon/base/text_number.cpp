@@ -7,6 +7,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "tenon/base/number_from_text.h"
+
 namespace tenon {
 namespace {
 
@@ -120,7 +122,7 @@ std::optional<T> parse_whole(std::string_view text) {
     }
   }
   T value{};
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto result = number_from_text(text.data(), text.data() + text.size(), value);
   if (result.ec != std::errc() || result.ptr != text.data() + text.size()) {
     return std::nullopt;
   }

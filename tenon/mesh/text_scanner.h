@@ -7,6 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include "tenon/base/number_from_text.h"
+
 namespace tenon::mesh {
 
 /// Words of a text, line by line.
@@ -89,7 +91,7 @@ std::optional<T> number_of(std::string_view text) {
     text.remove_prefix(1);
   }
   T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = number_from_text(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) {
     return std::nullopt;
   }

@@ -34,7 +34,13 @@ Error fault(ErrorCode code, std::string words, const std::string& path) {
 Result<SpecPtr> parse(const std::string& path) {
   char words[1000] = "";
   mjSpec* spec = nullptr;
-  TENON_CHECK(guarded([&] { spec = mj_parseXML(path.c_str(), nullptr, words, sizeof(words)); }));
+  TENON_CHECK(engines::mujoco::open_mujoco());
+  const auto parse_xml = reinterpret_cast<decltype(&::mj_parseXML)>(
+      engines::mujoco::find_mujoco_function("mj_parseXML"));
+  if (parse_xml == nullptr) {
+    return fault(ErrorCode::Missing, "it has no mj_parseXML", path);
+  }
+  TENON_CHECK(guarded([&] { spec = parse_xml(path.c_str(), nullptr, words, sizeof(words)); }));
   if (spec == nullptr) {
     return fault(ErrorCode::Parse, words, path);
   }

@@ -256,8 +256,6 @@ class Program(Guarded):
 
     def test_is_found_where_it_is_installed(self):
         model, target = self.write("m.xml", mjcf("")), self.folder / "o.usda"
-        libraries = subprocess.run(["ldd", TENON], capture_output=True, text=True, check=True)
-        mujoco = re.search(r"=> (\S*)/libmujoco", libraries.stdout).group(1)
         for place in ("bin", "libexec/tenon"):
             with self.subTest(place):
                 prefix = self.folder / place.replace("/", "_")
@@ -267,7 +265,7 @@ class Program(Guarded):
                 shutil.copy(TENON, prefix / "bin/tenon")
                 process = subprocess.run(
                     [prefix / "bin/tenon", "convert", model, target], capture_output=True,
-                    text=True, check=False, env={**os.environ, "LD_LIBRARY_PATH": mujoco})
+                    text=True, check=False)
                 self.assertEqual(process.returncode, 0, process.stderr)
 
     def test_alone_has_the_libraries_of_others(self):

@@ -18,7 +18,9 @@ engines::mujoco::ModelPtr read_with_mujoco(const std::string& path, Adjust adjus
     return nullptr;
   }
   char error[1000] = "";
-  mjSpec* spec = mj_parseXML(path.c_str(), nullptr, error, sizeof(error));
+  const auto parse_xml = reinterpret_cast<decltype(&::mj_parseXML)>(
+      engines::mujoco::find_mujoco_function("mj_parseXML"));
+  mjSpec* spec = parse_xml(path.c_str(), nullptr, error, sizeof(error));
   if (spec == nullptr) {
     std::printf("MuJoCo: %s\n", error);
     return nullptr;

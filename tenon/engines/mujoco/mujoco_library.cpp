@@ -17,6 +17,7 @@ namespace tenon {
 namespace tenon::engines::mujoco {
 namespace {
 
+void* opened_library = nullptr;
 mjfConFilt* contact_filter = nullptr;
 
 template <class Symbol>
@@ -42,12 +43,11 @@ std::string find_symbols(void* library) {
 }
 
 std::string open_library() {
-  void* library = nullptr;
   std::string why;
   for (const char* file : {TENON_MUJOCO_SONAME, TENON_MUJOCO_LIBRARY}) {
-    library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
-    if (library != nullptr) {
-      return find_symbols(library);
+    opened_library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+    if (opened_library != nullptr) {
+      return find_symbols(opened_library);
     }
     const char* words = dlerror();
     why += (why.empty() ? "" : "; ") + std::string(words == nullptr ? file : words);
@@ -67,6 +67,8 @@ Result<void> open_mujoco() {
       .with_rule("engine.missing")
       .with_fix("install tenon with its folder lib/tenon, which holds the library");
 }
+
+void* find_mujoco_function(const char* name) { return dlsym(opened_library, name); }
 
 mjfConFilt& contact_filter_callback() { return *contact_filter; }
 

@@ -25,6 +25,10 @@ namespace tenon::engines::mujoco {
 /// version.
 Result<void> open_mujoco();
 
+/// A function that is not in the table, because the program is to have no way to it; nullptr: none.
+/// After open_mujoco() was successful.
+void* find_mujoco_function(const char* name);
+
 /// The callback that decides about pairs of geoms, one for the whole process (mjcb_contactfilter).
 mjfConFilt& contact_filter_callback();
 

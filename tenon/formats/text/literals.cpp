@@ -6,6 +6,7 @@
 #include <charconv>
 #include <limits>
 
+#include "tenon/base/number_from_text.h"
 #include "tenon/base/quoted_text.h"
 
 namespace tenon::formats::text {
@@ -81,7 +82,7 @@ double value_of(const Digits& digits, const char* start, const char* end) {
     return digits.negative ? -size : size;
   }
   double value = 0;
-  const auto result = std::from_chars(start, end, value);
+  const auto result = number_from_text(start, end, value);
   if (result.ec == std::errc::result_out_of_range) {
     const bool large = digits.count + exponent > 0;
     value = large ? std::numeric_limits<double>::infinity() : 0.0;
