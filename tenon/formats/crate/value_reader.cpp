@@ -65,12 +65,6 @@ Result<Value> ValueReader::text(std::uint32_t index) {
   return known;
 }
 
-/// Copies of one text cost its size, but for the first.
-Result<void> ValueReader::pay_for_text(std::uint32_t token, std::size_t size) {
-  const bool is_first = size > limits::kCrateBytesPerUnit && copied_.insert(token).second;
-  return is_first ? budget_.spend(1) : budget_.spend_bytes(size);
-}
-
 template <class T>
 Result<Value> ValueReader::inlined(std::uint32_t bits) {
   if constexpr (std::is_same_v<T, bool>) {
@@ -87,7 +81,7 @@ Result<Value> ValueReader::inlined(std::uint32_t bits) {
     return Value(token);
   } else if constexpr (std::is_same_v<T, layer::AssetPath>) {
     TENON_TRY(const Token token, token_at(file_, bits));
-    TENON_CHECK(pay_for_text(bits, token.str().size()));
+    TENON_CHECK(items_.pay_for_text(bits, token.str().size()));
     return Value(layer::AssetPath{token.str(), "", ""});
   } else if constexpr (sizeof(T) <= 4) {
     T value;
@@ -121,7 +115,7 @@ Result<Value> ValueReader::stored(ValueWord word) {
     return Value(value);
   } else {
     T value;
-    TENON_CHECK(item(in, value));
+    TENON_CHECK(items_.read(in, value));
     return Value(std::move(value));
   }
 }
@@ -163,7 +157,7 @@ Result<Value> ValueReader::other(ValueWord word) {
       bytes::ByteReader in = file_.reader();
       TENON_CHECK(in.seek(word.payload()));
       Value value;
-      TENON_CHECK(item(in, value));
+      TENON_CHECK(items_.read(in, value));
       return value;
     }
     default:

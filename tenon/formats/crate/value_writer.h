@@ -31,7 +31,7 @@ class ValueWriter {
   Version needed() const { return needed_; }
 
  private:
-  // Appends one item in its storage form; the counterparts of ValueReader::item.
+  // Appends one item in its storage form; the counterparts of ItemReader::read.
   template <class T>
   Result<void> item(bytes::ByteWriter& to, const T& value);
   template <class T>
