@@ -46,11 +46,9 @@ Result<void> check_offset(Path prim, const layer::LayerOffset& offset) {
   return bad_arc(prim, "the layer offset is not a finite number", "give finite numbers");
 }
 
-}  // namespace
-
 /// Prim paths of internal arcs are mapped through the edit target; root prims name classes and the
 /// like beside what an arc brings in and stay.
-Result<void> StageEditor::map_arc(Path prim, Path& path) const {
+Result<void> map_arc(const EditTarget& place, Path prim, Path& path) {
   if (!is_arc_target(path)) {
     return bad_arc(prim, "<" + path.str() + "> is not an absolute prim path",
                    "name a prim from the root, without variant selections");
@@ -58,20 +56,22 @@ Result<void> StageEditor::map_arc(Path prim, Path& path) const {
   if (path.parent().is_absolute_root()) {
     return {};
   }
-  const Path mapped = target_.target_path(path);
+  const Path mapped = place.target_path(path);
   if (mapped.empty()) {
-    return outside_target(path, target_.layer);
+    return outside_target(path, place.layer);
   }
   path = mapped;
   return {};
 }
+
+}  // namespace
 
 template <class Arc>
 Result<void> StageEditor::edit_arcs(Path prim, Token field, ListEdit<Arc> edit) {
   for (Arc& arc : edit.items) {
     TENON_CHECK(check_offset(prim, arc.offset));
     if (arc.asset_path.empty() && !arc.prim_path.empty()) {
-      TENON_CHECK(map_arc(prim, arc.prim_path));
+      TENON_CHECK(map_arc(target_, prim, arc.prim_path));
     } else if (!arc.prim_path.empty() && !is_arc_target(arc.prim_path)) {
       return bad_arc(prim, "<" + arc.prim_path.str() + "> is not an absolute prim path",
                      "name a prim from the root, without variant selections");
@@ -94,7 +94,7 @@ Result<void> StageEditor::edit_payloads(Path prim, ListEdit<layer::Payload> edit
 
 Result<void> StageEditor::edit_class_arcs(Path prim, Token field, ListEdit<Path> edit) {
   for (Path& path : edit.items) {
-    TENON_CHECK(map_arc(prim, path));
+    TENON_CHECK(map_arc(target_, prim, path));
   }
   TENON_CHECK(check_distinct(prim, edit.items));
   return edit_prim(prim, [&](LayerEditor& editor, Path path) -> Result<void> {

@@ -206,23 +206,26 @@ Result<void> StageEditor::block_value(Path attribute) {
   });
 }
 
+namespace {
+
 /// A target as the layer names it.
-Result<Path> StageEditor::mapped_target(Path owner, Path target) const {
+Result<Path> mapped_target(const EditTarget& place, Path owner, Path target) {
   const Path absolute = target.absolute(owner.prim());
   if (absolute.empty() || absolute.has_variants() ||
       !(absolute.is_prim_or_root() || absolute.is_property())) {
     return bad_path(target, "the path of a prim or property");
   }
-  const Path mapped = target_.target_path(absolute);
+  const Path mapped = place.target_path(absolute);
   if (mapped.empty()) {
-    return outside_target(target, target_.layer);
+    return outside_target(target, place.layer);
   }
   return mapped;
 }
 
-Result<void> StageEditor::map_targets(Path owner, std::vector<Path>& targets) const {
+/// The same of a whole list.
+Result<void> map_targets(const EditTarget& place, Path owner, std::vector<Path>& targets) {
   for (Path& target : targets) {
-    TENON_TRY(target, mapped_target(owner, target));
+    TENON_TRY(target, mapped_target(place, owner, target));
   }
   if (has_equal_items(targets)) {
     return Error(ErrorCode::Invalid, "the list names one path twice")
@@ -233,8 +236,10 @@ Result<void> StageEditor::map_targets(Path owner, std::vector<Path>& targets) co
   return {};
 }
 
+}  // namespace
+
 Result<void> StageEditor::edit_connections(Path attribute, ListEdit<Path> edit) {
-  TENON_CHECK(map_targets(attribute, edit.items));
+  TENON_CHECK(map_targets(target_, attribute, edit.items));
   return edit_attribute(attribute, [&](LayerEditor& editor, Path path) -> Result<void> {
     editor.edit_list(path, fields::connectionPaths, edit);
     return {};
@@ -242,7 +247,7 @@ Result<void> StageEditor::edit_connections(Path attribute, ListEdit<Path> edit) 
 }
 
 Result<void> StageEditor::edit_targets(Path relationship, ListEdit<Path> edit) {
-  TENON_CHECK(map_targets(relationship, edit.items));
+  TENON_CHECK(map_targets(target_, relationship, edit.items));
   return edit_property(relationship, SpecKind::Relationship,
                        [&](LayerEditor& editor, Path path) -> Result<void> {
                          editor.edit_list(path, fields::targetPaths, edit);

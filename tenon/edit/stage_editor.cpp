@@ -43,35 +43,10 @@ StageEditor StageEditor::over(layer::LayerPtr root, layer::LayerPtr session,
 
 // Composition
 
-layer::LayerPtr StageEditor::current(const layer::LayerPtr& original) const {
-  if (original == nullptr) {
-    return nullptr;
-  }
-  const auto copy = layers_.find(original->identifier());
-  return copy == layers_.end() ? original : copy->second.layer;
-}
-
-/// Opens the layers as they are at this moment.
-compose::LayerOpener StageEditor::current_opener() const {
-  std::map<std::string, layer::LayerPtr> known;
-  for (const auto& [identifier, copy] : layers_) {
-    known.emplace(identifier, copy.layer);
-  }
-  return [inner = opener_, known = std::move(known)](
-             const std::string& asset_path, const layer::Layer& anchor) -> Result<layer::LayerPtr> {
-    if (const auto named = known.find(asset_path); named != known.end()) {
-      return named->second;
-    }
-    TENON_TRY(const layer::LayerPtr opened, inner(asset_path, anchor));
-    const auto edited = known.find(opened->identifier());
-    return edited == known.end() ? opened : edited->second;
-  };
-}
-
 ComposedView& StageEditor::view() {
   if (view_ == nullptr) {
-    view_ = std::make_unique<ComposedView>(current(root_), current(session_), current_opener(),
-                                           options_.compose);
+    view_ = std::make_unique<ComposedView>(layers_.current(root_), layers_.current(session_),
+                                           layers_.opener(opener_), options_.compose);
   }
   return *view_;
 }
@@ -81,7 +56,8 @@ Result<std::shared_ptr<const stage::Stage>> StageEditor::stage() {
     return stage_;
   }
   TENON_TRY(stage::Stage composed,
-            stage::Stage::open(current(root_), current(session_), current_opener(), options_));
+            stage::Stage::open(layers_.current(root_), layers_.current(session_),
+                               layers_.opener(opener_), options_));
   auto now = std::make_shared<const stage::Stage>(std::move(composed));
   if (stage_ != nullptr) {
     notice_ = compare_stages(*stage_, *now, unnoticed_);
@@ -100,8 +76,8 @@ void StageEditor::changed() {
 // Layers
 
 layer::LayerPtr StageEditor::layer(const std::string& identifier) {
-  if (const auto copy = layers_.find(identifier); copy != layers_.end()) {
-    return copy->second.layer;
+  if (layer::LayerPtr copy = layers_.find(identifier)) {
+    return copy;
   }
   for (const layer::LayerPtr& known : {root_, session_, target_layer_}) {
     if (known != nullptr && known->identifier() == identifier) {
@@ -118,46 +94,28 @@ layer::LayerPtr StageEditor::layer(const std::string& identifier) {
 }
 
 void StageEditor::add_layer(layer::Layer layer) {
-  const std::string identifier = layer.identifier();
-  auto added = std::make_shared<layer::Layer>(std::move(layer));
-  layers_.insert_or_assign(identifier, Copy{added, std::make_shared<layer::Layer>(*added)});
+  layers_.add(std::move(layer));
   changed();
 }
 
 /// A copy that nobody else holds; nullptr for an unknown layer.
 layer::Layer* StageEditor::writable(const std::string& identifier) {
-  auto copy = layers_.find(identifier);
-  if (copy == layers_.end()) {
+  if (layers_.find(identifier) == nullptr) {
     const layer::LayerPtr original = layer(identifier);
     if (original == nullptr) {
       return nullptr;
     }
-    auto made = std::make_shared<layer::Layer>(*original);
-    copy = layers_.emplace(identifier, Copy{std::move(made), original}).first;
+    layers_.copy(original);
     changed();
   }
   view_.reset();
-  if (copy->second.layer.use_count() > 1) {
-    copy->second.layer = std::make_shared<layer::Layer>(*copy->second.layer);
-  }
-  return copy->second.layer.get();
-}
-
-std::vector<LayerChange> StageEditor::changes() const {
-  std::vector<LayerChange> all;
-  for (const auto& [identifier, copy] : layers_) {
-    LayerChange change = difference(*copy.original, *copy.layer);
-    if (!change.empty()) {
-      all.push_back(std::move(change));
-    }
-  }
-  return all;
+  return &layers_.writable(identifier);
 }
 
 std::map<std::string, layer::LayerPtr> StageEditor::edited_layers() const {
   std::map<std::string, layer::LayerPtr> edited;
   for (const LayerChange& change : changes()) {
-    edited.emplace(change.layer, layers_.at(change.layer).layer);
+    edited.emplace(change.layer, layers_.find(change.layer));
   }
   return edited;
 }

@@ -13,6 +13,7 @@
 #include "tenon/base/result.h"
 #include "tenon/edit/change_notice.h"
 #include "tenon/edit/edit_target.h"
+#include "tenon/edit/edited_layers.h"
 #include "tenon/edit/layer_change.h"
 #include "tenon/edit/layer_editor.h"
 #include "tenon/edit/list_edit.h"
@@ -78,7 +79,7 @@ class StageEditor {
   Result<void> as_one_step(const std::function<Result<void>()>& work);
   /// The edits since the beginning that are in force, by layer: for dry runs, and to be applied to
   /// the layers elsewhere.
-  std::vector<LayerChange> changes() const;
+  std::vector<LayerChange> changes() const { return layers_.changes(); }
 
   // Prims
   Result<void> define_prim(Path prim, Token type_name = {});
@@ -151,17 +152,11 @@ class StageEditor {
 
  private:
   using Step = std::vector<LayerChange>;
-  struct Copy {
-    std::shared_ptr<layer::Layer> layer;
-    layer::LayerPtr original;  ///< before all edits
-  };
 
   StageEditor(layer::LayerPtr root, layer::LayerPtr session, compose::LayerOpener opener,
               stage::StageOptions options);
 
   ComposedView& view();
-  layer::LayerPtr current(const layer::LayerPtr& original) const;
-  compose::LayerOpener current_opener() const;
   layer::Layer* writable(const std::string& identifier);
   /// Runs an edit of the target layer; its changes become (part of) a step.
   Result<void> edit(const std::function<Result<void>(LayerEditor&)>& work);
@@ -186,9 +181,6 @@ class StageEditor {
                              layer::SpecKind kind);
   Result<Path> object_spec(LayerEditor& editor, Path object);
   Result<void> define_step(Path prim, Token type_name);
-  Result<Path> mapped_target(Path owner, Path target) const;
-  Result<void> map_targets(Path owner, std::vector<Path>& targets) const;
-  Result<void> map_arc(Path prim, Path& path) const;
   template <class Arc>
   Result<void> edit_arcs(Path prim, Token field, ListEdit<Arc> edit);
   Result<void> edit_class_arcs(Path prim, Token field, ListEdit<Path> edit);
@@ -197,7 +189,7 @@ class StageEditor {
   layer::LayerPtr session_;  // as given, or null
   compose::LayerOpener opener_;
   stage::StageOptions options_;
-  std::map<std::string, Copy> layers_;  // edited and added ones
+  EditedLayers layers_;  // and added ones
   EditTarget target_;
   layer::LayerPtr target_layer_;               // as it was when it became the target
   std::unique_ptr<ComposedView> view_;         // of the layers as they are, or null
