@@ -19,7 +19,7 @@ using scene::PhysicsScene;
 std::string joint_words(const Joint& joint) {
   const std::size_t dofs = scene::free_dofs(joint);
   return joint.path.name().str() + ": " + std::string(scene::joint_kind_name(joint.kind)) + ", " +
-         std::to_string(dofs) + " dof" + (joint.mimic ? ", mimic" : "") +
+         std::to_string(dofs) + " dof" + (joint.mimics.empty() ? "" : ", mimic") +
          (joint.drives.empty() ? "" : ", driven");
 }
 

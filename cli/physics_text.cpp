@@ -6,6 +6,7 @@
 
 #include "tenon/base/rounded_text.h"
 #include "tenon/math/angle.h"
+#include "tenon/scene/joint_freedom.h"
 
 namespace tenon::cli {
 namespace {
@@ -75,6 +76,11 @@ std::string side(const PhysicsScene& scene, const std::optional<scene::Index>& b
   return body ? scene.bodies[*body].path.str() : std::string("world");
 }
 
+/// "rotX" and `behind` of joints with several axes; empty for others.
+std::string axis_word(const scene::Joint& joint, scene::Dof dof, const char* behind) {
+  return scene::has_one_dof(joint) ? std::string() : std::string(scene::dof_name(dof)) + behind;
+}
+
 std::string joint_lines(const PhysicsScene& scene, const scene::Joint& joint) {
   std::string lines = "  " + joint.path.str() + "  " +
                       std::string(scene::joint_kind_name(joint.kind)) +
@@ -98,10 +104,12 @@ std::string joint_lines(const PhysicsScene& scene, const scene::Joint& joint) {
                                           : "at most " + text(drive.max_force)) +
              ", to " + text(drive.target_position) + " at " + text(drive.target_velocity) + "\n";
   }
-  if (joint.mimic) {
-    lines += "    follows " + scene.joints[joint.mimic->leader].path.str() + ": " +
-             text(joint.mimic->multiplier) + " times, plus " + text(joint.mimic->offset) + " (" +
-             joint.mimic->schema + ")\n";
+  for (const scene::Mimic& mimic : joint.mimics) {
+    const scene::Joint& leader = scene.joints[mimic.leader];
+    lines += "    " + axis_word(joint, mimic.dof, " ") + "follows " +
+             axis_word(leader, mimic.leader_dof, " of ") + leader.path.str() + ": " +
+             text(mimic.multiplier) + " times, plus " + text(mimic.offset) + " (" + mimic.schema +
+             ")\n";
   }
   return lines;
 }

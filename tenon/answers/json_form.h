@@ -35,8 +35,9 @@ inline constexpr std::array<DerivedKey, 1> kDerived<scene::Limit>{{
     {"locked", "boolean", "lower is above upper"},
 }};
 template <>
-inline constexpr std::array<DerivedKey, 1> kDerived<scene::Joint>{{
+inline constexpr std::array<DerivedKey, 2> kDerived<scene::Joint>{{
     {"locked", "boolean", "lower is above upper: it does not move"},
+    {"mimic", "object", "the first of `mimics`"},
 }};
 template <>
 inline constexpr std::array<DerivedKey, 5> kDerived<scene::TriangleMesh>{{

@@ -10,6 +10,7 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -42,6 +43,12 @@ class Reader {
       return *std::move(fault_);
     }
     TENON_CHECK(check_scene(scene));
+    for (const Index follower : single_mimics_) {
+      scene::Joint& joint = scene.joints[follower];
+      scene::Mimic& mimic = joint.mimics.front();
+      mimic.dof = joint.dof();
+      mimic.leader_dof = scene.joints[mimic.leader].dof();
+    }
     return scene;
   }
 
@@ -83,6 +90,20 @@ class Reader {
         field(json, value, info, member, at);
       }
     });
+    older(json, value, at);
+  }
+
+  /// What older versions of the form say otherwise; most structs have nothing.
+  template <class T>
+  void older(const Parsed&, T&, const std::string&) {}
+  /// 1.0: a joint of one axis follows one other such joint.
+  void older(const Parsed& json, scene::Joint& joint, const std::string& at) {
+    const auto mimic = json.find("mimic");
+    if (!json.contains("mimics") && mimic != json.end() && mimic->is_object()) {
+      object(*mimic, joint.mimics.emplace_back(), at + ".mimic");
+      single_mimics_.push_back(joints_read_);
+    }
+    ++joints_read_;
   }
 
   template <class Owner, class T>
@@ -312,6 +333,8 @@ class Reader {
   }
 
   std::map<std::pair<List, std::string>, Index> indices_;
+  Index joints_read_ = 0;
+  std::vector<Index> single_mimics_;  ///< joints of version 1.0 that follow another one
   std::optional<Error> fault_;
 };
 

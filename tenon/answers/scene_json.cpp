@@ -248,6 +248,7 @@ class Writer {
   void add_derived(const scene::Limit& limit, Json& row) { row["locked"] = limit.locked(); }
   void add_derived(const scene::Joint& joint, Json& row) {
     row["locked"] = joint.lower > joint.upper;
+    append(row, "mimic", joint.mimics.empty() ? Json(nullptr) : object(joint.mimics.front()));
   }
   void add_derived(const PhysicsScene& scene, Json& row) {
     row["schemaVersion"] = std::string(kSceneSchemaVersion);

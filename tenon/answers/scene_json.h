@@ -15,7 +15,7 @@
 namespace tenon::answers {
 
 /// Of this form of JSON; the second number counts up when fields are added.
-inline constexpr std::string_view kSceneSchemaVersion = "1.0";
+inline constexpr std::string_view kSceneSchemaVersion = "1.1";
 
 /// What JSON holds of meshes: their points and triangles, or a hash of them with counts and bounds.
 enum class Geometry : std::uint8_t { Hash, Inline };
@@ -23,8 +23,9 @@ enum class Geometry : std::uint8_t { Hash, Inline };
 std::string scene_json(const scene::PhysicsScene& scene, Geometry geometry);
 
 /// The scene that JSON with inline geometry describes: the one that it was made of. Unknown keys
-/// are passed over. Errors: Parse; Invalid, with the place of a value that cannot be read; Corrupt,
-/// where the scene contradicts itself; Limit, where it is longer than kSceneJson.
+/// are passed over; `mimic` counts in JSON of version 1.0, which has no `mimics`. Errors: Parse;
+/// Invalid, with the place of a value that cannot be read; Corrupt, where the scene contradicts
+/// itself; Limit, where it is longer than kSceneJson.
 Result<scene::PhysicsScene> read_scene_json(std::string_view json);
 
 /// JSON Schema (2020-12) of the form, made of the tables.

@@ -71,6 +71,64 @@ TEST(SceneJson, ObjectsOfOnePathAreToldApart) {
   EXPECT_EQ(back->joints[0].body0, scene::Index{1});
 }
 
+/// Two joints, of which the second follows the first.
+PhysicsScene scene_of_followers() {
+  PhysicsScene scene;
+  scene.scenes.emplace_back();
+  scene.joints.resize(2);
+  scene.joints[0].path = Path::from("/lead");
+  scene.joints[1].path = Path::from("/follow");
+  scene.joints[0].kind = scene::JointKind::Prismatic;
+  scene.joints[1].kind = scene::JointKind::Revolute;
+  scene.joints[1].axis = scene::Axis::Z;
+  scene::Mimic& mimic = scene.joints[1].mimics.emplace_back();
+  mimic.dof = scene::Dof::RotZ;
+  mimic.leader_dof = scene::Dof::TransX;
+  mimic.offset = 0.5;
+  return scene;
+}
+
+TEST(SceneJson, TheFirstOfMimicsStandsByItself) {
+  PhysicsScene scene = scene_of_followers();
+  scene.joints[1].kind = scene::JointKind::D6;
+  scene.joints[1].mimics.insert(scene.joints[1].mimics.begin(), scene::Mimic{});
+  scene.joints[1].mimics[0].multiplier = 3;
+  const std::string text = scene_json(scene, Geometry::Inline);
+  const Json json = Json::parse(text);
+  EXPECT_TRUE(json["joints"][0]["mimic"].is_null());
+  EXPECT_TRUE(json["joints"][0]["mimics"].empty());
+  ASSERT_EQ(json["joints"][1]["mimics"].size(), 2u);
+  EXPECT_EQ(json["joints"][1]["mimic"], json["joints"][1]["mimics"][0]);
+  EXPECT_EQ(json["joints"][1]["mimics"][1]["dof"], "rotZ");
+  EXPECT_EQ(json["joints"][1]["mimics"][1]["leader"], "/lead");
+  EXPECT_EQ(json["joints"][1]["mimics"][1]["leaderDof"], "transX");
+  const auto back = read_scene_json(text);
+  ASSERT_TRUE(back.has_value()) << back.error().to_string();
+  EXPECT_TRUE(same_fields(scene, *back));
+}
+
+TEST(SceneJson, TheOneMimicOfVersion10IsRead) {
+  const PhysicsScene scene = scene_of_followers();
+  Json json = Json::parse(scene_json(scene, Geometry::Inline));
+  json["schemaVersion"] = "1.0";
+  for (Json& joint : json["joints"]) {
+    joint.erase("mimics");
+  }
+  json["joints"][1]["mimic"].erase("dof");
+  json["joints"][1]["mimic"].erase("leaderDof");
+  const auto back = read_scene_json(json.dump());
+  ASSERT_TRUE(back.has_value()) << back.error().to_string();
+  EXPECT_TRUE(same_fields(scene, *back));
+}
+
+TEST(SceneJson, ADegreeOfFreedomThatFollowsTwiceIsRefused) {
+  PhysicsScene scene = scene_of_followers();
+  scene.joints[1].mimics.push_back(scene.joints[1].mimics[0]);
+  const auto back = read_scene_json(scene_json(scene, Geometry::Inline));
+  ASSERT_FALSE(back.has_value());
+  EXPECT_NE(back.error().to_string().find("follows twice"), std::string::npos);
+}
+
 TEST(SceneJson, WhatCannotBeReadIsNamed) {
   const std::string text = scene_json(scene::filled_scene(), Geometry::Inline);
   const auto broken = [&](const char* list, const char* key, const Json& value) {

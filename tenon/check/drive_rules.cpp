@@ -121,7 +121,7 @@ void check_drive_missing(const Subject& subject, Reporter& report) {
         std::any_of(articulation.joints.begin(), articulation.joints.end(), is_driven);
     for (const scene::Index i : articulation.joints) {
       const Joint& joint = subject.scene.joints[i];
-      const bool loose = has_one_axis(joint) && joint.drives.empty() && !joint.mimic &&
+      const bool loose = has_one_axis(joint) && joint.drives.empty() && joint.mimics.empty() &&
                          joint.stiffness == 0 && joint.lower < joint.upper;
       const std::string path = joint.path.str();
       const bool judged = subject.has_finding("mimic.leader-missing", path) ||
@@ -138,7 +138,9 @@ void check_drive_missing(const Subject& subject, Reporter& report) {
 // Isaac: a follower is driven by its leader alone.
 void check_drive_on_mimic(const Subject& subject, Reporter& report) {
   each_drive(subject, [&](const Joint& joint, const Drive& drive, const stage::Prim& prim) {
-    if (joint.mimic && acts(drive)) {
+    const bool follows = std::any_of(joint.mimics.begin(), joint.mimics.end(),
+                                     [&](const auto& mimic) { return mimic.dof == drive.dof; });
+    if (follows && acts(drive)) {
       report.at(prim, "the joint follows another one and has a drive of its own: they fight",
                 "set the drive's stiffness and damping to 0");
     }

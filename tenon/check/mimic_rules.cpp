@@ -5,6 +5,7 @@
 
 #include "tenon/check/joint_state.h"
 #include "tenon/check/subject.h"
+#include "tenon/scene/joint_freedom.h"
 
 namespace tenon::check {
 namespace {
@@ -24,11 +25,32 @@ double value_of(const scene::Mimic& mimic, double leader) {
   return value;
 }
 
+/// One coordinate that follows another.
+struct Follower {
+  const Joint& joint;
+  const scene::Mimic& mimic;
+  const Joint& leader;
+  stage::Prim prim;
+
+  /// "the follower", or which of its axes where it has several.
+  std::string name(const char* one_axis) const {
+    return has_one_axis(joint) ? one_axis : "the joint's " + std::string(dof_name(mimic.dof));
+  }
+  /// What its coordinate counts in, in the asset, for one rad or m.
+  double unit(const scene::PhysicsScene& scene) const {
+    return has_one_axis(joint) ? coordinate_unit(scene, joint) : kDegreesPerRadian;
+  }
+};
+
 template <class Visit>
 void each_follower(const Subject& subject, Visit visit) {
   for (const Joint& joint : subject.scene.joints) {
-    if (joint.mimic && joint.enabled) {
-      visit(joint, subject.scene.joints[joint.mimic->leader], subject.stage.prim(joint.path));
+    if (joint.mimics.empty() || !joint.enabled) {
+      continue;
+    }
+    const stage::Prim prim = subject.stage.prim(joint.path);
+    for (const scene::Mimic& mimic : joint.mimics) {
+      visit(Follower{joint, mimic, subject.scene.joints[mimic.leader], prim});
     }
   }
 }
@@ -36,39 +58,43 @@ void each_follower(const Subject& subject, Visit visit) {
 }  // namespace
 
 void check_mimic_limits(const Subject& subject, Reporter& report) {
-  each_follower(subject, [&](const Joint& joint, const Joint& leader, const stage::Prim& prim) {
-    if (!std::isfinite(leader.lower) || !std::isfinite(leader.upper) ||
-        leader.lower > leader.upper || joint.lower > joint.upper) {
+  each_follower(subject, [&](const Follower& follower) {
+    const scene::Limit own = limit_of(follower.joint, follower.mimic.dof);
+    const scene::Limit leader = limit_of(follower.leader, follower.mimic.leader_dof);
+    if (!std::isfinite(leader.lower) || !std::isfinite(leader.upper) || leader.locked() ||
+        own.locked()) {
       return;
     }
-    const double a = value_of(*joint.mimic, leader.lower);
-    const double b = value_of(*joint.mimic, leader.upper);
+    const double a = value_of(follower.mimic, leader.lower);
+    const double b = value_of(follower.mimic, leader.upper);
     const double low = std::fmin(a, b);
     const double high = std::fmax(a, b);
-    if (low < joint.lower - kFollowerSlack || high > joint.upper + kFollowerSlack) {
-      const double unit = coordinate_unit(subject.scene, joint);
-      report.at(prim,
-                "over the leader's limits the follower goes from " + digits(low * unit) + " to " +
-                    digits(high * unit) + ", its own limits are " + digits(joint.lower * unit) +
-                    " and " + digits(joint.upper * unit),
-                "widen the follower's limits, or narrow those of <" + leader.path.str() + ">");
+    if (low < own.lower - kFollowerSlack || high > own.upper + kFollowerSlack) {
+      const double unit = follower.unit(subject.scene);
+      report.at(
+          follower.prim,
+          "over the leader's limits " + follower.name("the follower") + " goes from " +
+              digits(low * unit) + " to " + digits(high * unit) + ", its own limits are " +
+              digits(own.lower * unit) + " and " + digits(own.upper * unit),
+          "widen the follower's limits, or narrow those of <" + follower.leader.path.str() + ">");
     }
   });
 }
 
 void check_mimic_gear(const Subject& subject, Reporter& report) {
-  each_follower(subject, [&](const Joint& joint, const Joint&, const stage::Prim& prim) {
-    if (joint.mimic->multiplier == 0 && joint.mimic->higher == std::array<double, 3>{}) {
-      report.at(prim, "the mimic's factor is 0: the joint is held still",
+  each_follower(subject, [&](const Follower& follower) {
+    if (follower.mimic.multiplier == 0 && follower.mimic.higher == std::array<double, 3>{}) {
+      report.at(follower.prim,
+                "the mimic's factor is 0: " + follower.name("the joint") + " is held still",
                 "author the factor, or use a fixed joint");
     }
   });
 }
 
 void check_mimic_rigid(const Subject& subject, Reporter& report) {
-  each_follower(subject, [&](const Joint& joint, const Joint&, const stage::Prim& prim) {
-    if (joint.mimic->schema == "PhysxMimicJointAPI" && joint.mimic->natural_frequency == 0) {
-      report.at(prim,
+  each_follower(subject, [&](const Follower& follower) {
+    if (follower.mimic.schema == "PhysxMimicJointAPI" && follower.mimic.natural_frequency == 0) {
+      report.at(follower.prim,
                 "the mimic has no natural frequency or damping ratio: it is rigid, and PhysX "
                 "becomes unstable where such joints follow each other",
                 "author naturalFrequency and dampingRatio, for example 25 and 0.005");
@@ -77,10 +103,13 @@ void check_mimic_rigid(const Subject& subject, Reporter& report) {
 }
 
 void check_mimic_chain(const Subject& subject, Reporter& report) {
-  each_follower(subject, [&](const Joint&, const Joint& leader, const stage::Prim& prim) {
-    if (leader.mimic) {
-      report.at(prim,
-                "the leader <" + leader.path.str() +
+  each_follower(subject, [&](const Follower& follower) {
+    const auto& leads = follower.leader.mimics;
+    if (std::any_of(leads.begin(), leads.end(), [&](const scene::Mimic& mimic) {
+          return mimic.dof == follower.mimic.leader_dof;
+        })) {
+      report.at(follower.prim,
+                "the leader <" + follower.leader.path.str() +
                     "> follows another joint itself; Newton rejects such chains",
                 "let the joint follow the first leader, with the factors multiplied");
     }
@@ -88,14 +117,19 @@ void check_mimic_chain(const Subject& subject, Reporter& report) {
 }
 
 void check_mimic_start(const Subject& subject, Reporter& report) {
-  each_follower(subject, [&](const Joint& joint, const Joint& leader, const stage::Prim& prim) {
-    const double wanted = value_of(*joint.mimic, start_coordinate(subject.scene, leader));
+  each_follower(subject, [&](const Follower& follower) {
+    const Joint& joint = follower.joint;
+    if (!has_one_axis(joint) || !has_one_axis(follower.leader)) {
+      return;
+    }
+    const double wanted =
+        value_of(follower.mimic, start_coordinate(subject.scene, follower.leader));
     const double start = start_coordinate(subject.scene, joint);
     const bool turns = joint.kind == JointKind::Revolute;
     const double gap = turns ? std::remainder(wanted - start, 6.2831853071795865) : wanted - start;
     if (std::fabs(gap) > kFollowerSlack) {
       const double unit = coordinate_unit(subject.scene, joint);
-      report.at(prim,
+      report.at(follower.prim,
                 "at the start the joint is at " + digits(start * unit) + ", the mimic wants " +
                     digits(wanted * unit) + ": it jerks",
                 "correct the mimic's offset or the poses of the bodies");
@@ -103,13 +137,14 @@ void check_mimic_start(const Subject& subject, Reporter& report) {
   });
 }
 
-// Only joints of one axis follow others.
+// PhysX's are of D6 joints, too; a prim of type PhysicsJoint is one.
 void check_mimic_axis(const Subject& subject, Reporter& report) {
   for (const stage::Prim& prim : subject.prims) {
-    const bool mimic =
-        prim.has_api("NewtonMimicAPI") || !prim.api_instances("PhysxMimicJointAPI").empty();
+    const bool physx = !prim.api_instances("PhysxMimicJointAPI").empty();
+    const bool newton = prim.has_api("NewtonMimicAPI");
     const bool one_axis = prim.is_a("PhysicsRevoluteJoint") || prim.is_a("PhysicsPrismaticJoint");
-    if (mimic && !one_axis) {
+    const bool d6 = prim.type_name() == Token("PhysicsJoint");
+    if ((newton || (physx && !d6)) && !one_axis) {
       report.at(prim,
                 "a mimic on a prim of type \"" + prim.type_name().str() +
                     "\" has no axis to act on; engines stop or ignore it",

@@ -108,11 +108,13 @@ void expect_settings(const Converted& robot, const std::string& mimic_schema) {
   EXPECT_EQ(j.friction, 0.125);
   const scene::Joint& k = robot.joint("k");
   EXPECT_TRUE(k.drives.empty());
-  ASSERT_TRUE(k.mimic);
-  EXPECT_EQ(k.mimic->schema, mimic_schema);
-  EXPECT_EQ(robot.scene.joints[k.mimic->leader].path.name(), "j");
-  EXPECT_NEAR(k.mimic->multiplier, -1.5, 2 * kFloat);
-  EXPECT_NEAR(k.mimic->offset, 0.25, kFloat);
+  ASSERT_EQ(k.mimics.size(), 1u);
+  const scene::Mimic& mimic = k.mimics.front();
+  EXPECT_EQ(mimic.schema, mimic_schema);
+  EXPECT_EQ(mimic.dof, k.dof());
+  EXPECT_EQ(robot.scene.joints[mimic.leader].path.name(), "j");
+  EXPECT_NEAR(mimic.multiplier, -1.5, 2 * kFloat);
+  EXPECT_NEAR(mimic.offset, 0.25, kFloat);
 }
 
 TEST(ConvertRobot, SaysTheSameInEverySchema) {
@@ -359,7 +361,7 @@ TEST(ConvertRobot, FollowsTheLeaderOfAChain) {
               joint("c", "continuous", "l2", "l3", "<mimic joint='b' multiplier='3' offset='1'/>") +
               joint("b", "continuous", "l1", "l2", "<mimic joint='a' multiplier='2' offset='5'/>") +
               joint("a", "continuous", "l0", "l1", ""));
-  const scene::Mimic& mimic = *robot.joint("c").mimic;
+  const scene::Mimic& mimic = robot.joint("c").mimics.at(0);
   EXPECT_EQ(robot.scene.joints[mimic.leader].path.name(), "a");
   EXPECT_NEAR(mimic.multiplier, 6, 1e-6);
   EXPECT_NEAR(mimic.offset, 16, 1e-5);

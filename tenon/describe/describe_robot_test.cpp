@@ -86,6 +86,27 @@ TEST(DescribeRobot, ListsWhatATreeCannotSay) {
   EXPECT_EQ(found.findings.items()[0].prim, "/r/loop");
 }
 
+TEST(DescribeRobot, AxesOfAJointWithSeveralThatFollowAreNamed) {
+  const Described found = describe(
+      body("a", "") + body("b", "") + body("c", "") +
+      "def PhysicsRevoluteJoint \"j\" {\n rel physics:body0 = </r/a>; "
+      "rel physics:body1 = </r/b>\n}\n"
+      "def PhysicsJoint \"k\" (prepend apiSchemas = [\"PhysxMimicJointAPI:rotX\", "
+      "\"PhysxMimicJointAPI:rotY\"]) {\n rel physics:body0 = </r/b>; rel physics:body1 = </r/c>; "
+      "rel physxMimicJoint:rotX:referenceJoint = </r/j>; "
+      "rel physxMimicJoint:rotY:referenceJoint = </r/j>\n}\n");
+  ASSERT_TRUE(found.model) << found.model.error().to_string();
+  for (const robot::Joint& joint : found.model->joints) {
+    EXPECT_FALSE(joint.mimic) << joint.name;
+  }
+  std::string told;
+  for (const Diagnostic& finding : found.findings) {
+    told += finding.prim == "/r/k" ? finding.message + "\n" : "";
+  }
+  EXPECT_NE(told.find("rotX follows rotX of </r/j>"), std::string::npos) << told;
+  EXPECT_NE(told.find("rotY follows rotX of </r/j>"), std::string::npos) << told;
+}
+
 TEST(DescribeRobot, ShapesAreInMetresInTheLink) {
   const Described found = describe(
       body("a",

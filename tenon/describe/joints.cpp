@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tenon/describe/scene_reader.h"
+#include "tenon/scene/joint_freedom.h"
 
 namespace tenon::describe {
 
@@ -137,20 +138,31 @@ void SceneReader::take_description(const scene::Joint& source, robot::Joint& joi
 
 void SceneReader::add_mimics() {
   for (std::size_t i = 0; i < joint_of_.size(); ++i) {
-    const auto& mimic = scene_.joints[i].mimic;
-    if (!mimic || joint_of_[i] == kNone) {
-      continue;
+    for (const scene::Mimic& mimic : scene_.joints[i].mimics) {
+      if (joint_of_[i] != kNone) {
+        add_mimic(scene_.joints[i], mimic, robot_.joints[joint_of_[i]]);
+      }
     }
-    const std::size_t leader = joint_of_[mimic->leader];
-    robot::Joint& joint = robot_.joints[joint_of_[i]];
-    if (leader == kNone || !joint.has_one_axis() || mimic->higher != std::array<double, 3>{}) {
-      left_out(scene_.joints[i].path, "the joint follows another by a law that is not linear");
-      continue;
-    }
-    joint.mimic = robot::Mimic{static_cast<Index>(leader), mimic->multiplier, mimic->offset, {}, 0};
-    if (mimic->natural_frequency != 0) {
-      left_out(scene_.joints[i].path, "the joint follows another by a spring");
-    }
+  }
+}
+
+void SceneReader::add_mimic(const scene::Joint& source, const scene::Mimic& mimic,
+                            robot::Joint& joint) {
+  const std::size_t leader = joint_of_[mimic.leader];
+  if (!has_one_dof(source) || !has_one_dof(scene_.joints[mimic.leader])) {
+    left_out(source.path, std::string(dof_name(mimic.dof)) + " follows " +
+                              std::string(dof_name(mimic.leader_dof)) + " of <" +
+                              scene_.joints[mimic.leader].path.str() +
+                              ">: joints of several axes follow none");
+    return;
+  }
+  if (leader == kNone || !joint.has_one_axis() || mimic.higher != std::array<double, 3>{}) {
+    left_out(source.path, "the joint follows another by a law that is not linear");
+    return;
+  }
+  joint.mimic = robot::Mimic{static_cast<Index>(leader), mimic.multiplier, mimic.offset, {}, 0};
+  if (mimic.natural_frequency != 0) {
+    left_out(source.path, "the joint follows another by a spring");
   }
 }
 

@@ -62,6 +62,7 @@ class SceneReader {
   void take_numbers(const scene::Joint& source, robot::Joint& joint);
   void take_description(const scene::Joint& source, robot::Joint& joint);
   void add_mimics();
+  void add_mimic(const scene::Joint& source, const scene::Mimic& mimic, robot::Joint& joint);
 
   // shapes.cpp
   bool take_shape(const scene::Collider& source, robot::Collider& collider);

@@ -131,6 +131,14 @@ class Check {
               "triangles with a material of their own are not there");
     }
   }
+  void own(const Joint& joint) {
+    unsigned followed = 0;  // a bit for each degree of freedom
+    for (const Mimic& mimic : joint.mimics) {
+      const unsigned dof = 1u << static_cast<unsigned>(mimic.dof);
+      require((followed & dof) == 0, "a degree of freedom follows twice");
+      followed |= dof;
+    }
+  }
   void own(const Tendon& tendon) {
     require(tendon.joints.size() == tendon.coefficients.size(), "a tendon lacks coefficients");
   }

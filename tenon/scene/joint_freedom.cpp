@@ -67,8 +67,8 @@ bool is_reducible(const Joint& joint) {
 }
 
 bool is_plain(const Joint& joint) {
-  return joint.drives.empty() && !joint.mimic && joint.limits.empty() && joint.armature == 0 &&
-         joint.friction == 0 && joint.damping == 0 && joint.stiffness == 0;
+  return joint.drives.empty() && joint.mimics.empty() && joint.limits.empty() &&
+         joint.armature == 0 && joint.friction == 0 && joint.damping == 0 && joint.stiffness == 0;
 }
 
 bool can_break(const Joint& joint) {

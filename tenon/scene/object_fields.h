@@ -320,8 +320,14 @@ struct Table<Mimic> {
   static constexpr std::tuple kFields{
       field<&Mimic::schema>(
           {.name = "schema", .meaning = "the API that says so", .role = Role::Provenance}),
+      field<&Mimic::dof>({.name = "dof",
+                          .meaning = "degree of freedom of the joint that follows",
+                          .role = Role::Identity}),
       field<&Mimic::leader>(
           {.name = "leader", .meaning = "the joint that it follows", .refers = List::Joints}),
+      field<&Mimic::leader_dof>({.name = "leaderDof",
+                                 .meaning = "degree of freedom of the leader",
+                                 .words = "degree of freedom of the leader"}),
       field<&Mimic::multiplier>({.name = "multiplier", .meaning = "of the leader's coordinate"}),
       field<&Mimic::offset>({.name = "offset", .meaning = "added to it", .unit = Unit::Position}),
       field<&Mimic::higher>({.name = "higher",
@@ -407,8 +413,8 @@ struct Table<Joint> {
       field<&Joint::drives>(
           {.name = "drives", .meaning = "effort = stiffness (target - q) + damping (target - v)"}),
       field<&Joint::limits>({.name = "limits", .meaning = "of single degrees of freedom"}),
-      field<&Joint::mimic>(
-          {.name = "mimic", .meaning = "q = offset + multiplier * leader + higher powers"}),
+      field<&Joint::mimics>(
+          {.name = "mimics", .meaning = "q = offset + multiplier * leader + higher powers"}),
       field<&Joint::enabled>({.name = "enabled", .meaning = "false: it holds nothing"}),
       field<&Joint::collision_enabled>({.name = "collisionEnabled",
                                         .meaning = "its bodies touch each other",

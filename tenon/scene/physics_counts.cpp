@@ -84,7 +84,7 @@ PhysicsCounts count_physics(const PhysicsScene& scene) {
       ++counts.joints[static_cast<std::size_t>(joint.kind)];
       counts.drives += joint.drives.size();
       counts.limits += count_limits(joint);
-      counts.mimics += joint.mimic ? 1u : 0u;
+      counts.mimics += joint.mimics.size();
     }
   }
   counts.articulations = scene.articulations.size();

@@ -19,7 +19,7 @@ struct PhysicsCounts {
   std::size_t articulations = 0;
   std::size_t drives = 0;
   std::size_t limits = 0;  ///< bounded degrees of freedom
-  std::size_t mimics = 0;
+  std::size_t mimics = 0;  ///< degrees of freedom that follow others
   /// Coordinates of the joint forest: of its joints, and six for each tree that floats.
   std::size_t dofs = 0;
   double mass = 0;                      ///< of bodies that move freely [kg]

@@ -56,5 +56,13 @@ TEST(PhysicsCounts, LockedAxesOfAD6JointAreNoCoordinates) {
   EXPECT_EQ(free_dofs(d6), 1u);
 }
 
+TEST(PhysicsCounts, EachAxisThatFollowsIsAMimic) {
+  PhysicsScene scene;
+  scene.bodies.resize(2);
+  scene.joints = {joint(JointKind::Revolute, std::nullopt, 0), joint(JointKind::D6, 0, 1)};
+  scene.joints[1].mimics.resize(2);
+  EXPECT_EQ(count_physics(scene).mimics, 2u);
+}
+
 }  // namespace
 }  // namespace tenon::scene

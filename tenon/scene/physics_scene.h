@@ -199,11 +199,14 @@ struct Drive {
   double target_velocity = 0;
 };
 
-/// q = offset + multiplier * leader (+ higher powers) [m or rad]. The compliance is that of a
-/// spring of `natural_frequency` [rad/s] and `damping_ratio`; both 0 means rigid.
+/// One degree of freedom of a joint follows one of another: q = offset + multiplier * leader
+/// (+ higher powers) [m or rad]. The compliance is that of a spring of `natural_frequency` [rad/s]
+/// and `damping_ratio`; both 0 means rigid.
 struct Mimic {
-  std::string schema;  ///< the API that says so, for example "NewtonMimicAPI"
-  Index leader = 0;    ///< into PhysicsScene::joints
+  std::string schema;          ///< the API that says so, for example "NewtonMimicAPI"
+  Dof dof = Dof::RotX;         ///< of the joint, which follows
+  Index leader = 0;            ///< into PhysicsScene::joints
+  Dof leader_dof = Dof::RotX;  ///< of the leader
   double multiplier = 1;
   double offset = 0;
   std::array<double, 3> higher{};  ///< coefficients of leader^2..leader^4
@@ -230,7 +233,7 @@ struct Joint {
   double cone_angle1 = kUnlimited;  ///< toward the one after
   std::vector<Limit> limits;        ///< of D6 joints, and LimitAPI on others (S-100)
   std::vector<Drive> drives;
-  std::optional<Mimic> mimic;
+  std::vector<Mimic> mimics;  ///< by degree of freedom, at most one of each
   bool enabled = true;
   bool collision_enabled = false;
   bool exclude_from_articulation = false;

@@ -55,7 +55,7 @@ TEST(SceneDifference, WhatCameAndWentIsNamed) {
   const PhysicsScene before = one_joint();
   PhysicsScene after = before;
   after.joints[0].drives.clear();
-  after.joints[0].mimic = Mimic{};
+  after.joints[0].mimics.emplace_back();
   Body body;
   body.path = Path::from("/r/c");
   after.bodies.push_back(body);

@@ -33,6 +33,9 @@ inline PhysicsScene filled_scene() {
       }
     }
   }
+  for (Joint& joint : scene.joints) {
+    joint.mimics[1].dof = Dof::RotZ;
+  }
   for (Tendon& tendon : scene.tendons) {
     for (MujocoSetting& setting : tendon.settings) {
       setting.numbers.clear();

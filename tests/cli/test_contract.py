@@ -220,6 +220,9 @@ class Contract(unittest.TestCase):
             self.assertEqual(paths, sorted(paths), name)
         follower = next(j for j in answer["joints"] if j["path"].endswith("right_thumb_4_joint"))
         self.assertAlmostEqual(follower["mimic"]["multiplier"], 0.7508, places=6)
+        self.assertEqual(follower["mimics"], [follower["mimic"]])
+        others = [j["mimics"] for j in answer["joints"] if j["mimic"] is None]
+        self.assertEqual(others, [[]] * 7)
 
     def test_a_reading_can_be_chosen(self):
         answer = self.json("physics", HAND, "--reading", "mass-inheritance=own",

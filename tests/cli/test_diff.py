@@ -103,7 +103,7 @@ class Diff(unittest.TestCase):
                      "payloads/Physics/physx.usda")
         self.diff(HAND, self.hand, "--physics", code=0)
         rows = self.diff(HAND, self.hand, "--physics", "--variant", "physx", code=1)
-        self.assertEqual({row["what"] for row in rows}, {"mimic natural frequency"})
+        self.assertEqual({row["what"] for row in rows}, {"mimic rotZ natural frequency"})
 
     def test_packages_and_folders_are_compared_file_by_file(self):
         package = self.folder / "hand.usdz"

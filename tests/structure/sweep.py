@@ -7,14 +7,21 @@ the source does not break.
 
     sweep.py ROOT TENON [--all]
 
-A fixed sample, or with --all every file, two at a time. What misses is named in sweep_misses.txt,
-which may only shrink; without such a file nothing does. Exit 77: ../shared is absent.
+A fixed sample, or with --all every file, two at a time. Two answers of the program besides a clean
+one are right, and judged as such:
+- A file that it leaves out of a result with an error `read.*` (docs/reading.md) may be missing
+  there, at the very place that the error names, and nothing else may be.
+- A source that composes beyond a limit of docs/limits.md is refused by that limit's name, with
+  exit 2 and no result, where `info` says the same of the source.
+What misses is named in sweep_misses.txt, which may only shrink; without such a file nothing does.
+Exit 77: ../shared is absent.
 """
 
 import concurrent.futures
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -34,6 +41,12 @@ REFUSALS = ("stage.default-prim-missing", "text.", "crate.", "file.", "package."
 # Found in results -> what the check of the source says of the same fault.
 OF_SOURCE = {"structure.missing-file": "stage.asset-missing",
              "structure.dangling-target": "stage.target-missing"}
+KNOWN_LIMITS = set(re.findall(r"^\| `(k\w+)`", (ROOT / "docs/limits.md").read_text("utf-8"), re.M))
+LIMIT = re.compile(r"\((k[A-Z]\w+)\)")  # as messages name one
+NAMED_FILE = re.compile(r"@([^@]*)@|$")
+# A line of the interface's record of the files that it was written with.
+RECORDED = re.compile(rb'^ +string "[^"]+" = "[0-9a-f]{16}"\n', re.M)
+HOLDS, NOTHING, REFUSED = "holds", "has no structure", "is refused by a limit"
 
 
 class Miss(Exception):
@@ -44,7 +57,7 @@ def answer(*arguments):
     process = subprocess.run([TENON, *map(str, arguments), "--json"], capture_output=True,
                              text=True, check=False, timeout=LIMIT_S)
     try:
-        return json.loads(process.stdout)
+        return {**json.loads(process.stdout), "exit": process.returncode}
     except json.JSONDecodeError:
         raise Miss(f"{arguments[0]} ends with {process.returncode}: "
                    f"{process.stderr[-300:]}") from None
@@ -54,39 +67,83 @@ def rules_of(report, *severities):
     return {d["rule"] for d in report["diagnostics"] if d["severity"] in severities}
 
 
-def judge(asset, folder):
-    """-> whether the asset was structured; Miss says what is wrong."""
-    made = answer("structure", asset, "-o", folder / "a")
-    if "interface" not in made:
-        errors = rules_of(made, "error")
-        if any(rule.startswith(REFUSALS) for rule in errors):
-            return False
-        raise Miss(f"refused: {made['diagnostics'][-1:]}")
-    interface = folder / "a" / made["interface"]
-    again = answer("structure", interface, "-o", folder / "b")
-    if files_of(folder / "a") != files_of(folder / "b"):
+def limits_of(report):
+    """-> the limits that its errors name, of those that docs/limits.md has."""
+    messages = [d["message"] for d in report["diagnostics"] if d["severity"] == "error"]
+    return {name for text in messages for name in LIMIT.findall(text) if name in KNOWN_LIMITS}
+
+
+def left_out(report):
+    """-> [(place, file)] of what it says that it does not read."""
+    return [((d["prim"], d["property"]), NAMED_FILE.search(d["message"])[1])
+            for d in report["diagnostics"]
+            if d["severity"] == "error" and d["rule"].startswith("read.")]
+
+
+def refusal(asset, made, folder):
+    """Of a run without a result."""
+    if any(rule.startswith(REFUSALS) for rule in rules_of(made, "error")):
+        return NOTHING
+    limits = limits_of(made)
+    if limits and made["exit"] == 2 and not folder.exists():
+        if limits & limits_of(answer("info", asset)):
+            return REFUSED
+    raise Miss(f"refused: {made['diagnostics'][-1:]}")
+
+
+def check_again(interface, folder):
+    """What is made of a result in `folder` / "a" is the same, but for files that the second run
+    says it leaves out."""
+    again = answer("structure", folder / "a" / interface, "-o", folder / "b")
+    first, second = files_of(folder / "a"), files_of(folder / "b")
+    said = {file for _, file in left_out(again)}
+    gone = {name for name in first if str(folder / "a" / name) in said}
+    first = {name: text for name, text in first.items() if name not in gone}
+    if gone and first.keys() == second.keys():
+        for files in (first, second):
+            files[interface] = RECORDED.sub(b"", files[interface])
+    if first != second:
         raise Miss("not the same bytes again")
     if again["moved"]:
         raise Miss(f"moved again: {again['moved'][:2]}")
-    found = rules_of(answer("check", interface, "--profile", "isaac-3.0"), "error", "warning")
-    found = {rule for rule in found if rule.startswith("structure.")}
+
+
+def check_rules(asset, interface, made):
+    """The result breaks no rule on structure, but where the source breaks the same or where the
+    run said that a file stays out."""
+    said = {place for place, _ in left_out(made)}
+    found = {d["rule"]
+             for d in answer("check", interface, "--profile", "isaac-3.0")["diagnostics"]
+             if d["severity"] in ("error", "warning") and d["rule"].startswith("structure.") and
+             not (d["rule"] == "structure.missing-file" and (d["prim"], d["property"]) in said)}
     if found:
         source = rules_of(answer("check", asset), "error", "warning")
         found = {rule for rule in found if OF_SOURCE.get(rule) not in source}
     if found:
         raise Miss(f"breaks {sorted(found)}")
-    return True
+
+
+def judge(asset, folder):
+    """-> HOLDS, NOTHING or REFUSED; Miss says what is wrong."""
+    made = answer("structure", asset, "-o", folder / "a")
+    if "interface" not in made:
+        return refusal(asset, made, folder / "a")
+    if left_out(made) and made["exit"] != 1:
+        raise Miss(f"leaves files out and ends with {made['exit']}")
+    check_again(made["interface"], folder)
+    check_rules(asset, folder / "a" / made["interface"], made)
+    return HOLDS
 
 
 def verdict(asset):
-    """-> None where nothing could be structured, "" where all holds, else what is wrong."""
+    """-> (HOLDS, NOTHING, REFUSED or None, what is wrong)."""
     with tempfile.TemporaryDirectory() as folder:
         try:
-            return "" if judge(asset, pathlib.Path(folder)) else None
+            return judge(asset, pathlib.Path(folder).resolve()), ""
         except Miss as miss:
-            return str(miss)
+            return None, str(miss)
         except subprocess.TimeoutExpired:
-            return f"takes more than {LIMIT_S} s"
+            return None, f"takes more than {LIMIT_S} s"
 
 
 def assets(everything):
@@ -111,16 +168,20 @@ def main():
     with concurrent.futures.ThreadPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
         verdicts = dict(zip([str(path.relative_to(SHARED)) for path in chosen],
                             pool.map(verdict, chosen)))
-    misses = {name: what for name, what in verdicts.items() if what}
+    misses = {name: what for name, (outcome, what) in verdicts.items() if outcome is None}
     for name, what in misses.items():
         print(f"{'known' if name in known else 'MISS'} {name}: {what}")
-    held = [name for name in known if verdicts.get(name, "a miss") in (None, "")]
-    for name in held:
+    right = [name for name in known if name in verdicts and name not in misses]
+    for name in right:
         print(f"HOLDS {name}: remove it from {MISSES.name}")
-    structured = sum(1 for what in verdicts.values() if what is not None)
-    print(f"{structured - len(misses)} of {structured} assets hold; {len(chosen) - structured} "
-          "files have no default prim or cannot be read")
-    return 1 if set(misses) - set(known) or held or structured == 0 else 0
+    names = {kind: [name for name, (outcome, _) in verdicts.items() if outcome == kind]
+             for kind in (HOLDS, NOTHING, REFUSED)}
+    for name in names[REFUSED]:
+        print(f"refused by a limit {name}")
+    print(f"{len(names[HOLDS])} of {len(names[HOLDS]) + len(misses)} assets hold, "
+          f"{len(misses)} of them known; {len(names[REFUSED])} are refused by a limit, "
+          f"{len(names[NOTHING])} files have no default prim or cannot be read")
+    return 1 if set(misses) - set(known) or right or not names[HOLDS] else 0
 
 
 if __name__ == "__main__":

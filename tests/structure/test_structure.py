@@ -236,7 +236,6 @@ def Xform "r" { def Cube "c" (
         self.assertNotIn("Physx", file_of(made(path), "Physics/physics.usda"))
 
 
-
 LEGACY = HEAD + """
 def Xform "r" {
     def Xform "a" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) { }
@@ -267,7 +266,8 @@ def joints_of(asset, variant):
     joints = {joint["path"].rsplit("/", 1)[1]: joint
               for joint in physics_of(asset, variant)["joints"]}
     for joint in joints.values():
-        (joint.get("mimic") or {}).pop("schema", None)
+        for mimic in [joint["mimic"] or {}, *joint["mimics"]]:
+            mimic.pop("schema", None)
     return joints
 
 

@@ -83,8 +83,9 @@ Result<Model> build_once(Build& build, Begin begin) {
   TENON_CHECK(check_scene_size(scene));
   build.plan = plan_tree(scene);
   TENON_CHECK(check_sizes(build));
-  for (const scene::Joint& joint : scene.joints) {
-    build.dofs.push_back(joint_dofs(joint));
+  const std::vector<FreeRotations> rotations = wanted_rotations(scene);
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    build.dofs.push_back(joint_dofs(scene.joints[j], rotations[j]));
   }
   build.joints.assign(scene.joints.size(), {});
   build.balls.assign(scene.joints.size(), nullptr);

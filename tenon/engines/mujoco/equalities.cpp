@@ -180,26 +180,24 @@ void add_cone(Build& build, const Joint& joint) {
              2 * arm * std::sin(cone / 2));
 }
 
+/// Which of several axes follows, behind `mark`; empty for joints of one axis.
+std::string axis_word(const Joint& joint, const scene::Mimic& mimic, const char* mark) {
+  return has_one_dof(joint) ? std::string() : mark + std::string(dof_name(mimic.dof));
+}
+
 // The loose spring of a mimic is a time constant: w = 1 / (T zeta).
-void add_mimic(Build& build, scene::Index index) {
+void add_mimic(Build& build, scene::Index index, const scene::Mimic& mimic) {
   const Joint& joint = build.scene.joints[index];
-  const scene::Mimic& mimic = *joint.mimic;
-  const Joint& leader = build.scene.joints[mimic.leader];
-  const auto scalar = [&](scene::Index j, const Joint& side) -> mjsJoint* {
-    const bool single =
-        side.kind == scene::JointKind::Revolute || side.kind == scene::JointKind::Prismatic;
-    return single ? scalar_joint(build, j, side.dof()) : nullptr;
-  };
-  mjsJoint* follower_joint = scalar(index, joint);
-  mjsJoint* leader_joint = scalar(mimic.leader, leader);
-  if (follower_joint == nullptr || leader_joint == nullptr) {
-    build.report(joint.path, mimic.schema,
+  mjsJoint* follower = scalar_joint(build, index, mimic.dof);
+  mjsJoint* leader = scalar_joint(build, mimic.leader, mimic.leader_dof);
+  if (follower == nullptr || leader == nullptr) {
+    build.report(joint.path, mimic.schema + axis_word(joint, mimic, ":"),
                  "a mimic needs a free revolute or prismatic coordinate on both joints");
     return;
   }
-  mjsEquality* equality = add_equality(build, mjEQ_JOINT, joint.path.str() + ".mimic", mjOBJ_JOINT,
-                                       mjs_getString(mjs_getName(follower_joint->element)),
-                                       mjs_getString(mjs_getName(leader_joint->element)));
+  mjsEquality* equality = add_equality(
+      build, mjEQ_JOINT, joint.path.str() + ".mimic" + axis_word(joint, mimic, "."), mjOBJ_JOINT,
+      mjs_getString(mjs_getName(follower->element)), mjs_getString(mjs_getName(leader->element)));
   equality->data[0] = mimic.offset;
   equality->data[1] = mimic.multiplier;
   std::copy(mimic.higher.begin(), mimic.higher.end(), equality->data + 2);
@@ -244,8 +242,8 @@ void add_equalities(Build& build) {
     if (build.plan.joints[j] != JointRole::None) {
       add_cone(build, joint);
     }
-    if (joint.mimic.has_value()) {
-      add_mimic(build, j);
+    for (const scene::Mimic& mimic : joint.mimics) {
+      add_mimic(build, j, mimic);
     }
   }
 }

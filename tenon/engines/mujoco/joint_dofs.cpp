@@ -59,9 +59,10 @@ Link limited_link(const Joint& joint, Dof dof, double lower, double upper) {
   return make_link(dof, lower, upper);
 }
 
-bool has_rotation_drive(const Joint& joint) {
-  return std::any_of(joint.drives.begin(), joint.drives.end(),
-                     [](const scene::Drive& drive) { return is_angular(drive.dof); });
+bool needs_angles(const Joint& joint) {
+  const auto turns = [](const auto& of) { return is_angular(of.dof); };
+  return std::any_of(joint.drives.begin(), joint.drives.end(), turns) ||
+         std::any_of(joint.mimics.begin(), joint.mimics.end(), turns);
 }
 
 Dof rotation(std::size_t axis) {
@@ -120,10 +121,11 @@ bool is_ball(const std::vector<Link>& links) {
 
 Vec3d unit_axis(scene::Axis axis) { return unit(static_cast<std::size_t>(axis)); }
 
-JointDofs joint_dofs(const Joint& joint) {
+JointDofs joint_dofs(const Joint& joint, FreeRotations rotations) {
   const std::vector<Link> links = links_of(joint);
   JointDofs result;
-  result.ball = is_ball(links) && !has_rotation_drive(joint);
+  result.rotations = rotations;
+  result.ball = rotations == FreeRotations::Ball && is_ball(links) && !needs_angles(joint);
   for (const Link& link : links) {  // the locked pose first: axes are seen through it
     if (link.locked && is_angular(link.dof)) {
       result.locked.orientation = result.locked.orientation * turn(link.dof, link.value);
@@ -144,6 +146,18 @@ JointDofs joint_dofs(const Joint& joint) {
     }
   }
   return result;
+}
+
+std::vector<FreeRotations> wanted_rotations(const scene::PhysicsScene& scene) {
+  std::vector<FreeRotations> wanted(scene.joints.size(), FreeRotations::Ball);
+  for (const Joint& joint : scene.joints) {
+    for (const scene::Mimic& mimic : joint.mimics) {
+      if (joint.enabled && is_angular(mimic.leader_dof)) {
+        wanted[mimic.leader] = FreeRotations::Hinges;
+      }
+    }
+  }
+  return wanted;
 }
 
 scene::Limit distance_limit(const Joint& joint) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "tenon/math/transform.h"
@@ -19,20 +20,27 @@ struct FreeDof {
   double upper = scene::kUnlimited;
 };
 
+/// Three rotations that nothing bounds: one ball, or hinges, so that each has a coordinate.
+enum class FreeRotations : std::uint8_t { Ball, Hinges };
+
 /// What one joint leaves free. X_J0J1 is the product of translations along frame 0 and then of
 /// rotations about the axes as they turn, in the order of `free`; locked ones keep their value.
 struct JointDofs {
   std::vector<FreeDof> free;
   bool ball = false;  ///< the rotations are one unlimited ball; `free` holds translations only
   Pose locked;        ///< X_J0J1 when every free coordinate is zero
+  FreeRotations rotations = FreeRotations::Ball;  ///< what was asked for
 
   std::size_t count() const { return free.size() + (ball ? 3u : 0u); }
 };
 
 /// Degrees of freedom of any joint but a distance joint (that one leaves all free), limits of the
-/// joint and of LimitAPI intersected (S-95, S-98, S-100). A drive on a rotation makes hinges of
-/// what would be a ball.
-JointDofs joint_dofs(const scene::Joint& joint);
+/// joint and of LimitAPI intersected (S-95, S-98, S-100). A drive or a mimic of a rotation makes
+/// hinges of what would be a ball, and so does `rotations`.
+JointDofs joint_dofs(const scene::Joint& joint, FreeRotations rotations = FreeRotations::Ball);
+
+/// What each joint is to have: hinges where a rotation of it leads one of another (joint_count).
+std::vector<FreeRotations> wanted_rotations(const scene::PhysicsScene& scene);
 
 /// Bounds of the distance between the two frame origins [m], min and max (S-97); both infinite when
 /// there are none. min > max: both are max.

@@ -33,10 +33,12 @@ void follow(TestScene& scene, scene::Index follower, scene::Index leader, double
             double offset = 0) {
   scene::Mimic mimic;
   mimic.schema = "NewtonMimicAPI";
+  mimic.dof = scene.joints[follower].dof();
   mimic.leader = leader;
+  mimic.leader_dof = scene.joints[leader].dof();
   mimic.multiplier = multiplier;
   mimic.offset = offset;
-  scene.joints[follower].mimic = mimic;
+  scene.joints[follower].mimics.push_back(mimic);
 }
 
 TEST(Mimic, LimpChainOfFollowersKeepsItsLaw) {
@@ -87,7 +89,7 @@ TEST(Mimic, FollowerAtItsLimitStopsTheLeader) {
 TEST(Mimic, PolynomialLaw) {
   TestScene scene = finger(2);
   follow(scene, 1, 0, 0.2, 0.05);
-  scene.joints[1].mimic->higher = {0.3, 0, 0};
+  scene.joints[1].mimics[0].higher = {0.3, 0, 0};
   auto sim = simulation(scene);
   run(*sim, 3);
   const double x = sim->joint_state(0).position[0];
@@ -97,11 +99,79 @@ TEST(Mimic, PolynomialLaw) {
 TEST(Mimic, CompliantMimicStaysNearItsLaw) {
   TestScene scene = finger(2);
   follow(scene, 1, 0, 0.75);
-  scene.joints[1].mimic->natural_frequency = 25;
-  scene.joints[1].mimic->damping_ratio = 0.5;
+  scene.joints[1].mimics[0].natural_frequency = 25;
+  scene.joints[1].mimics[0].damping_ratio = 0.5;
   auto sim = simulation(scene);
   run(*sim, 5);
   EXPECT_NEAR(sim->joint_state(1).position[0], 0.75 * sim->joint_state(0).position[0], kHalfDegree);
+}
+
+// A ball-like wrist of light links at the tip of a finger of one joint, both without gravity.
+TestScene wrist(const std::vector<Dof>& locked) {
+  TestScene scene(0);
+  const auto arm = scene.add_body("Arm", {{0, 0, 0}}, 0.01, {{1e-6, 1e-6, 1e-6}});
+  const auto hand = scene.add_body("Hand", {{0.02, 0, 0}}, 0.01, {{1e-6, 1e-6, 1e-6}});
+  scene.add_joint("Arm", JointKind::Revolute, std::nullopt, arm, Axis::Y);
+  scene.joints[0].drives.push_back(drive(Dof::RotY, 0.5, 0.02));
+  scene.joints[0].drives[0].target_position = 0.4;
+  auto& ball = scene.add_joint("Wrist", JointKind::D6, arm, hand);
+  ball.frame0.position = {{0.02, 0, 0}};
+  for (const Dof dof : {Dof::TransX, Dof::TransY, Dof::TransZ}) {
+    ball.limits.push_back({dof, 1, -1});
+  }
+  for (const Dof dof : locked) {
+    ball.limits.push_back({dof, 1, -1});
+  }
+  return scene;
+}
+
+void follow_along(TestScene& scene, scene::Index follower, Dof dof, scene::Index leader,
+                  Dof leader_dof, double multiplier, double offset = 0) {
+  scene::Mimic mimic;
+  mimic.schema = "PhysxMimicJointAPI";
+  mimic.dof = dof;
+  mimic.leader = leader;
+  mimic.leader_dof = leader_dof;
+  mimic.multiplier = multiplier;
+  mimic.offset = offset;
+  scene.joints[follower].mimics.push_back(mimic);
+}
+
+TEST(Mimic, TwoAxesOfOneJointFollowEachByItsLaw) {
+  for (const auto& locked : {std::vector<Dof>{Dof::RotX}, std::vector<Dof>{}}) {
+    TestScene scene = wrist(locked);
+    follow_along(scene, 1, Dof::RotY, 0, Dof::RotY, 0.5);
+    follow_along(scene, 1, Dof::RotZ, 0, Dof::RotY, -0.25, 0.1);
+    auto sim = simulation(scene);
+    EXPECT_TRUE(sim->not_mapped().empty());
+    run(*sim, 2);
+    const double leader = sim->joint_state(0).position[0];
+    EXPECT_NEAR(leader, 0.4, 0.05);
+    const std::vector<double> turns = sim->joint_state(1).position;
+    ASSERT_EQ(turns.size(), 3 - locked.size());
+    EXPECT_NEAR(turns[turns.size() - 2], 0.5 * leader, kHalfDegree);
+    EXPECT_NEAR(turns.back(), 0.1 - 0.25 * leader, kHalfDegree);
+  }
+}
+
+TEST(Mimic, OneAxisOfABallLeads) {
+  TestScene scene = wrist({});
+  follow_along(scene, 0, Dof::RotY, 1, Dof::RotX, 0.5);
+  auto sim = simulation(scene);
+  EXPECT_TRUE(sim->not_mapped().empty());
+  run(*sim, 2);
+  ASSERT_EQ(sim->joint_state(1).position.size(), 3u);
+  EXPECT_GT(sim->joint_state(0).position[0], 0.1);
+  EXPECT_NEAR(sim->joint_state(0).position[0], 0.5 * sim->joint_state(1).position[0], kHalfDegree);
+}
+
+TEST(Mimic, AnAxisThatIsLockedFollowsNone) {
+  TestScene scene = wrist({Dof::RotX});
+  follow_along(scene, 1, Dof::RotX, 0, Dof::RotY, 0.5);
+  follow_along(scene, 1, Dof::RotY, 0, Dof::RotY, 0.5);
+  auto sim = simulation(scene);
+  EXPECT_EQ(sim->not_mapped().size(), 1u);
+  EXPECT_TRUE(mentions(sim->not_mapped(), "/Wrist", "PhysxMimicJointAPI:rotX"));
 }
 
 TEST(Mimic, WithoutACoordinateItIsReported) {

@@ -61,7 +61,7 @@ bool MovingBounds::write(const scene::PhysicsScene& scene, Model& model) const {
 bool MovingBounds::write(const scene::Joint& joint, const Bounded& bounded, Model& model) {
   mjModel& m = *model.model;
   const JointMap& map = model.joints[bounded.joint];
-  const JointDofs dofs = joint_dofs(joint);
+  const JointDofs dofs = joint_dofs(joint, map.dofs.rotations);
   if (!same_coordinates(dofs, map.dofs)) {
     return false;
   }
