@@ -1,13 +1,19 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
+//
+// A joint of a scene locks and limits any of six directions; one of a robot is of a kind that has
+// one axis, a plane, a ball, or nothing held at all. What fits a kind becomes it, with its numbers;
+// everything else floats. Numbers that the scene has as floats, or not at all, come from attributes
+// that converting a description has left on the prim.
+#include "tenon/describe/joints.h"
 
-#include "tenon/describe/scene_reader.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
 
 namespace tenon::describe {
 
-using robot::Index;
 using robot::JointKind;
 
 namespace {
@@ -42,9 +48,8 @@ std::optional<std::size_t> plane_normal(const scene::Joint& joint) {
   return std::nullopt;
 }
 
-}  // namespace
-
-JointKind SceneReader::kind_of(const scene::Joint& joint, Vec3d& axis) {
+/// `axis` is set to that of the kind, in the joint frame.
+JointKind kind_of(SceneSource& source, const scene::Joint& joint, Vec3d& axis) {
   axis = unit_vector(static_cast<std::size_t>(joint.axis));
   const bool limited = std::isfinite(joint.lower) || std::isfinite(joint.upper);
   switch (joint.kind) {
@@ -61,7 +66,7 @@ JointKind SceneReader::kind_of(const scene::Joint& joint, Vec3d& axis) {
       return JointKind::Fixed;
     case scene::JointKind::Spherical:
       if (std::isfinite(joint.cone_angle0) || std::isfinite(joint.cone_angle1)) {
-        left_out(joint.path, "the ball has a cone");
+        source.left_out(joint.path, "the ball has a cone");
       }
       return JointKind::Ball;
     case scene::JointKind::Distance:
@@ -73,38 +78,38 @@ JointKind SceneReader::kind_of(const scene::Joint& joint, Vec3d& axis) {
       }
       break;
   }
-  left_out(joint.path, "the joint has several axes: it becomes floating, with limits");
+  source.left_out(joint.path, "the joint has several axes: it becomes floating, with limits");
   return JointKind::Floating;
 }
 
-void SceneReader::take_numbers(const scene::Joint& source, robot::Joint& joint) {
+void take_numbers(SceneSource& source, const scene::Joint& described, robot::Joint& joint) {
   if (!joint.has_one_axis()) {
     return;
   }
-  joint.damping = source.damping;
-  joint.friction = source.friction;
-  joint.velocity_limit = source.velocity_limit;
-  if (std::isfinite(source.lower) || std::isfinite(source.upper)) {
-    joint.limit = robot::Limit{std::isfinite(source.lower) ? source.lower : -kFar,
-                               std::isfinite(source.upper) ? source.upper : kFar};
+  joint.damping = described.damping;
+  joint.friction = described.friction;
+  joint.velocity_limit = described.velocity_limit;
+  if (std::isfinite(described.lower) || std::isfinite(described.upper)) {
+    joint.limit = robot::Limit{std::isfinite(described.lower) ? described.lower : -kFar,
+                               std::isfinite(described.upper) ? described.upper : kFar};
   }
-  for (const scene::Drive& drive : source.drives) {
+  for (const scene::Drive& drive : described.drives) {
     if (drive.stiffness != 0 || drive.damping != 0) {
-      left_out(source.path, "the drive has gains");
+      source.left_out(described.path, "the drive has gains");
     }
     joint.effort_limit = std::min(joint.effort_limit, drive.max_force);
   }
-  if (source.armature != 0) {
-    left_out(source.path, "the joint has an armature");
+  if (described.armature != 0) {
+    source.left_out(described.path, "the joint has an armature");
   }
-  if (source.stiffness != 0) {
-    left_out(source.path, "the joint has a spring of its own");
+  if (described.stiffness != 0) {
+    source.left_out(described.path, "the joint has a spring of its own");
   }
 }
 
 /// Numbers of a description that no schema holds; convert_robot keeps them so.
-void SceneReader::take_description(const scene::Joint& source, robot::Joint& joint) {
-  const stage::Prim prim = stage_.prim(source.path);
+void take_description(const stage::Stage& stage, Path path, robot::Joint& joint) {
+  const stage::Prim prim = stage.prim(path);
   if (!prim || !joint.has_one_axis()) {
     return;
   }
@@ -135,21 +140,38 @@ void SceneReader::take_description(const scene::Joint& source, robot::Joint& joi
   }
 }
 
-void SceneReader::add_mimics() {
-  for (std::size_t i = 0; i < joint_of_.size(); ++i) {
-    const auto& mimic = scene_.joints[i].mimic;
-    if (!mimic || joint_of_[i] == kNone) {
+}  // namespace
+
+robot::Joint read_joint(SceneSource& source, const scene::Joint& described) {
+  robot::Joint joint;
+  joint.name = source.name_of(described.path, "joint");
+  Vec3d axis;
+  joint.kind = kind_of(source, described, axis);
+  if (joint.has_one_axis() || joint.kind == JointKind::Planar) {
+    joint.axis = axis;
+  }
+  take_numbers(source, described, joint);
+  take_description(source.stage(), described.path, joint);
+  return joint;
+}
+
+void add_mimics(SceneSource& source, const std::vector<std::optional<robot::Index>>& joint_of,
+                std::vector<robot::Joint>& joints) {
+  for (std::size_t i = 0; i < joint_of.size(); ++i) {
+    const scene::Joint& described = source.scene().joints[i];
+    const auto& mimic = described.mimic;
+    if (!mimic || !joint_of[i]) {
       continue;
     }
-    const std::size_t leader = joint_of_[mimic->leader];
-    robot::Joint& joint = robot_.joints[joint_of_[i]];
-    if (leader == kNone || !joint.has_one_axis() || mimic->higher != std::array<double, 3>{}) {
-      left_out(scene_.joints[i].path, "the joint follows another by a law that is not linear");
+    const std::optional<robot::Index> leader = joint_of[mimic->leader];
+    robot::Joint& joint = joints[*joint_of[i]];
+    if (!leader || !joint.has_one_axis() || mimic->higher != std::array<double, 3>{}) {
+      source.left_out(described.path, "the joint follows another by a law that is not linear");
       continue;
     }
-    joint.mimic = robot::Mimic{static_cast<Index>(leader), mimic->multiplier, mimic->offset, {}, 0};
+    joint.mimic = robot::Mimic{*leader, mimic->multiplier, mimic->offset, {}, 0};
     if (mimic->natural_frequency != 0) {
-      left_out(scene_.joints[i].path, "the joint follows another by a spring");
+      source.left_out(described.path, "the joint follows another by a spring");
     }
   }
 }
