@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/convert/conversion.h"
+#include "tenon/convert/joints.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/math/inertia.h"
 #include "tenon/physics/read_physics.h"

@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
+//
+// Joints of robots turn or slide about any axis; those of UsdPhysics about X, Y or Z of a frame
+// that stands in both bodies. So the frame is turned until one of them is the axis, by exact
+// quaternions where that can be. Mimics and actuators are written when all joints have their prims,
+// for they refer to them.
+#include "tenon/convert/joints.h"
 
-#include "tenon/convert/conversion.h"
 #include "tenon/convert/joint_schemas.h"
 
 namespace tenon::convert {
@@ -28,21 +32,14 @@ AxisTurn axis_turn(const Vec3d& axis) {
   return {"X", normalized(Quatd{normal[0], normal[1], normal[2], 1 + dot(x, axis)})};
 }
 
-Path Conversion::define_joint(const std::string& wanted, const char* type) {
-  const Token name = joint_names_.make(wanted);
-  const Path path = builder_.define(joints_scope_, name, type);
-  name_prim(path, name, wanted);
-  return path;
-}
-
-void Conversion::write_side(Path joint, int side, Path body, const Pose& frame) {
+void write_side(LayerBuilder& builder, Path joint, int side, Path body, const Pose& frame) {
   const Token type("PhysicsJoint");
   const std::string end = std::to_string(side);
   if (!body.empty()) {
-    builder_.set_targets(joint, type, "physics:body" + end, {body});
+    builder.set_targets(joint, type, "physics:body" + end, {body});
   }
-  builder_.set_vector(joint, type, "physics:localPos" + end, frame.position);
-  builder_.set_rotation(joint, type, "physics:localRot" + end, frame.orientation);
+  builder.set_vector(joint, type, "physics:localPos" + end, frame.position);
+  builder.set_rotation(joint, type, "physics:localRot" + end, frame.orientation);
 }
 
 namespace {
@@ -65,10 +62,8 @@ const char* type_of(JointKind kind) {
   return "PhysicsJoint";
 }
 
-}  // namespace
-
 /// The joint's frame in the child link, axis included.
-Pose Conversion::joint_frame(const robot::Joint& joint) const {
+Pose joint_frame(const robot::Joint& joint) {
   Pose frame = joint.frame;
   if (joint.has_one_axis() || joint.kind == JointKind::Planar) {
     frame.orientation = frame.orientation * axis_turn(joint.axis).rotation;
@@ -77,77 +72,98 @@ Pose Conversion::joint_frame(const robot::Joint& joint) const {
 }
 
 /// What may move: one axis, all rotations, or of a planar joint what is not locked.
-void Conversion::write_dofs(Path path, const robot::Joint& joint) {
+void write_dofs(LayerBuilder& builder, Path path, const robot::Joint& joint,
+                SchemaGeneration generation) {
   const std::string axis = axis_turn(joint.axis).token;
   if (joint.has_one_axis()) {
-    builder_.set_value(path, type_of(joint.kind), "physics:axis", Value(Token(axis)));
-    JointPrinter(builder_, path, joint, axis, options_.schema).print();
+    builder.set_value(path, type_of(joint.kind), "physics:axis", Value(Token(axis)));
+    JointPrinter(builder, path, joint, axis, generation).print();
   } else if (joint.kind == JointKind::Ball) {
-    JointPrinter(builder_, path, joint, axis, options_.schema).print_passive();
+    JointPrinter(builder, path, joint, axis, generation).print_passive();
   } else if (joint.kind == JointKind::Planar) {
     for (const std::string other : {"X", "Y", "Z"}) {
       // A lower limit above the upper one locks (UsdPhysics).
       const Token api("PhysicsLimitAPI:" + ((other == axis ? "trans" : "rot") + other));
       const std::string prefix = "limit:" + api.str().substr(16) + ":physics:";
-      builder_.apply(path, api);
-      builder_.set_number(path, api, prefix + "high", -1);
-      builder_.set_number(path, api, prefix + "low", 1);
+      builder.apply(path, api);
+      builder.set_number(path, api, prefix + "high", -1);
+      builder.set_number(path, api, prefix + "low", 1);
     }
   }
 }
 
-Path Conversion::write_joint(const robot::Joint& joint) {
-  const LinkPrim& child = links_[joint.child];
+/// Whether a joint is one on the stage; if not, that is reported.
+bool has_prim(const Source& source, const LinkPrims& links, const robot::Joint& joint,
+              RobotLayer& layer) {
+  const LinkPrim& child = links[joint.child];
   if (child.role == LinkRole::Frame) {
-    report(joint.place, Severity::Info, "convert.frame",
-           "the link \"" + model_.links[joint.child].name + "\" has no mass: it is a frame of \"" +
-               model_.links[child.host].name + "\", without a body and a joint",
-           "");
-    return {};
+    layer.report(joint.place, Severity::Info, "convert.frame",
+                 "the link \"" + source.model.links[joint.child].name +
+                     "\" has no mass: it is a frame of \"" + source.model.links[child.host].name +
+                     "\", without a body and a joint",
+                 "");
+    return false;
   }
   if (joint.kind == JointKind::Floating) {
-    report(joint.place, Severity::Info, "convert.floating",
-           "the joint \"" + joint.name + "\" lets everything move: no joint is written", "");
+    layer.report(joint.place, Severity::Info, "convert.floating",
+                 "the joint \"" + joint.name + "\" lets everything move: no joint is written", "");
+    return false;
+  }
+  return true;
+}
+
+Path write_joint(const Source& source, const LinkPrims& links, const robot::Joint& joint,
+                 PhysicsScope& physics) {
+  if (!has_prim(source, links, joint, physics.layer())) {
     return {};
   }
-  const Path path = define_joint(joint.name, type_of(joint.kind));
-  const LinkPrim& parent = links_[joint.parent];
+  const Path path = physics.define(joint.name, type_of(joint.kind));
   const Pose frame = joint_frame(joint);
-  write_side(path, 0, links_[parent.host].path, parent.in_host * joint.origin * frame);
-  write_side(path, 1, child.path, frame);
-  write_dofs(path, joint);
+  write_side(physics.builder(), path, 0, links.host(joint.parent).path,
+             links[joint.parent].in_host * joint.origin * frame);
+  write_side(physics.builder(), path, 1, links[joint.child].path, frame);
+  write_dofs(physics.builder(), path, joint, source.options.schema);
   return path;
 }
 
-Path Conversion::write_fixed_base() {
-  const Path path = define_joint("fixed_base", "PhysicsFixedJoint");
-  write_side(path, 0, {}, {});
-  write_side(path, 1, links_[tree_.root].path, {});
+Path write_fixed_base(Path root, PhysicsScope& physics) {
+  const Path path = physics.define("fixed_base", "PhysicsFixedJoint");
+  write_side(physics.builder(), path, 0, {}, {});
+  write_side(physics.builder(), path, 1, root, {});
   return path;
 }
 
-void Conversion::write_joints() {
-  joints_.resize(model_.joints.size());
-  if (options_.fix_base && links_[tree_.root].role == LinkRole::Body) {
-    base_joint_ = write_fixed_base();
+/// What a joint follows, or what drives it.
+void write_motion(const Source& source, const robot::Joint& joint, Path path,
+                  const JointPrims& prims, PhysicsScope& physics) {
+  JointPrinter printer(physics.builder(), path, joint, axis_turn(joint.axis).token,
+                       source.options.schema);
+  if (joint.mimic) {
+    const robot::Joint& leader = source.model.joints[joint.mimic->leader];
+    printer.print_mimic(leader, prims.joints[joint.mimic->leader], axis_turn(leader.axis).token);
+  } else if (joint.drive) {
+    printer.print_actuator(physics.path(), physics.free_name(joint.name + "_actuator"));
   }
-  for (Index i = 0; i < model_.joints.size(); ++i) {
-    joints_[i] = write_joint(model_.joints[i]);
+}
+
+}  // namespace
+
+JointPrims write_joints(const Source& source, const LinkPrims& links, PhysicsScope& physics) {
+  const std::vector<robot::Joint>& joints = source.model.joints;
+  const LinkPrim& root = links[source.tree.root];
+  JointPrims prims;
+  if (source.options.fix_base && root.role == LinkRole::Body) {
+    prims.base = write_fixed_base(root.path, physics);
   }
-  for (Index i = 0; i < model_.joints.size(); ++i) {
-    const robot::Joint& joint = model_.joints[i];
-    if (joints_[i].empty() || !joint.has_one_axis()) {
-      continue;
-    }
-    JointPrinter printer(builder_, joints_[i], joint, axis_turn(joint.axis).token, options_.schema);
-    if (joint.mimic) {
-      const robot::Joint& leader = model_.joints[joint.mimic->leader];
-      printer.print_mimic(leader, joints_[joint.mimic->leader], axis_turn(leader.axis).token);
-    }
-    if (joint.drive && !joint.mimic) {
-      printer.print_actuator(joints_scope_, joint_names_.make(joint.name + "_actuator"));
+  for (const robot::Joint& joint : joints) {
+    prims.joints.push_back(write_joint(source, links, joint, physics));
+  }
+  for (Index i = 0; i < joints.size(); ++i) {
+    if (!prims.joints[i].empty() && joints[i].has_one_axis()) {
+      write_motion(source, joints[i], prims.joints[i], prims, physics);
     }
   }
+  return prims;
 }
 
 }  // namespace tenon::convert

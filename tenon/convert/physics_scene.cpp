@@ -4,9 +4,11 @@
 // The world that a model brings along. A robot is put into scenes that have gravity and a solver of
 // their own, and a second PhysicsScene would be one more world: so none is written unless asked
 // for, and what that leaves out is said.
+#include "tenon/convert/physics_scene.h"
+
 #include <cmath>
 
-#include "tenon/convert/conversion.h"
+#include "tenon/convert/mujoco_values.h"
 
 namespace tenon::convert {
 
@@ -38,35 +40,37 @@ std::string words_of(const robot::MujocoScene& scene) {
 
 }  // namespace
 
-void Conversion::write_scene() {
-  if (!model_.mujoco.scene) {
+void write_scene(const Source& source, PhysicsScope& physics) {
+  if (!source.model.mujoco.scene) {
     return;
   }
-  const robot::MujocoScene& scene = *model_.mujoco.scene;
-  if (!options_.scene) {
+  const robot::MujocoScene& scene = *source.model.mujoco.scene;
+  if (!source.options.scene) {
     if (!is_usual(scene)) {
-      report({}, Severity::Warning, "convert.scene",
-             "the model's world is left out, for robots get that of the scene they are put into: " +
-                 words_of(scene),
-             "--scene keeps it as a PhysicsScene");
+      physics.layer().report(
+          {}, Severity::Warning, "convert.scene",
+          "the model's world is left out, for robots get that of the scene they are put into: " +
+              words_of(scene),
+          "--scene keeps it as a PhysicsScene");
     }
     return;
   }
-  const Path path = define_joint("PhysicsScene", "PhysicsScene");
+  LayerBuilder& builder = physics.builder();
+  const Path path = physics.define("PhysicsScene", "PhysicsScene");
   const Vec3d gravity{{scene.gravity[0], scene.gravity[1], scene.gravity[2]}};
   const double magnitude = length(gravity);
   const Vec3d down{{0, 0, -1}};
-  builder_.set_vector(path, "PhysicsScene", "physics:gravityDirection",
-                      magnitude > 0 ? gravity * (1 / magnitude) : down);
-  builder_.set_number(path, "PhysicsScene", "physics:gravityMagnitude", magnitude);
-  builder_.apply(path, "NewtonSceneAPI");
+  builder.set_vector(path, "PhysicsScene", "physics:gravityDirection",
+                     magnitude > 0 ? gravity * (1 / magnitude) : down);
+  builder.set_number(path, "PhysicsScene", "physics:gravityMagnitude", magnitude);
+  builder.apply(path, "NewtonSceneAPI");
   const double rate = scene.time_step > 0 ? 1 / scene.time_step : 0;
   if (rate >= 1 && rate < 1e9 && 1 / std::round(rate) == scene.time_step) {
-    builder_.set_number(path, "NewtonSceneAPI", "newton:timeStepsPerSecond", std::round(rate));
+    builder.set_number(path, "NewtonSceneAPI", "newton:timeStepsPerSecond", std::round(rate));
   }
-  builder_.apply(path, "MjcSceneAPI");
-  builder_.set_number(path, "MjcSceneAPI", "mjc:option:timestep", scene.time_step);
-  write_settings(path, "MjcSceneAPI", scene.settings);
+  builder.apply(path, "MjcSceneAPI");
+  builder.set_number(path, "MjcSceneAPI", "mjc:option:timestep", scene.time_step);
+  write_settings(builder, path, "MjcSceneAPI", scene.settings);
 }
 
 }  // namespace tenon::convert

@@ -1,37 +1,38 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/convert/conversion.h"
+#include "tenon/convert/robot_metadata.h"
 
 namespace tenon::convert {
 
 using robot::Index;
 
-/// What makes the prim a robot: the root of one articulation, and its links and joints in kinematic
-/// order.
-void Conversion::write_robot_metadata() {
+void write_robot_metadata(const robot::KinematicTree& tree, const LinkPrims& link_prims,
+                          const JointPrims& joint_prims, RobotLayer& layer) {
+  LayerBuilder& builder = layer.builder();
   std::vector<Path> links;
   std::vector<Path> joints;
-  if (base_joint_) {
-    joints.push_back(*base_joint_);
+  if (joint_prims.base) {
+    joints.push_back(*joint_prims.base);
   }
-  for (const Index link : tree_.order) {
-    if (links_[link].role == LinkRole::Body) {
-      links.push_back(links_[link].path);
+  for (const Index link : tree.order) {
+    if (link_prims[link].role == LinkRole::Body) {
+      links.push_back(link_prims[link].path);
     }
-    if (const std::optional<Index> above = tree_.joint_to_parent[link];
-        above && !joints_[*above].empty()) {
-      joints.push_back(joints_[*above]);
+    if (const std::optional<Index> above = tree.joint_to_parent[link];
+        above && !joint_prims.joints[*above].empty()) {
+      joints.push_back(joint_prims.joints[*above]);
     }
   }
   for (const Path joint : joints) {
-    builder_.apply(joint, "IsaacJointAPI");
+    builder.apply(joint, "IsaacJointAPI");
   }
   if (!joints.empty()) {
-    builder_.apply(robot_, "PhysicsArticulationRootAPI");
+    builder.apply(layer.robot(), "PhysicsArticulationRootAPI");
   }
-  builder_.apply(robot_, "IsaacRobotAPI");
-  builder_.set_targets(robot_, "IsaacRobotAPI", "isaac:physics:robotLinks", std::move(links));
-  builder_.set_targets(robot_, "IsaacRobotAPI", "isaac:physics:robotJoints", std::move(joints));
+  builder.apply(layer.robot(), "IsaacRobotAPI");
+  builder.set_targets(layer.robot(), "IsaacRobotAPI", "isaac:physics:robotLinks", std::move(links));
+  builder.set_targets(layer.robot(), "IsaacRobotAPI", "isaac:physics:robotJoints",
+                      std::move(joints));
 }
 
 }  // namespace tenon::convert

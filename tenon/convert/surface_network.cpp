@@ -4,9 +4,10 @@
 // A material as a UsdPreviewSurface with a UsdUVTexture for each image (UsdPreviewSurface
 // Specification 2.6). Colours of robot formats are as displayed (sRGB, IEC 61966-2-1), those of the
 // surface linear.
+#include "tenon/convert/surface_network.h"
+
 #include <cmath>
 
-#include "tenon/convert/conversion.h"
 #include "tenon/math/color.h"
 
 namespace tenon::convert {
@@ -203,8 +204,8 @@ class SurfaceNetwork {
 
 }  // namespace
 
-void Conversion::write_preview(Path material, const robot::Material& look, bool linear) {
-  SurfaceNetwork(builder_, material, look, linear).run();
+void write_preview(LayerBuilder& builder, Path material, const robot::Material& look, bool linear) {
+  SurfaceNetwork(builder, material, look, linear).run();
 }
 
 }  // namespace tenon::convert

@@ -1,14 +1,22 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
+//
+// A joint of a scene locks and limits any of six directions; one of a robot is of a kind that has
+// one axis, a plane, a ball, or nothing held at all. What fits a kind becomes it, with its numbers;
+// everything else floats. Numbers that the scene has as floats, or not at all, come from attributes
+// that converting a description has left on the prim.
+#include "tenon/describe/joints.h"
 
-#include "tenon/describe/scene_reader.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
 #include "tenon/scene/joint_freedom.h"
 
 namespace tenon::describe {
 
-using robot::Index;
 using robot::JointKind;
 
 namespace {
@@ -43,9 +51,8 @@ std::optional<std::size_t> plane_normal(const scene::Joint& joint) {
   return std::nullopt;
 }
 
-}  // namespace
-
-JointKind SceneReader::kind_of(const scene::Joint& joint, Vec3d& axis) {
+/// `axis` is set to that of the kind, in the joint frame.
+JointKind kind_of(SceneSource& source, const scene::Joint& joint, Vec3d& axis) {
   axis = unit_vector(static_cast<std::size_t>(joint.axis));
   const bool limited = std::isfinite(joint.lower) || std::isfinite(joint.upper);
   switch (joint.kind) {
@@ -62,7 +69,7 @@ JointKind SceneReader::kind_of(const scene::Joint& joint, Vec3d& axis) {
       return JointKind::Fixed;
     case scene::JointKind::Spherical:
       if (std::isfinite(joint.cone_angle0) || std::isfinite(joint.cone_angle1)) {
-        left_out(joint.path, "the ball has a cone");
+        source.left_out(joint.path, "the ball has a cone");
       }
       return JointKind::Ball;
     case scene::JointKind::Distance:
@@ -74,38 +81,38 @@ JointKind SceneReader::kind_of(const scene::Joint& joint, Vec3d& axis) {
       }
       break;
   }
-  left_out(joint.path, "the joint has several axes: it becomes floating, with limits");
+  source.left_out(joint.path, "the joint has several axes: it becomes floating, with limits");
   return JointKind::Floating;
 }
 
-void SceneReader::take_numbers(const scene::Joint& source, robot::Joint& joint) {
+void take_numbers(SceneSource& source, const scene::Joint& described, robot::Joint& joint) {
   if (!joint.has_one_axis()) {
     return;
   }
-  joint.damping = source.damping;
-  joint.friction = source.friction;
-  joint.velocity_limit = source.velocity_limit;
-  if (std::isfinite(source.lower) || std::isfinite(source.upper)) {
-    joint.limit = robot::Limit{std::isfinite(source.lower) ? source.lower : -kFar,
-                               std::isfinite(source.upper) ? source.upper : kFar};
+  joint.damping = described.damping;
+  joint.friction = described.friction;
+  joint.velocity_limit = described.velocity_limit;
+  if (std::isfinite(described.lower) || std::isfinite(described.upper)) {
+    joint.limit = robot::Limit{std::isfinite(described.lower) ? described.lower : -kFar,
+                               std::isfinite(described.upper) ? described.upper : kFar};
   }
-  for (const scene::Drive& drive : source.drives) {
+  for (const scene::Drive& drive : described.drives) {
     if (drive.stiffness != 0 || drive.damping != 0) {
-      left_out(source.path, "the drive has gains");
+      source.left_out(described.path, "the drive has gains");
     }
     joint.effort_limit = std::min(joint.effort_limit, drive.max_force);
   }
-  if (source.armature != 0) {
-    left_out(source.path, "the joint has an armature");
+  if (described.armature != 0) {
+    source.left_out(described.path, "the joint has an armature");
   }
-  if (source.stiffness != 0) {
-    left_out(source.path, "the joint has a spring of its own");
+  if (described.stiffness != 0) {
+    source.left_out(described.path, "the joint has a spring of its own");
   }
 }
 
 /// Numbers of a description that no schema holds; convert_robot keeps them so.
-void SceneReader::take_description(const scene::Joint& source, robot::Joint& joint) {
-  const stage::Prim prim = stage_.prim(source.path);
+void take_description(const stage::Stage& stage, Path path, robot::Joint& joint) {
+  const stage::Prim prim = stage.prim(path);
   if (!prim || !joint.has_one_axis()) {
     return;
   }
@@ -136,33 +143,51 @@ void SceneReader::take_description(const scene::Joint& source, robot::Joint& joi
   }
 }
 
-void SceneReader::add_mimics() {
-  for (std::size_t i = 0; i < joint_of_.size(); ++i) {
-    for (const scene::Mimic& mimic : scene_.joints[i].mimics) {
-      if (joint_of_[i] != kNone) {
-        add_mimic(scene_.joints[i], mimic, robot_.joints[joint_of_[i]]);
-      }
-    }
+/// `leader`: of the robot, where it has that joint.
+void add_mimic(SceneSource& source, const scene::Joint& described, const scene::Mimic& mimic,
+               std::optional<robot::Index> leader, robot::Joint& joint) {
+  const scene::Joint& leading = source.scene().joints[mimic.leader];
+  if (!has_one_dof(described) || !has_one_dof(leading)) {
+    source.left_out(described.path, std::string(dof_name(mimic.dof)) + " follows " +
+                                        std::string(dof_name(mimic.leader_dof)) + " of <" +
+                                        leading.path.str() +
+                                        ">: joints of several axes follow none");
+    return;
+  }
+  if (!leader || !joint.has_one_axis() || mimic.higher != std::array<double, 3>{}) {
+    source.left_out(described.path, "the joint follows another by a law that is not linear");
+    return;
+  }
+  joint.mimic = robot::Mimic{*leader, mimic.multiplier, mimic.offset, {}, 0};
+  if (mimic.natural_frequency != 0) {
+    source.left_out(described.path, "the joint follows another by a spring");
   }
 }
 
-void SceneReader::add_mimic(const scene::Joint& source, const scene::Mimic& mimic,
-                            robot::Joint& joint) {
-  const std::size_t leader = joint_of_[mimic.leader];
-  if (!has_one_dof(source) || !has_one_dof(scene_.joints[mimic.leader])) {
-    left_out(source.path, std::string(dof_name(mimic.dof)) + " follows " +
-                              std::string(dof_name(mimic.leader_dof)) + " of <" +
-                              scene_.joints[mimic.leader].path.str() +
-                              ">: joints of several axes follow none");
-    return;
+}  // namespace
+
+robot::Joint read_joint(SceneSource& source, const scene::Joint& described) {
+  robot::Joint joint;
+  joint.name = source.name_of(described.path, "joint");
+  Vec3d axis;
+  joint.kind = kind_of(source, described, axis);
+  if (joint.has_one_axis() || joint.kind == JointKind::Planar) {
+    joint.axis = axis;
   }
-  if (leader == kNone || !joint.has_one_axis() || mimic.higher != std::array<double, 3>{}) {
-    left_out(source.path, "the joint follows another by a law that is not linear");
-    return;
-  }
-  joint.mimic = robot::Mimic{static_cast<Index>(leader), mimic.multiplier, mimic.offset, {}, 0};
-  if (mimic.natural_frequency != 0) {
-    left_out(source.path, "the joint follows another by a spring");
+  take_numbers(source, described, joint);
+  take_description(source.stage(), described.path, joint);
+  return joint;
+}
+
+void add_mimics(SceneSource& source, const std::vector<std::optional<robot::Index>>& joint_of,
+                std::vector<robot::Joint>& joints) {
+  for (std::size_t i = 0; i < joint_of.size(); ++i) {
+    const scene::Joint& described = source.scene().joints[i];
+    for (const scene::Mimic& mimic : described.mimics) {
+      if (joint_of[i]) {
+        add_mimic(source, described, mimic, joint_of[mimic.leader], joints[*joint_of[i]]);
+      }
+    }
   }
 }
 

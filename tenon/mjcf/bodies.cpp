@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
+#include "tenon/mjcf/bodies.h"
 
-#include "tenon/base/file_finding.h"
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/math/inertia.h"
-#include "tenon/mjcf/mjcf_reader.h"
+#include "tenon/mjcf/joints.h"
 
 namespace tenon::mjcf {
 
@@ -13,104 +12,136 @@ using engines::mujoco::read_quaternion;
 using engines::mujoco::read_vector;
 using robot::Index;
 
-void MjcfReader::report(const char* rule, std::string message, Severity severity,
-                        std::uint32_t line) {
-  diagnostics_.add(file_finding(severity, rule, std::move(message), file_, line));
-}
+namespace {
 
-std::string MjcfReader::name_of(mjtObj kind, int id) const {
-  const char* name = mj_id2name(&model_, kind, id);
-  return name == nullptr ? "" : name;
-}
+constexpr double kBetween = 1e-6;  // of the body's mass, for links between joints of one body
 
-/// MuJoCo's names are unique in their kind; things without one get a number.
-std::string MjcfReader::unique_name(mjtObj kind, int id, const std::string& fallback) {
-  const std::string name = name_of(kind, id);
-  return name.empty() ? fallback + "_" + std::to_string(id) : name;
-}
-
-robot::RobotModel MjcfReader::run(std::string name) {
-  robot_.name = std::move(name);
-  robot_.file = file_;
-  link_of_body_.resize(static_cast<std::size_t>(model_.nbody));
-  joint_of_joint_.resize(static_cast<std::size_t>(model_.njnt));
-  read_meshes();
-  read_materials();
-  read_bodies();
-  read_geoms();
-  report_materials();
-  read_sites();
-  read_excluded_pairs();
-  read_tendons();
-  read_actuators();
-  read_equalities();
-  read_keyframes();
-  read_scene();
-  report_left_out();
-  return std::move(robot_);
-}
-
-void MjcfReader::read_inertial(int body, robot::Link& link) const {
+std::optional<robot::Inertial> read_inertial(const mjModel& model, int body) {
   const std::size_t at = static_cast<std::size_t>(body);
-  if (!(model_.body_mass[at] > 0)) {
-    return;
+  if (body == 0 || !(model.body_mass[at] > 0)) {
+    return std::nullopt;
   }
-  robot::Inertial& inertial = link.inertial.emplace();
-  inertial.mass = model_.body_mass[at];
-  inertial.center_of_mass = read_vector(model_.body_ipos + 3 * at);
-  inertial.axes = read_quaternion(model_.body_iquat + 4 * at);
-  inertial.inertia = diagonal_matrix(read_vector(model_.body_inertia + 3 * at));
+  robot::Inertial inertial;
+  inertial.mass = model.body_mass[at];
+  inertial.center_of_mass = read_vector(model.body_ipos + 3 * at);
+  inertial.axes = read_quaternion(model.body_iquat + 4 * at);
+  inertial.inertia = diagonal_matrix(read_vector(model.body_inertia + 3 * at));
+  return inertial;
 }
 
-void MjcfReader::read_body(int body) {
-  const auto at = static_cast<std::size_t>(body);
+robot::Link read_link(MjcfSource& source, int body) {
+  const mjModel& model = source.model();
   robot::Link link;
-  link.name = body == 0 ? "world" : unique_name(mjOBJ_BODY, body, "body");
-  if (body != 0) {
-    read_inertial(body, link);
+  link.name = body == 0 ? "world" : source.name(mjOBJ_BODY, body, "body");
+  link.inertial = read_inertial(model, body);
+  if (model.body_mocapid[body] >= 0) {
+    source.left_out("the body \"" + link.name + "\" is moved by mocap; it is held instead");
   }
-  if (model_.body_mocapid[at] >= 0) {
-    report("mjcf.left-out", "the body \"" + link.name + "\" is moved by mocap; it is held instead");
+  if (model.body_gravcomp[body] != 0) {
+    source.left_out("the gravity compensation of body \"" + link.name + "\" is left out");
   }
-  if (model_.body_gravcomp[at] != 0) {
-    report("mjcf.left-out", "the gravity compensation of body \"" + link.name + "\" is left out");
-  }
-  const Pose origin{read_vector(model_.body_pos + 3 * at),
-                    read_quaternion(model_.body_quat + 4 * at)};
-  const auto number = static_cast<Index>(robot_.links.size());
-  link_of_body_[at] = number;
-  robot_.links.push_back(std::move(link));
-  if (body != 0) {
-    const auto parent = static_cast<std::size_t>(model_.body_parentid[at]);
-    add_joints(body, link_of_body_[parent], number, origin);
-  }
+  return link;
 }
 
-void MjcfReader::read_bodies() {
-  for (int body = 0; body < model_.nbody; ++body) {
-    read_body(body);
-  }
-}
-
-void MjcfReader::read_sites() {
-  for (int site = 0; site < model_.nsite; ++site) {
-    const auto at = static_cast<std::size_t>(site);
-    const auto body = static_cast<std::size_t>(model_.site_bodyid[at]);
-    robot_.links[link_of_body_[body]].sites.push_back(
-        {unique_name(mjOBJ_SITE, site, "site"),
-         {read_vector(model_.site_pos + 3 * at), read_quaternion(model_.site_quat + 4 * at)}});
-  }
-}
-
-void MjcfReader::read_excluded_pairs() {
-  for (int pair = 0; pair < model_.nexclude; ++pair) {
-    const auto signature = static_cast<std::uint32_t>(model_.exclude_signature[pair]);
-    const std::size_t first = signature >> 16u;
-    const std::size_t second = signature & 0xFFFFu;
-    if (first < link_of_body_.size() && second < link_of_body_.size()) {
-      robot_.excluded_pairs.push_back({link_of_body_[first], link_of_body_[second]});
+/// Between two joints of the body that `link` is.
+robot::Link link_between(const robot::Link& link, const std::string& joint) {
+  robot::Link between;
+  between.name = link.name + "_" + joint;
+  if (link.inertial) {
+    robot::Inertial& inertial = between.inertial.emplace(*link.inertial);
+    inertial.mass *= kBetween;
+    for (std::size_t k = 0; k < 3; ++k) {
+      inertial.inertia[k][k] *= kBetween;
     }
   }
+  return between;
+}
+
+robot::Joint fixed_joint(const robot::Link& link, Index parent, Index child, const Pose& origin) {
+  robot::Joint joint;
+  joint.name = link.name + "_fixed";
+  joint.parent = parent;
+  joint.child = child;
+  joint.origin = origin;
+  return joint;
+}
+
+/// Hangs the link of a body on that of its parent: by its joints, each but the last with a link of
+/// its own, or firmly.
+void hang_link(MjcfSource& source, int body, Index link, BodyTree& tree) {
+  const mjModel& model = source.model();
+  const auto at = static_cast<std::size_t>(body);
+  const int count = model.body_jntnum[at];
+  const Index parent = tree.link_of_body[static_cast<std::size_t>(model.body_parentid[at])];
+  const Pose origin{read_vector(model.body_pos + 3 * at),
+                    read_quaternion(model.body_quat + 4 * at)};
+  if (count == 0) {
+    tree.joints.push_back(fixed_joint(tree.links[link], parent, link, origin));
+    return;
+  }
+  if (count > 1) {
+    source.report(Severity::Info, "mjcf.several-joints",
+                  "the body \"" + tree.links[link].name + "\" has " + std::to_string(count) +
+                      " joints: links with a millionth of its mass are put between");
+  }
+  Index above = parent;
+  for (int i = 0; i < count; ++i) {
+    const int number = model.body_jntadr[at] + i;
+    robot::Joint joint = read_joint(source, number);
+    joint.parent = above;
+    joint.origin = i == 0 ? origin : Pose{};
+    joint.child = link;
+    if (i + 1 < count) {
+      joint.child = static_cast<Index>(tree.links.size());
+      tree.links.push_back(link_between(tree.links[link], joint.name));
+    }
+    above = joint.child;
+    tree.joint_of_joint[static_cast<std::size_t>(number)] = static_cast<Index>(tree.joints.size());
+    tree.joints.push_back(std::move(joint));
+  }
+}
+
+void add_sites(const MjcfSource& source, BodyTree& tree) {
+  const mjModel& model = source.model();
+  for (int site = 0; site < model.nsite; ++site) {
+    const auto at = static_cast<std::size_t>(site);
+    const auto body = static_cast<std::size_t>(model.site_bodyid[at]);
+    tree.links[tree.link_of_body[body]].sites.push_back(
+        {source.name(mjOBJ_SITE, site, "site"),
+         {read_vector(model.site_pos + 3 * at), read_quaternion(model.site_quat + 4 * at)}});
+  }
+}
+
+}  // namespace
+
+BodyTree read_bodies(MjcfSource& source) {
+  const mjModel& model = source.model();
+  BodyTree tree;
+  tree.link_of_body.resize(static_cast<std::size_t>(model.nbody));
+  tree.joint_of_joint.resize(static_cast<std::size_t>(model.njnt));
+  for (int body = 0; body < model.nbody; ++body) {
+    const auto link = static_cast<Index>(tree.links.size());
+    tree.link_of_body[static_cast<std::size_t>(body)] = link;
+    tree.links.push_back(read_link(source, body));
+    if (body != 0) {
+      hang_link(source, body, link, tree);
+    }
+  }
+  add_sites(source, tree);
+  return tree;
+}
+
+std::vector<std::array<Index, 2>> read_excluded_pairs(const mjModel& model, const BodyTree& tree) {
+  std::vector<std::array<Index, 2>> pairs;
+  for (int pair = 0; pair < model.nexclude; ++pair) {
+    const auto signature = static_cast<std::uint32_t>(model.exclude_signature[pair]);
+    const std::size_t first = signature >> 16u;
+    const std::size_t second = signature & 0xFFFFu;
+    if (first < tree.link_of_body.size() && second < tree.link_of_body.size()) {
+      pairs.push_back({tree.link_of_body[first], tree.link_of_body[second]});
+    }
+  }
+  return pairs;
 }
 
 }  // namespace tenon::mjcf

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include "tenon/mjcf/geoms.h"
+
 #include <algorithm>
 
 #include "tenon/engines/mujoco/model.h"
-#include "tenon/mjcf/mjcf_reader.h"
+#include "tenon/mjcf/softness.h"
+#include "tenon/mjcf/tendons.h"
 
 namespace tenon::mjcf {
 
@@ -17,124 +20,107 @@ namespace {
 constexpr int kLastVisibleGroup = 2;  // groups 3 to 5 are hidden unless asked for
 const double kDefaultFriction[3] = {1, 0.005, 0.0001};
 
-}  // namespace
-
-/// MuJoCo counts v from the upper edge of an image.
-void MjcfReader::read_texture_coordinates(int mesh, robot::MeshFile& file) const {
-  const int start = model_.mesh_texcoordadr[mesh];
-  if (start < 0) {
-    return;
-  }
-  const float* places = model_.mesh_texcoord + 2 * static_cast<std::size_t>(start);
-  const int* corners =
-      model_.mesh_facetexcoord + 3 * static_cast<std::size_t>(model_.mesh_faceadr[mesh]);
-  for (std::size_t i = 0; i < 3 * file.triangles.size(); ++i) {
-    const float* place = places + 2 * static_cast<std::size_t>(corners[i]);
-    file.texture_coordinates.push_back({{place[0], 1 - place[1]}});
-  }
-}
-
-/// Vertices as MuJoCo has them: about the centre and in the principal axes of the mesh, which is
-/// where its geoms stand.
-void MjcfReader::read_meshes() {
-  for (int mesh = 0; mesh < model_.nmesh; ++mesh) {
-    robot::MeshFile& file = robot_.meshes.emplace_back();
-    file.written = unique_name(mjOBJ_MESH, mesh, "mesh");
-    const float* vertices =
-        model_.mesh_vert + 3 * static_cast<std::size_t>(model_.mesh_vertadr[mesh]);
-    for (int i = 0; i < model_.mesh_vertnum[mesh]; ++i) {
-      const float* v = vertices + 3 * static_cast<std::size_t>(i);
-      file.points.push_back({{v[0], v[1], v[2]}});
-    }
-    const int* faces = model_.mesh_face + 3 * static_cast<std::size_t>(model_.mesh_faceadr[mesh]);
-    for (int i = 0; i < model_.mesh_facenum[mesh]; ++i) {
-      const int* f = faces + 3 * static_cast<std::size_t>(i);
-      file.triangles.push_back({{f[0], f[1], f[2]}});
-    }
-    read_texture_coordinates(mesh, file);
-  }
-}
-
-bool MjcfReader::read_shape(int geom, robot::Geometry& geometry) {
-  const double* size = model_.geom_size + 3 * static_cast<std::size_t>(geom);
+/// None for height fields and distance fields.
+std::optional<robot::Geometry> read_shape(const mjModel& model, int geom) {
+  robot::Geometry geometry;
+  const double* size = model.geom_size + 3 * static_cast<std::size_t>(geom);
   geometry.half_extents = read_vector(size);
   geometry.radius = size[0];
   geometry.half_height = size[1];
-  switch (model_.geom_type[geom]) {
+  switch (model.geom_type[geom]) {
     case mjGEOM_PLANE:
       geometry.kind = GeometryKind::Plane;
-      return true;
+      return geometry;
     case mjGEOM_SPHERE:
       geometry.kind = GeometryKind::Sphere;
-      return true;
+      return geometry;
     case mjGEOM_CAPSULE:
       geometry.kind = GeometryKind::Capsule;
-      return true;
+      return geometry;
     case mjGEOM_ELLIPSOID:
       geometry.kind = GeometryKind::Ellipsoid;
-      return true;
+      return geometry;
     case mjGEOM_CYLINDER:
       geometry.kind = GeometryKind::Cylinder;
-      return true;
+      return geometry;
     case mjGEOM_BOX:
       geometry.kind = GeometryKind::Box;
-      return true;
+      return geometry;
     case mjGEOM_MESH:
       geometry.kind = GeometryKind::Mesh;
-      geometry.mesh = static_cast<Index>(model_.geom_dataid[geom]);
-      return model_.geom_dataid[geom] >= 0;
+      geometry.mesh = static_cast<Index>(model.geom_dataid[geom]);
+      return model.geom_dataid[geom] >= 0 ? std::optional(geometry) : std::nullopt;
     default:
-      return false;
+      return std::nullopt;
   }
 }
 
-void MjcfReader::read_geom(int geom) {
-  const auto at = static_cast<std::size_t>(geom);
-  const std::string shown = unique_name(mjOBJ_GEOM, geom, "geom");
-  const std::string name = wrapped_[at] != 0 ? shown : name_of(mjOBJ_GEOM, geom);
-  robot::Geometry geometry;
-  if (!read_shape(geom, geometry)) {
-    report("mjcf.left-out",
-           "the geom \"" + shown +
-               "\" is a height field or a distance field; it "
-               "is left out",
-           Severity::Error);
-    return;
-  }
-  robot::Link& link = robot_.links[link_of_body_[static_cast<std::size_t>(model_.geom_bodyid[at])]];
-  const Pose pose{read_vector(model_.geom_pos + 3 * at),
-                  read_quaternion(model_.geom_quat + 4 * at)};
-  if (!collides(geom) || model_.geom_group[at] <= kLastVisibleGroup) {
-    link.visuals.push_back({name, pose, geometry, material_of(geom, geometry), 0});
-  }
-  if (!collides(geom)) {
-    return;
-  }
-  robot::Collider collider;
-  collider.contact_class = class_of_geom_[at];
-  collider.mujoco = contact_of(geom);
-  collider.name = name.empty() ? "" : name + "_collider";
-  collider.pose = pose;
-  collider.geometry = geometry;
-  const double* friction = model_.geom_friction + 3 * at;
+robot::Surface surface_of(const double* friction) {
+  robot::Surface surface;
+  surface.static_friction = friction[0];
+  surface.dynamic_friction = friction[0];
   if (!std::equal(friction, friction + 3, kDefaultFriction)) {
-    collider.surface.static_friction = friction[0];
-    collider.surface.dynamic_friction = friction[0];
-    collider.surface.torsional_friction = friction[1];
-    collider.surface.rolling_friction = friction[2];
-  } else {
-    collider.surface.static_friction = 1;
-    collider.surface.dynamic_friction = 1;
+    surface.torsional_friction = friction[1];
+    surface.rolling_friction = friction[2];
   }
-  link.colliders.push_back(std::move(collider));
+  return surface;
 }
 
-void MjcfReader::read_geoms() {
-  find_wrapped_geoms();
-  find_contact_classes();
-  for (int geom = 0; geom < model_.ngeom; ++geom) {
-    read_geom(geom);
+robot::Collider collider_of(const mjModel& model, int geom, const robot::Visual& seen) {
+  robot::Collider collider;
+  collider.mujoco = contact_of(model, geom);
+  collider.name = seen.name.empty() ? "" : seen.name + "_collider";
+  collider.pose = seen.pose;
+  collider.geometry = seen.geometry;
+  collider.surface = surface_of(model.geom_friction + 3 * static_cast<std::size_t>(geom));
+  return collider;
+}
+
+/// Name, pose and geometry of a geom; none and a finding where it is of another kind.
+std::optional<robot::Visual> read_geom(MjcfSource& source, int geom, bool is_wrapped) {
+  const mjModel& model = source.model();
+  const auto at = static_cast<std::size_t>(geom);
+  const std::string shown = source.name(mjOBJ_GEOM, geom, "geom");
+  const std::optional<robot::Geometry> geometry = read_shape(model, geom);
+  if (!geometry) {
+    source.report(
+        Severity::Error, "mjcf.left-out",
+        "the geom \"" + shown + "\" is a height field or a distance field; it is left out");
+    return std::nullopt;
   }
+  robot::Visual seen;
+  seen.name = is_wrapped ? shown : source.written_name(mjOBJ_GEOM, geom);
+  seen.pose = {read_vector(model.geom_pos + 3 * at), read_quaternion(model.geom_quat + 4 * at)};
+  seen.geometry = *geometry;
+  return seen;
+}
+
+}  // namespace
+
+std::vector<BodyShapes> read_geoms(MjcfSource& source, const std::vector<robot::MeshFile>& meshes,
+                                   const ContactClasses& contacts, MaterialTable& materials) {
+  const mjModel& model = source.model();
+  const std::vector<char> wrapped = wrapped_geoms(model);
+  std::vector<BodyShapes> bodies(static_cast<std::size_t>(model.nbody));
+  for (int geom = 0; geom < model.ngeom; ++geom) {
+    const auto at = static_cast<std::size_t>(geom);
+    std::optional<robot::Visual> seen = read_geom(source, geom, wrapped[at] != 0);
+    if (!seen) {
+      continue;
+    }
+    BodyShapes& shapes = bodies[static_cast<std::size_t>(model.geom_bodyid[at])];
+    if (contacts.collides[at]) {
+      robot::Collider& collider = shapes.colliders.emplace_back(collider_of(model, geom, *seen));
+      collider.contact_class = contacts.of_geom[at];
+    }
+    if (!contacts.collides[at] || model.geom_group[at] <= kLastVisibleGroup) {
+      const bool has_coordinates = seen->geometry.kind == GeometryKind::Mesh &&
+                                   !meshes[seen->geometry.mesh].texture_coordinates.empty();
+      seen->material = materials.of_geom(geom, has_coordinates);
+      shapes.visuals.push_back(std::move(*seen));
+    }
+  }
+  return bodies;
 }
 
 }  // namespace tenon::mjcf

@@ -8,7 +8,18 @@
 
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/model.h"
-#include "tenon/mjcf/mjcf_reader.h"
+#include "tenon/mjcf/actuators.h"
+#include "tenon/mjcf/bodies.h"
+#include "tenon/mjcf/contact_classes.h"
+#include "tenon/mjcf/equalities.h"
+#include "tenon/mjcf/geoms.h"
+#include "tenon/mjcf/keyframes.h"
+#include "tenon/mjcf/left_out.h"
+#include "tenon/mjcf/material_table.h"
+#include "tenon/mjcf/meshes.h"
+#include "tenon/mjcf/mjcf_source.h"
+#include "tenon/mjcf/mujoco_scene.h"
+#include "tenon/mjcf/tendons.h"
 
 namespace tenon::mjcf {
 namespace {
@@ -59,6 +70,42 @@ Result<ModelPtr> compile(mjSpec& spec, const std::string& path) {
   return ModelPtr(model);
 }
 
+void attach_shapes(std::vector<BodyShapes> shapes, BodyTree& tree) {
+  for (std::size_t body = 0; body < shapes.size(); ++body) {
+    robot::Link& link = tree.links[tree.link_of_body[body]];
+    link.visuals = std::move(shapes[body].visuals);
+    link.colliders = std::move(shapes[body].colliders);
+  }
+}
+
+/// From a compiled model to a robot: passes over its tables, each with its part of the robot and
+/// its findings.
+robot::RobotModel read_model(MjcfSource& source) {
+  robot::RobotModel robot;
+  robot.meshes = read_meshes(source);
+  MaterialTable materials(source);
+  BodyTree tree = read_bodies(source);
+  ContactClasses contacts = find_contact_classes(source);
+  attach_shapes(read_geoms(source, robot.meshes, contacts, materials), tree);
+  robot.contact_classes = std::move(contacts.classes);
+  robot.materials = materials.take();
+  robot.excluded_pairs = read_excluded_pairs(source.model(), tree);
+  Tendons tendons = read_tendons(source, tree);
+  Actuators actuators = read_actuators(source, tree, tendons);
+  Equalities equalities = read_equalities(source, tree);
+  attach_drives(actuators, tree.joints);
+  attach_mimics(equalities, tree.joints);
+  robot.mujoco.keyframes = read_keyframes(source, actuators, tree.joints);
+  robot.mujoco.scene = read_scene(source);
+  report_left_out(source);
+  robot.links = std::move(tree.links);
+  robot.joints = std::move(tree.joints);
+  robot.loops = std::move(equalities.loops);
+  robot.mujoco.tendons = std::move(tendons.tendons);
+  robot.mujoco.actuators = std::move(actuators.motors);
+  return robot;
+}
+
 }  // namespace
 
 Result<robot::RobotModel> read_mjcf(const std::string& path, Diagnostics& diagnostics) {
@@ -72,7 +119,11 @@ Result<robot::RobotModel> read_mjcf(const std::string& path, Diagnostics& diagno
   if (name.empty() || name == "MuJoCo Model") {
     name = std::filesystem::path(path).stem().string();
   }
-  return MjcfReader(*spec, *model, path, diagnostics).run(std::move(name));
+  MjcfSource source(*spec, *model, path, diagnostics);
+  robot::RobotModel robot = read_model(source);
+  robot.name = std::move(name);
+  robot.file = path;
+  return robot;
 }
 
 }  // namespace tenon::mjcf

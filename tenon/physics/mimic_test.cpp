@@ -104,7 +104,7 @@ TEST(MimicReading, RotationsThatFollowEachOtherLoseOneOfThem) {
   const PhysicsScene scene =
       two_joints("PhysicsJoint", R"("PhysxMimicJointAPI:rotX", "PhysxMimicJointAPI:rotY")",
                  law("rotX", "</W>", "1", "rotY") + law("rotY", "</W>", "1", "rotX"), diagnostics);
-  EXPECT_TRUE(has_rule(diagnostics, "mimic.circle"));
+  EXPECT_TRUE(has_rule(diagnostics, "mimic.cycle"));
   ASSERT_EQ(scene.joints[1].mimics.size(), 1u);
   EXPECT_EQ(scene.joints[1].mimics[0].dof, Dof::RotY);
 }

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/convert/bodies.h"
+
+#include <algorithm>
+#include <map>
+
+#include "tenon/math/inertia.h"
+
+namespace tenon::convert {
+
+using layer::Value;
+using robot::Index;
+
+namespace {
+
+/// Of the mass of what a root without mass carries; solvers still hold it.
+constexpr double kRootShare = 1e-6;
+
+void write_mass(LayerBuilder& builder, Path path, const robot::Inertial& inertial) {
+  builder.apply(path, "PhysicsMassAPI");
+  builder.set_number(path, "PhysicsMassAPI", "physics:mass", inertial.mass);
+  builder.set_vector(path, "PhysicsMassAPI", "physics:centerOfMass", inertial.center_of_mass);
+  const Mat3d inertia = inertial.inertia_in_link();
+  if (inertia == Mat3d{}) {
+    return;  // a mass without inertia: from the colliders
+  }
+  const PrincipalInertia principal = principal_inertia(inertia);
+  builder.set_vector(path, "PhysicsMassAPI", "physics:diagonalInertia", principal.moments);
+  builder.set_rotation(path, "PhysicsMassAPI", "physics:principalAxes", principal.axes);
+  // Floats and a turned frame round; Newton's form keeps the numbers.
+  builder.apply(path, "NewtonMassAPI");
+  builder.set_value(path, "NewtonMassAPI", "newton:inertia",
+                    Value(std::vector<double>{inertia[0][0], inertia[1][1], inertia[2][2],
+                                              inertia[0][1], inertia[0][2], inertia[1][2]}));
+}
+
+void write_root_share(RobotLayer& layer, Path path, const robot::Link& root,
+                      const robot::Link& carried) {
+  robot::Inertial share = *carried.inertial;
+  share.mass *= kRootShare;
+  for (auto& row : share.inertia.m) {
+    for (double& moment : row) {
+      moment *= kRootShare;
+    }
+  }
+  write_mass(layer.builder(), path, share);
+  layer.report(root.place, Severity::Warning, "convert.massless-root",
+               "the root \"" + root.name + "\" has no mass: it gets a millionth of that of \"" +
+                   carried.name + "\"",
+               "");
+}
+
+/// A link that is no body.
+void write_frame(RobotLayer& layer, const LinkPrim& prim, const robot::Link& link, bool is_root) {
+  if (is_root && link.name != "world") {
+    layer.report(link.place, Severity::Info, "convert.static-root",
+                 "the root \"" + link.name +
+                     "\" has no mass: it is not a body, and what fixed joints hold to it stands "
+                     "still",
+                 "convert with --float-base where the robot is free to move");
+  }
+  if (prim.role == LinkRole::Frame) {
+    layer.builder().apply(prim.path, "IsaacSiteAPI");
+  }
+}
+
+void write_own_mass(RobotLayer& layer, Path path, const robot::Link& link) {
+  write_mass(layer.builder(), path, *link.inertial);
+  if (link.inertial->inertia == Mat3d{}) {
+    layer.report(link.place, Severity::Info, "convert.no-inertia",
+                 "the link \"" + link.name +
+                     "\" has a mass and no inertia; engines take that of its colliders",
+                 "give it an inertia");
+  }
+}
+
+}  // namespace
+
+void write_body(const Source& source, const LinkPrims& links, Index number, RobotLayer& layer) {
+  const robot::RobotModel& model = source.model;
+  const LinkPrim& prim = links[number];
+  const robot::Link& link = model.links[number];
+  const std::optional<Index> above = source.tree.joint_to_parent[number];
+  const bool relative = above && !(source.options.flat && prim.role != LinkRole::Frame);
+  layer.set_pose(prim.path, relative ? model.joints[*above].origin : prim.in_robot);
+  if (prim.role != LinkRole::Body) {
+    write_frame(layer, prim, link, !above);
+    return;
+  }
+  layer.builder().apply(prim.path, "PhysicsRigidBodyAPI");
+  if (has_mass(link)) {
+    write_own_mass(layer, prim.path, link);
+  } else if (!above) {
+    write_root_share(layer, prim.path, link, model.links[*links.carried]);
+  } else {
+    layer.report(link.place, Severity::Warning, "convert.no-mass",
+                 "the link \"" + link.name +
+                     "\" moves and has no mass; engines take that of its colliders, or 1 kg",
+                 "give it an inertial");
+  }
+  layer.builder().apply(prim.path, "IsaacLinkAPI");
+}
+
+void write_excluded_pairs(const robot::RobotModel& model, const LinkPrims& links,
+                          LayerBuilder& builder) {
+  std::map<Path, std::vector<Path>> others;
+  for (const auto& [a, b] : model.excluded_pairs) {
+    const Path first = links.host(a).path;
+    const Path second = links.host(b).path;
+    if (first != second) {
+      others[std::min(first, second)].push_back(std::max(first, second));
+    }
+  }
+  for (auto& [path, list] : others) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    builder.apply(path, "PhysicsFilteredPairsAPI");
+    builder.set_targets(path, "PhysicsFilteredPairsAPI", "physics:filteredPairs", std::move(list));
+  }
+}
+
+}  // namespace tenon::convert

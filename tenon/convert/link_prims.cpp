@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/convert/link_prims.h"
+
+#include "tenon/base/limits.h"
+
+namespace tenon::convert {
+
+using robot::Index;
+using robot::JointKind;
+
+namespace {
+
+/// What a text layer may nest, less what stands above and below links.
+constexpr std::size_t kNestedLinks = limits::kTextNestingDepth - 20;
+
+/// Of a robot that is to float: the first link with mass that fixed joints hold to a root without.
+/// ROS's own reader takes no inertia at the root, so robots begin with an empty link.
+std::optional<Index> find_carried(const Source& source) {
+  if (!source.options.float_base) {
+    return std::nullopt;
+  }
+  const auto& [model, tree, options] = source;
+  std::vector<bool> is_part(model.links.size(), false);
+  is_part[tree.root] = true;
+  for (const Index link : tree.order) {
+    const std::optional<Index> above = tree.joint_to_parent[link];
+    if (above && is_part[model.joints[*above].parent] &&
+        model.joints[*above].kind == JointKind::Fixed) {
+      if (has_mass(model.links[link])) {
+        return link;
+      }
+      is_part[link] = true;
+    }
+  }
+  return std::nullopt;
+}
+
+LinkRole role_of(const Source& source, Index link, bool root_moves) {
+  if (has_mass(source.model.links[link])) {
+    return LinkRole::Body;
+  }
+  const std::optional<Index> above = source.tree.joint_to_parent[link];
+  if (!above) {
+    return root_moves ? LinkRole::Body : LinkRole::Static;
+  }
+  return source.model.joints[*above].kind == JointKind::Fixed ? LinkRole::Frame : LinkRole::Body;
+}
+
+/// A link but for its path; `links` has those above it.
+LinkPrim placed_link(const Source& source, Index link, const LinkPrims& links) {
+  LinkPrim prim;
+  prim.role = role_of(source, link, links.carried.has_value());
+  prim.host = link;
+  if (const std::optional<Index> above = source.tree.joint_to_parent[link]) {
+    const robot::Joint& joint = source.model.joints[*above];
+    const LinkPrim& parent = links[joint.parent];
+    prim.in_robot = parent.in_robot * joint.origin;
+    if (prim.role == LinkRole::Frame) {
+      prim.host = parent.host;
+      prim.in_host = parent.in_host * joint.origin;
+    }
+  }
+  return prim;
+}
+
+Error too_deep(const robot::RobotModel& model, const robot::Link& link) {
+  return Error(ErrorCode::Limit, "the link \"" + link.name + "\" is nested deeper than " +
+                                     std::to_string(kNestedLinks) + " links")
+      .in_file(model.file)
+      .at(link.place.line, link.place.column)
+      .until(link.place.end_line, link.place.end_column)
+      .with_rule("convert.too-deep")
+      .with_fix("convert with --flat");
+}
+
+}  // namespace
+
+Result<LinkPrims> place_links(const Source& source, Path robot) {
+  const auto& [model, tree, options] = source;
+  NameScope names;
+  for (const char* taken : {"Geometry", "Materials", "Physics"}) {
+    names.make(taken);
+  }
+  LinkPrims links;
+  links.prims.resize(model.links.size());
+  links.carried = find_carried(source);
+  for (const Index link : tree.order) {
+    LinkPrim prim = placed_link(source, link, links);
+    const std::optional<Index> above = tree.joint_to_parent[link];
+    Path parent = above ? links[model.joints[*above].parent].path : robot.child("Geometry");
+    if (options.flat && prim.role != LinkRole::Frame) {
+      parent = robot;
+    }
+    if (parent.depth() > kNestedLinks) {
+      return too_deep(model, model.links[link]);
+    }
+    prim.path = parent.child(names.make(model.links[link].name));
+    links.prims[link] = prim;
+  }
+  return links;
+}
+
+void define_links(const Source& source, const LinkPrims& links, RobotLayer& layer) {
+  if (!source.options.flat) {
+    layer.builder().define(layer.robot(), "Geometry", "Scope");
+  }
+  for (const Index link : source.tree.order) {
+    const Path path = links[link].path;
+    layer.builder().define(path.parent(), path.name(), "Xform");
+    layer.show_name(path, source.model.links[link].name);
+  }
+}
+
+}  // namespace tenon::convert

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/describe/describe_robot.h"
+
+#include "tenon/describe/body_tree.h"
+#include "tenon/describe/colliders.h"
+#include "tenon/describe/describe_visuals.h"
+#include "tenon/describe/visuals.h"
+
+namespace tenon::describe {
+namespace {
+
+robot::RobotModel assembled(RobotTree& tree, Looks looks) {
+  robot::RobotModel robot;
+  robot.links = std::move(tree.links());
+  robot.joints = std::move(tree.joints());
+  robot.meshes = std::move(looks.meshes);
+  robot.materials = std::move(looks.materials);
+  return robot;
+}
+
+}  // namespace
+
+Result<robot::RobotModel> describe_robot(const stage::Stage& stage,
+                                         const scene::PhysicsScene& scene,
+                                         Diagnostics& diagnostics) {
+  if (scene.bodies.empty()) {
+    return Error(ErrorCode::Invalid, "the asset has no rigid bodies, and so no robot")
+        .with_rule("urdf.no-robot")
+        .with_fix("select a variant with physics");
+  }
+  SceneSource source(stage, scene, Format::Urdf, diagnostics);
+  BodyTree bodies = read_bodies(source);
+  Looks looks = add_visuals(source, bodies.tree);
+  add_colliders(source, bodies, looks.meshes);
+  if (!scene.filter.permanent_pairs.empty()) {
+    source.left_out({}, "pairs of colliders are kept apart");
+  }
+  robot::RobotModel robot = assembled(bodies.tree, std::move(looks));
+  const stage::Prim root = stage.default_prim();
+  robot.name = source.name_of(root ? root.path() : Path(), "robot");
+  return robot;
+}
+
+robot::RobotModel describe_visuals(const stage::Stage& stage, const scene::PhysicsScene& scene,
+                                   Diagnostics& diagnostics) {
+  SceneSource source(stage, scene, Format::Mjcf, diagnostics);
+  RobotTree tree;
+  for (const scene::Body& body : scene.bodies) {
+    tree.add_link(body.path, source.name_of(body.path, "world"), body.pose, {});
+  }
+  tree.set_world(tree.add_link({}, "world", {}, {}));
+  Looks looks = add_visuals(source, tree);
+  return assembled(tree, std::move(looks));
+}
+
+}  // namespace tenon::describe

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tenon/mjcf/mjcf_source.h"
+#include "tenon/robot/robot_model.h"
+
+/// Internal to this folder.
+namespace tenon::mjcf {
+
+/// A joint by MuJoCo's number, but for its place in the tree. Its coordinate counts from `ref`,
+/// where the bodies stand as written.
+robot::Joint read_joint(MjcfSource& source, int number);
+
+}  // namespace tenon::mjcf
