@@ -17,7 +17,7 @@
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/formats/text/reader.h"
-#include "tenon/formats/text/writer.h"
+#include "tenon/formats/text/write/writer.h"
 #include "tenon/tenon.h"
 
 namespace tenon::bench {

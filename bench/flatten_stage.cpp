@@ -4,8 +4,8 @@
 // flatten_stage FILE [--repeats N]: opens a stage, makes one layer of it and writes that as text
 // into memory.
 #include "bench/open_phases.h"
-#include "tenon/formats/text/writer.h"
-#include "tenon/stage/flatten.h"
+#include "tenon/formats/text/write/writer.h"
+#include "tenon/stage/flatten/flatten.h"
 
 int main(int count, char** values) {
   using namespace tenon;

@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "bench/measure.h"
-#include "tenon/scene/mesh_inertia.h"
+#include "tenon/scene/shapes/mesh_inertia.h"
 
 namespace tenon::bench {
 namespace {

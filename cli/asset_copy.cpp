@@ -13,7 +13,7 @@
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
-#include "tenon/formats/text/layout_edit.h"
+#include "tenon/formats/text/layout/layout_edit.h"
 #include "tenon/stage_sources.h"
 
 namespace tenon::cli {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/sarif.h"
+#include "cli/text/sarif.h"
 #include "tenon/base/result.h"
 
 namespace tenon::cli {

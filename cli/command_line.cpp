@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/nearest_name.h"
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 
 namespace tenon::cli {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 
 namespace tenon::cli {
 

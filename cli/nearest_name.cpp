@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tenon/base/nearest_name.h"
+#include "tenon/base/text/nearest_name.h"
 
 namespace tenon::cli {
 namespace {

@@ -18,9 +18,9 @@
 #include <unistd.h>
 
 #include "tenon/bytes/asset_resolver.h"
-#include "tenon/bytes/file_transaction.h"
 #include "tenon/bytes/posix_files.h"
-#include "tenon/bytes/unpack_zip.h"
+#include "tenon/bytes/write/file_transaction.h"
+#include "tenon/bytes/zip/unpack_zip.h"
 #include "tenon/formats/save_layer.h"
 
 namespace tenon::cli {

@@ -14,7 +14,7 @@
 #include "tenon/asset/edit_asset.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/read_record.h"
-#include "tenon/bytes/zip_archive.h"
+#include "tenon/bytes/zip/zip_archive.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/structure/package.h"
 

@@ -11,7 +11,7 @@
 
 #include <unistd.h>
 
-#include "cli/terminal_text.h"
+#include "cli/text/terminal_text.h"
 
 namespace tenon::cli {
 

@@ -8,8 +8,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "cli/help_text.h"
 #include "cli/print.h"
+#include "cli/text/help_text.h"
 
 namespace tenon::cli {
 namespace {

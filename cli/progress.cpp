@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "cli/print.h"
-#include "cli/terminal_text.h"
+#include "cli/text/terminal_text.h"
 
 namespace tenon::cli {
 namespace {

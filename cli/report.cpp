@@ -10,8 +10,8 @@
 
 #include "cli/missing_input.h"
 #include "cli/print.h"
-#include "cli/terminal_text.h"
-#include "tenon/base/shown_path.h"
+#include "cli/text/terminal_text.h"
+#include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/formats/find_places.h"
 

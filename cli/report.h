@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/diagnostic_lines.h"
 #include "cli/exit_code.h"
 #include "cli/print.h"
+#include "cli/text/diagnostic_lines.h"
 #include "cli/verb.h"
 #include "tenon/answers/json.h"
 #include "tenon/base/diagnostics.h"

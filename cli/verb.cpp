@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "tenon/base/run_limits.h"
+#include "tenon/base/limits/run_limits.h"
 
 namespace tenon::cli {
 

@@ -10,7 +10,7 @@ function(tenon_rule_numbers target)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/rule_number_table.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT [[
 // Made from tests/physics/conformance.txt by cmake/rule_numbers.cmake.
-#include "cli/rule_numbers.h"
+#include "cli/text/rule_numbers.h"
 
 namespace tenon::cli {
 

@@ -14,8 +14,8 @@
 #include "fuzz/read_whole_stage.h"
 #include "tenon/compose/dump_index.h"
 #include "tenon/formats/text/reader.h"
-#include "tenon/formats/text/writer.h"
-#include "tenon/stage/flatten.h"
+#include "tenon/formats/text/write/writer.h"
+#include "tenon/stage/flatten/flatten.h"
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "fuzz/taken_bytes.h"
-#include "tenon/base/limits.h"
-#include "tenon/base/text_number.h"
-#include "tenon/compose/variable_expression.h"
+#include "tenon/base/limits/limits.h"
+#include "tenon/base/text/text_number.h"
+#include "tenon/compose/expressions/variable_expression.h"
 #include "tenon/layer/field_values.h"
 
 namespace {

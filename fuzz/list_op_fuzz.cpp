@@ -13,7 +13,7 @@
 #include "tenon/formats/crate/reader.h"
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/text/reader.h"
-#include "tenon/formats/text/writer.h"
+#include "tenon/formats/text/write/writer.h"
 #include "tenon/layer/field_values.h"
 
 namespace {

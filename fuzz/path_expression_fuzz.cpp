@@ -9,7 +9,7 @@
 #include <string>
 
 #include "fuzz/taken_bytes.h"
-#include "tenon/layer/path_expression.h"
+#include "tenon/layer/expressions/path_expression.h"
 
 namespace {
 

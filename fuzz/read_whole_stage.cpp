@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tenon/stage/attribute.h"
-#include "tenon/stage/collection.h"
+#include "tenon/stage/collections/collection.h"
 #include "tenon/stage/prim.h"
 #include "tenon/stage/transform_at.h"
 

@@ -11,7 +11,7 @@
 #include "tenon/formats/crate/reader.h"
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/text/reader.h"
-#include "tenon/formats/text/writer.h"
+#include "tenon/formats/text/write/writer.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "tenon/formats/text/reader.h"
-#include "tenon/formats/text/writer.h"
+#include "tenon/formats/text/write/writer.h"
 
 namespace {
 

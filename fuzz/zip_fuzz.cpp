@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "tenon/bytes/zip_archive.h"
+#include "tenon/bytes/zip/zip_archive.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto archive = tenon::bytes::ZipArchive::open(

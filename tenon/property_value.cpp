@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "tenon/base/nearest_name.h"
-#include "tenon/base/quoted_text.h"
-#include "tenon/formats/text/value_text.h"
+#include "tenon/base/text/nearest_name.h"
+#include "tenon/base/text/quoted_text.h"
+#include "tenon/formats/text/write/value_text.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/type_names.h"

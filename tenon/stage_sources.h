@@ -7,7 +7,7 @@
 
 #include "tenon/base/result.h"
 #include "tenon/bytes/asset_resolver.h"
-#include "tenon/compose/index_cache.h"
+#include "tenon/compose/cache/index_cache.h"
 #include "tenon/compose/layer_opener.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/layer/layer.h"

@@ -11,7 +11,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/file_bytes.h"
-#include "tenon/compose/index_cache.h"
+#include "tenon/compose/cache/index_cache.h"
 #include "tenon/engines/engines.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/layer/layer.h"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the limits: each constant of tenon/base/*limits.h is used and stands in docs/limits.md.
+"""Holds the limits: each constant of tenon/base/limits is used and stands in docs/limits.md.
 
 Exit 0: held; 1: each fault on a line of its own.
 """
@@ -12,7 +12,7 @@ import sys
 
 import source_files
 
-TABLE = re.compile(r"tenon/base/(\w+_)?limits\.h")
+TABLE = re.compile(r"tenon/base/limits/(\w+_)?limits\.h")
 PAGE = "docs/limits.md"
 CONSTANT = re.compile(r"inline constexpr [\w:]+ (k\w+) = ([^;]+);")
 
@@ -40,7 +40,7 @@ def check(root, files):
                 with open(os.path.join(root, path), encoding="utf-8") as file:
                     used.update(re.findall(r"limits::(k\w+)", file.read()))
     if not limits:
-        faults.append("tenon/base: no limits found")
+        faults.append("tenon/base/limits: no limits found")
     for name, (table, value) in limits.items():
         if name not in used:
             faults.append(f"{table}: {name} is not used")

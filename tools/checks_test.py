@@ -126,7 +126,8 @@ class Limits(unittest.TestCase):
     USE = "int x = limits::kOne + limits::kTwo;\n"
 
     def faults(self, page=PAGE, use=USE):
-        files = {"tenon/base/limits.h": self.TABLE, check_limits.PAGE: page, "tenon/a.cpp": use}
+        files = {"tenon/base/limits/limits.h": self.TABLE, check_limits.PAGE: page,
+                 "tenon/a.cpp": use}
         with tree(files) as root:
             return check_limits.check(root, list(files))
 

@@ -14,7 +14,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include "tenon/base/guard_limits.h"
+#include "tenon/base/limits/guard_limits.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 #define TENON_ADDRESS_SANITIZER 1

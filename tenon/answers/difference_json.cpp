@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tenon/formats/text/value_text.h"
+#include "tenon/formats/text/write/value_text.h"
 #include "tenon/layer/value.h"
 
 namespace tenon::answers {

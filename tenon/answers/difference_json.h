@@ -6,7 +6,7 @@
 
 #include "tenon/answers/json.h"
 #include "tenon/diff/layer_difference.h"
-#include "tenon/scene/scene_difference.h"
+#include "tenon/scene/fields/scene_difference.h"
 
 namespace tenon::answers {
 

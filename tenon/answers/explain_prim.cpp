@@ -9,8 +9,8 @@
 #include "tenon/answers/mass_json.h"
 #include "tenon/answers/opinions.h"
 #include "tenon/answers/scene_json_value.h"
-#include "tenon/formats/text/value_text.h"
-#include "tenon/stage/material_binding.h"
+#include "tenon/formats/text/write/value_text.h"
+#include "tenon/stage/collections/material_binding.h"
 
 namespace tenon::answers {
 namespace {

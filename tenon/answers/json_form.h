@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "tenon/answers/json.h"
-#include "tenon/scene/scene_fields.h"
+#include "tenon/scene/fields/scene_fields.h"
 
 /// What the JSON of a scene has beyond the tables. Internal to tenon/answers.
 namespace tenon::answers {

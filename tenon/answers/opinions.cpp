@@ -9,11 +9,11 @@
 
 #include "tenon/answers/list_item_text.h"
 #include "tenon/answers/specifier_word.h"
-#include "tenon/base/shown_path.h"
-#include "tenon/formats/text/value_text.h"
+#include "tenon/base/text/shown_path.h"
+#include "tenon/formats/text/write/value_text.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/value.h"
-#include "tenon/stage/field_trace.h"
+#include "tenon/stage/values/field_trace.h"
 
 namespace tenon::answers {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "tenon/answers/json.h"
 #include "tenon/stage/stage.h"
-#include "tenon/stage/value_trace.h"
+#include "tenon/stage/values/value_trace.h"
 
 namespace tenon::answers {
 

@@ -15,12 +15,12 @@
 #include <nlohmann/json.hpp>
 
 #include "tenon/answers/scene_json.h"
-#include "tenon/base/reading_limits.h"
+#include "tenon/base/limits/reading_limits.h"
 #include "tenon/base/wire.h"
 #include "tenon/scene/check_scene.h"
-#include "tenon/scene/enum_names.h"
-#include "tenon/scene/list_of.h"
-#include "tenon/scene/scene_fields.h"
+#include "tenon/scene/fields/enum_names.h"
+#include "tenon/scene/fields/list_of.h"
+#include "tenon/scene/fields/scene_fields.h"
 
 namespace tenon::answers {
 namespace {

@@ -11,10 +11,10 @@
 #include "tenon/answers/json_form.h"
 #include "tenon/answers/scene_json_value.h"
 #include "tenon/base/wire.h"
-#include "tenon/scene/enum_names.h"
-#include "tenon/scene/list_of.h"
-#include "tenon/scene/same_fields.h"
-#include "tenon/scene/wire_form.h"
+#include "tenon/scene/fields/enum_names.h"
+#include "tenon/scene/fields/list_of.h"
+#include "tenon/scene/fields/same_fields.h"
+#include "tenon/scene/fields/wire_form.h"
 
 namespace tenon::answers {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tenon/answers/json.h"
-#include "tenon/scene/same_fields.h"
+#include "tenon/scene/fields/same_fields.h"
 #include "tenon/scene/test_filled_scene.h"
 
 namespace tenon::answers {

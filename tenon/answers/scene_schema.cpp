@@ -9,7 +9,7 @@
 #include "tenon/answers/json_form.h"
 #include "tenon/answers/scene_json.h"
 #include "tenon/base/wire.h"
-#include "tenon/scene/enum_names.h"
+#include "tenon/scene/fields/enum_names.h"
 
 namespace tenon::answers {
 namespace {

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "tenon/answers/opinions.h"
-#include "tenon/base/shown_path.h"
-#include "tenon/compose/arc_name.h"
+#include "tenon/base/text/shown_path.h"
+#include "tenon/compose/arcs/arc_name.h"
 #include "tenon/layer/fields.h"
-#include "tenon/stage/field_trace.h"
-#include "tenon/stage/opinion_sources.h"
-#include "tenon/stage/value_trace.h"
+#include "tenon/stage/sources/opinion_sources.h"
+#include "tenon/stage/values/field_trace.h"
+#include "tenon/stage/values/value_trace.h"
 
 namespace tenon::answers {
 namespace {

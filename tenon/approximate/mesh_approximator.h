@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tenon/scene/mesh_tools.h"
+#include "tenon/scene/shapes/mesh_tools.h"
 
 /// Meshes taken apart into convex pieces and thinned out, by libraries (S-62).
 namespace tenon::approximate {

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "tenon/bytes/file_bytes.h"
-#include "tenon/bytes/file_transaction.h"
+#include "tenon/bytes/write/file_transaction.h"
 
 namespace tenon::approximate {
 namespace {

@@ -16,7 +16,7 @@
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
-#include "tenon/formats/text/layout_edit.h"
+#include "tenon/formats/text/layout/layout_edit.h"
 
 namespace tenon {
 namespace {

@@ -40,7 +40,7 @@ struct CorrectedFile {
 };
 
 /// What the fixes of the findings make of the files that own the opinions. No file is touched: the
-/// caller writes them together, in place (Outputs of cli/output.h, bytes/file_transaction.h).
+/// caller writes them together, in place (Outputs of cli/output.h, bytes/write/file_transaction.h).
 Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Finding>& findings);
 
 /// Files below a folder that no other of them uses as a layer, sorted; a file alone is one.

@@ -71,7 +71,7 @@ struct EditedAsset {
 Result<EditedAsset> edit_asset(const std::string& path, const std::vector<AssetEdit>& edits,
                                const EditOptions& options, Diagnostics& diagnostics);
 
-/// Writes all files in one step, also when the process is killed (bytes/file_transaction.h).
+/// Writes all files in one step, also when the process is killed (bytes/write/file_transaction.h).
 Result<void> write_files(const std::vector<EditedFile>& files);
 
 }  // namespace tenon

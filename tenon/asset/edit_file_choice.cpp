@@ -7,7 +7,7 @@
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
-#include "tenon/stage/opinion_sources.h"
+#include "tenon/stage/sources/opinion_sources.h"
 
 namespace tenon {
 namespace {

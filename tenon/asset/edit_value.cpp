@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "tenon/base/nearest_name.h"
-#include "tenon/formats/text/value_text.h"
+#include "tenon/base/text/nearest_name.h"
+#include "tenon/formats/text/write/value_text.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/schema/registry.h"
 

@@ -11,7 +11,7 @@
 #include "tenon/bytes/file_kind.h"
 #include "tenon/describe/describe_visuals.h"
 #include "tenon/mjcf/write_model.h"
-#include "tenon/physics/read_mujoco_parts.h"
+#include "tenon/physics/vendors/read_mujoco_parts.h"
 #endif
 
 namespace tenon {

@@ -3,7 +3,7 @@
 #include "tenon/asset/export_urdf.h"
 
 #include "tenon/asset/physics_options.h"
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/describe/describe_robot.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/urdf/write_urdf.h"

@@ -14,7 +14,7 @@
 
 #include <pugixml.hpp>
 
-#include "tenon/base/reading_limits.h"
+#include "tenon/base/limits/reading_limits.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/asset_roots.h"
 #include "tenon/bytes/file_bytes.h"

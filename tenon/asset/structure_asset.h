@@ -7,7 +7,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/read_policy.h"
-#include "tenon/structure/make_package.h"
+#include "tenon/structure/make/make_package.h"
 #include "tenon/tenon.h"
 
 namespace tenon {
@@ -16,9 +16,9 @@ namespace tenon {
 /// are absolute. Files are collected under `policy`.
 structure::AssetSource asset_source(layer::Layer layer, const bytes::ReadPolicy& policy);
 
-/// The asset in Asset Structure 3.0, in no folder yet (structure/make_package.h tells what is done;
-/// structure::write_package puts it into a folder). Of the options sandbox,
-/// search paths and what may be read count; layers from elsewhere are named in `diagnostics`.
+/// The asset in Asset Structure 3.0, in no folder yet (structure/make/make_package.h tells what is
+/// done; structure::write_package puts it into a folder). Of the options sandbox, search paths and
+/// what may be read count; layers from elsewhere are named in `diagnostics`.
 Result<structure::StructuredAsset> structure_asset(const std::string& path, const OpenOptions& open,
                                                    const structure::StructureOptions& options,
                                                    Diagnostics& diagnostics);

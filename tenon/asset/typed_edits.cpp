@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "tenon/base/assignment.h"
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 
 namespace tenon {
 namespace {

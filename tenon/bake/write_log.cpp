@@ -5,7 +5,7 @@
 #include <array>
 
 #include "tenon/bake/stage_values.h"
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 
 namespace tenon::bake {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "tenon/bake/stage_values.h"
 #include "tenon/bake/write_log.h"
-#include "tenon/bytes/zip_archive.h"
+#include "tenon/bytes/zip/zip_archive.h"
 
 namespace tenon::bake {
 namespace {

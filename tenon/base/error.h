@@ -16,7 +16,7 @@ enum class ErrorCode : std::uint8_t {
   Parse,        ///< text breaks the grammar
   Corrupt,      ///< binary data contradicts itself or its size
   Unsupported,  ///< valid but not handled: a version, a type, an engine feature
-  Limit,        ///< a stated limit (tenon/base/limits.h) is exceeded
+  Limit,        ///< a stated limit (tenon/base/limits/limits.h) is exceeded
   Invalid,      ///< an argument or a value that cannot be used
   NotFound,     ///< a path, a layer, a prim or a variant that does not exist
   Unstable,     ///< a simulation left the finite numbers

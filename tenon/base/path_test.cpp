@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/base/parallel.h"
 
 namespace tenon {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/base/path.h"
-#include "tenon/base/unicode.h"
+#include "tenon/base/text/unicode.h"
 
 namespace tenon {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <sys/stat.h>
 
-#include "tenon/base/limits.h"
-#include "tenon/base/reading_limits.h"
-#include "tenon/bytes/zip_archive.h"
+#include "tenon/base/limits/limits.h"
+#include "tenon/base/limits/reading_limits.h"
+#include "tenon/bytes/zip/zip_archive.h"
 
 namespace tenon::bytes {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "tenon/base/reading_limits.h"
+#include "tenon/base/limits/reading_limits.h"
 #include "tenon/bytes/read_policy.h"
 
 namespace tenon::bytes {

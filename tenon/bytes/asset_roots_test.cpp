@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "tenon/bytes/atomic_write.h"
+#include "tenon/bytes/write/atomic_write.h"
 
 namespace tenon::bytes {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/bytes/zip_archive.h"
+#include "tenon/bytes/zip/zip_archive.h"
 
 namespace tenon::bytes {
 namespace {

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/bytes/integer_stream.h"
 #include "tenon/bytes/lz4_block.h"
 

@@ -8,7 +8,7 @@
 
 #include <lz4.h>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/bytes/byte_reader.h"
 
 namespace tenon::bytes {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "tenon/base/reading_limits.h"
+#include "tenon/base/limits/reading_limits.h"
 #include "tenon/bytes/asset_resolver.h"
 
 namespace tenon::bytes {

@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "tenon/bytes/atomic_write.h"
-#include "tenon/bytes/zip_archive.h"
+#include "tenon/bytes/write/atomic_write.h"
+#include "tenon/bytes/zip/zip_archive.h"
 
 namespace tenon::bytes {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/base/nearest_name.h"
+#include "tenon/base/text/nearest_name.h"
 #include "tenon/check/convex_overlap.h"
 #include "tenon/check/rule.h"
 

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/check/subject.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
-#include "tenon/stage/material_binding.h"
+#include "tenon/stage/collections/material_binding.h"
 
 namespace tenon::check {
 namespace {

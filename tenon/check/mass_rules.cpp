@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tenon/check/subject.h"
-#include "tenon/scene/shape_mass.h"
+#include "tenon/scene/shapes/shape_mass.h"
 
 namespace tenon::check {
 namespace {

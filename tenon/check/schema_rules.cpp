@@ -7,7 +7,7 @@
 #include <string_view>
 #include <unordered_set>
 
-#include "tenon/base/nearest_name.h"
+#include "tenon/base/text/nearest_name.h"
 #include "tenon/check/subject.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/schema/registry.h"

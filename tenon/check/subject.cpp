@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "tenon/base/rounded_text.h"
+#include "tenon/base/text/rounded_text.h"
 #include "tenon/layer/finding_place.h"
 #include "tenon/physics/attribute_values.h"
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <map>
 
-#include "tenon/compose/arc_name.h"
+#include "tenon/compose/arcs/arc_name.h"
 #include "tenon/compose/targets.h"
 #include "tenon/layer/fields.h"
 

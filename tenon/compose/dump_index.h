@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tenon/compose/index_cache.h"
+#include "tenon/compose/cache/index_cache.h"
 
 namespace tenon::compose {
 

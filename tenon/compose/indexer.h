@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "tenon/base/diagnostics.h"
-#include "tenon/compose/index_cache.h"
+#include "tenon/compose/cache/index_cache.h"
 #include "tenon/compose/node_graph.h"
 #include "tenon/compose/task_queue.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Instances share what lies below them. Shared is what comes over arcs of the prim itself; opinions
 // of the prim and of its ancestors' arcs on what is below do not count.
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/compose/indexer.h"
 #include "tenon/layer/fields.h"
 

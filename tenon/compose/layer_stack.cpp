@@ -8,11 +8,11 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
+#include "tenon/compose/arcs/relocations.h"
 #include "tenon/compose/composition_error.h"
+#include "tenon/compose/expressions/variable_expression.h"
 #include "tenon/compose/muting.h"
-#include "tenon/compose/relocations.h"
-#include "tenon/compose/variable_expression.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/finding_place.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tenon/base/path.h"
-#include "tenon/compose/index_cache.h"
+#include "tenon/compose/cache/index_cache.h"
 
 namespace tenon::compose {
 

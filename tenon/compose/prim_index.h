@@ -9,7 +9,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/path.h"
-#include "tenon/compose/arc.h"
+#include "tenon/compose/arcs/arc.h"
 #include "tenon/compose/layer_stack.h"
 #include "tenon/compose/map_function.h"
 

@@ -3,7 +3,7 @@
 // From which depth on nodes do not contribute: it decides about variants of ancestors.
 #include <gtest/gtest.h>
 
-#include "tenon/compose/index_cache.h"
+#include "tenon/compose/cache/index_cache.h"
 #include "tenon/compose/node_graph.h"
 #include "tenon/formats/text/reader.h"
 

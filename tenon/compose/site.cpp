@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "tenon/compose/composition_error.h"
-#include "tenon/compose/variable_expression.h"
+#include "tenon/compose/expressions/variable_expression.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/finding_place.h"

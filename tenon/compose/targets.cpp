@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "tenon/compose/arc_name.h"
+#include "tenon/compose/arcs/arc_name.h"
+#include "tenon/compose/cache/index_cache.h"
 #include "tenon/compose/composition_error.h"
-#include "tenon/compose/index_cache.h"
 #include "tenon/compose/node_graph.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tenon/base/path.h"
-#include "tenon/compose/arc.h"
+#include "tenon/compose/arcs/arc.h"
 
 /// Internal: composition counts what it does, so that a scene whose arcs multiply ends at a stated
 /// count and says which arc multiplied. A unit is about a visit of a node (docs/limits.md).

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/compose/cache/index_cache.h"
 #include "tenon/compose/dump_index.h"
-#include "tenon/compose/index_cache.h"
 #include "tenon/formats/text/reader.h"
 
 namespace tenon::compose {

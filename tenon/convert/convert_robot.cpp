@@ -7,13 +7,13 @@
 #include "tenon/convert/joints.h"
 #include "tenon/convert/link_prims.h"
 #include "tenon/convert/loops.h"
-#include "tenon/convert/material_writer.h"
 #include "tenon/convert/mujoco_parts.h"
 #include "tenon/convert/physics_scene.h"
 #include "tenon/convert/prepare_joints.h"
 #include "tenon/convert/robot_layer.h"
 #include "tenon/convert/robot_metadata.h"
-#include "tenon/convert/shape_writer.h"
+#include "tenon/convert/shapes/material_writer.h"
+#include "tenon/convert/shapes/shape_writer.h"
 #include "tenon/robot/merge_fixed.h"
 
 namespace tenon::convert {

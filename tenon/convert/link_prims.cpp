@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/convert/link_prims.h"
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 
 namespace tenon::convert {
 

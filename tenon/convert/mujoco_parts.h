@@ -4,7 +4,7 @@
 
 #include "tenon/convert/joints.h"
 #include "tenon/convert/robot_layer.h"
-#include "tenon/convert/shape_writer.h"
+#include "tenon/convert/shapes/shape_writer.h"
 
 /// Internal to this folder.
 namespace tenon::convert {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tenon/convert/robot_layer.h"
-#include "tenon/convert/shape_writer.h"
+#include "tenon/convert/shapes/shape_writer.h"
 
 /// Internal to this folder.
 namespace tenon::convert {

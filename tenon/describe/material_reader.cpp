@@ -4,7 +4,7 @@
 
 #include "tenon/describe/preview_surface.h"
 #include "tenon/math/color.h"
-#include "tenon/stage/material_binding.h"
+#include "tenon/stage/collections/material_binding.h"
 
 namespace tenon::describe {
 

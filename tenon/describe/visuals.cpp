@@ -4,7 +4,7 @@
 
 #include "tenon/describe/material_reader.h"
 #include "tenon/describe/visual_shapes.h"
-#include "tenon/stage/material_binding.h"
+#include "tenon/stage/collections/material_binding.h"
 
 namespace tenon::describe {
 

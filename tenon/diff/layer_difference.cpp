@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/diff/value_difference.h"
 #include "tenon/layer/child_lists.h"
 #include "tenon/layer/field_values.h"

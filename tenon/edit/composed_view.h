@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "tenon/base/path.h"
-#include "tenon/compose/index_cache.h"
+#include "tenon/compose/cache/index_cache.h"
 #include "tenon/compose/layer_opener.h"
 #include "tenon/layer/layer.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tenon/layer/field_values.h"
-#include "tenon/layer/moved_in_time.h"
+#include "tenon/layer/time/moved_in_time.h"
 
 namespace tenon::edit {
 namespace {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tenon/formats/text/reader.h"
-#include "tenon/formats/text/writer.h"
+#include "tenon/formats/text/write/writer.h"
 
 namespace tenon::edit {
 namespace {

@@ -11,7 +11,7 @@
 #include "tenon/base/path.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/text/cursor.h"
-#include "tenon/formats/text/part_finder.h"
+#include "tenon/formats/text/layout/part_finder.h"
 #include "tenon/formats/text/reader.h"
 
 namespace tenon::formats {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/open_layer.h"
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/bytes/lfs_pointer.h"
-#include "tenon/bytes/zip_archive.h"
+#include "tenon/bytes/zip/zip_archive.h"
 #include "tenon/formats/crate/reader.h"
 #include "tenon/formats/text/reader.h"
 

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include "tenon/base/limits.h"
-#include "tenon/bytes/atomic_write.h"
-#include "tenon/bytes/zip_archive.h"
+#include "tenon/base/limits/limits.h"
+#include "tenon/bytes/write/atomic_write.h"
+#include "tenon/bytes/zip/zip_archive.h"
 #include "tenon/formats/package/writer.h"
 #include "tenon/formats/save_layer.h"
 

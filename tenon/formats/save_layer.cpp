@@ -4,12 +4,12 @@
 
 #include <vector>
 
-#include "tenon/bytes/atomic_write.h"
+#include "tenon/bytes/write/atomic_write.h"
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/package/writer.h"
-#include "tenon/formats/text/plain_layer.h"
 #include "tenon/formats/text/reader.h"
-#include "tenon/formats/text/writer.h"
+#include "tenon/formats/text/write/plain_layer.h"
+#include "tenon/formats/text/write/writer.h"
 #include "tenon/layer/dictionary.h"
 #include "tenon/layer/field_values.h"
 

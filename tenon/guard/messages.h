@@ -9,7 +9,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/error.h"
-#include "tenon/base/guard_limits.h"
+#include "tenon/base/limits/guard_limits.h"
 
 /// What a program and its worker say to each other: each message is its length in bytes (uint64)
 /// and an encoded value.

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/layer/field_values.h"
 
 namespace tenon::layer {

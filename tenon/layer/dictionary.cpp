@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/layer/dictionary.h"
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 
 namespace tenon::layer {
 namespace {

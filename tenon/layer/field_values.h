@@ -8,6 +8,6 @@
 #include "tenon/layer/dictionary.h"
 #include "tenon/layer/list_op.h"
 #include "tenon/layer/scalar_types.h"
-#include "tenon/layer/spline.h"
-#include "tenon/layer/time_samples.h"
+#include "tenon/layer/time/spline.h"
+#include "tenon/layer/time/time_samples.h"
 #include "tenon/layer/value.h"

@@ -15,7 +15,7 @@
 #include <dlfcn.h>
 
 #include "tenon/base/file_finding.h"
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/math/matrix.h"
 #include "tenon/mesh/point_welder.h"
 

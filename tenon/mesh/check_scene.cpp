@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 
 namespace tenon::mesh {
 namespace {

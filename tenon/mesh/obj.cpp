@@ -9,7 +9,7 @@
 #include <map>
 
 #include "tenon/base/file_finding.h"
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/mesh/read_mesh.h"
 #include "tenon/mesh/text_scanner.h"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/mesh/point_welder.h"
 #include "tenon/mesh/read_mesh.h"
 #include "tenon/mesh/text_scanner.h"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // MuJoCo's actuators push with force = gain ctrl + b0 + b1 l + b2 l', where l = gear q. About a
-// joint that is a drive, a spring and a damper (physics/actuators.cpp); everything else is kept in
-// MuJoCo's words.
+// joint that is a drive, a spring and a damper (physics/joints/actuators.cpp); everything else is
+// kept in MuJoCo's words.
 #include "tenon/mjcf/actuators.h"
 
 #include <algorithm>

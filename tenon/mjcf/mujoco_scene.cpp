@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tenon/engines/mujoco/option_fields.h"
+#include "tenon/engines/mujoco/build/option_fields.h"
 
 namespace tenon::mjcf {
 

@@ -12,13 +12,13 @@
 #include "tenon/mjcf/bodies.h"
 #include "tenon/mjcf/contact_classes.h"
 #include "tenon/mjcf/equalities.h"
-#include "tenon/mjcf/geoms.h"
 #include "tenon/mjcf/keyframes.h"
 #include "tenon/mjcf/left_out.h"
-#include "tenon/mjcf/material_table.h"
-#include "tenon/mjcf/meshes.h"
 #include "tenon/mjcf/mjcf_source.h"
 #include "tenon/mjcf/mujoco_scene.h"
+#include "tenon/mjcf/shapes/geoms.h"
+#include "tenon/mjcf/shapes/material_table.h"
+#include "tenon/mjcf/shapes/meshes.h"
 #include "tenon/mjcf/tendons.h"
 
 namespace tenon::mjcf {

@@ -10,7 +10,7 @@
 
 #include "tenon/base/path.h"
 #include "tenon/base/token.h"
-#include "tenon/physics/mass_properties.h"
+#include "tenon/physics/bodies/mass_properties.h"
 #include "tenon/physics/scene_names.h"
 #include "tenon/scene/physics_scene.h"
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "tenon/layer/spline.h"
-#include "tenon/layer/time_samples.h"
+#include "tenon/layer/time/spline.h"
+#include "tenon/layer/time/time_samples.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/units.h"
 #include "tenon/stage/stage_units.h"

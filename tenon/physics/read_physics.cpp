@@ -12,8 +12,8 @@
 #include <unordered_set>
 
 #include "tenon/approximate/mesh_approximator.h"
+#include "tenon/physics/bodies/weighed_bodies.h"
 #include "tenon/physics/read_state.h"
-#include "tenon/physics/weighed_bodies.h"
 #include "tenon/scene/canonical_scene.h"
 
 namespace tenon::physics {

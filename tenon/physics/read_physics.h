@@ -10,12 +10,12 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/physics/accounts.h"
-#include "tenon/physics/mesh_cache.h"
+#include "tenon/physics/colliders/mesh_cache.h"
 #include "tenon/physics/readings.h"
 #include "tenon/physics/scene_names.h"
-#include "tenon/scene/mesh_inertia.h"
-#include "tenon/scene/mesh_tools.h"
 #include "tenon/scene/physics_scene.h"
+#include "tenon/scene/shapes/mesh_inertia.h"
+#include "tenon/scene/shapes/mesh_tools.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::physics {

@@ -11,15 +11,15 @@
 
 #include "tenon/physics/accounts.h"
 #include "tenon/physics/attribute_values.h"
-#include "tenon/physics/mesh_cache.h"
+#include "tenon/physics/colliders/mesh_cache.h"
 #include "tenon/physics/physics_tokens.h"
 #include "tenon/physics/readings.h"
 #include "tenon/physics/scene_names.h"
 #include "tenon/physics/stage_walk.h"
 #include "tenon/physics/units.h"
-#include "tenon/scene/mesh_inertia.h"
-#include "tenon/scene/mesh_tools.h"
 #include "tenon/scene/physics_scene.h"
+#include "tenon/scene/shapes/mesh_inertia.h"
+#include "tenon/scene/shapes/mesh_tools.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::physics {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "tenon/base/text_number.h"
-#include "tenon/base/work_limits.h"
-#include "tenon/physics/mujoco_settings.h"
+#include "tenon/base/limits/work_limits.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/physics/read_state.h"
+#include "tenon/physics/vendors/mujoco_settings.h"
 
 namespace tenon::physics {
 namespace {

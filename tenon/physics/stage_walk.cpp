@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "tenon/base/physics_limits.h"
+#include "tenon/base/limits/physics_limits.h"
 #include "tenon/physics/physics_tokens.h"
 #include "tenon/physics/stray_properties.h"
 #include "tenon/stage/transform_at.h"

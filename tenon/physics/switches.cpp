@@ -5,7 +5,7 @@
 // what there is to say about it was said at the start.
 #include "tenon/physics/switches.h"
 
-#include "tenon/physics/joint_limits.h"
+#include "tenon/physics/joints/joint_limits.h"
 #include "tenon/physics/sample_codes.h"
 #include "tenon/physics/scenes.h"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tenon/base/limits.h"
-#include "tenon/physics/drives.h"
+#include "tenon/base/limits/limits.h"
+#include "tenon/physics/joints/drives.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/switches.h"
 #include "tenon/physics/world_pose.h"

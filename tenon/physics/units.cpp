@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/finding_place.h"
 #include "tenon/physics/attribute_values.h"

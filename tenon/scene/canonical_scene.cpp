@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tenon/base/wire.h"
-#include "tenon/scene/scene_fields.h"
+#include "tenon/scene/fields/scene_fields.h"
 
 namespace tenon::scene {
 namespace {

@@ -13,8 +13,8 @@
 #include <type_traits>
 
 #include "tenon/base/wire.h"
-#include "tenon/scene/list_of.h"
-#include "tenon/scene/scene_fields.h"
+#include "tenon/scene/fields/list_of.h"
+#include "tenon/scene/fields/scene_fields.h"
 
 namespace tenon::scene {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tenon/scene/scene_side.h"
+#include "tenon/scene/fields/scene_side.h"
 
 /// A collision filter as words that do not depend on how its tables are numbered, so that two can
 /// be compared. Internal to tenon/scene.

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tenon/scene/enum_names.h"
+#include "tenon/scene/fields/enum_names.h"
 
 namespace tenon::scene {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tenon/scene/enum_names.h"
+#include "tenon/scene/fields/enum_names.h"
 
 namespace tenon::scene {
 namespace {

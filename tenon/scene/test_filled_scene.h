@@ -7,8 +7,8 @@
 
 #include "tenon/base/fill_fields.h"
 #include "tenon/base/wire.h"
-#include "tenon/scene/list_of.h"
-#include "tenon/scene/scene_fields.h"
+#include "tenon/scene/fields/list_of.h"
+#include "tenon/scene/fields/scene_fields.h"
 
 /// For tests that walk every field: a scene in which each has a value of its own, and the same
 /// scene with one of them changed.

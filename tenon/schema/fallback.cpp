@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/layer/field_values.h"
 
 namespace tenon::schema {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "tenon/stage/compose_array_edits.h"
 #include "tenon/stage/composed_fields.h"
-#include "tenon/stage/evaluate_spline.h"
 #include "tenon/stage/property_facts.h"
-#include "tenon/stage/resolve_value.h"
 #include "tenon/stage/stage_data.h"
-#include "tenon/stage/trace_value.h"
+#include "tenon/stage/values/compose_array_edits.h"
+#include "tenon/stage/values/evaluate_spline.h"
+#include "tenon/stage/values/resolve_value.h"
+#include "tenon/stage/values/trace_value.h"
 
 namespace tenon::stage {
 

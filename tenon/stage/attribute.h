@@ -51,7 +51,8 @@ class Attribute {
     const T* contents = value.get<T>();
     return contents == nullptr ? std::nullopt : std::optional<T>(*contents);
   }
-  /// The same value with every opinion about it and what became of each (stage/value_trace.h).
+  /// The same value with every opinion about it and what became of each
+  /// (stage/values/value_trace.h).
   ValueTrace trace(Time time = {}) const;
   /// What the schemas say when nothing is authored; empty when they say nothing.
   layer::Value fallback() const;

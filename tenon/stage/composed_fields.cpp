@@ -6,9 +6,9 @@
 #include <optional>
 #include <unordered_set>
 
-#include "tenon/compose/variable_expression.h"
-#include "tenon/layer/moved_in_time.h"
-#include "tenon/layer/path_expression.h"
+#include "tenon/compose/expressions/variable_expression.h"
+#include "tenon/layer/expressions/path_expression.h"
+#include "tenon/layer/time/moved_in_time.h"
 #include "tenon/layer/type_names.h"
 
 namespace tenon::stage {

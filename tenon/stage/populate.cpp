@@ -6,13 +6,13 @@
 // Inactive prims end the walk. An explicit stack keeps deep trees off ours.
 #include <algorithm>
 
-#include "tenon/base/fault_limits.h"
+#include "tenon/base/limits/fault_limits.h"
 #include "tenon/base/parallel.h"
 #include "tenon/compose/composition_error.h"
 #include "tenon/schema/kinds.h"
 #include "tenon/stage/composed_type.h"
 #include "tenon/stage/instance_bound.h"
-#include "tenon/stage/prototype_sources.h"
+#include "tenon/stage/sources/prototype_sources.h"
 #include "tenon/stage/stage_data.h"
 
 namespace tenon::stage {

@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
+#include "tenon/base/limits/work_limits.h"
 #include "tenon/base/result.h"
-#include "tenon/base/work_limits.h"
-#include "tenon/compose/index_cache.h"
+#include "tenon/compose/cache/index_cache.h"
 #include "tenon/layer/layer.h"
-#include "tenon/stage/interpolate.h"
 #include "tenon/stage/prim.h"
 #include "tenon/stage/time.h"
+#include "tenon/stage/values/interpolate.h"
 
 namespace tenon::stage {
 

@@ -9,10 +9,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "tenon/compose/index_cache.h"
+#include "tenon/compose/cache/index_cache.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/schema/definition_cache.h"
-#include "tenon/stage/clip_set.h"
+#include "tenon/stage/clips/clip_set.h"
 #include "tenon/stage/stage.h"
 
 /// What the handles point into. Internal to tenon/stage.

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/stage/collection.h"
-#include "tenon/stage/flatten.h"
-#include "tenon/stage/material_binding.h"
+#include "tenon/stage/collections/collection.h"
+#include "tenon/stage/collections/material_binding.h"
+#include "tenon/stage/flatten/flatten.h"
 #include "tenon/stage/stage_units.h"
 #include "tenon/stage/test_stage.h"
 #include "tenon/stage/transform_at.h"

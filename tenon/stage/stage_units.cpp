@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/layer/finding_place.h"
 
 namespace tenon::stage {

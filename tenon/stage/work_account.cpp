@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "tenon/base/work_limits.h"
+#include "tenon/base/limits/work_limits.h"
 #include "tenon/compose/composition_error.h"
 
 namespace tenon::stage {

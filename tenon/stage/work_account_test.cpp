@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/base/work_limits.h"
+#include "tenon/base/limits/work_limits.h"
 #include "tenon/stage/test_stage.h"
 
 namespace tenon::stage {

@@ -61,11 +61,11 @@ struct WriteOptions {
 
 /// Puts the package, with its layers stored, into `folder`. A new folder is written under a hidden
 /// name beside it, synced, then renamed: other programs see the whole package or nothing. In one
-/// that exists the files change in one transaction (bytes/file_transaction.h); those of an earlier
-/// package go, all others stay. Errors, all of which leave the folder as it was: ErrorCode::Invalid
-/// with the rules "output.edited" (what an earlier package said about its files is not so any more,
-/// see written_note.h), "output.unknown" (there are other files), "output.is-input" (the run has
-/// read files of it); Io.
+/// that exists the files change in one transaction (bytes/write/file_transaction.h); those of an
+/// earlier package go, all others stay. Errors, all of which leave the folder as it was:
+/// ErrorCode::Invalid with the rules "output.edited" (what an earlier package said about its files
+/// is not so any more, see written_note.h), "output.unknown" (there are other files),
+/// "output.is-input" (the run has read files of it); Io.
 Result<void> write_package(const Package& package, const std::string& folder,
                            const WriteOptions& options = {});
 /// The same for contents at hand.

@@ -6,10 +6,10 @@
 #include <optional>
 #include <set>
 
-#include "tenon/bytes/file_transaction.h"
-#include "tenon/bytes/new_folder.h"
 #include "tenon/bytes/posix_files.h"
 #include "tenon/bytes/read_record.h"
+#include "tenon/bytes/write/file_transaction.h"
+#include "tenon/bytes/write/new_folder.h"
 #include "tenon/structure/layout.h"
 #include "tenon/structure/package.h"
 #include "tenon/structure/written_note.h"

@@ -12,9 +12,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "tenon/bytes/folder_lock.h"
-#include "tenon/bytes/killed_child.h"
 #include "tenon/bytes/read_record.h"
+#include "tenon/bytes/write/folder_lock.h"
+#include "tenon/bytes/write/killed_child.h"
 #include "tenon/structure/package.h"
 
 namespace tenon::structure {

@@ -11,10 +11,10 @@
 #include "tenon/base/content_digest.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/read_record.h"
-#include "tenon/bytes/zip_archive.h"
+#include "tenon/bytes/zip/zip_archive.h"
 #include "tenon/layer/dictionary.h"
 #include "tenon/layer/fields.h"
-#include "tenon/structure/digest_text.h"
+#include "tenon/structure/proof/digest_text.h"
 #include "tenon/structure/xml_note.h"
 
 namespace tenon::structure {

@@ -3,7 +3,7 @@
 //
 // A material is defined below <robot> or inside a visual; a visual may also name one that is
 // defined anywhere. Two definitions of one name that differ stay two.
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/urdf/urdf_reader.h"
 
 namespace tenon::urdf {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 
 namespace tenon::urdf {
 

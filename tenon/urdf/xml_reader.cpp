@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "tenon/base/file_finding.h"
-#include "tenon/base/limits.h"
-#include "tenon/base/text_number.h"
+#include "tenon/base/limits/limits.h"
+#include "tenon/base/text/text_number.h"
 
 namespace tenon::urdf {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "tenon/answers/scene_json.h"
-#include "tenon/scene/scene_difference.h"
-#include "tenon/scene/wire_form.h"
-#include "tenon/structure/proof.h"
+#include "tenon/scene/fields/scene_difference.h"
+#include "tenon/scene/fields/wire_form.h"
+#include "tenon/structure/proof/proof.h"
 
 namespace {
 

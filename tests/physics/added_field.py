@@ -17,13 +17,13 @@ ROOT = pathlib.Path(sys.argv[1]).resolve()
 WORK = ROOT / "build/added_field"
 COPY = WORK / "source"
 PARTS = ("CMakeLists.txt", "cmake", "tenon", "cli", "worker", "tests/physics/conformance.txt")
-SCENE, TABLE = "tenon/scene/physics_scene.h", "tenon/scene/object_fields.h"
+SCENE, TABLE = "tenon/scene/physics_scene.h", "tenon/scene/fields/object_fields.h"
 MEMBER = "  double gravity_scale = 1;\n"
 ROW = "      field<&Body::gravity_scale>("
 ADDED_MEMBER = "  double added = 0;\n"
 ADDED_ROW = '      field<&Body::added>({.name = "added", .meaning = "for a test"}),\n'
 TARGET = """
-add_executable(added_field {root}/tests/physics/added_field.cpp structure/compare_physics.cpp)
+add_executable(added_field {root}/tests/physics/added_field.cpp structure/proof/compare_physics.cpp)
 target_link_libraries(added_field PRIVATE tenon_answers)
 """
 

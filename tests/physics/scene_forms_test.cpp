@@ -12,7 +12,7 @@
 
 #include "tenon/answers/scene_json.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/scene/wire_form.h"
+#include "tenon/scene/fields/wire_form.h"
 #include "tenon/tenon.h"
 
 namespace tenon {

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/crate_parts.h"
-#include "tenon/base/crate_limits.h"
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/crate_limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/bytes/byte_writer.h"
 #include "tenon/bytes/integer_coding.h"
 #include "tenon/formats/crate/writer.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tenon/stage/collection.h"
+#include "tenon/stage/collections/collection.h"
 #include "tenon/tenon.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tenon/base/result.h"
-#include "tenon/compose/index_cache.h"
+#include "tenon/compose/cache/index_cache.h"
 #include "tenon/formats/open_layer.h"
 
 /// What the programs that dump composed scenes have in common. Options of composition:

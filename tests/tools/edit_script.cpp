@@ -17,10 +17,10 @@
 
 #include "tenon/edit/stage_editor.h"
 #include "tenon/formats/open_layer.h"
-#include "tenon/formats/text/layout_edit.h"
-#include "tenon/formats/text/value_text.h"
-#include "tenon/formats/text/writer.h"
-#include "tenon/stage/flatten.h"
+#include "tenon/formats/text/layout/layout_edit.h"
+#include "tenon/formats/text/write/value_text.h"
+#include "tenon/formats/text/write/writer.h"
+#include "tenon/stage/flatten/flatten.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 // joined by commas, and the value as text layers print it.
 #include <cstdio>
 
-#include "tenon/compose/variable_expression.h"
+#include "tenon/compose/expressions/variable_expression.h"
 #include "tenon/formats/open_layer.h"
-#include "tenon/formats/text/value_text.h"
+#include "tenon/formats/text/write/value_text.h"
 #include "tenon/layer/field_values.h"
 
 int main(int argc, char** argv) {

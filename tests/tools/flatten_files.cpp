@@ -8,8 +8,8 @@
 #include <string>
 
 #include "tenon/formats/open_layer.h"
-#include "tenon/formats/text/writer.h"
-#include "tenon/stage/flatten.h"
+#include "tenon/formats/text/write/writer.h"
+#include "tenon/stage/flatten/flatten.h"
 #include "tenon/stage/stage.h"
 
 namespace {

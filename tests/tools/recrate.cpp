@@ -13,7 +13,7 @@
 
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/open_layer.h"
-#include "tenon/formats/text/writer.h"
+#include "tenon/formats/text/write/writer.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tenon/formats/open_layer.h"
-#include "tenon/formats/text/writer.h"
+#include "tenon/formats/text/write/writer.h"
 
 int main(int argc, char** argv) {
   int failures = 0;

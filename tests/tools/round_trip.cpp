@@ -18,7 +18,7 @@
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/open_layer.h"
-#include "tenon/formats/text/writer.h"
+#include "tenon/formats/text/write/writer.h"
 #include "tenon/layer/type_names.h"
 
 namespace {

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/layer/fields.h"
-#include "tenon/layer/spline.h"
-#include "tenon/stage/evaluate_spline.h"
+#include "tenon/layer/time/spline.h"
+#include "tenon/stage/values/evaluate_spline.h"
 
 namespace {
 

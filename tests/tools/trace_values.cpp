@@ -21,13 +21,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/formats/open_layer.h"
-#include "tenon/formats/text/value_text.h"
+#include "tenon/formats/text/write/value_text.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/stage/stage.h"
-#include "tenon/stage/value_trace.h"
+#include "tenon/stage/values/value_trace.h"
 
 namespace {
 

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "tenon/base/result.h"
-#include "tenon/base/text_number.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/formats/open_layer.h"
-#include "tenon/formats/text/value_text.h"
+#include "tenon/formats/text/write/value_text.h"
 #include "tenon/stage/stage.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "tenon/base/sha256.h"
-#include "tenon/base/unicode.h"
+#include "tenon/base/text/unicode.h"
 
 namespace tenon::answers {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "tenon/answers/specifier_word.h"
-#include "tenon/base/text_number.h"
-#include "tenon/formats/text/value_text.h"
+#include "tenon/base/text/text_number.h"
+#include "tenon/formats/text/write/value_text.h"
 #include "tenon/layer/field_values.h"
 
 namespace tenon::answers {

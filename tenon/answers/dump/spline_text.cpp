@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/answers/dump/spline_text.h"
 
-#include "tenon/base/text_number.h"
-#include "tenon/formats/text/value_text.h"
+#include "tenon/base/text/text_number.h"
+#include "tenon/formats/text/write/value_text.h"
 
 namespace tenon::answers {
 namespace {

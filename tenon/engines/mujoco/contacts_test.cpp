@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "tenon/engines/mujoco/surfaces.h"
+#include "tenon/engines/mujoco/build/surfaces.h"
 #include "tenon/engines/mujoco/test_scene.h"
 
 namespace tenon::engines::mujoco {

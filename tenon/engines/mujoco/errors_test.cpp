@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "tenon/base/engine_limits.h"
+#include "tenon/base/limits/engine_limits.h"
+#include "tenon/engines/mujoco/build/model_size.h"
 #include "tenon/engines/mujoco/error_hook.h"
-#include "tenon/engines/mujoco/model_size.h"
 #include "tenon/engines/mujoco/mujoco_engine.h"
 #include "tenon/engines/mujoco/test_scene.h"
 #include "tenon/engines/mujoco/write_mjcf.h"

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "tenon/engines/mujoco/joint_dofs.h"
+#include "tenon/engines/mujoco/build/joint_dofs.h"
+#include "tenon/engines/mujoco/build/tree_plan.h"
 #include "tenon/engines/mujoco/mujoco_library.h"
-#include "tenon/engines/mujoco/tree_plan.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/math/transform.h"
 #include "tenon/scene/physics_scene.h"

@@ -12,13 +12,13 @@
 #include <string>
 #include <utility>
 
-#include "tenon/engines/mujoco/build.h"
+#include "tenon/engines/mujoco/build/build.h"
+#include "tenon/engines/mujoco/build/least_inertia.h"
+#include "tenon/engines/mujoco/build/surfaces.h"
 #include "tenon/engines/mujoco/contact_filter.h"
 #include "tenon/engines/mujoco/error_hook.h"
-#include "tenon/engines/mujoco/least_inertia.h"
 #include "tenon/engines/mujoco/run/carry_over.h"
 #include "tenon/engines/mujoco/run/read_state.h"
-#include "tenon/engines/mujoco/surfaces.h"
 
 namespace tenon::engines::mujoco {
 namespace {

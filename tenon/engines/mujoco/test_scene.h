@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/engines/mujoco/build.h"
+#include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 #include "tenon/scene/physics_scene.h"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tenon/engines/mujoco/build.h"
+#include "tenon/engines/mujoco/build/build.h"
 
 /// For those who add to a model before it becomes text (write_mjcf.h).
 namespace tenon::engines::mujoco {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "tenon/engines/mujoco/build.h"
+#include "tenon/engines/mujoco/build/build.h"
+#include "tenon/engines/mujoco/build/option_fields.h"
 #include "tenon/engines/mujoco/error_hook.h"
-#include "tenon/engines/mujoco/option_fields.h"
 #include "tenon/engines/mujoco/writable_model.h"
 
 namespace tenon::engines::mujoco {

@@ -8,8 +8,8 @@
 #include <span>
 #include <type_traits>
 
-#include "tenon/base/crate_limits.h"
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/crate_limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/bytes/integer_coding.h"
 #include "tenon/formats/crate/storage_form.h"
 #include "tenon/layer/field_values.h"

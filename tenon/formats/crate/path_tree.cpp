@@ -9,8 +9,8 @@
 #include <span>
 #include <string>
 
-#include "tenon/base/crate_limits.h"
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/crate_limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/formats/crate/tables.h"
 
 namespace tenon::formats::crate {

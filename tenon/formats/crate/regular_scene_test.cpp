@@ -12,7 +12,7 @@
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/save_layer.h"
-#include "tenon/formats/text/writer.h"
+#include "tenon/formats/text/write/writer.h"
 #include "tenon/layer/fields.h"
 
 namespace tenon::formats {

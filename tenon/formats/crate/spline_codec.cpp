@@ -10,7 +10,7 @@
 
 #include "tenon/bytes/byte_reader.h"
 #include "tenon/bytes/byte_writer.h"
-#include "tenon/layer/spline_rules.h"
+#include "tenon/layer/time/spline_rules.h"
 
 namespace tenon::formats::crate {
 namespace {

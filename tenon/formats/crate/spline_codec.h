@@ -7,7 +7,7 @@
 
 #include "tenon/base/result.h"
 #include "tenon/formats/crate/layout.h"
-#include "tenon/layer/spline.h"
+#include "tenon/layer/time/spline.h"
 
 namespace tenon::formats::crate {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <string_view>
 
-#include "tenon/base/crate_limits.h"
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/crate_limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/bytes/lz4_block.h"
 
 namespace tenon::formats::crate {

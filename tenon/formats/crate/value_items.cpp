@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/formats/crate/spline_codec.h"
 #include "tenon/formats/crate/value_reader.h"
-#include "tenon/layer/path_expression.h"
+#include "tenon/layer/expressions/path_expression.h"
 
 namespace tenon::formats::crate {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/formats/crate/storage_form.h"
 
 namespace tenon::formats::crate {

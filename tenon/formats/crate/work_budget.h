@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "tenon/base/error.h"
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/base/result.h"
 
 namespace tenon::formats::crate {

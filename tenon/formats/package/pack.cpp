@@ -13,11 +13,11 @@
 #include "tenon/base/file_finding.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/file_kind.h"
-#include "tenon/bytes/zip_archive.h"
+#include "tenon/bytes/zip/zip_archive.h"
 #include "tenon/formats/crate/writer.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
-#include "tenon/formats/text/layout_edit.h"
+#include "tenon/formats/text/layout/layout_edit.h"
 #include "tenon/layer/finding_place.h"
 
 namespace tenon::formats {

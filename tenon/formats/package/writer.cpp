@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/package/writer.h"
 
-#include "tenon/bytes/zip_archive.h"
+#include "tenon/bytes/zip/zip_archive.h"
 #include "tenon/formats/crate/writer.h"
 
 namespace tenon::formats {

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "tenon/formats/text/layer_state.h"
-#include "tenon/formats/text/list_edit.h"
-#include "tenon/formats/text/statement_text.h"
+#include "tenon/formats/text/layout/list_edit.h"
+#include "tenon/formats/text/layout/statement_text.h"
 
 namespace tenon::formats::text {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstring>
 
-#include "tenon/base/unicode.h"
+#include "tenon/base/text/unicode.h"
 #include "tenon/formats/text/fault_recovery.h"
 
 namespace tenon::formats::text {

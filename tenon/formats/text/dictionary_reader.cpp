@@ -3,14 +3,14 @@
 // Dictionaries, whose entries name their types, and values that name none.
 #include <unordered_map>
 
-#include "tenon/base/limits.h"
-#include "tenon/base/text_number.h"
+#include "tenon/base/limits/limits.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/value_reader.h"
-#include "tenon/formats/text/value_text.h"
 #include "tenon/formats/text/words.h"
+#include "tenon/formats/text/write/value_text.h"
+#include "tenon/layer/expressions/path_expression.h"
 #include "tenon/layer/field_values.h"
-#include "tenon/layer/path_expression.h"
 
 namespace tenon::formats::text {
 namespace {

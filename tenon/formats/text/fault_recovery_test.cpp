@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "tenon/base/fault_limits.h"
+#include "tenon/base/limits/fault_limits.h"
 #include "tenon/formats/text/reader.h"
 
 namespace tenon::formats {

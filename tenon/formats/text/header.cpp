@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cstring>
 
-#include "tenon/base/unicode.h"
+#include "tenon/base/text/unicode.h"
 
 namespace tenon::formats::text {
 namespace {

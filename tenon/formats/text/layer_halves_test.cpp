@@ -10,10 +10,10 @@
 #include <gtest/gtest.h>
 
 #include "tenon/formats/text/layer_reader.h"
+#include "tenon/formats/text/layout/source_map.h"
 #include "tenon/formats/text/reader.h"
-#include "tenon/formats/text/source_map.h"
 #include "tenon/formats/text/split_text.h"
-#include "tenon/formats/text/writer.h"
+#include "tenon/formats/text/write/writer.h"
 
 namespace tenon::formats {
 namespace {

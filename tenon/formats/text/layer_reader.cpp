@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/text/layer_reader.h"
 
-#include "tenon/base/limits.h"
-#include "tenon/base/unicode.h"
+#include "tenon/base/limits/limits.h"
+#include "tenon/base/text/unicode.h"
 #include "tenon/formats/text/header.h"
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/metadata_reader.h"

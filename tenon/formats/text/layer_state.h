@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
-#include "tenon/base/fault_limits.h"
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/fault_limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/formats/text/cursor.h"
 #include "tenon/formats/text/fault_recovery.h"
-#include "tenon/formats/text/source_map.h"
+#include "tenon/formats/text/layout/source_map.h"
 #include "tenon/layer/layer.h"
 
 namespace tenon::formats::text {

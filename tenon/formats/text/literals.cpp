@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "tenon/base/number_from_text.h"
-#include "tenon/base/quoted_text.h"
+#include "tenon/base/text/quoted_text.h"
 
 namespace tenon::formats::text {
 namespace {

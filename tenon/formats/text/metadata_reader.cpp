@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/text/metadata_reader.h"
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/formats/text/arc_reader.h"
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/value_reader.h"

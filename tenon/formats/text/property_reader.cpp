@@ -10,7 +10,7 @@
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/metadata_reader.h"
 #include "tenon/formats/text/value_reader.h"
-#include "tenon/layer/path_expression.h"
+#include "tenon/layer/expressions/path_expression.h"
 #include "tenon/layer/written_type_name.h"
 
 namespace tenon::formats::text {

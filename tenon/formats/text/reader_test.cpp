@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 
 namespace tenon::formats {
 namespace {

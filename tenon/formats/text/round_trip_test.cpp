@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/formats/text/reader.h"
-#include "tenon/formats/text/writer.h"
+#include "tenon/formats/text/write/writer.h"
 
 namespace tenon::formats {
 namespace {

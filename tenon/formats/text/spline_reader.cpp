@@ -6,9 +6,9 @@
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/property_reader.h"
 #include "tenon/formats/text/value_reader.h"
-#include "tenon/layer/ease_tangents.h"
-#include "tenon/layer/spline.h"
-#include "tenon/layer/spline_rules.h"
+#include "tenon/layer/time/ease_tangents.h"
+#include "tenon/layer/time/spline.h"
+#include "tenon/layer/time/spline_rules.h"
 
 namespace tenon::formats::text {
 namespace {

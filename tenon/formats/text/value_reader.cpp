@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "tenon/base/limits.h"
+#include "tenon/base/limits/limits.h"
 #include "tenon/formats/text/literals.h"
-#include "tenon/formats/text/plain_elements.h"
+#include "tenon/formats/text/write/plain_elements.h"
 #include "tenon/layer/field_values.h"
 
 namespace tenon::formats::text {

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "tenon/engines/mujoco/build.h"
+#include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/run/read_state.h"
 #include "tenon/scene/joint_freedom.h"

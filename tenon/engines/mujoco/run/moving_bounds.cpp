@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "tenon/engines/mujoco/build.h"
+#include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/run/carry_over.h"
 #include "tenon/scene/joint_freedom.h"
 

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/text/help_text.h"
+
+#include <algorithm>
+
+namespace tenon::cli {
+namespace {
+
+constexpr std::size_t kNameColumn = 26;  // where the words about an option begin
+constexpr std::size_t kLeastWords = 20;  // columns that words get on the narrowest terminal
+
+/// Columns of UTF-8 text, every character counted as one.
+std::size_t columns(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;
+  }));
+}
+
+std::string row(const std::string& name, const std::string& about, std::size_t width) {
+  const std::size_t column = std::min(kNameColumn, width / 2);
+  std::string line = "  " + name;
+  const std::size_t used = columns(line);
+  line += used + 2 <= column ? std::string(column - used, ' ') : "\n" + std::string(column, ' ');
+  const std::size_t words = std::max(width, column + kLeastWords);
+  return line + wrapped(std::string(column, ' ') + about, words, column).substr(column) + "\n";
+}
+
+std::string rows(const std::string& title, const std::vector<OptionInfo>& options, bool positional,
+                 std::size_t width) {
+  std::string text;
+  for (const OptionInfo& option : options) {
+    if (option.positional == positional) {
+      text += row(option.signature(), option_help(option), width);
+    }
+  }
+  return text.empty() ? text : "\n" + title + "\n" + text;
+}
+
+/// A line of a footer that stands as it is: an example and, behind two blanks, what it is for.
+std::string example(std::string_view line, std::size_t width) {
+  const std::size_t start = line.find_first_not_of(' ');
+  const std::size_t gap = line.find("  ", start);
+  if (columns(line) <= width) {
+    return std::string(line);
+  }
+  if (gap == std::string_view::npos) {
+    return wrapped(line, width, start + 4);
+  }
+  const std::size_t words = line.find_first_not_of(' ', gap);
+  const std::string indent(start + 4, ' ');
+  return wrapped(line.substr(0, gap), width, start + 4) + "\n" +
+         wrapped(indent + std::string(line.substr(words)), width, start + 4);
+}
+
+/// Paragraphs are filled anew; lines that begin with a blank or end with ':' stay lines.
+std::string footer_text(const std::string& footer, std::size_t width) {
+  std::string text;
+  std::string paragraph;
+  const auto end_paragraph = [&] {
+    text += paragraph.empty() ? "" : wrapped(paragraph, width) + "\n";
+    paragraph.clear();
+  };
+  for (std::size_t at = 0; at <= footer.size();) {
+    const std::size_t end = std::min(footer.find('\n', at), footer.size());
+    const std::string_view line = std::string_view(footer).substr(at, end - at);
+    at = end + 1;
+    if (line.empty() || line.front() == ' ') {
+      end_paragraph();
+      text += example(line, width) + "\n";
+      continue;
+    }
+    paragraph += (paragraph.empty() ? "" : " ") + std::string(line);
+    if (line.back() == ':') {
+      end_paragraph();
+    }
+  }
+  end_paragraph();
+  return text;
+}
+
+}  // namespace
+
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
+  std::string result(text.substr(0, std::min(text.find_first_not_of(' '), text.size())));
+  std::size_t column = result.size();
+  bool first = true;
+  for (std::size_t at = result.size(); at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string_view word = text.substr(at, end - at);
+    at = std::min(text.find_first_not_of(' ', end), text.size());
+    if (!first && column + 1 + columns(word) > width) {
+      result += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (!first) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += columns(word);
+    first = false;
+  }
+  return result;
+}
+
+std::string option_help(const OptionInfo& option) {
+  std::string text = option.help;
+  if (option.range) {
+    text += " (" + option.range->text() + ")";
+  }
+  // Help that names every choice already needs no list of them.
+  const bool named = std::all_of(option.choices.begin(), option.choices.end(),
+                                 [&](const std::string& c) { return text.find(c) != text.npos; });
+  if (!named) {
+    std::string choices;
+    for (const std::string& choice : option.choices) {
+      choices += (choices.empty() ? "" : ", ") + choice;
+    }
+    text += " (" + choices + ")";
+  }
+  return text;
+}
+
+std::string usage_line(const CommandInfo& command, const std::string& name) {
+  std::string line = name;
+  line += " [OPTIONS]";
+  for (const OptionInfo& option : command.options) {
+    if (option.positional) {
+      line += " " + option.signature();
+    }
+  }
+  return line + (command.commands.empty() ? "" : " VERB ...");
+}
+
+std::string help_text(const CommandInfo& command, const std::string& name,
+                      const std::vector<OptionInfo>& shared, std::size_t width) {
+  std::string text = wrapped(command.about, width) + "\n\n";
+  text += wrapped("Usage: " + usage_line(command, name), width, 9) + "\n";
+  text += rows("Arguments:", command.options, true, width);
+  text += rows("Options:", command.options, false, width);
+  if (!command.commands.empty()) {
+    text += "\nVerbs:\n";
+    for (const CommandInfo& verb : command.commands) {
+      text += row(verb.name, verb.about, width);
+    }
+  }
+  text += rows("Options of every verb:", shared, false, width);
+  return text + (command.footer.empty() ? "" : "\n" + footer_text(command.footer, width));
+}
+
+}  // namespace tenon::cli

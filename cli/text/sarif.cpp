@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/text/sarif.h"
+
+#include <cctype>
+#include <filesystem>
+#include <map>
+
+#include "tenon/base/sha256.h"
+#include "tenon/base/text/shown_path.h"
+#include "tenon/check/rule.h"
+#include "tenon/formats/character_columns.h"
+
+namespace tenon::cli {
+namespace {
+
+const char* level_of(Severity severity) {
+  switch (severity) {
+    case Severity::Error:
+      return "error";
+    case Severity::Warning:
+      return "warning";
+    case Severity::Info:
+      break;
+  }
+  return "note";
+}
+
+/// The path of a URI: what is not a plain letter of one is written as its bytes.
+std::string uri_of(const std::string& path) {
+  std::string uri;
+  for (const char c : shown_path(path)) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain =
+        std::isalnum(byte) != 0 || std::string_view("-._~/").find(c) != std::string::npos;
+    if (plain) {
+      uri += c;
+    } else {
+      constexpr char kDigits[] = "0123456789ABCDEF";
+      uri += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+    }
+  }
+  return uri;
+}
+
+Json rule_json(const std::string& id, Severity severity) {
+  const check::Rule* rule = check::find_rule(id);
+  const std::string_view page = check::page_of(id);
+  Json json = Json::object();
+  json["id"] = id;
+  const std::string title = check::title_of(page);
+  json["shortDescription"] = {{"text", title.empty() ? id : title}};
+  if (!page.empty()) {
+    json["help"] = {{"text", page}, {"markdown", page}};
+  }
+  json["defaultConfiguration"] = {{"level", level_of(rule == nullptr ? severity : rule->severity)}};
+  if (rule != nullptr && !rule->numbers.empty()) {
+    json["properties"] = {{"numbers", rule->numbers}};
+  }
+  return json;
+}
+
+/// Where a finding stands, from its first character to the one behind its last.
+Json region_json(const Diagnostic& d, formats::CharacterColumns columns) {
+  Json region = {{"startLine", d.line}};
+  if (columns.column > 0) {
+    region["startColumn"] = columns.column;
+  }
+  if (columns.column > 0 && columns.end_column > 0) {
+    region["endLine"] = d.end_line;
+    region["endColumn"] = columns.end_column;
+  }
+  return region;
+}
+
+Json location_json(const Diagnostic& d, formats::CharacterColumns columns) {
+  Json location = Json::object();
+  if (!d.file.empty()) {
+    Json physical = {{"artifactLocation", {{"uri", uri_of(d.file)}}}};
+    if (d.line > 0) {
+      physical["region"] = region_json(d, columns);
+    }
+    location["physicalLocation"] = std::move(physical);
+  }
+  if (!d.prim.empty()) {
+    const std::string name = d.prim + (d.property.empty() ? "" : "." + d.property);
+    location["logicalLocations"] = Json::array(
+        {{{"fullyQualifiedName", name}, {"kind", d.property.empty() ? "object" : "member"}}});
+  }
+  return location;
+}
+
+Json result_json(const ReportedFinding& reported, formats::CharacterColumns columns,
+                 std::size_t rule_index) {
+  const Diagnostic& d = reported.finding.diagnostic;
+  Json result = Json::object();
+  result["ruleId"] = d.rule;
+  result["ruleIndex"] = rule_index;
+  result["level"] = level_of(d.severity);
+  result["message"] = {{"text", d.fix.empty() ? d.message : d.message + "; " + d.fix}};
+  const Json location = location_json(d, columns);
+  result["locations"] = location.empty() ? Json::array() : Json::array({location});
+  Sha256 digest;
+  digest.update(fingerprint_of(reported.finding, "."));
+  result["partialFingerprints"] = {{"tenon/1", digest.hex_digest()}};
+  if (reported.suppressed) {
+    result["suppressions"] = Json::array({{{"kind", "external"}, {"status", "accepted"}}});
+  }
+  if (!reported.finding.variants.empty()) {
+    result["properties"] = {{"physicsVariants", reported.finding.variants}};
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string fingerprint_of(const check::Finding& finding, const std::string& folder) {
+  namespace fs = std::filesystem;
+  const Diagnostic& d = finding.diagnostic;
+  std::error_code ignored;
+  const fs::path base = fs::absolute(folder.empty() ? "." : folder, ignored).lexically_normal();
+  const fs::path file(d.file);
+  const std::string shown =
+      file.is_absolute() ? file.lexically_proximate(base).generic_string() : d.file;
+  return d.rule + "\n" + shown + "\n" + d.prim + "\n" + d.property;
+}
+
+Json sarif_log(const std::vector<ReportedFinding>& findings) {
+  std::map<std::string, Severity> broken;
+  for (const ReportedFinding& reported : findings) {
+    broken.emplace(reported.finding.diagnostic.rule, reported.finding.diagnostic.severity);
+  }
+  std::map<std::string, std::size_t> index;
+  Json rules = Json::array();
+  for (const auto& [id, severity] : broken) {
+    index[id] = rules.size();
+    rules.push_back(rule_json(id, severity));
+  }
+  Json results = Json::array();
+  std::vector<const Diagnostic*> diagnostics;
+  for (const ReportedFinding& reported : findings) {
+    diagnostics.push_back(&reported.finding.diagnostic);
+  }
+  const std::vector<formats::CharacterColumns> columns = formats::character_columns(diagnostics);
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    results.push_back(result_json(findings[i], columns[i], index[diagnostics[i]->rule]));
+  }
+  Json driver = {{"name", "tenon"}, {"version", TENON_VERSION}, {"rules", std::move(rules)}};
+  Json run = Json::object();
+  run["tool"] = {{"driver", std::move(driver)}};
+  run["columnKind"] = "unicodeCodePoints";  // elsewhere columns are bytes
+  run["results"] = std::move(results);
+  Json log = Json::object();
+  log["$schema"] = "https://json.schemastore.org/sarif-2.1.0.json";
+  log["version"] = "2.1.0";
+  log["runs"] = Json::array({std::move(run)});
+  return log;
+}
+
+}  // namespace tenon::cli

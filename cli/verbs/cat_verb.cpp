@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/verb.h"
+#include "tenon/asset_policy.h"
+#include "tenon/base/text/shown_path.h"
+#include "tenon/bytes/asset_resolver.h"
+#include "tenon/formats/package/asset_paths.h"
+#include "tenon/formats/save_layer.h"
+#include "tenon/stage/flatten/flatten.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+namespace {
+
+struct CatArguments {
+  AssetArguments asset;
+  std::string output = "-";
+  std::string format;
+  bool flatten = false;
+  bool flatten_layer_stack = false;
+  bool in_place = false;
+};
+
+Result<layer::Layer> read_input(const CatArguments& options, Diagnostics& diagnostics) {
+  const bool compose = options.flatten || options.flatten_layer_stack || options.asset.selects();
+  if (!compose) {
+    TENON_TRY(const layer::LayerPtr layer,
+              open_layer(options.asset.asset, options.asset.open_options(), diagnostics));
+    return *layer;
+  }
+  TENON_TRY(const stage::Stage stage,
+            open_stage(options.asset.asset, options.asset.open_options(), diagnostics));
+  name_outside_layers(stage, policy_for(options.asset.asset, options.asset.open_options()),
+                      diagnostics);
+  return options.flatten_layer_stack ? stage::flatten_layer_stack(stage) : stage::flatten(stage);
+}
+
+/// A layer that is copied as it is opens none of those that it names: they are inputs nevertheless.
+void note_named_layers(layer::Layer& layer, const OpenOptions& open) {
+  const bytes::AssetResolver resolver({open.search_paths, open.sandbox_roots});
+  formats::rename_assets(layer, [&](const std::string& name, formats::AssetUse use, Path) {
+    const bool is_layer = use == formats::AssetUse::Layer && !name.empty();
+    const auto identifier = is_layer ? resolver.resolve(name, layer.identifier()) : std::string();
+    if (identifier && !identifier->empty()) {
+      bytes::note_read(bytes::split_package_path(*identifier).package);
+    }
+    return name;
+  });
+}
+
+/// Gives what a composed scene took back to the system: writing then needs nothing on top of it.
+void return_free_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
+
+Result<formats::LayerFormat> output_format(const CatArguments& options) {
+  if (!options.format.empty()) {
+    return formats::layer_format_named(options.format);
+  }
+  return options.output == "-" ? formats::LayerFormat::Text
+                               : formats::layer_format_for(options.output);
+}
+
+/// The name and the format, before the work. A format that is asked for may have a name that says
+/// nothing about formats.
+Result<formats::LayerFormat> claim(const CatArguments& options, Outputs& outputs) {
+  TENON_TRY(const formats::LayerFormat format, output_format(options));
+  if (options.output != "-") {
+    TENON_CHECK(check_layer_name(options.output, format));
+  }
+  const OutputKind kind = options.format.empty() ? OutputKind::Layer : OutputKind::NamedFormat;
+  TENON_CHECK(outputs.claim(kind, options.output));
+  return format;
+}
+
+Result<void> write(const CatArguments& options, Diagnostics& diagnostics) {
+  Outputs outputs = options.in_place ? Outputs::in_place() : Outputs();
+  TENON_TRY(const formats::LayerFormat format, claim(options, outputs));
+  TENON_TRY(layer::Layer layer, read_input(options, diagnostics));
+  std::error_code error;
+  if (std::filesystem::exists(options.output, error)) {
+    note_named_layers(layer, options.asset.open_options());
+  }
+  return_free_memory();
+  if (format == formats::LayerFormat::Package) {
+    TENON_TRY(std::string package, pack_layer(std::move(layer), options.asset.asset,
+                                              options.asset.open_options(), diagnostics));
+    outputs.put(options.output, std::move(package));
+    return outputs.commit();
+  }
+  TENON_TRY(std::string bytes, formats::encode_layer(layer, format));
+  outputs.put(options.output, std::move(bytes));
+  return outputs.commit();
+}
+
+int run_cat(const Globals& globals, const CatArguments& options) {
+  Report report(globals, "cat", options.asset.asset);
+  if (globals.json && options.output == "-") {
+    return report.fail(
+        Error(ErrorCode::Invalid, "--json and a layer cannot both go to standard output")
+            .with_fix("name an output file with -o"));
+  }
+  const Progress progress(globals, "reading and writing " + shown_path(options.asset.asset));
+  const auto written = edit_files(report, [&] { return write(options, report.diagnostics); });
+  if (!written) {
+    return report.fail(written.error());
+  }
+  const bool package = bytes::is_package_name(options.output) || options.format == "usdz";
+  return report.finish(package && left_out(report.diagnostics) ? kNo : kOk,
+                       {{"output", options.output}});
+}
+
+}  // namespace
+
+void add_cat(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb =
+      parent.add_subcommand("cat", "Read any layer, write it as text, binary or package");
+  auto options = std::make_shared<CatArguments>();
+  options->asset.add_with_standard_input_to(verb);
+  verb.add_option("-o,--output", options->output, "Where to write; - is standard output");
+  verb.add_flag("--in-place", options->in_place, "The output may be a file that is read");
+  verb.add_flag("-f,--flatten", options->flatten, "Compose first and write one layer");
+  verb.add_flag("--flattenLayerStack,--flatten-layer-stack", options->flatten_layer_stack,
+                "Merge the sublayers, keep references and the like");
+  verb.add_option("--usdFormat,--format", options->format, "usda, usdc or usdz")
+      .one_of({"usda", "usdc", "usdz"});
+  verb.footer(
+      "Examples:\n  tenon cat geometry.usdc\n  tenon cat hand.usda --flatten -o flat.usdc\n"
+      "A package (-o hand.usdz) takes in all layers and textures that it needs.\n"
+      "Selecting with --mask, --load, --mute-layer or --physics composes, too.");
+  choose(verb, chosen, [&globals, options] { return run_cat(globals, *options); });
+}
+
+}  // namespace tenon::cli

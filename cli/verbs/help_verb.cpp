@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The verbs about the program itself: help, version, manual, completion.
+#include <string>
+#include <vector>
+
+#include "cli/nearest_name.h"
+#include "cli/print.h"
+#include "cli/program.h"
+#include "cli/report.h"
+#include "cli/text/completion.h"
+#include "cli/text/man_page.h"
+#include "cli/verb.h"
+
+namespace tenon::cli {
+namespace {
+
+Json option_json(const OptionInfo& option) {
+  Json range = nullptr;
+  if (option.range) {
+    range = {{"least", option.range->least},
+             {"most", option.range->most},
+             {"withoutLeast", option.range->without_least},
+             {"whole", option.range->whole}};
+  }
+  return {{"names", option.names},
+          {"value", option.value.empty() ? Json(nullptr) : Json(option.value)},
+          {"help", option.help},
+          {"choices", option.choices},
+          {"range", range},
+          {"positional", option.positional},
+          {"required", option.required},
+          {"list", option.list},
+          {"optionalValue", option.optional_value}};
+}
+
+Json options_json(const std::vector<OptionInfo>& options) {
+  Json list = Json::array();
+  for (const OptionInfo& option : options) {
+    list.push_back(option_json(option));
+  }
+  return list;
+}
+
+/// Verbs, and those below test-runner: two levels.
+Json verbs_json(const std::vector<CommandInfo>& verbs) {
+  Json list = Json::array();
+  for (const CommandInfo& verb : verbs) {
+    Json below = Json::array();
+    for (const CommandInfo& inner : verb.commands) {
+      below.push_back(
+          {{"name", inner.name}, {"about", inner.about}, {"options", options_json(inner.options)}});
+    }
+    list.push_back({{"name", verb.name},
+                    {"about", verb.about},
+                    {"options", options_json(verb.options)},
+                    {"verbs", std::move(below)}});
+  }
+  return list;
+}
+
+int run_help(const Globals& globals, const std::vector<std::string>& path) {
+  Report report(globals, "help", "");
+  const CommandInfo program = describe_program();
+  const std::string help = help_of(program, path);
+  if (help.empty()) {
+    return report.fail(
+        Error(ErrorCode::NotFound, "there is no verb \"" + path.front() + "\"")
+            .with_rule("usage.unknown-verb")
+            .with_fix(did_you_mean(path.front(), verb_names(), "`tenon help` lists all verbs")));
+  }
+  if (report.json()) {
+    return report.finish(
+        kOk, {{"options", options_json(program.options)}, {"verbs", verbs_json(program.commands)}});
+  }
+  print_text(help);
+  return report.finish(kOk);
+}
+
+/// Prints a text of the program's own, as it is.
+int print_own(Report& report, const std::string& text) {
+  if (report.json()) {
+    return report.finish(kOk, {{"text", text}});
+  }
+  print_data(text);
+  return report.finish(kOk);
+}
+
+}  // namespace
+
+void add_help(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand("help", "Help on all verbs, or on one");
+  auto path = std::make_shared<std::vector<std::string>>();
+  verb.add_option("verb", *path, "The verb to explain");
+  verb.footer(
+      "With --json: the table of all verbs and options.\n\n"
+      "Examples:\n  tenon help\n  tenon help check\n  tenon help --json");
+  choose(verb, chosen, [&globals, path] { return run_help(globals, *path); });
+}
+
+void add_version(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand("version", "Print the version");
+  verb.footer("Example:\n  tenon version");
+  choose(verb, chosen, [&globals] {
+    Report report(globals, "version", "");
+    return print_own(report, "tenon " TENON_VERSION "\n");
+  });
+}
+
+void add_manual(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb =
+      parent.add_subcommand("manual", "Print the manual page, for man, from the table of options");
+  verb.footer("Example:\n  tenon manual > tenon.1 && man ./tenon.1");
+  choose(verb, chosen, [&globals] {
+    Report report(globals, "manual", "");
+    return print_own(report, man_page(describe_program(), TENON_VERSION));
+  });
+}
+
+void add_completion(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
+      "completion", "Print what lets a shell complete verbs, options and their values");
+  auto shell = std::make_shared<std::string>();
+  verb.add_option("shell", *shell, "bash, zsh or fish").one_of({"bash", "zsh", "fish"}).required();
+  verb.footer(
+      "An installed tenon brings these files along.\n\n"
+      "Examples:\n"
+      "  source <(tenon completion bash)\n"
+      "  tenon completion zsh > ~/.zfunc/_tenon\n"
+      "  tenon completion fish > ~/.config/fish/completions/tenon.fish");
+  choose(verb, chosen, [&globals, shell] {
+    Report report(globals, "completion", "");
+    return print_own(report, completion_script(describe_program(), *shell).value_or(""));
+  });
+}
+
+}  // namespace tenon::cli

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+
+#include "cli/output.h"
+#include "cli/reading_options.h"
+#include "cli/report.h"
+#include "cli/text/mass_text.h"
+#include "cli/text/physics_text.h"
+#include "cli/verb.h"
+#include "tenon/answers/mass_json.h"
+#include "tenon/answers/scene_json_value.h"
+#include "tenon/asset/physics_options.h"
+#include "tenon/physics/read_physics.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+namespace {
+
+struct PhysicsArguments {
+  AssetArguments asset;
+  std::vector<std::string> assets;
+  std::vector<std::string> readings;  ///< --reading NAME=VALUE
+  bool mass = false;                  ///< --mass
+  std::string geometry = "hash";      ///< --geometry
+  bool schema = false;                ///< --schema
+};
+
+int run_physics(const Globals& globals, const PhysicsArguments& options) {
+  Report report(globals, "physics", options.asset.asset);
+  auto readings = chosen_readings(options.readings);
+  if (!readings) {
+    return report.fail(readings.error());
+  }
+  auto stage =
+      open_stage(options.asset.asset, with_readings(options.asset.open_options(), *readings),
+                 report.diagnostics);
+  if (!stage) {
+    return report.fail(stage.error());
+  }
+  physics::Accounts accounts;
+  const scene::PhysicsScene scene = physics::read_physics(
+      *stage, read_options(*readings), report.diagnostics, options.mass ? &accounts : nullptr);
+  if (options.mass) {
+    const Json table = answers::mass_table_json(*stage, scene, accounts);
+    if (!globals.json) {
+      print_text(mass_table_text(table));
+    }
+    return report.finish(kOk, {{"masses", table}});
+  }
+  if (!globals.json) {
+    print_text(physics_text(scene));
+  }
+  const answers::Geometry geometry =
+      options.geometry == "inline" ? answers::Geometry::Inline : answers::Geometry::Hash;
+  return report.finish(kOk,
+                       globals.json ? answers::scene_json_value(scene, geometry) : Json::object());
+}
+
+int run(const Globals& globals, PhysicsArguments& options) {
+  if (options.schema) {
+    print_text(answers::scene_schema() + "\n");
+    return kOk;
+  }
+  return each_asset(globals, "physics", options.assets,
+                    [&](const Globals& inner, const auto& name) {
+                      options.asset.asset = name;
+                      return run_physics(inner, options);
+                    });
+}
+
+}  // namespace
+
+void add_physics(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
+      "physics", "The neutral physics description that engines receive, in SI and radians");
+  auto options = std::make_shared<PhysicsArguments>();
+  options->asset.add_several_to(verb, options->assets);
+  verb.option("assets").required(false);
+  add_readings(verb, options->readings);
+  verb.add_flag("--mass", options->mass,
+                "A table of every body's mass, centre and inertia: authored, resolved, reason");
+  verb.add_option("--geometry", options->geometry,
+                  "With --json, of meshes: hash, or inline, points and triangles")
+      .one_of({"hash", "inline"})
+      .value_name("FORM");
+  verb.add_flag("--schema", options->schema, "Only print the JSON Schema of --json");
+  verb.footer(readings_help() +
+              "\n\nExample:\n  tenon physics hand.usda --physics physx --json\n"
+              "  tenon physics hand.usda --mass");
+  choose(verb, chosen, [&globals, options] { return run(globals, *options); });
+}
+
+}  // namespace tenon::cli

@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/verb.h"
+#include "tenon/asset_policy.h"
+#include "tenon/base/text/shown_path.h"
+#include "tenon/bytes/zip/zip_archive.h"
+#include "tenon/pack_asset.h"
+#include "tenon/stage_sources.h"
+#include "tenon/tenon.h"
+
+namespace tenon::cli {
+namespace {
+
+struct ZipArguments {
+  std::string asset;
+  std::string output;
+  std::string folder;
+  bool list = false;
+  bool strict = false;
+  FileAccess files;
+};
+
+Json file_json(const formats::PackedFile& file) {
+  return {{"name", file.name},
+          {"source", file.source.empty() ? Json(nullptr) : Json(shown_path(file.source))},
+          {"size", file.size},
+          {"rewritten", file.rewritten},
+          {"outside", file.outside}};
+}
+
+void note_files(const Report& report, const std::vector<formats::PackedFile>& files) {
+  for (const formats::PackedFile& file : files) {
+    if (file.outside) {
+      report.note("from outside the asset's folder: " + shown_path(file.source) + " as " +
+                  file.name);
+    }
+  }
+}
+
+int pack(Report& report, const ZipArguments& options) {
+  const OpenOptions open = options.files.open_options();
+  if (options.output.empty()) {
+    return report.fail(
+        Error(ErrorCode::Invalid, "say where to write the package").with_fix("give -o NAME.usdz"));
+  }
+  Outputs outputs;
+  if (auto claimed = outputs.claim(OutputKind::Package, options.output); !claimed) {
+    return report.fail(claimed.error());
+  }
+  auto packed = pack_asset(options.asset, open, report.diagnostics);
+  if (!packed) {
+    return report.fail(packed.error());
+  }
+  const bool complete =
+      std::none_of(report.diagnostics.begin(), report.diagnostics.end(),
+                   [](const Diagnostic& finding) { return finding.rule == "package.missing"; });
+  const bool refused = left_out(report.diagnostics);
+  const bool write = (complete && !refused) || !options.strict;
+  const std::size_t size = packed->package.size();
+  if (write) {
+    outputs.put(options.output, std::move(packed->package));
+    if (auto written = outputs.commit(); !written) {
+      return report.fail(written.error());
+    }
+  }
+  note_files(report, packed->files);
+  report.note(write ? shown_path(options.output) + ": " + std::to_string(packed->files.size()) +
+                          " files, " + std::to_string(size) + " bytes"
+                    : "nothing is written: files are missing");
+  Json files = Json::array();
+  for (const formats::PackedFile& file : packed->files) {
+    files.push_back(file_json(file));
+  }
+  return report.finish(write && !refused ? kOk : kNo,
+                       {{"output", write ? Json(options.output) : Json(nullptr)},
+                        {"size", size},
+                        {"complete", complete && !refused},
+                        {"files", std::move(files)}});
+}
+
+Result<std::shared_ptr<const bytes::FileBytes>> open_package(const ZipArguments& options) {
+  const bytes::AssetResolver resolver(resolver_options(options.files.open_options()));
+  TENON_TRY(auto contents, resolver.open(options.asset));
+  if (!bytes::ZipArchive::is_zip(contents->text())) {
+    return Error(ErrorCode::Invalid, "this is not a package")
+        .in_file(options.asset)
+        .with_fix("name a .usdz file; tenon zip ASSET -o NAME.usdz makes one");
+  }
+  return contents;
+}
+
+Result<bytes::ZipArchive> open_archive(const ZipArguments& options) {
+  TENON_TRY(auto contents, open_package(options));
+  auto archive = bytes::ZipArchive::open(std::move(contents));
+  if (!archive) {
+    return std::move(archive).error().in_file(options.asset);
+  }
+  return archive;
+}
+
+/// Offset of the data of an entry in the file; the specification wants multiples of 64.
+Result<std::size_t> data_offset(const bytes::FileBytes& file, const bytes::ZipArchive& archive,
+                                const bytes::ZipEntry& entry) {
+  TENON_TRY(const auto contents, archive.read(entry));
+  return static_cast<std::size_t>(contents->text().data() - file.text().data());
+}
+
+int list(Report& report, const ZipArguments& options) {
+  const auto file = open_package(options);
+  if (!file) {
+    return report.fail(file.error());
+  }
+  const auto archive = bytes::ZipArchive::open(*file);
+  if (!archive) {
+    return report.fail(Error(archive.error()).in_file(options.asset));
+  }
+  Json entries = Json::array();
+  for (const bytes::ZipEntry& entry : archive->entries()) {
+    const auto offset = data_offset(**file, *archive, entry);
+    const bool stored = entry.method == 0 && !entry.encrypted;
+    const bool aligned = offset && *offset % 64 == 0;
+    if (!report.json()) {
+      print("%12llu  %s%s\n", static_cast<unsigned long long>(entry.size), entry.name.c_str(),
+            !stored    ? "  (not stored: readers reject it)"
+            : !aligned ? "  (not at a multiple of 64 bytes)"
+                       : "");
+    }
+    entries.push_back({{"name", entry.name},
+                       {"size", entry.size},
+                       {"offset", offset ? Json(*offset) : Json(nullptr)},
+                       {"stored", stored},
+                       {"aligned", aligned}});
+  }
+  return report.finish(kOk, {{"files", std::move(entries)}});
+}
+
+int extract(Report& report, const ZipArguments& options) {
+  auto archive = open_archive(options);
+  if (!archive) {
+    return report.fail(archive.error());
+  }
+  if (auto written = unpack(*archive, options.folder); !written) {
+    return report.fail(written.error());
+  }
+  Json files = Json::array();
+  for (const bytes::ZipEntry& entry : archive->entries()) {
+    files.push_back(entry.name);
+  }
+  report.note(std::to_string(files.size()) + " files in " + shown_path(options.folder));
+  return report.finish(kOk, {{"folder", options.folder}, {"files", std::move(files)}});
+}
+
+int run_zip(const Globals& globals, const ZipArguments& options) {
+  Report report(globals, "zip", options.asset);
+  const Progress progress(
+      globals, (options.folder.empty() ? "packing " : "unpacking ") + shown_path(options.asset));
+  const int ways =
+      (options.list ? 1 : 0) + (options.folder.empty() ? 0 : 1) + (options.output.empty() ? 0 : 1);
+  if (ways > 1) {
+    return report.fail(
+        Error(ErrorCode::Invalid, "-o packs, --list lists, --extract unpacks: one at a time"));
+  }
+  return options.list              ? list(report, options)
+         : !options.folder.empty() ? extract(report, options)
+                                   : pack(report, options);
+}
+
+}  // namespace
+
+void add_zip(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
+      "zip", "Pack an asset with all its variants into one .usdz; list, unpack");
+  auto options = std::make_shared<ZipArguments>();
+  verb.add_option("asset", options->asset, "A USD file; with --list or --extract a .usdz")
+      .required()
+      .file_only();
+  verb.add_option("-o,--output", options->output, "The .usdz to write, in one step");
+  verb.add_flag("--list", options->list, "Name the files of a package");
+  verb.add_option("--extract", options->folder,
+                  "Unpack into this folder, which must not exist yet; all or nothing");
+  verb.add_flag("--strict", options->strict, "Write nothing when a file is missing, and answer no");
+  options->files.add_to(verb);
+  verb.footer(
+      "Everything that any variant names goes in: layers, textures, clips; files keep their "
+      "places,\n"
+      "those from outside of the asset's folder, which --allow-read lets in, get one. What cannot "
+      "be\nfound or may not be read is reported by name.\n\n"
+      "Examples:\n"
+      "  tenon zip hand.usda -o hand.usdz\n"
+      "  tenon zip hand.usdz --list\n"
+      "  tenon zip hand.usdz --extract hand");
+  choose(verb, chosen, [&globals, options] { return run_zip(globals, *options); });
+}
+
+}  // namespace tenon::cli

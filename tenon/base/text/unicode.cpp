@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/base/text/unicode.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+
+#include "tenon/base/generated/unicode_ranges.h"
+
+namespace tenon::unicode {
+namespace {
+
+template <std::size_t N>
+bool contains(const Range (&ranges)[N], char32_t code_point) {
+  const Range* after =
+      std::upper_bound(std::begin(ranges), std::end(ranges), code_point,
+                       [](char32_t value, const Range& range) { return value < range.first; });
+  return after != std::begin(ranges) && code_point <= std::prev(after)->last;
+}
+
+bool is_ascii_letter(char32_t c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+std::size_t sequence_length(std::uint8_t lead) {
+  if (lead < 0x80) {
+    return 1;
+  }
+  if (lead >= 0xC2 && lead < 0xE0) {
+    return 2;
+  }
+  if (lead >= 0xE0 && lead < 0xF0) {
+    return 3;
+  }
+  return lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
+}
+
+}  // namespace
+
+Decoded decode(std::string_view text) {
+  if (text.empty()) {
+    return {};
+  }
+  const auto lead = static_cast<std::uint8_t>(text.front());
+  const std::size_t length = sequence_length(lead);
+  if (length == 1) {
+    return {lead, 1};
+  }
+  if (length == 0 || length > text.size()) {
+    return {};
+  }
+  auto code_point = static_cast<char32_t>(lead & (0xFFu >> (length + 1)));
+  for (std::size_t i = 1; i < length; ++i) {
+    const auto byte = static_cast<std::uint8_t>(text[i]);
+    if ((byte & 0xC0u) != 0x80u) {
+      return {};
+    }
+    code_point = (code_point << 6u) | (byte & 0x3Fu);
+  }
+  constexpr char32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code_point >= 0xD800 && code_point < 0xE000;
+  if (code_point < kSmallest[length] || surrogate || code_point > 0x10FFFF) {
+    return {};
+  }
+  return {code_point, length};
+}
+
+bool is_valid(std::string_view text) {
+  while (!text.empty()) {
+    const Decoded decoded = decode(text);
+    if (decoded.length == 0) {
+      return false;
+    }
+    text.remove_prefix(decoded.length);
+  }
+  return true;
+}
+
+bool starts_identifier(char32_t code_point) {
+  if (code_point < 0x80) {
+    return is_ascii_letter(code_point) || code_point == '_';
+  }
+  return contains(kIdentifierStart, code_point);
+}
+
+bool continues_identifier(char32_t code_point) {
+  if (code_point < 0x80) {
+    return is_ascii_letter(code_point) || code_point == '_' ||
+           (code_point >= '0' && code_point <= '9');
+  }
+  return contains(kIdentifierContinue, code_point);
+}
+
+}  // namespace tenon::unicode

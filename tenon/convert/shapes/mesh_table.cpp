@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A mesh is read once and its values are shared by all prims that show it: copies of a value share
+// their numbers (layer/value.h). Meshes come as triangles with the description, or from files with
+// parts, normals, places in images and looks of their own.
+#include "tenon/convert/shapes/mesh_table.h"
+
+#include <algorithm>
+
+#include "tenon/mesh/read_mesh.h"
+
+namespace tenon::convert {
+
+using layer::Value;
+using robot::Index;
+
+namespace {
+
+Value extent_of(const std::vector<Vec3f>& points) {
+  Vec3f low = points.empty() ? Vec3f{} : points.front();
+  Vec3f high = low;
+  for (const Vec3f& point : points) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], point[i]);
+      high[i] = std::max(high[i], point[i]);
+    }
+  }
+  return Value(std::vector<Vec3f>{low, high});
+}
+
+/// Of flat faces, for a mesh that brings none: polygons that no subdivision rounds are to have some
+/// (UsdGeomMesh). Along +Z where a face has no area.
+std::vector<Vec3f> face_normals(const mesh::PolygonMesh& mesh) {
+  std::vector<Vec3f> normals;
+  normals.reserve(mesh.face_counts.size());
+  const Vec3f* const points = mesh.points.data();
+  const std::int32_t* corner = mesh.face_points.data();
+  for (const std::int32_t count : mesh.face_counts) {
+    const Vec3d first = to_double(points[corner[0]]);
+    Vec3d area;
+    Vec3d before = to_double(points[corner[1]]) - first;
+    for (std::int32_t i = 2; i < count; ++i) {
+      const Vec3d next = to_double(points[corner[i]]) - first;
+      area = area + cross(before, next);
+      before = next;
+    }
+    const double size = length(area);
+    normals.push_back(size > 0 ? to_float(area * (1 / size)) : Vec3f{{0, 0, 1}});
+    corner += count;
+  }
+  return normals;
+}
+
+mesh::PolygonMesh polygons_of(const robot::MeshFile& file) {
+  mesh::PolygonMesh mesh;
+  mesh.points = file.points;
+  mesh.face_counts.assign(file.triangles.size(), 3);
+  for (const Vec3i& triangle : file.triangles) {
+    mesh.face_points.insert(mesh.face_points.end(), triangle.v.begin(), triangle.v.end());
+  }
+  mesh.texture_coordinates = file.texture_coordinates;
+  return mesh;
+}
+
+/// `materials` are those of the file's appearances.
+MeshValues values_of(mesh::PolygonMesh mesh, const std::vector<Index>& materials) {
+  MeshValues values;
+  values.name = mesh.name;
+  values.extent = extent_of(mesh.points);
+  values.normals_interpolation = mesh.normals.empty() ? "uniform" : "faceVarying";
+  values.normals = Value(mesh.normals.empty() ? face_normals(mesh) : std::move(mesh.normals));
+  values.points = Value(std::move(mesh.points));
+  values.face_counts = Value(std::move(mesh.face_counts));
+  values.face_points = Value(std::move(mesh.face_points));
+  if (!mesh.texture_coordinates.empty()) {
+    values.texture_coordinates = Value(std::move(mesh.texture_coordinates));
+  }
+  if (mesh.appearance) {
+    values.material = materials[*mesh.appearance];
+  }
+  return values;
+}
+
+}  // namespace
+
+const std::vector<MeshValues>& MeshTable::parts(Index mesh) {
+  const auto [at, is_new] = parts_.try_emplace(mesh);
+  if (is_new) {
+    at->second = read(source_.model.meshes[mesh]);
+  }
+  return at->second;
+}
+
+std::vector<MeshValues> MeshTable::read(const robot::MeshFile& file) {
+  std::vector<MeshValues> parts;
+  if (!file.triangles.empty()) {
+    parts.push_back(values_of(polygons_of(file), {}));
+    return parts;
+  }
+  if (file.path.empty()) {
+    return parts;
+  }
+  Result<mesh::MeshScene> scene =
+      mesh::read_mesh(file.path, {workers_, source_.options.reading}, layer_.diagnostics());
+  if (!scene) {
+    const Diagnostic& why = scene.error().diagnostic();
+    const bool outside = why.rule == bytes::kOutsideRule;
+    layer_.report(file.place, Severity::Error,
+                  outside ? bytes::kOutsideRule : "convert.mesh-unreadable",
+                  "the mesh \"" + file.written +
+                      "\" cannot be read and is left out: " + scene.error().to_string(),
+                  why.fix);
+    return parts;
+  }
+  const std::vector<Index> materials = materials_.add(scene->appearances, std::move(scene->images));
+  for (mesh::PolygonMesh& part : scene->meshes) {
+    parts.push_back(values_of(std::move(part), materials));
+  }
+  return parts;
+}
+
+void write_mesh(LayerBuilder& builder, Path prim, const MeshValues& mesh) {
+  builder.set_value(prim, "Mesh", "extent", mesh.extent);
+  builder.set_value(prim, "Mesh", "faceVertexCounts", mesh.face_counts);
+  builder.set_value(prim, "Mesh", "faceVertexIndices", mesh.face_points);
+  builder.set_value(prim, "Mesh", "normals", mesh.normals);
+  builder.set_metadata(prim.property("normals"), "interpolation",
+                       Value(Token(mesh.normals_interpolation)));
+  builder.set_value(prim, "Mesh", "points", mesh.points);
+  if (!mesh.texture_coordinates.empty()) {
+    builder.set_attribute(prim, "primvars:st", "texCoord2f[]", mesh.texture_coordinates);
+    builder.set_metadata(prim.property("primvars:st"), "interpolation",
+                         Value(Token("faceVarying")));
+  }
+  builder.set_value(prim, "Mesh", "subdivisionScheme", Value(Token("none")));
+}
+
+}  // namespace tenon::convert

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/engines/mujoco/build/tree_plan.h"
+#include "tenon/engines/mujoco/model.h"
+
+/// The passes that turn a PhysicsScene into a MuJoCo model. Each fills its part of one Build.
+namespace tenon::engines::mujoco {
+
+inline constexpr double kGhostRatio = 1e-3;  ///< mass of an auxiliary body to that of body1
+
+/// The auxiliary body of a loop joint.
+struct Ghost {
+  mjsBody* body = nullptr;
+  mjsBody* welded_to = nullptr;
+  scene::Index joint = 0;
+};
+
+/// What the passes share until the model is compiled.
+struct Build {
+  Build(const scene::PhysicsScene& source, Diagnostics& findings)
+      : scene(source), diagnostics(findings), spec(mj_makeSpec()) {}
+
+  const scene::PhysicsScene& scene;
+  Diagnostics& diagnostics;
+  SpecPtr spec;
+  double time_step = 0.002;  ///< [s]
+  TreePlan plan;
+  std::vector<mjsBody*> bodies;              ///< (body_count)
+  std::vector<Pose> engine_frames;           ///< X_BE (body_count)
+  std::vector<std::vector<mjsGeom*>> geoms;  ///< (collider_count)
+  /// Materials of these (collider_count), into PhysicsScene::materials.
+  std::vector<std::vector<std::optional<scene::Index>>> geom_materials;
+  std::vector<mjsBody*> static_bodies;               ///< (collider_count), nullptr for moving ones
+  std::vector<JointDofs> dofs;                       ///< (joint_count)
+  std::vector<std::vector<mjsJoint*>> joints;        ///< (joint_count), in the order of dofs.free
+  std::vector<mjsJoint*> balls;                      ///< (joint_count), nullptr where there is none
+  std::vector<std::vector<mjsActuator*>> actuators;  ///< (joint_count), one per drive or nullptr
+  std::vector<Ghost> ghosts;
+  std::vector<NotMapped> not_mapped;
+  std::set<Path> refused;  ///< colliders that are left out, joints that get no limits
+  double driven_mass = 0;  ///< of bodies that follow a pose track [kg]
+
+  void report(const Path& prim, std::string property, std::string why) {
+    not_mapped.push_back({prim, std::move(property), std::move(why)});
+  }
+};
+
+/// Options of the solver.
+void add_options(Build& build);
+/// MuJoCo bodies along the plan, with explicit inertia; free joints of roots.
+void add_bodies(Build& build);
+/// Joints of the tree: hinges, slides and balls with limits, springs and friction.
+void add_joints(Build& build);
+/// Loop joints, distance bounds, cones and mimics.
+void add_equalities(Build& build);
+/// Tendons that the asset has. After add_geoms.
+void add_tendons(Build& build);
+/// Colliders. Errors: Limit for more than a model may have.
+Result<void> add_geoms(Build& build);
+/// Drives.
+void add_actuators(Build& build);
+/// Body pairs that never touch and classes of the others. After add_geoms.
+ContactFilter add_filters(Build& build);
+/// What no pass maps: break forces, velocity limits and the like.
+void report_unmapped(Build& build);
+
+/// Compiles the spec; ids of everything are known from here on. Errors: Invalid with MuJoCo's
+/// words.
+Result<Model> compile(Build& build);
+/// Turns what the passes noted per collider into tables per geom.
+void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces);
+/// Where a model begins: at the start of a scene, whose links of articulations have no velocities
+/// of their own (S-32), or in the middle of a run.
+enum class Begin : std::uint8_t { Start, Middle };
+
+/// qpos, qvel, controls and constant forces at time 0.
+Result<void> set_initial_state(const scene::PhysicsScene& scene, Begin begin, Model& model,
+                               Diagnostics& diagnostics);
+/// Forces that bring the gravity of the first scene to that of others.
+void set_other_gravities(const scene::PhysicsScene& scene, Model& model);
+/// Colliders that overlap at the start and may touch: MuJoCo pushes them apart.
+void report_overlaps(const scene::PhysicsScene& scene, const Model& model,
+                     Diagnostics& diagnostics);
+
+/// A model and what it was compiled from.
+struct SpecAndModel {
+  SpecPtr spec;
+  Model model;
+};
+
+/// All passes. A part that MuJoCo refuses is left out with a warning.
+Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const SimulationOptions& options,
+                                Diagnostics& diagnostics, Begin begin = Begin::Start);
+/// The same where only the model is wanted.
+Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOptions& options,
+                          Diagnostics& diagnostics, Begin begin = Begin::Start);
+
+// ---- shared by the passes
+
+/// Makes a limit or an equality as hard as the time step allows.
+void make_hard(double time_step, mjtNum* solref, mjtNum* solimp);
+/// How far from the anchor the two points of a loop hinge stand: the size of what hangs on it [m].
+double hinge_arm(const scene::PhysicsScene& scene, const scene::Joint& joint);
+/// Joints that carry `dofs` between MuJoCo body `child` and its parent; see joints.cpp.
+void add_chain(Build& build, scene::Index joint, mjsBody* child, const Pose& joint_in_child,
+               bool reversed);
+/// The MuJoCo body of a joint side; the world for none.
+mjsBody* side_body(Build& build, const std::optional<scene::Index>& body);
+/// A joint frame seen from the MuJoCo body of that side.
+Pose side_frame(const Build& build, const std::optional<scene::Index>& body, const Pose& frame);
+/// Sets name, position and orientation.
+void place(mjsBody* body, const std::string& name, const Pose& pose);
+/// The scene's coordinate of a dof is this MuJoCo joint; nullptr when it has none.
+mjsJoint* scalar_joint(const Build& build, scene::Index joint, scene::Dof dof);
+
+}  // namespace tenon::engines::mujoco

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include "tenon/base/limits/limits.h"
+#include "tenon/base/text/text_number.h"
+#include "tenon/engines/mujoco/build/build.h"
+#include "tenon/engines/mujoco/build/model_size.h"
+#include "tenon/engines/mujoco/build/surfaces.h"
+#include "tenon/engines/mujoco/error_hook.h"
+
+// The pass list: neutral scene -> mjSpec -> mjModel.
+namespace tenon::engines::mujoco {
+namespace {
+
+constexpr double kDefaultTimeStep = 0.002;  // [s]
+constexpr std::size_t kMostRefused = 100;   // parts that are left out before the model is given up
+constexpr double kLargestTimeStep = 0.004;  // [s] an asset's own step is divided until it is below
+
+double choose_time_step(const scene::PhysicsScene& scene, const SimulationOptions& options,
+                        Diagnostics& diagnostics) {
+  if (options.time_step > 0) {
+    return options.time_step;
+  }
+  if (scene.scenes.empty() || !scene.scenes.front().time_step.has_value() ||
+      !(*scene.scenes.front().time_step > 0)) {
+    return kDefaultTimeStep;
+  }
+  const double asked = *scene.scenes.front().time_step;
+  const double parts = std::ceil(asked / kLargestTimeStep - 1e-9);
+  if (parts > 1) {
+    diagnostics.add({Severity::Info, "mujoco.time-step",
+                     "the scene asks for steps of " + std::to_string(asked) + " s; MuJoCo takes " +
+                         shortest(parts) + " steps for each",
+                     "", 0, 0, scene.scenes.front().path.str(), "", ""});
+  }
+  return asked / std::max(parts, 1.0);
+}
+
+Result<void> check_sizes(const Build& build) {
+  if (build.plan.forest.depth > limits::kKinematicChain) {
+    return Error(ErrorCode::Limit, "a chain of " + std::to_string(build.plan.forest.depth) +
+                                       " jointed bodies is longer than " +
+                                       std::to_string(limits::kKinematicChain))
+        .with_rule("mujoco.chain-too-long");
+  }
+  if (build.scene.scenes.empty()) {
+    return Error(ErrorCode::Invalid, "the description has no scene").with_rule("mujoco.no-scene");
+  }
+  return {};
+}
+
+/// The collider or joint that MuJoCo's words name as an element, or an empty path.
+Path refused_part(const scene::PhysicsScene& scene, const std::string& words) {
+  constexpr std::string_view kBefore = "Element name '";
+  const std::size_t at = words.find(kBefore);
+  const std::size_t end = at == std::string::npos ? at : words.find('\'', at + kBefore.size());
+  if (end == std::string::npos) {
+    return {};
+  }
+  const std::string name = words.substr(at + kBefore.size(), end - at - kBefore.size());
+  const auto names = [&](const Path& path) {
+    return name == path.str() || name.starts_with(path.str() + ".");
+  };
+  for (const scene::Collider& collider : scene.colliders) {
+    if (names(collider.path)) {
+      return collider.path;
+    }
+  }
+  for (const scene::Joint& joint : scene.joints) {
+    if (names(joint.path)) {
+      return joint.path;
+    }
+  }
+  return {};
+}
+
+Result<Model> build_once(Build& build, Begin begin) {
+  const scene::PhysicsScene& scene = build.scene;
+  TENON_CHECK(check_scene_size(scene));
+  build.plan = plan_tree(scene);
+  TENON_CHECK(check_sizes(build));
+  const std::vector<FreeRotations> rotations = wanted_rotations(scene);
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    build.dofs.push_back(joint_dofs(scene.joints[j], rotations[j]));
+  }
+  build.joints.assign(scene.joints.size(), {});
+  build.balls.assign(scene.joints.size(), nullptr);
+  add_options(build);
+  add_bodies(build);
+  add_joints(build);
+  add_equalities(build);
+  add_actuators(build);
+  TENON_CHECK(add_geoms(build));
+  add_tendons(build);
+  ContactFilter filter = add_filters(build);
+  Surfaces surfaces = add_surfaces(build);
+  report_unmapped(build);
+  TENON_TRY(Model model, compile(build));
+  connect_geoms(model, std::move(filter), std::move(surfaces));
+  TENON_CHECK(set_initial_state(scene, begin, model, build.diagnostics));
+  report_overlaps(scene, model, build.diagnostics);
+  return model;
+}
+
+/// Who read the scene from a stage has said where frames are apart, in words of the file.
+void append_untold(const Diagnostics& findings, Diagnostics& diagnostics) {
+  std::set<std::string> told;
+  for (const Diagnostic& found : diagnostics) {
+    if (found.rule == "joint.frames-apart") {
+      told.insert(found.prim);
+    }
+  }
+  for (const Diagnostic& found : findings) {
+    if (found.rule != "joint.frames-apart" || !told.contains(found.prim)) {
+      diagnostics.add(found);
+    }
+  }
+}
+
+}  // namespace
+
+Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const SimulationOptions& options,
+                                Diagnostics& diagnostics, Begin begin) {
+  TENON_CHECK(open_mujoco());
+  const double time_step = choose_time_step(scene, options, diagnostics);
+  std::set<Path> refused;
+  while (true) {
+    Diagnostics findings;
+    Build build(scene, findings);
+    build.time_step = time_step;
+    build.refused = refused;
+    Result<Model> model = build_once(build, begin);
+    if (model.has_value()) {
+      append_untold(findings, diagnostics);
+      return SpecAndModel{std::move(build.spec), std::move(*model)};
+    }
+    // MuJoCo refuses whole models: what it names is left out, and said.
+    const Path part = refused_part(scene, model.error().message());
+    if (part.empty() || refused.size() >= kMostRefused || !refused.insert(part).second) {
+      append_untold(findings, diagnostics);
+      return model.error();
+    }
+    diagnostics.add(
+        {Severity::Warning, "mujoco.part-left-out",
+         "MuJoCo refuses a part of the model, which goes on without it: " + model.error().message(),
+         "", 0, 0, part.str(), "", "give the shape a size, the joint sound limits"});
+  }
+}
+
+Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOptions& options,
+                          Diagnostics& diagnostics, Begin begin) {
+  TENON_TRY(SpecAndModel built, build_spec(scene, options, diagnostics, begin));
+  return std::move(built.model);
+}
+
+}  // namespace tenon::engines::mujoco

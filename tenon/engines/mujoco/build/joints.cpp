@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "tenon/engines/mujoco/build/build.h"
+
+// MuJoCo applies the joints of one body in order, each axis carried by the ones before: exactly the
+// chain of JointDofs. When the MuJoCo child is body0, the chain runs backwards with turned axes,
+// and the coordinates stay those of body1 relative to body0.
+namespace tenon::engines::mujoco {
+namespace {
+
+using scene::kUnlimited;
+
+constexpr double kOpenEnd = 1e10;  // MuJoCo's largest number; "no bound" of a one-sided limit
+
+void set_limit(mjsJoint* joint, const FreeDof& dof, const scene::MujocoSoftness& softness,
+               double time_step) {
+  const bool limited = dof.lower > -kUnlimited || dof.upper < kUnlimited;
+  joint->limited = limited ? mjLIMITED_TRUE : mjLIMITED_FALSE;
+  if (!limited) {
+    return;
+  }
+  joint->range[0] = std::max(dof.lower, -kOpenEnd);
+  joint->range[1] = std::min(dof.upper, kOpenEnd);
+  make_hard(time_step, joint->solref_limit, joint->solimp_limit);
+  std::copy(softness.solref_limit.begin(), softness.solref_limit.end(), joint->solref_limit);
+  std::copy(softness.solimp_limit.begin(), softness.solimp_limit.end(), joint->solimp_limit);
+}
+
+void set_passive(mjsJoint* target, const scene::Joint& joint) {
+  target->armature = joint.armature;
+  target->frictionloss = joint.friction;
+  target->damping[0] = joint.damping;
+  target->stiffness[0] = joint.stiffness;
+  target->springref = joint.spring_reference;
+  const scene::MujocoSoftness& softness = joint.mujoco;
+  std::copy(softness.solref_friction.begin(), softness.solref_friction.end(),
+            target->solref_friction);
+  std::copy(softness.solimp_friction.begin(), softness.solimp_friction.end(),
+            target->solimp_friction);
+}
+
+}  // namespace
+
+void add_chain(Build& build, scene::Index index, mjsBody* child, const Pose& joint_in_child,
+               bool reversed) {
+  const scene::Joint& joint = build.scene.joints[index];
+  const JointDofs& dofs = build.dofs[index];
+  std::vector<mjsJoint*>& made = build.joints[index];
+  made.assign(dofs.free.size(), nullptr);
+  // Rotations turn about the origin of frame 1; seen from frame 0 that is the locked offset.
+  const Vec3d anchor = transform_point(joint_in_child, reversed ? dofs.locked.position : Vec3d{});
+  const auto add_ball = [&] {
+    mjsJoint* ball = mjs_addJoint(child, nullptr);
+    mjs_setName(ball->element, (joint.path.str() + ".ball").c_str());
+    ball->type = mjJNT_BALL;
+    write_vector(ball->pos, anchor);
+    ball->limited = mjLIMITED_FALSE;
+    set_passive(ball, joint);
+    build.balls[index] = ball;
+  };
+  if (dofs.ball && reversed) {
+    add_ball();
+  }
+  for (std::size_t n = 0; n < dofs.free.size(); ++n) {
+    const std::size_t i = reversed ? dofs.free.size() - 1 - n : n;
+    const FreeDof& dof = dofs.free[i];
+    mjsJoint* target = mjs_addJoint(child, nullptr);
+    const std::string name = joint.path.str() + "." + std::string(dof_name(dof.dof));
+    mjs_setName(target->element, name.c_str());
+    target->type = is_angular(dof.dof) ? mjJNT_HINGE : mjJNT_SLIDE;
+    write_vector(target->pos, anchor);
+    const Vec3d axis = rotate(joint_in_child.orientation, reversed ? -dof.axis0 : dof.axis1);
+    write_vector(target->axis, axis);
+    const bool refused = build.refused.contains(joint.path);
+    refused ? build.report(joint.path, "limit:" + std::string(dof_name(dof.dof)),
+                           "MuJoCo refuses the limits; left out")
+            : set_limit(target, dof, joint.mujoco, build.time_step);
+    set_passive(target, joint);
+    made[i] = target;
+  }
+  if (dofs.ball && !reversed) {
+    add_ball();
+  }
+}
+
+mjsJoint* scalar_joint(const Build& build, scene::Index joint, scene::Dof dof) {
+  const JointDofs& dofs = build.dofs[joint];
+  for (std::size_t i = 0; i < build.joints[joint].size(); ++i) {
+    if (dofs.free[i].dof == dof) {
+      return build.joints[joint][i];
+    }
+  }
+  return nullptr;
+}
+
+void add_joints(Build& build) {
+  for (const scene::Index index : build.plan.forest.order) {
+    const scene::ForestBody& link = build.plan.forest.bodies[index];
+    if (!link.joint) {
+      continue;
+    }
+    const scene::Joint& joint = build.scene.joints[*link.joint];
+    add_chain(build, *link.joint, build.bodies[index], link.reversed ? joint.frame0 : joint.frame1,
+              link.reversed);
+  }
+}
+
+}  // namespace tenon::engines::mujoco

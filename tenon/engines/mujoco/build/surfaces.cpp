@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/mujoco/build/surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+// MuJoCo's contacts are spring-dampers in acceleration: while touching,
+//   a = (1 - d) a_free - d (b v + d k r),   d = 0.9..0.95 with depth r,
+// and they only push. In direct form solref = {-k dmax^2, -b dmax}. A rebound needs k and b such
+// that the ratio of the speeds after and before is e. The continuous ratio is known (Hunt and
+// Crossley 1975; Nagurka and Huang 2004), but a contact lasts few time steps, so b is found on the
+// discrete motion itself, averaged over where in the step the impact falls.
+namespace tenon::engines::mujoco {
+namespace {
+
+constexpr double kLowImpedance = 0.9;  // MuJoCo's default solimp
+constexpr double kHighImpedance = 0.95;
+constexpr double kImpedanceWidth = 0.001;  // [m]
+constexpr double kStiffSteps = 0.25;       // natural frequency times time step, elastic contacts
+constexpr double kSoftSteps = 0.16;        // the same without bounce
+constexpr double kMostDamping = 0.9;       // damping times time step: below 1, or the contact rings
+
+struct Surface {
+  double friction = 0;
+  double restitution = 0;
+  scene::CombineMode friction_combine = scene::CombineMode::Average;
+  scene::CombineMode restitution_combine = scene::CombineMode::Average;
+  auto operator<=>(const Surface&) const = default;
+};
+
+double impedance(double depth) {
+  const double x = std::min(1.0, depth / kImpedanceWidth);
+  const double y = x < 0.5 ? 2 * x * x : 1 - 2 * (1 - x) * (1 - x);  // solimp midpoint 0.5, power 2
+  return kLowImpedance + y * (kHighImpedance - kLowImpedance);
+}
+
+// Speed after the contact over speed before, for an impact at `speed` with the first touch `phase`
+// of a step past the surface.
+double rebound(double stiffness, double damping, double time_step, double speed, double phase) {
+  double depth = phase * time_step * speed;
+  double velocity = speed;  // into the surface
+  for (int i = 0; i < 100000 && depth > 0; ++i) {
+    const double d = impedance(depth);
+    const double push = d * (damping * velocity + d * stiffness * depth);
+    velocity -= time_step * std::max(0.0, push);
+    depth += time_step * velocity;
+  }
+  return -velocity / speed;
+}
+
+double mean_rebound(double stiffness, double damping, double time_step) {
+  constexpr int kPhases = 16;
+  double sum = 0;
+  for (int i = 0; i < kPhases; ++i) {
+    sum += rebound(stiffness, damping, time_step, 2.0, (i + 0.5) / kPhases);
+  }
+  return sum / kPhases;
+}
+
+const scene::Material& material_of(const scene::PhysicsScene& scene,
+                                   const std::optional<scene::Index>& index) {
+  return index ? scene.materials[*index] : scene.unbound;
+}
+
+void set_friction(mjsGeom& geom, const scene::Material& material) {
+  geom.friction[0] = material.dynamic_friction;
+  geom.friction[1] = material.torsional_friction.value_or(geom.friction[1]);
+  geom.friction[2] = material.rolling_friction.value_or(geom.friction[2]);
+}
+
+Surface surface_of(const scene::PhysicsScene& scene, const std::optional<scene::Index>& index) {
+  const scene::Material& material = material_of(scene, index);
+  return {material.dynamic_friction, std::clamp(material.restitution, 0.0, 1.0),
+          material.friction_combine, material.restitution_combine};
+}
+
+void tabulate(Surfaces& surfaces, const std::vector<Surface>& kinds, double time_step) {
+  surfaces.count = kinds.size();
+  std::map<double, std::array<double, 2>> known;
+  for (const Surface& a : kinds) {
+    for (const Surface& b : kinds) {
+      const double restitution = scene::combine(a.restitution, a.restitution_combine, b.restitution,
+                                                b.restitution_combine);
+      const auto [entry, is_new] = known.try_emplace(restitution);
+      if (is_new) {
+        entry->second = contact_solref(restitution, time_step);
+      }
+      surfaces.friction.push_back(
+          scene::combine(a.friction, a.friction_combine, b.friction, b.friction_combine));
+      surfaces.solref.push_back(entry->second);
+    }
+  }
+  surfaces.differ = kinds.size() > 1;
+}
+
+void report_materials(Build& build) {
+  std::vector<char> used(build.scene.materials.size(), 0);
+  for (const scene::Collider& collider : build.scene.colliders) {
+    if (collider.material.has_value() && collider.enabled) {
+      used[*collider.material] = 1;
+    }
+    for (const scene::FaceMaterial& faces : collider.face_materials) {
+      if (faces.material && collider.enabled) {
+        used[*faces.material] = 1;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const scene::Material& material = build.scene.materials[i];
+    if (used[i] != 0 && material.static_friction != material.dynamic_friction) {
+      build.report(material.path, "physics:staticFriction",
+                   "MuJoCo has one coefficient per contact; the dynamic one is used");
+    }
+    if (used[i] != 0 && material.restitution > 0) {
+      build.report(
+          material.path, "physics:restitution",
+          "MuJoCo has no restitution: contacts are springs tuned to rebound with the average of "
+          "the pair, within a few per cent; below about 0.3 little of the rebound is left");
+    }
+  }
+}
+
+}  // namespace
+
+std::array<double, 2> contact_solref(double restitution, double time_step) {
+  const double elastic = std::clamp(restitution, 0.0, 1.0);
+  const double steps = kSoftSteps + (kStiffSteps - kSoftSteps) * std::min(1.0, elastic / 0.3);
+  const double stiffness = (steps / time_step) * (steps / time_step);
+  double low = 0;
+  double high = kMostDamping / time_step;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = (low + high) / 2;
+    (mean_rebound(stiffness, middle, time_step) > elastic ? low : high) = middle;
+  }
+  return {-stiffness * kHighImpedance * kHighImpedance, -(low + high) / 2 * kHighImpedance};
+}
+
+Surfaces add_surfaces(Build& build) {
+  Surfaces surfaces;
+  std::vector<Surface> kinds;
+  surfaces.of_collider.resize(build.geoms.size());
+  for (std::size_t i = 0; i < build.geoms.size(); ++i) {
+    for (const std::optional<scene::Index>& material : build.geom_materials[i]) {
+      const Surface surface = surface_of(build.scene, material);
+      auto found = std::find(kinds.begin(), kinds.end(), surface);
+      if (found == kinds.end()) {
+        found = kinds.insert(kinds.end(), surface);
+      }
+      surfaces.of_collider[i].push_back(static_cast<int>(found - kinds.begin()));
+    }
+  }
+  tabulate(surfaces, kinds, build.time_step);
+  for (std::size_t i = 0; i < build.geoms.size(); ++i) {
+    const scene::MujocoContact& contact = build.scene.colliders[i].mujoco;
+    surfaces.keeps_solref.push_back(contact.solref.empty() ? 0 : 1);
+    for (std::size_t g = 0; g < build.geoms[i].size(); ++g) {
+      const auto kind = static_cast<std::size_t>(surfaces.of_collider[i][g]);
+      mjsGeom& geom = *build.geoms[i][g];
+      set_friction(geom, material_of(build.scene, build.geom_materials[i][g]));
+      const auto& solref = surfaces.solref[kind * surfaces.count + kind];
+      std::copy(solref.begin(), solref.end(), geom.solref);
+      std::copy(contact.solref.begin(), contact.solref.end(), geom.solref);
+      if (contact.priority.value_or(0) != 0) {
+        surfaces.of_collider[i][g] = -1;  // MuJoCo does not mix where one has priority
+      }
+    }
+  }
+  report_materials(build);
+  return surfaces;
+}
+
+bool apply_surfaces(const Surfaces& surfaces, mjData* data) {
+  bool changed = false;
+  for (int i = 0; i < data->ncon; ++i) {
+    mjContact& contact = data->contact[i];
+    const int a = surfaces.geom_surface[static_cast<std::size_t>(contact.geom[0])];
+    const int b = surfaces.geom_surface[static_cast<std::size_t>(contact.geom[1])];
+    if (a == b || a < 0 || b < 0) {
+      continue;
+    }
+    const std::size_t pair =
+        static_cast<std::size_t>(a) * surfaces.count + static_cast<std::size_t>(b);
+    contact.friction[0] = std::max(surfaces.friction[pair], mjMINMU);
+    contact.friction[1] = contact.friction[0];
+    if (surfaces.keeps_solref[static_cast<std::size_t>(contact.geom[0])] == 0 &&
+        surfaces.keeps_solref[static_cast<std::size_t>(contact.geom[1])] == 0) {
+      contact.solref[0] = surfaces.solref[pair][0];
+      contact.solref[1] = surfaces.solref[pair][1];
+    }
+    changed = true;
+  }
+  return changed;
+}
+
+}  // namespace tenon::engines::mujoco

@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pairs of colliders that never touch: named by the filtered pairs API, joined by a joint, or links
+// of an articulation without self collision (S-81, S-82, S-92, S-115).
+#include <algorithm>
+#include <utility>
+
+#include "tenon/physics/joints/joint_frames.h"
+#include "tenon/physics/read_state.h"
+#include "tenon/scene/joint_freedom.h"
+
+namespace tenon::physics {
+namespace {
+
+using Colliders = std::vector<Index>;
+
+class PairFilter {
+ public:
+  explicit PairFilter(ReadState& state) : state_(state), pairs_(state.scene.filter.pairs_off) {}
+
+  void run() {
+    for (std::uint32_t i = 0; i < state_.walk.prims.size(); ++i) {
+      if (state_.walk.prims[i].roles.has(Api::FilteredPairs)) {
+        add_filtered_pairs(i);
+      }
+    }
+    for (Index i = 0; i < state_.scene.joints.size(); ++i) {
+      const Joint& joint = state_.scene.joints[i];
+      if (may_change(i)) {
+        keep_apart(i);
+      } else if (joint.enabled && !joint.collision_enabled) {
+        add_joint(joint);
+      }
+    }
+    for (const Articulation& articulation : state_.scene.articulations) {
+      if (!articulation.self_collision) {
+        add_links(articulation);
+      }
+    }
+    std::sort(pairs_.begin(), pairs_.end());
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+    state_.scene.filter.permanent_pairs = pairs_;
+    state_.scene.update_joint_pairs();
+  }
+
+ private:
+  /// The joint may break or be switched while the simulation runs.
+  bool may_change(Index i) const {
+    const Joint& joint = state_.scene.joints[i];
+    const stage::Prim& prim = state_.prim_of_joint(i).prim;
+    return can_break(joint) || (state_.values.stage_is_animated() &&
+                                (prim.attribute(state_.tokens.joint_enabled).is_animated() ||
+                                 prim.attribute(state_.tokens.collision_enabled).is_animated()));
+  }
+
+  /// Remembers the pairs of a joint apart from the others.
+  void keep_apart(Index i) {
+    const Joint& joint = state_.scene.joints[i];
+    const std::size_t before = pairs_.size();
+    const bool silent = !joint.enabled || joint.collision_enabled;
+    Accounts* const accounts = std::exchange(state_.accounts, silent ? nullptr : state_.accounts);
+    add_joint(joint);
+    state_.accounts = accounts;
+    JointPairs own{i, {pairs_.begin() + static_cast<std::ptrdiff_t>(before), pairs_.end()}};
+    pairs_.resize(before);
+    std::sort(own.pairs.begin(), own.pairs.end());
+    if (!own.pairs.empty()) {
+      state_.scene.filter.joint_pairs.push_back(std::move(own));
+    }
+  }
+
+  /// Who says what is added next, for the accounts.
+  void speaks(PairRule rule, Path prim) {
+    rule_ = rule;
+    prim_ = prim;
+  }
+
+  /// Pairs of different bodies; two static colliders never touch anyway.
+  void add(Index a, Index b) {
+    const std::vector<Collider>& colliders = state_.scene.colliders;
+    if (a != b && colliders[a].body != colliders[b].body) {
+      pairs_.emplace_back(std::min(a, b), std::max(a, b));
+      if (state_.accounts != nullptr) {
+        state_.accounts->pairs.push_back({std::min(a, b), std::max(a, b), rule_, prim_});
+      }
+    }
+  }
+  void add_all(const Colliders& a, const Colliders& b) {
+    for (const Index i : a) {
+      for (const Index j : b) {
+        add(i, j);
+      }
+    }
+  }
+
+  void append(Index body, Colliders& list) const {
+    const Colliders& own = state_.colliders_of_body[body];
+    list.insert(list.end(), own.begin(), own.end());
+  }
+  void append_links(Path root, Colliders& list) const {
+    for (const Articulation& articulation : state_.scene.articulations) {
+      if (articulation.path == root) {
+        for (const Index link : articulation.links) {
+          append(link, list);
+        }
+      }
+    }
+  }
+  /// Colliders at or below a path, which lists sorted by path hold side by side.
+  Colliders below(Path path) const {
+    const std::vector<Collider>& colliders = state_.scene.colliders;
+    auto at = std::lower_bound(colliders.begin(), colliders.end(), path,
+                               [](const Collider& c, const Path& p) { return c.path < p; });
+    Colliders list;
+    for (; at != colliders.end() && at->path.has_prefix(path); ++at) {
+      list.push_back(static_cast<Index>(at - colliders.begin()));
+    }
+    return list;
+  }
+
+  /// What a prim of a filtered pair stands for: a body's colliders, an articulation's links, one
+  /// collider, or all that lies below any other prim (S-81).
+  Colliders meant_by(Path path) const {
+    Colliders list;
+    const auto found = state_.walk.index_of.find(path);
+    if (found != state_.walk.index_of.end()) {
+      const PhysicsPrim& prim = state_.walk.prims[found->second];
+      if (prim.is_body) {
+        append(state_.body_of_prim[found->second], list);
+        report_two_meanings(prim);
+        return list;
+      }
+      if (prim.roles.has(Api::ArticulationRoot)) {
+        append_links(path, list);
+      }
+      if (list.empty() && state_.collider_of_prim[found->second] != kNone) {
+        list.push_back(state_.collider_of_prim[found->second]);
+      }
+    }
+    return list.empty() ? below(path) : list;
+  }
+
+  void report_two_meanings(const PhysicsPrim& prim) const {
+    if (prim.roles.has(Api::ArticulationRoot)) {
+      state_.report(prim.prim, Severity::Info, "filter.body-or-articulation",
+                    "a filtered pair names a body that is an articulation root too; the body is "
+                    "meant, not all links",
+                    "apply PhysicsArticulationRootAPI above the body if all links are meant",
+                    api_part("PhysicsArticulationRootAPI"));
+    }
+  }
+
+  void add_filtered_pairs(std::uint32_t prim_index) {
+    const PhysicsPrim& found = state_.walk.prims[prim_index];
+    const Token name = state_.tokens.filtered_pairs;
+    const Colliders own = meant_by(found.path);
+    speaks(PairRule::FilteredPair, found.path);
+    for (const Path& target : found.prim.relationship(name).targets()) {
+      if (!state_.stage.prim(target)) {
+        state_.values.report_target(found.prim, name, target, Severity::Warning,
+                                    "filter.target-missing",
+                                    "physics:filteredPairs names <" + target.str() +
+                                        ">, which does not exist; it is ignored",
+                                    "name an existing prim");
+        continue;
+      }
+      const Path meant = state_.walk.near(found, target);
+      if (meant == found.path) {
+        // S-82
+        state_.values.report_target(
+            found.prim, name, target, Severity::Warning, "filter.self",
+            "physics:filteredPairs names its own prim: contacts within it are off",
+            "use the self collision switch of the articulation");
+      }
+      add_all(own, meant_by(meant));
+    }
+  }
+
+  /// The colliders of the body that a side is attached to, or the static ones below the prim that
+  /// it names; none for the world. Bodies nested below are bodies of their own.
+  Colliders side(const std::optional<Index>& body, Path target, Path other) const {
+    if (body) {
+      return state_.colliders_of_body[*body];
+    }
+    if (target.empty() || other.has_prefix(target)) {
+      return {};  // the world, or a prim above the other side that stands for it
+    }
+    Colliders list = below(target);
+    std::erase_if(list, [&](Index i) { return state_.scene.colliders[i].body.has_value(); });
+    return list;
+  }
+
+  // S-92
+  void add_joint(const Joint& joint) {
+    if (joint.target0.empty() || joint.target1.empty()) {
+      return;
+    }
+    speaks(PairRule::Joint, joint.path);
+    add_all(side(joint.body0, joint.target0, joint.target1),
+            side(joint.body1, joint.target1, joint.target0));
+  }
+
+  void add_links(const Articulation& articulation) {
+    Colliders all;
+    for (const Index link : articulation.links) {
+      append(link, all);
+    }
+    speaks(PairRule::Articulation, articulation.path);
+    add_all(all, all);
+  }
+
+  ReadState& state_;
+  std::vector<std::pair<Index, Index>>& pairs_;
+  PairRule rule_ = PairRule::FilteredPair;
+  Path prim_;
+};
+
+}  // namespace
+
+void read_filtered_pairs(ReadState& state) { PairFilter(state).run(); }
+
+}  // namespace tenon::physics

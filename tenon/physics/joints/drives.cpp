@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/physics/joints/drives.h"
+
+#include <cmath>
+
+#include "tenon/base/text/text_number.h"
+#include "tenon/physics/joints/joint_limits.h"
+#include "tenon/scene/joint_freedom.h"
+
+namespace tenon::physics {
+namespace {
+
+/// S-103: "angular" and "linear" name the joint's own axis; the axis' own name is taken too.
+std::optional<Dof> driven_dof(const ReadState& state, const stage::Prim& prim, const Joint& joint,
+                              Token instance) {
+  const std::string api = "PhysicsDriveAPI:" + instance.str();
+  const std::optional<Dof> named = dof_of(instance.view());
+  const bool one_axis = joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic;
+  const Token own(joint.kind == JointKind::Revolute ? "angular" : "linear");
+  if (one_axis && instance == own) {
+    return joint.dof();
+  }
+  if (one_axis && named == joint.dof()) {
+    state.report(prim, Severity::Info, "drive.axis-token",
+                 api + " is taken as PhysicsDriveAPI:" + own.str() + ", the joint's own axis",
+                 "apply PhysicsDriveAPI:" + own.str(), api_part(api));
+    return named;
+  }
+  if (joint.kind == JointKind::D6 && named && *named != Dof::Distance) {
+    return named;
+  }
+  // S-107
+  state.report(prim, Severity::Warning, "drive.no-such-axis",
+               api + " is ignored: the joint does not move that way",
+               one_axis ? "apply PhysicsDriveAPI:" + own.str() : "remove it", api_part(api));
+  return std::nullopt;
+}
+
+bool read_acceleration(const ReadState& state, const stage::Prim& prim, Token name) {
+  const Token type = state.values.get<Token>(prim, name).value_or(Token("force"));
+  if (!(type == "force") && !(type == "acceleration")) {
+    state.report(prim, name, Severity::Error, "drive.type-unknown",
+                 name.str() + " is \"" + type.str() + "\"; force is used instead",
+                 "use force or acceleration");
+  }
+  return type == "acceleration";
+}
+
+double read_max_force(const ReadState& state, const stage::Prim& prim, Token name, double unit) {
+  const double force = state.values.number(prim, name).value_or(kUnlimited);
+  if (force < 0) {
+    // S-105
+    state.report(prim, name, Severity::Error, "drive.negative-max-force",
+                 name.str() + " is " + shortest(force) + "; the force is not limited",
+                 "author a value that is not negative");
+    return kUnlimited;
+  }
+  return force * unit;
+}
+
+/// A gain in the file's own unit, as it is: one below zero acts, and is told (S-102).
+double read_gain(const ReadState& state, const stage::Prim& prim, Token name) {
+  const double gain = state.values.number(prim, name).value_or(0);
+  if (gain < 0) {
+    state.report(prim, name, Severity::Error, "drive.negative-gain",
+                 name.str() + " is " + shortest(gain) + ": the drive feeds energy in",
+                 "author a gain that is not negative");
+  }
+  return gain;
+}
+
+void check_effect(const ReadState& state, const stage::Prim& prim, const Joint& joint,
+                  const Drive& drive, Token instance) {
+  const StatementPart api = api_part("PhysicsDriveAPI:" + instance.str());
+  const std::string name = "the drive of " + std::string(dof_name(drive.dof));
+  if (drive.acceleration && is_angular(drive.dof)) {
+    state.report(prim, Severity::Info, "drive.angular-acceleration",
+                 name +
+                     " is an angular acceleration drive: its gains are taken per degree, as "
+                     "PhysX does; read literally they are 57.3 times weaker",
+                 "use a force drive, whose gains all readers take alike", api);
+  }
+  if (drive.stiffness == 0 && drive.damping == 0) {
+    // S-106
+    state.report(prim, Severity::Info, "drive.no-effect",
+                 name + " has neither stiffness nor damping: no force", "author gains", api);
+  } else if (is_locked(joint, drive.dof)) {
+    // S-107
+    state.report(prim, Severity::Warning, "drive.locked-axis",
+                 name + " has no effect: limits lock that axis",
+                 "open the limit or remove the drive", api);
+  }
+}
+
+}  // namespace
+
+DriveNames drive_names(Token instance) {
+  const std::string prefix = "drive:" + instance.str() + ":physics:";
+  return {prefix + "type",           prefix + "maxForce",  prefix + "targetPosition",
+          prefix + "targetVelocity", prefix + "stiffness", prefix + "damping"};
+}
+
+DriveUnits drive_units(const ReadState& state, Dof dof, bool acceleration) {
+  const Units& units = state.units;
+  const bool angular = is_angular(dof);
+  // S-12, S-13: gains are per degree; S-104: those of acceleration drives hold no mass.
+  const double inertia = acceleration ? 1 : (angular ? units.inertia() : units.mass);
+  const bool literal =
+      acceleration && state.readings.angular_acceleration == AngularAcceleration::Literal;
+  const double gain = angular && !literal ? inertia / kRadians : inertia;
+  DriveUnits result;
+  result.stiffness = gain * units.rate * units.rate;
+  result.damping = gain * units.rate;
+  result.force = (angular ? units.torque() : units.force()) * units.rate * units.rate;
+  result.position = angular ? kRadians : units.length;
+  result.velocity = result.position * units.rate;
+  return result;
+}
+
+std::optional<Drive> read_drive(const ReadState& state, const stage::Prim& prim, const Joint& joint,
+                                Token instance) {
+  const std::optional<Dof> dof = driven_dof(state, prim, joint, instance);
+  if (!dof) {
+    return std::nullopt;
+  }
+  const DriveNames names = drive_names(instance);
+  const AttributeValues& values = state.values;
+  Drive drive;
+  drive.source = joint.path;
+  drive.dof = *dof;
+  drive.acceleration = read_acceleration(state, prim, names.type);
+  const DriveUnits unit = drive_units(state, *dof, drive.acceleration);
+  drive.stiffness = read_gain(state, prim, names.stiffness) * unit.stiffness;
+  drive.damping = read_gain(state, prim, names.damping) * unit.damping;
+  drive.max_force = read_max_force(state, prim, names.max_force, unit.force);
+  drive.target_position = values.number(prim, names.target_position).value_or(0) * unit.position;
+  drive.target_velocity = values.number(prim, names.target_velocity).value_or(0) * unit.velocity;
+  check_effect(state, prim, joint, drive, instance);
+  return drive;
+}
+
+void read_drives(ReadState& state) {
+  for (Index i = 0; i < state.scene.joints.size(); ++i) {
+    const PhysicsPrim& found = state.prim_of_joint(i);
+    if (!found.roles.has(Api::Drive)) {
+      continue;
+    }
+    Joint& joint = state.scene.joints[i];
+    for (const Token& instance : found.prim.api_instances("PhysicsDriveAPI")) {
+      std::optional<Drive> drive = read_drive(state, found.prim, joint, instance);
+      if (drive) {
+        state.drive_instances.push_back({i, static_cast<Index>(joint.drives.size()), instance});
+        joint.drives.push_back(*std::move(drive));
+      }
+    }
+  }
+}
+
+}  // namespace tenon::physics

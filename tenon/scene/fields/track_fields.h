@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+#include <tuple>
+
+#include "tenon/scene/fields/field.h"
+#include "tenon/scene/physics_scene.h"
+
+/// The tables of tendons, of filters and of what changes while a simulation runs. Times are seconds
+/// from the start.
+namespace tenon::scene {
+
+template <>
+struct Table<TendonStop::Place> {
+  static constexpr std::string_view kWord = "place";
+  static constexpr std::tuple kFields{
+      field<&TendonStop::Place::path>(
+          {.name = "path", .meaning = "the prim", .role = Role::Provenance}),
+      field<&TendonStop::Place::body>(
+          {.name = "body", .meaning = "null: the world", .refers = List::Bodies}),
+      field<&TendonStop::Place::pose>(
+          {.name = "pose", .meaning = "in the body, or in the world", .inlined = true}),
+  };
+};
+
+template <>
+struct Table<TendonStop> {
+  static constexpr std::string_view kWord = "stop";
+  static constexpr std::tuple kFields{
+      field<&TendonStop::kind>({.name = "kind", .meaning = "what the tendon does there"}),
+      field<&TendonStop::place>({.name = "place",
+                                 .meaning = "a point of the tendon's surroundings",
+                                 .presence = Presence::WhenSet}),
+      field<&TendonStop::radius>({.name = "radius",
+                                  .meaning = "of what it goes around",
+                                  .unit = Unit::Meter,
+                                  .presence = Presence::WhenSet}),
+      field<&TendonStop::side>(
+          {.name = "side", .meaning = "where the path goes past; null: on the shorter way"}),
+      field<&TendonStop::divisor>({.name = "divisor",
+                                   .meaning = "of a pulley: of the length of what follows",
+                                   .presence = Presence::WhenSet}),
+  };
+};
+
+template <>
+struct Table<Tendon> {
+  static constexpr std::string_view kWord = "tendon";
+  static constexpr std::tuple kFields{
+      field<&Tendon::path>({.name = "path", .meaning = "the prim", .role = Role::Identity}),
+      field<&Tendon::joints>(
+          {.name = "joints", .meaning = "of a fixed tendon", .refers = List::Joints}),
+      field<&Tendon::coefficients>(
+          {.name = "coefficients", .meaning = "one for each of its joints"}),
+      field<&Tendon::stops>({.name = "stops", .meaning = "of a spatial tendon, along its path"}),
+      field<&Tendon::stiffness>({.name = "stiffness", .meaning = "of its spring"}),
+      field<&Tendon::damping>({.name = "damping", .meaning = "of its length"}),
+      field<&Tendon::friction>({.name = "friction", .meaning = "along its length"}),
+      field<&Tendon::armature>({.name = "armature", .meaning = "added to the inertia"}),
+      field<&Tendon::spring_length>(
+          {.name = "springLength", .meaning = "no force between the two; -1: as it stands"}),
+      field<&Tendon::range>({.name = "range", .meaning = "of its length; null: any"}),
+      field<&Tendon::settings>({.name = "settings", .meaning = "others, for MuJoCo"}),
+  };
+};
+
+template <>
+struct Table<JointPairs> {
+  static constexpr std::string_view kWord = "pairs of";
+  static constexpr std::tuple kFields{
+      field<&JointPairs::joint>({.name = "joint",
+                                 .meaning = "that keeps them apart",
+                                 .refers = List::Joints,
+                                 .role = Role::Identity}),
+      field<&JointPairs::pairs>({.name = "pairs", .meaning = "indices of two colliders each"}),
+  };
+};
+
+template <>
+struct Table<CollisionFilter> {
+  static constexpr std::string_view kWord = "filter";
+  static constexpr std::tuple kFields{
+      field<&CollisionFilter::groups_of_collider>(
+          {.name = "groupsOfCollider",
+           .meaning = "for each collider, indices into groupPaths; none: ungrouped"}),
+      field<&CollisionFilter::group_paths>({.name = "groupPaths", .meaning = "the groups"}),
+      field<&CollisionFilter::group_pair_off>(
+          {.name = "groupPairOff", .meaning = "groups by groups, by rows: 1 where they are apart"}),
+      field<&CollisionFilter::ungrouped_off>(
+          {.name = "ungroupedOff", .meaning = "1 where a group is apart from ungrouped ones"}),
+      field<&CollisionFilter::pairs_off>(
+          {.name = "pairsOff", .meaning = "indices of two colliders each, that do not touch"}),
+      field<&CollisionFilter::permanent_pairs>(
+          {.name = "permanentPairs", .meaning = "those that hold whatever becomes of joints"}),
+      field<&CollisionFilter::joint_pairs>(
+          {.name = "jointPairs", .meaning = "what single joints keep apart"}),
+  };
+};
+
+template <>
+struct Table<ScalarTrack> {
+  static constexpr std::string_view kWord = "drive over time";
+  static constexpr std::tuple kFields{
+      field<&ScalarTrack::what>(
+          {.name = "value", .meaning = "what changes", .role = Role::Identity}),
+      field<&ScalarTrack::joint>({.name = "joint",
+                                  .meaning = "whose drive",
+                                  .refers = List::Joints,
+                                  .role = Role::Identity}),
+      field<&ScalarTrack::drive>(
+          {.name = "drive", .meaning = "into the joint's drives", .role = Role::Identity}),
+      field<&ScalarTrack::times>({.name = "times", .meaning = "ascending", .unit = Unit::Second}),
+      field<&ScalarTrack::values>({.name = "values", .meaning = "at those times"}),
+      field<&ScalarTrack::held>({.name = "held", .meaning = "until the next, not linear"}),
+  };
+};
+
+template <>
+struct Table<SwitchTrack> {
+  static constexpr std::string_view kWord = "switch over time";
+  static constexpr std::tuple kFields{
+      field<&SwitchTrack::what>(
+          {.name = "value", .meaning = "what is switched", .role = Role::Identity}),
+      field<&SwitchTrack::object>({.name = "object",
+                                   .meaning = "the body, collider or joint",
+                                   .refers = List::BySwitch,
+                                   .role = Role::Identity}),
+      field<&SwitchTrack::times>({.name = "times", .meaning = "ascending", .unit = Unit::Second}),
+      field<&SwitchTrack::values>({.name = "values", .meaning = "1: on, until the next"}),
+  };
+};
+
+template <>
+struct Table<JointBounds> {
+  static constexpr std::string_view kWord = "bounds";
+  static constexpr std::tuple kFields{
+      field<&JointBounds::lower>(
+          {.name = "lower", .meaning = "null: unlimited", .unit = Unit::Position}),
+      field<&JointBounds::upper>(
+          {.name = "upper", .meaning = "null: unlimited", .unit = Unit::Position}),
+      field<&JointBounds::cone_angle0>({.name = "coneAngle0",
+                                        .meaning = "of spherical joints",
+                                        .unit = Unit::Radian,
+                                        .presence = Presence::WhenSet}),
+      field<&JointBounds::cone_angle1>({.name = "coneAngle1",
+                                        .meaning = "of spherical joints",
+                                        .unit = Unit::Radian,
+                                        .presence = Presence::WhenSet}),
+      field<&JointBounds::limits>({.name = "limits",
+                                   .meaning = "of single degrees of freedom",
+                                   .presence = Presence::WhenSet}),
+  };
+};
+
+template <>
+struct Table<BoundsTrack> {
+  static constexpr std::string_view kWord = "bounds over time";
+  static constexpr std::tuple kFields{
+      field<&BoundsTrack::joint>({.name = "joint",
+                                  .meaning = "whose bounds",
+                                  .refers = List::Joints,
+                                  .role = Role::Identity}),
+      field<&BoundsTrack::times>({.name = "times", .meaning = "ascending", .unit = Unit::Second}),
+      field<&BoundsTrack::bounds>({.name = "bounds", .meaning = "at those times"}),
+      field<&BoundsTrack::held>({.name = "held", .meaning = "until the next, not linear"}),
+  };
+};
+
+template <>
+struct Table<GravityTrack> {
+  static constexpr std::string_view kWord = "gravity over time";
+  static constexpr std::tuple kFields{
+      field<&GravityTrack::scene>({.name = "scene",
+                                   .meaning = "whose gravity",
+                                   .refers = List::Scenes,
+                                   .role = Role::Identity}),
+      field<&GravityTrack::times>({.name = "times", .meaning = "ascending", .unit = Unit::Second}),
+      field<&GravityTrack::gravity>(
+          {.name = "gravity", .meaning = "at those times", .unit = Unit::MeterPerSecondSquared}),
+      field<&GravityTrack::held>({.name = "held", .meaning = "until the next, not linear"}),
+  };
+};
+
+template <>
+struct Table<PoseTrack> {
+  static constexpr std::string_view kWord = "pose over time";
+  static constexpr std::tuple kFields{
+      field<&PoseTrack::body>({.name = "body",
+                               .meaning = "a kinematic body",
+                               .refers = List::Bodies,
+                               .presence = Presence::WhenSet,
+                               .role = Role::Identity}),
+      field<&PoseTrack::collider>({.name = "collider",
+                                   .meaning = "else a static collider",
+                                   .refers = List::Colliders,
+                                   .presence = Presence::WhenSet,
+                                   .role = Role::Identity}),
+      field<&PoseTrack::times>({.name = "times", .meaning = "ascending", .unit = Unit::Second}),
+      field<&PoseTrack::poses>({.name = "poses", .meaning = "in the world, at those times"}),
+      field<&PoseTrack::held>({.name = "held", .meaning = "until the next, not interpolated"}),
+      field<&PoseTrack::joint>({.name = "joint",
+                                .meaning = "else a side of a joint",
+                                .refers = List::Joints,
+                                .presence = Presence::WhenSet,
+                                .role = Role::Identity}),
+      field<&PoseTrack::side>({.name = "side",
+                               .meaning = "of the joint: 0 or 1",
+                               .presence = Presence::WhenSet,
+                               .role = Role::Identity}),
+  };
+};
+
+template <>
+struct Table<BodyShapes> {
+  static constexpr std::string_view kWord = "shapes";
+  static constexpr std::tuple kFields{
+      field<&BodyShapes::poses>({.name = "poses", .meaning = "of the colliders, in the body"}),
+      field<&BodyShapes::shapes>({.name = "shapes", .meaning = "of the colliders"}),
+      field<&BodyShapes::mass>({.name = "mass", .meaning = "of the body", .unit = Unit::Kilogram}),
+      field<&BodyShapes::center_of_mass>({.name = "centerOfMass",
+                                          .meaning = "in the body frame",
+                                          .unit = Unit::Meter,
+                                          .words = "centre of mass"}),
+      field<&BodyShapes::inertia>(
+          {.name = "inertia", .meaning = "as that of bodies", .unit = Unit::KilogramMeterSquared}),
+  };
+};
+
+template <>
+struct Table<ShapesTrack> {
+  static constexpr std::string_view kWord = "shapes over time";
+  static constexpr std::tuple kFields{
+      field<&ShapesTrack::body>({.name = "body",
+                                 .meaning = "that they are of",
+                                 .refers = List::Bodies,
+                                 .role = Role::Identity}),
+      field<&ShapesTrack::colliders>(
+          {.name = "colliders", .meaning = "those that move", .refers = List::Colliders}),
+      field<&ShapesTrack::times>({.name = "times", .meaning = "ascending", .unit = Unit::Second}),
+      field<&ShapesTrack::shapes>({.name = "shapes", .meaning = "each holds until the next"}),
+  };
+};
+
+template <>
+struct Table<GroupState> {
+  static constexpr std::string_view kWord = "collision groups at";
+  static constexpr std::tuple kFields{
+      field<&GroupState::time>({.name = "time",
+                                .meaning = "from which on it holds",
+                                .unit = Unit::Second,
+                                .role = Role::Identity}),
+      field<&GroupState::group_pair_off>(
+          {.name = "groupPairOff", .meaning = "groups by groups, by rows: 1 where they are apart"}),
+      field<&GroupState::ungrouped_off>(
+          {.name = "ungroupedOff", .meaning = "1 where a group is apart from ungrouped ones"}),
+  };
+};
+
+template <>
+struct Table<BodyMass> {
+  static constexpr std::string_view kWord = "mass";
+  static constexpr std::tuple kFields{
+      field<&BodyMass::mass>({.name = "mass", .meaning = "of the body", .unit = Unit::Kilogram}),
+      field<&BodyMass::center_of_mass>({.name = "centerOfMass",
+                                        .meaning = "in the body frame",
+                                        .unit = Unit::Meter,
+                                        .words = "centre of mass"}),
+      field<&BodyMass::inertia>(
+          {.name = "inertia", .meaning = "as that of bodies", .unit = Unit::KilogramMeterSquared}),
+  };
+};
+
+template <>
+struct Table<CarriedBody> {
+  static constexpr std::string_view kWord = "carried";
+  static constexpr std::tuple kFields{
+      field<&CarriedBody::body>({.name = "body",
+                                 .meaning = "that is off",
+                                 .refers = List::Bodies,
+                                 .role = Role::Identity}),
+      field<&CarriedBody::carrier>({.name = "carrier",
+                                    .meaning = "the nearest body around it that is on",
+                                    .refers = List::Bodies}),
+  };
+};
+
+template <>
+struct Table<NestingState> {
+  static constexpr std::string_view kWord = "nesting at";
+  static constexpr std::tuple kFields{
+      field<&NestingState::time>({.name = "time",
+                                  .meaning = "from which on it holds",
+                                  .unit = Unit::Second,
+                                  .role = Role::Identity}),
+      field<&NestingState::carried>(
+          {.name = "carried", .meaning = "bodies that move as parts of others"}),
+      field<&NestingState::masses>({.name = "masses",
+                                    .meaning = "of carried bodies and their carriers, ascending",
+                                    .refers = List::Bodies}),
+  };
+};
+
+}  // namespace tenon::scene

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// OpenUSD's rules of material resolution: first all bindings for the purpose, then those for all
+// purposes. Walking up, a binding replaces what was found below only when it says
+// strongerThanDescendants; at one prim collections, in property order, win over the direct binding.
+#include "tenon/stage/collections/material_binding.h"
+
+#include <optional>
+
+#include "tenon/stage/collections/collection.h"
+
+namespace tenon::stage {
+namespace {
+
+const std::string kBinding = "material:binding";
+const std::string kCollectionBinding = "material:binding:collection";
+
+bool is_stronger(const Relationship& binding) {
+  static const Token stronger{"strongerThanDescendants"};
+  return binding.metadata("bindMaterialAs").get_or<Token>(Token()) == stronger;
+}
+
+bool is_material(const Prim& prim, Path path) {
+  return path.is_prim() && prim.prim_at(path).is_a("Material");
+}
+
+std::optional<Path> direct_material(const Prim& at, Token name) {
+  const std::vector<Path> targets = at.relationship(name).targets();
+  return targets.size() == 1 && is_material(at, targets[0]) ? std::optional(targets[0])
+                                                            : std::nullopt;
+}
+
+// The material of a collection binding of `at` when its collection contains `path`; a collection
+// that is too large goes to `cut`.
+std::optional<Path> collection_material(const Prim& at, Token name, Path path, Path& cut) {
+  const std::vector<Path> targets = at.relationship(name).targets();
+  if (targets.size() != 2) {
+    return std::nullopt;
+  }
+  const bool first = targets[0].is_property();
+  const Path collection = targets[first ? 0 : 1];
+  const Path material = targets[first ? 1 : 0];
+  static constexpr std::string_view kBindingPrefix = "collection:";
+  const std::string_view full = collection.name().view();
+  if (!collection.is_property() || !full.starts_with(kBindingPrefix) ||
+      !is_material(at, material)) {
+    return std::nullopt;
+  }
+  const Prim owner = at.prim_at(collection.parent());
+  const Collection members = Collection::read(owner, Token(full.substr(kBindingPrefix.size())));
+  const bool contained = members.contains(path);
+  cut = members.is_cut() ? collection : cut;
+  return contained ? std::optional(material) : std::nullopt;
+}
+
+// "material:binding:collection:name" or, for a purpose, "...:collection:purpose:name".
+bool is_collection_binding(std::string_view name, Token purpose) {
+  if (!name.starts_with(kCollectionBinding + ":")) {
+    return false;
+  }
+  const std::string_view rest = name.substr(kCollectionBinding.size() + 1);
+  const std::size_t colon = rest.find(':');
+  return purpose.empty()
+             ? colon == std::string_view::npos
+             : colon != std::string_view::npos && rest.substr(0, colon) == purpose.view();
+}
+
+struct Search {
+  const Prim& prim;
+  Token purpose;
+  MaterialBinding found;
+
+  void take(const Prim& at, const Relationship& binding, Path material) {
+    found.material = material;
+    found.relationship = binding.path();
+    found.binding_api_missing = !at.has_api("MaterialBindingAPI");
+  }
+
+  void look_at(const Prim& at) {
+    bool direct_here = false;
+    const Token name(purpose.empty() ? kBinding : kBinding + ":" + purpose.str());
+    if (at.has_property(name)) {
+      const Relationship binding = at.relationship(name);
+      const std::optional<Path> material = direct_material(at, name);
+      if (material && (found.material.empty() || is_stronger(binding))) {
+        take(at, binding, *material);
+        direct_here = true;
+      }
+    }
+    for (const Token property : at.authored_property_names()) {
+      if (!is_collection_binding(property.view(), purpose)) {
+        continue;
+      }
+      const Relationship binding = at.relationship(property);
+      if (!found.material.empty() && !direct_here && !is_stronger(binding)) {
+        continue;
+      }
+      const auto material = collection_material(at, property, prim.path(), found.cut_collection);
+      if (material) {
+        take(at, binding, *material);
+        return;
+      }
+    }
+  }
+
+  MaterialBinding run() {
+    for (Prim at = prim; at && !at.is_pseudo_root(); at = at.parent()) {
+      look_at(at);
+    }
+    return found;
+  }
+};
+
+}  // namespace
+
+MaterialBinding find_material_binding(const Prim& prim, Token purpose) {
+  MaterialBinding binding = Search{prim, purpose, {}}.run();
+  if (!binding.material.empty() || purpose.empty()) {
+    return binding;
+  }
+  MaterialBinding general = Search{prim, Token(), {}}.run();
+  if (general.cut_collection.empty()) {
+    general.cut_collection = binding.cut_collection;
+  }
+  return general;
+}
+
+Path bound_material(const Prim& prim, Token purpose) {
+  return find_material_binding(prim, purpose).material;
+}
+
+}  // namespace tenon::stage

@@ -1,0 +1,355 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/stage/flatten/flatten.h"
+
+#include <algorithm>
+#include <set>
+#include <unordered_map>
+
+#include "tenon/layer/type_names.h"
+#include "tenon/stage/composed_fields.h"
+#include "tenon/stage/stage_data.h"
+#include "tenon/stage/values/resolve_value.h"
+
+namespace tenon::stage {
+namespace {
+
+using layer::Layer;
+using layer::Spec;
+using layer::SpecKind;
+using layer::Value;
+namespace fields = layer::fields;
+
+class Flattener {
+ public:
+  explicit Flattener(const Stage& stage) : stage_(stage), layer_("anon:flattened.usda") {
+    std::size_t number = 0;
+    for (const Prim& prototype : stage.prototypes()) {
+      Path path;
+      do {
+        const std::string name = "Flattened_Prototype_" + std::to_string(++number);
+        path = Path::absolute_root().child(Token(name));
+      } while (stage.prim(path));
+      prototype_paths_.emplace(prototype.path(), path);
+    }
+  }
+
+  Layer run() {
+    const StageData& data = stage_.data();
+    visit_metadata(data, *data.root, root_opinions(data), AssetForm::Anchored,
+                   [&](Token name, Value value) { copy_field(name, value, layer_.root()); });
+    for (const Token arc : {fields::subLayers, fields::layerRelocates}) {
+      layer_.root().erase(arc);
+    }
+    reserve();
+    copy_below(stage_.pseudo_root(), Path::absolute_root());
+    for (const Prim& prototype : stage_.prototypes()) {
+      copy_prototype(prototype);
+    }
+    put_prototypes_first();
+    if (stage_.is_from_binary()) {
+      layer_.set_from_binary();
+    }
+    return std::move(layer_);
+  }
+
+ private:
+  struct Copy {
+    Prim prim;
+    Path path;
+  };
+
+  /// Room for a spec of each prim and each authored property.
+  void reserve() {
+    std::size_t count = 1;
+    for (const PrimData& prim : stage_.data().prims) {
+      count += 1 + prim.index->property_names.size();
+    }
+    layer_.reserve(count);
+  }
+
+  // Fields that no schema knows are left out, as OpenUSD does.
+  static void copy_field(Token name, const Value& value, Spec& spec) {
+    if (!value.holds<layer::UnregisteredValue>()) {
+      spec.set(name, value);
+    }
+  }
+
+  void copy_prototype(const Prim& prototype) {
+    const Path path = prototype_paths_.at(prototype.path());
+    Spec& spec = layer_.create(path, SpecKind::Prim);
+    spec.set(fields::specifier, layer::Specifier::Over);
+    add_child(Path::absolute_root(), fields::primChildren, path.name());
+    copy_below(prototype, path);
+  }
+
+  // As OpenUSD orders them.
+  void put_prototypes_first() {
+    std::vector<Token> names = layer_.children(Path::absolute_root(), fields::primChildren);
+    if (!names.empty()) {
+      const auto count = static_cast<std::ptrdiff_t>(prototype_paths_.size());
+      std::rotate(names.begin(), names.end() - count, names.end());
+      layer_.root().set(fields::primChildren, std::move(names));
+    }
+  }
+
+  void copy_below(const Prim& root, Path root_path) {
+    std::vector<Copy> pending{{root, root_path}};
+    while (!pending.empty()) {
+      const Copy copy = pending.back();
+      pending.pop_back();
+      if (copy.path != root_path) {
+        copy_prim(copy.prim, copy.path);
+      }
+      if (copy.prim.is_instance()) {
+        continue;
+      }
+      std::vector<Prim> children = copy.prim.children();
+      std::erase_if(children, [](const Prim& child) { return !child.is_active(); });
+      std::vector<Token> names;
+      for (auto child = children.rbegin(); child != children.rend(); ++child) {
+        pending.push_back({*child, copy.path.child(child->name())});
+      }
+      for (const Prim& child : children) {
+        names.push_back(child.name());
+      }
+      if (!names.empty()) {
+        layer_.create(copy.path, SpecKind::Prim).set(fields::primChildren, std::move(names));
+      }
+    }
+  }
+
+  void add_child(Path parent, Token field, Token name) {
+    Spec& spec = layer_.create(parent, SpecKind::Prim);
+    std::vector<Token> names = Layer::children(spec, field);
+    names.push_back(name);
+    spec.set(field, std::move(names));
+  }
+
+  // Paths into prototypes become paths into their flattened copies.
+  Path moved(Path path) const {
+    for (Path at = path; !at.empty(); at = at.parent()) {
+      const auto it = prototype_paths_.find(at);
+      if (it != prototype_paths_.end()) {
+        return path.replace_prefix(it->first, it->second);
+      }
+    }
+    return path;
+  }
+
+  void copy_prim(const Prim& prim, Path path) {
+    Spec& spec = layer_.create(path, SpecKind::Prim);
+    spec.set(fields::specifier, prim.specifier());
+    if (!prim.type_name().empty()) {
+      spec.set(fields::typeName, prim.type_name());
+    }
+    const PrimData& data = *stage_.data().by_path.at(prim.path());
+    copy_prim_metadata(data, spec);
+    if (prim.is_instance()) {
+      layer::Reference reference;
+      reference.prim_path = prototype_paths_.at(prim.prototype().path());
+      layer::ListOp<layer::Reference> references;
+      references.appended.push_back(std::move(reference));
+      spec.set(fields::references, std::move(references));
+    }
+    std::vector<Token> names;
+    for (const Token name : property_names(prim, data)) {
+      if (copy_property(prim, data, path, name)) {
+        names.push_back(name);
+      }
+    }
+    if (!names.empty()) {
+      spec.set(fields::properties, std::move(names));
+    }
+  }
+
+  void copy_prim_metadata(const PrimData& data, Spec& spec) const {
+    visit_metadata(stage_.data(), data, data.index->opinions, AssetForm::Anchored,
+                   [&](Token name, const Value& value) {
+                     if (name != fields::specifier && name != fields::typeName) {
+                       copy_field(name, value, spec);
+                     }
+                   });
+  }
+
+  // False for attributes of types that nobody knows: they are left out, as OpenUSD does.
+  bool copy_property(const Prim& prim, const PrimData& data, Path owner, Token name) {
+    if (const Spec* same = spec_to_share(data, name)) {
+      layer_.create(owner.property(name), SpecKind::Attribute).set_field_list(complete(*same));
+    } else if (prim.is_relationship(name)) {
+      copy_relationship(data, prim.relationship(name), owner.property(name));
+    } else if (const Attribute attribute = prim.attribute(name);
+               layer::find_type_name(attribute.type_name()) != nullptr) {
+      copy_attribute(data, attribute, owner.property(name));
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  // The spec of an attribute's only opinion when flattening would repeat it field by field.
+  static const Spec* spec_to_share(const PrimData& prim, Token name) {
+    const Spec* found = nullptr;
+    bool is_only = prim.clips == nullptr;
+    visit_property_opinions(prim, name, [&](const compose::Opinion& opinion) {
+      is_only = is_only && found == nullptr && opinion.offset.is_identity();
+      found = opinion.spec;
+      return !is_only;
+    });
+    return is_only && found != nullptr && found->kind == SpecKind::Attribute &&
+                   agrees_with_schema(*found, prim.definition->find_stock(name)) &&
+                   stays_the_same(*found)
+               ? found
+               : nullptr;
+  }
+
+  static bool is_custom(const Spec& spec) { return spec.get_or(fields::custom, false); }
+  static layer::Variability variability(const Spec& spec) {
+    return spec.get_or(fields::variability, layer::Variability::Varying);
+  }
+
+  /// The fields of an attribute with what binary layers leave out. Specs that share their fields
+  /// share these, too.
+  layer::FieldList complete(const Spec& spec) {
+    if (spec.has(fields::custom) && spec.has(fields::variability)) {
+      return spec.field_list();
+    }
+    layer::FieldList& completed = completed_[spec.fields().data()];
+    if (completed.items().empty()) {
+      Spec whole = spec;
+      whole.set(fields::custom, is_custom(spec));
+      whole.set(fields::variability, variability(spec));
+      completed = whole.field_list();
+    }
+    return completed;
+  }
+
+  static bool agrees_with_schema(const Spec& spec, const schema::PropertyDefinition* declared) {
+    const auto* type_name = spec.get<Token>(fields::typeName);
+    if (type_name == nullptr) {
+      return false;
+    }
+    return declared == nullptr
+               ? layer::find_type_name(*type_name) != nullptr
+               : declared->type_name == *type_name && !is_custom(spec) &&
+                     declared->variability == variability(spec) && !declared->is_relationship;
+  }
+
+  static bool stays_the_same(const Spec& spec) {
+    for (const layer::Field& field : spec.fields()) {
+      const auto* samples = field.value.get<layer::TimeSamples>();
+      if (samples != nullptr && field.name == fields::timeSamples && !samples->empty()) {
+        for (const Value& value : samples->values) {
+          if (!value.is_block() && !means_same_anywhere(value)) {
+            return false;
+          }
+        }
+      } else if (!means_same_anywhere(field.value) ||
+                 (field.name != fields::default_value && is_structure(field.name))) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // Clips may give values to attributes that no layer of the stage names.
+  static std::vector<Token> property_names(const Prim& prim, const PrimData& data) {
+    if (data.clips == nullptr) {
+      return prim.authored_property_names();
+    }
+    std::vector<Token> names = prim.property_names();
+    const std::vector<Token>& authored = data.index->property_names;
+    std::erase_if(names, [&](Token name) {
+      return std::find(authored.begin(), authored.end(), name) == authored.end() &&
+             (prim.is_relationship(name) || !prim.attribute(name).has_authored_value());
+    });
+    return names;
+  }
+
+  // An empty list leaves no trace in what OpenUSD flattens.
+  void copy_targets(Spec& spec, Token field, std::vector<Path> targets) {
+    if (targets.empty()) {
+      return;
+    }
+    for (Path& target : targets) {
+      target = moved(target);
+    }
+    spec.set(field, layer::ListOp<Path>::make_explicit(std::move(targets)));
+  }
+
+  // The weakest opinion decides, as in OpenUSD; what schemas declare is not custom.
+  static bool is_custom(const PrimData& prim, Token name, const std::vector<SpecSite>& sites) {
+    return prim.definition->find_stock(name) == nullptr && !sites.empty() &&
+           sites.back().spec->get_or(fields::custom, false);
+  }
+
+  void copy_metadata(const PrimData& prim, Token name, Spec& spec) {
+    visit_metadata(stage_.data(), prim, property_opinions(prim, name), AssetForm::Anchored,
+                   [&](Token field, const Value& value) {
+                     if (field != fields::targetPaths && field != fields::connectionPaths) {
+                       copy_field(field, value, spec);
+                     }
+                   });
+  }
+
+  void copy_relationship(const PrimData& prim, const Relationship& relationship, Path path) {
+    Spec& spec = layer_.create(path, SpecKind::Relationship);
+    copy_metadata(prim, relationship.name(), spec);
+    spec.set(fields::custom, is_custom(prim, relationship.name(), relationship.spec_stack()));
+    if (relationship.has_authored_targets()) {
+      copy_targets(spec, fields::targetPaths, relationship.targets());
+    }
+  }
+
+  void copy_attribute(const PrimData& prim, const Attribute& attribute, Path path) {
+    Spec& spec = layer_.create(path, SpecKind::Attribute);
+    copy_metadata(prim, attribute.name(), spec);
+    spec.set(fields::typeName, attribute.type_name());
+    spec.set(fields::custom, is_custom(prim, attribute.name(), attribute.spec_stack()));
+    spec.set(fields::variability, attribute.variability());
+    copy_values(prim, attribute, spec);
+    if (attribute.has_authored_connections()) {
+      copy_targets(spec, fields::connectionPaths, attribute.connections());
+    }
+  }
+
+  void copy_values(const PrimData& prim, const Attribute& attribute, Spec& spec) const {
+    const Token name = attribute.name();
+    const ResolvedValue unanimated = resolve_value(prim, name, Asked::DefaultTime);
+    if (unanimated.blocked) {
+      spec.set(fields::default_value, layer::ValueBlock{});
+    } else if (unanimated.source == ValueSource::Default) {
+      Value value = read(prim, name, unanimated, Time());
+      spec.set(fields::default_value,
+               value.empty() ? Value(layer::ValueBlock{}) : std::move(value));
+    }
+    const ResolvedValue animated = resolve_value(prim, name, Asked::AnyTime);
+    layer::TimeSamples samples;
+    for (const double time : attribute.time_samples()) {
+      Value value = read(prim, name, animated, time);
+      samples.times.push_back(time);
+      samples.values.push_back(value.empty() ? Value(layer::ValueBlock{}) : std::move(value));
+    }
+    if (!samples.empty()) {
+      spec.set(fields::timeSamples, std::move(samples));
+    }
+    if (const std::optional<layer::Spline> spline = attribute.spline()) {
+      spec.set(fields::spline, *spline);
+    }
+  }
+
+  Value read(const PrimData& prim, Token name, const ResolvedValue& resolved, Time time) const {
+    return read_value(stage_.data(), prim, name, resolved, time, AssetForm::Anchored);
+  }
+
+  const Stage& stage_;
+  Layer layer_;
+  std::unordered_map<Path, Path> prototype_paths_;
+  std::unordered_map<const layer::Field*, layer::FieldList> completed_;  // by authored fields
+};
+
+}  // namespace
+
+layer::Layer flatten(const Stage& stage) { return Flattener(stage).run(); }
+
+}  // namespace tenon::stage

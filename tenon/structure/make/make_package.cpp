@@ -1,0 +1,525 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/structure/make/make_package.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "tenon/physics/read_physics.h"
+#include "tenon/stage/stage.h"
+#include "tenon/structure/layer_tree.h"
+#include "tenon/structure/make/child_order.h"
+#include "tenon/structure/make/collect_assets.h"
+#include "tenon/structure/make/interface_layer.h"
+#include "tenon/structure/make/link_nesting.h"
+#include "tenon/structure/make/local_materials.h"
+#include "tenon/structure/make/mesh_wrappers.h"
+#include "tenon/structure/make/robot_metadata.h"
+#include "tenon/structure/make/schema_generation.h"
+#include "tenon/structure/make/sleeping_colliders.h"
+#include "tenon/structure/make/source_views.h"
+#include "tenon/structure/make/split.h"
+#include "tenon/structure/proof/content.h"
+#include "tenon/structure/proof/proof.h"
+
+namespace tenon::structure {
+namespace {
+
+using layer::Layer;
+
+/// One variant of "Physics" in the making.
+struct View {
+  std::string variant;
+  Role role = Role::Base;     ///< Base for "none"
+  Layer plain;                ///< what the source has of it
+  Layer content;              ///< with wrappers, local materials and robot metadata
+  std::optional<Layer> over;  ///< its own layer; none: nothing to say
+};
+
+/// Whose content a variant holds. A variant of another name is for nobody knows which engine.
+RoleSet roles_in(Role role) {
+  switch (role) {
+    case Role::Base:
+      return RoleSet();
+    case Role::Engine:
+      return RoleSet(Role::Physics, Role::Physx, Role::Mujoco, Role::Newton);
+    default:
+      return RoleSet(Role::Physics, role);
+  }
+}
+
+/// Where a prim stood before it, or the closest one above it that did, moved.
+Path first_place(Path prim, const std::map<Path, Path>& moves) {
+  Path first = prim;
+  std::size_t closest = 0;
+  for (const auto& [from, to] : moves) {
+    const std::size_t depth = to.prefixes().size();
+    if (prim.has_prefix(to) && depth > closest) {
+      first = prim.replace_prefix(to, from);
+      closest = depth;
+    }
+  }
+  return first;
+}
+
+class Maker {
+ public:
+  Maker(const AssetSource& source, const StructureOptions& options, Diagnostics& diagnostics)
+      : source_(source), options_(options), diagnostics_(diagnostics) {}
+
+  Result<StructuredAsset> run() {
+    TENON_TRY(sources_, read_views(source_, diagnostics_));
+    TENON_CHECK(change_generation());
+    TENON_CHECK(move_links());
+    make_views();
+    TENON_CHECK(give_wrappers());
+    make_base();
+    make_overs();
+    make_other_variants();
+    TENON_CHECK(make_files());
+    make_interface();
+    list_moves();
+    assets_ = collect_assets(source_, options_.names, asset_.package, diagnostics_);
+    TENON_CHECK(store_layers(asset_.package));
+    TENON_CHECK(prove());
+    return std::move(asset_);
+  }
+
+ private:
+  // The variants and what the source has of them.
+
+  void add_view(const std::string& variant, Role role, const Layer& from) {
+    View& view = views_.emplace_back(View{variant, role, from, Layer(from.identifier()), {}});
+    keep_roles(view.plain, roles_in(role));
+    view.content = view.plain;
+  }
+
+  const SourceView& chosen() const { return sources_.physics[sources_.chosen]; }
+
+  /// A view of the source with content of this owner, the chosen one first.
+  const SourceView* view_with(Role owner) const {
+    if (has_content_of(chosen().content, owner)) {
+      return &chosen();
+    }
+    for (const SourceView& view : sources_.physics) {
+      if (has_content_of(view.content, owner)) {
+        return &view;
+      }
+    }
+    return nullptr;
+  }
+
+  void make_views() {
+    const SourceView* none = sources_.find(kNoVariant);
+    add_view(std::string(kNoVariant), Role::Base, (none != nullptr ? *none : chosen()).content);
+    for (const Role role : {Role::Physics, Role::Mujoco, Role::Newton, Role::Physx}) {
+      const std::string variant(role_name(role));
+      const SourceView* view = sources_.find(variant);
+      view = view != nullptr ? view : view_with(role);
+      if (view != nullptr) {
+        add_view(variant, role, view->content);
+      }
+    }
+    for (const SourceView& view : sources_.physics) {
+      const bool engine = role_of_physics_variant(view.variant) == Role::Engine;
+      if (engine && view.variant != kNoVariant && !view.variant.empty()) {
+        add_view(view.variant, Role::Engine, view.content);
+      }
+    }
+  }
+
+  View* find(std::string_view variant) {
+    const auto found = std::find_if(views_.begin(), views_.end(),
+                                    [&](const View& view) { return view.variant == variant; });
+    return found == views_.end() ? nullptr : &*found;
+  }
+
+  // Schemas.
+
+  /// Proven as well: the physics of every variant stays what it was.
+  Result<void> change_generation() {
+    if (options_.schema == SchemaGeneration::AsAuthored) {
+      return {};
+    }
+    const std::vector<SourceView> before = sources_.physics;
+    const std::set<std::string> widened = use_generation(sources_, options_.schema, diagnostics_);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const SourceView& after = sources_.physics[i];
+      if (widened.contains(after.variant)) {
+        continue;
+      }
+      TENON_TRY(const scene::PhysicsScene was, physics_of(before[i].content));
+      TENON_TRY(const scene::PhysicsScene is, physics_of(after.content));
+      if (const auto where = compare_physics(was, is, [](Path path) { return path; })) {
+        return differs("Physics=" + after.variant, *where, "the physics in other schemas");
+      }
+    }
+    return {};
+  }
+
+  // Links.
+
+  Result<void> move_links() {
+    if (options_.links == LinkNesting::AsAuthored) {
+      return {};
+    }
+    std::vector<const Layer*> contents;
+    for (const SourceView& view : sources_.physics) {
+      contents.push_back(&view.content);
+    }
+    const Layer united = unite(contents);
+    TENON_TRY(const scene::PhysicsScene scene, physics_of(united));
+    const LinkMoves& moves = links_.emplace(united, scene, options_.links, diagnostics_);
+    if (moves.empty()) {
+      return {};
+    }
+    for (SourceView& view : sources_.physics) {
+      TENON_CHECK(move_links(moves, "Physics=" + view.variant, view.content));
+    }
+    for (OtherVariant& other : sources_.others) {
+      TENON_CHECK(move_links(moves, other.set + "=" + other.variant, other.content));
+    }
+    return {};
+  }
+
+  /// Proven as well: nothing stands elsewhere or moves otherwise.
+  Result<void> move_links(const LinkMoves& moves, const std::string& variant,
+                          Layer& content) const {
+    TENON_TRY(const stage::Stage before, stage_of(content));
+    Layer result = moves.apply(content, before);
+    TENON_TRY(const stage::Stage after, stage_of(result));
+    if (const auto where = moves.compare(content, before, after)) {
+      return differs(variant, *where, "the scene with its links moved");
+    }
+    content = std::move(result);
+    return {};
+  }
+
+  Result<stage::Stage> stage_of(const Layer& content) const {
+    return stage::Stage::open(std::make_shared<Layer>(content), nullptr, source_.open_layer);
+  }
+
+  Result<scene::PhysicsScene> physics_of(const Layer& content) const {
+    TENON_TRY(const stage::Stage stage, stage_of(content));
+    return physics_of(stage);
+  }
+
+  scene::PhysicsScene physics_of(const stage::Stage& stage) const {
+    physics::ReadOptions options;
+    options.mesh_cache = &meshes_;
+    options.mesh_tools = scene::MeshTools{};  // both sides have the same meshes
+    Diagnostics ignored;
+    return physics::read_physics(stage, options, ignored);
+  }
+
+  // Wrappers, local materials, metadata: the same for all.
+
+  void prepare(Layer& content) const {
+    content = moves_->apply(content);
+    localize_materials(content, instance_material_scope(options_.names));
+  }
+
+  std::vector<const Layer*> contents() const {
+    std::vector<const Layer*> all;
+    for (const View& view : views_) {
+      if (view.role != Role::Base) {
+        all.push_back(&view.content);
+      }
+    }
+    all.push_back(&views_.front().content);
+    return all;
+  }
+
+  Result<void> give_wrappers() {
+    moves_.emplace(unite(contents()));
+    for (View& view : views_) {
+      prepare(view.content);
+    }
+    const View* physics = views_.size() > 1 ? &views_[1] : nullptr;
+    if (physics == nullptr) {
+      return {};
+    }
+    TENON_TRY(const scene::PhysicsScene scene, physics_of(physics->content));
+    order_ = kinematic_order(physics->content, scene);
+    for (View& view : views_) {
+      add_robot_metadata(view.content, order_);
+    }
+    return {};
+  }
+
+  // What all share, and what each lays over it.
+
+  void make_base() {
+    colliders_ = pure_colliders(unite(contents()));
+    base_ = views_.front().content;
+    put_to_sleep(base_, colliders_);
+    put_to_sleep(views_.front().content, colliders_);
+    for (const View& view : views_) {
+      fill_sleeping(base_, view.content, colliders_);
+    }
+    put_robot_order_first(base_);
+    const View* physics = find(role_name(Role::Physics));
+    for (View& view : views_) {
+      if (physics != nullptr && view.role != Role::Physics) {
+        order_like(view.content, physics->content);  // what the engine's layer is put over
+      }
+      order_like(view.content, base_);
+    }
+  }
+
+  void make_overs() {
+    const View* physics = find(role_name(Role::Physics));
+    Layer neutral = base_;
+    for (View& view : views_) {
+      if (view.role == Role::Base) {
+        continue;
+      }
+      Layer over = difference(view.role == Role::Physics || physics == nullptr ? base_ : neutral,
+                              view.content, identifier_in_package(file_of(view)));
+      note_touched(over);
+      if (!prims_below(over).empty()) {
+        view.over = std::move(over);
+      }
+      if (view.role == Role::Physics) {
+        neutral = view.content;
+        add_sleeping(neutral, base_);
+      }
+    }
+  }
+
+  void note_touched(const Layer& over) {
+    for (const Path& prim : prims_below(over)) {
+      split_.touched.insert(prim);
+    }
+  }
+
+  void make_other_variants() {
+    if (sources_.others.empty()) {
+      return;
+    }
+    Layer weak = chosen().content;
+    prepare(weak);
+    for (const OtherVariant& other : sources_.others) {
+      Layer strong = other.content;
+      prepare(strong);
+      order_like(strong, base_);
+      const std::string name = file_of_variant(other.set, other.variant);
+      Layer over = difference(weak, strong, identifier_in_package(name));
+      note_touched(over);
+      const bool empty = prims_below(over).empty();
+      interface_.others.push_back({other.set, other.variant, empty ? "" : name});
+      if (!empty) {
+        other_files_.emplace(name, std::move(over));
+      }
+    }
+  }
+
+  std::string file_of(const View& view) const {
+    return file_of_variant(std::string(kPhysicsSet), view.variant);
+  }
+
+  // Files.
+
+  Result<void> make_files() {
+    split_.names = options_.names;
+    if (options_.overridable_colliders) {
+      split_.overridable = colliders_;
+    }
+    TENON_TRY(BaseFiles files, split_base(base_, split_));
+    if (!files.robot.children(Path::absolute_root(), "primChildren").empty()) {
+      files.base.root().set("subLayers", std::vector<std::string>{relative_name(
+                                             Role::Base, Role::Robot, options_.names)});
+    }
+    put(Role::Base, std::move(files.base));
+    put(Role::Robot, std::move(files.robot));
+    put(Role::Instances, std::move(files.instances));
+    put(Role::Geometries, std::move(files.geometries));
+    put(Role::Materials, std::move(files.materials));
+    const View* physics = find(role_name(Role::Physics));
+    for (View& view : views_) {
+      if (!view.over) {
+        continue;
+      }
+      if (view.role != Role::Physics && physics != nullptr && physics->over) {
+        view.over->root().set("subLayers", std::vector<std::string>{"./physics.usda"});
+      }
+      put_file(file_of(view), *view.over, true);
+    }
+    for (const auto& [name, layer] : other_files_) {
+      put_file(name, layer, true);
+    }
+    return {};
+  }
+
+  void put(Role role, Layer layer) {
+    if (prims_below(layer).empty() && role != Role::Base) {
+      return;
+    }
+    put_file(file_name(role, options_.names), std::move(layer), root_scope(role).empty());
+  }
+
+  void put_file(const std::string& name, Layer layer, bool of_robot) {
+    put_stage_metadata(base_, layer, of_robot);
+    PackageFile file;
+    file.format = role_of_file_name(name) == Role::Geometries ? formats::LayerFormat::Crate
+                                                              : formats::LayerFormat::Text;
+    file.layer = std::make_shared<Layer>(std::move(layer));
+    asset_.package.files[name] = std::move(file);
+  }
+
+  /// The file that a variant's payload leads to; empty for none.
+  std::string payload_of(const View& view) {
+    const View* physics = find(role_name(Role::Physics));
+    const bool engine = view.role != Role::Base && physics != nullptr && physics->over;
+    return view.over ? file_of(view) : (engine ? file_of(*physics) : "");
+  }
+
+  void make_interface() {
+    interface_.robot = sources_.robot;
+    interface_.base = file_name(Role::Base, options_.names);
+    for (const View& view : views_) {
+      interface_.physics.push_back({std::string(kPhysicsSet), view.variant, payload_of(view)});
+      asset_.physics_variants.push_back(view.variant);
+    }
+    asset_.selection = selection();
+    for (const OtherVariant& other : sources_.others) {  // sets of no variant have no place
+      const auto selected = sources_.other_selections.find(other.set);
+      if (selected != sources_.other_selections.end()) {
+        interface_.selections.insert(*selected);
+      }
+    }
+    interface_.selections[std::string(kPhysicsSet)] = asset_.selection;
+    const std::string name = options_.name.empty() ? sources_.robot.str() : options_.name;
+    asset_.package.interface = name + ".usda";
+    Layer layer = interface_layer(base_, interface_, identifier_in_package(name + ".usda"));
+    PackageFile file;
+    file.layer = std::make_shared<Layer>(std::move(layer));
+    asset_.package.files[asset_.package.interface] = std::move(file);
+  }
+
+  /// Below the default prim came what was beside it, then links moved, then meshes got wrappers.
+  void list_moves() {
+    const std::map<Path, Path> links = links_ ? links_->all() : std::map<Path, Path>();
+    for (const auto& [from, to] : links) {
+      asset_.moved.emplace(first_place(from, sources_.moved), to);
+    }
+    for (const auto& [from, to] : moves_->all()) {
+      asset_.moved.emplace(first_place(first_place(from, links), sources_.moved), to);
+    }
+    for (const auto& [from, to] : sources_.moved) {
+      asset_.moved.emplace(from, links_ ? links_->moved(to) : to);
+    }
+  }
+
+  /// The source's, where it leads to something; else the strongest that does.
+  std::string selection() {
+    if (find(sources_.selection) != nullptr) {
+      return sources_.selection;
+    }
+    for (const char* name : {"physx", "mujoco", "newton", "physics"}) {
+      const View* view = find(name);
+      if (view != nullptr && view->over) {
+        return name;
+      }
+    }
+    return views_.back().over ? views_.back().variant : std::string(kNoVariant);
+  }
+
+  // The proof.
+
+  static Error differs(const std::string& variant, const Disagreement& where, const char* of) {
+    Diagnostic diagnostic;
+    diagnostic.severity = Severity::Error;
+    diagnostic.rule = "structure.differs";
+    diagnostic.message = std::string("the structured asset would not be the same: ") + of +
+                         " under " + variant + ": " + where.what;
+    diagnostic.prim = where.prim;
+    diagnostic.property = where.property;
+    diagnostic.fix = "nothing was written; please report the asset";
+    return {ErrorCode::Invalid, std::move(diagnostic)};
+  }
+
+  Result<void> prove() {
+    for (const View& view : views_) {
+      TENON_CHECK(prove(view));
+    }
+    for (const OtherVariant& other : sources_.others) {
+      TENON_CHECK(prove(other));
+    }
+    return {};
+  }
+
+  Result<stage::Stage> open_view(const std::string& set, const std::string& variant) const {
+    std::map<std::string, std::string> selections;
+    for (const std::string& other : sources_.set_order) {
+      selections[other] = "";
+    }
+    selections[std::string(kPhysicsSet)] = chosen_variant();
+    selections[set] = variant;
+    return open_package(asset_.package, selections);
+  }
+
+  std::string chosen_variant() const {
+    return chosen().variant.empty() ? asset_.selection : chosen().variant;
+  }
+
+  Result<void> prove(const View& view) const {
+    TENON_TRY(const stage::Stage stage, open_view(std::string(kPhysicsSet), view.variant));
+    TENON_TRY(Layer found, content_of(stage));
+    if (const auto where = compare_contents(with_collected_assets(view.content, assets_), found)) {
+      return differs("Physics=" + view.variant, *where, "the stage");
+    }
+    if (view.role == Role::Base) {
+      return {};  // has none
+    }
+    TENON_TRY(const scene::PhysicsScene before, physics_of(view.plain));
+    const auto where = compare_physics(before, physics_of(stage),
+                                       [this](Path path) { return moves_->moved(path); });
+    return where ? Result<void>(differs("Physics=" + view.variant, *where, "the physics"))
+                 : Result<void>();
+  }
+
+  Result<void> prove(const OtherVariant& other) {
+    const View* view = find(chosen_variant());
+    const Role role = view == nullptr ? Role::Base : view->role;
+    Layer plain = other.content;
+    prepare(plain);
+    keep_roles(plain, roles_in(role));
+    add_robot_metadata(plain, order_);
+    if (role == Role::Base) {
+      put_to_sleep(plain, colliders_);
+    }
+    TENON_TRY(const stage::Stage stage, open_view(other.set, other.variant));
+    TENON_TRY(Layer found, content_of(stage));
+    keep_roles(found, roles_in(role));
+    const auto where = compare_contents(with_collected_assets(plain, assets_), found);
+    return where ? Result<void>(differs(other.set + "=" + other.variant, *where, "the stage"))
+                 : Result<void>();
+  }
+
+  const AssetSource& source_;
+  const StructureOptions& options_;
+  Diagnostics& diagnostics_;
+  SourceViews sources_;
+  std::vector<View> views_;  // "none" first, then "physics" where it is
+  std::optional<LinkMoves> links_;
+  std::optional<MeshMoves> moves_;
+  std::set<Path> colliders_;
+  KinematicOrder order_;
+  Layer base_{"anon:base.usda"};
+  SplitOptions split_;
+  std::map<std::string, Layer> other_files_;
+  InterfaceParts interface_;
+  CollectedAssets assets_;
+  StructuredAsset asset_;
+  mutable physics::MeshCache meshes_;
+};
+
+}  // namespace
+
+Result<StructuredAsset> make_package(const AssetSource& source, const StructureOptions& options,
+                                     Diagnostics& diagnostics) {
+  return Maker(source, options, diagnostics).run();
+}
+
+}  // namespace tenon::structure
