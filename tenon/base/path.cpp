@@ -193,16 +193,9 @@ Path Path::relative_root() {
 
 Path Path::make(const PathNode* parent, PathKind kind, Token name, Token variant,
                 const PathNode* target) {
-  PathNode node;
-  node.parent = parent;
-  node.target = target;
-  node.name = name;
-  node.variant = variant;
-  node.kind = kind;
-  node.absolute = parent->absolute;
-  node.has_variant = parent->has_variant || kind == PathKind::VariantSelection;
-  node.depth = (parent->depth + 1) & kDepthMask;
-  return Path(intern_below(node));
+  const bool has_variant = parent->has_variant || kind == PathKind::VariantSelection;
+  return Path(intern_below({parent, target, name, variant, 0, kind, parent->absolute, has_variant,
+                            (parent->depth + 1) & kDepthMask}));
 }
 
 Path Path::child(Token name) const {

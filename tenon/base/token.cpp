@@ -101,9 +101,13 @@ NumberRun number_run(std::string_view text) {
 
 }  // namespace
 
-Token::Token() {
-  static const std::string* empty = intern("");
-  text_ = empty;
+// There before anything runs: tokens are made before main() too.
+constinit std::atomic<const std::string*> Token::empty_{nullptr};
+
+const std::string* Token::intern_empty() {
+  const std::string* const text = intern("");
+  empty_.store(text, std::memory_order_relaxed);
+  return text;
 }
 
 Token::Token(std::string_view text) : text_(intern(text)) {}

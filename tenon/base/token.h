@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +15,11 @@ namespace tenon {
 /// An interned name: equality and hashing cost one pointer. The text lives as long as the process.
 class Token {
  public:
-  Token();
+  Token() : text_(empty_.load(std::memory_order_relaxed)) {
+    if (text_ == nullptr) {
+      text_ = intern_empty();
+    }
+  }
   Token(std::string_view text);
   Token(const char* text) : Token(std::string_view(text)) {}
   Token(const std::string& text) : Token(std::string_view(text)) {}
@@ -33,6 +38,9 @@ class Token {
   }
 
  private:
+  static const std::string* intern_empty();
+
+  static std::atomic<const std::string*> empty_;  // the text of Token(), once it was asked for
   const std::string* text_;
 };
 
