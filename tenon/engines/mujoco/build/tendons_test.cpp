@@ -77,6 +77,7 @@ TEST(Tendons, GoAroundShapesThatNothingTouches) {
 }
 
 TEST(Options, AreReadBackUnderTheirNames) {
+  ASSERT_TRUE(open_mujoco());
   mjOption option;
   mj_defaultOption(&option);
   std::vector<std::string> unnamed;
