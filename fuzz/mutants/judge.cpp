@@ -158,17 +158,23 @@ std::string left_behind(const Mutant& mutant, const Command& command, const std:
 std::string fault_of_reading_back(const Subject& subject, const Command& command,
                                   const std::string& folder) {
   const std::string outer = fs::path(folder).parent_path().string();
-  // What is binary need not have a text.
-  const bool is_text = command.output.ends_with(".usda");
-  const std::string format = is_text ? "usda" : "usdc";
-  const ProgramCall call{{subject.program, "cat", command.output, "--format", format},
-                         folder,
-                         outer + "/stdout",
-                         outer + "/stderr",
-                         subject.environment};
-  const ProgramRun run = run_program(call, subject.limits());
-  if (run.signal == 0 && run.exit == 0) {
-    return "";
+  // What is binary need not have a text, and text may hold what no binary file can; a package holds
+  // either.
+  const std::string_view output = command.output;
+  std::vector<std::string> formats{output.ends_with(".usda") ? "usda" : "usdc"};
+  if (output.ends_with(".usdz")) {
+    formats.emplace_back("usda");
+  }
+  for (const std::string& format : formats) {
+    const ProgramCall call{{subject.program, "cat", command.output, "--format", format},
+                           folder,
+                           outer + "/stdout",
+                           outer + "/stderr",
+                           subject.environment};
+    const ProgramRun run = run_program(call, subject.limits());
+    if (run.signal == 0 && run.exit == 0) {
+      return "";
+    }
   }
   return "unreadable: " + command.output +
          " does not read back: " + start_of(outer + "/stderr", 160);

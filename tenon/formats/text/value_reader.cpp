@@ -8,7 +8,7 @@
 
 #include "tenon/base/limits/limits.h"
 #include "tenon/formats/text/literals.h"
-#include "tenon/formats/text/write/plain_elements.h"
+#include "tenon/formats/text/plain_elements.h"
 #include "tenon/layer/field_values.h"
 
 namespace tenon::formats::text {
