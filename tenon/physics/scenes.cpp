@@ -147,7 +147,7 @@ void read_scenes(ReadState& state) {
     scene.path = found.path;
     scene.gravity = read_gravity(state, found.prim, found.roles);
     scene.time_step = read_time_step(state, found.prim, found.roles);
-    scene.mujoco = read_mujoco(found.prim, found.roles);
+    scene.parts.mujoco = read_mujoco(found.prim, found.roles);
     state.scene.scenes.push_back(std::move(scene));
   }
   if (prims.empty()) {

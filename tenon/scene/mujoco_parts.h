@@ -38,6 +38,12 @@ struct MujocoSoftness {
   std::vector<double> solimp_friction;  ///< (5)
 };
 
+/// What MjcEqualityJointAPI says of the constraint of a mimic; empty: not authored.
+struct MujocoEquality {
+  std::vector<double> solref;  ///< (2)
+  std::vector<double> solimp;  ///< (5)
+};
+
 /// What the path of a spatial tendon meets.
 struct TendonStop {
   enum class Kind : std::uint8_t {

@@ -15,6 +15,7 @@
 #include "tenon/math/transform.h"
 #include "tenon/math/vector.h"
 #include "tenon/scene/mujoco_parts.h"
+#include "tenon/scene/vendor_parts.h"
 
 /// The neutral description of a physics scene: what every engine receives. Plain structs; metres,
 /// kilograms, seconds, radians; world axes as the stage has them. Knows neither USD composition nor
@@ -29,8 +30,7 @@ struct Scene {
   Vec3d gravity;  ///< [m/s^2]
   std::optional<double>
       time_step;  ///< [s] asked for by the asset (Newton, PhysX or MuJoCo scene API)
-  /// What MjcSceneAPI authors, but for the time step; none without that API.
-  std::optional<std::vector<MujocoSetting>> mujoco{};
+  SceneParts parts{};
 };
 
 enum class MassSource : std::uint8_t { Authored, Density, Default };
@@ -141,7 +141,7 @@ struct Collider {
   std::optional<double> contact_offset;  ///< distance at which contacts begin to be made [m]
   std::optional<double> rest_offset;     ///< [m]
   std::optional<int> max_hull_vertices;
-  MujocoContact mujoco;
+  ColliderParts parts;
 };
 
 /// How the coefficients of two materials become that of a contact; of two modes the later one in
@@ -212,8 +212,7 @@ struct Mimic {
   std::array<double, 3> higher{};  ///< coefficients of leader^2..leader^4
   double natural_frequency = 0;
   double damping_ratio = 0;
-  std::vector<double> mujoco_solref;  ///< mjc:solref when authored
-  std::vector<double> mujoco_solimp;
+  MimicParts parts;
 };
 
 struct Joint {
@@ -249,7 +248,7 @@ struct Joint {
   /// Initial coordinate and velocity from the joint state API [rad or m]; none: from the poses.
   std::optional<double> initial_position;
   std::optional<double> initial_velocity;
-  MujocoSoftness mujoco;
+  JointParts parts;
 
   /// The one degree of freedom of revolute and prismatic joints.
   Dof dof() const;

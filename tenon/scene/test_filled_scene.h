@@ -42,7 +42,7 @@ inline PhysicsScene filled_scene() {
     }
   }
   for (Scene& one : scene.scenes) {
-    for (MujocoSetting& setting : *one.mujoco) {
+    for (MujocoSetting& setting : *one.parts.mujoco) {
       setting.token.clear();
     }
   }

@@ -29,14 +29,14 @@ void report_not_mapped(const Model& model, Diagnostics& diagnostics) {
 /// Where the asset speaks of MuJoCo's options, what it does not say is MuJoCo's default, not that
 /// of simulations.
 Result<void> restore_options(const scene::PhysicsScene& scene, mjSpec& spec) {
-  if (!scene.scenes.front().mujoco) {
+  if (!scene.scenes.front().parts.mujoco) {
     return {};
   }
   mjOption option;
   mj_defaultOption(&option);
   option.timestep = spec.option.timestep;
   std::copy_n(spec.option.gravity, 3, option.gravity);
-  for (const scene::MujocoSetting& setting : *scene.scenes.front().mujoco) {
+  for (const scene::MujocoSetting& setting : *scene.scenes.front().parts.mujoco) {
     apply_setting(setting, option);  // what it does not take is reported by now
   }
   spec.option = option;

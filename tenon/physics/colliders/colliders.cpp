@@ -63,7 +63,7 @@ void read_contact_settings(const ReadState& state, const PhysicsPrim& found, Col
   }
   if (roles.has(Api::MjcCollision)) {
     take(tokens.mjc_margin, tokens.mjc_gap);
-    collider.mujoco = read_mujoco_contact(state, found);
+    collider.parts.mujoco = read_mujoco_contact(state, found);
   }
   read_hull_vertices(state, found, collider);
 }

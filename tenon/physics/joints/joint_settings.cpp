@@ -116,7 +116,7 @@ class SettingReader {
     take(t.mjc_armature, units_.armature, joint_.armature);
     take(t.mjc_friction, units_.force, joint_.friction);
     take(t.mjc_damping, units_.per_radian, joint_.damping);
-    joint_.mujoco = read_mujoco_softness(state_, found_);
+    joint_.parts.mujoco = read_mujoco_softness(state_, found_);
     take(t.mjc_stiffness, units_.per_radian, joint_.stiffness);
     if (const std::optional<double> rest = number(t.mjc_spring_reference)) {
       joint_.spring_reference = *rest * (angular_ ? kRadians : state_.units.length);

@@ -185,8 +185,8 @@ class MimicReader {
         law(dof, *lead, multiplier, offset, mujoco ? "MjcEqualityJointAPI" : "NewtonMimicAPI");
     if (mujoco) {
       mimic.higher = {number("mjc:coef2", 0), number("mjc:coef3", 0), number("mjc:coef4", 0)};
-      mimic.mujoco_solref = numbers("mjc:solref");
-      mimic.mujoco_solimp = numbers("mjc:solimp");
+      mimic.parts.mujoco.solref = numbers("mjc:solref");
+      mimic.parts.mujoco.solimp = numbers("mjc:solimp");
     }
     follower_.mimics.push_back(std::move(mimic));
   }

@@ -75,6 +75,7 @@ struct FieldInfo {
   Presence presence = Presence::Always;
   Role role = Role::Physics;
   bool inlined = false;     ///< its own fields stand among those of the struct
+  bool of_vendor = false;   ///< schemas of one vendor alone can say it
   bool unordered = false;   ///< of a list: its order says nothing
   double tolerance = 1e-9;  ///< relative; two numbers nearer to each other are equal to the proof
   /// The name in differences; empty: that of JSON, in words.

@@ -24,6 +24,21 @@ struct Table<MujocoSetting> {
   };
 };
 
+/// The row of what single vendors say of an object.
+inline constexpr FieldInfo kPartsField{
+    .name = "parts", .meaning = "of single vendors", .inlined = true, .of_vendor = true};
+
+template <>
+struct Table<SceneParts> {
+  static constexpr std::string_view kWord = "parts of vendors";
+  static constexpr std::tuple kFields{
+      field<&SceneParts::mujoco>({.name = "mujoco",
+                                  .meaning = "what MjcSceneAPI authors, but for the time step",
+                                  .presence = Presence::WhenSet,
+                                  .words = "MuJoCo"}),
+  };
+};
+
 template <>
 struct Table<Scene> {
   static constexpr std::string_view kWord = "scene";
@@ -38,10 +53,7 @@ struct Table<Scene> {
                                 .meaning = "asked for by the asset",
                                 .unit = Unit::Second,
                                 .presence = Presence::Null}),
-      field<&Scene::mujoco>({.name = "mujoco",
-                             .meaning = "what MjcSceneAPI authors, but for the time step",
-                             .presence = Presence::WhenSet,
-                             .words = "MuJoCo"}),
+      field<&Scene::parts>(kPartsField),
   };
 };
 
@@ -203,6 +215,17 @@ struct Table<MujocoContact> {
 };
 
 template <>
+struct Table<ColliderParts> {
+  static constexpr std::string_view kWord = "parts of vendors";
+  static constexpr std::tuple kFields{
+      field<&ColliderParts::mujoco>({.name = "mujoco",
+                                     .meaning = "what MjcCollisionAPI authors",
+                                     .presence = Presence::WhenSet,
+                                     .words = "MuJoCo"}),
+  };
+};
+
+template <>
 struct Table<Collider> {
   static constexpr std::string_view kWord = "collider";
   static constexpr std::tuple kFields{
@@ -235,10 +258,7 @@ struct Table<Collider> {
                                            .meaning = "of the convex hull",
                                            .presence = Presence::WhenSet,
                                            .words = "max vertices of the hull"}),
-      field<&Collider::mujoco>({.name = "mujoco",
-                                .meaning = "what MjcCollisionAPI authors",
-                                .presence = Presence::WhenSet,
-                                .words = "MuJoCo"}),
+      field<&Collider::parts>(kPartsField),
   };
 };
 
@@ -315,6 +335,30 @@ struct Table<Drive> {
 };
 
 template <>
+struct Table<MujocoEquality> {
+  static constexpr std::string_view kWord = "equality";
+  static constexpr std::tuple kFields{
+      field<&MujocoEquality::solref>({.name = "mujocoSolref",
+                                      .meaning = "mjc:solref",
+                                      .presence = Presence::WhenSet,
+                                      .words = "solref of MuJoCo"}),
+      field<&MujocoEquality::solimp>({.name = "mujocoSolimp",
+                                      .meaning = "mjc:solimp",
+                                      .presence = Presence::WhenSet,
+                                      .words = "solimp of MuJoCo"}),
+  };
+};
+
+template <>
+struct Table<MimicParts> {
+  static constexpr std::string_view kWord = "parts of vendors";
+  static constexpr std::tuple kFields{
+      field<&MimicParts::mujoco>(
+          {.name = "mujoco", .meaning = "what MjcEqualityJointAPI authors", .inlined = true}),
+  };
+};
+
+template <>
 struct Table<Mimic> {
   static constexpr std::string_view kWord = "mimic";
   static constexpr std::tuple kFields{
@@ -332,19 +376,13 @@ struct Table<Mimic> {
       field<&Mimic::offset>({.name = "offset", .meaning = "added to it", .unit = Unit::Position}),
       field<&Mimic::higher>({.name = "higher",
                              .meaning = "coefficients of the second to fourth power",
+                             .of_vendor = true,
                              .words = "higher coefficients"}),
       field<&Mimic::natural_frequency>({.name = "naturalFrequency",
                                         .meaning = "of its spring; with dampingRatio 0: rigid",
                                         .unit = Unit::RadianPerSecond}),
       field<&Mimic::damping_ratio>({.name = "dampingRatio", .meaning = "of its spring"}),
-      field<&Mimic::mujoco_solref>({.name = "mujocoSolref",
-                                    .meaning = "mjc:solref",
-                                    .presence = Presence::WhenSet,
-                                    .words = "solref of MuJoCo"}),
-      field<&Mimic::mujoco_solimp>({.name = "mujocoSolimp",
-                                    .meaning = "mjc:solimp",
-                                    .presence = Presence::WhenSet,
-                                    .words = "solimp of MuJoCo"}),
+      field<&Mimic::parts>(kPartsField),
   };
 };
 
@@ -368,6 +406,17 @@ struct Table<MujocoSoftness> {
                                                .meaning = "of friction",
                                                .presence = Presence::WhenSet,
                                                .words = "solimp of friction"}),
+  };
+};
+
+template <>
+struct Table<JointParts> {
+  static constexpr std::string_view kWord = "parts of vendors";
+  static constexpr std::tuple kFields{
+      field<&JointParts::mujoco>({.name = "mujoco",
+                                  .meaning = "what MjcJointAPI authors",
+                                  .presence = Presence::WhenSet,
+                                  .words = "MuJoCo"}),
   };
 };
 
@@ -447,10 +496,7 @@ struct Table<Joint> {
       field<&Joint::initial_velocity>({.name = "initialVelocity",
                                        .meaning = "null: from the velocities",
                                        .unit = Unit::Velocity}),
-      field<&Joint::mujoco>({.name = "mujoco",
-                             .meaning = "what MjcJointAPI authors",
-                             .presence = Presence::WhenSet,
-                             .words = "MuJoCo"}),
+      field<&Joint::parts>(kPartsField),
   };
 };
 

@@ -131,8 +131,7 @@ class Walk {
   /// Where a view holds several schemas of one law, one of another vendor may be read: what only
   /// that vendor has is not compared.
   bool are_comparable(const Mimic& a, const Mimic& b, const FieldInfo& info) const {
-    const bool vendor = info.name == "higher" || info.name.substr(0, 6) == "mujoco";
-    return !vendor || !options_.motion_alone || a.schema == b.schema;
+    return !info.of_vendor || !options_.motion_alone || a.schema == b.schema;
   }
 
   template <class Owner, class T>

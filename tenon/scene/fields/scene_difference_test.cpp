@@ -107,8 +107,8 @@ TEST(SceneDifference, WhatIsForMujocoAloneIsNamedToo) {
   tendon.stops.emplace_back().place.body = 1;
   EXPECT_TRUE(scene_differences(before, before).empty());
   PhysicsScene after = before;
-  after.colliders[0].mujoco.condim = 6;
-  after.joints[0].mujoco.solref_limit = {0.05, 0.8};
+  after.colliders[0].parts.mujoco.condim = 6;
+  after.joints[0].parts.mujoco.solref_limit = {0.05, 0.8};
   after.tendons[0].coefficients = {2};
   after.tendons[0].stops[0].place.pose.position = {{0, 0, 1}};
   const auto found = scene_differences(before, after);

@@ -10,8 +10,9 @@
 #include "tenon/scene/fields/track_fields.h"
 #include "tenon/scene/physics_scene.h"
 
-/// The table of the whole description. A member that is added to a struct of physics_scene.h or
-/// mujoco_parts.h gets its row in one of these headers; all that walks the tables then carries it.
+/// The table of the whole description. A member that is added to a struct of physics_scene.h,
+/// mujoco_parts.h or vendor_parts.h gets its row in one of these headers; all that walks the tables
+/// then carries it.
 namespace tenon::scene {
 
 template <>

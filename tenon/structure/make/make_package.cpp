@@ -196,7 +196,10 @@ class Maker {
   }
 
   Result<stage::Stage> stage_of(const Layer& content) const {
-    return stage::Stage::open(std::make_shared<Layer>(content), nullptr, source_.open_layer);
+    stage::StageOptions options;
+    options.compose.set_most_work(source_.most_work);
+    return stage::Stage::open(std::make_shared<Layer>(content), nullptr, source_.open_layer,
+                              options);
   }
 
   Result<scene::PhysicsScene> physics_of(const Layer& content) const {
@@ -456,7 +459,7 @@ class Maker {
     }
     selections[std::string(kPhysicsSet)] = chosen_variant();
     selections[set] = variant;
-    return open_package(asset_.package, selections);
+    return open_package(asset_.package, selections, source_.most_work);
   }
 
   std::string chosen_variant() const {

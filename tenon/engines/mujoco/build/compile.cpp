@@ -176,7 +176,7 @@ void stiffen_ghosts(const Build& build, Model& result) {
 // step that is implicit in position too.
 void choose_integrator(const Build& build, Model& result) {
   mjModel& m = *result.model;
-  const auto& settings = build.scene.scenes.front().mujoco;
+  const auto& settings = build.scene.scenes.front().parts.mujoco;
   if (settings && std::any_of(settings->begin(), settings->end(), [](const auto& setting) {
         return setting.name == "option:integrator";
       })) {

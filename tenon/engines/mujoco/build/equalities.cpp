@@ -202,14 +202,14 @@ void add_mimic(Build& build, scene::Index index, const scene::Mimic& mimic) {
   equality->data[1] = mimic.multiplier;
   std::copy(mimic.higher.begin(), mimic.higher.end(), equality->data + 2);
   std::copy(std::begin(kMimicImpedance), std::end(kMimicImpedance), equality->solimp);
-  if (mimic.mujoco_solref.size() == mjNREF) {
-    std::copy(mimic.mujoco_solref.begin(), mimic.mujoco_solref.end(), equality->solref);
+  if (mimic.parts.mujoco.solref.size() == mjNREF) {
+    std::copy(mimic.parts.mujoco.solref.begin(), mimic.parts.mujoco.solref.end(), equality->solref);
   } else if (mimic.natural_frequency > 0 && mimic.damping_ratio > 0) {
     equality->solref[0] = 1 / (mimic.damping_ratio * mimic.natural_frequency);
     equality->solref[1] = mimic.damping_ratio;
   }
-  if (mimic.mujoco_solimp.size() == mjNIMP) {
-    std::copy(mimic.mujoco_solimp.begin(), mimic.mujoco_solimp.end(), equality->solimp);
+  if (mimic.parts.mujoco.solimp.size() == mjNIMP) {
+    std::copy(mimic.parts.mujoco.solimp.begin(), mimic.parts.mujoco.solimp.end(), equality->solimp);
   }
 }
 

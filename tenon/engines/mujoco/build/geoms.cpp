@@ -147,7 +147,7 @@ class ColliderPass {
       if (collider_.rest_offset.has_value()) {
         geom->margin = *collider_.rest_offset;
       }
-      set_contact(*geom, collider_.mujoco);
+      set_contact(*geom, collider_.parts.mujoco);
       if (collider_.contact_offset.has_value()) {
         geom->gap = std::max(0.0, *collider_.contact_offset - geom->margin);
       }

@@ -35,7 +35,7 @@ void set_passive(mjsJoint* target, const scene::Joint& joint) {
   target->damping[0] = joint.damping;
   target->stiffness[0] = joint.stiffness;
   target->springref = joint.spring_reference;
-  const scene::MujocoSoftness& softness = joint.mujoco;
+  const scene::MujocoSoftness& softness = joint.parts.mujoco;
   std::copy(softness.solref_friction.begin(), softness.solref_friction.end(),
             target->solref_friction);
   std::copy(softness.solimp_friction.begin(), softness.solimp_friction.end(),
@@ -77,7 +77,7 @@ void add_chain(Build& build, scene::Index index, mjsBody* child, const Pose& joi
     const bool refused = build.refused.contains(joint.path);
     refused ? build.report(joint.path, "limit:" + std::string(dof_name(dof.dof)),
                            "MuJoCo refuses the limits; left out")
-            : set_limit(target, dof, joint.mujoco, build.time_step);
+            : set_limit(target, dof, joint.parts.mujoco, build.time_step);
     set_passive(target, joint);
     made[i] = target;
   }

@@ -54,10 +54,10 @@ namespace {
 /// What the asset asks for counts before what is good for robots in general.
 void apply_settings(Build& build) {
   const scene::Scene& scene = build.scene.scenes.front();
-  if (!scene.mujoco) {
+  if (!scene.parts.mujoco) {
     return;
   }
-  for (const scene::MujocoSetting& setting : *scene.mujoco) {
+  for (const scene::MujocoSetting& setting : *scene.parts.mujoco) {
     if (!apply_setting(setting, build.spec->option)) {
       build.report(scene.path, "mjc:" + setting.name, "MuJoCo has no such setting or value");
     }

@@ -154,7 +154,7 @@ Surfaces add_surfaces(Build& build) {
   }
   tabulate(surfaces, kinds, build.time_step);
   for (std::size_t i = 0; i < build.geoms.size(); ++i) {
-    const scene::MujocoContact& contact = build.scene.colliders[i].mujoco;
+    const scene::MujocoContact& contact = build.scene.colliders[i].parts.mujoco;
     surfaces.keeps_solref.push_back(contact.solref.empty() ? 0 : 1);
     for (std::size_t g = 0; g < build.geoms[i].size(); ++g) {
       const auto kind = static_cast<std::size_t>(surfaces.of_collider[i][g]);

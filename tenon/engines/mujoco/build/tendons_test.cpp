@@ -110,7 +110,7 @@ TEST(Options, AreReadBackUnderTheirNames) {
 TEST(Options, OfTheAssetCountAndOthersAreMuJoCosInText) {
   TestScene scene;
   scene.add_body("Body", {}, 1);
-  scene.scenes[0].mujoco = {{"option:iterations", {7}, ""}, {"option:solver", {}, "fast"}};
+  scene.scenes[0].parts.mujoco = {{"option:iterations", {7}, ""}, {"option:solver", {}, "fast"}};
   auto sim = simulation(scene);
   EXPECT_TRUE(mentions(sim->not_mapped(), "/Scene", "mjc:option:solver"));
   Diagnostics findings;
@@ -118,7 +118,7 @@ TEST(Options, OfTheAssetCountAndOthersAreMuJoCosInText) {
   ASSERT_TRUE(text) << text.error().to_string();
   EXPECT_NE(text->find("iterations=\"7\""), std::string::npos);
   EXPECT_EQ(text->find("implicitfast"), std::string::npos);
-  scene.scenes[0].mujoco.reset();
+  scene.scenes[0].parts.mujoco.reset();
   EXPECT_NE(write_mjcf(scene, {}, findings)->find("implicitfast"), std::string::npos);
 }
 

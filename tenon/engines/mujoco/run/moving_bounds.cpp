@@ -66,7 +66,7 @@ bool MovingBounds::write(const scene::Joint& joint, const Bounded& bounded, Mode
     return false;
   }
   for (std::size_t i = 0; map.in_tree && i < dofs.free.size(); ++i) {
-    set_range(m, m.dof_jntid[map.dof[i]], dofs.free[i], joint.mujoco);
+    set_range(m, m.dof_jntid[map.dof[i]], dofs.free[i], joint.parts.mujoco);
   }
   const scene::Limit distance = distance_limit(joint);
   const double cone = circular_cone(joint);

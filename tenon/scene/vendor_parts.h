@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "tenon/scene/mujoco_parts.h"
+
+/// What the schemas of single vendors say of an object beside its neutral fields: one member for
+/// each vendor, of a type of that vendor's own header (mujoco_parts.h). Other engines pass over it.
+/// What of a vendor's schemas is neutral, stands here or has no effect, and why, is in
+/// physics/vendor_attributes.def. A further vendor is a header, members here, and their rows in
+/// fields/object_fields.h.
+namespace tenon::scene {
+
+struct SceneParts {
+  /// What MjcSceneAPI authors, but for the time step; none without that API.
+  std::optional<std::vector<MujocoSetting>> mujoco{};
+};
+
+struct ColliderParts {
+  MujocoContact mujoco;
+};
+
+struct JointParts {
+  MujocoSoftness mujoco;
+};
+
+struct MimicParts {
+  MujocoEquality mujoco;
+};
+
+}  // namespace tenon::scene
