@@ -40,7 +40,7 @@ void FileAccess::add_to(const Command& verb) {
                   "opened, too")
       .split_at_commas()
       .repeatable();
-  verb.add_option("--most-work", most_work, {1, 1e15, false, false, ""},
+  verb.add_option("--max-work", max_work, {1, 1e15, false, false, ""},
                   "Let composition take this many units of work (docs/limits.md), for scenes that "
                   "are large by their arcs");
 }
@@ -52,7 +52,7 @@ void FileAccess::apply_to(OpenOptions& options) const {
   }
   options.sandbox_roots = sandbox;
   options.allowed_reads = allowed;
-  options.most_work = most_work;
+  options.max_work = max_work;
 }
 
 OpenOptions FileAccess::open_options() const {

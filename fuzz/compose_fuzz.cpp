@@ -23,7 +23,7 @@ using tenon::Path;
 using tenon::compose::IndexCache;
 using tenon::compose::PrimIndex;
 
-constexpr std::size_t kMostPrims = 300;
+constexpr std::size_t kMaxPrims = 300;
 
 /// The first prims in depth-first order. `ahead`: what is below those to come is built on two
 /// threads before every so many.
@@ -31,9 +31,9 @@ std::string account_of(IndexCache& cache, bool ahead) {
   const auto name_of = [](const tenon::layer::Layer& layer) { return layer.identifier(); };
   std::string text;
   std::vector<const PrimIndex*> pending{&cache.index(Path::absolute_root())};
-  for (std::size_t count = 0; !pending.empty() && count < kMostPrims; ++count) {
+  for (std::size_t count = 0; !pending.empty() && count < kMaxPrims; ++count) {
     if (ahead && (count & (count - 1)) == 0) {
-      cache.build_below(pending, [](const PrimIndex&) { return true; }, kMostPrims);
+      cache.build_below(pending, [](const PrimIndex&) { return true; }, kMaxPrims);
     }
     const PrimIndex& index = *pending.back();
     pending.pop_back();
@@ -53,7 +53,7 @@ std::string account_of(IndexCache& cache, bool ahead) {
 
 void check_ahead(const tenon::fuzz::LayersOfInput& layers) {
   tenon::compose::ComposeOptions options;
-  options.most_nodes = tenon::fuzz::LayersOfInput::kMostNodes;
+  options.max_nodes = tenon::fuzz::LayersOfInput::kMaxNodes;
   IndexCache plain(layers.root(), nullptr, layers.opener(), options);
   IndexCache built_ahead(layers.root(), nullptr, layers.opener(), options);
   const std::string expected = account_of(plain, false);

@@ -20,7 +20,7 @@ using formats::crate::Bootstrap;
 using formats::crate::Section;
 using formats::crate::ValueWord;
 
-constexpr std::uint64_t kMostRows = 1u << 20;
+constexpr std::uint64_t kMaxRows = 1u << 20;
 
 Result<Column> take_column(ByteReader& in, std::uint64_t count) {
   TENON_TRY(const std::uint64_t size, in.read<std::uint64_t>());
@@ -30,8 +30,8 @@ Result<Column> take_column(ByteReader& in, std::uint64_t count) {
 
 Result<std::uint64_t> take_count(ByteReader& in) {
   TENON_TRY(const std::uint64_t count, in.read<std::uint64_t>());
-  return count <= kMostRows ? Result<std::uint64_t>(count)
-                            : Error(ErrorCode::Limit, "too many rows to take apart");
+  return count <= kMaxRows ? Result<std::uint64_t>(count)
+                           : Error(ErrorCode::Limit, "too many rows to take apart");
 }
 
 Result<void> take_tokens(ByteReader in, CrateParts& parts) {
@@ -39,7 +39,7 @@ Result<void> take_tokens(ByteReader in, CrateParts& parts) {
   TENON_TRY(const std::uint64_t plain_size, in.read<std::uint64_t>());
   TENON_TRY(const std::uint64_t packed_size, in.read<std::uint64_t>());
   TENON_TRY(const auto packed, in.take(packed_size));
-  TENON_TRY(parts.tokens, bytes::lz4_decompress(packed, std::min(plain_size, kMostRows)));
+  TENON_TRY(parts.tokens, bytes::lz4_decompress(packed, std::min(plain_size, kMaxRows)));
   return {};
 }
 

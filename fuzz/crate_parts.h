@@ -43,7 +43,7 @@ std::optional<CrateParts> take_apart(std::string_view crate);
 std::string put_together(const CrateParts& parts);
 
 /// Damages the file in one to four places, chosen by `seed`: its tables, values and packed arrays
-/// when it can be taken apart, else bytes. At most `most_bytes` long.
-std::string mutate_crate(std::string_view crate, std::uint64_t seed, std::size_t most_bytes);
+/// when it can be taken apart, else bytes. At most `max_bytes` long.
+std::string mutate_crate(std::string_view crate, std::uint64_t seed, std::size_t max_bytes);
 
 }  // namespace tenon::fuzz

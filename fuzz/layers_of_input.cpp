@@ -46,8 +46,8 @@ compose::LayerOpener LayersOfInput::opener() const {
 }
 
 Result<stage::Stage> LayersOfInput::open_stage(stage::StageOptions options) const {
-  options.most_prims = 5000;
-  options.compose.most_nodes = kMostNodes;
+  options.max_prims = 5000;
+  options.compose.max_nodes = kMaxNodes;
   return stage::Stage::open(root_, nullptr, opener(), std::move(options));
 }
 

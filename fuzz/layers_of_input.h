@@ -18,7 +18,7 @@ class LayersOfInput {
  public:
   explicit LayersOfInput(std::string_view text);
 
-  static constexpr std::size_t kMostNodes = 50'000;
+  static constexpr std::size_t kMaxNodes = 50'000;
 
   const layer::LayerPtr& root() const { return root_; }
   compose::LayerOpener opener() const;

@@ -208,7 +208,7 @@ std::size_t times(Dice& dice) { return dice.one_in(2) ? 1 : dice.below(4) + 1; }
 
 }  // namespace
 
-std::string mutate_crate(std::string_view crate, std::uint64_t seed, std::size_t most_bytes) {
+std::string mutate_crate(std::string_view crate, std::uint64_t seed, std::size_t max_bytes) {
   Dice dice(seed);
   std::string result(crate);
   const std::size_t left = times(dice);
@@ -226,8 +226,8 @@ std::string mutate_crate(std::string_view crate, std::uint64_t seed, std::size_t
       mutate_bytes(result, dice);
     }
   }
-  if (result.size() > most_bytes) {
-    result.resize(most_bytes);
+  if (result.size() > max_bytes) {
+    result.resize(max_bytes);
   }
   return result;
 }

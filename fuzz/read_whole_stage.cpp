@@ -56,11 +56,11 @@ void read_prim(const stage::Stage& stage, const stage::Prim& prim) {
 
 }  // namespace
 
-std::size_t read_whole_stage(const stage::Stage& stage, std::size_t most_prims) {
+std::size_t read_whole_stage(const stage::Stage& stage, std::size_t max_prims) {
   std::vector<stage::Prim> pending = {stage.pseudo_root()};
   std::size_t seen = 0;
   stage::TransformCache transforms(1.0);
-  while (!pending.empty() && seen < most_prims) {
+  while (!pending.empty() && seen < max_prims) {
     const stage::Prim prim = pending.back();
     pending.pop_back();
     ++seen;

@@ -8,8 +8,8 @@
 
 namespace tenon::fuzz {
 
-/// Asks everything of every prim, down to `most_prims` of them (instance proxies included): types,
+/// Asks everything of every prim, down to `max_prims` of them (instance proxies included): types,
 /// metadata, values at several times, targets, transforms, collections. The number of prims seen.
-std::size_t read_whole_stage(const stage::Stage& stage, std::size_t most_prims);
+std::size_t read_whole_stage(const stage::Stage& stage, std::size_t max_prims);
 
 }  // namespace tenon::fuzz

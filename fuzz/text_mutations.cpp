@@ -488,8 +488,8 @@ std::string mutate_text(std::string_view text, const TextMutation& how, Dice& di
         break;
     }
   }
-  if (result.size() > how.most_bytes) {
-    result.resize(how.most_bytes);
+  if (result.size() > how.max_bytes) {
+    result.resize(how.max_bytes);
   }
   return result;
 }

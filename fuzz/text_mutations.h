@@ -16,7 +16,7 @@ enum class Grammar : unsigned char { Usd, Xml, Json, Mesh };
 struct TextMutation {
   Grammar grammar = Grammar::Usd;
   std::string_view other;  ///< another file, of which pieces are put in
-  std::size_t most_bytes = 4u << 20;
+  std::size_t max_bytes = 4u << 20;
 };
 
 /// Damages the text in one to four places: bytes, words of the grammar, numbers, lines, blocks

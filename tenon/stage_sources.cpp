@@ -35,7 +35,7 @@ Result<compose::ComposeOptions> compose_options(const OpenOptions& options,
   compose::ComposeOptions result;
   result.load_payloads = options.load_payloads && options.load.empty();
   result.variant_fallbacks = options.variant_fallbacks;
-  result.set_most_work(options.most_work);
+  result.set_max_work(options.max_work);
   for (const std::string& text : options.load) {
     TENON_TRY(const Path path, parse_prim_path(text, "the path to load"));
     result.loaded.insert(path);

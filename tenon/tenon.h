@@ -49,7 +49,7 @@ struct OpenOptions {
   /// `sandbox_roots` they may be opened, too (tenon/asset_policy.h).
   std::vector<std::string> allowed_reads;
   /// Units of work that composition may take; 0: limits::kComposeWork and more for larger layers.
-  std::size_t most_work = 0;
+  std::size_t max_work = 0;
   /// Opinions of layers whose metersPerUnit or kilogramsPerUnit are not those of the stage are
   /// converted to them (S-11, physics/layer_units.h).
   bool layer_units = false;

@@ -102,7 +102,7 @@ guard::Confinement confine(const std::vector<std::string>& roots) {
   guard::Confinement in_force;
   in_force.memory = kBoundsAddresses;
   if (kBoundsAddresses) {
-    set_limit(RLIMIT_AS, RLIM_INFINITY, limits::kGuardMemoryMost);
+    set_limit(RLIMIT_AS, RLIM_INFINITY, limits::kGuardMemoryMax);
   }
   in_force.no_new_privileges = prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0;
   in_force.landlock = restrict_files(roots);
@@ -123,7 +123,7 @@ void allow(const guard::Allowance& allowance) {
 void rest() { alarm(0); }
 
 void allow_more(std::uint64_t size) {
-  size = std::min(size, limits::kGuardMemoryMost);
+  size = std::min(size, limits::kGuardMemoryMax);
   if (kBoundsAddresses) {
     set_limit(RLIMIT_AS, soft_limit(RLIMIT_AS) + size * limits::kGuardMemoryPerByte, RLIM_INFINITY);
   }

@@ -31,7 +31,7 @@ using guard::Reader;
 using guard::WorkerExit;
 
 constexpr int kParent = STDIN_FILENO;
-constexpr std::size_t kMostTaskBytes = 16u << 20;
+constexpr std::size_t kMaxTaskBytes = 16u << 20;
 
 [[noreturn]] void leave(WorkerExit how) { _exit(static_cast<int>(how)); }
 
@@ -90,7 +90,7 @@ class ParentSink {
 guard::Task next_task() {
   std::uint64_t size = 0;
   read_all(&size, sizeof(size));
-  if (size > kMostTaskBytes) {
+  if (size > kMaxTaskBytes) {
     leave(WorkerExit::BadTask);
   }
   std::string bytes(size, '\0');

@@ -24,7 +24,7 @@
 namespace tenon::worker {
 namespace {
 
-constexpr std::size_t kMostRefused = 100;
+constexpr std::size_t kMaxRefused = 100;
 
 struct Held {
   std::mutex lock;
@@ -48,7 +48,7 @@ bool lies_in(std::string_view path, std::string_view root) {
 
 int refuse(Held& all, const char* path) {
   const bool is_new = std::find(all.refused.begin(), all.refused.end(), path) == all.refused.end();
-  if (is_new && all.refused.size() < kMostRefused) {
+  if (is_new && all.refused.size() < kMaxRefused) {
     all.refused.emplace_back(path);
   }
   return EACCES;

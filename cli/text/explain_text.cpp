@@ -55,7 +55,7 @@ std::string explain_prim_text(const Json& answer) {
     text += std::string("  body") + (body["kinematic"].get<bool>() ? ", kinematic" : "") + "\n";
     text += "    colliders: " + listed(body["colliders"]) +
             "\n    joints: " + listed(body["joints"]) + "\n";
-    text += mass_text(body["massAccount"], "    ");
+    text += mass_text(body["massProvenance"], "    ");
   }
   if (answer.contains("collider")) {
     text += collider_text(answer["collider"]);

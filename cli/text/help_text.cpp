@@ -8,7 +8,7 @@ namespace tenon::cli {
 namespace {
 
 constexpr std::size_t kNameColumn = 26;  // where the words about an option begin
-constexpr std::size_t kLeastWords = 20;  // columns that words get on the narrowest terminal
+constexpr std::size_t kMinWords = 20;    // columns that words get on the narrowest terminal
 
 /// Columns of UTF-8 text, every character counted as one.
 std::size_t columns(std::string_view text) {
@@ -22,7 +22,7 @@ std::string row(const std::string& name, const std::string& about, std::size_t w
   std::string line = "  " + name;
   const std::size_t used = columns(line);
   line += used + 2 <= column ? std::string(column - used, ' ') : "\n" + std::string(column, ' ');
-  const std::size_t words = std::max(width, column + kLeastWords);
+  const std::size_t words = std::max(width, column + kMinWords);
   return line + wrapped(std::string(column, ' ') + about, words, column).substr(column) + "\n";
 }
 

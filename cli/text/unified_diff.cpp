@@ -14,7 +14,7 @@ namespace {
 
 using Lines = std::vector<std::string_view>;
 constexpr std::size_t kAround = 3;
-constexpr std::ptrdiff_t kMostEdits = 2000;  ///< beyond, everything between is replaced
+constexpr std::ptrdiff_t kMaxEdits = 2000;  ///< beyond, everything between is replaced
 
 Lines lines_of(const std::string& text) {
   Lines lines;
@@ -74,7 +74,7 @@ std::vector<Step> replaced(const Lines& a, const Lines& b) {
 std::vector<Step> compare_middle(const Lines& a, const Lines& b) {
   const auto n = static_cast<std::ptrdiff_t>(a.size());
   const auto m = static_cast<std::ptrdiff_t>(b.size());
-  const std::ptrdiff_t most = std::min(n + m, kMostEdits);
+  const std::ptrdiff_t most = std::min(n + m, kMaxEdits);
   const std::ptrdiff_t middle = most + 1;
   std::vector<std::ptrdiff_t> reach(static_cast<std::size_t>(2 * middle + 1), 0);
   const auto at = [&](std::ptrdiff_t k) -> std::ptrdiff_t& {

@@ -104,7 +104,7 @@ int run_explain(const Globals& globals, const ExplainArguments& options) {
   }
   answers::Explained explained{*stage, {}, {}};
   explained.scene = physics::read_physics(*stage, read_options(*readings), report.diagnostics,
-                                          &explained.accounts);
+                                          &explained.provenance);
   if (!options.other.empty()) {
     return explain_two(report, explained, *object, options);
   }

@@ -38,11 +38,11 @@ int run_physics(const Globals& globals, const PhysicsArguments& options) {
   if (!stage) {
     return report.fail(stage.error());
   }
-  physics::Accounts accounts;
+  physics::Provenance provenance;
   const scene::PhysicsScene scene = physics::read_physics(
-      *stage, read_options(*readings), report.diagnostics, options.mass ? &accounts : nullptr);
+      *stage, read_options(*readings), report.diagnostics, options.mass ? &provenance : nullptr);
   if (options.mass) {
-    const Json table = answers::mass_table_json(*stage, scene, accounts);
+    const Json table = answers::mass_table_json(*stage, scene, provenance);
     if (!globals.json) {
       print_text(mass_table_text(table));
     }

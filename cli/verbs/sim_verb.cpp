@@ -100,11 +100,11 @@ void print_numbers(const Json& numbers) {
   }
 }
 
-constexpr std::size_t kMostRows = 50;  // more than that nobody reads
+constexpr std::size_t kMaxRows = 50;  // more than that nobody reads
 
 /// The position of each, one line each, as long as people can read them all.
 void print_rows(const Json& states, const char* what, const char* title) {
-  if (states.size() > kMostRows) {
+  if (states.size() > kMaxRows) {
     print("the positions of %s %s are not listed: --json has them, -o LOG all frames\n",
           grouped_digits(states.size()).c_str(), what);
     return;

@@ -215,7 +215,7 @@ Verdict run_and_judge(const Subject& subject, const Mutant& mutant, const Comman
       {subject.program}, inside, folder + "/stdout", folder + "/stderr", subject.environment};
   call.words.insert(call.words.end(), command.words.begin(), command.words.end());
   if (subject.sanitized && mutant.bound == Bound::Composition) {
-    call.words.insert(call.words.end(), {"--most-work", kSanitizedWork});
+    call.words.insert(call.words.end(), {"--max-work", kSanitizedWork});
   }
   Verdict verdict;
   // By the clock alone a program that waits for ever ends as one on a machine that stood still: it

@@ -21,8 +21,8 @@ void add(Counts& counts, const Outcome& outcome) {
   } else {
     ++counts.findings;
   }
-  counts.most_seconds = std::max(counts.most_seconds, outcome.run.seconds);
-  counts.most_memory = std::max(counts.most_memory, outcome.share_of_memory);
+  counts.max_seconds = std::max(counts.max_seconds, outcome.run.seconds);
+  counts.max_memory = std::max(counts.max_memory, outcome.share_of_memory);
 }
 
 void print_table(const char* title, const std::map<std::string, Counts>& rows) {
@@ -33,8 +33,8 @@ void print_table(const char* title, const std::map<std::string, Counts>& rows) {
     for (const std::uint64_t exits : counts.exits) {
       std::printf(" %6" PRIu64, exits);
     }
-    std::printf(" %8" PRIu64 " %7.2f %5.0f%%\n", counts.findings, counts.most_seconds,
-                100 * counts.most_memory);
+    std::printf(" %8" PRIu64 " %7.2f %5.0f%%\n", counts.findings, counts.max_seconds,
+                100 * counts.max_memory);
   }
 }
 
@@ -162,8 +162,7 @@ std::string to_json(const Totals& totals) {
     out << separator << json_text(name) << ": {\"runs\": " << counts.runs
         << ", \"findings\": " << counts.findings
         << ", \"read\": " << counts.exits[0] + counts.exits[1]
-        << ", \"seconds\": " << counts.most_seconds << ", \"memory\": " << counts.most_memory
-        << "}";
+        << ", \"seconds\": " << counts.max_seconds << ", \"memory\": " << counts.max_memory << "}";
     separator = ",\n  ";
   }
   out << "\n }}\n";

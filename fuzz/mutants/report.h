@@ -31,8 +31,8 @@ struct Counts {
   std::uint64_t runs = 0;
   std::array<std::uint64_t, 5> exits = {};  ///< 0 to 4; what ends otherwise is a finding
   std::uint64_t findings = 0;
-  double most_seconds = 0;
-  double most_memory = 0;
+  double max_seconds = 0;
+  double max_memory = 0;
 };
 
 struct Totals {

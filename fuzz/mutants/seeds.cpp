@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestSeed = 256u << 10;
-constexpr std::size_t kMostCompanions = 24;
+constexpr std::size_t kMaxCompanions = 24;
 constexpr std::size_t kLongestName = 200;
 
 std::string bytes_of(const fs::path& path) {
@@ -72,7 +72,7 @@ std::vector<std::size_t> companions_of(std::size_t root, const std::vector<Seed>
                                        const Places& places) {
   const std::string_view within = folder_of(seeds[root].path);
   std::vector<std::size_t> found = {root};
-  for (std::size_t next = 0; next < found.size() && found.size() <= kMostCompanions; ++next) {
+  for (std::size_t next = 0; next < found.size() && found.size() <= kMaxCompanions; ++next) {
     const Seed& seed = seeds[found[next]];
     for_each_quoted(seed.bytes, [&](std::string_view name) {
       const fs::path path = fs::path(folder_of(seed.path)) / name;

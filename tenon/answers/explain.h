@@ -3,7 +3,7 @@
 #pragma once
 
 #include "tenon/answers/json.h"
-#include "tenon/physics/accounts.h"
+#include "tenon/physics/provenance.h"
 #include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
@@ -14,7 +14,7 @@ namespace tenon::answers {
 struct Explained {
   const stage::Stage& stage;
   scene::PhysicsScene scene;
-  physics::Accounts accounts;
+  physics::Provenance provenance;
 
   /// When physics reads what does not change: the start of the simulation.
   stage::Time start() const { return scene.start_time_code; }

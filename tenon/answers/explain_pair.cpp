@@ -74,7 +74,7 @@ Json explain_pair(const Explained& explained, const stage::Prim& a, const stage:
       if (!met.insert(std::minmax(i, j)).second) {
         continue;
       }
-      const auto reasons = physics::why_apart(scene, explained.accounts, i, j);
+      const auto reasons = physics::why_apart(scene, explained.provenance, i, j);
       Json row = {{"a", scene.colliders[i].path.str()},
                   {"b", scene.colliders[j].path.str()},
                   {"collide", reasons.empty()},

@@ -46,10 +46,10 @@ Json spoken_properties_json(const Explained& explained, const stage::Prim& prim)
   return rows;
 }
 
-const physics::MassAccount* account_of(const Explained& explained, Path path) {
-  for (const physics::MassAccount& account : explained.accounts.masses) {
-    if (explained.scene.bodies[account.body].path == path) {
-      return &account;
+const physics::MassProvenance* provenance_of(const Explained& explained, Path path) {
+  for (const physics::MassProvenance& provenance : explained.provenance.masses) {
+    if (explained.scene.bodies[provenance.body].path == path) {
+      return &provenance;
     }
   }
   return nullptr;
@@ -57,8 +57,8 @@ const physics::MassAccount* account_of(const Explained& explained, Path path) {
 
 void add_body(const Explained& explained, const Json& physics, Path path, Json& answer) {
   Json body = row_with_path(physics["bodies"], path.str());
-  const physics::MassAccount* account = account_of(explained, path);
-  if (body.is_null() || account == nullptr) {
+  const physics::MassProvenance* provenance = provenance_of(explained, path);
+  if (body.is_null() || provenance == nullptr) {
     return;
   }
   Json colliders = Json::array();
@@ -75,7 +75,7 @@ void add_body(const Explained& explained, const Json& physics, Path path, Json& 
   }
   body["colliders"] = std::move(colliders);
   body["joints"] = std::move(joints);
-  body["massAccount"] = mass_json(explained.stage, explained.scene, *account);
+  body["massProvenance"] = mass_json(explained.stage, explained.scene, *provenance);
   answer["body"] = std::move(body);
 }
 
@@ -177,10 +177,10 @@ Json explain_property(const Explained& explained, const stage::Prim& prim, Token
   static constexpr std::string_view kOfMass[] = {"physics:mass",          "physics:density",
                                                  "physics:centerOfMass",  "physics:diagonalInertia",
                                                  "physics:principalAxes", "newton:inertia"};
-  const physics::MassAccount* account = account_of(explained, prim.path());
+  const physics::MassProvenance* provenance = provenance_of(explained, prim.path());
   for (const std::string_view name : kOfMass) {
-    if (property == name && account != nullptr) {
-      answer["mass"] = mass_json(explained.stage, explained.scene, *account);
+    if (property == name && provenance != nullptr) {
+      answer["mass"] = mass_json(explained.stage, explained.scene, *provenance);
     }
   }
   return answer;

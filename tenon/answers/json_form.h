@@ -89,9 +89,9 @@ inline bool counts(const scene::Joint& joint, const scene::FieldInfo& info) {
   }
   return spherical && (info.name == "coneAngle0" || info.name == "coneAngle1");
 }
-inline bool counts(const scene::TendonStop& stop, const scene::FieldInfo& info) {
-  const bool pulley = stop.kind == scene::TendonStop::Kind::Pulley;
-  return pulley ? info.name == "divisor" : info.name == "place" || info.name == "radius";
+inline bool counts(const scene::TendonWrap& wrap, const scene::FieldInfo& info) {
+  const bool pulley = wrap.kind == scene::TendonWrap::Kind::Pulley;
+  return pulley ? info.name == "divisor" : info.name == "attachment" || info.name == "radius";
 }
 
 }  // namespace tenon::answers

@@ -12,7 +12,7 @@
 namespace tenon::answers {
 namespace {
 
-using physics::MassAccount;
+using physics::MassProvenance;
 
 Json vector_json(const Vec3d& v) { return Json::array({v[0], v[1], v[2]}); }
 
@@ -78,18 +78,18 @@ std::string reason_of(const Json& mass, const char* quantity) {
 }  // namespace
 
 Json mass_json(const stage::Stage& stage, const scene::PhysicsScene& scene,
-               const MassAccount& account) {
+               const MassProvenance& provenance) {
   Json mass = Json::object();
-  mass["authored"] = authored_json(account.authored);
+  mass["authored"] = authored_json(provenance.authored);
   mass["computed"] =
-      account.computed.mass > 0 ? mass_properties_json(account.computed) : Json(nullptr);
-  mass["resolved"] = mass_properties_json(account.result);
+      provenance.computed.mass > 0 ? mass_properties_json(provenance.computed) : Json(nullptr);
+  mass["resolved"] = mass_properties_json(provenance.result);
   mass["candidates"] = Json::array();
-  for (const physics::MassCandidate& candidate : account.candidates) {
+  for (const physics::MassCandidate& candidate : provenance.candidates) {
     mass["candidates"].push_back(candidate_json(stage, candidate, scene.start_time_code));
   }
   mass["colliders"] = Json::array();
-  for (const physics::ColliderMass& part : account.colliders) {
+  for (const physics::ColliderMass& part : provenance.colliders) {
     Json row = {{"path", scene.colliders[part.collider].path.str()},
                 {"counted", part.counted},
                 {"volume", part.volume}};
@@ -104,11 +104,11 @@ Json mass_json(const stage::Stage& stage, const scene::PhysicsScene& scene,
 }
 
 Json mass_table_json(const stage::Stage& stage, const scene::PhysicsScene& scene,
-                     const physics::Accounts& accounts) {
+                     const physics::Provenance& all) {
   Json table = Json::array();
-  for (const MassAccount& account : accounts.masses) {
-    Json row = {{"path", scene.bodies[account.body].path.str()}};
-    const Json mass = mass_json(stage, scene, account);
+  for (const MassProvenance& provenance : all.masses) {
+    Json row = {{"path", scene.bodies[provenance.body].path.str()}};
+    const Json mass = mass_json(stage, scene, provenance);
     row["authored"] = mass["authored"];
     row["resolved"] = mass["resolved"];
     row["reason"] = {{"mass", reason_of(mass, "mass")},

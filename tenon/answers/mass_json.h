@@ -3,7 +3,7 @@
 #pragma once
 
 #include "tenon/answers/json.h"
-#include "tenon/physics/accounts.h"
+#include "tenon/physics/provenance.h"
 #include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
@@ -15,11 +15,11 @@ namespace tenon::answers {
 /// [kg m^2]} in the body frame; "authored" has the same and "density" [kg/m^3], null where nothing
 /// is said. Each candidate has the opinions that give it.
 Json mass_json(const stage::Stage& stage, const scene::PhysicsScene& scene,
-               const physics::MassAccount& account);
+               const physics::MassProvenance& provenance);
 
 /// The same in short for every body: [{"path", "authored", "resolved", "reason": {"mass",
 /// "centerOfMass", "inertia"}}] (body_count), reasons in a few words.
 Json mass_table_json(const stage::Stage& stage, const scene::PhysicsScene& scene,
-                     const physics::Accounts& accounts);
+                     const physics::Provenance& all);
 
 }  // namespace tenon::answers

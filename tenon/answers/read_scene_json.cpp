@@ -128,7 +128,10 @@ class Reader {
 
   /// Null where the field has its default.
   static const Parsed* find(const Parsed& json, const FieldInfo& info, bool is_reference) {
-    const auto found = json.find(std::string(info.name));
+    auto found = json.find(std::string(info.name));
+    if (found == json.end() && !info.former.empty()) {
+      found = json.find(std::string(info.former));
+    }
     const bool has_default = found == json.end() || (found->is_null() && !is_reference);
     return has_default ? nullptr : &*found;
   }

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/answers/scene_json.h"
 
+#include <map>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "tenon/answers/json.h"
@@ -116,6 +119,53 @@ TEST(SceneJson, TheOneMimicOfVersion10IsRead) {
   }
   json["joints"][1]["mimic"].erase("dof");
   json["joints"][1]["mimic"].erase("leaderDof");
+  const auto back = read_scene_json(json.dump());
+  ASSERT_TRUE(back.has_value()) << back.error().to_string();
+  EXPECT_TRUE(same_fields(scene, *back));
+}
+
+/// The former key of each key that has one, in all tables.
+template <class T>
+void add_former_keys(std::map<std::string, std::string>& keys) {
+  if constexpr (scene::HasTable<T>) {
+    scene::each_field_type<T>([&](const scene::FieldInfo& info, auto type) {
+      if (!info.former.empty()) {
+        keys[std::string(info.name)] = info.former;
+      }
+      add_former_keys<typename decltype(type)::type>(keys);
+    });
+  } else if constexpr (wire::kIsVector<T> || wire::kIsOptional<T>) {
+    add_former_keys<typename T::value_type>(keys);
+  }
+}
+
+std::size_t rename_keys(Json& json, const std::map<std::string, std::string>& keys) {
+  std::size_t renamed = 0;
+  if (json.is_object()) {
+    for (const auto& [key, former] : keys) {
+      if (json.contains(key)) {
+        json[former] = json[key];
+        json.erase(key);
+        ++renamed;
+      }
+    }
+  }
+  if (json.is_structured()) {
+    for (Json& item : json) {
+      renamed += rename_keys(item, keys);
+    }
+  }
+  return renamed;
+}
+
+TEST(SceneJson, EveryFormerKeyIsRead) {
+  std::map<std::string, std::string> keys;
+  add_former_keys<PhysicsScene>(keys);
+  EXPECT_EQ(keys.size(), 4u);
+  const PhysicsScene scene = scene::filled_scene();
+  Json json = Json::parse(scene_json(scene, Geometry::Inline));
+  json["schemaVersion"] = "1.1";
+  EXPECT_GE(rename_keys(json, keys), keys.size());
   const auto back = read_scene_json(json.dump());
   ASSERT_TRUE(back.has_value()) << back.error().to_string();
   EXPECT_TRUE(same_fields(scene, *back));

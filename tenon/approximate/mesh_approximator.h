@@ -6,7 +6,7 @@
 
 #include "tenon/scene/shapes/mesh_tools.h"
 
-/// Meshes taken apart into convex pieces and thinned out, by libraries (S-62).
+/// Convex decomposition and simplification of meshes, by libraries (S-62).
 namespace tenon::approximate {
 
 /// A library that does such work.

@@ -25,7 +25,7 @@ class PieceCache {
   std::string folder_;  // empty: nothing is kept
 };
 
-/// The bytes that tell meshes apart: how they are taken apart, then points and triangles.
+/// The bytes that tell meshes apart: the options of the decomposition, then points and triangles.
 std::string piece_key(const scene::TriangleMesh& mesh, int most, int vertices);
 
 }  // namespace tenon::approximate

@@ -159,7 +159,7 @@ class Author {
 class AssetEditor {
  public:
   AssetEditor(const std::string& path, const EditOptions& options, Diagnostics& diagnostics)
-      : path_(path), options_(options), diagnostics_(diagnostics), work_(options.open.most_work) {}
+      : path_(path), options_(options), diagnostics_(diagnostics), work_(options.open.max_work) {}
 
   /// Composes the asset under all variants, to know its files.
   Result<void> open() {

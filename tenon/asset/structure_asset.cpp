@@ -12,9 +12,9 @@ namespace tenon {
 namespace {
 
 structure::AssetSource source_of(const StageSources& sources, const bytes::ReadPolicy& policy,
-                                 std::size_t most_work) {
+                                 std::size_t max_work) {
   structure::AssetSource source;
-  source.most_work = most_work;
+  source.max_work = max_work;
   source.root = sources.root;
   source.open_layer = sources.opener();
   source.resolve_asset = [registry = sources.registry](const std::string& asset,
@@ -53,7 +53,7 @@ Result<structure::StructuredAsset> structure_asset(const std::string& path, cons
   const bytes::ReadPolicy policy = policy_for(path, open);
   TENON_TRY(
       structure::StructuredAsset asset,
-      structure::make_package(source_of(sources, policy, open.most_work), options, diagnostics));
+      structure::make_package(source_of(sources, policy, open.max_work), options, diagnostics));
   for (const std::string& layer : sources.registry->opened()) {
     name_outside_layer(layer, sources.root->identifier(), policy, diagnostics);
   }

@@ -18,14 +18,15 @@ struct BakeOptions {
   /// Variant selections of the default prim that were in force through the session layer; the
   /// overlay repeats them, so that it plays what was simulated.
   std::map<std::string, std::string> variant_selections;
-  /// Instances that bodies lie in are taken apart in the overlay: `instanceable = false` (S-123).
+  /// Instances that bodies lie in become ordinary prims in the overlay: `instanceable = false`
+  /// (S-123).
   bool uninstance = false;
 };
 
 /// An overlay layer: sublayers the asset and gives every simulated body time samples of its
 /// xformOps, so that composed world poses equal the recording (S-25, S-35). Authored scale is kept;
 /// the asset is not touched. Bodies inside instances cannot be overridden (S-123): an error names
-/// them (bake.instanced-body), unless the instances are taken apart. Kinematic bodies keep their
+/// them (bake.instanced-body), unless `uninstance` is on. Kinematic bodies keep their
 /// authored animation (S-27).
 layer::Layer write_time_samples(const stage::Stage& stage, const scene::PhysicsScene& scene,
                                 const PoseRecording& recording, const BakeOptions& options,

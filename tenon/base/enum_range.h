@@ -9,10 +9,10 @@
 #include <type_traits>
 #include <utility>
 
-/// Which numbers are enumerators, told by the compiler. Enumerators lie below kMostEnumerators.
+/// Which numbers are enumerators, told by the compiler. Enumerators lie below kMaxEnumerators.
 namespace tenon::wire {
 
-inline constexpr std::size_t kMostEnumerators = 32;
+inline constexpr std::size_t kMaxEnumerators = 32;
 
 /// Compilers write a value that has no name as a cast: "(Kind)7".
 template <class Enum, Enum kValue>
@@ -29,8 +29,8 @@ constexpr std::array<bool, sizeof...(At)> named(std::index_sequence<At...>) {
 
 template <class Enum>
 constexpr bool is_enumerator(std::underlying_type_t<Enum> number) {
-  constexpr auto kNamed = named<Enum>(std::make_index_sequence<kMostEnumerators>());
-  static_assert(!kNamed.back(), "raise kMostEnumerators");
+  constexpr auto kNamed = named<Enum>(std::make_index_sequence<kMaxEnumerators>());
+  static_assert(!kNamed.back(), "raise kMaxEnumerators");
   const auto at = static_cast<std::uint64_t>(number);
   return at < kNamed.size() && kNamed[static_cast<std::size_t>(at)];
 }

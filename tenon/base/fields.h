@@ -21,14 +21,14 @@ constexpr bool takes_fields(std::index_sequence<At...>) {
   return requires { T{((void)At, AnyField{})...}; };
 }
 
-inline constexpr std::size_t kMostFields = 48;
+inline constexpr std::size_t kMaxFields = 48;
 
-/// How many fields `T` has, an aggregate without bases; a struct with more than kMostFields does
+/// How many fields `T` has, an aggregate without bases; a struct with more than kMaxFields does
 /// not compile.
-template <class T, std::size_t N = kMostFields + 1>
+template <class T, std::size_t N = kMaxFields + 1>
 constexpr std::size_t field_count() {
   if constexpr (N == 0 || takes_fields<T>(std::make_index_sequence<N>())) {
-    static_assert(N <= kMostFields, "raise kMostFields");
+    static_assert(N <= kMaxFields, "raise kMaxFields");
     return N;
   } else {
     return field_count<T, N - 1>();

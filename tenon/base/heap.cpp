@@ -51,11 +51,11 @@ void keep_heap_in_huge_pages() {
 
 void prepare_thread_heap() {
   if (is_kept) {
-    constexpr std::size_t kMost = kLargestOnHeap - 2 * kMegabyte;
-    void* const first = std::malloc(kMost);
+    constexpr std::size_t kMax = kLargestOnHeap - 2 * kMegabyte;
+    void* const first = std::malloc(kMax);
     const auto begin = reinterpret_cast<std::uintptr_t>(first);
     std::free(first);
-    use_huge_pages(begin, begin + kMost);
+    use_huge_pages(begin, begin + kMax);
   }
 }
 #else

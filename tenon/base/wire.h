@@ -57,16 +57,16 @@ template <class T>
 using Travelling = decltype(TravelsAs<T>::to(std::declval<const T&>()));
 
 template <class T>
-constexpr std::size_t least_size();
+constexpr std::size_t min_size();
 
 template <class... T>
 constexpr std::size_t sum_of_least(std::tuple<T&...>*) {
-  return (std::size_t{0} + ... + least_size<std::remove_const_t<T>>());
+  return (std::size_t{0} + ... + min_size<std::remove_const_t<T>>());
 }
 
 /// Bytes that the smallest value of a type takes.
 template <class T>
-constexpr std::size_t least_size() {
+constexpr std::size_t min_size() {
   if constexpr (kIsNumber<T> || std::is_enum_v<T>) {
     return sizeof(T);
   } else if constexpr (std::is_same_v<T, bool> || kIsOptional<T>) {
@@ -74,11 +74,11 @@ constexpr std::size_t least_size() {
   } else if constexpr (std::is_same_v<T, std::string> || kIsVector<T> || kIsMap<T>) {
     return sizeof(std::uint64_t);
   } else if constexpr (kIsArray<T>) {
-    return std::tuple_size_v<T> * least_size<typename T::value_type>();
+    return std::tuple_size_v<T> * min_size<typename T::value_type>();
   } else if constexpr (kIsPair<T>) {
-    return least_size<typename T::first_type>() + least_size<typename T::second_type>();
+    return min_size<typename T::first_type>() + min_size<typename T::second_type>();
   } else if constexpr (Travels<T>) {
-    return least_size<Travelling<T>>();
+    return min_size<Travelling<T>>();
   } else {
     return sum_of_least(static_cast<decltype(fields_of(std::declval<T&>()))*>(nullptr));
   }
@@ -98,12 +98,12 @@ constexpr bool is_flat() {
   if constexpr (kIsNumber<T>) {
     return true;
   } else if constexpr (kIsArray<T>) {
-    return is_flat<typename T::value_type>() && sizeof(T) == least_size<T>();
+    return is_flat<typename T::value_type>() && sizeof(T) == min_size<T>();
   } else if constexpr (Travels<T> || kIsPair<T>) {
     return false;
   } else if constexpr (std::is_aggregate_v<T> && std::is_trivially_copyable_v<T>) {
     return all_flat(static_cast<decltype(fields_of(std::declval<T&>()))*>(nullptr)) &&
-           sizeof(T) == least_size<T>();
+           sizeof(T) == min_size<T>();
   } else {
     return false;
   }
@@ -185,7 +185,7 @@ class Decoder {
     } else if constexpr (kIsMap<T>) {
       read_map(value);
     } else if constexpr (kIsVector<T>) {
-      value.resize(count(least_size<typename T::value_type>()));
+      value.resize(count(min_size<typename T::value_type>()));
       read_items(value);
     } else if constexpr (kIsArray<T>) {
       read_items(value);
@@ -248,7 +248,7 @@ class Decoder {
 
   template <class K, class V>
   void read_map(std::map<K, V>& value) {
-    const std::size_t items = count(least_size<K>() + least_size<V>());
+    const std::size_t items = count(min_size<K>() + min_size<V>());
     for (std::size_t i = 0; i < items && is_sound_; ++i) {
       K key{};
       read(key);

@@ -244,7 +244,7 @@ Result<std::shared_ptr<const FileBytes>> AssetResolver::open(const std::string& 
     // may shorten them, are not mapped.
     rules.check = [this](const std::string& real) { return check_real_path(real); };
     rules.may_map = false;
-    rules.most_bytes = limits::kCopiedFileBytes;
+    rules.max_bytes = limits::kCopiedFileBytes;
   }
   return open_identifier(identifier, rules);
 }

@@ -65,7 +65,7 @@ std::optional<std::string> structured_asset_of(const fs::path& folder) {
 
 std::shared_ptr<const FileBytes> package_xml_of(const std::string& folder) {
   FileRules rules;
-  rules.most_bytes = limits::kPackageXmlBytes;
+  rules.max_bytes = limits::kPackageXmlBytes;
   return FileBytes::open(folder + "/package.xml", rules).value_or(nullptr);
 }
 

@@ -105,7 +105,7 @@ Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path
   if (!S_ISREG(info.st_mode)) {
     return Error(ErrorCode::Io, "not a regular file").in_file(path).with_rule("file.unreadable");
   }
-  const std::uint64_t most = std::min<std::uint64_t>(rules.most_bytes, PTRDIFF_MAX);
+  const std::uint64_t most = std::min<std::uint64_t>(rules.max_bytes, PTRDIFF_MAX);
   const auto claimed = static_cast<std::uint64_t>(info.st_size);
   if (claimed > most) {
     return Error(ErrorCode::Limit, "the file has " + std::to_string(claimed) +

@@ -21,7 +21,7 @@ struct FileRules {
   bool may_map = true;  ///< false: large files are read, too
   /// False for what is looked at because it is to be replaced: it is noted in no ReadRecord.
   bool is_input = true;
-  std::uint64_t most_bytes = UINT64_MAX;  ///< of the file; for more ErrorCode::Limit
+  std::uint64_t max_bytes = UINT64_MAX;  ///< of the file; for more ErrorCode::Limit
 };
 
 /// The bytes of a file or a part of one, read-only and shared by all who read from them.

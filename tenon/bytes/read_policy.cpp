@@ -70,7 +70,7 @@ Result<std::shared_ptr<const FileBytes>> ReadPolicy::open(const std::string& ide
   const std::string file = absolute_file_path(split_package_path(identifier).package);
   FileRules rules;
   rules.check = [&](const std::string& real) { return check_real(real, file); };
-  rules.most_bytes = limits::kCopiedFileBytes;
+  rules.max_bytes = limits::kCopiedFileBytes;
   return open_identifier(identifier, rules);
 }
 

@@ -20,8 +20,8 @@ using scene::ShapeKind;
 constexpr double kDepth = 0.1;
 /// Pairs that are told apart shape by shape, and those that are reported; a heap of bodies in one
 /// place has millions.
-constexpr std::size_t kMostPairs = 200000;
-constexpr std::size_t kMostReports = 100;
+constexpr std::size_t kMaxPairs = 200000;
+constexpr std::size_t kMaxReports = 100;
 
 Pose world_pose(const scene::PhysicsScene& scene, const Collider& collider) {
   return collider.body ? scene.bodies[*collider.body].pose * collider.pose : collider.pose;
@@ -121,10 +121,10 @@ void check_overlap_at_start(const Subject& subject, Reporter& report) {
   const std::vector<Placed> placed = placed_solids(scene);
   std::size_t pairs = 0;
   std::size_t reports = 0;
-  for (std::size_t i = 0; i < placed.size() && reports < kMostReports; ++i) {
+  for (std::size_t i = 0; i < placed.size() && reports < kMaxReports; ++i) {
     const Collider& a = scene.colliders[placed[i].collider];
     for (std::size_t j = i + 1; j < placed.size() && placed[j].low[0] <= placed[i].high[0]; ++j) {
-      if (pairs >= kMostPairs || reports >= kMostReports) {
+      if (pairs >= kMaxPairs || reports >= kMaxReports) {
         return;
       }
       const Collider& b = scene.colliders[placed[j].collider];

@@ -136,7 +136,7 @@ void check_unknown_api(const Subject& subject, Reporter& report) {
 }
 
 void check_unknown_attribute(const Subject& subject, Reporter& report) {
-  constexpr std::size_t kMostSearches = 10000;
+  constexpr std::size_t kMaxSearches = 10000;
   std::size_t instance_searches = 0;
   NearestNames nearest_names(property_names());
   for (const stage::Prim& prim : subject.prims) {
@@ -147,7 +147,7 @@ void check_unknown_attribute(const Subject& subject, Reporter& report) {
         continue;
       }
       std::string_view nearest = nearest_names.find(name);
-      if (nearest.empty() && instance_searches < kMostSearches) {
+      if (nearest.empty() && instance_searches < kMaxSearches) {
         ++instance_searches;
         nearest = nearest_of_instances(prim, name);
       }

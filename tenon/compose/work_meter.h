@@ -55,7 +55,7 @@ class WorkMeter {
     return too_much;
   }
   std::size_t most() const { return most_; }
-  void set_most(std::size_t most) { most_ = most; }
+  void set_max(std::size_t most) { most_ = most; }
   /// Goes on from another count.
   void restart(std::size_t done) { done_ = done; }
 

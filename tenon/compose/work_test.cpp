@@ -192,8 +192,8 @@ Composed compose_text(const std::string& text, const ComposeOptions& options = {
 
 ComposeOptions with_work(std::size_t most) {
   ComposeOptions options;
-  options.most_work = most;
-  options.most_work_per_spec = 0;
+  options.max_work = most;
+  options.max_work_per_spec = 0;
   return options;
 }
 
@@ -252,9 +252,9 @@ TEST(ComposeWork, ExceededStopsWithinOneIndex) {
 
 TEST(ComposeWork, LayersAllowForWorkOfTheirSize) {
   ComposeOptions options = with_work(1000);
-  options.most_work_per_spec = 1000;
+  options.max_work_per_spec = 1000;
   EXPECT_TRUE(compose_text(wide("references", 1000), options).exceeded.empty());
-  options.most_work_per_spec = 0;
+  options.max_work_per_spec = 0;
   EXPECT_EQ(compose_text(wide("references", 1000), options).exceeded.size(), 1u);
 }
 

@@ -54,7 +54,7 @@ Result<LayerAndImages> write_robot(const Source& source, Diagnostics& diagnostic
 Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions& options,
                                    Diagnostics& diagnostics, InnerImages* images) {
   TENON_TRY(robot::KinematicTree tree, robot::kinematic_tree(model));
-  robot::mend_model(model, diagnostics);
+  robot::sanitize_model(model, diagnostics);
   if (options.merge_fixed) {
     model = robot::merge_fixed(model, tree);
     TENON_TRY(tree, robot::kinematic_tree(model));

@@ -45,7 +45,7 @@ bool is_linear(const std::optional<robot::Mimic>& mimic) {
 }
 
 /// Joints that follow a follower follow its leader instead: not every engine takes chains. There
-/// are no cycles (mend_model).
+/// are no cycles (sanitize_model).
 void follow_leaders(robot::RobotModel& model) {
   std::vector<char> done(model.joints.size(), 0);
   std::vector<robot::Index> chain;

@@ -15,7 +15,7 @@ namespace tenon::convert {
 
 using layer::Value;
 using robot::Index;
-using robot::MujocoTendonStop;
+using robot::MujocoTendonWrap;
 
 namespace {
 
@@ -45,7 +45,7 @@ std::vector<Path> numbered(const std::vector<Path>& path, std::vector<std::int32
 Path TendonWriter::write(const robot::MujocoTendon& tendon) {
   LayerBuilder& builder = physics_.builder();
   const Path path = physics_.define(tendon.name, kTendon);
-  if (tendon.stops.empty()) {
+  if (tendon.wraps.empty()) {
     write_terms(path, tendon);
   } else if (const std::optional<Route> route = route_of(tendon)) {
     write_route(path, *route);
@@ -100,13 +100,13 @@ Path TendonWriter::shape_path(const std::string& name) const {
   return at == shapes_.shapes.end() ? Path() : at->second;
 }
 
-/// None, and a finding, where a stop is not on the stage.
+/// None, and a finding, where a wrap is not on the stage.
 std::optional<TendonWriter::Route> TendonWriter::route_of(const robot::MujocoTendon& tendon) {
   Route route;
-  for (const MujocoTendonStop& stop : tendon.stops) {
-    if (!add_stop(stop, route)) {
+  for (const MujocoTendonWrap& wrap : tendon.wraps) {
+    if (!add_wrap(wrap, route)) {
       physics_.layer().report({}, Severity::Error, "convert.tendon",
-                              "the tendon \"" + tendon.name + "\" goes to \"" + stop.name +
+                              "the tendon \"" + tendon.name + "\" goes to \"" + wrap.name +
                                   "\", which is not converted",
                               "");
       return std::nullopt;
@@ -115,29 +115,29 @@ std::optional<TendonWriter::Route> TendonWriter::route_of(const robot::MujocoTen
   return route;
 }
 
-bool TendonWriter::add_stop(const MujocoTendonStop& stop, Route& route) {
-  if (stop.kind == MujocoTendonStop::Kind::Pulley) {
-    route.divisors.push_back(stop.divisor);
+bool TendonWriter::add_wrap(const MujocoTendonWrap& wrap, Route& route) {
+  if (wrap.kind == MujocoTendonWrap::Kind::Pulley) {
+    route.divisors.push_back(wrap.divisor);
     return true;
   }
-  const bool is_site = stop.kind == MujocoTendonStop::Kind::Site;
-  route.stops.push_back(is_site ? site_path(stop.name) : shape_path(stop.name));
+  const bool is_site = wrap.kind == MujocoTendonWrap::Kind::Site;
+  route.wraps.push_back(is_site ? site_path(wrap.name) : shape_path(wrap.name));
   route.segments.push_back(static_cast<std::int32_t>(route.divisors.size()) - 1);
   route.side_of.push_back(-1);
-  if (!stop.side_site.empty()) {
-    const Path side = site_path(stop.side_site);
+  if (!wrap.side_site.empty()) {
+    const Path side = site_path(wrap.side_site);
     if (side.empty()) {
       return false;
     }
     route.side_of.back() = number_in(route.sides, side);
   }
-  return !route.stops.back().empty();
+  return !route.wraps.back().empty();
 }
 
 void TendonWriter::write_route(Path prim, const Route& route) {
   LayerBuilder& builder = physics_.builder();
   std::vector<std::int32_t> indices;
-  const std::vector<Path> targets = numbered(route.stops, indices);
+  const std::vector<Path> targets = numbered(route.wraps, indices);
   builder.set_value(prim, kTendon, "mjc:type", Value(Token("spatial")));
   builder.set_targets(prim, kTendon, "mjc:path", targets);
   builder.set_value(prim, kTendon, "mjc:path:indices", Value(indices));

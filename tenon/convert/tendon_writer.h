@@ -27,17 +27,17 @@ class TendonWriter {
  private:
   /// The path of a spatial tendon.
   struct Route {
-    std::vector<Path> stops;             ///< (stop_count), sites and shapes
-    std::vector<std::int32_t> segments;  ///< (stop_count), into divisors
+    std::vector<Path> wraps;             ///< (wrap_count), sites and shapes
+    std::vector<std::int32_t> segments;  ///< (wrap_count), into divisors
     std::vector<double> divisors{1};     ///< of lengths, for each branch between pulleys
     std::vector<Path> sides;             ///< sites, each once
-    std::vector<std::int32_t> side_of;   ///< (stop_count), into sides, -1: none
+    std::vector<std::int32_t> side_of;   ///< (wrap_count), into sides, -1: none
   };
 
   void write_terms(Path prim, const robot::MujocoTendon& tendon);
   void write_route(Path prim, const Route& route);
   std::optional<Route> route_of(const robot::MujocoTendon& tendon);
-  bool add_stop(const robot::MujocoTendonStop& stop, Route& route);
+  bool add_wrap(const robot::MujocoTendonWrap& wrap, Route& route);
   Path site_path(const std::string& name);
   Path shape_path(const std::string& name) const;
 

@@ -20,7 +20,7 @@ double number(const stage::Prim& prim, const char* name) {
 
 /// Corners of the triangles of faces, fanned; false where a face names no corner.
 bool triangulate(const layer::Array<int>& counts, const layer::Array<int>& indices,
-                 std::size_t point_count, bool turned, std::vector<Vec3i>& triangles) {
+                 std::size_t point_count, bool flipped, std::vector<Vec3i>& triangles) {
   std::size_t start = 0;
   for (const int count : counts) {
     if (count < 0 || static_cast<std::size_t>(count) > indices.size() - start) {
@@ -33,8 +33,8 @@ bool triangulate(const layer::Array<int>& counts, const layer::Array<int>& indic
       }
     }
     for (int k = 2; k < count; ++k) {
-      triangles.push_back(turned ? Vec3i{{face[0], face[k], face[k - 1]}}
-                                 : Vec3i{{face[0], face[k - 1], face[k]}});
+      triangles.push_back(flipped ? Vec3i{{face[0], face[k], face[k - 1]}}
+                                  : Vec3i{{face[0], face[k - 1], face[k]}});
     }
     start += static_cast<std::size_t>(count);
   }
@@ -66,7 +66,7 @@ Pose turned_to(Token axis) {
 }
 
 /// Of the corners of the triangles, as they were fanned.
-std::vector<Vec2f> texture_coordinates(SceneSource& source, const stage::Prim& prim, bool turned) {
+std::vector<Vec2f> texture_coordinates(SceneSource& source, const stage::Prim& prim, bool flipped) {
   const auto st = prim.attribute("primvars:st").get_as<layer::Array<Vec2f>>();
   const auto counts = prim.attribute("faceVertexCounts").get_as<layer::Array<int>>();
   const auto points = prim.attribute("faceVertexIndices").get_as<layer::Array<int>>();
@@ -94,8 +94,8 @@ std::vector<Vec2f> texture_coordinates(SceneSource& source, const stage::Prim& p
   for (const int count : *counts) {
     for (std::size_t k = 2; k < static_cast<std::size_t>(count); ++k) {
       add(start);
-      add(start + (turned ? k : k - 1));
-      add(start + (turned ? k - 1 : k));
+      add(start + (flipped ? k : k - 1));
+      add(start + (flipped ? k - 1 : k));
     }
     start += static_cast<std::size_t>(count);
   }
@@ -117,12 +117,12 @@ std::optional<VisualShape> read_mesh(SceneSource& source, const stage::Prim& pri
     file.points.push_back(exact ? point : to_float(transform_point(to_double(point), rest)));
   }
   const bool left = prim.attribute("orientation").get_as<Token>() == Token("leftHanded");
-  const bool turned = left != (determinant(upper_left(rest)) < 0);
-  if (!triangulate(*counts, *indices, points->size(), turned, file.triangles)) {
+  const bool flipped = left != (determinant(upper_left(rest)) < 0);
+  if (!triangulate(*counts, *indices, points->size(), flipped, file.triangles)) {
     return std::nullopt;
   }
   if (source.is_mjcf()) {
-    file.texture_coordinates = texture_coordinates(source, prim, turned);
+    file.texture_coordinates = texture_coordinates(source, prim, flipped);
   }
   VisualShape shape;
   shape.pose = inverse(link) * pose;

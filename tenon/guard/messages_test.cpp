@@ -52,7 +52,7 @@ struct Change {
 
 /// Every leaf travels: a value comes back as it was, and so does each that differs in one leaf.
 template <class T>
-void expect_every_field_travels(int least_leaves) {
+void expect_every_field_travels(int min_leaves) {
   T full;
   wire::FillFields{}(full);
   const std::string bytes = wire::encoded(full);
@@ -69,7 +69,7 @@ void expect_every_field_travels(int least_leaves) {
     ASSERT_TRUE(back) << "leaf " << at;
     EXPECT_EQ(wire::encoded(*back), other) << "leaf " << at;
   }
-  EXPECT_GE(leaves, least_leaves);
+  EXPECT_GE(leaves, min_leaves);
 }
 
 TEST(Wire, CarriesEveryFieldOfAMeshScene) { expect_every_field_travels<mesh::MeshScene>(60); }
@@ -120,13 +120,13 @@ TEST(Wire, TakesNoMemoryForCountsThatAreNotThere) {
 
 /// No bytes that a worker may send make more than this many times as much memory.
 TEST(Wire, TakesMemoryInProportion) {
-  EXPECT_LE(sizeof(robot::Link), 8 * wire::least_size<robot::Link>());
-  EXPECT_LE(sizeof(robot::Joint), 8 * wire::least_size<robot::Joint>());
-  EXPECT_LE(sizeof(robot::Collider), 8 * wire::least_size<robot::Collider>());
-  EXPECT_LE(sizeof(robot::Material), 8 * wire::least_size<robot::Material>());
-  EXPECT_LE(sizeof(mesh::PolygonMesh), 8 * wire::least_size<mesh::PolygonMesh>());
-  EXPECT_LE(sizeof(mesh::Appearance), 8 * wire::least_size<mesh::Appearance>());
-  EXPECT_LE(sizeof(Diagnostic), 8 * wire::least_size<Diagnostic>());
+  EXPECT_LE(sizeof(robot::Link), 8 * wire::min_size<robot::Link>());
+  EXPECT_LE(sizeof(robot::Joint), 8 * wire::min_size<robot::Joint>());
+  EXPECT_LE(sizeof(robot::Collider), 8 * wire::min_size<robot::Collider>());
+  EXPECT_LE(sizeof(robot::Material), 8 * wire::min_size<robot::Material>());
+  EXPECT_LE(sizeof(mesh::PolygonMesh), 8 * wire::min_size<mesh::PolygonMesh>());
+  EXPECT_LE(sizeof(mesh::Appearance), 8 * wire::min_size<mesh::Appearance>());
+  EXPECT_LE(sizeof(Diagnostic), 8 * wire::min_size<Diagnostic>());
 }
 
 TEST(Wire, FindsNumbersThatAreNone) {

@@ -108,10 +108,10 @@ Allowance Workers::allowance_for(const std::string& file) const {
   if (error) {
     size = 0;
   }
-  size = std::min(size, limits::kGuardMemoryMost);
+  size = std::min(size, limits::kGuardMemoryMax);
   Allowance allowance = base_;
   allowance.memory =
-      std::min(allowance.memory + size * limits::kGuardMemoryPerByte, limits::kGuardMemoryMost);
+      std::min(allowance.memory + size * limits::kGuardMemoryPerByte, limits::kGuardMemoryMax);
   if (lost_ > 0) {
     allowance.seconds = 1;
   }

@@ -102,7 +102,7 @@ Mat4d row_matrix(const aiMatrix4x4& m) {
 
 /// v M without translation. Here, not in a library: it is asked for each corner of large meshes.
 template <class Matrix>
-Vec3d turned(const aiVector3D& v, const Matrix& m) {
+Vec3d rotated(const aiVector3D& v, const Matrix& m) {
   const auto x = static_cast<double>(v.x);
   const auto y = static_cast<double>(v.y);
   const auto z = static_cast<double>(v.z);
@@ -111,7 +111,7 @@ Vec3d turned(const aiVector3D& v, const Matrix& m) {
 }
 
 Vec3f moved(const aiVector3D& v, const Mat4d& m) {
-  return to_float(turned(v, m) + Vec3d{{m[3][0], m[3][1], m[3][2]}});
+  return to_float(rotated(v, m) + Vec3d{{m[3][0], m[3][1], m[3][2]}});
 }
 
 /// The larger one that is a number, as std::fmax has it.
@@ -119,7 +119,7 @@ double larger(double a, double b) { return a > b || std::isnan(b) ? a : b; }
 
 /// As normalized() of a vector.
 Vec3f turned_normal(const aiVector3D& n, const Mat3d& turn) {
-  const Vec3d normal = turned(n, turn);
+  const Vec3d normal = rotated(n, turn);
   const double largest =
       larger(std::fabs(normal[0]), larger(std::fabs(normal[1]), std::fabs(normal[2])));
   if (!(largest > 0) || std::isinf(largest)) {

@@ -61,14 +61,14 @@ class PointWelder {
     const auto number = static_cast<std::int32_t>(points_.size());
     slots_[at] = number;
     points_.push_back(point);
-    if (points_.size() >= most_points_) {
+    if (points_.size() >= max_points_) {
       grow();
     }
     return number;
   }
   void clear_slots() {
     slots_.assign(slot_count(), -1);
-    most_points_ = slot_count() / 4 * 3;
+    max_points_ = slot_count() / 4 * 3;
   }
   void grow() {
     ++bits_;
@@ -82,7 +82,7 @@ class PointWelder {
 
   std::vector<Vec3f> points_;
   std::vector<std::int32_t> slots_;
-  std::size_t most_points_ = 0;  // that the slots have room for
+  std::size_t max_points_ = 0;  // that the slots have room for
   unsigned bits_ = 6;
 };
 

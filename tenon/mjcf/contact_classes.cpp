@@ -17,7 +17,7 @@ namespace {
 using robot::Index;
 
 /// Groups of a file that people read; more of them come from pairs of single geoms.
-constexpr std::size_t kMostClasses = 256;
+constexpr std::size_t kMaxClasses = 256;
 
 struct ClassKey {
   int type = 0;
@@ -114,7 +114,7 @@ ContactClasses find_contact_classes(MjcfSource& source) {
     }
   }
   const std::vector<const ClassKey*> limited = limited_keys(geoms, pairs);
-  if (limited.size() > kMostClasses) {
+  if (limited.size() > kMaxClasses) {
     source.left_out("contype, conaffinity and pairs tell " + std::to_string(limited.size()) +
                     " classes of geoms apart; they are left out: all touch");
     return found;

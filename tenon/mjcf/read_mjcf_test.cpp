@@ -182,10 +182,10 @@ TEST_F(ReadMjcf, TakesLoopsTendonsAndKeyframesAndNamesLinesOfTheRest) {
   // Coordinates count from where the model stands: 2 x 30 degrees less.
   EXPECT_NEAR((*model->mujoco.tendons[0].range)[1], 3 - std::numbers::pi / 3, 1e-12);
   const robot::MujocoTendon& rope = model->mujoco.tendons[1];
-  ASSERT_EQ(rope.stops.size(), 6u);
-  EXPECT_EQ(rope.stops[1].name, "g_collider");
-  EXPECT_EQ(rope.stops[1].side_site, "t");
-  EXPECT_EQ(rope.stops[3].divisor, 3);
+  ASSERT_EQ(rope.wraps.size(), 6u);
+  EXPECT_EQ(rope.wraps[1].name, "g_collider");
+  EXPECT_EQ(rope.wraps[1].side_site, "t");
+  EXPECT_EQ(rope.wraps[3].divisor, 3);
   EXPECT_EQ(rope.settings.at(0).name, "margin");
   ASSERT_EQ(model->mujoco.actuators.size(), 1u);
   EXPECT_EQ(model->mujoco.actuators[0].kind, robot::MujocoActuator::Target::Tendon);

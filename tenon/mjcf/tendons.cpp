@@ -15,7 +15,7 @@
 namespace tenon::mjcf {
 
 using robot::Index;
-using robot::MujocoTendonStop;
+using robot::MujocoTendonWrap;
 
 namespace {
 
@@ -27,7 +27,7 @@ bool goes_around(int wrap) { return wrap == mjWRAP_SPHERE || wrap == mjWRAP_CYLI
 
 /// A joint with its coefficient. Returns its share of the length where the model stands.
 double add_term(const mjModel& model, const BodyTree& tree, int wrap, robot::MujocoTendon& tendon) {
-  const auto joint = static_cast<std::size_t>(model.wrap_objid[wrap]);
+  const auto joint = static_cast<std::size_t>(model.wrap_objid[number]);
   const double coefficient = model.wrap_prm[wrap];
   tendon.joints.push_back(tree.joint_of_joint[joint]);
   tendon.coefficients.push_back(coefficient);
@@ -35,22 +35,22 @@ double add_term(const mjModel& model, const BodyTree& tree, int wrap, robot::Muj
 }
 
 /// None for what the schema cannot say.
-std::optional<MujocoTendonStop> read_stop(const MjcfSource& source, int wrap, bool first) {
+std::optional<MujocoTendonWrap> read_wrap(const MjcfSource& source, int number, bool first) {
   const mjModel& model = source.model();
-  const int object = model.wrap_objid[wrap];
-  MujocoTendonStop stop;
-  switch (model.wrap_type[wrap]) {
+  const int object = model.wrap_objid[number];
+  MujocoTendonWrap wrap;
+  switch (model.wrap_type[number]) {
     case mjWRAP_SITE:
-      stop.name = source.name(mjOBJ_SITE, object, "site");
+      wrap.name = source.name(mjOBJ_SITE, object, "site");
       break;
     case mjWRAP_SPHERE:
     case mjWRAP_CYLINDER: {
       const bool collides = model.geom_contype[object] != 0 || model.geom_conaffinity[object] != 0;
-      stop.kind = MujocoTendonStop::Kind::Shape;
-      stop.name = source.name(mjOBJ_GEOM, object, "geom") + (collides ? "_collider" : "");
-      const int side = static_cast<int>(model.wrap_prm[wrap]);
+      wrap.kind = MujocoTendonWrap::Kind::Shape;
+      wrap.name = source.name(mjOBJ_GEOM, object, "geom") + (collides ? "_collider" : "");
+      const int side = static_cast<int>(model.wrap_prm[number]);
       if (side >= 0) {
-        stop.side_site = source.name(mjOBJ_SITE, side, "site");
+        wrap.side_site = source.name(mjOBJ_SITE, side, "site");
       }
       break;
     }
@@ -58,13 +58,13 @@ std::optional<MujocoTendonStop> read_stop(const MjcfSource& source, int wrap, bo
       if (first) {
         return std::nullopt;  // the schema has divisors between places only
       }
-      stop.kind = MujocoTendonStop::Kind::Pulley;
-      stop.divisor = model.wrap_prm[wrap];
+      wrap.kind = MujocoTendonWrap::Kind::Pulley;
+      wrap.divisor = model.wrap_prm[number];
       break;
     default:
       return std::nullopt;
   }
-  return stop;
+  return wrap;
 }
 
 /// What is not MuJoCo's default.
@@ -114,11 +114,11 @@ std::optional<robot::MujocoTendon> read_tendon(const MjcfSource& source, const B
   tendon.name = source.name(mjOBJ_TENDON, number, "tendon");
   double start = 0;
   for (int i = 0; i < model.tendon_num[at]; ++i) {
-    const int wrap = model.tendon_adr[at] + i;
-    if (model.wrap_type[wrap] == mjWRAP_JOINT) {
-      start += add_term(model, tree, wrap, tendon);
-    } else if (std::optional<MujocoTendonStop> stop = read_stop(source, wrap, i == 0)) {
-      tendon.stops.push_back(std::move(*stop));
+    const int at_wrap = model.tendon_adr[at] + i;
+    if (model.wrap_type[at_wrap] == mjWRAP_JOINT) {
+      start += add_term(model, tree, at_wrap, tendon);
+    } else if (std::optional<MujocoTendonWrap> wrap = read_wrap(source, at_wrap, i == 0)) {
+      tendon.wraps.push_back(std::move(*wrap));
     } else {
       return std::nullopt;
     }
@@ -143,7 +143,7 @@ std::vector<char> wrapped_geoms(const mjModel& model) {
   std::vector<char> wrapped(static_cast<std::size_t>(model.ngeom), 0);
   for (int wrap = 0; wrap < model.nwrap; ++wrap) {
     if (goes_around(model.wrap_type[wrap])) {
-      wrapped[static_cast<std::size_t>(model.wrap_objid[wrap])] = 1;
+      wrapped[static_cast<std::size_t>(model.wrap_objid[number])] = 1;
     }
   }
   return wrapped;

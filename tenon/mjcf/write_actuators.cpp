@@ -14,7 +14,7 @@ namespace {
 using engines::mujoco::guarded;
 using scene::MujocoActuator;
 using Target = MujocoActuator::Target;
-using Place = scene::TendonStop::Place;
+using Attachment = scene::TendonWrap::Attachment;
 using Range = std::array<double, 2>;
 
 struct Word {
@@ -123,7 +123,7 @@ class ActuatorWriter {
   }
 
   /// Named after its prim; tendons may have made it.
-  std::string site(const Place& place) {
+  std::string site(const Attachment& place) {
     std::string name = place.path.str();
     if (mjs_findElement(&spec_, mjOBJ_SITE, name.c_str()) == nullptr) {
       const std::string body = place.body ? scene_.bodies[*place.body].path.str() : "world";

@@ -12,7 +12,7 @@
 #include <unordered_set>
 
 #include "tenon/approximate/mesh_approximator.h"
-#include "tenon/physics/bodies/weighed_bodies.h"
+#include "tenon/physics/bodies/bodies_with_mass.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/scene/canonical_scene.h"
 
@@ -61,7 +61,7 @@ void append_once(const Diagnostics& found, Diagnostics& diagnostics) {
 }
 
 PhysicsScene read_walked(ReadState& state) {
-  read_weighed_bodies(state);
+  read_bodies_with_mass(state);
   read_joints(state);
   read_drives(state);
   read_actuators(state);
@@ -80,7 +80,7 @@ PhysicsScene read_walked(ReadState& state) {
 
 }  // namespace
 
-void read_weighed_bodies(ReadState& state) {
+void read_bodies_with_mass(ReadState& state) {
   read_scenes(state);
   read_bodies(state);
   read_materials(state);
@@ -90,10 +90,10 @@ void read_weighed_bodies(ReadState& state) {
 }
 
 PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
-                          Diagnostics& diagnostics, Accounts* accounts) {
+                          Diagnostics& diagnostics, Provenance* provenance) {
   Diagnostics found;
   ReadState state = begin(stage, options, found);
-  state.accounts = accounts;
+  state.provenance = provenance;
   const MeshTools own = options.mesh_tools ? MeshTools() : approximate::mesh_tools({});
   state.mesh_tools = options.mesh_tools ? &*options.mesh_tools : &own;
   state.mesh_cache = options.mesh_cache;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
-#include "tenon/physics/accounts.h"
 #include "tenon/physics/colliders/mesh_cache.h"
+#include "tenon/physics/provenance.h"
 #include "tenon/physics/readings.h"
 #include "tenon/physics/scene_names.h"
 #include "tenon/scene/physics_scene.h"
@@ -38,9 +38,9 @@ struct ReadOptions {
 };
 
 /// Reads every physics prim of the stage. Findings about the asset go to `diagnostics` with stable
-/// rule ids; what is wrong is left out, never guessed silently. `accounts`, where not null, gets
+/// rule ids; what is wrong is left out, never guessed silently. `provenance`, where not null, gets
 /// what was decided on the way.
 PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
-                          Diagnostics& diagnostics, Accounts* accounts = nullptr);
+                          Diagnostics& diagnostics, Provenance* provenance = nullptr);
 
 }  // namespace tenon::physics

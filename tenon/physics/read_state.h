@@ -9,10 +9,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "tenon/physics/accounts.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/colliders/mesh_cache.h"
 #include "tenon/physics/physics_tokens.h"
+#include "tenon/physics/provenance.h"
 #include "tenon/physics/readings.h"
 #include "tenon/physics/scene_names.h"
 #include "tenon/physics/stage_walk.h"
@@ -42,7 +42,7 @@ struct ReadState {
   AttributeValues values;
   const MeshTools* mesh_tools = nullptr;
   const std::function<std::optional<SolidIntegrals>(const stage::Prim&)>* integrals = nullptr;
-  Accounts* accounts = nullptr;  ///< filled where not null
+  Provenance* provenance = nullptr;  ///< filled where not null
   MeshCache* mesh_cache = nullptr;
   Walk walk{};
   PhysicsScene scene{};
@@ -117,7 +117,7 @@ std::vector<std::uint32_t> sorted_prims(const Walk& walk, Wanted wanted) {
 std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found,
                                       std::optional<SolidIntegrals>& integrals);
 /// Mass, centre and inertia of one body from the colliders that it has in the scene.
-void weigh_body(ReadState& state, Index body);
+void compute_body_mass(ReadState& state, Index body);
 
 // The passes, in the order in which they run; each needs those before it.
 void read_scenes(ReadState& state);

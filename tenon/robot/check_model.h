@@ -9,7 +9,7 @@ namespace tenon::robot {
 
 /// Whether a model that comes from another process is one: every index names something, lists that
 /// belong together are of one length. What a well-meant description can have wrong is for
-/// kinematic_tree and mend_model. Errors: Corrupt with the file and what is wrong.
+/// kinematic_tree and sanitize_model. Errors: Corrupt with the file and what is wrong.
 Result<void> check_model(const RobotModel& model);
 
 }  // namespace tenon::robot

@@ -28,6 +28,6 @@ Result<KinematicTree> kinematic_tree(const RobotModel& model);
 /// masses and inertias that no body can have, zero axes, mimics in a cycle or of unfit joints,
 /// limits upside down. Each finding goes to `diagnostics`, and what it names is made harmless: left
 /// out or unlimited, as its message says.
-void mend_model(RobotModel& model, Diagnostics& diagnostics);
+void sanitize_model(RobotModel& model, Diagnostics& diagnostics);
 
 }  // namespace tenon::robot

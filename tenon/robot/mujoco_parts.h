@@ -57,7 +57,7 @@ struct MujocoActuator {
 };
 
 /// What the path of a spatial tendon meets.
-struct MujocoTendonStop {
+struct MujocoTendonWrap {
   enum class Kind : std::uint8_t {
     Site,    ///< goes through a site
     Shape,   ///< goes around a sphere or a cylinder
@@ -73,7 +73,7 @@ struct MujocoTendonStop {
 /// A tendon: its length is a sum of joint coordinates, or that of a path.
 struct MujocoTendon {
   std::string name;
-  std::vector<MujocoTendonStop> stops;  ///< of a spatial tendon, which has no joints
+  std::vector<MujocoTendonWrap> wraps;  ///< of a spatial tendon, which has no joints
   std::vector<std::uint32_t> joints;    ///< (term_count), into RobotModel::joints
   std::vector<double> coefficients;     ///< (term_count)
   double stiffness = 0;

@@ -53,7 +53,7 @@ std::string rule_of(const RobotModel& model) {
 
 std::string mended(RobotModel& model) {
   Diagnostics findings;
-  mend_model(model, findings);
+  sanitize_model(model, findings);
   std::string rules;
   for (const Diagnostic& finding : findings) {
     rules += finding.rule + ";";

@@ -29,13 +29,14 @@ struct MujocoActuator {
 
   Path path;
   Target kind = Target::None;
-  Index target = 0;            ///< of Joint, Tendon: into those lists of PhysicsScene
-  std::optional<Index> drive;  ///< of Joint: the actuator is this one of Joint::drives already
-  TendonStop::Place site;      ///< of Site; the pin of Crank
-  std::optional<TendonStop::Place> other_site;  ///< what Site is seen from; the slider of Crank
-  double crank_length = 0;                      ///< [m]
-  bool in_parent = false;                       ///< gear of a ball counts in the parent's frame
-  std::string gain_type;                        ///< the schema's tokens
+  Index target = 0;             ///< of Joint, Tendon: into those lists of PhysicsScene
+  std::optional<Index> drive;   ///< of Joint: the actuator is this one of Joint::drives already
+  TendonWrap::Attachment site;  ///< of Site; the pin of Crank
+  std::optional<TendonWrap::Attachment>
+      other_site;           ///< what Site is seen from; the slider of Crank
+  double crank_length = 0;  ///< [m]
+  bool in_parent = false;   ///< gear of a ball counts in the parent's frame
+  std::string gain_type;    ///< the schema's tokens
   std::string bias_type;
   std::string dyn_type;
   std::array<double, 10> gain{};

@@ -45,7 +45,7 @@ struct MujocoEquality {
 };
 
 /// What the path of a spatial tendon meets.
-struct TendonStop {
+struct TendonWrap {
   enum class Kind : std::uint8_t {
     Site,      ///< goes through a point
     Sphere,    ///< goes around
@@ -53,17 +53,17 @@ struct TendonStop {
     Pulley,    ///< ends; what follows is another branch
   };
   /// A point of the tendon's surroundings.
-  struct Place {
+  struct Attachment {
     Path path;                          ///< of the prim
     std::optional<std::uint32_t> body;  ///< into PhysicsScene::bodies; none: the world
     Pose pose;                          ///< in the body, or in the world [m]
   };
 
   Kind kind = Kind::Site;
-  Place place;
-  double radius = 0;          ///< [m]
-  std::optional<Place> side;  ///< where the path goes past a shape; none: on the shorter way
-  double divisor = 1;         ///< of Pulley: of the length of what follows
+  Attachment attachment;
+  double radius = 0;               ///< [m]
+  std::optional<Attachment> side;  ///< where the path goes past a shape; none: on the shorter way
+  double divisor = 1;              ///< of Pulley: of the length of what follows
 };
 
 /// A tendon (MjcTendon): its length is the sum of coefficient and coordinate of joints, or that of
@@ -72,7 +72,7 @@ struct Tendon {
   Path path;
   std::vector<std::uint32_t> joints;  ///< into PhysicsScene::joints
   std::vector<double> coefficients;   ///< (joint_count)
-  std::vector<TendonStop> stops;      ///< of a spatial tendon, which has no joints
+  std::vector<TendonWrap> wraps;      ///< of a spatial tendon, which has no joints
   double stiffness = 0;
   double damping = 0;
   double friction = 0;

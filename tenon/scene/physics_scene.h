@@ -101,7 +101,7 @@ struct Shape {
   double half_height = 0;  ///< [m]
   Axis axis = Axis::Z;
   Index mesh = 0;  ///< into PhysicsScene::meshes, of ConvexHull and Mesh
-  /// Of ConvexHull: the hulls that it is taken apart into (S-62), into PhysicsScene::meshes; empty:
+  /// Of ConvexHull: the hulls of its convex decomposition (S-62), into PhysicsScene::meshes; empty:
   /// the one hull of `mesh`.
   std::vector<Index> pieces;
   std::vector<Vec3d> sphere_centers;  ///< [m], in the collider frame
@@ -401,17 +401,17 @@ struct BodyMass {
 };
 
 /// A body that samples switch off inside another one: while it is off it moves as a part of that.
-struct CarriedBody {
+struct MergedBody {
   Index body = 0;
-  Index carrier = 0;  ///< the nearest body around it that is on
+  Index into = 0;  ///< the nearest body around it that is on
 };
 
 /// Which bodies are parts of others from a time on (S-23).
 struct NestingState {
-  double time = 0;                   ///< [s] from the start; the first one holds before, too
-  std::vector<CarriedBody> carried;  ///< ascending
-  /// What carried bodies and their carriers weigh in that state, ascending by body; what a carried
-  /// body adds, or nothing where the carrier's own mass API speaks for all of it.
+  double time = 0;                 ///< [s] from the start; the first one holds before, too
+  std::vector<MergedBody> merged;  ///< ascending
+  /// The masses of merged bodies and of those they are merged into in that state, ascending by
+  /// body: what a merged body adds, or nothing where the outer body's own mass API speaks for all.
   std::vector<std::pair<Index, BodyMass>> masses;
 };
 
@@ -440,7 +440,7 @@ struct PhysicsScene {
   std::vector<GravityTrack> gravity_tracks;
   std::vector<ShapesTrack> shapes_tracks;
   std::vector<GroupState> group_states;  ///< ascending in time; empty: `filter` holds throughout
-  std::vector<NestingState> nesting_states;  ///< ascending in time; empty: no body is ever carried
+  std::vector<NestingState> nesting_states;  ///< ascending in time; empty: no body is ever merged
   std::vector<NotRead> not_read;
 
   double meters_per_unit = 0.01;  ///< of the stage, to go back to its units

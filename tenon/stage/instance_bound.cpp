@@ -23,9 +23,9 @@ PrimData* next_below(PrimData* prim, const PrimData* root) {
 
 class Counter {
  public:
-  explicit Counter(StageData& data) : data_(data), most_(data.options.most_instanced_prims) {
+  explicit Counter(StageData& data) : data_(data), most_(data.options.max_instanced_prims) {
     for (const layer::LayerPtr& layer : data.cache->used_layers()) {
-      most_ += data.options.most_instanced_prims_per_spec * layer->spec_count();
+      most_ += data.options.max_instanced_prims_per_spec * layer->spec_count();
     }
   }
 

@@ -47,8 +47,8 @@ TEST(InstanceBound, LeavesStagesAloneThatAreSmall) {
 
 TEST(InstanceBound, EndsWalksThatDouble) {
   StageOptions options;
-  options.most_instanced_prims = 1000;
-  options.most_instanced_prims_per_spec = 1;
+  options.max_instanced_prims = 1000;
+  options.max_instanced_prims_per_spec = 1;
   const Stage stage = doubling(60, options);
   const std::size_t bound = 1000 + 3 * 60 + 4;
   EXPECT_LE(walked(stage.pseudo_root()), bound);

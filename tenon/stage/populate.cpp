@@ -54,7 +54,7 @@ class Populator {
   void build_ahead() {
     constexpr std::size_t kWorthTwoThreads = 256;  // prims
     const std::size_t count = data_.prims.size();
-    if (count < std::max(kWorthTwoThreads, next_ahead_) || count >= data_.options.most_prims ||
+    if (count < std::max(kWorthTwoThreads, next_ahead_) || count >= data_.options.max_prims ||
         pending_.size() < 2 || built_ahead_ || !data_.options.mask.empty() ||
         usable_processors() < 2) {
       return;
@@ -66,7 +66,7 @@ class Populator {
     const auto enters = [](const compose::PrimIndex& index) {
       return !index.instanceable && is_active(index);
     };
-    built_ahead_ = data_.cache->build_below(roots, enters, data_.options.most_prims - count);
+    built_ahead_ = data_.cache->build_below(roots, enters, data_.options.max_prims - count);
     next_ahead_ = 2 * count;
   }
 
@@ -78,7 +78,7 @@ class Populator {
       if (!is_in_mask(data_.options.mask, source_path)) {
         continue;
       }
-      if (data_.prims.size() >= data_.options.most_prims) {
+      if (data_.prims.size() >= data_.options.max_prims) {
         report_too_many(path);
         break;
       }
@@ -126,7 +126,7 @@ class Populator {
       too_many_reported_ = true;
       Diagnostic diagnostic;
       diagnostic.rule = "stage.too-many-prims";
-      diagnostic.message = "the stage has more than " + std::to_string(data_.options.most_prims) +
+      diagnostic.message = "the stage has more than " + std::to_string(data_.options.max_prims) +
                            " prims; those from <" + path.str() + "> on are left out";
       diagnostic.file = data_.cache->layer_stack()->identifier();
       diagnostic.prim = path.str();

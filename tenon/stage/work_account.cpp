@@ -10,8 +10,8 @@
 
 namespace tenon::stage {
 
-WorkAccount::WorkAccount(std::size_t most_work)
-    : most_(std::max(most_work, 2 * limits::kComposeWork)) {}
+WorkAccount::WorkAccount(std::size_t max_work)
+    : most_(std::max(max_work, 2 * limits::kComposeWork)) {}
 
 Result<void> WorkAccount::spend(const Stage& stage) {
   for (const Diagnostic& found : stage.diagnostics().items()) {
@@ -32,7 +32,7 @@ Result<void> WorkAccount::spend(const Stage& stage) {
                                        std::to_string(allowed_ + most_) + " units of work")
         .in_file(stage.root_layer().identifier())
         .with_rule("compose.work-exceeded")
-        .with_fix("reduce the arcs that multiply with each other, or allow more with --most-work");
+        .with_fix("reduce the arcs that multiply with each other, or allow more with --max-work");
   }
   return {};
 }

@@ -14,8 +14,8 @@ namespace tenon::stage {
 /// sizes of their layers allow.
 class WorkAccount {
  public:
-  /// `most_work` as in compose::ComposeOptions; 0: the limit.
-  explicit WorkAccount(std::size_t most_work = 0);
+  /// `max_work` as in compose::ComposeOptions; 0: the limit.
+  explicit WorkAccount(std::size_t max_work = 0);
 
   /// Adds what `stage` took. ErrorCode::Limit, rule "compose.work-exceeded", when it was not
   /// composed to its end, so that what is made of it would be a part, or when all is too much.

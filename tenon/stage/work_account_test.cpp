@@ -10,7 +10,7 @@
 namespace tenon::stage {
 namespace {
 
-Stage stage_of(std::size_t most_work) {
+Stage stage_of(std::size_t max_work) {
   std::string text = "def \"L0\" {\n    def \"leaf\" {}\n}\n";
   for (int level = 1; level <= 12; ++level) {
     const std::string below = std::to_string(level - 1);
@@ -19,8 +19,8 @@ Stage stage_of(std::size_t most_work) {
             ">\n    ) {}\n}\n";
   }
   StageOptions options;
-  options.compose.most_work = most_work;
-  options.compose.most_work_per_spec = 0;
+  options.compose.max_work = max_work;
+  options.compose.max_work_per_spec = 0;
   return open_text(text, std::move(options));
 }
 

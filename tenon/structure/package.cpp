@@ -58,10 +58,10 @@ compose::LayerOpener opener_of(const Package& package) {
 
 Result<stage::Stage> open_package(const Package& package,
                                   const std::map<std::string, std::string>& selections,
-                                  std::size_t most_work) {
+                                  std::size_t max_work) {
   const layer::LayerPtr interface = package.files.at(package.interface).layer;
   stage::StageOptions options;
-  options.compose.set_most_work(most_work);
+  options.compose.set_max_work(max_work);
   options.resolve_asset = [&package](const std::string& path, const layer::Layer& anchor) {
     const std::string target = target_of(path, anchor);
     const bool inside = target.starts_with(kRoot);

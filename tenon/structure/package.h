@@ -40,10 +40,10 @@ std::string identifier_in_package(const std::string& name);
 /// Opens the layers of a package, which must outlive it, and no others.
 compose::LayerOpener opener_of(const Package& package);
 /// Composes a package with these variants of its default prim selected ("" selects none).
-/// `most_work` as in compose::ComposeOptions; 0: the limit.
+/// `max_work` as in compose::ComposeOptions; 0: the limit.
 Result<stage::Stage> open_package(const Package& package,
                                   const std::map<std::string, std::string>& selections,
-                                  std::size_t most_work = 0);
+                                  std::size_t max_work = 0);
 
 /// Makes the bytes of the files of all layers, and each layer what a reader has of them: from then
 /// on the package is what will stand in its folder. Each layer is written and read once. The

@@ -345,12 +345,12 @@ class Command(unittest.TestCase):
 
     def test_what_a_limit_cuts_short_is_no(self):
         for name in ("info", "tree", "physics", "dump", "check"):
-            process = tenon(name, self.scene, "--most-work", "1")
+            process = tenon(name, self.scene, "--max-work", "1")
             self.assertEqual(process.returncode, 1, (name, process.stderr))
             self.assertIn("compose.work-exceeded", process.stderr + process.stdout)
         for call in (["set", self.scene, "/World/ball.radius=2", "--dry-run"],
                      ["structure", self.scene, "-o", self.folder / "cut"]):
-            process = tenon(*call, "--most-work", "1")
+            process = tenon(*call, "--max-work", "1")
             self.assertEqual(process.returncode, 2, (call, process.stderr))
             self.assertIn("compose.work-exceeded", process.stderr)
 

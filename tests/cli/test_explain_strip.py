@@ -165,7 +165,7 @@ class Explain(Base):
 
     def test_mass_names_what_it_beat(self):
         answer = self.json("explain", self.layered(), "/World/Box")
-        account = answer["body"]["massAccount"]
+        account = answer["body"]["massProvenance"]
         masses = [(c["value"], c["used"], c["rule"]) for c in account["candidates"]
                   if c["quantity"] == "mass"]
         self.assertEqual(masses, [("2 kg", True, "S-39"), ("1000 kg", False, "S-39")])
@@ -189,7 +189,7 @@ class Explain(Base):
 
     def test_density_chain_is_listed_whole(self):
         scene = GOLDEN / "density_chain/input.usda"
-        account = self.json("explain", scene, "/W/B")["body"]["massAccount"]
+        account = self.json("explain", scene, "/W/B")["body"]["massProvenance"]
         densities = [(c["value"], c["used"]) for c in account["colliders"][0]["candidates"]]
         self.assertEqual(densities, [("500 kg/m^3", True), ("5000 kg/m^3", False),
                                      ("2000 kg/m^3", False), ("1000 kg/m^3", False)])

@@ -210,12 +210,12 @@ def check_mjcf_world(work):
         near("world: gravity", found, wanted, 1e-6)
     expect("world: solver", (world["mujoco"]["option:solver"], world["mujoco"]["flag:warmstart"],
                              world["mujoco"]["option:wind"]), ("cg", [0], [1, 0, 0.5]))
-    expect("world: path", [stop["kind"] for stop in rope["stops"]],
+    expect("world: path", [wrap["kind"] for wrap in rope["wraps"]],
            ["site", "cylinder", "site", "sphere", "site", "pulley", "site", "site", "pulley",
             "site", "site"])
-    expect("world: peg", (rope["stops"][1]["place"]["body"], rope["stops"][1]["radius"]),
+    expect("world: peg", (rope["wraps"][1]["attachment"]["body"], rope["wraps"][1]["radius"]),
            (None, 0.05))
-    expect("world: side", rope["stops"][3]["side"]["path"].endswith("/upper/beside"), True)
+    expect("world: side", rope["wraps"][3]["side"]["path"].endswith("/upper/beside"), True)
     expect("world: sum", (both["coefficients"], [j.rsplit("/")[-1] for j in both["joints"]]),
            ([0.5, -2], ["shoulder", "elbow"]))
     neutral = json.loads(tenon("physics", interface, "--physics", "physics", "--json")[1])

@@ -330,18 +330,18 @@ TEST(HostileCrate, TablesOfMillionsOfRows) {
 
 /// A tree of a million prims with one name: its second path is there already.
 TEST(HostileCrate, SiblingsOfOneName) {
-  constexpr std::uint32_t kMost = 4'000'000;
+  constexpr std::uint32_t kMax = 4'000'000;
   fuzz::CrateParts parts = small_crate();
   const std::uint32_t name = parts.path_tokens[1];
   parts.paths = {0};
   parts.path_tokens = {0};
   parts.path_jumps = {static_cast<std::uint32_t>(-1)};
-  for (std::uint32_t i = 1; i < kMost; ++i) {
+  for (std::uint32_t i = 1; i < kMax; ++i) {
     parts.paths.push_back(i);
     parts.path_tokens.push_back(name);
-    parts.path_jumps.push_back(i + 1 < kMost ? 0u : static_cast<std::uint32_t>(-2));
+    parts.path_jumps.push_back(i + 1 < kMax ? 0u : static_cast<std::uint32_t>(-2));
   }
-  parts.path_count = kMost;
+  parts.path_count = kMax;
   expect_bounded(put_together(parts), Expected::Refused);
 }
 

@@ -39,8 +39,8 @@ Outcome compose_input(const std::string& bytes) {
     return Result<layer::LayerPtr>(Error(ErrorCode::NotFound, "no layer " + path));
   };
   stage::StageOptions options;
-  options.most_prims = 20'000;
-  options.compose.most_nodes = 200'000;
+  options.max_prims = 20'000;
+  options.compose.max_nodes = 200'000;
   const auto stage = stage::Stage::open(std::make_shared<const layer::Layer>(*std::move(layer)),
                                         nullptr, no_other, options);
   if (!stage) {

@@ -18,7 +18,7 @@ using stage::Attribute;
 using stage::Time;
 using stage::ValueSource;
 
-constexpr std::size_t kMostMidpoints = 8;
+constexpr std::size_t kMaxMidpoints = 8;
 
 std::string_view usd_source_name(ValueSource source) {
   switch (source) {
@@ -59,7 +59,7 @@ void write_samples(JsonWriter& json, const Attribute& attribute, const ValueStyl
     return;
   }
   std::vector<double> between{times.front() - 1};
-  for (std::size_t i = 0; i + 1 < times.size() && i < kMostMidpoints; ++i) {
+  for (std::size_t i = 0; i + 1 < times.size() && i < kMaxMidpoints; ++i) {
     between.push_back((times[i] + times[i + 1]) / 2);
   }
   between.push_back(times.back() + 1);

@@ -9,10 +9,10 @@
 /// tenon/base/limits/limits.h.
 namespace tenon::limits {
 
-inline constexpr std::uint64_t kGuardMemoryBase = 1u << 30;       ///< bytes for any file
-inline constexpr std::uint64_t kGuardMemoryPerByte = 40;          ///< more per byte of what is read
-inline constexpr std::uint64_t kGuardMemoryMost = 8'589'934'592;  ///< bytes for the largest file
-inline constexpr std::uint64_t kGuardSeconds = 5;  ///< of processor time of a command
+inline constexpr std::uint64_t kGuardMemoryBase = 1u << 30;      ///< bytes for any file
+inline constexpr std::uint64_t kGuardMemoryPerByte = 40;         ///< more per byte of what is read
+inline constexpr std::uint64_t kGuardMemoryMax = 8'589'934'592;  ///< bytes for the largest file
+inline constexpr std::uint64_t kGuardSeconds = 5;                ///< of processor time of a command
 inline constexpr std::uint64_t kGuardBytesPerSecond = 1u
                                                       << 20;  ///< a second more for each of these
 inline constexpr std::uint64_t kGuardWallSeconds = 60;        ///< until an answer is there

@@ -67,12 +67,12 @@ std::string_view nearest_name(std::string_view name, const std::vector<std::stri
 }
 
 std::string_view NearestNames::find(Token name) {
-  constexpr std::size_t kMost = 1000;
+  constexpr std::size_t kMax = 1000;
   const auto known = found_.find(name);
   if (known != found_.end()) {
     return known->second;
   }
-  if (found_.size() >= kMost) {
+  if (found_.size() >= kMax) {
     return {};
   }
   return found_.emplace(name, nearest_name(name.view(), names_)).first->second;

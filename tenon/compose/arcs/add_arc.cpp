@@ -133,7 +133,7 @@ bool is_over_limit(Indexer& indexer, NodeId parent) {
     size += frame->graph->size();
   }
   if (!nested_too_deep && size < limits::kIndexNodes &&
-      *indexer.services.node_count < indexer.services.options->most_nodes &&
+      *indexer.services.node_count < indexer.services.options->max_nodes &&
       arcs_above(indexer, parent) < limits::kArcChainDepth) {
     return false;
   }

@@ -31,7 +31,7 @@ class BatchBuilder {
     };
     services_.missing = [this](const MissingArc&) { give_up(); };
     node_count_ = known_.node_count;
-    work_.set_most(known_.most_work);
+    work_.set_max(known_.max_work);
     work_.restart(known_.work_done);
   }
   BatchBuilder(const BatchBuilder&) = delete;
@@ -66,7 +66,7 @@ class BatchBuilder {
     if (const PrimIndex* const found = known_.index(path)) {
       return found;
     }
-    if (batch_.indices.size() >= known_.most_indices || node_count_ >= known_.options->most_nodes ||
+    if (batch_.indices.size() >= known_.max_indices || node_count_ >= known_.options->max_nodes ||
         work_.exhausted()) {
       batch_.complete = false;
       batch_.full = true;
@@ -80,7 +80,7 @@ class BatchBuilder {
     build_child_index(services_, parent, ahead.index);
     const bool fits = work_.done() - work_before <= std::numeric_limits<std::uint32_t>::max();
     std::vector<ArcCost> costs = work_.take_costs();
-    if (!gave_up_ && fits && node_count_ < known_.options->most_nodes && !work_.exhausted()) {
+    if (!gave_up_ && fits && node_count_ < known_.options->max_nodes && !work_.exhausted()) {
       ahead.node_count = static_cast<std::uint32_t>(node_count_ - nodes_before);
       ahead.work = static_cast<std::uint32_t>(work_.done() - work_before);
       if (!costs.empty()) {
@@ -99,7 +99,7 @@ class BatchBuilder {
   /// What is being built will not be used; no arc needs to be followed any more.
   Error give_up() {
     gave_up_ = true;
-    node_count_ = std::max(node_count_, known_.options->most_nodes);
+    node_count_ = std::max(node_count_, known_.options->max_nodes);
     return Error(ErrorCode::NotFound, "not known yet");
   }
 

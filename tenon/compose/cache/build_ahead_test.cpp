@@ -94,7 +94,7 @@ def "Robot" (
 
 class Robot {
  public:
-  explicit Robot(std::size_t most_nodes = limits::kCacheNodes) {
+  explicit Robot(std::size_t max_nodes = limits::kCacheNodes) {
     for (const auto& [name, text] :
          std::map<std::string, std::string>{{"root", kRoot}, {"robot", kRobot}}) {
       Diagnostics diagnostics;
@@ -111,7 +111,7 @@ class Robot {
                                     : Result<layer::LayerPtr>(found->second);
     };
     ComposeOptions options;
-    options.most_nodes = most_nodes;
+    options.max_nodes = max_nodes;
     cache = std::make_unique<IndexCache>(layers_.at("root"), nullptr, opener, options);
   }
 

@@ -79,9 +79,9 @@ struct IndexCache::State {
     if (measured.insert(&layer).second) {
       specs += layer.spec_count();
       const std::size_t most = WorkMeter::kUnlimited / 2;
-      const std::size_t per_spec = std::max<std::size_t>(options.most_work_per_spec, 1);
-      const std::size_t more = std::min(specs, most / per_spec) * options.most_work_per_spec;
-      work.set_most(std::min(options.most_work, most) + more);
+      const std::size_t per_spec = std::max<std::size_t>(options.max_work_per_spec, 1);
+      const std::size_t more = std::min(specs, most / per_spec) * options.max_work_per_spec;
+      work.set_max(std::min(options.max_work, most) + more);
     }
   }
 
@@ -160,7 +160,7 @@ struct IndexCache::State {
             " units of work (kComposeWork); arcs from here on are left out" +
             (costly.empty() ? "" : "; " + costly),
         "reduce the arcs that multiply with each other, make instances of what they bring in, or "
-        "allow more with --most-work");
+        "allow more with --max-work");
     index.errors.add(std::move(found));
   }
 
@@ -213,7 +213,7 @@ struct IndexCache::State {
     }
     Entry& entry = found->second;
     if (entry.ahead != nullptr) {
-      at_limit = at_limit || node_count + entry.ahead->node_count >= options.most_nodes ||
+      at_limit = at_limit || node_count + entry.ahead->node_count >= options.max_nodes ||
                  entry.ahead->work >= work.most() - std::min(work.done(), work.most());
       if (at_limit) {
         by_path.erase(found);
@@ -298,8 +298,8 @@ bool IndexCache::build_below(const std::vector<const PrimIndex*>& roots,
   known.work_done = state.work.done();
   // Each of two threads gets half of what is left: work that nobody asks for is wasted.
   const std::size_t left = state.work.most() - std::min(known.work_done, state.work.most());
-  known.most_work = known.work_done + left / 2;
-  known.most_indices = most;
+  known.max_work = known.work_done + left / 2;
+  known.max_indices = most;
   known.index = [&state](Path path) { return state.find_index(path); };
   known.layer = [&state](const std::string& path, const layer::Layer& anchor) {
     return state.find_layer(path, anchor);

@@ -34,16 +34,16 @@ struct ComposeOptions {
   /// has a session layer, and in a stage, which always has one, if only an empty one.
   bool shares_root_stack = true;
   /// Nodes of all prim indices together; arcs beyond are left out with a diagnostic.
-  std::size_t most_nodes = limits::kCacheNodes;
+  std::size_t max_nodes = limits::kCacheNodes;
   /// Units of work on all prim indices together, and more for each spec of the layers; what is
   /// beyond is left out with a diagnostic that names the arc which took most.
-  std::size_t most_work = limits::kComposeWork;
-  std::size_t most_work_per_spec = limits::kComposeWorkPerSpec;
+  std::size_t max_work = limits::kComposeWork;
+  std::size_t max_work_per_spec = limits::kComposeWorkPerSpec;
 
   /// `units` in place of both bounds of work; 0 leaves them.
-  void set_most_work(std::size_t units) {
-    most_work = units == 0 ? most_work : units;
-    most_work_per_spec = units == 0 ? most_work_per_spec : 0;
+  void set_max_work(std::size_t units) {
+    max_work = units == 0 ? max_work : units;
+    max_work_per_spec = units == 0 ? max_work_per_spec : 0;
   }
 };
 

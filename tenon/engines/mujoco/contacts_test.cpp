@@ -336,7 +336,7 @@ TEST(Contacts, ManyStaticCollidersCollide) {
 }
 
 // MuJoCo makes hulls with Qhull, which took minutes here.
-TEST(Contacts, HullsOfVeryManyCornersAreThinned) {
+TEST(Contacts, HullsOfVeryManyCornersAreSimplified) {
   TestScene scene;
   const auto body = scene.add_body("drum", {{0, 0, 0.5}});
   scene::TriangleMesh mesh;

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "tenon/engines/mujoco/build/build.h"
-#include "tenon/engines/mujoco/build/least_inertia.h"
+#include "tenon/engines/mujoco/build/min_inertia.h"
 #include "tenon/engines/mujoco/build/surfaces.h"
 #include "tenon/engines/mujoco/contact_filter.h"
 #include "tenon/engines/mujoco/error_hook.h"
@@ -26,12 +26,12 @@ namespace {
 using scene::PhysicsScene;
 
 /// What MuJoCo still moves.
-scene::BodyMass least_mass() {
+scene::BodyMass min_mass() {
   scene::BodyMass least;
-  least.mass = kLeastMass;
+  least.mass = kMinMass;
   least.inertia = {};
   for (std::size_t i = 0; i < 3; ++i) {
-    least.inertia[i][i] = kLeastMoment;
+    least.inertia[i][i] = kMinMoment;
   }
   return least;
 }
@@ -42,7 +42,7 @@ Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::make(const PhysicsSc
                                                                  const SimulationOptions& options,
                                                                  Diagnostics& diagnostics) {
   auto timeline = scene::Timeline::is_needed(scene)
-                      ? std::make_unique<scene::Timeline>(scene, least_mass())
+                      ? std::make_unique<scene::Timeline>(scene, min_mass())
                       : nullptr;
   const PhysicsScene& now = timeline == nullptr ? scene : timeline->scene();
   TENON_TRY(Model model, build_model(now, options, diagnostics));
@@ -103,7 +103,7 @@ Result<void> MujocoSimulation::rebuild() {
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
     states.push_back(body_state(static_cast<scene::Index>(b)));
   }
-  const std::vector<scene::CarriedBody> joined = timeline_->restart(states);
+  const std::vector<scene::MergedBody> joined = timeline_->restart(states);
   Diagnostics silent;  // what there is to say was said at the start
   TENON_TRY(Model next, build_model(*scene_, {.time_step = time_step()}, silent, Begin::Middle));
   carry_joints_over(model_, next);
@@ -113,7 +113,7 @@ Result<void> MujocoSimulation::rebuild() {
   const FilterScope filter(model_.filter);
   return guarded([&] {
     mj_forward(model_.model.get(), model_.data.get());
-    for (const scene::CarriedBody& part : joined) {
+    for (const scene::MergedBody& part : joined) {
       join_momentum(scene_->bodies[part.body], model_.bodies[part.body], model_);
     }
     if (!joined.empty()) {

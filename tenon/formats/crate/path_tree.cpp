@@ -284,7 +284,7 @@ Result<void> read_paths(Tables& tables) {
   TENON_TRY(NodeStream stream, NodeStream::open(in, node_count));
   TENON_TRY(const bool in_order, tree.build_in_order(std::move(stream), nodes, paths));
   if (!in_order) {
-    if (node_count > most_rows(file, limits::kCrateTokens)) {
+    if (node_count > max_rows(file, limits::kCrateTokens)) {
       return damaged();
     }
     TENON_TRY(NodeStream again, NodeStream::open(in, node_count));

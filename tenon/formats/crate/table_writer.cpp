@@ -124,9 +124,9 @@ void TableWriter::spec(Path spec_path, std::uint32_t kind, std::uint32_t field_s
 }
 
 bool TableWriter::fits() const {
-  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-  return tokens_.size() < kMost && paths_.size() < kMost && field_names_.size() < kMost &&
-         field_sets_.size() < kMost && spec_paths_.size() < kMost;
+  constexpr std::size_t kMax = std::numeric_limits<std::int32_t>::max();
+  return tokens_.size() < kMax && paths_.size() < kMax && field_names_.size() < kMax &&
+         field_sets_.size() < kMax && spec_paths_.size() < kMax;
 }
 
 void TableWriter::write_tokens(bytes::ByteWriter& out) const {

@@ -152,7 +152,7 @@ Result<std::vector<std::uint32_t>> read_field_sets(bytes::ByteReader in, const C
   }
   TENON_TRY(const std::uint64_t count, read_row_count(in, file, limits::kCrateFieldSetRows));
   TENON_TRY(auto rows, open_packed<std::uint32_t>(in, count));
-  const std::uint64_t most_sets = most_rows(file, limits::kCrateFields);
+  const std::uint64_t max_sets = max_rows(file, limits::kCrateFields);
   std::vector<std::uint32_t> sets;
   sets.reserve(static_cast<std::size_t>(count));
   std::uint64_t ended = 0;
@@ -161,7 +161,7 @@ Result<std::vector<std::uint32_t>> read_field_sets(bytes::ByteReader in, const C
     sets.push_back(rows.next());
     if (sets.back() == kEndOfSet) {
       start = sets.size();
-      if (++ended > most_sets) {
+      if (++ended > max_sets) {
         return corrupt("there are more sets of fields than a file of its size can have");
       }
     } else if (sets.back() >= field_count || sets.size() - start > field_count) {
@@ -210,14 +210,14 @@ Result<Tables> read_sections(const Contents& contents, std::shared_ptr<CrateFile
 
 }  // namespace
 
-std::uint64_t most_rows(const CrateFile& file, std::uint64_t base) {
+std::uint64_t max_rows(const CrateFile& file, std::uint64_t base) {
   return base + file.bytes->size() / limits::kCrateBytesPerRow;
 }
 
 Result<std::uint64_t> read_row_count(bytes::ByteReader& in, const CrateFile& file,
                                      std::uint64_t base) {
   TENON_TRY(const std::uint64_t count, in.read<std::uint64_t>());
-  if (count > most_rows(file, base)) {
+  if (count > max_rows(file, base)) {
     return corrupt("a table claims " + std::to_string(count) + " rows in a file of " +
                    std::to_string(file.bytes->size()) + " bytes");
   }

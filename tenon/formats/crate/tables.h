@@ -62,8 +62,8 @@ Result<void> read_paths(Tables& tables);
 Result<void> read_specs(Tables& tables);
 
 /// The rows that a table of the file may have when any file may have `base`.
-std::uint64_t most_rows(const CrateFile& file, std::uint64_t base);
-/// A count from the file, refused when it is larger than `most_rows`.
+std::uint64_t max_rows(const CrateFile& file, std::uint64_t base);
+/// A count from the file, refused when it is larger than `max_rows`.
 Result<std::uint64_t> read_row_count(bytes::ByteReader& in, const CrateFile& file,
                                      std::uint64_t base);
 /// A packed list of `count` integers with its size in front.

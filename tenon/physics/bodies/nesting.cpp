@@ -11,9 +11,9 @@
 
 #include "tenon/base/limits/physics_limits.h"
 #include "tenon/math/inertia.h"
-#include "tenon/physics/accounts.h"
+#include "tenon/physics/bodies/bodies_with_mass.h"
 #include "tenon/physics/bodies/mass_properties.h"
-#include "tenon/physics/bodies/weighed_bodies.h"
+#include "tenon/physics/provenance.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/sample_codes.h"
 
@@ -96,33 +96,34 @@ class NestingReader {
 
   void add_state(double code) {
     Diagnostics silent;
-    Accounts accounts;
+    Provenance all;
     ReadState then = state_.at(state_.scene.start_time_code, silent);
     then.mesh_tools = state_.mesh_tools;
     then.integrals = state_.integrals;
-    then.accounts = &accounts;
+    then.provenance = &all;
     then.walk = walk_stage(state_.stage, then.values, state_.readings, stage::Time(code));
-    read_weighed_bodies(then);
+    read_bodies_with_mass(then);
 
     NestingState found;
     found.time = state_.seconds(code);
-    std::map<Index, std::vector<Index>> carried_by;
+    std::map<Index, std::vector<Index>> merged_into;
     for (const Index body : nested_) {
       const PhysicsPrim* prim = then.walk.find(state_.scene.bodies[body].path);
-      const bool is_carried = prim != nullptr && !prim->is_body && prim->body != kNone;
+      const bool is_merged = prim != nullptr && !prim->is_body && prim->body != kNone;
       const std::optional<Index> carrier =
-          is_carried ? body_at(state_, then.walk.prims[prim->body].path) : std::nullopt;
+          is_merged ? body_at(state_, then.walk.prims[prim->body].path) : std::nullopt;
       if (carrier) {
-        found.carried.push_back({body, *carrier});
-        carried_by[*carrier].push_back(body);
+        found.merged.push_back({body, *carrier});
+        merged_into[*carrier].push_back(body);
       }
     }
-    for (const auto& [carrier, carried] : carried_by) {
+    for (const auto& [carrier, merged] : merged_into) {
       const auto there = body_at(then, state_.scene.bodies[carrier].path);
-      const auto account = std::find_if(accounts.masses.begin(), accounts.masses.end(),
-                                        [&](const MassAccount& one) { return one.body == there; });
-      if (account != accounts.masses.end()) {
-        share_mass(*account, then.scene, carrier, carried, found);
+      const auto provenance =
+          std::find_if(all.masses.begin(), all.masses.end(),
+                       [&](const MassProvenance& one) { return one.body == there; });
+      if (provenance != all.masses.end()) {
+        share_mass(*provenance, then.scene, carrier, merged, found);
       }
     }
     std::sort(found.masses.begin(), found.masses.end(),
@@ -148,20 +149,20 @@ class NestingReader {
 
   /// Each part gets what its own colliders weigh; all of it is the carrier's where its mass API
   /// says more than a density.
-  void share_mass(const MassAccount& account, const PhysicsScene& then, Index carrier,
-                  const std::vector<Index>& carried, NestingState& found) const {
-    const bool whole = account.authored.mass || account.authored.center ||
-                       account.authored.inertia || !(account.computed.mass > 0);
+  void share_mass(const MassProvenance& provenance, const PhysicsScene& then, Index carrier,
+                  const std::vector<Index>& merged, NestingState& found) const {
+    const bool whole = provenance.authored.mass || provenance.authored.center ||
+                       provenance.authored.inertia || !(provenance.computed.mass > 0);
     std::map<Index, std::vector<MassProperties>> parts;
-    for (const ColliderMass& part : account.colliders) {
+    for (const ColliderMass& part : provenance.colliders) {
       if (part.counted) {
         parts[owner_of(then.colliders[part.collider].path)].push_back(part.properties);
       }
     }
     const Pose& frame = state_.scene.bodies[carrier].pose;
     found.masses.emplace_back(carrier,
-                              body_mass_of(whole ? account.result : sum_masses(parts[carrier])));
-    for (const Index body : carried) {
+                              body_mass_of(whole ? provenance.result : sum_masses(parts[carrier])));
+    for (const Index body : merged) {
       MassProperties own;
       if (!whole) {
         own = in_frame(sum_masses(parts[body]), inverse(state_.scene.bodies[body].pose) * frame);

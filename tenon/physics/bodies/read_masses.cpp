@@ -9,8 +9,8 @@
 #include <map>
 
 #include "tenon/base/text/text_number.h"
-#include "tenon/physics/bodies/mass_account.h"
 #include "tenon/physics/bodies/mass_properties.h"
+#include "tenon/physics/bodies/mass_provenance.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/world_pose.h"
 #include "tenon/scene/shapes/shape_mass.h"
@@ -125,9 +125,9 @@ AuthoredMass read_authored(const ReadState& state, const PhysicsPrim& found, con
 }
 
 /// Mass of one body, and what it came from.
-class BodyWeigher {
+class BodyMassComputation {
  public:
-  BodyWeigher(ReadState& state, Index body)
+  BodyMassComputation(ReadState& state, Index body)
       : state_(state), body_(state.scene.bodies[body]), found_(state.prim_of_body(body)) {
     if (found_.roles.has(Api::Mass)) {
       own_ = read_authored(state, found_, body_.pose);
@@ -137,7 +137,7 @@ class BodyWeigher {
   void run(const std::vector<Index>& colliders) {
     MassProperties sum;
     if (!(own_.mass && own_.center && own_.inertia)) {
-      sum = weigh(colliders);
+      sum = sum_of(colliders);
       if (!(sum.mass > 0) && !colliders.empty() && !(own_.mass && own_.inertia)) {
         // M-9, M-11
         state_.report(found_.prim, Severity::Warning, "mass.no-volume",
@@ -148,8 +148,8 @@ class BodyWeigher {
     }
     report_shift(sum);
     store(body_mass(sum, own_, state_.readings.center_shift), sum);
-    if (state_.accounts != nullptr) {
-      give_account(colliders, sum);
+    if (state_.provenance != nullptr) {
+      give_provenance(colliders, sum);
     }
   }
 
@@ -159,15 +159,15 @@ class BodyWeigher {
     std::uint32_t group;  // nearest prim between collider and body that has a mass API
   };
 
-  MassProperties weigh(const std::vector<Index>& colliders) {
+  MassProperties sum_of(const std::vector<Index>& colliders) {
     std::vector<Weighed> parts;
     for (const Index i : colliders) {
       if (state_.scene.colliders[i].enabled) {  // S-43, S-50
-        parts.push_back({weigh_collider(i), group_of(i)});
+        parts.push_back({collider_mass_properties(i), group_of(i)});
       }
     }
     apply_group_masses(parts);
-    if (state_.accounts != nullptr) {
+    if (state_.provenance != nullptr) {
       for (std::size_t i = 0, part = 0; i < colliders.size(); ++i) {
         if (state_.scene.colliders[colliders[i]].enabled) {
           parts_.emplace(colliders[i], parts[part++].properties);
@@ -204,7 +204,7 @@ class BodyWeigher {
     return found.roles.has(Api::Mass) ? found.mass_above : found.mass;
   }
 
-  MassProperties weigh_collider(Index i) {
+  MassProperties collider_mass_properties(Index i) {
     const Collider& collider = state_.scene.colliders[i];
     const PhysicsPrim& found = state_.prim_of_collider(i);
     AuthoredMass authored;
@@ -212,7 +212,7 @@ class BodyWeigher {
       authored = read_authored(state_, found, body_.pose);
       has_mass_ = has_mass_ || authored.mass.has_value();
     }
-    if (state_.accounts != nullptr) {
+    if (state_.provenance != nullptr) {
       authored_.emplace(i, authored);
     }
     const auto rounder = state_.integrals_of_collider.find(i);
@@ -318,25 +318,25 @@ class BodyWeigher {
   }
 
   /// What one collider gives, and what else could have given its mass.
-  ColliderMass account_of(Index i) {
+  ColliderMass provenance_of(Index i) {
     const Collider& collider = state_.scene.colliders[i];
     const PhysicsPrim& found = state_.prim_of_collider(i);
-    ColliderMass account;
-    account.collider = i;
-    account.counted = collider.enabled;
+    ColliderMass provenance;
+    provenance.collider = i;
+    provenance.counted = collider.enabled;
     const auto rounder = state_.integrals_of_collider.find(i);
-    account.volume = rounder != state_.integrals_of_collider.end()
-                         ? rounder->second.volume
-                         : shape_integrals(collider.shape, state_.scene.meshes, nullptr).volume;
+    provenance.volume = rounder != state_.integrals_of_collider.end()
+                            ? rounder->second.volume
+                            : shape_integrals(collider.shape, state_.scene.meshes, nullptr).volume;
     if (!collider.enabled) {
-      return account;
+      return provenance;
     }
     const AuthoredMass& authored = authored_[i];
     bool used = false;
     const auto add = [&](MassQuantity quantity, Path prim, Token property, std::string value,
                          const char* rule, const char* why) {
-      account.candidates.push_back({quantity, prim, property, std::move(value), rule, !used,
-                                    used ? "overruled by the opinion above" : why});
+      provenance.candidates.push_back({quantity, prim, property, std::move(value), rule, !used,
+                                       used ? "overruled by the opinion above" : why});
       used = true;
     };
     if (authored.mass) {
@@ -353,24 +353,24 @@ class BodyWeigher {
     each_density(collider, found, authored, list);
     add(MassQuantity::Density, {}, {}, density_text(kDefaultDensity), "S-39",
         "nothing else gives a density");
-    return account;
+    return provenance;
   }
 
-  void give_account(const std::vector<Index>& colliders, const MassProperties& sum) {
-    MassAccount account;
-    account.body = static_cast<Index>(&body_ - state_.scene.bodies.data());
-    account.authored = own_;
-    account.computed = sum;
-    account.result = {body_.mass, body_.center_of_mass, body_.inertia};
+  void give_provenance(const std::vector<Index>& colliders, const MassProperties& sum) {
+    MassProvenance provenance;
+    provenance.body = static_cast<Index>(&body_ - state_.scene.bodies.data());
+    provenance.authored = own_;
+    provenance.computed = sum;
+    provenance.result = {body_.mass, body_.center_of_mass, body_.inertia};
     for (const Index i : colliders) {
-      account.colliders.push_back(account_of(i));
+      provenance.colliders.push_back(provenance_of(i));
       const auto part = parts_.find(i);
       if (part != parts_.end()) {
-        account.colliders.back().properties = part->second;
+        provenance.colliders.back().properties = part->second;
       }
     }
-    account_for_body(state_, found_, state_.readings.center_shift, account);
-    state_.accounts->masses.push_back(std::move(account));
+    trace_body_mass(state_, found_, state_.readings.center_shift, provenance);
+    state_.provenance->masses.push_back(std::move(provenance));
   }
 
   void store(const MassProperties& result, const MassProperties& sum) {
@@ -398,7 +398,7 @@ class BodyWeigher {
   const PhysicsPrim& found_;
   AuthoredMass own_;
   std::map<std::uint32_t, AuthoredMass> groups_;
-  std::map<Index, MassProperties> parts_;  ///< by collider, for accounts, as the next
+  std::map<Index, MassProperties> parts_;  ///< by collider, for provenance, as the next
   std::map<Index, AuthoredMass> authored_;
   bool has_mass_ = false;
   bool has_density_ = false;
@@ -422,14 +422,14 @@ void report_between(const ReadState& state) {
 
 }  // namespace
 
-void weigh_body(ReadState& state, Index body) {
-  BodyWeigher(state, body).run(state.colliders_of_body[body]);
+void compute_body_mass(ReadState& state, Index body) {
+  BodyMassComputation(state, body).run(state.colliders_of_body[body]);
 }
 
 void read_masses(ReadState& state) {
   report_between(state);
   for (Index i = 0; i < state.scene.bodies.size(); ++i) {
-    weigh_body(state, i);
+    compute_body_mass(state, i);
   }
   for (const PhysicsPrim& found : state.walk.prims) {
     const bool counts =

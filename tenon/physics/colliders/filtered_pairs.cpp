@@ -59,9 +59,10 @@ class PairFilter {
     const Joint& joint = state_.scene.joints[i];
     const std::size_t before = pairs_.size();
     const bool silent = !joint.enabled || joint.collision_enabled;
-    Accounts* const accounts = std::exchange(state_.accounts, silent ? nullptr : state_.accounts);
+    Provenance* const provenance =
+        std::exchange(state_.provenance, silent ? nullptr : state_.provenance);
     add_joint(joint);
-    state_.accounts = accounts;
+    state_.provenance = provenance;
     JointPairs own{i, {pairs_.begin() + static_cast<std::ptrdiff_t>(before), pairs_.end()}};
     pairs_.resize(before);
     std::sort(own.pairs.begin(), own.pairs.end());
@@ -70,7 +71,7 @@ class PairFilter {
     }
   }
 
-  /// Who says what is added next, for the accounts.
+  /// Who says what is added next, for the provenance.
   void speaks(PairRule rule, Path prim) {
     rule_ = rule;
     prim_ = prim;
@@ -81,8 +82,8 @@ class PairFilter {
     const std::vector<Collider>& colliders = state_.scene.colliders;
     if (a != b && colliders[a].body != colliders[b].body) {
       pairs_.emplace_back(std::min(a, b), std::max(a, b));
-      if (state_.accounts != nullptr) {
-        state_.accounts->pairs.push_back({std::min(a, b), std::max(a, b), rule_, prim_});
+      if (state_.provenance != nullptr) {
+        state_.provenance->pairs.push_back({std::min(a, b), std::max(a, b), rule_, prim_});
       }
     }
   }

@@ -31,7 +31,7 @@ bool same_turn(const Quatd& a, const Quatd& b) {
 bool MeshSource::is_same(const MeshSource& other) const {
   return points.body() == other.points.body() && counts.body() == other.counts.body() &&
          indices.body() == other.indices.body() && holes.body() == other.holes.body() &&
-         turned == other.turned && same_bits(length, other.length) &&
+         flipped == other.flipped && same_bits(length, other.length) &&
          same_bits(offset.v, other.offset.v) && same_linear(linear, other.linear) &&
          same_turn(turn, other.turn);
 }

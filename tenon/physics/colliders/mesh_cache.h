@@ -26,7 +26,7 @@ struct MeshSource {
   Vec3d offset;
   Quatd turn = kIdentityRotation;
   double length = 1;
-  bool turned = false;  ///< faces inside out
+  bool flipped = false;  ///< faces inside out
 
   /// The same arrays in memory under the same numbers, to the last bit.
   bool is_same(const MeshSource& other) const;

@@ -44,7 +44,7 @@ TEST(MeshCache, EveryPartCountsToTheLastBit) {
   EXPECT_TRUE(changed([](MeshSource& s) { s.linear[2][1] = 1e-300; }));
   EXPECT_TRUE(changed([](MeshSource& s) { s.turn.z = 1e-300; }));
   EXPECT_TRUE(changed([](MeshSource& s) { s.length = 0.01; }));
-  EXPECT_TRUE(changed([](MeshSource& s) { s.turned = true; }));
+  EXPECT_TRUE(changed([](MeshSource& s) { s.flipped = true; }));
 }
 
 }  // namespace

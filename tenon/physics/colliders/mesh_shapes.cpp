@@ -111,7 +111,7 @@ bool triangulate(const MeshSource& faces, TriangleMesh& mesh) {
   mesh.triangles.reserve(corners->size() - std::min(corners->size(), shared));
   const std::vector<std::int32_t> holes = sorted(faces.holes);
   const std::int32_t* first = corners->data();
-  const std::size_t second = faces.turned ? 1 : 0;
+  const std::size_t second = faces.flipped ? 1 : 0;
   std::size_t face = 0;
   for (const std::int32_t count : faces.counts) {
     const bool hole = !holes.empty() && is_hole(holes, face);
@@ -137,7 +137,7 @@ MeshSource read_source(const ReadState& state, const ShapeSource& source, const 
   const bool left_handed =
       state.values.get<Token>(prim, state.tokens.orientation) == Token("leftHanded");
   const bool mirrored = determinant(mesh.linear) < 0;
-  mesh.turned = left_handed != mirrored;
+  mesh.flipped = left_handed != mirrored;
   mesh.holes = integers(state, prim, state.tokens.hole_indices);
   mesh.counts = integers(state, prim, state.tokens.face_counts);
   mesh.indices = integers(state, prim, state.tokens.face_indices);
@@ -296,9 +296,9 @@ std::vector<Index> decompose(ReadState& state, const ShapeSource& source,
   } else if (mesh.flat) {
     return {};  // one polygon, said as such
   } else if (!is_closed(mesh)) {
-    fault = "the mesh is open and has no inside to be taken apart; one convex hull is used";
+    fault = "the mesh is open, so it has no inside to decompose; one convex hull is used";
   } else if (mesh.triangles.size() > limits::kDecomposedTriangles) {
-    fault = "the mesh has too many triangles to be taken apart; one convex hull is used";
+    fault = "the mesh has too many triangles to decompose; one convex hull is used";
   } else {
     const std::string space = "physxConvexDecompositionCollision:";
     pieces = state.mesh_tools->decompose(

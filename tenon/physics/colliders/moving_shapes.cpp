@@ -113,7 +113,7 @@ class MovingShapes {
     const Diagnostics said = state_.diagnostics;
     const auto integrals = state_.integrals_of_collider;
     const std::size_t not_read = state_.scene.not_read.size();
-    Accounts* const accounts = std::exchange(state_.accounts, nullptr);
+    Provenance* const provenance = std::exchange(state_.provenance, nullptr);
     const Body body = state_.scene.bodies[track.body];
     std::vector<Collider> colliders;
     std::vector<Mat4d> worlds;
@@ -133,7 +133,7 @@ class MovingShapes {
       state_.scene.colliders[i] = colliders[k];
     }
     state_.scene.bodies[track.body] = body;
-    state_.accounts = accounts;
+    state_.provenance = provenance;
     state_.scene.not_read.resize(not_read);
     state_.integrals_of_collider = integrals;
     state_.diagnostics = said;
@@ -169,7 +169,7 @@ class MovingShapes {
       shapes.poses.push_back(collider.pose);
       shapes.shapes.push_back(collider.shape);
     }
-    weigh_body(state_, track.body);
+    compute_body_mass(state_, track.body);
     const Body& body = state_.scene.bodies[track.body];
     shapes.mass = body.mass;
     shapes.center_of_mass = body.center_of_mass;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "tenon/physics/accounts.h"
 #include "tenon/physics/physics_tokens.h"
+#include "tenon/physics/provenance.h"
 
 namespace tenon::physics {
 namespace {
@@ -21,14 +21,14 @@ class Reasons {
   Reasons(const PhysicsScene& scene, Index a, Index b)
       : scene_(scene), a_(a), b_(b), first_(scene.colliders[a]), second_(scene.colliders[b]) {}
 
-  std::vector<PairReason> run(const Accounts& accounts) {
+  std::vector<PairReason> run(const Provenance& provenance) {
     same_body();
     disabled(first_);
     disabled(second_);
     nothing_moves();
     other_scene();
     groups();
-    pairs(accounts);
+    pairs(provenance);
     return std::move(found_);
   }
 
@@ -106,25 +106,25 @@ class Reasons {
         paths[g], physics_tokens().filtered_groups);
   }
 
-  void pairs(const Accounts& accounts) {
+  void pairs(const Provenance& provenance) {
     const auto pair = std::minmax(a_, b_);
-    for (const PairAccount& account : accounts.pairs) {
-      if (account.a != pair.first || account.b != pair.second) {
+    for (const PairProvenance& one : provenance.pairs) {
+      if (one.a != pair.first || one.b != pair.second) {
         continue;
       }
-      const std::string name = "<" + account.prim.str() + ">";
-      switch (account.rule) {
+      const std::string name = "<" + one.prim.str() + ">";
+      switch (one.rule) {
         case PairRule::FilteredPair:
-          add("S-81", name + " names the other side in its filtered pairs", account.prim,
+          add("S-81", name + " names the other side in its filtered pairs", one.prim,
               physics_tokens().filtered_pairs);
           break;
         case PairRule::Joint:
-          add("S-92", "the joint " + name + " connects them and keeps them from touching",
-              account.prim, physics_tokens().collision_enabled);
+          add("S-92", "the joint " + name + " connects them and keeps them from touching", one.prim,
+              physics_tokens().collision_enabled);
           break;
         case PairRule::Articulation:
           add("S-115", "links of the articulation " + name + ", whose self collision is off",
-              account.prim);
+              one.prim);
           break;
       }
     }
@@ -140,9 +140,9 @@ class Reasons {
 
 }  // namespace
 
-std::vector<PairReason> why_apart(const PhysicsScene& scene, const Accounts& accounts,
+std::vector<PairReason> why_apart(const PhysicsScene& scene, const Provenance& provenance,
                                   Index collider_a, Index collider_b) {
-  return Reasons(scene, collider_a, collider_b).run(accounts);
+  return Reasons(scene, collider_a, collider_b).run(provenance);
 }
 
 }  // namespace tenon::physics

@@ -11,7 +11,7 @@ namespace tenon::physics {
 namespace {
 
 constexpr double kGap = 1e-4;    ///< [m] that frames may be apart
-constexpr double kAngle = 1e-2;  ///< [rad] that frames may be turned
+constexpr double kAngle = 1e-2;  ///< [rad] that frames may be rotated
 
 /// Three digits are enough for a message.
 std::string text(double value) { return rounded_text(value, 3); }
@@ -35,8 +35,8 @@ Misfit misfit_of(const Joint& joint, const Pose& relative) {
     case JointKind::Fixed:
       return {length(offset), length(rotation_vector(relative.orientation))};
     case JointKind::Revolute: {
-      const Vec3d turned = rotate(relative.orientation, axis);
-      return {length(offset), std::atan2(length(cross(axis, turned)), dot(axis, turned))};
+      const Vec3d rotated = rotate(relative.orientation, axis);
+      return {length(offset), std::atan2(length(cross(axis, rotated)), dot(axis, rotated))};
     }
     case JointKind::Prismatic:
       offset[along] = 0;

@@ -125,7 +125,7 @@ class TendonReader {
   }
 
   /// A prim that is there, in the body that carries it; nullopt for others.
-  std::optional<TendonStop::Place> place_of(Path target, Mat4d& world) const {
+  std::optional<TendonWrap::Attachment> attachment_of(Path target, Mat4d& world) const {
     const stage::Prim prim = state_.stage.prim(target);
     if (!prim.is_valid() || !prim.is_active() || !prim.is_defined()) {
       return std::nullopt;
@@ -133,64 +133,64 @@ class TendonReader {
     const Attachment attached = find_attachment(state_, found_, prim);
     world = attached.world;
     const Pose pose = world_pose(world, state_.units);
-    TendonStop::Place place{state_.walk.near(found_, target), attached.body, pose};
+    TendonWrap::Attachment attachment{state_.walk.near(found_, target), attached.body, pose};
     if (attached.body) {
-      place.pose = inverse(state_.scene.bodies[*attached.body].pose) * pose;
+      attachment.pose = inverse(state_.scene.bodies[*attached.body].pose) * pose;
     }
-    return is_finite(place.pose) ? std::optional(place) : std::nullopt;
+    return is_finite(attachment.pose) ? std::optional(attachment) : std::nullopt;
   }
 
-  bool read_side(std::size_t at, TendonStop& stop) {
+  bool read_side(std::size_t at, TendonWrap& wrap) {
     if (at >= side_indices_.size() || side_indices_[at] < 0) {
       return true;
     }
     Mat4d world;
     const auto index = static_cast<std::size_t>(side_indices_[at]);
     if (index < side_sites_.size()) {
-      stop.side = place_of(side_sites_[index], world);
+      wrap.side = attachment_of(side_sites_[index], world);
     }
-    return stop.side.has_value() || refuse(tokens_.side_sites, "a site at a side is not there");
+    return wrap.side.has_value() || refuse(tokens_.side_sites, "a site at a side is not there");
   }
 
   /// The radius of a sphere, or of a cylinder about its own axis, which becomes Z.
-  bool read_round(const stage::Prim& prim, const Mat4d& world, TendonStop& stop) {
+  bool read_round(const stage::Prim& prim, const Mat4d& world, TendonWrap& wrap) {
     std::size_t across = 0;
     if (prim.is_a("Sphere")) {
-      stop.kind = TendonStop::Kind::Sphere;
+      wrap.kind = TendonWrap::Kind::Sphere;
     } else if (prim.is_a("Cylinder")) {
-      stop.kind = TendonStop::Kind::Cylinder;
+      wrap.kind = TendonWrap::Kind::Cylinder;
       const Token axis = prim.attribute("axis").get_as<Token>().value_or(Token("Z"));
       across = axis == "X" ? 1 : 0;
-      stop.place.pose = stop.place.pose * Pose{{}, turn_from_z(axis)};
+      wrap.attachment.pose = wrap.attachment.pose * Pose{{}, turn_from_z(axis)};
     } else {
       return false;
     }
     const Vec3d row{{world[across][0], world[across][1], world[across][2]}};
-    stop.radius =
+    wrap.radius =
         prim.attribute("radius").get_as<double>().value_or(0) * length(row) * state_.units.length;
-    return std::isfinite(stop.radius) && stop.radius > 0;
+    return std::isfinite(wrap.radius) && wrap.radius > 0;
   }
 
-  bool read_stop(std::size_t at) {
+  bool read_wrap(std::size_t at) {
     const stage::Prim prim = state_.stage.prim(order_[at]);
-    TendonStop stop;
+    TendonWrap wrap;
     Mat4d world;
-    const std::optional<TendonStop::Place> place = place_of(order_[at], world);
-    if (!place) {
+    const std::optional<TendonWrap::Attachment> attachment = attachment_of(order_[at], world);
+    if (!attachment) {
       return refuse(tokens_.path, "<" + order_[at].str() + "> is not there");
     }
-    stop.place = *place;
+    wrap.attachment = *attachment;
     const bool site = prim.has_api("MjcSiteAPI") || prim.has_api("IsaacSiteAPI");
     if (!site && prim.is_a("Gprim")) {
-      if (!read_round(prim, world, stop)) {
+      if (!read_round(prim, world, wrap)) {
         return refuse(tokens_.path,
                       "<" + order_[at].str() + "> is neither a sphere nor a cylinder");
       }
-      if (!read_side(at, stop)) {
+      if (!read_side(at, wrap)) {
         return false;
       }
     }
-    tendon_.stops.push_back(std::move(stop));
+    tendon_.wraps.push_back(std::move(wrap));
     return true;
   }
 
@@ -208,12 +208,12 @@ class TendonReader {
         if (segment >= divisors.size() || !(divisors[segment] > 0)) {
           return refuse(tokens_.divisors, "there is not one divisor above 0 for each segment");
         }
-        TendonStop pulley;
-        pulley.kind = TendonStop::Kind::Pulley;
+        TendonWrap pulley;
+        pulley.kind = TendonWrap::Kind::Pulley;
         pulley.divisor = divisors[segment];
-        tendon_.stops.push_back(std::move(pulley));
+        tendon_.wraps.push_back(std::move(pulley));
       }
-      if (!read_stop(i)) {
+      if (!read_wrap(i)) {
         return false;
       }
     }

@@ -13,7 +13,7 @@ namespace tenon::physics {
 namespace {
 
 using Target = MujocoActuator::Target;
-using Place = TendonStop::Place;
+using Attachment = TendonWrap::Attachment;
 using Range = std::array<double, 2>;
 
 /// Numbers that are there, then zeros; `fallback` where there are none.
@@ -140,7 +140,7 @@ class ActuatorList {
   }
 
   void read_sites(const stage::Prim& prim, Path target, MujocoActuator& result) const {
-    const std::optional<Place> site = place_of(target);
+    const std::optional<Attachment> site = attachment_of(target);
     if (!site) {
       result.fault = "<" + target.str() + "> is not a joint, tendon or site that is there";
       return;
@@ -154,7 +154,7 @@ class ActuatorList {
         continue;
       }
       result.kind = kind;
-      result.other_site = place_of(others.front());
+      result.other_site = attachment_of(others.front());
       if (others.size() != 1 || !result.other_site) {
         result.kind = Target::None;
         result.fault = name.str() + " names no site that is there";
@@ -164,24 +164,24 @@ class ActuatorList {
   }
 
   /// A point of the nearest body at or above it, or of the world.
-  std::optional<Place> place_of(Path target) const {
+  std::optional<Attachment> attachment_of(Path target) const {
     const stage::Prim prim = stage_.prim(target);
     if (!prim.is_valid() || !prim.is_active() || !prim.is_defined() || !prim.is_a("Xformable")) {
       return std::nullopt;
     }
     const Pose world =
         world_pose(stage::local_to_world(prim, stage::Time(scene_.start_time_code)), units_);
-    Place place{target, std::nullopt, world};
+    Attachment attachment{target, std::nullopt, world};
     for (stage::Prim above = prim; above.is_valid() && !above.is_pseudo_root();
          above = above.parent()) {
       const auto body = bodies_.find(above.path());
       if (body != bodies_.end()) {
-        place.body = body->second;
-        place.pose = inverse(scene_.bodies[body->second].pose) * world;
+        attachment.body = body->second;
+        attachment.pose = inverse(scene_.bodies[body->second].pose) * world;
         break;
       }
     }
-    return is_finite(place.pose) ? std::optional(place) : std::nullopt;
+    return is_finite(attachment.pose) ? std::optional(attachment) : std::nullopt;
   }
 
   bool turns(const MujocoActuator& actuator) const {

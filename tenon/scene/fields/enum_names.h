@@ -62,7 +62,7 @@ struct EnumNames<Switch> {
       "bodyEnabled", "bodyKinematic", "colliderEnabled", "jointEnabled", "jointCollision"};
 };
 template <>
-struct EnumNames<TendonStop::Kind> {
+struct EnumNames<TendonWrap::Kind> {
   static constexpr std::array<std::string_view, 4> kNames{"site", "sphere", "cylinder", "pulley"};
 };
 

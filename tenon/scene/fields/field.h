@@ -82,6 +82,7 @@ struct FieldInfo {
   std::string_view words = {};
   std::string_view off = {};  ///< of a flag that is written as one of two words
   std::string_view on = {};
+  std::string_view former = {};  ///< the key in JSON up to schema version 1.1
 };
 
 template <auto Member>

@@ -104,20 +104,20 @@ TEST(SceneDifference, WhatIsForMujocoAloneIsNamedToo) {
   tendon.path = Path::from("/r/t");
   tendon.joints = {0};
   tendon.coefficients = {1};
-  tendon.stops.emplace_back().place.body = 1;
+  tendon.wraps.emplace_back().attachment.body = 1;
   EXPECT_TRUE(scene_differences(before, before).empty());
   PhysicsScene after = before;
   after.colliders[0].parts.mujoco.condim = 6;
   after.joints[0].parts.mujoco.solref_limit = {0.05, 0.8};
   after.tendons[0].coefficients = {2};
-  after.tendons[0].stops[0].place.pose.position = {{0, 0, 1}};
+  after.tendons[0].wraps[0].attachment.pose.position = {{0, 0, 1}};
   const auto found = scene_differences(before, after);
   ASSERT_EQ(found.size(), 4u);
   EXPECT_EQ(found[0].after.name, "MuJoCo condim");
   EXPECT_EQ(found[1].after.name, "MuJoCo solref of the limit");
   EXPECT_EQ(found[2].object, "tendon");
   EXPECT_EQ(found[2].before.name, "coefficients");
-  EXPECT_EQ(found[3].before.name, "stop 1 place position");
+  EXPECT_EQ(found[3].before.name, "wrap 1 attachment position");
 }
 
 }  // namespace

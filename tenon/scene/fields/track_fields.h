@@ -13,33 +13,34 @@
 namespace tenon::scene {
 
 template <>
-struct Table<TendonStop::Place> {
-  static constexpr std::string_view kWord = "place";
+struct Table<TendonWrap::Attachment> {
+  static constexpr std::string_view kWord = "attachment";
   static constexpr std::tuple kFields{
-      field<&TendonStop::Place::path>(
+      field<&TendonWrap::Attachment::path>(
           {.name = "path", .meaning = "the prim", .role = Role::Provenance}),
-      field<&TendonStop::Place::body>(
+      field<&TendonWrap::Attachment::body>(
           {.name = "body", .meaning = "null: the world", .refers = List::Bodies}),
-      field<&TendonStop::Place::pose>(
+      field<&TendonWrap::Attachment::pose>(
           {.name = "pose", .meaning = "in the body, or in the world", .inlined = true}),
   };
 };
 
 template <>
-struct Table<TendonStop> {
-  static constexpr std::string_view kWord = "stop";
+struct Table<TendonWrap> {
+  static constexpr std::string_view kWord = "wrap";
   static constexpr std::tuple kFields{
-      field<&TendonStop::kind>({.name = "kind", .meaning = "what the tendon does there"}),
-      field<&TendonStop::place>({.name = "place",
-                                 .meaning = "a point of the tendon's surroundings",
-                                 .presence = Presence::WhenSet}),
-      field<&TendonStop::radius>({.name = "radius",
+      field<&TendonWrap::kind>({.name = "kind", .meaning = "what the tendon does there"}),
+      field<&TendonWrap::attachment>({.name = "attachment",
+                                      .meaning = "a point of the tendon's surroundings",
+                                      .presence = Presence::WhenSet,
+                                      .former = "place"}),
+      field<&TendonWrap::radius>({.name = "radius",
                                   .meaning = "of what it goes around",
                                   .unit = Unit::Meter,
                                   .presence = Presence::WhenSet}),
-      field<&TendonStop::side>(
+      field<&TendonWrap::side>(
           {.name = "side", .meaning = "where the path goes past; null: on the shorter way"}),
-      field<&TendonStop::divisor>({.name = "divisor",
+      field<&TendonWrap::divisor>({.name = "divisor",
                                    .meaning = "of a pulley: of the length of what follows",
                                    .presence = Presence::WhenSet}),
   };
@@ -54,7 +55,8 @@ struct Table<Tendon> {
           {.name = "joints", .meaning = "of a fixed tendon", .refers = List::Joints}),
       field<&Tendon::coefficients>(
           {.name = "coefficients", .meaning = "one for each of its joints"}),
-      field<&Tendon::stops>({.name = "stops", .meaning = "of a spatial tendon, along its path"}),
+      field<&Tendon::wraps>(
+          {.name = "wraps", .meaning = "of a spatial tendon, along its path", .former = "stops"}),
       field<&Tendon::stiffness>({.name = "stiffness", .meaning = "of its spring"}),
       field<&Tendon::damping>({.name = "damping", .meaning = "of its length"}),
       field<&Tendon::friction>({.name = "friction", .meaning = "along its length"}),
@@ -273,16 +275,17 @@ struct Table<BodyMass> {
 };
 
 template <>
-struct Table<CarriedBody> {
-  static constexpr std::string_view kWord = "carried";
+struct Table<MergedBody> {
+  static constexpr std::string_view kWord = "merged";
   static constexpr std::tuple kFields{
-      field<&CarriedBody::body>({.name = "body",
-                                 .meaning = "that is off",
-                                 .refers = List::Bodies,
-                                 .role = Role::Identity}),
-      field<&CarriedBody::carrier>({.name = "carrier",
-                                    .meaning = "the nearest body around it that is on",
-                                    .refers = List::Bodies}),
+      field<&MergedBody::body>({.name = "body",
+                                .meaning = "that is off",
+                                .refers = List::Bodies,
+                                .role = Role::Identity}),
+      field<&MergedBody::into>({.name = "into",
+                                .meaning = "the nearest body around it that is on",
+                                .refers = List::Bodies,
+                                .former = "carrier"}),
   };
 };
 
@@ -294,11 +297,13 @@ struct Table<NestingState> {
                                   .meaning = "from which on it holds",
                                   .unit = Unit::Second,
                                   .role = Role::Identity}),
-      field<&NestingState::carried>(
-          {.name = "carried", .meaning = "bodies that move as parts of others"}),
-      field<&NestingState::masses>({.name = "masses",
-                                    .meaning = "of carried bodies and their carriers, ascending",
-                                    .refers = List::Bodies}),
+      field<&NestingState::merged>({.name = "merged",
+                                    .meaning = "bodies that move as parts of others",
+                                    .former = "carried"}),
+      field<&NestingState::masses>(
+          {.name = "masses",
+           .meaning = "of merged bodies and of those that they are merged into, ascending",
+           .refers = List::Bodies}),
   };
 };
 

@@ -50,7 +50,7 @@ void add_form(std::string& form) {
     add_form<typename T::first_type>(form);
     add_form<typename T::second_type>(form);
   } else {
-    form += std::to_string(wire::least_size<T>()) + ';';
+    form += std::to_string(wire::min_size<T>()) + ';';
   }
 }
 

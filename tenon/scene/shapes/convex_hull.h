@@ -17,13 +17,13 @@ TriangleMesh convex_hull(const std::vector<Vec3d>& points);
 /// Points that have the same hull as others.
 struct HullPoints {
   std::vector<Vec3d> points;
-  bool thinned = false;  ///< nearly the same: the hull has more corners than limits::kHullPoints
+  bool simplified = false;  ///< nearly the same: the hull has more corners than limits::kHullPoints
 };
 
 /// For those who make hulls in a time that grows with the square: the points themselves, where they
 /// are not more than limits::kHullPoints, else the corners of their hull, and of more corners those
-/// that lie outermost in a grid of 40 cells across (where the hull is smooth the thinned one lies
-/// inside it by 0.2 % of the size at most).
+/// that lie outermost in a grid of 40 cells across (where the hull is smooth the simplified one
+/// lies inside it by 0.2 % of the size at most).
 HullPoints hull_points(const std::vector<Vec3d>& points);
 
 /// All points lie in one plane, within 1e-9 of their extent.

@@ -59,7 +59,7 @@ std::vector<Vec3d> drum(std::size_t count) {
 TEST(ConvexHull, OfADrumOfVeryManyCornersEnds) {
   const std::vector<Vec3d> points = drum(100'000);
   const HullPoints few = hull_points(points);
-  EXPECT_TRUE(few.thinned);
+  EXPECT_TRUE(few.simplified);
   EXPECT_LE(few.points.size(), limits::kHullPoints);
   const TriangleMesh hull = convex_hull(points);
   EXPECT_TRUE(is_closed(hull));
@@ -83,7 +83,7 @@ TEST(ConvexHull, OfVeryManyPointsInsideIsThatOfItsCorners) {
     const auto at = [i](std::size_t by) { return static_cast<double>(i / by % 31) / 15 - 1; };
     points.push_back({{at(1), at(31), at(31 * 31)}});
   }
-  EXPECT_FALSE(hull_points(points).thinned);
+  EXPECT_FALSE(hull_points(points).simplified);
   EXPECT_LE(hull_points(points).points.size(), limits::kHullPoints);
   EXPECT_NEAR(mesh_integrals(convex_hull(points)).volume, 8, 1e-9);
 }
@@ -91,7 +91,7 @@ TEST(ConvexHull, OfVeryManyPointsInsideIsThatOfItsCorners) {
 TEST(ConvexHull, LeavesUpToItsLimitAsItIs) {
   const std::vector<Vec3d> points = drum(limits::kHullPoints);
   EXPECT_EQ(hull_points(points).points, points);
-  EXPECT_FALSE(hull_points(points).thinned);
+  EXPECT_FALSE(hull_points(points).simplified);
 }
 
 TEST(ConvexHull, OfVeryManyPointsThatAreFlatOrNoNumbersEnds) {

@@ -22,8 +22,8 @@ BodyNesting::BodyNesting(PhysicsScene& scene, const BodyMass& massless) : massle
   std::map<Index, BodyMass> masses;
   std::map<Index, Index> joints;
   for (const NestingState& state : scene.nesting_states) {
-    for (const CarriedBody& carried : state.carried) {
-      joints.emplace(carried.body, 0);
+    for (const MergedBody& merged : state.merged) {
+      joints.emplace(merged.body, 0);
     }
     for (const auto& [index, mass] : state.masses) {
       const Body& body = scene.bodies[index];
@@ -33,7 +33,7 @@ BodyNesting::BodyNesting(PhysicsScene& scene, const BodyMass& massless) : massle
   own_masses_.assign(masses.begin(), masses.end());
   for (const auto& [body, unused] : joints) {
     Joint joint;
-    joint.path = scene.bodies[body].path.property(Token("carried"));  // the path of no prim
+    joint.path = scene.bodies[body].path.property(Token("merged"));  // the path of no prim
     joint.kind = JointKind::Fixed;
     joint.body1 = body;
     joint.enabled = false;
@@ -62,7 +62,7 @@ bool BodyNesting::apply(PhysicsScene& scene, double time) {
   state_ = now;
   const NestingState& state = scene.nesting_states[now];
   for (NestedBody& nested : bodies_) {
-    carry(scene, nested, state.carried);
+    merge(scene, nested, state.merged);
   }
   if (changed) {
     for (const auto& [body, mass] : own_masses_) {
@@ -75,30 +75,30 @@ bool BodyNesting::apply(PhysicsScene& scene, double time) {
   return changed;
 }
 
-void BodyNesting::carry(PhysicsScene& scene, NestedBody& nested,
-                        const std::vector<CarriedBody>& carried) {
-  const auto found = std::find_if(carried.begin(), carried.end(), [&](const CarriedBody& entry) {
+void BodyNesting::merge(PhysicsScene& scene, NestedBody& nested,
+                        const std::vector<MergedBody>& merged) {
+  const auto found = std::find_if(merged.begin(), merged.end(), [&](const MergedBody& entry) {
     return entry.body == nested.body;
   });
-  const bool on_it = nested.carried;
-  nested.carried = found != carried.end();
-  if (nested.carried) {
-    nested.fresh = nested.fresh || !on_it || nested.carrier != found->carrier;
-    nested.carrier = found->carrier;
+  const bool on_it = nested.merged;
+  nested.merged = found != merged.end();
+  if (nested.merged) {
+    nested.fresh = nested.fresh || !on_it || nested.into != found->into;
+    nested.into = found->into;
     scene.bodies[nested.body].kinematic = false;
   }
   Joint& joint = scene.joints[nested.joint];
-  joint.enabled = nested.carried;
-  joint.body0 = nested.carried ? std::optional(nested.carrier) : std::nullopt;
+  joint.enabled = nested.merged;
+  joint.body0 = nested.merged ? std::optional(nested.into) : std::nullopt;
 }
 
-std::vector<CarriedBody> BodyNesting::attach(PhysicsScene& scene) {
-  std::vector<CarriedBody> attached;
+std::vector<MergedBody> BodyNesting::attach(PhysicsScene& scene) {
+  std::vector<MergedBody> attached;
   for (NestedBody& nested : bodies_) {
-    if (nested.carried && nested.fresh) {
+    if (nested.merged && nested.fresh) {
       scene.joints[nested.joint].frame0 =
-          inverse(scene.bodies[nested.carrier].pose) * scene.bodies[nested.body].pose;
-      attached.push_back({nested.body, nested.carrier});
+          inverse(scene.bodies[nested.into].pose) * scene.bodies[nested.body].pose;
+      attached.push_back({nested.body, nested.into});
     }
     nested.fresh = false;
   }

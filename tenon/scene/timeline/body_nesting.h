@@ -17,25 +17,25 @@ class BodyNesting {
   /// Nothing is ever nested.
   BodyNesting() = default;
   /// Adds the joints to the end of the scene's, disabled, and applies the state at the start.
-  /// `massless` is what bodies have whose mass is all in what the carrier's mass API says.
+  /// `massless` is what bodies have whose mass is all in what the outer body's mass API says.
   BodyNesting(PhysicsScene& scene, const BodyMass& massless);
 
   bool empty() const { return bodies_.empty(); }
   /// Brings switches and masses of the scene to the state at a time [s]; after set_switch, which
-  /// knows nothing of carriers. True when another state came into force.
+  /// knows nothing of merged bodies. True when another state came into force.
   bool apply(PhysicsScene& scene, double time);
-  /// Fixes what apply() found to be carried from now on where it is now. Gives those bodies.
-  std::vector<CarriedBody> attach(PhysicsScene& scene);
+  /// Fixes what apply() found to be merged from now on where it is now. Gives those bodies.
+  std::vector<MergedBody> attach(PhysicsScene& scene);
 
  private:
   struct NestedBody {
     Index body = 0;
     Index joint = 0;
-    bool carried = false;
-    bool fresh = false;  ///< carried, and not attached yet
-    Index carrier = 0;
+    bool merged = false;
+    bool fresh = false;  ///< merged, and not attached yet
+    Index into = 0;
   };
-  void carry(PhysicsScene& scene, NestedBody& nested, const std::vector<CarriedBody>& carried);
+  void merge(PhysicsScene& scene, NestedBody& nested, const std::vector<MergedBody>& merged);
   void set_mass(Body& body, const BodyMass& mass) const;
 
   BodyMass massless_;

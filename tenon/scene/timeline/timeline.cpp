@@ -99,7 +99,7 @@ void Timeline::break_joint(Index joint) {
   broken_[joint] = 1;
 }
 
-std::vector<CarriedBody> Timeline::restart(const std::vector<BodyState>& states) {
+std::vector<MergedBody> Timeline::restart(const std::vector<BodyState>& states) {
   for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
     Body& body = scene_.bodies[b];
     const BodyState& state = states[b];
@@ -114,7 +114,7 @@ std::vector<CarriedBody> Timeline::restart(const std::vector<BodyState>& states)
     joint.initial_position.reset();
     joint.initial_velocity.reset();
   }
-  std::vector<CarriedBody> joined = nesting_.attach(scene_);
+  std::vector<MergedBody> joined = nesting_.attach(scene_);
   scene_.update_joint_pairs();
   return joined;
 }

@@ -44,7 +44,7 @@ class Timeline {
   /// What a simulation reached (body_count) becomes the start of the scene, so that a model can be
   /// made from it in the middle of a run. Gives bodies that became parts of others since the last
   /// call: they bring their momentum along.
-  std::vector<CarriedBody> restart(const std::vector<BodyState>& states);
+  std::vector<MergedBody> restart(const std::vector<BodyState>& states);
 
  private:
   struct SwitchState {

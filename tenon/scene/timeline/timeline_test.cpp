@@ -140,7 +140,7 @@ TEST(Timeline, ABodyThatIsOffInsideAnotherHangsOnItWhereItIs) {
   NestingState apart;
   NestingState together;
   together.time = 1;
-  together.carried = {{1, 0}};
+  together.merged = {{1, 0}};
   together.masses = {{0, BodyMass{2, {}, Mat3d::identity()}}, {1, BodyMass{0, {}, {}}}};
   scene.nesting_states = {apart, together};
   Timeline timeline(scene, BodyMass{1e-9, {}, Mat3d::identity()});
@@ -155,7 +155,7 @@ TEST(Timeline, ABodyThatIsOffInsideAnotherHangsOnItWhereItIs) {
   states[0].pose.position = {{1, 0, 0}};
   states[1].pose.position = {{5, 0, 0}};
   states[1].linear_velocity = {{0, 0, -1}};
-  const std::vector<CarriedBody> joined = timeline.restart(states);
+  const std::vector<MergedBody> joined = timeline.restart(states);
   ASSERT_EQ(joined.size(), 1u);
   EXPECT_EQ(joined[0].body, 1u);
   EXPECT_EQ(timeline.scene().joints[1].frame0.position, (Vec3d{{4, 0, 0}}));

@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view kArguments = ":SDF_FORMAT_ARGS:";
 // Times advance in steps of 1/10000, so that fractional strides do not drift.
 constexpr double kSteps = 10000;
-constexpr std::size_t kMostDigits = 64;
+constexpr std::size_t kMaxDigits = 64;
 
 struct Pattern {
   std::string folder;              // with its slash
@@ -67,7 +67,7 @@ Result<Pattern> read_pattern(const std::string& asset_path) {
   pattern.integer_word = groups.front();
   pattern.integer_digits = pattern.words[groups.front()].size();
   pattern.decimal_digits = groups.size() == 2 ? pattern.words[groups.back()].size() : 0;
-  if (pattern.integer_digits > kMostDigits || pattern.decimal_digits > kMostDigits) {
+  if (pattern.integer_digits > kMaxDigits || pattern.decimal_digits > kMaxDigits) {
     return Error(ErrorCode::Limit, "the template asks for more than 64 digits");
   }
   return pattern;
@@ -135,7 +135,7 @@ Result<void> check(const ClipTemplate& pattern) {
 }
 
 /// More steps than a checked template makes, however its times are rounded.
-std::size_t most_steps(const ClipTemplate& pattern) {
+std::size_t max_steps(const ClipTemplate& pattern) {
   return pattern.start == pattern.end
              ? 1
              : 2 * static_cast<std::size_t>((pattern.end - pattern.start) / pattern.stride) + 2;
@@ -147,7 +147,7 @@ Result<void> expand_template(const ClipTemplate& clip_template, const ClipFiles&
                              ClipDefinition& definition) {
   TENON_CHECK(check(clip_template));
   TENON_TRY(Pattern pattern, read_pattern(clip_template.asset_path));
-  std::size_t left = most_steps(clip_template);
+  std::size_t left = max_steps(clip_template);
   if (left > *files.left) {
     return Error(ErrorCode::Limit, "the templates of this stage ask for more than " +
                                        std::to_string(limits::kTemplateFiles) +

@@ -65,7 +65,7 @@ std::string prototype_key(const StageData& data, const compose::PrimIndex& insta
 std::unordered_map<std::string, Path> prototype_sources(StageData& data) {
   std::unordered_map<std::string, Path> sources;
   std::vector<const compose::PrimIndex*> open{&data.cache->index(Path::absolute_root())};
-  for (std::size_t count = 0; !open.empty() && count < data.options.most_prims; ++count) {
+  for (std::size_t count = 0; !open.empty() && count < data.options.max_prims; ++count) {
     const compose::PrimIndex& index = *open.back();
     open.pop_back();
     if (!is_active(index)) {

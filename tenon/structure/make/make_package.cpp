@@ -197,7 +197,7 @@ class Maker {
 
   Result<stage::Stage> stage_of(const Layer& content) const {
     stage::StageOptions options;
-    options.compose.set_most_work(source_.most_work);
+    options.compose.set_max_work(source_.max_work);
     return stage::Stage::open(std::make_shared<Layer>(content), nullptr, source_.open_layer,
                               options);
   }
@@ -459,7 +459,7 @@ class Maker {
     }
     selections[std::string(kPhysicsSet)] = chosen_variant();
     selections[set] = variant;
-    return open_package(asset_.package, selections, source_.most_work);
+    return open_package(asset_.package, selections, source_.max_work);
   }
 
   std::string chosen_variant() const {

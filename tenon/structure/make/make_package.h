@@ -30,7 +30,7 @@ struct AssetSource {
   std::function<Result<std::shared_ptr<const bytes::FileBytes>>(const std::string& identifier)>
       open_asset;
   /// Units of work of composition, as in compose::ComposeOptions; 0: the limit.
-  std::size_t most_work = 0;
+  std::size_t max_work = 0;
 };
 
 /// Vendors' schemas of joints (schema_generation.h); UsdPhysics is the same in all.

@@ -19,12 +19,12 @@ namespace {
 class Composer {
  public:
   Composer(const AssetSource& source, Diagnostics& diagnostics)
-      : source_(source), work_(source.most_work), diagnostics_(diagnostics) {}
+      : source_(source), work_(source.max_work), diagnostics_(diagnostics) {}
 
   Result<stage::Stage> open(const Selections& selections) {
     stage::StageOptions options;
     options.resolve_asset = source_.resolve_asset;
-    options.compose.set_most_work(source_.most_work);
+    options.compose.set_max_work(source_.max_work);
     TENON_TRY(
         stage::Stage stage,
         stage::Stage::open(source_.root, selections_layer(source_.root->default_prim(), selections),

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tenon/engines/mujoco/build/build.h"
-#include "tenon/engines/mujoco/build/least_inertia.h"
+#include "tenon/engines/mujoco/build/min_inertia.h"
 #include "tenon/math/inertia.h"
 
 // A free body's MuJoCo frame is its principal inertia frame: the free joint then moves the centre
@@ -24,14 +24,14 @@ struct Inertial {
 Inertial inertial_of(Build& build, const scene::Body& body) {
   const PrincipalInertia principal = principal_inertia(body.inertia);
   Inertial result{body.mass, {body.center_of_mass, principal.axes}, principal.moments};
-  if (!(result.mass >= kLeastMass)) {
+  if (!(result.mass >= kMinMass)) {
     build.report(body.path, "physics:mass", "MuJoCo cannot move a massless body; 1e-9 kg is used");
-    result.mass = kLeastMass;
+    result.mass = kMinMass;
   }
   bool raised = false;
   for (double& moment : result.moments.v) {
-    raised = raised || !(moment >= kLeastMoment);
-    moment = std::isfinite(moment) ? std::max(moment, kLeastMoment) : kLeastMoment;
+    raised = raised || !(moment >= kMinMoment);
+    moment = std::isfinite(moment) ? std::max(moment, kMinMoment) : kMinMoment;
   }
   if (raised) {
     build.report(

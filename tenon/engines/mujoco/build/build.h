@@ -14,10 +14,10 @@
 /// The passes that turn a PhysicsScene into a MuJoCo model. Each fills its part of one Build.
 namespace tenon::engines::mujoco {
 
-inline constexpr double kGhostRatio = 1e-3;  ///< mass of an auxiliary body to that of body1
+inline constexpr double kAuxiliaryMassRatio = 1e-3;  ///< mass of an auxiliary body to that of body1
 
 /// The auxiliary body of a loop joint.
-struct Ghost {
+struct AuxiliaryBody {
   mjsBody* body = nullptr;
   mjsBody* welded_to = nullptr;
   scene::Index joint = 0;
@@ -43,7 +43,7 @@ struct Build {
   std::vector<std::vector<mjsJoint*>> joints;        ///< (joint_count), in the order of dofs.free
   std::vector<mjsJoint*> balls;                      ///< (joint_count), nullptr where there is none
   std::vector<std::vector<mjsActuator*>> actuators;  ///< (joint_count), one per drive or nullptr
-  std::vector<Ghost> ghosts;
+  std::vector<AuxiliaryBody> auxiliary_bodies;
   std::vector<NotMapped> not_mapped;
   std::set<Path> refused;  ///< colliders that are left out, joints that get no limits
   double driven_mass = 0;  ///< of bodies that follow a pose track [kg]

@@ -17,7 +17,7 @@ namespace tenon::engines::mujoco {
 namespace {
 
 constexpr double kDefaultTimeStep = 0.002;  // [s]
-constexpr std::size_t kMostRefused = 100;   // parts that are left out before the model is given up
+constexpr std::size_t kMaxRefused = 100;    // parts that are left out before the model is given up
 constexpr double kLargestTimeStep = 0.004;  // [s] an asset's own step is divided until it is below
 
 double choose_time_step(const scene::PhysicsScene& scene, const SimulationOptions& options,
@@ -140,7 +140,7 @@ Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const Simulati
     }
     // MuJoCo refuses whole models: what it names is left out, and said.
     const Path part = refused_part(scene, model.error().message());
-    if (part.empty() || refused.size() >= kMostRefused || !refused.insert(part).second) {
+    if (part.empty() || refused.size() >= kMaxRefused || !refused.insert(part).second) {
       append_untold(findings, diagnostics);
       return model.error();
     }

@@ -43,7 +43,7 @@ void map_joints(const Build& build, Model& result) {
     JointMap map;
     map.dofs = build.dofs[j];
     map.in_tree =
-        build.plan.joints[j] == JointRole::Tree || build.plan.joints[j] == JointRole::Ghost;
+        build.plan.joints[j] == JointRole::Tree || build.plan.joints[j] == JointRole::Auxiliary;
     for (const mjsJoint* joint : build.joints[j]) {
       const int id = mjs_getId(joint->element);
       map.qpos.push_back(m.jnt_qposadr[id]);
@@ -153,15 +153,15 @@ void set_mean_inertia(const Build& build, Model& result) {
 
 // MuJoCo softens constraints in proportion to 1 / inertia of what they act on. An auxiliary body's
 // own would make its limits and its weld a thousand times too soft: it gets that of its partner.
-void stiffen_ghosts(const Build& build, Model& result) {
+void stiffen_auxiliary_welds(const Build& build, Model& result) {
   mjModel& m = *result.model;
-  for (const Ghost& ghost : build.ghosts) {
-    const int id = mjs_getId(ghost.body->element);
-    const int partner = mjs_getId(ghost.welded_to->element);
+  for (const AuxiliaryBody& auxiliary : build.auxiliary_bodies) {
+    const int id = mjs_getId(auxiliary.body->element);
+    const int partner = mjs_getId(auxiliary.welded_to->element);
     double weight[2] = {m.body_invweight0[2 * partner], m.body_invweight0[2 * partner + 1]};
     if (!(weight[0] > 0)) {  // welded to the world
-      weight[0] = m.body_invweight0[2 * id] * kGhostRatio;
-      weight[1] = m.body_invweight0[2 * id + 1] * kGhostRatio;
+      weight[0] = m.body_invweight0[2 * id] * kAuxiliaryMassRatio;
+      weight[1] = m.body_invweight0[2 * id + 1] * kAuxiliaryMassRatio;
     }
     std::copy(weight, weight + 2, m.body_invweight0 + 2 * id);
     for (int i = 0; i < m.body_dofnum[id]; ++i) {
@@ -228,7 +228,7 @@ Result<Model> compile(Build& build) {
   result.data.reset(data);
   set_free_damping(build, result);
   set_mean_inertia(build, result);
-  stiffen_ghosts(build, result);
+  stiffen_auxiliary_welds(build, result);
   choose_integrator(build, result);
   result.plan = build.plan;
   result.not_mapped = build.not_mapped;

@@ -73,24 +73,24 @@ void hold_frames(Build& build, const std::string& name, mjsBody* body0, const Po
 
 // A light body carries the joint's degrees of freedom from body0 and is welded to body1, so that
 // limits, drives and mimics have a coordinate.
-void add_ghost(Build& build, scene::Index index) {
+void add_auxiliary_body(Build& build, scene::Index index) {
   const Joint& joint = build.scene.joints[index];
   const Sides sides = sides_of(build, joint);
   const scene::Index measure = joint.body1.has_value() ? *joint.body1 : *joint.body0;
   const scene::Body& body = build.scene.bodies[measure];
-  mjsBody* ghost = mjs_addBody(sides.body0, nullptr);
+  mjsBody* auxiliary = mjs_addBody(sides.body0, nullptr);
   const std::string name = joint.path.str() + ".loop";
-  place(ghost, name, sides.frame0 * build.dofs[index].locked);
-  ghost->mass = kGhostRatio * body.mass;
+  place(auxiliary, name, sides.frame0 * build.dofs[index].locked);
+  auxiliary->mass = kAuxiliaryMassRatio * body.mass;
   const PrincipalInertia inertia = principal_inertia(body.inertia);
-  write_vector(ghost->inertia, kGhostRatio * inertia.moments);
-  write_vector(ghost->ipos, {});
-  write_quaternion(ghost->iquat, kIdentityRotation);
-  ghost->explicitinertial = 1;
-  ghost->gravcomp = 1;
-  build.ghosts.push_back({ghost, sides.body1, index});
-  add_chain(build, index, ghost, {}, false);
-  hold_frames(build, name, ghost, {}, sides.body1, sides.frame1);
+  write_vector(auxiliary->inertia, kAuxiliaryMassRatio * inertia.moments);
+  write_vector(auxiliary->ipos, {});
+  write_quaternion(auxiliary->iquat, kIdentityRotation);
+  auxiliary->explicitinertial = 1;
+  auxiliary->gravcomp = 1;
+  build.auxiliary_bodies.push_back({auxiliary, sides.body1, index});
+  add_chain(build, index, auxiliary, {}, false);
+  hold_frames(build, name, auxiliary, {}, sides.body1, sides.frame1);
   build.report(
       joint.path, "physics:excludeFromArticulation",
       "this joint closes a loop: its coordinate lives on an auxiliary body of 0.1 % of the "
@@ -114,8 +114,8 @@ void add_loop(Build& build, scene::Index index) {
       hold_points(build, joint, sides_of(build, joint), ".b", -arm);
       break;
     }
-    case JointRole::Ghost:
-      add_ghost(build, index);
+    case JointRole::Auxiliary:
+      add_auxiliary_body(build, index);
       break;
     case JointRole::None:
     case JointRole::Tree:

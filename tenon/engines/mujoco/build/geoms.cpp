@@ -222,7 +222,7 @@ class ColliderPass {
 
   void add_shape() {
     const Shape& shape = collider_.shape;
-    const Pose turned{{}, axis_rotation(shape.axis)};
+    const Pose rotated{{}, axis_rotation(shape.axis)};
     switch (shape.kind) {
       case ShapeKind::Box:
         add_geom(mjGEOM_BOX, {}, shape.half_extents);
@@ -234,16 +234,16 @@ class ColliderPass {
         add_geom(mjGEOM_SPHERE, {}, {{shape.radius, 0, 0}});
         break;
       case ShapeKind::Capsule:
-        add_geom(mjGEOM_CAPSULE, turned, {{shape.radius, shape.half_height, 0}});
+        add_geom(mjGEOM_CAPSULE, rotated, {{shape.radius, shape.half_height, 0}});
         break;
       case ShapeKind::Cylinder:
-        add_geom(mjGEOM_CYLINDER, turned, {{shape.radius, shape.half_height, 0}});
+        add_geom(mjGEOM_CYLINDER, rotated, {{shape.radius, shape.half_height, 0}});
         break;
       case ShapeKind::Cone:
         add_cone();
         break;
       case ShapeKind::Plane:
-        add_plane(turned);
+        add_plane(rotated);
         break;
       case ShapeKind::ConvexHull:
         add_hulls();
@@ -261,24 +261,24 @@ class ColliderPass {
 
   void add_cone() {
     const Shape& shape = collider_.shape;
-    const Quatd turned = axis_rotation(shape.axis);
-    std::vector<Vec3d> points{rotate(turned, {{0, 0, shape.half_height}})};
+    const Quatd rotated = axis_rotation(shape.axis);
+    std::vector<Vec3d> points{rotate(rotated, {{0, 0, shape.half_height}})};
     for (int i = 0; i < kConeSides; ++i) {
       const double angle = 2 * M_PI * i / kConeSides;
-      points.push_back(rotate(turned, {{shape.radius * std::cos(angle),
-                                        shape.radius * std::sin(angle), -shape.half_height}}));
+      points.push_back(rotate(rotated, {{shape.radius * std::cos(angle),
+                                         shape.radius * std::sin(angle), -shape.half_height}}));
     }
     add_pieces({{points}, ""});
     build_.report(collider_.path, "radius",
                   "MuJoCo has no cone; the hull of a base with 48 corners is used");
   }
 
-  void add_plane(const Pose& turned) {
+  void add_plane(const Pose& rotated) {
     if (!is_static_) {
       build_.report(collider_.path, "axis", "MuJoCo planes cannot move; left out");
       return;
     }
-    add_geom(mjGEOM_PLANE, turned, {{0, 0, 1}});
+    add_geom(mjGEOM_PLANE, rotated, {{0, 0, 1}});
   }
 
   void add_hulls() {

@@ -5,7 +5,7 @@
 namespace tenon::engines::mujoco {
 
 /// What bodies get that have less: MuJoCo refuses moving ones below 1e-15.
-inline constexpr double kLeastMass = 1e-9;     // [kg]
-inline constexpr double kLeastMoment = 1e-13;  // [kg m^2]
+inline constexpr double kMinMass = 1e-9;     // [kg]
+inline constexpr double kMinMoment = 1e-13;  // [kg m^2]
 
 }  // namespace tenon::engines::mujoco

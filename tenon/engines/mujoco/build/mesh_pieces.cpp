@@ -196,7 +196,7 @@ std::vector<Vec3d> prism(const scene::TriangleMesh& mesh, const Vec3i& t, const 
 /// One hull of points in space: MuJoCo makes it with Qhull, whose time has no other bound.
 MeshPieces one_hull(const std::vector<Vec3d>& points, std::string note) {
   scene::HullPoints hull = scene::hull_points(points);
-  if (hull.thinned) {
+  if (hull.simplified) {
     note += std::string(note.empty() ? "" : "; ") + "the hull has more than " +
             std::to_string(limits::kHullPoints) +
             " corners (kHullPoints); it goes through the outermost ones";

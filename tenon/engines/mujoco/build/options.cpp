@@ -11,9 +11,9 @@ namespace tenon::engines::mujoco {
 namespace {
 
 // Room for contacts and constraints [bytes]; only what is used is ever touched.
-constexpr std::size_t kLeastMemory = std::size_t{64} << 20u;
+constexpr std::size_t kMinMemory = std::size_t{64} << 20u;
 constexpr std::size_t kMemoryPerBody = std::size_t{128} << 10u;
-constexpr std::size_t kMostMemory = std::size_t{4} << 30u;
+constexpr std::size_t kMaxMemory = std::size_t{4} << 30u;
 constexpr double kFrictionToNormal =
     10;  // impratio: friction this much harder than normal, less creep
 
@@ -79,7 +79,7 @@ void add_options(Build& build) {
   spec.compiler.balanceinertia = 1;
   // MuJoCo's own guess of its working memory grows with the square of the bodies.
   spec.memory = static_cast<mjtSize>(
-      std::min(kMostMemory, kLeastMemory + kMemoryPerBody * build.scene.bodies.size()));
+      std::min(kMaxMemory, kMinMemory + kMemoryPerBody * build.scene.bodies.size()));
   mjOption& option = spec.option;
   option.timestep = build.time_step;
   write_vector(option.gravity, build.scene.scenes.front().gravity);

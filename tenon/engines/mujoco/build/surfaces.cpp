@@ -21,7 +21,7 @@ constexpr double kHighImpedance = 0.95;
 constexpr double kImpedanceWidth = 0.001;  // [m]
 constexpr double kStiffSteps = 0.25;       // natural frequency times time step, elastic contacts
 constexpr double kSoftSteps = 0.16;        // the same without bounce
-constexpr double kMostDamping = 0.9;       // damping times time step: below 1, or the contact rings
+constexpr double kMaxDamping = 0.9;        // damping times time step: below 1, or the contact rings
 
 struct Surface {
   double friction = 0;
@@ -130,7 +130,7 @@ std::array<double, 2> contact_solref(double restitution, double time_step) {
   const double steps = kSoftSteps + (kStiffSteps - kSoftSteps) * std::min(1.0, elastic / 0.3);
   const double stiffness = (steps / time_step) * (steps / time_step);
   double low = 0;
-  double high = kMostDamping / time_step;
+  double high = kMaxDamping / time_step;
   for (int i = 0; i < 50; ++i) {
     const double middle = (low + high) / 2;
     (mean_rebound(stiffness, middle, time_step) > elastic ? low : high) = middle;

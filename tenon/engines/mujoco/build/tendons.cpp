@@ -12,7 +12,7 @@ namespace tenon::engines::mujoco {
 namespace {
 
 using scene::Tendon;
-using scene::TendonStop;
+using scene::TendonWrap;
 
 class TendonPass {
  public:
@@ -28,8 +28,8 @@ class TendonPass {
       mjs_wrapJoint(result, name_of(joint(tendon.joints[i])->element).c_str(),
                     tendon.coefficients[i]);
     }
-    for (const TendonStop& stop : tendon.stops) {
-      add_stop(result, stop);
+    for (const TendonWrap& wrap : tendon.wraps) {
+      add_wrap(result, wrap);
     }
     result->stiffness[0] = tendon.stiffness;
     result->damping[0] = tendon.damping;
@@ -70,7 +70,7 @@ class TendonPass {
     return true;
   }
 
-  std::string site(const TendonStop::Place& place) {
+  std::string site(const TendonWrap::Attachment& place) {
     const std::string name = place.path.str();
     if (sites_.insert(name).second) {
       mjsSite* made = mjs_addSite(side_body(build_, place.body), nullptr);
@@ -82,37 +82,37 @@ class TendonPass {
     return name;
   }
 
-  std::string round(const TendonStop& stop) {
-    const std::string name = stop.place.path.str() + ".wrap";
+  std::string round(const TendonWrap& wrap) {
+    const std::string name = wrap.attachment.path.str() + ".wrap";
     if (rounds_.insert(name).second) {
-      mjsGeom* made = mjs_addGeom(side_body(build_, stop.place.body), nullptr);
+      mjsGeom* made = mjs_addGeom(side_body(build_, wrap.attachment.body), nullptr);
       mjs_setName(made->element, name.c_str());
-      made->type = stop.kind == TendonStop::Kind::Sphere ? mjGEOM_SPHERE : mjGEOM_CYLINDER;
-      made->size[0] = stop.radius;
-      made->size[1] = stop.radius;  // the length of a cylinder does not matter
+      made->type = wrap.kind == TendonWrap::Kind::Sphere ? mjGEOM_SPHERE : mjGEOM_CYLINDER;
+      made->size[0] = wrap.radius;
+      made->size[1] = wrap.radius;  // the length of a cylinder does not matter
       made->contype = 0;
       made->conaffinity = 0;
       made->group = 4;  // seen when asked for
-      const Pose pose = side_frame(build_, stop.place.body, stop.place.pose);
+      const Pose pose = side_frame(build_, wrap.attachment.body, wrap.attachment.pose);
       write_vector(made->pos, pose.position);
       write_quaternion(made->quat, normalized(pose.orientation));
     }
     return name;
   }
 
-  void add_stop(mjsTendon* tendon, const TendonStop& stop) {
-    switch (stop.kind) {
-      case TendonStop::Kind::Site:
-        mjs_wrapSite(tendon, site(stop.place).c_str());
+  void add_wrap(mjsTendon* tendon, const TendonWrap& wrap) {
+    switch (wrap.kind) {
+      case TendonWrap::Kind::Site:
+        mjs_wrapSite(tendon, site(wrap.attachment).c_str());
         break;
-      case TendonStop::Kind::Sphere:
-      case TendonStop::Kind::Cylinder: {
-        const std::string side = stop.side ? site(*stop.side) : "";
-        mjs_wrapGeom(tendon, round(stop).c_str(), side.c_str());
+      case TendonWrap::Kind::Sphere:
+      case TendonWrap::Kind::Cylinder: {
+        const std::string side = wrap.side ? site(*wrap.side) : "";
+        mjs_wrapGeom(tendon, round(wrap).c_str(), side.c_str());
         break;
       }
-      case TendonStop::Kind::Pulley:
-        mjs_wrapPulley(tendon, stop.divisor);
+      case TendonWrap::Kind::Pulley:
+        mjs_wrapPulley(tendon, wrap.divisor);
         break;
     }
   }

@@ -9,12 +9,12 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-using scene::TendonStop;
+using scene::TendonWrap;
 
-TendonStop at_site(const char* name, std::optional<scene::Index> body, const Vec3d& position) {
-  TendonStop stop;
-  stop.place = {named(name), body, {position}};
-  return stop;
+TendonWrap at_site(const char* name, std::optional<scene::Index> body, const Vec3d& position) {
+  TendonWrap wrap;
+  wrap.attachment = {named(name), body, {position}};
+  return wrap;
 }
 
 /// A weight of 2 kg that hangs on a spring of 100 N/m with a rest length of 0.5 m.
@@ -23,7 +23,7 @@ TestScene hanging_weight() {
   const auto weight = scene.add_body("Weight", {{0, 0, -0.6}}, 2);
   scene::Tendon tendon;
   tendon.path = named("Rope");
-  tendon.stops = {at_site("Hook", {}, {}), at_site("Eye", weight, {})};
+  tendon.wraps = {at_site("Hook", {}, {}), at_site("Eye", weight, {})};
   tendon.stiffness = 100;
   tendon.damping = 30;
   tendon.spring_length = {0.5, 0.5};
@@ -40,11 +40,11 @@ TEST(Tendons, AWeightHangsWhereTheSpringHoldsIt) {
 
 TEST(Tendons, APulleyDividesTheLengthBehindIt) {
   TestScene scene = hanging_weight();
-  TendonStop pulley;
-  pulley.kind = TendonStop::Kind::Pulley;
+  TendonWrap pulley;
+  pulley.kind = TendonWrap::Kind::Pulley;
   pulley.divisor = 2;
-  std::vector<TendonStop>& stops = scene.tendons[0].stops;
-  stops.insert(stops.end(), {pulley, stops[0], stops[1]});
+  std::vector<TendonWrap>& wraps = scene.tendons[0].wraps;
+  wraps.insert(wraps.end(), {pulley, wraps[0], wraps[1]});
   auto sim = simulation(scene);
   run(*sim, 6);
   // Length 1.5 l, so 1.5 k (1.5 l - l0) = m g.
@@ -54,13 +54,13 @@ TEST(Tendons, APulleyDividesTheLengthBehindIt) {
 TEST(Tendons, GoAroundShapesThatNothingTouches) {
   TestScene scene = hanging_weight();
   // A cylinder about Y between hook and weight; the side site makes the rope pass its right side.
-  TendonStop around;
-  around.kind = TendonStop::Kind::Cylinder;
+  TendonWrap around;
+  around.kind = TendonWrap::Kind::Cylinder;
   around.radius = 0.1;
-  around.place = {named("Peg"), {}, {{{0, 0, -0.3}}, rotation_about({{1, 0, 0}}, M_PI / 2)}};
-  around.side = TendonStop::Place{named("Right"), {}, {{{0.2, 0, -0.3}}}};
-  std::vector<TendonStop>& stops = scene.tendons[0].stops;
-  stops.insert(stops.begin() + 1, around);
+  around.attachment = {named("Peg"), {}, {{{0, 0, -0.3}}, rotation_about({{1, 0, 0}}, M_PI / 2)}};
+  around.side = TendonWrap::Attachment{named("Right"), {}, {{{0.2, 0, -0.3}}}};
+  std::vector<TendonWrap>& wraps = scene.tendons[0].wraps;
+  wraps.insert(wraps.begin() + 1, around);
   scene::Shape ball;
   ball.kind = scene::ShapeKind::Sphere;
   ball.radius = 0.05;

@@ -15,7 +15,7 @@ using scene::PhysicsScene;
 
 JointRole loop_role(const Joint& joint) {
   if (!scene::is_held_by_frames(joint)) {
-    return JointRole::Ghost;
+    return JointRole::Auxiliary;
   }
   switch (joint.kind) {
     case JointKind::Fixed:
@@ -29,7 +29,7 @@ JointRole loop_role(const Joint& joint) {
     case JointKind::D6:
       break;
   }
-  return JointRole::Ghost;
+  return JointRole::Auxiliary;
 }
 
 bool is_given(const PhysicsScene& scene, const std::optional<Index>& body) {

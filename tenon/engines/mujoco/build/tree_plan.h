@@ -13,13 +13,13 @@ namespace tenon::engines::mujoco {
 
 /// How one joint reaches MuJoCo.
 enum class JointRole : std::uint8_t {
-  None,      ///< disabled, without effect, or not expressible
-  Tree,      ///< degrees of freedom between a body and its parent
-  Weld,      ///< loop: both frames are held together
-  Connect,   ///< loop: both origins are held together
-  Hinge,     ///< loop: two points of the axis are held together
-  Ghost,     ///< loop: an auxiliary body carries the degrees of freedom and is welded to body1
-  Distance,  ///< bounds the distance of the two origins
+  None,       ///< disabled, without effect, or not expressible
+  Tree,       ///< degrees of freedom between a body and its parent
+  Weld,       ///< loop: both frames are held together
+  Connect,    ///< loop: both origins are held together
+  Hinge,      ///< loop: two points of the axis are held together
+  Auxiliary,  ///< loop: an auxiliary body carries the degrees of freedom and is welded to body1
+  Distance,   ///< bounds the distance of the two origins
 };
 
 enum class BodyBase : std::uint8_t {

@@ -52,11 +52,11 @@ struct Words {
 };
 
 Words take_words(std::string_view text, std::size_t offset) {
-  constexpr std::size_t kMostWords = 6;  // an edit, custom, uniform, the type, the name, a suffix
+  constexpr std::size_t kMaxWords = 6;  // an edit, custom, uniform, the type, the name, a suffix
   Words found;
   bool is_suffix = false;
   std::size_t at = offset;
-  while (found.words.size() <= kMostWords && at < text.size()) {
+  while (found.words.size() <= kMaxWords && at < text.size()) {
     const std::size_t begin = at;
     if (Scanner::is_word(text[at])) {
       at = static_cast<std::size_t>(std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(at),

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tenon/physics/accounts.h"
+#include "tenon/physics/provenance.h"
 #include "tenon/physics/read_state.h"
 
 namespace tenon::physics {
@@ -13,7 +13,7 @@ std::string density_text(double density);
 
 /// The candidates for mass, centre of mass and inertia of a body, strongest first, from what its
 /// prim authors and what its colliders give (S-39, S-42, S-44..S-46, M-14..M-18).
-void account_for_body(const ReadState& state, const PhysicsPrim& found, CenterShift shift,
-                      MassAccount& account);
+void trace_body_mass(const ReadState& state, const PhysicsPrim& found, CenterShift shift,
+                     MassProvenance& provenance);
 
 }  // namespace tenon::physics

@@ -7,6 +7,6 @@
 namespace tenon::physics {
 
 /// The passes that bodies and their masses take: scenes, bodies, materials, colliders, masses.
-void read_weighed_bodies(ReadState& state);
+void read_bodies_with_mass(ReadState& state);
 
 }  // namespace tenon::physics

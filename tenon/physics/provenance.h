@@ -43,7 +43,7 @@ struct ColliderMass {
 };
 
 /// The way to the mass properties of one body; candidates strongest first.
-struct MassAccount {
+struct MassProvenance {
   Index body = 0;
   AuthoredMass authored;    ///< on the body itself, SI
   MassProperties computed;  ///< the sum of the colliders; mass 0 where there is none
@@ -55,16 +55,16 @@ struct MassAccount {
 /// Why two colliders never touch, as one prim says it.
 enum class PairRule : std::uint8_t { FilteredPair, Joint, Articulation };
 
-struct PairAccount {
+struct PairProvenance {
   Index a = 0;  ///< colliders, a < b
   Index b = 0;
   PairRule rule = PairRule::FilteredPair;
   Path prim;  ///< that says so
 };
 
-struct Accounts {
-  std::vector<MassAccount> masses;  ///< (body_count)
-  std::vector<PairAccount> pairs;   ///< in the order of reading
+struct Provenance {
+  std::vector<MassProvenance> masses;  ///< (body_count)
+  std::vector<PairProvenance> pairs;   ///< in the order of reading
 };
 
 /// One reason why two colliders do not touch.
@@ -76,7 +76,7 @@ struct PairReason {
 };
 
 /// All reasons why two colliders of a scene never touch; empty: they may.
-std::vector<PairReason> why_apart(const PhysicsScene& scene, const Accounts& accounts,
+std::vector<PairReason> why_apart(const PhysicsScene& scene, const Provenance& provenance,
                                   Index collider_a, Index collider_b);
 
 }  // namespace tenon::physics

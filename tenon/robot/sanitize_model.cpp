@@ -23,22 +23,23 @@ bool finite(const Mat3d& m) {
   return finite(Vec3d{m[0]}) && finite(Vec3d{m[1]}) && finite(Vec3d{m[2]});
 }
 
-class Mending {
+class Sanitizing {
  public:
-  Mending(RobotModel& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
+  Sanitizing(RobotModel& model, Diagnostics& diagnostics)
+      : model_(model), diagnostics_(diagnostics) {}
 
   void run() {
     for (Link& link : model_.links) {
-      mend_inertial(link);
-      mend_shapes(link, link.visuals, "visual");
-      mend_shapes(link, link.colliders, "collision");
+      sanitize_inertial(link);
+      sanitize_shapes(link, link.visuals, "visual");
+      sanitize_shapes(link, link.colliders, "collision");
     }
     for (Joint& joint : model_.joints) {
-      mend_frames(joint);
-      mend_axis(joint);
-      mend_numbers(joint);
-      mend_limit(joint);
-      mend_mimic(joint);
+      sanitize_frames(joint);
+      sanitize_axis(joint);
+      sanitize_numbers(joint);
+      sanitize_limit(joint);
+      sanitize_mimic(joint);
     }
     break_mimic_circles();
   }
@@ -50,7 +51,7 @@ class Mending {
         model_finding(model_, place, severity, rule, std::move(message), std::move(fix)));
   }
 
-  void mend_inertial(Link& link) {
+  void sanitize_inertial(Link& link) {
     if (!link.inertial) {
       return;
     }
@@ -70,7 +71,7 @@ class Mending {
       return;
     }
     const Vec3d moments = principal_inertia(inertial.inertia).moments;
-    if (mend_moments(inertial, whose, moments)) {
+    if (sanitize_moments(inertial, whose, moments)) {
       return;
     }
     const double sum = moments[0] + moments[1] + moments[2];
@@ -88,7 +89,7 @@ class Mending {
 
   /// Engines let no body turn without inertia: one without about some axis gets the mean about all
   /// axes. None at all stays so: it is computed from the colliders.
-  bool mend_moments(Inertial& inertial, const std::string& whose, const Vec3d& moments) {
+  bool sanitize_moments(Inertial& inertial, const std::string& whose, const Vec3d& moments) {
     const double sum = moments[0] + moments[1] + moments[2];
     const double least = std::min({moments[0], moments[1], moments[2]});
     if (inertial.mass == 0 || inertial.inertia == Mat3d{} || least > 1e-9 * std::fabs(sum)) {
@@ -124,7 +125,7 @@ class Mending {
   }
 
   template <class Shape>
-  void mend_shapes(const Link& link, std::vector<Shape>& shapes, const std::string& what) {
+  void sanitize_shapes(const Link& link, std::vector<Shape>& shapes, const std::string& what) {
     std::vector<Shape> kept;
     for (Shape& shape : shapes) {
       const std::string name(geometry_name(shape.geometry.kind));
@@ -145,7 +146,7 @@ class Mending {
     shapes = std::move(kept);
   }
 
-  void mend_frames(Joint& joint) {
+  void sanitize_frames(Joint& joint) {
     for (Pose* pose : {&joint.origin, &joint.frame}) {
       if (!finite(*pose)) {
         report(joint.place, "robot.not-finite",
@@ -156,7 +157,7 @@ class Mending {
     }
   }
 
-  void mend_axis(Joint& joint) {
+  void sanitize_axis(Joint& joint) {
     const double size = length(joint.axis);
     if (std::isfinite(size) && size > 0) {
       const Vec3d& a = joint.axis;
@@ -173,7 +174,7 @@ class Mending {
     joint.axis = {{1, 0, 0}};
   }
 
-  void mend_number(const Joint& joint, const char* name, double fallback, double& value) {
+  void sanitize_number(const Joint& joint, const char* name, double fallback, double& value) {
     if (std::isnan(value) || value < 0 || (std::isinf(value) && fallback == 0)) {
       report(joint.place, "robot.bad-number",
              std::string("the ") + name + " of joint \"" + joint.name +
@@ -183,19 +184,19 @@ class Mending {
     }
   }
 
-  void mend_numbers(Joint& joint) {
-    mend_number(joint, "effort limit", kUnlimited, joint.effort_limit);
-    mend_number(joint, "velocity limit", kUnlimited, joint.velocity_limit);
-    mend_number(joint, "damping", 0, joint.damping);
-    mend_number(joint, "friction", 0, joint.friction);
-    mend_number(joint, "armature", 0, joint.armature);
-    mend_number(joint, "stiffness", 0, joint.stiffness);
+  void sanitize_numbers(Joint& joint) {
+    sanitize_number(joint, "effort limit", kUnlimited, joint.effort_limit);
+    sanitize_number(joint, "velocity limit", kUnlimited, joint.velocity_limit);
+    sanitize_number(joint, "damping", 0, joint.damping);
+    sanitize_number(joint, "friction", 0, joint.friction);
+    sanitize_number(joint, "armature", 0, joint.armature);
+    sanitize_number(joint, "stiffness", 0, joint.stiffness);
     if (!std::isfinite(joint.spring_reference)) {
       joint.spring_reference = 0;
     }
   }
 
-  void mend_limit(Joint& joint) {
+  void sanitize_limit(Joint& joint) {
     if (!joint.limit) {
       return;
     }
@@ -214,7 +215,7 @@ class Mending {
     }
   }
 
-  void mend_mimic(Joint& joint) {
+  void sanitize_mimic(Joint& joint) {
     if (!joint.mimic) {
       return;
     }
@@ -262,6 +263,8 @@ class Mending {
 
 }  // namespace
 
-void mend_model(RobotModel& model, Diagnostics& diagnostics) { Mending(model, diagnostics).run(); }
+void sanitize_model(RobotModel& model, Diagnostics& diagnostics) {
+  Sanitizing(model, diagnostics).run();
+}
 
 }  // namespace tenon::robot

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/physics/bodies/mass_account.h"
+#include "tenon/physics/bodies/mass_provenance.h"
 
 #include "tenon/base/text/rounded_text.h"
 
@@ -18,21 +18,22 @@ std::string inertia_text(const Mat3d& inertia) {
 /// Lists candidates of one quantity; the first that is there is used.
 class Chain {
  public:
-  Chain(MassAccount& account, MassQuantity quantity) : account_(account), quantity_(quantity) {}
+  Chain(MassProvenance& provenance, MassQuantity quantity)
+      : provenance_(provenance), quantity_(quantity) {}
 
   void add(Path prim, Token property, std::string value, const char* rule, std::string why) {
     const bool first = !used_;
     used_ = true;
-    account_.candidates.push_back({quantity_, prim, property, std::move(value), rule, first,
-                                   first ? std::move(why) : "overruled by the opinion above"});
+    provenance_.candidates.push_back({quantity_, prim, property, std::move(value), rule, first,
+                                      first ? std::move(why) : "overruled by the opinion above"});
   }
   void add_unset(Path prim, Token property, std::string value, const char* rule, std::string why) {
-    account_.candidates.push_back(
+    provenance_.candidates.push_back(
         {quantity_, prim, property, std::move(value), rule, false, std::move(why)});
   }
 
  private:
-  MassAccount& account_;
+  MassProvenance& provenance_;
   MassQuantity quantity_;
   bool used_ = false;
 };
@@ -52,45 +53,46 @@ void add_passed_over(const PhysicsPrim& found, Token name, const char* rule, con
                   applied ? why : "ignored: PhysicsMassAPI is not applied here");
 }
 
-void account_mass(const ReadState& state, const PhysicsPrim& found, MassAccount& account) {
-  Chain chain(account, MassQuantity::Mass);
-  if (account.authored.mass) {
-    chain.add(found.path, state.tokens.mass, mass_text(*account.authored.mass), "S-39",
+void trace_mass(const ReadState& state, const PhysicsPrim& found, MassProvenance& provenance) {
+  Chain chain(provenance, MassQuantity::Mass);
+  if (provenance.authored.mass) {
+    chain.add(found.path, state.tokens.mass, mass_text(*provenance.authored.mass), "S-39",
               "a mass on the body beats those of its colliders and every density");
   } else {
     add_passed_over(found, state.tokens.mass, "S-41",
                     "unset: zero, negative, infinite, blocked or of another type", chain);
   }
-  if (account.computed.mass > 0) {
-    chain.add({}, {}, mass_text(account.computed.mass), "S-39", "the sum over the colliders below");
+  if (provenance.computed.mass > 0) {
+    chain.add({}, {}, mass_text(provenance.computed.mass), "S-39",
+              "the sum over the colliders below");
   } else {
     chain.add({}, {}, mass_text(kDefaultMass), "S-42", "no collider has a volume: 1 kg");
   }
 }
 
-void account_center(const ReadState& state, const PhysicsPrim& found, MassAccount& account) {
-  Chain chain(account, MassQuantity::CenterOfMass);
-  if (account.authored.center) {
-    chain.add(found.path, state.tokens.center_of_mass, text(*account.authored.center) + " m",
+void trace_center(const ReadState& state, const PhysicsPrim& found, MassProvenance& provenance) {
+  Chain chain(provenance, MassQuantity::CenterOfMass);
+  if (provenance.authored.center) {
+    chain.add(found.path, state.tokens.center_of_mass, text(*provenance.authored.center) + " m",
               "S-44", "authored, scaled by the prim");
   } else {
     add_passed_over(found, state.tokens.center_of_mass, "S-44",
                     "unset: not finite, blocked or of another type", chain);
   }
-  if (account.computed.mass > 0) {
-    chain.add({}, {}, text(account.computed.center) + " m", "M-12",
+  if (provenance.computed.mass > 0) {
+    chain.add({}, {}, text(provenance.computed.center) + " m", "M-12",
               "the mean of the colliders, weighted by mass");
   } else {
     chain.add({}, {}, text(Vec3d{}) + " m", "S-42", "no collider has a volume: the origin");
   }
 }
 
-std::string computed_inertia_why(const MassAccount& account, CenterShift shift) {
+std::string computed_inertia_why(const MassProvenance& provenance, CenterShift shift) {
   std::string why = "that of the colliders";
-  if (account.authored.mass) {
+  if (provenance.authored.mass) {
     why += ", scaled to the mass (M-14)";
   }
-  if (account.authored.center) {
+  if (provenance.authored.center) {
     why += shift == CenterShift::ParallelAxis
                ? ", plus the parallel-axis term of the authored centre (M-15)"
                : ", not moved to the authored centre (M-15)";
@@ -98,14 +100,14 @@ std::string computed_inertia_why(const MassAccount& account, CenterShift shift) 
   return why;
 }
 
-void account_inertia(const ReadState& state, const PhysicsPrim& found, CenterShift shift,
-                     MassAccount& account) {
-  Chain chain(account, MassQuantity::Inertia);
-  if (account.authored.inertia) {
+void trace_inertia(const ReadState& state, const PhysicsPrim& found, CenterShift shift,
+                   MassProvenance& provenance) {
+  Chain chain(provenance, MassQuantity::Inertia);
+  if (provenance.authored.inertia) {
     const bool six =
         found.roles.has(Api::NewtonMass) && authors(found, state.tokens.newton_inertia);
     chain.add(found.path, six ? state.tokens.newton_inertia : state.tokens.diagonal_inertia,
-              inertia_text(*account.authored.inertia), "M-16",
+              inertia_text(*provenance.authored.inertia), "M-16",
               "authored: used as it is, about the final centre of mass");
   } else {
     add_passed_over(found, state.tokens.diagonal_inertia, "S-45",
@@ -113,15 +115,15 @@ void account_inertia(const ReadState& state, const PhysicsPrim& found, CenterShi
     add_passed_over(found, state.tokens.principal_axes, "S-46",
                     "axes without moments have no effect", chain);
   }
-  const bool none = !(account.computed.mass > 0);
+  const bool none = !(provenance.computed.mass > 0);
   // Without an authored inertia the result is the computed one.
   const Mat3d& inertia =
-      account.authored.inertia ? account.computed.inertia : account.result.inertia;
+      provenance.authored.inertia ? provenance.computed.inertia : provenance.result.inertia;
   if (none) {
-    chain.add({}, {}, account.authored.inertia ? "" : inertia_text(inertia), "M-18",
+    chain.add({}, {}, provenance.authored.inertia ? "" : inertia_text(inertia), "M-18",
               "no collider has a volume: a ball of 0.1 m");
   } else {
-    chain.add({}, {}, inertia_text(inertia), "M-12", computed_inertia_why(account, shift));
+    chain.add({}, {}, inertia_text(inertia), "M-12", computed_inertia_why(provenance, shift));
   }
 }
 
@@ -144,11 +146,11 @@ std::string_view mass_quantity_name(MassQuantity quantity) {
   return "inertia";
 }
 
-void account_for_body(const ReadState& state, const PhysicsPrim& found, CenterShift shift,
-                      MassAccount& account) {
-  account_mass(state, found, account);
-  account_center(state, found, account);
-  account_inertia(state, found, shift, account);
+void trace_body_mass(const ReadState& state, const PhysicsPrim& found, CenterShift shift,
+                     MassProvenance& provenance) {
+  trace_mass(state, found, provenance);
+  trace_center(state, found, provenance);
+  trace_inertia(state, found, shift, provenance);
 }
 
 }  // namespace tenon::physics
