@@ -376,7 +376,9 @@ int run_export_urdf(Report& report, const ConvertArguments& options) {
 }
 
 bool ends_in(const std::string& path, std::initializer_list<const char*> endings) {
-  const std::string ending = fs::path(path).extension().string();
+  std::string ending = fs::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 

@@ -292,7 +292,7 @@ int run_diff(const Globals& globals, const DiffArguments& options) {
   return report.finish(code, {{"before", sides->before},
                               {"after", sides->after},
                               {"mode", mode},
-                              {"equal", equal},
+                              {"equal", equal && complete},
                               {"differences", std::move(found.rows)}});
 }
 

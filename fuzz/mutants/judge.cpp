@@ -155,29 +155,39 @@ std::string left_behind(const Mutant& mutant, const Command& command, const std:
   return "";
 }
 
-std::string fault_of_reading_back(const Subject& subject, const Command& command,
-                                  const std::string& folder) {
+/// Whether a layer or package can be read to its last value and written again.
+bool can_be_read(const Subject& subject, const std::string& name, const std::string& folder) {
   const std::string outer = fs::path(folder).parent_path().string();
   // What is binary need not have a text, and text may hold what no binary file can; a package holds
   // either.
-  const std::string_view output = command.output;
-  std::vector<std::string> formats{output.ends_with(".usda") ? "usda" : "usdc"};
-  if (output.ends_with(".usdz")) {
+  const std::string_view file = name;
+  std::vector<std::string> formats{file.ends_with(".usda") ? "usda" : "usdc"};
+  if (file.ends_with(".usdz")) {
     formats.emplace_back("usda");
   }
-  for (const std::string& format : formats) {
-    const ProgramCall call{{subject.program, "cat", command.output, "--format", format},
+  return std::any_of(formats.begin(), formats.end(), [&](const std::string& format) {
+    const ProgramCall call{{subject.program, "cat", name, "--format", format},
                            folder,
                            outer + "/stdout",
                            outer + "/stderr",
                            subject.environment};
     const ProgramRun run = run_program(call, subject.limits());
-    if (run.signal == 0 && run.exit == 0) {
-      return "";
-    }
+    return run.signal == 0 && run.exit == 0;
+  });
+}
+
+/// `zip` puts files in as they are, so that a damaged value is no more damaged than before.
+std::string fault_of_reading_back(const Subject& subject, const Command& command,
+                                  const std::string& folder) {
+  if (can_be_read(subject, command.output, folder)) {
+    return "";
   }
-  return "unreadable: " + command.output +
-         " does not read back: " + start_of(outer + "/stderr", 160);
+  const std::string outer = fs::path(folder).parent_path().string();
+  const std::string why = start_of(outer + "/stderr", 160);
+  const bool copies = command.words.front() == "zip";
+  return copies && !can_be_read(subject, command.words[1], folder)
+             ? ""
+             : "unreadable: " + command.output + " does not read back: " + why;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 namespace tenon::answers {
 namespace {
 
-constexpr std::size_t kLongestShown = 120;  ///< characters of a value; longer ones are cut
+constexpr std::size_t kLongestShown = 120;  ///< bytes of a value; longer ones are cut
 
 Json place_json(const stage::SpecSite& site) {
   Json row = Json::object();
@@ -111,7 +111,14 @@ std::string short_value_text(const layer::Value& value) {
   for (char& c : text) {
     c = c == '\n' ? ' ' : c;
   }
-  return text.size() <= kLongestShown ? text : text.substr(0, kLongestShown) + " ...";
+  if (text.size() <= kLongestShown) {
+    return text;
+  }
+  std::size_t end = kLongestShown;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) {
+    --end;  // a character of several bytes stays whole or goes
+  }
+  return text.substr(0, end) + " ...";
 }
 
 const char* source_name(stage::ValueSource source) {

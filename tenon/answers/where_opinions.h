@@ -12,7 +12,7 @@ namespace tenon::answers {
 
 /// Everything that any layer says about an object of a stage and what becomes of it:
 /// {"prim", "property", "type", "value", "source", "opinions": [{"file", "line", "column", "path",
-/// "layer", "sublayerOf", "arcs", "what", "value", "verdict", "why"}]}, strongest first. Without a
+/// "sublayerOf", "arcs", "what", "value", "verdict", "why"}]}, strongest first. Without a
 /// property: the fields of the prim itself. "verdict" is "wins", "wins at the default time", "wins
 /// at times", "combined", "loses", "declares", "ignored" or "not in force"; the fallback of a
 /// schema is a row without a file; a row of value clips has "clipSet" and "clip", the clip in force

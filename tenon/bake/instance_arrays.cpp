@@ -87,7 +87,7 @@ Pose placement_of(const Mat4d& body_to_top, const Mat4d& world, const Mat4d& ins
   Mat4d local = inverse(body_to_top) * world * inverse(instancer_world);
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column) {
-      local[row][column] /= scale[row];
+      local[row][column] /= scale[row] != 0 ? scale[row] : 1;
     }
   }
   return rigid_part(local);

@@ -96,9 +96,7 @@ layer::Layer write_time_samples(const stage::Stage& stage, const scene::PhysicsS
                                 const PoseRecording& recording, const BakeOptions& options,
                                 Diagnostics& diagnostics) {
   layer::Layer layer("bake.usda");
-  if (stage.is_from_binary()) {
-    layer.set_from_binary();
-  }
+  layer.set_may_lack_text();  // the stage may, and so may the name of its file
   write_metadata(stage, scene, recording, options, layer);
   write_selections(stage, options, layer);
   const BodyTransforms transforms(stage, scene);

@@ -117,10 +117,15 @@ bool is_bmp(std::string_view bytes) {
          short_at(bytes, 14) >= 12 && short_at(bytes, 14) <= 124 && short_at(bytes, 6) == 0;
 }
 
-/// Portable anymaps: "P6", blanks, numbers.
+/// Portable anymaps in binary form: "P4" to "P6", a blank, then the width or a comment; "P7" and
+/// the word WIDTH.
 bool is_anymap(std::string_view bytes) {
-  return bytes.size() > 8 && bytes[0] == 'P' && bytes[1] >= '4' && bytes[1] <= '7' &&
-         (bytes[2] == '\n' || bytes[2] == ' ') && bytes.find('\0') != std::string_view::npos;
+  if (bytes.size() < 9 || bytes[0] != 'P' || (bytes[2] != '\n' && bytes[2] != ' ')) {
+    return false;
+  }
+  const bool is_number = bytes[3] >= '0' && bytes[3] <= '9';
+  return bytes[1] == '7' ? bytes.substr(3, 5) == "WIDTH"
+                         : bytes[1] >= '4' && bytes[1] <= '6' && (is_number || bytes[3] == '#');
 }
 
 /// A frame of MPEG audio: layer, rate and frequency are none of the reserved ones.
@@ -229,6 +234,13 @@ Error not_media(const std::string& path) {
 
 Error not_a_layer(const std::string& path) {
   return wrong_kind(path, "named as a layer and is none", "name a file of USD");
+}
+
+Error not_nameable(const std::string& path) {
+  return Error(ErrorCode::Invalid, "@" + path + "@ has characters that no asset path may have: " +
+                                       "control characters, or bytes that are not UTF-8")
+      .with_rule(kUnreadableRule)
+      .with_fix("give the file another name");
 }
 
 }  // namespace tenon::bytes

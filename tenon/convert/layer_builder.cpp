@@ -181,6 +181,7 @@ void LayerBuilder::declare(Path prim, Token name, Token type_name) {
 }
 
 layer::Layer LayerBuilder::take() {
+  layer_.set_may_lack_text();
   for (auto& [prim, lists] : lists_) {
     layer::Spec& spec = layer_.create(prim, SpecKind::Prim);
     if (!lists.apis.empty()) {

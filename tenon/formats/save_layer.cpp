@@ -76,10 +76,11 @@ Result<void> decode_arrays(const layer::Layer& layer) {
   return {};
 }
 
-/// The text of a layer from a binary file is read back: what that one held need not have a text.
+/// The text of a layer that is not from text is read back: what that one holds need not have a
+/// text.
 Result<std::string> encode_text(const layer::Layer& layer) {
   std::string text = write_text(layer);
-  if (layer.is_from_binary() && !text::has_plain_text(layer)) {
+  if (layer.may_lack_text() && !text::has_plain_text(layer)) {
     Diagnostics ignored;
     const auto again = read_text(text, layer.identifier(), ignored);
     if (!again) {

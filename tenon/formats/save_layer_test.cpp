@@ -60,6 +60,12 @@ TEST(SaveLayer, RefusesTextThatCannotBeReadBack) {
   }));
   expect_no_text(from_crate(
       [](layer::Spec&, layer::Spec& a) { a.set(fields::typeName, Token("fl\xffoat")); }));
+  for (const char* const path : {"a\xff.png", "a\n.png", "a\x7f.png"}) {
+    expect_no_text(from_crate([&](layer::Spec&, layer::Spec& a) {
+      a.set(fields::typeName, Token("asset"));
+      a.set(fields::default_value, layer::AssetPath{path, "", ""});
+    }));
+  }
   expect_no_text(from_crate([](layer::Spec& p, layer::Spec&) { p.set(Token("no word"), 1.0f); }));
   expect_no_text(
       from_crate([](layer::Spec& p, layer::Spec&) { p.set(fields::kind, layer::Specifier::Def); }));

@@ -86,7 +86,7 @@ void Layer::reserve(std::size_t spec_count) {
 
 void Layer::take_missing(Layer&& other) {
   reserve(spec_count() + other.spec_count());
-  is_from_binary_ = is_from_binary_ || other.is_from_binary_;
+  may_lack_text_ = may_lack_text_ || other.may_lack_text_;
   for (Entry& theirs : other.entries_) {
     const std::size_t slot = theirs.path.empty() ? 0 : slot_of(theirs.path);
     if (!theirs.path.empty() && slots_[slot].entry == 0) {

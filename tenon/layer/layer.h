@@ -38,10 +38,11 @@ class Layer {
   const std::string& identifier() const { return identifier_; }
   void set_identifier(std::string identifier) { identifier_ = std::move(identifier); }
 
-  /// True where something comes from a binary form. That one can hold what the text form has no
-  /// words for: fields and types whose names are none, values of another type than declared.
-  bool is_from_binary() const { return is_from_binary_; }
-  void set_from_binary() { is_from_binary_ = true; }
+  /// True where something comes from a binary form or from a foreign format. Those can hold what
+  /// the text form has no words for: fields and types whose names are none, values of another type
+  /// than declared, bytes that are not UTF-8. Its text is read back before it is given out.
+  bool may_lack_text() const { return may_lack_text_; }
+  void set_may_lack_text() { may_lack_text_ = true; }
 
   const Spec* find(Path path) const;
   Spec* find(Path path);
@@ -86,7 +87,7 @@ class Layer {
   std::deque<Entry> entries_;  // erased entries keep an empty path
   std::vector<Slot> slots_;    // open addressing
   std::size_t erased_ = 0;
-  bool is_from_binary_ = false;
+  bool may_lack_text_ = false;
 };
 
 using LayerPtr = std::shared_ptr<const Layer>;

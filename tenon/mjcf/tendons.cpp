@@ -27,7 +27,7 @@ bool goes_around(int wrap) { return wrap == mjWRAP_SPHERE || wrap == mjWRAP_CYLI
 
 /// A joint with its coefficient. Returns its share of the length where the model stands.
 double add_term(const mjModel& model, const BodyTree& tree, int wrap, robot::MujocoTendon& tendon) {
-  const auto joint = static_cast<std::size_t>(model.wrap_objid[number]);
+  const auto joint = static_cast<std::size_t>(model.wrap_objid[wrap]);
   const double coefficient = model.wrap_prm[wrap];
   tendon.joints.push_back(tree.joint_of_joint[joint]);
   tendon.coefficients.push_back(coefficient);
@@ -143,7 +143,7 @@ std::vector<char> wrapped_geoms(const mjModel& model) {
   std::vector<char> wrapped(static_cast<std::size_t>(model.ngeom), 0);
   for (int wrap = 0; wrap < model.nwrap; ++wrap) {
     if (goes_around(model.wrap_type[wrap])) {
-      wrapped[static_cast<std::size_t>(model.wrap_objid[number])] = 1;
+      wrapped[static_cast<std::size_t>(model.wrap_objid[wrap])] = 1;
     }
   }
   return wrapped;

@@ -192,6 +192,10 @@ class Sanitizing {
     sanitize_number(joint, "armature", 0, joint.armature);
     sanitize_number(joint, "stiffness", 0, joint.stiffness);
     if (!std::isfinite(joint.spring_reference)) {
+      report(joint.place, "robot.bad-number",
+             "the rest position of the spring of joint \"" + joint.name +
+                 "\" is not finite; it is left out",
+             "give a finite number");
       joint.spring_reference = 0;
     }
   }

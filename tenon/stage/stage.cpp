@@ -151,10 +151,10 @@ std::vector<layer::LayerPtr> Stage::used_layers() const {
 
 std::size_t Stage::work() const { return data_->cache->work(); }
 
-bool Stage::is_from_binary() const {
+bool Stage::may_lack_text() const {
   const std::vector<layer::LayerPtr> layers = used_layers();
   return std::any_of(layers.begin(), layers.end(),
-                     [](const layer::LayerPtr& layer) { return layer->is_from_binary(); });
+                     [](const layer::LayerPtr& layer) { return layer->may_lack_text(); });
 }
 
 const std::vector<compose::MissingArc>& Stage::missing_arcs() const {

@@ -62,8 +62,8 @@ class Stage {
   const compose::LayerStack& layer_stack() const;
   /// All layers opened so far, those of value clips included, sorted by identifier.
   std::vector<layer::LayerPtr> used_layers() const;
-  /// One of them is from a binary form (Layer::is_from_binary).
-  bool is_from_binary() const;
+  /// One of them is from a binary form (Layer::may_lack_text).
+  bool may_lack_text() const;
   /// Layers that arcs name and that cannot be opened.
   const std::vector<compose::MissingArc>& missing_arcs() const;
   /// Units of work that composition took so far (limits::kComposeWork).

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/structure/layer_arcs.h"
 
+#include "tenon/layer/array_edit.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/finding_place.h"
 
@@ -32,6 +33,8 @@ void add_asset(const layer::Value& value, const layer::Spec& spec, Path path,
     for (const layer::AssetPath& one : *assets) {
       out.push_back({Arc::Asset, one.authored, Path(), path, spec.line});
     }
+  } else if (const auto* edit = value.get<layer::ArrayEdit>()) {
+    add_asset(edit->literals, spec, path, out);
   }
 }
 

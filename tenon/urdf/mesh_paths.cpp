@@ -39,6 +39,11 @@ std::optional<std::pair<std::string, std::string>> package_parts(const std::stri
   return std::nullopt;
 }
 
+/// No package has an empty name, which every folder without a package.xml would answer to.
+bool names_a_package(const std::string& name) {
+  return !name.empty() && name != "." && name != "..";
+}
+
 }  // namespace
 
 MeshPaths::MeshPaths(const std::string& path, const UrdfOptions& options)
@@ -66,6 +71,9 @@ const std::string& MeshPaths::package_name(const std::string& folder) {
 
 std::optional<std::string> MeshPaths::find_in_package(const std::string& name,
                                                       const std::string& rest) {
+  if (!names_a_package(name)) {
+    return std::nullopt;
+  }
   if (const auto given = packages_.find(name); given != packages_.end()) {
     return file_at(fs::path(given->second) / rest);
   }
@@ -145,6 +153,9 @@ std::optional<std::string> MeshPaths::look_for(const std::string& written) {
 
 std::string MeshPaths::advice(const std::string& written) const {
   if (const auto parts = package_parts(written)) {
+    if (!names_a_package(parts->first)) {
+      return "name the package: package://NAME/path/in/it";
+    }
     if (packages_.count(parts->first) != 0) {
       return "look into the folder given for the package \"" + parts->first + "\"";
     }

@@ -67,6 +67,40 @@ class BadMeshes(unittest.TestCase):
                     self.assertNotIn("def Mesh", text)
 
 
+class NamesOfImages(unittest.TestCase):
+    """An image whose name no asset path can hold is left out; what is written can be read."""
+
+    MESH = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
+    ROBOT = ('<robot name="r"><material name="m"><texture filename="a%s.png"/></material>'
+             '<link name="l"><visual><geometry><mesh filename="m.obj"/></geometry>'
+             '<material name="m"/></visual></link></robot>').encode()
+    # Their bytes in the description and in the name of the file.
+    NAMES = {"plain": (b"b c", b"b c"), "at signs": (b"@@@@", b"@@@@"),
+             "new line": (b"&#10;", b"\n"), "delete": (b"\x7f", b"\x7f"),
+             "not UTF-8": (b"\xff", b"\xff")}
+    GOOD = {"plain", "at signs"}
+
+    def test_fit_into_asset_paths(self):
+        image = ROOT / "tests/convert/urdf/stripes.png"
+        for name, (written, own) in self.NAMES.items():
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                robot = pathlib.Path(folder, "r.urdf")
+                robot.write_bytes(self.ROBOT % written)
+                pathlib.Path(folder, "m.obj").write_text(self.MESH)
+                with open(folder.encode() + b"/a" + own + b".png", "wb") as file:
+                    file.write(image.read_bytes())
+                for output in ("r.usda", "r.usdc", "asset/"):
+                    code, answer = tenon("convert", robot, f"{folder}/{output}")
+                    self.assertEqual(code, 0 if name in self.GOOD else 1, answer)
+                    rules = {d["rule"] for d in answer["diagnostics"]}
+                    self.assertEqual("read.unreadable" in rules, name not in self.GOOD)
+                for asset in ("r.usda", "r.usdc", "asset/r.usda"):
+                    code, text = subprocess.getstatusoutput(f"{TENON} cat --flatten "
+                                                            f"{folder}/{asset}")
+                    self.assertEqual(code, 0, text)
+                    self.assertEqual("inputs:file" in text, name in self.GOOD)
+
+
 class Kinds(unittest.TestCase):
     """URDF and MJCF are told apart by the root element, whatever stands before it."""
 

@@ -118,6 +118,13 @@ class Diff(unittest.TestCase):
         self.assertEqual([(row["file"], row["change"]) for row in rows],
                          [("notes.txt", "added"), (str(PHYSICS), "changed")])
 
+    def test_what_may_not_be_read_is_not_called_equal(self):
+        secret = self.folder / "secret.usda"
+        secret.write_text("#usda 1.0\n")
+        (self.copy / "link.usda").symlink_to(secret)
+        self.assertEqual(self.diff(HAND.parent, self.copy, "--sandbox", HAND.parent, "--sandbox",
+                                   self.copy, code=1), [])
+
     def test_a_side_that_is_not_there_is_empty(self):
         rows = self.diff("/dev/null", HAND, code=1)
         self.assertEqual([row["change"] for row in rows if row["field"] is None], ["added"])

@@ -12,6 +12,7 @@ in the unpacked asset. The hand of ../shared joins in where it is there.
 import json
 import os
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
@@ -205,6 +206,7 @@ def "A" (
 {
     asset[] many = [@./g.png@, @./h.png@]
     asset moving.timeSamples = {
+        0: None,
         1: @./i.png@,
         2.50: @./j.png@,
     }
@@ -230,6 +232,49 @@ def "A" (
         wanted["./f.###.usda"] = '"./f.###.usda"'
         wanted["./k.usda"] = "@./k.usda@</K>"
         self.assertEqual(found, wanted)
+
+    def test_files_of_one_pattern_stay_together_and_no_name_is_given_twice(self):
+        for name in ("x/t.1002", "y/t.1001", "y/t.1002", "z/c.1", "z/c.2", "x/c.2"):
+            kind = "usda" if "/c" in name else "png"
+            front = "#usda 1.0\n# " if kind == "usda" else "\x89PNG\r\n\x1a\n"
+            path = self.folder / "lib" / f"{name}.{kind}"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(front.encode("latin-1") + name.encode())
+        asset = self.write("asset/a.usda", """#usda 1.0
+(
+    subLayers = [@../lib/x/c.2.usda@]
+)
+def "A" (
+    clips = {
+        dictionary default = {
+            string templateAssetPath = "../lib/z/c.#.usda"
+        }
+    }
+)
+{
+    asset a = @../lib/x/t.1002.png@
+    asset b = @../lib/y/t.<UDIM>.png@
+    asset c = @../lib/y/t.<UDIM>.png@
+}
+""")
+        self.run_json(asset, "-o", self.package, "--allow-read", self.folder / "lib", code=0)
+        with zipfile.ZipFile(self.package) as package:
+            names = package.namelist()
+            self.assertEqual(len(names), len(set(names)), names)
+            text = package.read("a.usda").decode()
+
+            def path_of(pattern, tile=""):
+                path = re.search(pattern, text).group(1)
+                return package.read(path.removeprefix("./").replace("<UDIM>", tile)
+                                    .replace("#", tile)).decode("latin-1")
+            self.assertTrue(path_of("asset a = @(.*)@").endswith("x/t.1002"))
+            for attribute in "bc":
+                for tile in ("1001", "1002"):
+                    self.assertTrue(path_of(f"asset {attribute} = @(.*)@", tile)
+                                    .endswith(f"y/t.{tile}"))
+            for tile in "12":
+                self.assertTrue(path_of('templateAssetPath = "(.*)"', tile)
+                                .endswith(f"z/c.{tile}"))
 
     def test_usage(self):
         for arguments in ((HAND,), (HAND, "-o", self.folder / "x.zip"), (HAND, "--list"),

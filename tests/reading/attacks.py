@@ -220,9 +220,15 @@ def arc_attacks():
 
 
 def robot_attacks():
-    kinds = [*KINDS, "package", "package upward"]
     ways = {**KINDS, "package": lambda folder, name: f"package://asset/../secret/{name}",
-            "package upward": lambda folder, name: f"package://secret/{name}"}
+            "package upward": lambda folder, name: f"package://secret/{name}",
+            "package without a name":
+                lambda folder, name: f"package://{(folder / '../secret').resolve()}/{name}",
+            "model without a name":
+                lambda folder, name: f"model://{(folder / '../secret').resolve()}/{name}",
+            "package of a dot": lambda folder, name: f"package://./../secret/{name}",
+            "package of dots": lambda folder, name: f"package://../secret/{name}"}
+    kinds = list(ways)
     outputs = ["OUT/made.usda", "OUT/made", "OUT/made.usdz"]
     turn = 0
     for place, (secret, files) in ROBOTS.items():

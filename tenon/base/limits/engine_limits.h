@@ -7,7 +7,7 @@
 /// What a model of an engine may hold, beside the limits of tenon/base/limits/physics_limits.h.
 namespace tenon::limits {
 
-inline constexpr std::size_t kModelBodies = 200'000;         ///< bodies, and as many joints
+inline constexpr std::size_t kModelBodies = 65'000;          ///< bodies, and as many joints
 inline constexpr std::size_t kModelGeoms = 100'000;          ///< shapes, pieces of meshes too
 inline constexpr std::size_t kModelMeshPoints = 30'000'000;  ///< corners of all their meshes
 

@@ -75,6 +75,11 @@ bool is_valid(std::string_view text) {
   return true;
 }
 
+bool is_printable(std::string_view text) {
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; };
+  return std::none_of(text.begin(), text.end(), is_control) && is_valid(text);
+}
+
 bool starts_identifier(char32_t code_point) {
   if (code_point < 0x80) {
     return is_ascii_letter(code_point) || code_point == '_';

@@ -17,6 +17,8 @@ struct Decoded {
 Decoded decode(std::string_view text);
 /// True when all of `text` is well-formed UTF-8.
 bool is_valid(std::string_view text);
+/// True when it has no control characters either: what an asset path in a text layer may hold.
+bool is_printable(std::string_view text);
 
 bool starts_identifier(char32_t code_point);     ///< XID_Start or '_'
 bool continues_identifier(char32_t code_point);  ///< XID_Continue

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "tenon/base/text/text_number.h"
+#include "tenon/base/text/unicode.h"
 #include "tenon/bytes/file_kind.h"
 #include "tenon/convert/shapes/surface_network.h"
 
@@ -53,10 +54,14 @@ std::string key_of(const mesh::Appearance& appearance) {
   return key;
 }
 
-/// Why an image cannot go into the asset or be named by it: only those can that are images, from
-/// where they may lie. One that is not there at all is kept as a name.
+/// Why an image cannot go into the asset or be named by it: only those can whose name an asset path
+/// may hold and that are images, from where they may lie. One that is not there at all is kept as a
+/// name.
 std::optional<Error> refusal_of(const std::string& image, const InnerImages& inner,
                                 const bytes::ReadPolicy& reading) {
+  if (!unicode::is_printable(std::filesystem::path(image).filename().string())) {
+    return bytes::not_nameable(image);
+  }
   if (const auto at = inner.find(image); at != inner.end()) {
     return bytes::kind_of(at->second) == bytes::FileKind::Image
                ? std::nullopt

@@ -84,7 +84,7 @@ class LayerBuilder {
     for (std::size_t i = 0; i < specs_.size(); ++i) {
       TENON_CHECK(add_fields(tables_.specs[i].field_set, *specs_[i]));
     }
-    layer_.set_from_binary();
+    layer_.set_may_lack_text();
     return std::move(layer_);
   }
 

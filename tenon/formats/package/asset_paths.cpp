@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/package/asset_paths.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "tenon/base/text/text_number.h"
+#include "tenon/layer/array_edit.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/finding_place.h"
@@ -96,13 +98,25 @@ class Renamer {
       }
       return result;
     }
+    if (const auto* edit = value.get<layer::ArrayEdit>()) {
+      layer::ArrayEdit result = *edit;
+      result.literals = renamed(edit->literals, use);
+      return result;
+    }
     return renamed_samples(value);
+  }
+
+  /// A sample; the first one may be a block, and others edits of arrays.
+  static bool may_hold_assets(const Value& value) {
+    const auto* edit = value.get<layer::ArrayEdit>();
+    return (edit == nullptr ? value : edit->literals).type() == layer::ValueType::Asset;
   }
 
   Value renamed_samples(const Value& value) {
     const auto* samples = value.get<layer::TimeSamples>();
-    const bool assets = samples != nullptr && !samples->empty() &&
-                        samples->values.front().type() == layer::ValueType::Asset;
+    const bool assets =
+        samples != nullptr && std::any_of(samples->values.begin(), samples->values.end(),
+                                          [](const Value& v) { return may_hold_assets(v); });
     if (!assets) {
       return value;
     }
@@ -167,6 +181,7 @@ bool may_hold_assets(Token field, const Value& value) {
     case layer::ValueType::PayloadListOp:
     case layer::ValueType::Dictionary:
     case layer::ValueType::TimeSamples:
+    case layer::ValueType::ArrayEdit:
       return true;
     default:
       return field == fields::subLayers;

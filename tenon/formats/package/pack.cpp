@@ -309,22 +309,41 @@ class Packer {
       const std::string number = std::to_string(tile);
       const auto found = resolver_.resolve(replaced(path, kUdim, number), anchor);
       if (found) {
-        const std::string name = place_beside(*found, pattern, AssetUse::Value);
-        pattern = name.empty() ? pattern : folder_of(name) + path.substr(path.rfind('/') + 1);
+        const std::string file_pattern = path.substr(path.rfind('/') + 1);
+        const std::string name = place_in_pattern(*found, file_pattern, AssetUse::Value);
+        pattern = name.empty() ? pattern : folder_of(name) + file_pattern;
       }
     }
     return pattern;
   }
 
-  /// Files of one pattern stay in one folder.
-  std::string place_beside(const std::string& identifier, const std::string& pattern,
-                           AssetUse use) {
-    const bool known = names_.contains(identifier);
-    if (known || pattern.empty() || identifier.starts_with(base_)) {
+  /// Files of one pattern stay in one folder: their own, or one that is only theirs, where a file
+  /// that is in the package already for other reasons stands a second time.
+  std::string place_in_pattern(const std::string& identifier, const std::string& file_pattern,
+                               AssetUse use) {
+    if (identifier.starts_with(base_)) {
       return name_of(identifier, use);
     }
-    std::string name = folder_of(pattern) + identifier.substr(identifier.rfind('/') + 1);
-    return queue(identifier, name, use) ? name : std::string();
+    std::string& folder = pattern_folders_[folder_of(identifier) + file_pattern];
+    if (folder.empty()) {
+      folder = free_folder();
+    }
+    std::string name = folder + identifier.substr(identifier.rfind('/') + 1);
+    return taken_.contains(name) || queue(identifier, name, use) ? name : std::string();
+  }
+
+  /// A numbered folder that no file of the package is in.
+  std::string free_folder() const {
+    for (std::size_t number = 0;; ++number) {
+      std::string folder = std::to_string(number) + "/";
+      const auto first = taken_.lower_bound(folder);
+      const bool is_free = first == taken_.end() || !first->starts_with(folder);
+      const bool is_given = std::any_of(pattern_folders_.begin(), pattern_folders_.end(),
+                                        [&](const auto& entry) { return entry.second == folder; });
+      if (is_free && !is_given) {
+        return folder;
+      }
+    }
   }
 
   std::string template_target(const std::string& path, const std::string& anchor) {
@@ -343,7 +362,7 @@ class Packer {
     for (const std::string& name : names) {
       const auto found = resolver_.resolve(folder_of(path) + name, anchor);
       if (found) {
-        const std::string place = place_beside(*found, pattern, AssetUse::Layer);
+        const std::string place = place_in_pattern(*found, file_pattern, AssetUse::Layer);
         pattern = place.empty() ? pattern : folder_of(place) + file_pattern;
       }
     }
@@ -373,7 +392,8 @@ class Packer {
   Diagnostics& diagnostics_;
   std::string base_;          // what identifiers of files that keep their place begin with
   std::string base_package_;  // the package that the root layer is in
-  std::map<std::string, std::string> names_;  // identifier -> name in the package
+  std::map<std::string, std::string> names_;            // identifier -> name in the package
+  std::map<std::string, std::string> pattern_folders_;  // source folder and pattern -> folder
   std::set<std::string> taken_;
   std::deque<Pending> pending_;
   std::vector<std::pair<std::string, std::shared_ptr<const bytes::FileBytes>>> files_;

@@ -426,6 +426,12 @@ void read_face_materials(ReadState& state, Index index) {
     if (first.empty()) {
       first = first_triangles(state, prim);
     }
+    if (collider.approximation == Approximation::MeshSimplification &&
+        state.scene.meshes[collider.shape.mesh].triangles.size() != first.back()) {
+      state.not_read(child, "material:binding",
+                     "the simplified mesh has other triangles; the material of the mesh counts");
+      continue;
+    }
     collider.face_materials.push_back(
         {child.path(), material,
          triangles_of(faces.value_or(layer::Array<std::int32_t>()), first)});

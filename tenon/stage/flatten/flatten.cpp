@@ -47,8 +47,8 @@ class Flattener {
       copy_prototype(prototype);
     }
     put_prototypes_first();
-    if (stage_.is_from_binary()) {
-      layer_.set_from_binary();
+    if (stage_.may_lack_text()) {
+      layer_.set_may_lack_text();
     }
     return std::move(layer_);
   }

@@ -165,8 +165,8 @@ layer::Layer flatten_layer_stack(const Stage& stage) {
   const compose::LayerStack& stack = stage.layer_stack();
   for (auto item = stack.layers.rbegin(); item != stack.layers.rend(); ++item) {
     const StackMover mover(stage.data(), *item);
-    if (item->layer->is_from_binary()) {
-      result.set_from_binary();
+    if (item->layer->may_lack_text()) {
+      result.set_may_lack_text();
     }
     for (const layer::Layer::Entry& entry : item->layer->entries()) {
       if (!entry.path.empty()) {

@@ -42,14 +42,50 @@ std::vector<Token> fields_of(ArcKind kind) {
   return {};
 }
 
+std::string_view file_name(std::string_view path) {
+  return path.substr(path.find_last_of('/') + 1);
+}
+
+/// Whether an arc may be the one that `step` takes. What its file resolves to is not kept, so files
+/// are told apart by their names.
+template <class Arc>
+bool may_lead(const Arc& arc, const ArcStep& step) {
+  const bool same_file =
+      arc.asset_path.empty() || file_name(arc.asset_path) == file_name(step.to_layer);
+  return same_file && (arc.prim_path.empty() || arc.prim_path == step.to);
+}
+bool may_lead(Path to, const ArcStep& step) { return to == step.to; }
+
+template <class Arc>
+bool lists(const layer::Value& value, const ArcStep& step) {
+  const auto* op = value.get<layer::ListOp<Arc>>();
+  const auto leads = [&](const std::vector<Arc>& arcs) {
+    return std::any_of(arcs.begin(), arcs.end(),
+                       [&](const Arc& arc) { return may_lead(arc, step); });
+  };
+  return op != nullptr && (leads(op->explicit_items) || leads(op->prepended) ||
+                           leads(op->appended) || leads(op->added));
+}
+
+/// Variants are said by every layer that names the set or selects one.
+bool says_arc(const layer::Value& value, const ArcStep& step) {
+  return step.kind == ArcKind::Variant || lists<layer::Reference>(value, step) ||
+         lists<layer::Payload>(value, step) || lists<Path>(value, step);
+}
+
+/// The strongest layer that lists the arc; where none is seen to, the strongest with any of its
+/// kind.
 void find_author(const compose::LayerStack& stack, ArcStep& step) {
   for (const Token field : fields_of(step.kind)) {
-    for (const compose::StackedLayer& stacked : stack.layers) {
-      const layer::Spec* spec = stacked.layer->find(step.from);
-      if (spec != nullptr && spec->has(field)) {
-        step.layer = stacked.layer->identifier();
-        step.line = spec->line;
-        return;
+    for (const bool any : {false, true}) {
+      for (const compose::StackedLayer& stacked : stack.layers) {
+        const layer::Spec* spec = stacked.layer->find(step.from);
+        const layer::Value* value = spec == nullptr ? nullptr : spec->find(field);
+        if (value != nullptr && (any || says_arc(*value, step))) {
+          step.layer = stacked.layer->identifier();
+          step.line = spec->line;
+          return;
+        }
       }
     }
   }

@@ -266,7 +266,8 @@ class Migration {
       copy(content, prim, std::string("physxJoint:") + name, api,
            "physxJointAxis:" + axis + ":" + name);
     }
-    if (number(content, prim, "physxJoint:jointFriction", 0) != 0) {
+    if (number(content, prim, "physxJoint:jointFriction", 0) != 0 ||
+        has_samples(content, prim, "physxJoint:jointFriction")) {
       note_kept(prim, "physxJoint:jointFriction", "a coefficient without unit is not an effort");
     } else if (!to_legacy()) {
       remove(content, prim, Token(kPhysxJoint));
@@ -281,7 +282,8 @@ class Migration {
     bool friction = false;
     for (const char* name :
          {"staticFrictionEffort", "dynamicFrictionEffort", "viscousFrictionCoefficient"}) {
-      friction = friction || number(content, prim, prefix + name, 0) != 0;
+      friction = friction || number(content, prim, prefix + name, 0) != 0 ||
+                 has_samples(content, prim, prefix + name);
     }
     if (friction) {
       note_kept(prim, "PhysxJointAxisAPI:" + axis, "PhysxJointAPI knows no effort of friction");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "tenon/formats/text/write/value_text.h"
 #include "tenon/layer/fields.h"
 #include "tenon/structure/layer_tree.h"
 #include "tenon/structure/proof/proof.h"
@@ -121,9 +122,10 @@ class Comparison {
     }
   }
 
-  /// Values that differ from themselves, as what holds NaN does.
+  /// Values that differ from themselves, as what holds NaN does, and are the same all the same.
   static bool is_same_nan(const layer::Value& a, const layer::Value& b) {
-    return a.type() == b.type() && a.is_array() == b.is_array() && !(a == a) && !(b == b);
+    return a.type() == b.type() && a.is_array() == b.is_array() && !(a == a) && !(b == b) &&
+           formats::value_text(a) == formats::value_text(b);
   }
 
   static bool says_something(const Spec& property) {

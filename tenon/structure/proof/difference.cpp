@@ -124,7 +124,11 @@ class Differ {
       const bool declares = field.name == fields::typeName || field.name == fields::custom ||
                             field.name == fields::variability;
       const layer::Value* same = spec.find(field.name);
-      if (!declares && same != nullptr && *same == field.value) {
+      // A default also hides samples of the weaker layer that the stronger content does not have.
+      const bool hides = field.name == fields::default_value &&
+                         ((weak->has(fields::timeSamples) && !strong.has(fields::timeSamples)) ||
+                          (weak->has(fields::spline) && !strong.has(fields::spline)));
+      if (!declares && !hides && same != nullptr && *same == field.value) {
         spec.erase(field.name);
       }
     }

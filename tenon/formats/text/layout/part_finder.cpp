@@ -193,11 +193,12 @@ void PartFinder::add_items(SourceRange value, FieldText& found) {
   };
   spend(value.end - value.begin);
   Scanner scanner(text_, value.begin + 1);
-  if (text_[value.begin] == '[') {
+  const char opening = char_at(value.begin);
+  if (opening == '[') {
     while (const auto item = take_item(text_, scanner)) {
       add(*item);
     }
-  } else if (text_[value.begin] == '{') {
+  } else if (opening == '{') {
     while (const auto entry = take_entry(text_, scanner)) {
       found.items.push_back(entry->range);
       found.by_text.emplace(item_text({entry->range.begin, entry->range.begin + entry->key.size()}),
@@ -214,7 +215,7 @@ SourceRange PartFinder::find_entry(const FieldText& field, const StatementPart& 
   for (const std::string& key : part.keys) {
     std::optional<EntryText> entry;
     Scanner scanner(text_, value.begin + 1);
-    if (text_[value.begin] == '{') {
+    if (char_at(value.begin) == '{') {
       while ((entry = take_entry(text_, scanner)) && !is_key(entry->key, key)) {
       }
     }

@@ -49,6 +49,9 @@ class PartFinder {
   std::string item_text(SourceRange item) const;
   void spend(std::size_t bytes) { work_left_ -= bytes < work_left_ ? bytes : work_left_; }
 
+  /// Zero behind the end: what was changed may end in a field without its value.
+  char char_at(std::size_t at) const { return at < text_.size() ? text_[at] : '\0'; }
+
   std::string_view text_;
   std::size_t work_left_;  // bytes still to be looked at
   Path spec_;              // of the part

@@ -153,8 +153,12 @@ void append_field(std::string& out, const Field& field, std::size_t indent) {
   }
 }
 
-void append_sublayers(std::string& out, const Spec& root) {
-  const auto* paths = root.get<std::vector<std::string>>(fields::subLayers);
+void append_sublayers(std::string& out, const Spec& root, const Field& field) {
+  const auto* paths = field.value.get<std::vector<std::string>>();
+  if (paths == nullptr) {  // of another type: only a binary file has that
+    append_simple(out, field.name.view(), field.value, 1);
+    return;
+  }
   const auto* offsets = root.get<std::vector<layer::LayerOffset>>(fields::subLayerOffsets);
   out += "    subLayers = [\n";
   for (std::size_t i = 0; i < paths->size(); ++i) {
@@ -169,7 +173,7 @@ void append_sublayers(std::string& out, const Spec& root) {
 
 void append_layer_field(std::string& out, const Spec& root, const Field& field) {
   if (field.name == fields::subLayers) {
-    append_sublayers(out, root);
+    append_sublayers(out, root, field);
   } else if (field.name == fields::documentation) {
     if (!field.value.get_or(std::string()).empty()) {
       append_simple(out, "doc", field.value, 1);
