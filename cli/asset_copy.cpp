@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The layers of an asset form a graph with an edge from each layer to every layer that it names. A
+// worklist opens each of them once. A copy elsewhere takes the root layer and, by a fixed point
+// over the edges, every layer that is edited or that names one that moves, because it has to name
+// the copy. Edges to the root layer do not count. Whatever does not move stays where it is: asset
+// paths of the copies lead to other copies where there are some, else back to the original files.
 #include "cli/asset_copy.h"
 
 #include <algorithm>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// CLI11 parses. A table beside it keeps what CLI11 does not know of each option, and help, manual
+// pages and completions are made of that table. A verb also takes the options of the commands above
+// it, so every search for an option walks up the parents. An exception of CLI11 is translated by
+// its exit code and told from the innermost command that was named. One fault is found after
+// parsing: an option that took the name of another option for its value. That is still in time,
+// because parsing only notes which verb is to run.
 #include "cli/command_line.h"
 
 #include <algorithm>

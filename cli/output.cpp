@@ -1,5 +1,13 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// An output passes three steps. A claim judges its name and place before the work and changes
+// nothing: the ending by the table below, two outputs with one place, a place that cannot be
+// written. A put collects contents. The commit compares names with contents, writes all files in
+// one transaction and prints last, so that a commit that fails prints nothing. A standard stream
+// that is closed gets /dev/null, opened the wrong way round: no file of the run can take its
+// number, and using it is an error. Whether all was printed is known only at the end, and decides
+// the exit code too.
 #include "cli/output.h"
 
 #include <algorithm>

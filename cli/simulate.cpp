@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Stage, scene and simulation lie on the heap in one result, because the simulation refers to the
+// scene. The states that a run would record are counted before its first step and bounded by
+// kRecordedStates, since they all stay in memory. An interrupt only raises a counter, which the run
+// asks for every few steps. A run that is interrupted or becomes unstable is still a result, with
+// the recording up to there; only what could not begin is an error.
 #include "cli/simulate.h"
 
 #include <algorithm>

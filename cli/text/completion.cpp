@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The scripts are made of the table that the parser fills, so they follow the options by
+// themselves. Each offers, for a verb, its own options with those of the commands below it and of
+// the program; values come from the closed choices of an option, else the shell completes files. In
+// bash and zsh the verb is the first word that is no option, in fish any word that is the name of a
+// verb.
 #include "cli/text/completion.h"
 
 #include <functional>

@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// One line for each difference, in the shortest form that still tells what changed. Edits of lists
+// are shown by the items that came and went, long arrays by how many elements differ, from which on
+// and by how much. Numbers of the physics have six digits; where both sides would read alike, they
+// have 17, which tell any two doubles apart. Angles are held in radians and shown in degrees.
 #include "cli/text/difference_text.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Help in two columns, filled greedily. A width counts characters, told by the bytes of UTF-8 that
+// begin one. A name too long for its column gets a line of its own. On narrow terminals the second
+// column moves to the middle, and its words keep kMinWords columns even beyond the width. In
+// footers a line that begins with a blank is an example and stays one; the others are filled as
+// paragraphs.
 #include "cli/text/help_text.h"
 
 #include <algorithm>

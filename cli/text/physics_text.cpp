@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Prints each list of the neutral description, an object a line, with limits, drives and mimics
+// below their joints. Ranges of angles are shown in degrees, all else stays in SI and radians; a
+// range whose lower end is above the upper one means locked.
 #include "cli/text/physics_text.h"
 
 #include <cmath>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Results refer to rules by index, so the rules that are broken are collected first, each once and
+// sorted by name. The fingerprint of a result hashes rule, file, prim and property but neither line
+// nor message: it stays the same while a file grows above the finding. Columns of a diagnostic are
+// bytes and have to be turned into characters, which is done for all findings together. Findings
+// that a baseline knows stay in the log, marked as suppressed.
 #include "cli/text/sarif.h"
 
 #include <cctype>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// All assets add to one list of findings. They share layers, so a finding counts once by its place,
+// rule and message. With --fix an asset is checked, its fixes are written in place, and it is
+// checked again, so that the report tells what is left; a dry run reports the first check. The
+// baseline is held against the whole list at the end, because it says how many equal findings are
+// known. Reports are claimed before the work and written together after it.
 #include <algorithm>
 #include <cstdio>
 #include <iterator>

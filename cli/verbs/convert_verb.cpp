@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The ending of the input decides the direction: assets become MJCF or URDF, all else is a
+// description and becomes an asset. Each output carries a note with digests of itself and of the
+// files beside it. By this note a later run sees that somebody edited them: it asks before the work
+// and once more when nobody else can write. A package holds checksums over its own digest and is
+// therefore made twice. Images in no file of their own, and those outside of the folders of the
+// output, come along in a folder beside a single layer.
 #include <algorithm>
 #include <filesystem>
 #include <set>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Two layers are compared as values, two packages or folders file by file, two stages as the layers
+// that they flatten to, or by the physics that an engine receives. A side that is not there,
+// /dev/null for git, is an empty layer or a package without files and needs no case of its own. A
+// file that may not be read is named and not compared, and then the exit code is that of a
+// difference. Git calls with seven or nine arguments and takes any exit code but 0 for a crash.
 #include <cstdio>
 #include <filesystem>
 #include <map>

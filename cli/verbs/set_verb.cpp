@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The options become one list of edits in a fixed order: schemas are removed and applied first,
+// then come typed edits, plain values and last what is cleared, so that a schema that declares a
+// property is there before the property is set. Which file gets an edit, and whether it counts
+// there, is decided in tenon/asset/edit_asset.h. Reading, editing and writing are repeated together
+// when a file changed meanwhile. In a dry run standard output is the difference alone.
 #include <algorithm>
 #include <cstdio>
 #include <functional>

@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The end state is made as JSON, and the text for people is printed from it, so the two forms say
+// the same. Bodies and joints are told in units of the stage, energy in joules. The log and the
+// baked layer are written in one commit: after a run that became unstable too, but not after an
+// interrupt.
 #include <algorithm>
 #include <cstdio>
 #include <string>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Stripping composes nothing: every layer that the asset leads to is stripped by itself, so that
+// the physics of variants that are not selected goes as well. Layers outside of the folders of the
+// asset stay; those among them that hold physics are errors. Muting composes the asset, since only
+// that tells which flags are on, and switches them off in one layer: a new one over the asset, or
+// the root layer.
 #include <cstdio>
 #include <filesystem>
 

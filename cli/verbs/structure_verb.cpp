@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Reads the options, looks at the folder before the work, and prints which files were made or would
+// be. structure_asset makes the package in memory and proves it, write_asset puts it into the
+// folder.
 #include <filesystem>
 
 #include "cli/output.h"

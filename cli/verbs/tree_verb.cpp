@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Prints the prims depth first from a stack, on which each prim lies with the indentation of its
+// line. Children go onto it in reverse order, so that the first comes off first. A deep tree costs
+// no call stack. With --show physics it is the forest of bodies and joints
+// (cli/text/forest_text.h).
 #include <cstdio>
 #include <string>
 #include <utility>

@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Packs an asset (tenon/pack_asset.h), lists a package or unpacks it. The list names entries that
+// readers reject: those that are not stored or do not begin at a multiple of 64 bytes. The archive
+// copies nothing, so that the offset of an entry is where its bytes lie within those of the file.
 #include <algorithm>
 #include <cstdio>
 

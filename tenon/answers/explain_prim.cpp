@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// An answer joins three sources by the path of the prim: the rows of the neutral description, so
+// that it tells what an engine receives, the provenance that reading left, and the opinions of the
+// layers. A prim may be several things at once, and each has a key of its own. Which properties
+// matter to physics is told by their prefix. The numbers S- in reasons are the rules of
+// docs/physics-conformance.md.
 #include <cstddef>
 #include <string>
 #include <string_view>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// One walk over the tables of fields writes every struct, so a new field needs no code here; what
+// is worked out for readers is added behind the fields. A reference is a path where only one object
+// of its list has that path, which is counted beforehand, else an index. Numbers have one form: no
+// negative zero, no negative real part of a quaternion, words for what JSON has no number for. The
+// table also says whether a field with its default is written, is null or is left out
+// (scene::Presence).
 #include "tenon/answers/scene_json.h"
 
 #include <cmath>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// An attribute is traced twice, at the default time and at another one. A trace is shown every
+// statement about the value, whichever decides, so both list the same opinions in the same order:
+// row i of one is row i of the other, and its two roles make one verdict. A reason names the place
+// of the opinion that decided, which stands in a stronger row. Connections and targets are traced
+// as fields. Composition passes over what is authored below an instance; that is searched for
+// separately.
 #include "tenon/answers/where_opinions.h"
 
 #include <cstddef>

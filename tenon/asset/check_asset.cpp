@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each variant of "Physics" composes to a scene of its own, so the asset is checked once for each,
+// unless the options name one. The first run opens it as it is, which tells the variants and stands
+// for the one that is selected; what all runs find is merged and placed in the text once. Of a
+// folder the roots are checked: files that no other one names as a layer, then, of cycles that no
+// root reaches, the first file. So each file is reached from a root. Fixes are gathered by layer
+// and applied to the file that owns the opinion.
 #include "tenon/asset/check_asset.h"
 
 #include <algorithm>

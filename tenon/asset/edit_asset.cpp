@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The asset is composed under every selection of "Physics", which collects its layers. For each
+// edit a file is chosen, a copy of its layer is changed at the place where an opinion on the prim
+// counts, and the edit is proved: everything is composed again from the changed layers, and the
+// first selection that uses the file has to show what was asked for. Where another one does not,
+// that is a warning. Later edits see the earlier ones; an error ends all, and no file is written
+// here. The work of all compositions together is bounded by one account.
 #include "tenon/asset/edit_asset.h"
 
 #include <algorithm>

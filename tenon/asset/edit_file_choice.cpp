@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The questions come in this order: which file was named, which belongs to the engine that was
+// named, which owns the property by the table of structure/layout.h, and in assets without that
+// structure which has the strongest opinion, else the root layer. A file for all engines that has
+// an opinion already and may hold the property goes before the owner, so that there are not two
+// opinions. Inside of instances only what they share is composed, and the file of the instances is
+// the owner.
 #include "tenon/asset/edit_file_choice.h"
 
 #include <algorithm>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// One sample holds all instances, so each frame writes whole arrays, in which those without a
+// moving body stay as at the start. With row vectors the world of a body is its place in the
+// prototype times scale, pose and world of the instancer. Both outer factors are taken off by their
+// inverses and the scale by dividing rows; the rigid part of the rest is the pose. An instance has
+// one pose, so an instance with several bodies cannot be written. No opinion counts on an instancer
+// inside an instance.
 #include "tenon/bake/instance_arrays.h"
 
 #include <map>

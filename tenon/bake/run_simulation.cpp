@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Frames and steps have rates of their own. States are read only around a step that crosses the
+// time of a frame, and a frame between is interpolated from both ends of the step, so a run with
+// few frames costs little more than its steps. Frame times are counted, not summed, and do not
+// drift; a frame at the end of a step, to 1e-9 of it, has the exact state. The state at the end is
+// recorded whether a frame falls there or not, unless the engine failed.
 #include "tenon/bake/run_simulation.h"
 
 #include <cmath>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A name has candidates in a fixed order, and the first that exists counts: beside the layer that
+// names it, in the working directory, in the search paths. In a package the folder of the layer
+// comes first, then that of the root layer, then files outside, where "./" never leads. Identifiers
+// nest packages in brackets and are opened from the outside in, to a bounded depth. A sandbox
+// judges the real path, when a name is resolved and once more on the open file, because links may
+// change between the two.
 #include "tenon/bytes/asset_resolver.h"
 
 #include <algorithm>

@@ -1,5 +1,13 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Reading is safe by two checks up front. The count is held against the most that so many
+// compressed bytes can make before anything is allocated, and the codes are summed up to the length
+// of the tail that they need, so that the stream reads on without checks. Writing takes the
+// commonest difference, the largest of several, so one list has one encoding. Each difference is
+// stored in full width, and the end moves on by the width that it needs: little-endian numbers
+// begin with their low bytes, and the next one overwrites the rest. Differences wrap around as
+// unsigned numbers, which makes their sums exact.
 #include "tenon/bytes/integer_coding.h"
 
 #include <algorithm>

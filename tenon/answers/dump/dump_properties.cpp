@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Dumps are compared with those of OpenUSD, so a dump asks where implementations may differ: at
+// every sample and knot, halfway between two of them and beyond both ends, which shows
+// interpolation and extrapolation. Points between samples are bounded by kMaxMidpoints. A fallback
+// of a vendor's schema counts as no value, since OpenUSD alone does not know these schemas. Fields
+// that only compose, or that have a key of their own, are no metadata here.
 #include "tenon/answers/dump/dump_properties.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Text and digests have to equal those that Python makes of OpenUSD's values. A long array is told
+// by its size, its ends and a hash. Numbers are hashed as they lie in memory; texts, asset paths
+// and times as json.dumps prints them in ASCII, each with a zero byte behind it. What JSON has no
+// form for is an object whose first key begins with '$'. Scalar types come from the list in
+// value_types.def.
 #include "tenon/answers/dump/dump_values.h"
 
 #include <algorithm>

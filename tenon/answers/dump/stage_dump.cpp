@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The dump has to be the same whichever program composed the stage, so nothing in it is a matter of
+// that program: prototypes are named after the smallest path that uses them, files by their place
+// from the folder of the root layer, errors as OpenUSD names them, and sets are sorted. All prims
+// are visited before the first line, because any path in a value may lie in a prototype and needs
+// its name. Session layers are left out of the layer stack.
 #include "tenon/answers/dump/stage_dump.h"
 
 #include <algorithm>

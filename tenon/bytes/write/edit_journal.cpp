@@ -1,5 +1,13 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The last part of a transaction is a list of system calls, guarded twice. A child in a session of
+// its own, forked with all signals blocked, takes the steps even when this process is killed. A
+// journal outlives a failure of the machine: it holds renames and removals alone, of which each is
+// passed over when it is done already, so it can be followed from the start at any point. It is
+// believed only where it can do no harm: a plain file of this user and of bounded size, about files
+// below its own folder without links on the way, that moves nothing but the hidden files of
+// transactions.
 #include "tenon/bytes/write/edit_journal.h"
 
 #include <algorithm>

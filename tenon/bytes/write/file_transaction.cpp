@@ -1,5 +1,13 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A commit is a list of passes, of which the last changes files: places are found and judged,
+// devices written, contents written beside their places and synced, folders locked, and what was
+// read is compared once more. Only renames and removals are left then, and what fails before them
+// has changed no file. The journal gets its name after the hidden files have theirs and loses it
+// last. A step that fails before the first rename takes these names back; after that, or when the
+// machine fails, the journal stays and the next transaction goes on. A single file is one rename
+// and needs no journal.
 #include "tenon/bytes/write/file_transaction.h"
 
 #include <algorithm>
@@ -78,7 +86,7 @@ int make_folders(const std::string& folder, std::vector<std::string>& made) {
 
 }  // namespace
 
-/// One commit. A list of passes, of which the last changes files.
+/// One commit.
 class Commit {
  public:
   Commit(const FileTransaction& transaction, const CommitOptions& options)
