@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The new process has a socket for its input and no other open file that leads anywhere. Whatever
+// it does, the caller is not held up for long: one deadline holds for sending the question and
+// receiving the answer. A length comes in front of each message, and memory grows with the bytes
+// that have come, not with that length. The end waits for the process, which is killed when it
+// still runs, so none is left behind and the status tells how it ended.
 #include "tenon/guard/worker_process.h"
 
 #include <algorithm>
@@ -178,7 +184,6 @@ Silence WorkerProcess::exchange(const std::string& task, const Allowance& allowa
   if (size > allowance.reply_bytes) {
     return Silence::TooLong;
   }
-  // Memory grows with what is there, not with what was announced.
   answer.clear();
   while (answer.bytes().size() < size && silence == Silence::None) {
     const std::size_t have = answer.bytes().size();

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A worker is confined by its first task for good, so an idle one takes a further file only for the
+// same reader and the same folders. A few are kept, and the one that was started first goes first.
+// When no answer comes, the worker is ended, and how that came about says which bound was met.
+// Bounds grow with the size of the file. After the first loss files get less processor time, and
+// after kGuardLosses losses none is read, so a folder full of bad files costs a bounded time.
 #include "tenon/guard/workers.h"
 
 #include <algorithm>

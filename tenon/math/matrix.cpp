@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Points are rows, so rotation matrices here are the transposes of those for columns. Inversion
+// refuses a pivot that is exactly zero or no number; whether a matrix is too close to singular is
+// for the caller to say. The quaternion of a rotation is found from a component of at least 1/2: w
+// when the trace is positive, else the one of the largest diagonal entry, since the squares add up
+// to 1. The division by it is well conditioned for every rotation.
 #include "tenon/math/matrix.h"
 
 #include <cmath>
@@ -88,7 +94,6 @@ Mat3d rotation_matrix(const Quatd& q) {
 }
 
 Quatd rotation_of(const Mat3d& r) {
-  // The largest of the four candidates keeps the division well conditioned.
   const double trace = r[0][0] + r[1][1] + r[2][2];
   Quatd q;
   if (trace > 0) {

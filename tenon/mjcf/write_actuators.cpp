@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// All actuators are added and compiled at once, which is enough when MuJoCo takes them. It names
+// only its first fault, so after a refusal they are taken out and put back one by one, with a
+// compile for each. Those that fail are left out, with MuJoCo's words, and the others stay. A site
+// that an actuator needs is named after its prim and made once, placed in MuJoCo's frame of its
+// body. Actuators that are drives of joints are in the model already.
 #include "tenon/mjcf/write_actuators.h"
 
 #include <algorithm>
@@ -205,7 +211,6 @@ Result<std::vector<mjsActuator*>> write_actuators(const scene::PhysicsScene& sce
   if (all) {
     return made;
   }
-  // MuJoCo names only the first fault: each by itself.
   for (const std::size_t i : added) {
     mjs_delete(&spec, made[i]->element);
     made[i] = nullptr;

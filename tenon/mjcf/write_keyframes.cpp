@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Numbers of a keyframe follow the asset: down the tree, and among siblings the one whose subtree
+// the stage meets first. MuJoCo's model has an order of its own, so each joint gets a slot with its
+// addresses in the compiled model. Free bodies are carried from the prim's frame B to MuJoCo's
+// frame E: X_WE = X_WB X_BE and v_E = v_B + R_WB (w x p_BE), with w about the axes of B. An
+// actuator that has become a drive gets the target at which its force is zero. What a keyframe does
+// not set stays as at the start.
 #include "tenon/mjcf/write_keyframes.h"
 
 #include <algorithm>

@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The physics is made into a model first, with actuators and keyframes. What is seen comes last, as
+// geoms that touch nothing and weigh nothing. When MuJoCo refuses the whole, it is written again
+// without them, so that a bad picture or mesh never costs the physics. Images go to the compiler
+// from memory under the names that the text has. Meshes that are alike become one.
 #include "tenon/mjcf/write_model.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// All passes read attributes here, so they agree about what counts as authored. Attributes of the
+// schema must have its type unless an option converts them (S-3); vendors' attributes may have any
+// numeric type. NaN counts as unauthored and a very large magnitude as infinite (S-4). An authored
+// default counts, else the value at the start, which is asked for only when some layer has samples,
+// splines or clips (S-6). A finding gets the place of the strongest opinion about the attribute.
 #include "tenon/physics/attribute_values.h"
 
 #include <cmath>

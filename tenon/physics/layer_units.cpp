@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// By option each layer means its own units (S-11). Such layers are rewritten in the units of the
+// stage, and the stage is composed again from them, so that nothing else has to know. A number that
+// measures length^a mass^b is multiplied by the ratios of the units to these powers; seconds and
+// degrees are the same everywhere. The name of an attribute tells a and b, for some with the type
+// of the prim or of the drive, which layers say together. So prims are found by where their
+// opinions stand. Numbers that mean "unlimited" stay.
 #include "tenon/physics/layer_units.h"
 
 #include <algorithm>

@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The choices between readings of UsdPhysics, by the words that users give. The words of a row
+// stand in the order of the enumerators, so the index of a word is its value, and the default comes
+// first.
 #include "tenon/physics/readings.h"
 
 #include <algorithm>

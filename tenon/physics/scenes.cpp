@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Scenes are listed by path. The default scene is the first in the order of the stage (S-18), which
+// may be another one. When there is no scene, one with the gravity of earth is made up, so that
+// every body has a scene. Gravity is in world axes; a direction of zero means down (S-14, S-17).
+// Time steps come from vendors' attributes, the strongest first, and a step so short that a run
+// would not end is refused.
 #include "tenon/physics/scenes.h"
 
 #include <algorithm>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// One walk down the stage finds all prims that mean something to physics. World matrix, body, mass
+// and articulation root are handed down from parent to child, so one visit of each prim is enough.
+// Prims to visit lie on a stack, children in reverse, which gives the order of the stage without
+// recursion. Below a point instancer only prototypes count: each is walked once per instance, with
+// paths of its own below the instancer (S-38). The number of instances and the nesting of
+// instancers are bounded.
 #include "tenon/physics/stage_walk.h"
 
 #include <optional>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Nothing in the file is trusted. A section is a window that lies within the file, a table may have
+// no more rows than a constant and the size of the file allow, which is checked before memory is
+// taken, and every index is checked when its row is read. Whoever uses the tables needs no checks
+// of their own. Specs come after the paths, which path_tree.cpp reads: each is noted under its
+// path, which finds doubles, and then listed in the order in which the paths were made. A walk down
+// the tree moves forward in memory that way.
 #include "tenon/formats/crate/tables.h"
 
 #include <algorithm>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A value that 32 bits can hold without loss is its own word. Any other is encoded aside and placed
+// in the file, unless the same bytes stand there already at a fitting alignment. What a value
+// contains is placed before it, so its own bytes are only numbers, indices and words. Equal values
+// thus have equal bytes, and the parts of nested ones are shared too. The distance that the format
+// keeps in front of such words is always the same, for they come next. The version that a file
+// needs rises with the types that are written.
 #include "tenon/formats/crate/value_writer.h"
 
 #include <algorithm>

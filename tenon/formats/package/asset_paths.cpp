@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Every asset path of a layer is offered to a callback, and what it returns takes its place. Lists,
+// dictionaries, samples and clip sets are rebuilt on the way down, and the keys on that way tell a
+// finding which item it is about. A field is set only when a path in it changed. Large arrays are
+// never opened, since the type of a value tells whether it may hold asset paths. Setting a field
+// moves the others of its spec, so the walk goes over a copy of them.
 #include "tenon/formats/package/asset_paths.h"
 
 #include <algorithm>

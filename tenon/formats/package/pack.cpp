@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Files are taken breadth first from the root layer. An asset path is resolved from the layer that
+// holds it, and a file gets its one name in the package before its own paths are followed, so
+// cycles end and all layers agree. Files below the root's folder keep their place, others go to
+// numbered folders. Files of one pattern (tiles, clips) stay in one folder, because one path has to
+// name them all. A layer is rewritten only when a path in it changes: text by edits of that text, a
+// crate as a whole. The read policy and the kind of the bytes decide before a file is queued.
 #include "tenon/formats/package/pack.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// References, payloads, inherits, specializes and sublayers are lists of targets, some with
+// parameters in parentheses; relocates are pairs of paths. Inherits, specializes and relocates are
+// made absolute here, so that no later code needs to know where they stood. References and payloads
+// have to be absolute as written. A list is stored only after it was read as a whole, so one with a
+// fault leaves nothing in the layer.
 #include "tenon/formats/text/arc_reader.h"
 
 #include "tenon/formats/text/literals.h"

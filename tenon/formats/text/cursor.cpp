@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Only the first error is kept. Readers return false all the way up, so what an outer reader adds
+// about the same fault is lost, and the innermost message reaches the user. Lines are counted only
+// when somebody asks for a place, and from the last place on: places in ascending order cost one
+// pass over the text. Identifiers are taken by a table of ASCII bytes; characters are decoded only
+// where other bytes occur.
 #include "tenon/formats/text/cursor.h"
 
 #include <array>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A wrong guess about where a faulty statement ends would make false messages out of sound text. So
+// an end counts only when all signs agree: brackets pair, a closing bracket that begins a line is
+// indented like the line of its partner, and what follows is not laid out like a part of the
+// statement. Any doubt gives no end. The walk knows comments, strings, asset paths, paths and
+// words, and nothing else of the grammar. A string or path that has to close on its line and does
+// not is taken to end with it, since the fault may be that very quote.
 #include "tenon/formats/text/fault_recovery.h"
 
 #include <algorithm>

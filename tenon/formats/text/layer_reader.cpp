@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each step reads one statement of the innermost open block. The names of children and properties
+// are gathered in the block and stored in its spec when it closes. All that matters between two
+// statements is the stack of blocks and what the layer holds, so reading can go on at any byte
+// where a statement begins: behind a fault (fault_recovery.cpp), or in the middle of the text,
+// where a second reader begins with the blocks around it already open (layer_halves.cpp). Depth is
+// bounded by a limit.
 #include "tenon/formats/text/layer_reader.h"
 
 #include "tenon/base/limits/limits.h"

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A number is read once, into its digits as an integer and a power of ten. Integers up to 2^53 and
+// powers up to 10^22 are exact doubles, so one multiplication or division of them is the correctly
+// rounded value. All other numbers go to the general conversion, which is slower. Whole numbers of
+// up to 18 digits cannot overflow and need no check. Strings are copied as they stand and rid of
+// escapes only when they hold a backslash.
 #include "tenon/formats/text/literals.h"
 
 #include <array>

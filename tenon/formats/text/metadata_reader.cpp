@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The first word of a statement decides. Reserved words are told apart one by one, and the kind of
+// the spec says which of them it admits. Any other word names a field: one that is registered is
+// read by its type, an unknown one keeps its source text, so that it can be written again. List
+// edits of one field add up to one list op, statement by statement. When no source map is wanted,
+// reading goes on behind a faulty statement whose end is certain. The fields of a spec are bounded
+// by a limit.
 #include "tenon/formats/text/metadata_reader.h"
 
 #include "tenon/base/limits/limits.h"

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Several statements may be about one property: its declaration, samples, a spline, connections.
+// The first one makes the spec. Each attribute statement repeats the type and has to agree with it,
+// so a value is read by its type at once, in any order of statements. Targets are made absolute
+// against the owner as they are read. Samples are put in order at their '}', and only when some did
+// not ascend. Metadata follows a declaration alone.
 #include "tenon/formats/text/property_reader.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The items of a spline may come in any order and are settled at its '}': knots are put in order of
+// time, the first of equal times stays, and only then automatic tangents are computed, since they
+// depend on both neighbours. A knot is rounded to the type of the attribute before it is checked,
+// so that a number that is finite only as a double is refused. Splines of time codes are kept as
+// doubles.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Nodes lie in one list, operands before the operators that use them. A tree is rebuilt in one pass
+// along that list, without recursion: the image of each node is made from the images of its
+// operands. add_operation folds away what is everything or nothing and double complements, so trees
+// that were parsed, mapped or resolved have the form that SdfPathExpression gives them. kNoNode
+// stands for nothing. References may multiply a tree, so a rebuild stops at a bound. In text, a
+// blank between two operands is a union that binds tighter than '+'.
 #include "tenon/layer/expressions/path_expression.h"
 
 #include <utility>

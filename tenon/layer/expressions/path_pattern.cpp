@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A pattern begins with the longest path that can be taken literally. Only what follows the first
+// wildcard, stretch or predicate is kept as components, so matching can start at a known prim. A
+// stretch is a component without name and predicate, and two in a row are one. The reader tries one
+// form after the other: false without a failure means that none starts here, a failure that one
+// started and is wrong.
 #include "tenon/layer/expressions/path_pattern.h"
 
 #include <utility>

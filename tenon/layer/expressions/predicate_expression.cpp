@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Calls are joined by "not", "and" and "or". A blank between two calls is an "and" that binds
+// tighter than the word. Groups and "not" are taken in a loop and ordered by ExpressionBuilder, so
+// nesting costs no call stack. The expression ends where no operator follows; the blanks before
+// that place are given back. An argument is the first of these that fits: a number, a truth value,
+// a quoted string, a string without quotes. A whole number beyond 64 bits is such a string.
 #include "tenon/layer/expressions/predicate_expression.h"
 
 #include <array>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Bodies are the prims that the walk marked, in the order of their paths. A body that cannot move
+// (it is disabled, its transform is not finite, its owner is no scene) is kept as a kinematic one,
+// so that what refers to it has an index. Velocities are authored in the space of the parent and
+// converted here to world axes and SI. The scale of that space acts on the linear velocity alone,
+// the angular one is only rotated. A prototype of a point instancer takes them from the arrays
+// where these have some.
 #include <cmath>
 #include <string>
 

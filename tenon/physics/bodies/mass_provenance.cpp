@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// For each quantity, everything that could have given it is listed, strongest first. Nothing is
+// decided here: the authored, computed and final values come from the code that computes masses,
+// and the list follows the order of its rules. The first candidate of a chain is the one that was
+// used. Opinions that are authored but count as unset are listed too, with the rule that passes
+// over them.
 #include "tenon/physics/bodies/mass_provenance.h"
 
 #include "tenon/base/text/rounded_text.h"

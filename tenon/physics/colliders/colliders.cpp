@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A collider has a rigid frame: translation and rotation of its world matrix. The shape is read in
+// that frame with scale and shear worked into its sizes or points, so its place on the body is a
+// rigid pose and exact (S-51). Sizes, points and poses are checked for finite numbers at the end,
+// because a product of finite ones may overflow. Of settings that several vendors author, Newton's
+// come before PhysX's and MuJoCo's.
 #include <algorithm>
 #include <cmath>
 

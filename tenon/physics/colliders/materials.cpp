@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Materials are read before colliders and bound after them. A binding is resolved for the purpose
+// "physics" by the rules of UsdShade, and one that wins without physics means no physics material
+// (S-67, S-68). Materials of faces come last: a subset is kept where its material differs from that
+// of its mesh. Values that no engine can use are replaced and reported (S-73). Lengths are
+// converted to SI.
 #include <algorithm>
 #include <cmath>
 #include <set>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Points are moved by the whole matrix of their prim into the collider's rigid frame, so any scale
+// and shear is exact. Faces become fans; the winding is turned when either the orientation is
+// left-handed or the matrix mirrors, but not both. What stands for the mesh is what the asset asks
+// for, changed where the body moves (S-64) or where it cannot be carried out, and each change is
+// said. A face of n corners makes n - 2 triangles in the order of faces, from which subsets of
+// faces find theirs. Meshes made from the same arrays and placement may come from a cache.
 #include <algorithm>
 #include <cmath>
 #include <span>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each instance of the drive API names a degree of freedom and becomes one drive of the joint. All
+// numbers go to SI by the factors of drive_units. Gains about an axis are authored per degree
+// (S-13). Those of acceleration drives hold no mass, because they act on the effective inertia
+// (S-104). A drive without an effect is kept and reported; one for an axis that the joint lacks is
+// left out.
 #include "tenon/physics/joints/drives.h"
 
 #include <cmath>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A list op becomes one statement for each of its edits that says something; an explicit one has
+// one statement, None when it is empty. Paths, references and payloads stand one per line, and a
+// single one without brackets. A reference with custom data always has brackets. Other items stay
+// on one line in brackets; append_names alone leaves them out around a single name. These are the
+// forms that OpenUSD prints.
 #include "tenon/formats/text/write/list_writer.h"
 
 #include "tenon/base/text/text_number.h"

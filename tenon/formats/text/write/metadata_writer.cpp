@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// What stands in parentheses is found by exclusion: all fields that no other part of the text says,
+// so that one that no schema knows is not lost. The order is fixed: the comment, then fields by
+// name (those of the layer byte by byte, others as in dictionaries), then relocates of the layer.
+// Fields whose word differs from their name, or whose value has a grammar of its own, are told
+// apart first. All others are `name = value`, or one statement for each edit of a list.
 #include "tenon/formats/text/write/metadata_writer.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A layer from a binary file may hold what no text can say, and its text is read back to find out
+// (save_layer.cpp). This check spares that: it accepts only forms that surely can be read back, so
+// each test is sufficient and none has to be exact. A wrong "no" costs one reading, a wrong "yes"
+// would let a text be written that nobody can read. The answers about type names are kept in a
+// small table by hash, because a layer repeats few of them.
 #include "tenon/formats/text/write/plain_layer.h"
 
 #include <algorithm>

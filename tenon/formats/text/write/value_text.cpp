@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// value_types.def picks the overload for a type; vectors, quaternions, matrices and arrays print
+// their elements by the same overloads. Real numbers have the fewest digits that read back as the
+// same number, halves the six digits of OpenUSD, which tell all halves apart. The real part of a
+// quaternion comes first. A text in plain ASCII without quotes and backslashes is copied between
+// quotes, others are escaped. parse_value is the way back, by the readers of layers, and has to use
+// up all of its text.
 #include "tenon/formats/text/write/value_text.h"
 
 #include <algorithm>

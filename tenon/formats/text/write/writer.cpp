@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Properties are written in dictionary order, variants by name, metadata by field and prims in the
+// order of the layer, so the text does not show how the layer was made. One attribute becomes
+// several statements: a declaration where it says more than the others do, then samples, a spline
+// and connections. The version in the header is known when all is written and is put in then. The
+// text of a prim depends on nothing that was written before it, except the empty line in front.
+// That is why two halves can be written side by side and joined.
 #include "tenon/formats/text/write/writer.h"
 
 #include <algorithm>
