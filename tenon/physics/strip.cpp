@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Names decide what is physics. API schemas and properties are told by prefixes, so what a known
+// vendor adds later is found as well. A prim type also has to be in the schema registry.
+// Properties and API schemas go first. Then prims are judged from the deepest up, so that a parent
+// is judged when it is known what is left below it. A prim of a physics type goes when it has no
+// children, else it loses its type. An over goes only when the removal itself emptied it.
 #include "tenon/physics/strip.h"
 
 #include <algorithm>
@@ -63,7 +69,6 @@ class Stripper {
     for (const Path& prim : prims) {
       strip_schemas(prim);
     }
-    // Deeper ones first, so that a parent knows what is left below it.
     std::stable_sort(prims.begin(), prims.end(), [](const Path& a, const Path& b) {
       return a.prefixes().size() > b.prefixes().size();
     });

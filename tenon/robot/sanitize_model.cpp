@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The indices and the tree of the model are sound already. Numbers that no engine can take are left
+// out or replaced. Moments that break the triangle inequality are only reported.
+// Mimics come in two steps: first those that are wrong by themselves, then cycles. A joint has at
+// most one leader, so a walk toward the leaders ends at a joint without one or where some walk has
+// been. If that was the same walk there is a cycle, which is cut at that joint. No joint is walked
+// over twice.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -240,7 +247,6 @@ class Sanitizing {
     }
   }
 
-  /// Each walk toward the leaders ends where an earlier one has been.
   void break_mimic_circles() {
     constexpr std::size_t kNever = static_cast<std::size_t>(-1);
     std::vector<std::size_t> walked_by(model_.joints.size(), kNever);

@@ -1,5 +1,13 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The spanning tree is Kruskal's: joints come in traversal order, and one whose bodies are
+// connected already closes a loop. So each cycle breaks at its last joint (S-111). Of the joints to
+// the world only the root joint is in the tree (S-110).
+// The centre is the body with the smallest distance to its farthest one (S-109). Up to kExactCenter
+// bodies a breadth-first search from each gives all distances. Beyond that two searches find the
+// ends of a longest path, and these decide: exactly in a tree, as an estimate where there are
+// cycles.
 #include "tenon/scene/articulation_tree.h"
 
 #include <algorithm>
@@ -133,7 +141,6 @@ Index JointGraph::center(const std::vector<Index>& component,
   std::vector<Index> farthest(component.size(), 0);
   std::vector<Index> sources = component;
   if (component.size() > kExactCenter) {
-    // The two ends of a longest path decide in a tree.
     const auto end_from = [&](Index from) {
       const std::vector<Index> d = distances(from, component);
       return component[static_cast<std::size_t>(std::max_element(d.begin(), d.end()) - d.begin())];

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A track holds samples in ascending time: outside of them the first or the last one counts,
+// between two of them numbers are blended unless the track is held, and switches and shapes hold. A
+// bound that is infinite at one of the two is not blended.
+// Filters only remove pairs. Two colliders may touch unless they are off, both static, of one body
+// or of different scenes, or unless their groups (S-77) or the sorted list of pairs say no. Pairs
+// of joints that may break or be switched are kept by joint, so that the list can be made anew.
 #include "tenon/scene/physics_scene.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// An attribute is a name on a prim: it holds no value, and each question goes to the opinions in
+// the index of the prim. What a stock schema declares beats what layers say about type, variability
+// and custom. Without such a declaration the strongest opinion gives the type and, as in OpenUSD,
+// the weakest one the variability. Declarations of vendors, which stock OpenUSD does not know,
+// count only where no layer says anything. resolve_value.cpp decides which opinion gives the value.
 #include "tenon/stage/attribute.h"
 
 #include <algorithm>
@@ -60,7 +66,6 @@ Token Attribute::type_name() const {
   return result.empty() && declared != nullptr ? declared->type_name : result;
 }
 
-// Without a declaration the weakest opinion decides, as in OpenUSD.
 layer::Variability Attribute::variability() const {
   if (prim_ == nullptr) {
     return layer::Variability::Varying;

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The opinions of a field come strongest first, and the type of the strongest value decides how
+// they combine: dictionaries merge key by key, list edits are applied from the weakest up and give
+// an explicit list, anything else stands alone. Each value is moved from its layer to the stage on
+// the way: asset paths are resolved from the layer, times pass its offset, path expressions the map
+// of its node. An anchored asset path is rewritten to mean the same in a layer in any other place.
 #include "tenon/stage/composed_fields.h"
 
 #include <filesystem>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Facts are read from the opinions of the prim's index, strongest first. A prim in a prototype was
+// composed where the source of the prototype stands, and so its targets point there. Each prototype
+// or instance around the one who asks gives a pair of source path and path as seen from there, and
+// the pair with the deepest source that holds a target translates it. A finding stands at the
+// strongest opinion that says what it is about, else at the strongest on the property or the prim.
 #include "tenon/stage/property_facts.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Handles point into StageData, which stays in place when the Stage is moved. It is filled when the
+// stage is opened. Paths below an instance have no records of their own: such a path is looked up
+// at the nearest instance above it and followed down from there by names through the prototype.
+// Metadata of the stage are those of the session layer and the root layer: sublayers do not count,
+// and registered fallbacks stand in for what neither of the two says.
 #include "tenon/stage/stage.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Vectors are rows: in a product of matrices the left one acts first. An inverted operation is
+// built from inverted numbers: the opposite translation or angle, the reciprocal scale, the
+// conjugate quaternion, Euler angles in reverse order. Only a full matrix is inverted numerically.
+// An operation that cannot be read counts as identity and is reported, unless its attribute just
+// has no value.
 #include "tenon/stage/xform_op.h"
 
 #include <array>

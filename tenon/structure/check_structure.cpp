@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Files are checked by the tables of the layout, in two passes: overs do not repeat the types of
+// prims, and any file may hold the arc that leads to another, so types, instances and arcs of all
+// files are learned before each spec is held to what its file may own. What shows only when layers
+// are composed, dangling targets and live colliders, is checked on a stage for each variant.
 #include "tenon/structure/check_structure.h"
 
 #include <algorithm>

@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The structure is a set of tables: files by role, owners by prefix of a name, arcs by the roles
+// that they lead from and to. In a table of owners the first row that fits counts, so longer
+// prefixes stand before the shorter ones that they begin with. A property is judged by its name,
+// then by the applied API schema that declares it, then by the type of its prim.
 #include "tenon/structure/layout.h"
 
 #include <algorithm>

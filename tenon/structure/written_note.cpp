@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// No file can hold the digest of all of its bytes, so a file's own digest is taken with zeros in
+// its place. That place is found in the bytes without parsing: behind the file's name in text, by
+// the form of the comment in XML, behind a mark of 64 bits in binary layers. The digest of a zip
+// archive is made of its entries, because the archive holds checksums over the note.
 #include "tenon/structure/written_note.h"
 
 #include <algorithm>

@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Joints name links, so all links are read before. A mimic may name a joint further down, so mimics
+// are read after all joints, from the elements that were kept beside them. An unknown link or type,
+// or text in place of a number, ends the reading. Missing bounds, and an effort or velocity of
+// zero, count as no limit and are reported.
 #include <cmath>
 
 #include "tenon/urdf/urdf_reader.h"
@@ -163,7 +168,6 @@ Result<void> UrdfReader::read_calibration(pugi::xml_node element, robot::Joint& 
   return {};
 }
 
-/// After all joints: a joint may follow one further down.
 Result<void> UrdfReader::read_mimics() {
   for (std::size_t i = 0; i < model_.joints.size(); ++i) {
     const pugi::xml_node mimic = joint_elements_[i].child("mimic");

@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// URDF gives full sizes, the model half sizes. Each mesh name gets its number when it is first met
+// and is looked for once. A mesh that is not found keeps its number with an empty path, and each
+// shape that uses it is reported and left out, while the link stays. An inertial without mass or
+// inertia, or a number that is none, ends the reading.
 #include "tenon/urdf/urdf_reader.h"
 
 namespace tenon::urdf {

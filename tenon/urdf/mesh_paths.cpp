@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The name of a package says no folder. A folder given for it is the only one looked in. Else the
+// folders from that of the description upward are tried, then the search paths.
+// Finding a file does not allow reading it, since a description may come from anybody. A folder of
+// the package's name is enough to look into it, but a package.xml has to make it one of the
+// description's own. In the end each file is checked against the folders that may be read.
 #include "tenon/urdf/mesh_paths.h"
 
 #include <filesystem>
@@ -88,8 +94,6 @@ std::optional<std::string> MeshPaths::find_in_package(const std::string& name,
   return std::nullopt;
 }
 
-/// A folder of the package's name is enough to look into it; to belong to the description it has to
-/// say by its package.xml that it is a package.
 std::optional<std::string> MeshPaths::find_upward(const std::string& name,
                                                   const std::string& rest) {
   for (fs::path at = folder_;; at = at.parent_path()) {

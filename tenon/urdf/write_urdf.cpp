@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The text is written in one pass, in the order of the model. Numbers are the shortest text that
+// reads back as the same bits, and -0 becomes 0. URDF has no quaternions: roll, pitch and yaw
+// follow from entries of the rotation matrix. With pitch straight up or down only the sum or the
+// difference of the other two has a meaning, so yaw is 0 and roll has all of it. An inertia is
+// written in the axes of its link.
 #include "tenon/urdf/write_urdf.h"
 
 #include <cmath>

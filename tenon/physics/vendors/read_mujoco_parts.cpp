@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// An actuator names what it acts on by path, and the lists of the scene tell which kind of object
+// that is. A target in none of them is a site, a point of the nearest body at or above it. An
+// actuator whose target does not fit is kept with its fault, so that the order of controls holds.
+// Gains give a force, or a force per length or velocity, and are scaled from the stage's units as
+// such. Controls keep their own measure. One walk in stage order finds actuators, keyframes and
+// ranks of bodies, because that is the order in which controls and keyframes list their numbers.
 #include "tenon/physics/vendors/read_mujoco_parts.h"
 
 #include <algorithm>

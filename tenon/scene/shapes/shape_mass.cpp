@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Volume, centre and inertia about the centre at density 1. Plain solids have closed forms. Solids
+// of several parts move the inertia of each to the common centre by the parallel axis theorem.
+// A solid with radius f(z) about Z is integrated along its axis: volume pi int f^2, inertia about Z
+// pi/2 int f^4, across it pi int (f^4/4 + z^2 f^2) before the move to the centre. On each smooth
+// piece these are polynomials of degree 4 at most, for which five Gauss-Legendre points are exact.
 #include "tenon/scene/shapes/shape_mass.h"
 
 #include <array>
@@ -161,7 +167,6 @@ struct ProfileSums {
   double f4 = 0;
 };
 
-/// Exact for the polynomials of one smooth piece: f^4 and z^2 f^2 have degree 4.
 void add_piece(const Profile& profile, double from, double to, ProfileSums& sums) {
   constexpr std::array<double, 5> kNodes{-0.9061798459386640, -0.5384693101056831, 0,
                                          0.5384693101056831, 0.9061798459386640};

@@ -1,5 +1,13 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Rules map paths to what they bring along, and the nearest rule at or above a path decides. They
+// are read depth first on an explicit stack. A collection's own excludes come after all that it
+// includes, and the later of two rules for a path wins. The smaller map is moved into the larger
+// one, so deep inclusion stays cheap. A collection that leads back to an open one adds nothing, and
+// visits and items are limited. Without any rule the membership expression decides, with references
+// replaced by what they name. Members by rules come from walks that stop where the same rule has
+// led before.
 #include "tenon/stage/collections/collection.h"
 
 #include <algorithm>
@@ -53,8 +61,7 @@ Rule expansion_rule(const Prim& prim, Token name) {
   return rule == "expandPrimsAndProperties" ? Rule::ExpandPrimsAndProperties : Rule::ExpandPrims;
 }
 
-/// Reads a collection and those that it includes, depth first: a collection's own excludes come
-/// after all that it includes, and what comes later counts.
+/// Reads the rules of a collection and of those that it includes.
 class RuleReader {
  public:
   Rules read(const Prim& prim, Token name) {

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each prim is written once with what it composes to: metadata, defaults, samples in stage time.
+// Prims below an instance exist once in its prototype, so a prototype is written as a prim of its
+// own that its instances reference, and paths into it follow. What is left out, and the order of
+// things, follow OpenUSD's flattening. Most attributes have one opinion that means the same
+// anywhere: their specs share the authored list of fields instead of being composed field by field.
 #include "tenon/stage/flatten/flatten.h"
 
 #include <algorithm>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Sources are asked strongest first. Edits are collected until a source gives an array, or none is
+// left and the schema's fallback stands under them. Then they are applied from the weakest up.
+// Each source holds a sample until its next one. A time lies between the nearest samples, on both
+// sides, of all sources down to the one that decides, and the value is blended between the arrays
+// composed at these two. On the way to the later one a source goes no further than its own next
+// sample, and nothing goes on towards a block.
 #include "tenon/stage/values/compose_array_edits.h"
 
 #include <algorithm>

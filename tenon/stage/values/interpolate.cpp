@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Blending repeats the arithmetic of OpenUSD, with each step in the same precision and rounded in
+// the same places, so that values agree to the last bit. Quaternions go the shorter way around the
+// sphere, and straight where they are so close that the sine would lose its digits. The samples
+// around a time are found in the layer's time, the fraction between them in stage time, so that the
+// stage time of a sample gives that sample exactly.
 #include "tenon/stage/values/interpolate.h"
 
 #include <cmath>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each asset path of the package's layers leads to one place in the package, however often the
+// asset is named. Assets with the same file name share a place when their bytes are equal, else the
+// later one gets a number. The tiles of a pattern go together: a place has to suit all of them. An
+// asset that cannot be read keeps a place to itself, so that it can be put there later. The source
+// is not trusted: what it may not read is refused and reported, and so is what is no kind of media,
+// unless it lies in the asset's own package.
 #include "tenon/structure/make/collect_assets.h"
 
 #include <algorithm>

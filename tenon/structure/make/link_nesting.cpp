@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The plan is made once, on all views united, and carriers are settled before what they carry, so
+// that the place of a link is known when the next one goes below it. One obstacle ends the plan:
+// all links move or none. No link changes its place in the world, so the new local transform is the
+// world matrix of the link times the inverse of that of its new parent, both taken before the move.
+// Places in the world and physics are compared afterwards, so a wrong plan ends as an error.
 #include "tenon/structure/make/link_nesting.h"
 
 #include <algorithm>

@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The views of the source are changed, split into files and stored. Then each variant is composed
+// from the stored layers and compared with its view: a difference is an error, and nothing is made.
 #include "tenon/structure/make/make_package.h"
 
 #include <algorithm>

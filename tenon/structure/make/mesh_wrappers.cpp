@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// All below an instance is shared, so the wrapper of a mesh holds nothing else but its materials. A
+// mesh without other children that is no body becomes its own wrapper: the prim turns into an Xform
+// and the mesh goes one level down. A body, a parent of other prims or a prim at the top stays as
+// an Xform, and wrapper and mesh go below it. Transforms stay with the old prim, so nothing moves,
+// and a body keeps all that is not about shape. A mesh that moves takes the name of the first mesh
+// of equal geometry, so that both are one entry later.
 #include "tenon/structure/make/mesh_wrappers.h"
 
 #include <algorithm>

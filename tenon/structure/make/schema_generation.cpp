@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Both generations of mimics say q = offset + multiplier * leader. PhysX has all terms on one side,
+// hence the opposite signs. An old schema goes when the new one says what counts of it, else both
+// stay and a finding says why. Each view is migrated by itself first. Then a law that came from a
+// schema of PhysX is given to all variants that have both joints and no law of their own, because
+// Newton's schema is for every engine.
 #include "tenon/structure/make/schema_generation.h"
 
 #include <algorithm>

@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The source is composed under each variant of "Physics" with all other sets off, then under each
+// variant of another set with the chosen physics. The number of views is the sum of the variants
+// and not their product, because each other variant is kept as a change of one view. Targets
+// outside the default prim are dropped from every view, since a reference to the asset drops them.
 #include "tenon/structure/make/source_views.h"
 
 #include <algorithm>

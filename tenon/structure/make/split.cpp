@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The content is walked once from the top. A material that names nothing outside itself becomes an
+// entry of the file of materials. A prim with a mesh is a wrapper: its geometry becomes one entry,
+// what else is in it an entry of the instances, and the base refers to that. An entry is known by
+// all that it holds, so what is the same is written once. A wrapper is an instance only where
+// nothing in it leads out of it and no other layer has an opinion below it, because opinions below
+// instances are not composed.
 #include "tenon/structure/make/split.h"
 
 #include <algorithm>

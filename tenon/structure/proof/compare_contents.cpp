@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The expected content is walked for what is missing or differs in the other, then the other one
+// for what is new in it, so equality holds both ways. Order, prims that are off, blocks and empty
+// lists do not count, nor does `custom`. One disagreement refutes the proof, so the first is
+// enough.
 #include <algorithm>
 
 #include "tenon/formats/text/write/value_text.h"

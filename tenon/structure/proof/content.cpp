@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The content is a normal form: stages that compose to the same thing compare equal, however their
+// layers are arranged. Flattening takes out the arcs, instances are unfolded, prims that are off
+// come back with their types alone, undefined overs go, and all comes below the default prim. What
+// can be said in several ways is then said in one: lists of API schemas, declarations of vendors,
+// order of fields. Nested instances may unfold to exponentially many specs, which are counted after
+// each copy.
 #include "tenon/structure/proof/content.h"
 
 #include <algorithm>
