@@ -4,7 +4,7 @@
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build bench judge clean packages test-packages judge-packages oracle
+.PHONY: help demo test build bench judge tidy clean packages test-packages judge-packages oracle
 .DELETE_ON_ERROR:
 
 help:
@@ -13,6 +13,7 @@ help:
 	@echo "make build   only the program: build/release/bin/tenon"
 	@echo "make bench   measure, beside usd-core; BASE=<commit>: beside that commit"
 	@echo "make judge   the long runs, hours of them; ONLY=\"NAME...\" chooses, tools/judge.py --list"
+	@echo "make tidy    clang-tidy over the whole program, half an hour of processor time"
 	@echo "make clean   remove build/"
 
 build: packages
@@ -41,6 +42,9 @@ judge: judge-packages build/dev/build.ninja build/release/build.ninja build/benc
 	@cmake --build build/dev -j $(JOBS)
 	@cmake --build build/release -j $(JOBS)
 	@python3 tools/judge.py --jobs $(JOBS) $(ONLY)
+
+tidy: test-packages oracle
+	@tools/python.sh tools/tidy.py --jobs $(JOBS)
 
 clean:
 	rm -rf build

@@ -97,7 +97,6 @@ function(tenon_header_check library headers)
     add_library(${library}_headers OBJECT ${units})
     target_link_libraries(${library}_headers PRIVATE ${library})
     target_compile_options(${library}_headers PRIVATE -O0 -fno-sanitize=all) # never run
-    set_target_properties(${library}_headers PROPERTIES CXX_CLANG_TIDY "")
   endif()
 endfunction()
 
@@ -139,7 +138,6 @@ function(tenon_unit_tests library tests)
   if(precompiled)
     target_precompile_headers(${library}_test REUSE_FROM ${precompiled})
   endif()
-  set_target_properties(${library}_test PROPERTIES CXX_CLANG_TIDY "")
   gtest_discover_tests(
     ${library}_test
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}

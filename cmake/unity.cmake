@@ -3,8 +3,8 @@
 #
 # Several sources of a library are compiled as one: most of the time for a single one goes into the
 # headers that they all include. Names in unnamed namespaces are therefore unique in a folder. Not
-# for clang-tidy and coverage; the preset `separate` compiles every source and every header alone.
-if(TENON_TIDY OR TENON_COVERAGE)
+# for coverage; the preset `separate` compiles every source and every header alone.
+if(TENON_COVERAGE)
   set(tenon_unity_default OFF)
 else()
   set(tenon_unity_default ON)

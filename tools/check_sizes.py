@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the size limits: function 60 lines of code and complexity 20, file 600 lines.
+"""Holds the size limits: function 60 lines of code and complexity 20, file 600 lines; and that
+each .cpp of the program with 150 lines or more opens with what it does and why it works.
 
 Exceptions stand by name and with their reason in tools/size_exceptions.txt; one that is no longer
 needed is a fault too, so the list only shrinks. Exit 0: held; 1: faults; 77: lizard is missing.
@@ -15,6 +16,7 @@ import source_files
 FUNCTION_LINES = 60
 COMPLEXITY = 20
 FILE_LINES = 600
+HEAD_LINES = 150  # from here on a file needs a head
 PLACES = ("tenon/", "cli/", "tests/", "bench/", "fuzz/", "tools/")
 SUFFIXES = (".h", ".cpp", ".py")
 SKIPPED = 77
@@ -50,6 +52,14 @@ def oversized(path, text, functions):
         yield function.name, function.start_line, f"`{function.name}`: {what}"
 
 
+def lacks_head(path, text):
+    """Whether nothing is said between the licence and the first line of code of a long file."""
+    is_program = path.startswith(("tenon/", "cli/", "worker/")) and path.endswith(".cpp")
+    lines = text.split("\n")
+    return (is_program and not path.endswith("_test.cpp") and len(lines) > HEAD_LINES
+            and not lines[2].startswith("//"))
+
+
 def check(root, analyze):
     table = os.path.join(root, "tools/size_exceptions.txt")
     unused = read_exceptions(table)
@@ -62,6 +72,9 @@ def check(root, analyze):
         files += 1
         with open(os.path.join(root, path), encoding="utf-8") as file:
             text = file.read()
+        if lacks_head(path, text):
+            faults.append(f"{path}:3: {HEAD_LINES} lines and more: say first what it does and why "
+                          "it works")
         functions = analyze(path, text).function_list
         excused = set(name for where, name in unused if where == path)
         for name, line, what in oversized(path, text, functions):

@@ -159,6 +159,17 @@ class Sizes(unittest.TestCase):
         self.assertEqual(len(self.run_on(60, excuse)), 1)
 
 
+    def test_long_files_have_a_head(self):
+        licence, body = "// a\n// b\n", "int x;\n" * 150
+        self.assertTrue(check_sizes.lacks_head("tenon/base/a.cpp", licence + body))
+        self.assertTrue(check_sizes.lacks_head("cli/a.cpp", licence + "\n" + body))
+        for path, text in [("tenon/base/a.cpp", licence + "//\n// Why.\n" + body),
+                           ("tenon/base/a_test.cpp", licence + body),
+                           ("tenon/base/a.h", licence + body), ("tests/a.cpp", licence + body),
+                           ("tenon/base/a.cpp", licence + "int x;\n")]:
+            self.assertFalse(check_sizes.lacks_head(path, text), path)
+
+
 class Text(unittest.TestCase):
     HEAD = "".join(f"// {line}\n" for line in check_text.SPDX) + "#pragma once\n"
 

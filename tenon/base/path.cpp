@@ -54,6 +54,7 @@ class NodeChunk {
   /// The node made after `node`; nullptr when it is in another chunk or not there.
   static const PathNode* next_of(const PathNode* node) {
     const auto address = reinterpret_cast<std::uintptr_t>(node);
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): chunks lie at multiples of their size.
     auto* chunk = reinterpret_cast<NodeChunk*>(address & ~(kSize - 1));
     const PathNode* next = node + 1;
     const PathNode* end = chunk->nodes() + chunk->count_.load(std::memory_order_acquire);

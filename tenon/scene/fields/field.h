@@ -88,7 +88,7 @@ struct FieldInfo {
 template <auto Member>
 struct Field {
   FieldInfo info;
-  static constexpr auto member = Member;
+  static constexpr auto kMember = Member;
 };
 
 template <auto Member>
@@ -128,7 +128,7 @@ constexpr bool is_complete() {
 template <class Of, class Visit>
 void each_field(Of& of, Visit&& visit) {
   static_assert(is_complete<std::remove_const_t<Of>>(), "a member has no row in its table");
-  std::apply([&](const auto&... field) { (visit(field.info, of.*field.member), ...); },
+  std::apply([&](const auto&... field) { (visit(field.info, of.*field.kMember), ...); },
              Table<std::remove_const_t<Of>>::kFields);
 }
 
@@ -140,7 +140,7 @@ void each_field_type(Visit&& visit) {
       [&](const auto&... field) {
         (visit(
              field.info,
-             std::type_identity<std::remove_cvref_t<decltype(std::declval<T>().*field.member)>>()),
+             std::type_identity<std::remove_cvref_t<decltype(std::declval<T>().*field.kMember)>>()),
          ...);
       },
       Table<T>::kFields);
@@ -151,7 +151,7 @@ template <class T, class Visit>
 void each_field_of_both(const T& a, const T& b, Visit&& visit) {
   static_assert(is_complete<T>(), "a member has no row in its table");
   std::apply(
-      [&](const auto&... field) { (visit(field.info, a.*field.member, b.*field.member), ...); },
+      [&](const auto&... field) { (visit(field.info, a.*field.kMember, b.*field.kMember), ...); },
       Table<T>::kFields);
 }
 
@@ -165,7 +165,7 @@ struct FieldTie<T> {
   template <class Of>
   static constexpr auto tie(Of& of) {
     static_assert(scene::is_complete<T>(), "a member has no row in its table");
-    return std::apply([&](const auto&... field) { return std::tie((of.*field.member)...); },
+    return std::apply([&](const auto&... field) { return std::tie((of.*field.kMember)...); },
                       scene::Table<T>::kFields);
   }
 };

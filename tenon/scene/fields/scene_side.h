@@ -177,6 +177,7 @@ struct Side {
       return word(owner, info, value.first);
     } else if constexpr (wire::kIsVector<T>) {
       std::vector<std::string> each;
+      each.reserve(value.size());
       for (const auto& item : value) {
         each.push_back(word(owner, info, item));
       }

@@ -11,6 +11,7 @@
 #include "tenon/formats/open_layer.h"
 #include "tenon/stage/stage.h"
 #include "tenon/structure/layer_tree.h"
+#include "tenon/structure/proof/content.h"
 
 namespace tenon::structure {
 namespace {
