@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Rules on articulations, materials and collision groups. What the scene holds is judged there:
+// links, driven joints, groups of colliders. What never got into it, such as a root without bodies
+// or a binding to a prim of another type, is judged on the prims. A root that the reader of the
+// physics has refused with a reason gets no second finding.
 #include <algorithm>
 
 #include "tenon/check/subject.h"

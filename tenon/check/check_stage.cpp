@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Findings of opening, composing and reading come first, and the rules see them, so that a rule can
+// keep silent where its subject is reported already. One opinion may show in many instances: of
+// equal findings at one place in a file the first stays. Runs of several variants are merged by
+// prim and not by line, since the strongest opinion may stand in another layer in each. Findings of
+// some rules count only where all variants give them.
 #include "tenon/check/check_stage.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Limits and frame rotations are judged as the file has them, before units are converted and
+// quaternions normalised. A round angle in radians, or three and more closed limits that all span
+// at most 2 pi, look like radians. The other rules use the scene, where angles are compared modulo
+// a turn. Driven joints without a root are counted by islands, the bodies that joints of trees and
+// loops hold together.
 #include <array>
 #include <cmath>
 #include <map>

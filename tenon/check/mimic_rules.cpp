@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A follower's coordinate is a polynomial of its leader's, in rad or m. Its range is taken at the
+// two ends of the leader's limits, which is exact where the polynomial is monotonic between them.
+// Angles are compared modulo a turn. The rule on axes walks the prims instead of the scene, as a
+// mimic may be applied to a prim without an axis.
 #include <algorithm>
 #include <cmath>
 

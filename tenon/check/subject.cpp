@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// What the rules share is made once: the prims, the colliders of each body, and what was found
+// earlier. Every instance is listed, but what is below is walked only for the first one of its
+// prototype, so the number of instances does not multiply the work. Joints are found by binary
+// search, as lists of the scene are sorted by path. Findings are placed at the strongest opinion.
 #include "tenon/check/subject.h"
 
 #include <algorithm>

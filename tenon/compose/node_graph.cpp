@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Nodes lie in one vector and name each other by index. Siblings are linked in order of strength
+// when they are inserted, so a walk meets the strongest node first at any time. A specialize can
+// have a copy below the root, where its strength belongs: the original stays, is the copy's origin,
+// and leaves its children to the copy. Walks count their work, which bounds composition as a whole.
+// The finished index holds the nodes in the order of the walk, without culled ones that nothing
+// leads to.
 #include "tenon/compose/node_graph.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// List edits apply from the weakest layer to the strongest. Items are converted first, so that
+// edits compare what is meant: asset paths after their expressions are evaluated and, where several
+// layers author the field, by the asset that each layer reaches with them. An item counts as
+// authored in the strongest layer that names it. Selections of variants are no lists: the strongest
+// one counts, and one whose expression is wrong leaves the word to a weaker layer.
 #include "tenon/compose/site.h"
 
 #include <algorithm>

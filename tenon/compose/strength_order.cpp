@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Siblings compare by kind of arc, depth in namespace, origin, and place in their list. Origins are
+// nodes that are linked in order of strength already, so of two the first in the walk is stronger:
+// climb to children of a common parent, then run along the siblings from both at once, which takes
+// no more steps than lie between them. A specialize may stand below the root, far from where it was
+// authored, and is followed along its origins back to the authored arc.
 #include "tenon/compose/strength_order.h"
 
 #include <algorithm>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Targets are authored in the namespace of a node. Each list edit is mapped to the stage's
+// namespace, paths in brackets included, and then applied from the weakest opinion to the
+// strongest. A path without an image is left out and reported. An explicit list takes back what
+// weaker opinions reported, and a deletion what was reported about its target. With a cache the
+// rules are those of composition alone, without it those of a stage: they differ in which targets
+// of a class they refuse.
 #include "tenon/compose/targets.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each number is written by every schema of the wanted generation that can hold it, in that
+// schema's unit. NewtonJointAPI, PhysxJointAxisAPI and MjcJointAPI are applied only where they have
+// a number to hold. PhysX's gearing and offset have the opposite sign of Newton's coefficients.
+// Powers of a mimic above the first have no place in NewtonMimicAPI and are written by MuJoCo's
+// schema beside it. A follower gets neither drive nor actuator.
 #include "tenon/convert/joint_schemas.h"
 
 #include <cmath>

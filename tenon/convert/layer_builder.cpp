@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Specs are made immediately. Their lists of children, properties and APIs are gathered beside them
+// in order of first use and written at the end, so that a name costs no copy of its list. Type and
+// variability of a property come from the schema that declares it, searched up its base schemas
+// with the instance name filled in. A property that is declared nowhere is a mistake of this
+// program.
 #include "tenon/convert/layer_builder.h"
 
 #include <algorithm>

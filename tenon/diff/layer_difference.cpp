@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The paths of both layers are sorted together, and in that order all that is below a spec follows
+// it. A spec that one layer lacks, or has as another kind, is told once with a count of what is
+// below it, and that range is skipped. Other specs compare field by field: dictionaries flattened
+// to "outer:inner", time samples by merging their ascending times (readers refuse NaN), children by
+// the order of the names that both have.
 #include "tenon/diff/layer_difference.h"
 
 #include <algorithm>

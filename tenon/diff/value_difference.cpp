@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A trait says which numbers a type consists of. Values compare number by number in doubles, within
+// a tolerance that is absolute up to 1 and relative above. Integers of 64 bits do not fit into
+// doubles and are compared exactly, as is all that holds no numbers. Elements that only the longer
+// array has are different without measure.
 #include "tenon/diff/value_difference.h"
 
 #include <algorithm>

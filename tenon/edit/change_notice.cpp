@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A prim whose nodes, opinions or types differ between the two stages, or whose children changed
+// their order, is resynced with all that is below it. Elsewhere only metadata and properties can
+// differ: a changed spec then concerns exactly the prims that have it among their opinions. Layers
+// are compared by identifier. What lies in a prototype is told once under each of its instances.
 #include "tenon/edit/change_notice.h"
 
 #include <algorithm>

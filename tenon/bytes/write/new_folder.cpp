@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The folder grows under a hidden name beside its place. Files are synced, then folders, and one
+// rename gives it the place, so nobody sees half of it there. The maker locks the folder, and the
+// system drops the lock when the process ends. The next maker in the same parent can therefore tell
+// what a killed program left: it removes the hidden folders of its own user that it can lock.
 #include "tenon/bytes/write/new_folder.h"
 
 #include <algorithm>

@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// All names are checked before anything is written: a name that leads out of the folder, a name
+// that stands twice, or one of both a file and a folder ends the work. A folder that does not exist
+// yet is filled beside its place and renamed into it. An empty folder that exists must stay the
+// same folder, so its files are put there by one transaction.
 #include "tenon/bytes/zip/unpack_zip.h"
 
 #include <filesystem>

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Layout: local headers with their data, then the central directory, then its end record, which
+// stands at most 65535 bytes (a comment) before the end of the file. Where its numbers are too
+// small, a locator right before it says where the end record of 64 bits is (APPNOTE.TXT 6.3.10 of
+// PKWARE, 4.3.14 to 4.3.16 and 4.5.3). Sorted by place, each entry must end before the next begins,
+// so no bytes count twice and a small file cannot unpack to a large one. Contents are slices of the
+// file and are not copied.
 #include "tenon/bytes/zip/zip_archive.h"
 
 #include <algorithm>
@@ -12,10 +19,6 @@
 #include "tenon/bytes/byte_reader.h"
 #include "tenon/bytes/byte_writer.h"
 
-// Layout: local headers with their data, then the central directory, then its end record, which
-// stands at most 65535 bytes (a comment) before the end of the file. Where its numbers are too
-// small, a locator right before it says where the end record of 64 bits is (APPNOTE.TXT 6.3.10 of
-// PKWARE, 4.3.14 to 4.3.16 and 4.5.3).
 namespace tenon::bytes {
 namespace {
 

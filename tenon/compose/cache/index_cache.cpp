@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Indices are made on demand, each after its parent's, and stay in deques so that references to
+// them hold. Two threads may build indices ahead. These count only when they are asked for, in the
+// order of asking, and once a bound of nodes or work may be reached with one, it and all after it
+// are built again. So the same arcs are left out as without building ahead. Layer stacks are shared
+// by root layer and source of expression variables; each asset path is opened once for each anchor
+// layer.
 #include "tenon/compose/cache/index_cache.h"
 
 #include <algorithm>
@@ -204,8 +211,7 @@ struct IndexCache::State {
   }
 
   /// The index of a child of a prim that was asked for before. One that was built ahead counts from
-  /// now on; where the limit of nodes may be reached with it, it is built again, as are all after
-  /// it, so that the same arcs are left out as without building ahead.
+  /// now on.
   const PrimIndex& ask_child(const PrimIndex& parent, Path path) {
     const auto found = by_path.find(path);
     if (found == by_path.end()) {

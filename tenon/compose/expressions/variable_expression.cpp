@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The parsed expression is evaluated from the leaves up; a result is a value or a list of errors. A
+// variable may hold an expression itself. The names that are open form a stack, which finds
+// circles, and depth, number of evaluations, and what variables give in characters and items are
+// bounded, since n variables that each use the next one twice make a text 2^n times as long. `and`
+// and `or` end at the argument that decides; `if` evaluates both values to compare their types.
 #include "tenon/compose/expressions/variable_expression.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Every row is kept once, in the order of first use, so equal input gives equal bytes. A path's row
+// comes after those above it. The section of paths has an order of its own: sorted, what is below a
+// path follows it, which gives the depth-first tree of path_tree.cpp, and each row sets the jump of
+// its parent or elder sibling. Names of properties are negative token numbers there, so number 0 is
+// the empty token.
 #include "tenon/formats/crate/table_writer.h"
 
 #include <algorithm>

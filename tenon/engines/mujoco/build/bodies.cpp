@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A free body's MuJoCo frame is its principal inertia frame: the free joint then moves the centre
+// of mass, whose path MuJoCo integrates without the error of a point that circles around it. Bodies
+// on joints keep our body frame, in which the joint frames are given. Parents come before children.
+// Mass and inertia are always explicit, raised where MuJoCo could not move so little.
 #include <algorithm>
 #include <cmath>
 
@@ -7,9 +12,6 @@
 #include "tenon/engines/mujoco/build/min_inertia.h"
 #include "tenon/math/inertia.h"
 
-// A free body's MuJoCo frame is its principal inertia frame: the free joint then moves the centre
-// of mass, whose path MuJoCo integrates without the error of a point that circles around it. Bodies
-// on joints keep our body frame, in which the joint frames are given.
 namespace tenon::engines::mujoco {
 namespace {
 

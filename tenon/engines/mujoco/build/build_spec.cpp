@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The list of passes: neutral scene -> mjSpec -> mjModel. Each pass names what those before it
+// made, so bodies come first, then joints and what acts on them, then geoms, then filters and
+// surfaces, which look at the geoms. MuJoCo refuses whole models. The part that its words name is
+// left out (of a joint, its limits), and all passes run again on a fresh spec, at most 100 times.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -12,7 +17,6 @@
 #include "tenon/engines/mujoco/build/surfaces.h"
 #include "tenon/engines/mujoco/error_hook.h"
 
-// The pass list: neutral scene -> mjSpec -> mjModel.
 namespace tenon::engines::mujoco {
 namespace {
 

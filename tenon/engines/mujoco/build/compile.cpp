@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Ids are known only after compiling. Maps from bodies, joints, drives and colliders to ids and
+// addresses are made then, and a few numbers of the model are corrected. The order matters:
+// inertias are put back first, as mj_setConst derives other constants from them. Mean inertia and
+// the weights of auxiliary bodies replace such constants and follow it. The integrator is chosen
+// last, by those weights. What passes noted per collider becomes tables per geom.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

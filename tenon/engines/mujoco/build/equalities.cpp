@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// What is not a degree of freedom of the tree: loop joints (connect and weld between sites), bounds
+// of distances (limited tendons), cones (a tendon between the tips of the two axes), and mimics
+// (joint equalities). A loop joint that needs a coordinate has it on a light auxiliary body. All
+// hold as hard as the time step allows, but for mimics with a softness of their own and distances
+// that are violated at the start.
 #include <algorithm>
 #include <cmath>
 
@@ -7,9 +13,6 @@
 #include "tenon/math/inertia.h"
 #include "tenon/scene/joint_freedom.h"
 
-// What is not a degree of freedom of the tree: loop joints (connect and weld between sites), bounds
-// of distances (limited tendons), cones (a tendon between the tips of the two axes), and mimics
-// (joint equalities).
 namespace tenon::engines::mujoco {
 namespace {
 

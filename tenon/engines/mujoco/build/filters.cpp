@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Colliders that no rule tells apart form a class: same scene, same groups, both moving or not. Up
+// to 31 classes fit MuJoCo's contact bits. Explicit pairs become excluded body pairs where all
+// colliders of two bodies are concerned. What remains (many classes, single colliders of a body) is
+// asked for per geom pair by the callback of contact_filter.cpp, which costs time in every step.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -8,10 +13,6 @@
 
 #include "tenon/engines/mujoco/build/build.h"
 
-// Colliders that no rule tells apart form a class: same scene, same groups, both moving or not. Up
-// to 31 classes fit MuJoCo's contact bits. Explicit pairs become excluded body pairs where all
-// colliders of two bodies are concerned. What remains (many classes, single colliders of a body) is
-// asked for per geom pair in step.cpp.
 namespace tenon::engines::mujoco {
 namespace {
 

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Colliders become geoms of their body's MuJoCo body. A static collider gets a MuJoCo body of its
+// own without joints, so that body pairs can be excluded one by one and animated ones can move. Of
+// more than 1000, only those that need it get one, as the search for contacts takes room for every
+// pair of bodies. Shapes that MuJoCo does not have become convex pieces. Geoms and mesh points are
+// counted as they are made, and the pass ends where a model would become too large.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,8 +15,6 @@
 #include "tenon/engines/mujoco/build/mesh_pieces.h"
 #include "tenon/engines/mujoco/build/model_size.h"
 
-// Colliders become geoms of their body's MuJoCo body. Every static collider gets a MuJoCo body of
-// its own without joints, so that body pairs can be excluded one by one and animated ones can move.
 namespace tenon::engines::mujoco {
 namespace {
 

@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Coordinates are read off the relative poses of joint frames; what they cannot express is reported
+// (S-90), and an authored joint position replaces them. Velocities go from parents to children: a
+// body on a joint gets the joint velocities that come nearest, by least squares, to what its
+// parents do not give it already. A tiny diagonal keeps the normal equations solvable and
+// directions without effect at rest. mj_forward then derives the rest with the contact filter in
+// force.
 #include <array>
 #include <cmath>
 #include <cstdio>

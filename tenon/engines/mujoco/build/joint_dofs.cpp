@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A joint is a chain of single links: translations along frame 0, then rotations, each about an
+// axis that the ones before have turned. Locked links become one constant pose, and axes are seen
+// through it. For the way back from a pose a locked rotation at either end is taken off. One angle
+// is then the twist about its axis, and two or three follow from entries of the rotation matrix.
+// Three have no unique answer where the middle one is at 90 degrees.
 #include "tenon/engines/mujoco/build/joint_dofs.h"
 
 #include <algorithm>

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A mesh becomes one hull where it is convex: closed with all points on one side of every triangle,
+// or flat with triangles that cover the area of its hull. Else each triangle becomes a thin prism.
+// Flat points get the thickness that MuJoCo needs below their upper side, if they have one, so that
+// things rest at the same height. A convexity check that would cost too much counts as failed, and
+// a mesh of too many triangles becomes its whole hull.
 #include "tenon/engines/mujoco/build/mesh_pieces.h"
 
 #include <algorithm>

@@ -1,5 +1,13 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// MuJoCo's contacts are spring-dampers in acceleration: while touching,
+//   a = (1 - d) a_free - d (b v + d k r),   d = 0.9..0.95 with depth r,
+// and they only push. In direct form solref = {-k dmax^2, -b dmax}. A rebound needs k and b such
+// that the ratio of the speeds after and before is e. The continuous ratio is known (Hunt and
+// Crossley 1975; Nagurka and Huang 2004), but a contact lasts few time steps, so b is found on the
+// discrete motion itself, by bisection, averaged over where in the step the impact falls. Pairs of
+// surfaces are tabulated once and written into each contact that is made between two of them.
 #include "tenon/engines/mujoco/build/surfaces.h"
 
 #include <algorithm>
@@ -7,12 +15,6 @@
 #include <map>
 #include <utility>
 
-// MuJoCo's contacts are spring-dampers in acceleration: while touching,
-//   a = (1 - d) a_free - d (b v + d k r),   d = 0.9..0.95 with depth r,
-// and they only push. In direct form solref = {-k dmax^2, -b dmax}. A rebound needs k and b such
-// that the ratio of the speeds after and before is e. The continuous ratio is known (Hunt and
-// Crossley 1975; Nagurka and Huang 2004), but a contact lasts few time steps, so b is found on the
-// discrete motion itself, averaged over where in the step the impact falls.
 namespace tenon::engines::mujoco {
 namespace {
 

@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Tendons of the asset. What they go through or around is made for them, named after its prim and
+// shared by all that use it: a site, or a sphere or cylinder that nothing touches. A tendon with a
+// joint that is no single coordinate here is left out as a whole: without one of its terms its
+// length would mean something else.
 #include <algorithm>
 #include <iterator>
 #include <string_view>
 
 #include "tenon/engines/mujoco/build/build.h"
 
-// Tendons of the asset. What they go through or around is made for them, named after its prim: a
-// site, or a sphere or cylinder that nothing touches.
 namespace tenon::engines::mujoco {
 namespace {
 

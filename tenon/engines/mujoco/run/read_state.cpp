@@ -1,5 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// MuJoCo's state in the words of the scene. A body's pose is freed of the engine frame that it was
+// given, and a velocity is moved from the inertial frame to the point that is asked for (v + w x
+// r). Joints of the tree have coordinates, which know full turns. Loop joints without an auxiliary
+// body have only the relative pose of their frames, so their angles lie within a turn. The turn and
+// velocity of a ball are stored in the child's frame and are brought to those of frame 1 as frame 0
+// sees them.
 #include "tenon/engines/mujoco/run/read_state.h"
 
 namespace tenon::engines::mujoco {

@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Tracks are read first, since they may change the gains that are scaled after them. Scaling and
+// damping use inertias and velocities from before the step; damping is capped where it stops a body
+// within one step, so that a large rate cannot reverse the motion. A driven body is pushed to its
+// next pose by force, so that contacts feel it, and is then set to that pose exactly, so that
+// errors do not add up.
 #include "tenon/engines/mujoco/run/step_inputs.h"
 
 #include <algorithm>
