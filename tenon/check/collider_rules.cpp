@@ -27,6 +27,8 @@ constexpr double kDepth = 0.1;
 /// Pairs that are told apart shape by shape, and those that are reported; a heap of bodies in one
 /// place has millions.
 constexpr std::size_t kMaxPairs = 200000;
+constexpr std::size_t kMaxSteps =
+    50000000;  // of the sweep, where most shapes lie beside each other
 constexpr std::size_t kMaxReports = 100;
 
 Pose world_pose(const scene::PhysicsScene& scene, const Collider& collider) {
@@ -125,12 +127,13 @@ bool reach_into(Placed a, Placed b) {
 void check_overlap_at_start(const Subject& subject, Reporter& report) {
   const scene::PhysicsScene& scene = subject.scene;
   const std::vector<Placed> placed = placed_solids(scene);
+  std::size_t steps = 0;
   std::size_t pairs = 0;
   std::size_t reports = 0;
   for (std::size_t i = 0; i < placed.size() && reports < kMaxReports; ++i) {
     const Collider& a = scene.colliders[placed[i].collider];
     for (std::size_t j = i + 1; j < placed.size() && placed[j].low[0] <= placed[i].high[0]; ++j) {
-      if (pairs >= kMaxPairs || reports >= kMaxReports) {
+      if (pairs >= kMaxPairs || reports >= kMaxReports || ++steps > kMaxSteps) {
         return;
       }
       const Collider& b = scene.colliders[placed[j].collider];

@@ -16,7 +16,7 @@ using LayerLabel = std::function<std::string(const layer::Layer&)>;
 /// What composition made of prims in the text form that the published composition suite records:
 /// the layer stack; then per prim its specs strongest first, time offsets of all nodes, variant
 /// selections, names of children and properties, specs of properties, targets and connections.
-/// Findings follow as lines `rule <prim> message`, under a heading per prim.
+/// Findings follow as lines `rule message`, under a heading per prim.
 /// Without `prims` all prims of the stage are dumped, depth-first.
 std::string dump_indices(IndexCache& cache, const LayerLabel& label,
                          const std::vector<Path>& prims = {});

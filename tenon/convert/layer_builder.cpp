@@ -107,7 +107,7 @@ void LayerBuilder::set_value(Path prim, Token schema, std::string_view property,
 
 namespace {
 
-/// The nearest number that an int can be; 0 for what is none.
+/// Cut off to a whole number that an int can be; 0 for NaN.
 std::int32_t whole_number(double value) {
   constexpr double kMin = std::numeric_limits<std::int32_t>::min();
   constexpr double kMax = std::numeric_limits<std::int32_t>::max();

@@ -45,7 +45,9 @@ std::map<std::string, Value> flat_items(const layer::Dictionary& dictionary) {
       if (inner != nullptr && !inner->empty()) {
         open.emplace_back(name, inner);
       } else {
-        items.emplace(name, value);
+        if (!items.emplace(name, value).second) {  // a key "a:b" beside b in a
+          items.emplace(name + " (a key with a colon)", value);
+        }
       }
     }
   }
@@ -154,7 +156,7 @@ class Comparison {
     difference.after_line = after.line;
     if (layer::is_child_list(field)) {
       compare_order(difference, a, b);
-    } else if (has_items(a) || has_items(b)) {
+    } else if (are_itemized(a, b)) {
       compare_items(difference, a, b);
     } else if (a.holds<layer::TimeSamples>() && b.holds<layer::TimeSamples>()) {
       compare_samples(difference, *a.get<layer::TimeSamples>(), *b.get<layer::TimeSamples>());
@@ -163,8 +165,13 @@ class Comparison {
     }
   }
 
-  static bool has_items(const Value& value) {
-    return value.holds<layer::Dictionary>() || value.holds<layer::VariantSelections>();
+  /// Both have items, or one has and the other is not there.
+  static bool are_itemized(const Value& a, const Value& b) {
+    const auto fits = [](const Value& value) {
+      return value.empty() || value.holds<layer::Dictionary>() ||
+             value.holds<layer::VariantSelections>();
+    };
+    return fits(a) && fits(b) && !(items_of(a).empty() && items_of(b).empty());
   }
 
   void add_values(Difference difference, const Value& a, const Value& b) {

@@ -47,6 +47,24 @@ TEST(LayerDifference, AValueIsOneDifferenceWithBothValuesAndLines) {
   EXPECT_EQ(found[0].after_line, 5u);
 }
 
+TEST(LayerDifference, DictionariesAreComparedItemByItemAndAsWholes) {
+  const auto count = [](const std::string& before, const std::string& after) {
+    const auto prim = [](const std::string& data) {
+      return "def \"A\" (\n" + (data.empty() ? "" : "customData = " + data + "\n") + ")\n{\n}\n";
+    };
+    EXPECT_TRUE(differences(prim(before), prim(before)).empty());
+    return differences(prim(before), prim(after)).size();
+  };
+  EXPECT_EQ(count("{\nint a = 1\nint b = 1\n}", "{\nint a = 1\nint b = 2\n}"), 1u);
+  EXPECT_EQ(count("", "{\nint a = 1\nint b = 2\n}"), 2u);
+  EXPECT_EQ(count("", "{\n}"), 1u);
+  EXPECT_EQ(count("{\ndictionary a = {\n}\n}", "{\nint a = 1\n}"), 1u);
+  EXPECT_EQ(count("{\ndictionary a = {\nint b = 1\n}\n}", "{\nint a = 1\n}"), 2u);
+  EXPECT_EQ(count("{\nint \"a:b\" = 1\ndictionary a = {\nint b = 2\n}\n}",
+                  "{\nint \"a:b\" = 1\ndictionary a = {\nint b = 3\n}\n}"),
+            1u);
+}
+
 TEST(LayerDifference, NumbersWithinTheToleranceAreEqual) {
   const char* before = "def \"A\"\n{\n    float3[] p = [(1, 2, 3), (1000, 0, 0)]\n}\n";
   const char* after = "def \"A\"\n{\n    float3[] p = [(1, 2, 3), (1000.5, 0, 0)]\n}\n";

@@ -56,7 +56,7 @@ bool has_api(const layer::Layer& layer, Path prim, std::string_view api);
 /// Applies an API schema, after those that the prim has; nothing where it has it. A prim that is
 /// not there becomes an over.
 void add_api(layer::Layer& layer, Path prim, Token api);
-/// False where the layer switches the prim off itself.
+/// False where the layer switches the prim off itself, or has no spec of it.
 bool is_active(const layer::Layer& layer, Path prim);
 
 /// Targets of a relationship or connections of an attribute.

@@ -122,8 +122,10 @@ class Diff(unittest.TestCase):
         secret = self.folder / "secret.usda"
         secret.write_text("#usda 1.0\n")
         (self.copy / "link.usda").symlink_to(secret)
-        self.assertEqual(self.diff(HAND.parent, self.copy, "--sandbox", HAND.parent, "--sandbox",
-                                   self.copy, code=1), [])
+        other = self.folder / "other"
+        shutil.copytree(self.copy, other, symlinks=True)
+        self.assertEqual(self.diff(self.copy, other, "--sandbox", self.copy, "--sandbox", other,
+                                   code=1), [])
 
     def test_a_side_that_is_not_there_is_empty(self):
         rows = self.diff("/dev/null", HAND, code=1)

@@ -35,7 +35,7 @@ bool is_safe_part(std::string_view part, bool first) {
   return true;
 }
 
-/// The folders that a name stands in, outermost first; nothing for a name that is not safe.
+/// Whether a name is safe; adds the folders that it stands in, outermost first.
 bool is_safe_name(std::string_view name, std::vector<std::string>& folders) {
   std::size_t begin = 0;
   while (true) {
@@ -83,7 +83,7 @@ Result<void> write_entries_into(const ZipArchive& archive, const std::string& fo
   std::vector<std::shared_ptr<const FileBytes>> kept;
   for (const ZipEntry& entry : archive.entries()) {
     if (!is_folder(entry)) {
-      TENON_TRY(kept.emplace_back(), archive.read(entry));
+      TENON_TRY(kept.emplace_back(), archive.read_checked(entry));
       transaction.put(folder + "/" + entry.name, kept.back()->text());
     }
   }

@@ -15,9 +15,10 @@ namespace tenon::bytes {
 Result<void> check_entry_names(const ZipArchive& archive);
 
 /// Writes every file of the archive below `folder`, which must not exist yet, or be empty. All or
-/// nothing: the files are written to a folder beside it, which then takes its name. Errors: those
-/// of `check_entry_names`, before anything is written, and of ZipArchive::read; ErrorCode::Io,
-/// Invalid for a folder that holds something.
+/// nothing: the files are written to a folder beside it, which then takes its name; into an empty
+/// folder that is there they come in one transaction. Errors: those of `check_entry_names`, before
+/// anything is written, and of ZipArchive::read_checked; ErrorCode::Io, Invalid for a folder that
+/// holds something.
 Result<void> unpack_zip(const ZipArchive& archive, const std::string& folder);
 
 }  // namespace tenon::bytes

@@ -135,7 +135,7 @@ struct IndexCache::State {
   }
 
   const PrimIndex& compute_child(const PrimIndex& parent, Path path) {
-    // The index is entered only when done: what it is built from never asks for it.
+    // The index is entered before it is built: what it is built from never asks for it.
     PrimIndex& index = add_index(path);
     build_child_index(services, parent, index);
     if (work.has_costs()) {

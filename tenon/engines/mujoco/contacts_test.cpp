@@ -247,6 +247,43 @@ TEST(Contacts, CombineModesOfMaterialsDecideFriction) {
   }
 }
 
+TEST(Contacts, CombineModesCountBetweenLikeSurfacesToo) {
+  using scene::CombineMode;
+  for (const bool alone : {true, false}) {  // with and without a third surface somewhere
+    for (const auto& [mode, friction] :
+         {std::pair(CombineMode::Average, 0.4), std::pair(CombineMode::Multiply, 0.16)}) {
+      TestScene scene = box_on_ground();
+      scene.colliders[0].material = scene.colliders[1].material = add_material(scene, "Wood", 0.4);
+      scene.materials[0].friction_combine = mode;
+      if (!alone) {
+        const auto far = scene.add_body("Far", {{50, 0, 1}}, 1);
+        scene.colliders[scene.add_collider("FarBox", far, box({{0.1, 0.1, 0.1}}))].material =
+            add_material(scene, "Steel", 0.2);
+      }
+      scene.bodies[0].linear_velocity = {{2, 0, 0}};
+      auto sim = simulation(scene);
+      run(*sim, 0.3);
+      EXPECT_NEAR(sim->body_state(0).linear_velocity[0], 2 - friction * kG * 0.3, 0.06) << alone;
+    }
+  }
+}
+
+TEST(Contacts, EachOfManyMaterialsMayBeItsOwn) {
+  TestScene scene = box_on_ground();
+  constexpr scene::Index kMany = 3000;
+  for (scene::Index i = 0; i < kMany; ++i) {
+    const auto number = std::to_string(i);
+    const auto made = scene.add_collider("Far" + number, std::nullopt, box({{0.1, 0.1, 0.1}}));
+    scene.colliders[made].pose.position = {{10.0 + i, 0, 0}};
+    scene.colliders[made].material = add_material(scene, ("M" + number).c_str(), 0.5);
+    scene.materials.back().restitution = (i + 1.0) / kMany;
+  }
+  scene.bodies[0].linear_velocity = {{2, 0, 0}};
+  auto sim = simulation(scene);
+  run(*sim, 0.01);
+  EXPECT_GT(sim->body_state(0).linear_velocity[0], 0);
+}
+
 // A flat slab of 4 m by 8 m, its half with y > 0 of another material.
 scene::TriangleMesh slab_of_two() {
   scene::TriangleMesh slab;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -84,15 +85,23 @@ struct ContactFilter {
   std::vector<std::uint64_t> pairs_off;  ///< sorted, smaller geom in the upper half
 };
 
-/// One value of friction and restitution per geom, and how those of pairs combine (S-72).
+/// What contacts depend on of a material.
+struct SurfaceKind {
+  double friction = 0;
+  double restitution = 0;
+  scene::CombineMode friction_combine = scene::CombineMode::Average;
+  scene::CombineMode restitution_combine = scene::CombineMode::Average;
+  auto operator<=>(const SurfaceKind&) const = default;
+};
+
+/// The surface of each geom; those of pairs are combined when they meet (S-72).
 struct Surfaces {
-  std::vector<int> geom_surface;  ///< (geom_count); -1: made contacts are left as they are
+  std::vector<SurfaceKind> kinds;
+  std::vector<int> geom_surface;  ///< (geom_count) into kinds; -1: made contacts are left alone
   /// The same per collider and geom of it, until ids of geoms are known.
   std::vector<std::vector<int>> of_collider;
-  std::size_t count = 0;
-  std::vector<double> friction;               ///< (count x count)
-  std::vector<std::array<double, 2>> solref;  ///< (count x count)
-  bool differ = false;                        ///< contacts need the averages
+  double time_step = 0;
+  std::map<double, std::array<double, 2>> solref;  ///< by restitution, of those met so far
   /// (geom_count) the collider says how soft its contacts are; until then per collider.
   std::vector<char> keeps_solref;
 };

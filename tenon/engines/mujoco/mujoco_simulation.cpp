@@ -139,7 +139,7 @@ Result<void> MujocoSimulation::break_joints() {
 void MujocoSimulation::advance() {
   const mjModel* m = model_.model.get();
   mjData* d = model_.data.get();
-  if (!model_.surfaces.differ) {
+  if (model_.surfaces.kinds.size() <= 1) {
     mj_step(m, d);
     return;
   }

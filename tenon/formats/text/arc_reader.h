@@ -19,7 +19,7 @@ bool read_layer_relocates(LayerState& state);
 
 /// Takes `=` and blanks around it.
 bool read_assignment(Cursor& cursor);
-/// None, `<path>` or `[<path>, ...]`, as written; `none` tells the first.
+/// None, `<path>` or `[<path>, ...]`, as written.
 bool read_path_list(Cursor& cursor, std::vector<Path>& paths);
 /// Fails at `start` when `items` has equal ones or edits weaker lists with nothing.
 template <class T>

@@ -14,8 +14,7 @@ namespace tenon::scene {
 SolidIntegrals shape_integrals(const Shape& shape, const std::vector<TriangleMesh>& meshes,
                                bool* used_hull = nullptr);
 
-/// The same for a solid of revolution about +Z with the radius `radius_at(z)` between two heights
-/// (M-7); `segments` Gauss-Legendre pieces.
+/// A solid of revolution about +Z between two heights (M-7).
 struct Profile {
   double bottom = 0;
   double top = 0;

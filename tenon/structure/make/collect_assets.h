@@ -14,13 +14,13 @@ namespace tenon::structure {
 using CollectedAssets = std::map<std::string, std::string>;
 
 /// Puts the files that attributes of the package's layers name into its folder "Textures" (modules
-/// of materials into "Materials" with Names::Tutorial), each content once, and makes the paths to
-/// them relative. `<UDIM>` patterns bring all their tiles. What cannot be read is named where it
-/// would be, with the diagnostic "structure.asset-missing": the asset can be moved all the same.
-/// What a search path leads to is collected as well; a name that leads nowhere stays, with the same
-/// diagnostic but for modules of renderers.
-/// So is what lies outside of the asset's folders, or is nothing that a scene shows or plays, with
-/// an error: "read.outside", "read.wrong-kind" (docs/reading.md).
+/// of materials into "Materials" with Names::Tutorial), files of one name and content once, and
+/// makes the paths to them relative. `<UDIM>` patterns bring all their tiles. What cannot be read
+/// is named where it would be, with the diagnostic "structure.asset-missing": the asset can be
+/// moved all the same. What a search path leads to is collected as well; a name that leads nowhere
+/// stays, with the same diagnostic but for modules of renderers. So is what lies outside of the
+/// asset's folders, or is nothing that a scene shows or plays, with an error: "read.outside",
+/// "read.wrong-kind" (docs/reading.md).
 CollectedAssets collect_assets(const AssetSource& source, Names names, Package& package,
                                Diagnostics& diagnostics);
 

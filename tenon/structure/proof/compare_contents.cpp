@@ -9,6 +9,7 @@
 
 #include "tenon/formats/text/write/value_text.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/time/time_samples.h"
 #include "tenon/structure/layer_tree.h"
 #include "tenon/structure/proof/proof.h"
 
@@ -110,9 +111,7 @@ class Comparison {
       if (is_passed_over(field.name) || is_nothing(expected, field.name, field.value)) {
         continue;
       }
-      const bool same =
-          other != nullptr && (*other == field.value || is_same_nan(*other, field.value));
-      if (!same) {
+      if (other == nullptr || !are_same(*other, field.value)) {
         report(prim, property, "\"" + field.name.str() + "\" differs");
       }
     }
@@ -127,10 +126,22 @@ class Comparison {
     }
   }
 
-  /// Values that differ from themselves, as what holds NaN does, and are the same all the same.
-  static bool is_same_nan(const layer::Value& a, const layer::Value& b) {
-    return a.type() == b.type() && a.is_array() == b.is_array() && !(a == a) && !(b == b) &&
-           formats::value_text(a) == formats::value_text(b);
+  /// Equal, or unequal only because NaN is unequal to itself: then they are of one type and the
+  /// same in text, where each number has its own.
+  static bool are_same(const layer::Value& a, const layer::Value& b) {
+    if (a == b || a.type() != b.type() || a.is_array() != b.is_array()) {
+      return a == b;
+    }
+    const auto* samples = a.get<layer::TimeSamples>();
+    if (samples == nullptr) {
+      return !a.holds<layer::Dictionary>() && formats::value_text(a) == formats::value_text(b);
+    }
+    const auto& others = *b.get<layer::TimeSamples>();
+    bool same = samples->times == others.times;
+    for (std::size_t i = 0; same && i < samples->size(); ++i) {
+      same = are_same(samples->values[i], others.values[i]);
+    }
+    return same;
   }
 
   static bool says_something(const Spec& property) {

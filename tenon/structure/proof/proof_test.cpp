@@ -36,6 +36,9 @@ TEST(Proof, NanIsNanAndHidesNothingElse) {
   EXPECT_FALSE(is_same("double x = nan", "double x = 1"));
   EXPECT_TRUE(is_same("double3 x = (nan, 0, 1)", "double3 x = (nan, 0, 1)"));
   EXPECT_FALSE(is_same("double3 x = (nan, 0, 1)", "double3 x = (nan, 0, 2)"));
+  const std::string samples = "double x.timeSamples = { 0: nan, 1: ";
+  EXPECT_TRUE(is_same(samples + "2 }", samples + "2 }"));
+  EXPECT_FALSE(is_same(samples + "2 }", samples + "3 }"));
 }
 
 /// What an over of the difference makes of `weak` is `strong` again, value by value.

@@ -6,8 +6,9 @@
 // and they only push. In direct form solref = {-k dmax^2, -b dmax}. A rebound needs k and b such
 // that the ratio of the speeds after and before is e. The continuous ratio is known (Hunt and
 // Crossley 1975; Nagurka and Huang 2004), but a contact lasts few time steps, so b is found on the
-// discrete motion itself, by bisection, averaged over where in the step the impact falls. Pairs of
-// surfaces are tabulated once and written into each contact that is made between two of them.
+// discrete motion itself, by bisection, averaged over where in the step the impact falls. Where all
+// surfaces are of one kind the geoms hold what two of them make of each other. Else the values of
+// the pair are written into each contact that is made.
 #include "tenon/engines/mujoco/build/surfaces.h"
 
 #include <algorithm>
@@ -24,14 +25,10 @@ constexpr double kImpedanceWidth = 0.001;  // [m]
 constexpr double kStiffSteps = 0.25;       // natural frequency times time step, elastic contacts
 constexpr double kSoftSteps = 0.16;        // the same without bounce
 constexpr double kMaxDamping = 0.9;        // damping times time step: below 1, or the contact rings
-
-struct Surface {
-  double friction = 0;
-  double restitution = 0;
-  scene::CombineMode friction_combine = scene::CombineMode::Average;
-  scene::CombineMode restitution_combine = scene::CombineMode::Average;
-  auto operator<=>(const Surface&) const = default;
-};
+// Each restitution takes a bisection of a millisecond. Where there are very many, further ones are
+// rounded by less than the error that the springs have anyway.
+constexpr std::size_t kExactRestitutions = 256;
+constexpr double kRoundedRestitutions = 256;
 
 double impedance(double depth) {
   const double x = std::min(1.0, depth / kImpedanceWidth);
@@ -73,29 +70,27 @@ void set_friction(mjsGeom& geom, const scene::Material& material) {
   geom.friction[2] = material.rolling_friction.value_or(geom.friction[2]);
 }
 
-Surface surface_of(const scene::PhysicsScene& scene, const std::optional<scene::Index>& index) {
+SurfaceKind kind_of(const scene::PhysicsScene& scene, const std::optional<scene::Index>& index) {
   const scene::Material& material = material_of(scene, index);
   return {material.dynamic_friction, std::clamp(material.restitution, 0.0, 1.0),
           material.friction_combine, material.restitution_combine};
 }
 
-void tabulate(Surfaces& surfaces, const std::vector<Surface>& kinds, double time_step) {
-  surfaces.count = kinds.size();
-  std::map<double, std::array<double, 2>> known;
-  for (const Surface& a : kinds) {
-    for (const Surface& b : kinds) {
-      const double restitution = scene::combine(a.restitution, a.restitution_combine, b.restitution,
-                                                b.restitution_combine);
-      const auto [entry, is_new] = known.try_emplace(restitution);
-      if (is_new) {
-        entry->second = contact_solref(restitution, time_step);
-      }
-      surfaces.friction.push_back(
-          scene::combine(a.friction, a.friction_combine, b.friction, b.friction_combine));
-      surfaces.solref.push_back(entry->second);
-    }
+double friction_of(const SurfaceKind& a, const SurfaceKind& b) {
+  return scene::combine(a.friction, a.friction_combine, b.friction, b.friction_combine);
+}
+
+std::array<double, 2> solref_of(Surfaces& surfaces, const SurfaceKind& a, const SurfaceKind& b) {
+  double restitution =
+      scene::combine(a.restitution, a.restitution_combine, b.restitution, b.restitution_combine);
+  if (surfaces.solref.size() >= kExactRestitutions) {
+    restitution = std::round(restitution * kRoundedRestitutions) / kRoundedRestitutions;
   }
-  surfaces.differ = kinds.size() > 1;
+  const auto [entry, is_new] = surfaces.solref.try_emplace(restitution);
+  if (is_new) {
+    entry->second = contact_solref(restitution, surfaces.time_step);
+  }
+  return entry->second;
 }
 
 void report_materials(Build& build) {
@@ -117,10 +112,10 @@ void report_materials(Build& build) {
                    "MuJoCo has one coefficient per contact; the dynamic one is used");
     }
     if (used[i] != 0 && material.restitution > 0) {
-      build.report(
-          material.path, "physics:restitution",
-          "MuJoCo has no restitution: contacts are springs tuned to rebound with the average of "
-          "the pair, within a few per cent; below about 0.3 little of the rebound is left");
+      build.report(material.path, "physics:restitution",
+                   "MuJoCo has no restitution: contacts are springs tuned to rebound with the "
+                   "restitution of the pair, within a few per cent; below about 0.3 little of the "
+                   "rebound is left");
     }
   }
 }
@@ -142,30 +137,35 @@ std::array<double, 2> contact_solref(double restitution, double time_step) {
 
 Surfaces add_surfaces(Build& build) {
   Surfaces surfaces;
-  std::vector<Surface> kinds;
+  surfaces.time_step = build.time_step;
+  std::map<SurfaceKind, int> numbers;
   surfaces.of_collider.resize(build.geoms.size());
   for (std::size_t i = 0; i < build.geoms.size(); ++i) {
     for (const std::optional<scene::Index>& material : build.geom_materials[i]) {
-      const Surface surface = surface_of(build.scene, material);
-      auto found = std::find(kinds.begin(), kinds.end(), surface);
-      if (found == kinds.end()) {
-        found = kinds.insert(kinds.end(), surface);
+      const SurfaceKind kind = kind_of(build.scene, material);
+      const auto [entry, is_new] = numbers.try_emplace(kind, static_cast<int>(numbers.size()));
+      if (is_new) {
+        surfaces.kinds.push_back(kind);
       }
-      surfaces.of_collider[i].push_back(static_cast<int>(found - kinds.begin()));
+      surfaces.of_collider[i].push_back(entry->second);
     }
   }
-  tabulate(surfaces, kinds, build.time_step);
   for (std::size_t i = 0; i < build.geoms.size(); ++i) {
     const scene::MujocoContact& contact = build.scene.colliders[i].parts.mujoco;
+    const bool decides = contact.priority.value_or(0) != 0;
     surfaces.keeps_solref.push_back(contact.solref.empty() ? 0 : 1);
     for (std::size_t g = 0; g < build.geoms[i].size(); ++g) {
-      const auto kind = static_cast<std::size_t>(surfaces.of_collider[i][g]);
+      const SurfaceKind& kind =
+          surfaces.kinds[static_cast<std::size_t>(surfaces.of_collider[i][g])];
       mjsGeom& geom = *build.geoms[i][g];
       set_friction(geom, material_of(build.scene, build.geom_materials[i][g]));
-      const auto& solref = surfaces.solref[kind * surfaces.count + kind];
+      if (!decides) {
+        geom.friction[0] = friction_of(kind, kind);
+      }
+      const std::array<double, 2> solref = solref_of(surfaces, kind, kind);
       std::copy(solref.begin(), solref.end(), geom.solref);
       std::copy(contact.solref.begin(), contact.solref.end(), geom.solref);
-      if (contact.priority.value_or(0) != 0) {
+      if (decides) {
         surfaces.of_collider[i][g] = -1;  // MuJoCo does not mix where one has priority
       }
     }
@@ -174,7 +174,7 @@ Surfaces add_surfaces(Build& build) {
   return surfaces;
 }
 
-bool apply_surfaces(const Surfaces& surfaces, mjData* data) {
+bool apply_surfaces(Surfaces& surfaces, mjData* data) {
   bool changed = false;
   for (int i = 0; i < data->ncon; ++i) {
     mjContact& contact = data->contact[i];
@@ -183,14 +183,15 @@ bool apply_surfaces(const Surfaces& surfaces, mjData* data) {
     if (a == b || a < 0 || b < 0) {
       continue;
     }
-    const std::size_t pair =
-        static_cast<std::size_t>(a) * surfaces.count + static_cast<std::size_t>(b);
-    contact.friction[0] = std::max(surfaces.friction[pair], mjMINMU);
+    const SurfaceKind& kind_a = surfaces.kinds[static_cast<std::size_t>(a)];
+    const SurfaceKind& kind_b = surfaces.kinds[static_cast<std::size_t>(b)];
+    contact.friction[0] = std::max(friction_of(kind_a, kind_b), mjMINMU);
     contact.friction[1] = contact.friction[0];
     if (surfaces.keeps_solref[static_cast<std::size_t>(contact.geom[0])] == 0 &&
         surfaces.keeps_solref[static_cast<std::size_t>(contact.geom[1])] == 0) {
-      contact.solref[0] = surfaces.solref[pair][0];
-      contact.solref[1] = surfaces.solref[pair][1];
+      const std::array<double, 2> solref = solref_of(surfaces, kind_a, kind_b);
+      contact.solref[0] = solref[0];
+      contact.solref[1] = solref[1];
     }
     changed = true;
   }

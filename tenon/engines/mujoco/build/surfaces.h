@@ -9,8 +9,8 @@
 /// Friction and restitution of contacts.
 namespace tenon::engines::mujoco {
 
-/// Gives every geom its own values and tabulates the averages of pairs (S-72). A collider without
-/// material has friction 0.5 and restitution 0 (S-71). After add_geoms.
+/// Gives every geom the values of a contact with its like, and lists the kinds of surfaces (S-72).
+/// A collider without material has friction 0.5 and restitution 0 (S-71). After add_geoms.
 Surfaces add_surfaces(Build& build);
 
 /// Direct solver reference {-stiffness, -damping} of a contact that rebounds with `restitution` of
@@ -18,7 +18,7 @@ Surfaces add_surfaces(Build& build);
 /// contact as MuJoCo integrates it.
 std::array<double, 2> contact_solref(double restitution, double time_step);
 
-/// Writes pair averages into the made contacts; true when any contact was changed.
-bool apply_surfaces(const Surfaces& surfaces, mjData* data);
+/// Writes the values of pairs into the made contacts; true when any contact was changed.
+bool apply_surfaces(Surfaces& surfaces, mjData* data);
 
 }  // namespace tenon::engines::mujoco
