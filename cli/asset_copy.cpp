@@ -20,6 +20,7 @@
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/formats/text/layout/layout_edit.h"
+#include "tenon/layer/metadata_fields.h"
 #include "tenon/stage_sources.h"
 
 namespace tenon::cli {
@@ -260,6 +261,26 @@ Result<bool> put_edited(const layer::Layer& layer, const std::string& file, Outp
   TENON_TRY(std::string contents, formats::encode_layer(layer, format));
   outputs.put_beside(file, std::move(contents));
   return true;  // nothing but a binary layer, or another format: no layout to keep
+}
+
+layer::Layer layer_over(const layer::Layer& asset, const std::string& output) {
+  layer::Layer over(output);
+  over.set_may_lack_text();
+  const fs::path folder =
+      output == "-" ? fs::current_path() : fs::absolute(output).lexically_normal().parent_path();
+  const std::string name = fs::path(asset.identifier()).lexically_relative(folder).generic_string();
+  over.root().set(
+      "subLayers",
+      layer::Value(std::vector<std::string>{name.starts_with("../") ? name : "./" + name}));
+  for (const char* field : {"defaultPrim", "kilogramsPerUnit", "metersPerUnit", "upAxis",
+                            "startTimeCode", "endTimeCode", "timeCodesPerSecond"}) {
+    const layer::Value* value = asset.root().find(field);
+    if (value != nullptr &&
+        layer::is_value_of_metadata(field, layer::SpecKind::PseudoRoot, *value)) {
+      over.root().set(field, *value);
+    }
+  }
+  return over;
 }
 
 }  // namespace tenon::cli

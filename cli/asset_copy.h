@@ -69,6 +69,11 @@ class AssetLayers {
 /// The file that an output means for the asset: a folder takes it under its own name.
 std::string root_output(const std::string& output, const layer::Layer& root);
 
+/// A new layer for `output` ("-": for the current folder) with an asset as its sublayer, which
+/// repeats the default prim, the units and the times of the asset. It may lack a text, as the name
+/// of the asset's file may.
+layer::Layer layer_over(const layer::Layer& asset, const std::string& output);
+
 /// Puts `layer` among the outputs, as `file`. Where the layer's own file is text and the new one is
 /// to be text, its comments and layout stay but for what changed: the answer is whether they did.
 Result<bool> put_edited(const layer::Layer& layer, const std::string& file, Outputs& outputs);

@@ -10,7 +10,7 @@ include(CheckPIESupported)
 include(CheckCXXSourceCompiles)
 check_pie_supported()
 
-if(TENON_SANITIZE OR TENON_COVERAGE)
+if(TENON_SANITIZE OR TENON_SANITIZE_THREADS OR TENON_COVERAGE)
   return()
 endif()
 

@@ -18,7 +18,8 @@ mark_as_advanced(TENON_UNITY_SOURCES)
 # GCC stops inlining where a unit has grown by 40 %, which costs units this large a tenth of their
 # speed; with these bounds they are inlined like single files. Not under sanitizers, where it takes
 # half as long again to compile.
-if(TENON_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT TENON_SANITIZE)
+if(TENON_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT TENON_SANITIZE AND
+   NOT TENON_SANITIZE_THREADS)
   add_compile_options(--param=large-unit-insns=1000000 --param=inline-unit-growth=400)
 endif()
 

@@ -18,7 +18,13 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 USERS = ("cli/", "worker/", "tests/", "bench/", "fuzz/")
 
 # Libraries that only some files may name: pattern of the include -> patterns of the files.
+SYSTEM = ["tenon/base/*", "tenon/bytes/*", "tenon/guard/*", "worker/*", "cli/*", "tests/*",
+          "bench/*", "fuzz/*", "*_test.cpp"]
 LIBRARIES = {
+    # The operating system: files, memory and libraries up to `bytes`, processes in `guard`.
+    **dict.fromkeys(["sys/*", "unistd.h", "fcntl.h", "dlfcn.h", "spawn.h", "poll.h", "sched.h",
+                     "signal.h", "pthread.h", "malloc.h", "termios.h", "dirent.h", "execinfo.h"],
+                    SYSTEM),
     "tl/*": ["tenon/base/result.h"],
     "Eigen/*": ["tenon/math/*.cpp"],
     "fast_float/*": ["tenon/base/number_from_text.h"],

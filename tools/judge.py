@@ -29,6 +29,7 @@ CACHE = os.path.join(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.
 TABLE = re.compile(r"(<!-- judgements: .*? -->\n)(.*?)(<!-- end of judgements -->)", re.S)
 HEAD = "| judgement | commit | date | minutes | good | result |\n|---|---|---|---|---|---|\n"
 SKIPPED = 77
+TESTS_PASSED = re.compile(r"\d+% tests passed")
 SEEDS = ["fuzz/seeds", "fuzz/corpus", "examples", "tests"]
 FUZZ_SECONDS = 120
 # What is to run on any machine: the folders up to the reading of physics.
@@ -61,6 +62,10 @@ def judgements():
     yield Judgement("bits32", ["bash", "-c", " && ".join(["build/bits32/bin/" + t for t in core]
                                                          + ["echo passed: " + " ".join(CORE)])],
                     "bits32", core)
+    # Unit tests are the ones whose names begin with a capital letter.
+    for preset in ("clang", "threads"):
+        yield Judgement(preset, ["ctest", "--test-dir", f"build/{preset}", "-R", "^[A-Z]", "-j",
+                                 "{jobs}", "--no-tests=error"], preset)
     yield Judgement("kill_runs", ["{python}", "-B", "tests/output/kill_runs.py",
                                   ".", "build/release/bin/tenon", "--runs", "50", "--pairs", "20"],
                     "release")
@@ -118,6 +123,16 @@ def last_line(path):
     return lines[-1].replace("|", "/")[:200] if lines else "it printed nothing"
 
 
+def result_of_tests(path):
+    """What ctest says at its end, and the names of tests that were skipped."""
+    with open(path, encoding="utf-8", errors="replace") as file:
+        lines = [line.strip() for line in file]
+    said = [line for line in lines if TESTS_PASSED.search(line)]
+    skipped = [line.split()[2] for line in lines if line.endswith("(Skipped)")]
+    words = ([said[-1]] if said else ["ctest did not end"]) + skipped
+    return ", skipped ".join(words)[:200], bool(skipped)
+
+
 def run(judgement, python, jobs):
     """-> (good, result, minutes)"""
     os.makedirs(LOGS, exist_ok=True)
@@ -136,6 +151,9 @@ def run(judgement, python, jobs):
             status = -1
     minutes = (time.monotonic() - start) / 60
     result = last_line(path)
+    if judgement.command[0] == "ctest":
+        result, skipped = result_of_tests(path)
+        status = 1 if skipped else status
     return status == 0, f"skipped: {result}" if status == SKIPPED else result, minutes
 
 
@@ -143,7 +161,9 @@ def commit():
     def lines(*words):
         return subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True,
                               check=False).stdout.strip()
-    changed = "+changes" if lines("status", "--porcelain", "--untracked-files=no") else ""
+    # The table itself changes with each row.
+    others = lines("status", "--porcelain", "--untracked-files=no", "--", ":!CONFORMANCE.md")
+    changed = "+changes" if others else ""
     return lines("rev-parse", "--short", "HEAD") + changed
 
 

@@ -39,6 +39,16 @@ class Judging(unittest.TestCase):
     def test_a_skip_is_a_failure(self):
         self.assertEqual(ended_with(77)[:2], (False, "skipped: all is said"))
 
+    def test_a_skipped_test_is_a_failure(self):
+        path = os.path.join(self.folder.name, "log.txt")
+        for tests, wanted in (("", ("100% tests passed, 0 tests failed out of 2", False)),
+                              ("\t894 - a.test (Skipped)\n",
+                               ("100% tests passed, 0 tests failed out of 2, skipped a.test",
+                                True))):
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("100% tests passed, 0 tests failed out of 2\n\nTotal\n" + tests)
+            self.assertEqual(judge.result_of_tests(path), wanted)
+
     def test_a_program_that_is_not_there_is_a_failure(self):
         missing = judge.Judgement("labelled", ["/nowhere/at/all"])
         self.assertFalse(judge.run(missing, "python", 1)[0])

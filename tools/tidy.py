@@ -6,8 +6,9 @@
 usage: tidy.py [--changed | FILE...] [--jobs N]
 
 Without names all files are looked at (make tidy; about half an hour of processor time); when none
-has a finding, the commit is written to tools/tidied.txt. --changed, a test, looks at what changed
-since that commit. Tests, benchmarks and fuzz targets are left out, as is generated code.
+has a finding, the commit is written to tools/tidied.txt; until the first such run it names the
+commit from which on changes are held. --changed, a test, looks at what changed since that commit.
+Tests, benchmarks and fuzz targets are left out, as is generated code.
 Exit 0: no finding; 1: findings; 77: clang-tidy is missing, or the commit is not in this clone.
 """
 

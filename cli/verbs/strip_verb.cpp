@@ -21,7 +21,6 @@
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/formats/save_layer.h"
-#include "tenon/layer/metadata_fields.h"
 #include "tenon/physics/strip.h"
 #include "tenon/tenon.h"
 
@@ -130,27 +129,6 @@ int run_strip(Report& report, const StripArguments& options) {
                         {"layers", stripped->layers}});
 }
 
-/// A layer over the asset, with its units and times.
-layer::Layer overlay(const layer::Layer& asset, const std::string& output) {
-  namespace fs = std::filesystem;
-  layer::Layer over(output == "-" ? "muted.usda" : output);
-  const fs::path folder =
-      output == "-" ? fs::current_path() : fs::absolute(output).lexically_normal().parent_path();
-  const std::string name = fs::path(asset.identifier()).lexically_relative(folder).generic_string();
-  over.root().set(
-      "subLayers",
-      layer::Value(std::vector<std::string>{name.starts_with("../") ? name : "./" + name}));
-  for (const char* field : {"defaultPrim", "kilogramsPerUnit", "metersPerUnit", "upAxis",
-                            "startTimeCode", "endTimeCode", "timeCodesPerSecond"}) {
-    const layer::Value* value = asset.root().find(field);
-    if (value != nullptr &&
-        layer::is_value_of_metadata(field, layer::SpecKind::PseudoRoot, *value)) {
-      over.root().set(field, *value);
-    }
-  }
-  return over;
-}
-
 Result<void> write_muted(const layer::Layer& layer, bool in_place, const std::string& output) {
   Outputs outputs = in_place ? Outputs::in_place() : Outputs();
   if (in_place) {
@@ -177,7 +155,8 @@ Result<bake::MuteCounts> mute(const StripArguments& options, Report& report) {
         .with_rule("output.is-input")
         .with_fix("name another place, or give --in-place");
   }
-  layer::Layer layer = options.in_place ? stage.root_layer() : overlay(stage.root_layer(), output);
+  layer::Layer layer =
+      options.in_place ? stage.root_layer() : layer_over(stage.root_layer(), output);
   const bake::MuteCounts counts = bake::mute_physics(stage, layer, report.diagnostics);
   TENON_CHECK(write_muted(layer, options.in_place, output));
   return counts;

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "cli/asset_copy.h"
 #include "cli/output.h"
 #include "cli/report.h"
 #include "cli/verb.h"
@@ -114,17 +115,7 @@ Result<std::string> with_selection_written(const layer::Layer& layer, const Sele
                                                 fs::path(layer.identifier()).parent_path();
   if (!options.in_place && output != "-" && !same_folder) {
     // Relative asset paths would break elsewhere: lay a layer over the asset instead.
-    layer::Layer over("selection.usda");
-    const auto folder = fs::absolute(output).parent_path().lexically_normal();
-    over.root().set("subLayers",
-                    layer::Value(std::vector<std::string>{
-                        fs::path(layer.identifier()).lexically_relative(folder).generic_string()}));
-    for (const char* field : {"defaultPrim", "kilogramsPerUnit", "metersPerUnit", "upAxis",
-                              "startTimeCode", "endTimeCode", "timeCodesPerSecond"}) {
-      if (const layer::Value* value = layer.root().find(field)) {
-        over.root().set(field, *value);
-      }
-    }
+    layer::Layer over = layer_over(layer, output);
     report.note(shown_path(output) + " is a layer over " + shown_path(layer.identifier()));
     TENON_TRY(const formats::LayerFormat format, formats::layer_format_for(output));
     return formats::encode_layer(with_selection(std::move(over), selection), format);

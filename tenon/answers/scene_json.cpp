@@ -53,6 +53,83 @@ std::string hex(std::uint64_t value) {
   return text;
 }
 
+/// A key that the row does not have yet; to look for it first costs a walk over all keys.
+void append(Json& row, std::string_view key, Json value) {
+  row.get_ref<Json::object_t&>().emplace_back(std::string(key), std::move(value));
+}
+
+void add_pose(const Pose& pose, Json& row) {
+  append(row, "position", numbers(pose.position));
+  append(row, "orientation", rotation(pose.orientation));
+}
+
+Json settings(const std::vector<scene::MujocoSetting>& all) {
+  Json rows = Json::object();
+  for (const scene::MujocoSetting& setting : all) {
+    Json list = Json::array();
+    for (const double x : setting.numbers) {
+      list.push_back(number(x));
+    }
+    rows[setting.name] = setting.token.empty() ? list : Json(setting.token);
+  }
+  return rows;
+}
+
+void add_bounds(const scene::TriangleMesh& mesh, Json& row) {
+  Vec3d low{{INFINITY, INFINITY, INFINITY}};
+  Vec3d high = -low;
+  for (const Vec3d& p : mesh.points) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = p[i] < low[i] ? p[i] : low[i];
+      high[i] = p[i] > high[i] ? p[i] : high[i];
+    }
+  }
+  const bool empty = mesh.points.empty();
+  row["lower"] = empty ? Json(nullptr) : numbers(low);
+  row["upper"] = empty ? Json(nullptr) : numbers(high);
+}
+
+template <class Track>
+bool is_held(const Track& track) {
+  if constexpr (requires { track.held; }) {
+    return track.held;
+  } else {
+    return true;
+  }
+}
+
+template <class Track>
+void name_value(const PhysicsScene&, const Track&, Json&) {}
+void name_value(const PhysicsScene&, const scene::PoseTrack& track, Json& row) {
+  row["value"] = "pose";
+  if (!track.joint) {
+    row.erase("side");
+  }
+}
+void name_value(const PhysicsScene&, const scene::BoundsTrack&, Json& row) {
+  row["value"] = "limits";
+}
+void name_value(const PhysicsScene&, const scene::GravityTrack&, Json& row) {
+  row["value"] = "gravity";
+}
+void name_value(const PhysicsScene& scene, const scene::ShapesTrack& track, Json& row) {
+  row["value"] = "shapes";
+  for (const Index i : track.colliders) {
+    row["colliders"].push_back(scene.colliders[i].path.str());
+  }
+  row["lastMass"] = number(track.shapes.back().mass);
+  row["lastCenterOfMass"] = numbers(track.shapes.back().center_of_mass);
+}
+void name_value(const PhysicsScene&, const scene::SwitchTrack& track, Json& row) {
+  const List list = list_of(track, List::BySwitch);
+  const Json object = row["object"];
+  row = Json::object();
+  row[list == List::Bodies ? "body" : list == List::Colliders ? "collider" : "joint"] = object;
+  row["value"] = track.what == scene::Switch::BodyKinematic    ? "kinematic"
+                 : track.what == scene::Switch::JointCollision ? "collisionEnabled"
+                                                               : "enabled";
+}
+
 class Writer {
  public:
   Writer(const PhysicsScene& scene, Geometry geometry) : scene_(scene), geometry_(geometry) {
@@ -122,16 +199,6 @@ class Writer {
     append(row, info.name, std::move(written));
   }
 
-  /// A key that the row does not have yet; to look for it first costs a walk over all keys.
-  static void append(Json& row, std::string_view key, Json value) {
-    row.get_ref<Json::object_t&>().emplace_back(std::string(key), std::move(value));
-  }
-
-  static void add_pose(const Pose& pose, Json& row) {
-    append(row, "position", numbers(pose.position));
-    append(row, "orientation", rotation(pose.orientation));
-  }
-
   /// `refers`: into which list an index does.
   template <class T>
   Json json(List refers, const FieldInfo& info, const T& value) {
@@ -189,18 +256,6 @@ class Writer {
     }
   }
 
-  static Json settings(const std::vector<scene::MujocoSetting>& all) {
-    Json rows = Json::object();
-    for (const scene::MujocoSetting& setting : all) {
-      Json list = Json::array();
-      for (const double x : setting.numbers) {
-        list.push_back(number(x));
-      }
-      rows[setting.name] = setting.token.empty() ? list : Json(setting.token);
-    }
-    return rows;
-  }
-
   Json reference(List list, Index index) const {
     if (list == List::Meshes) {
       return index;
@@ -217,20 +272,6 @@ class Writer {
 
   template <class T>
   void add_derived(const T&, Json&) {}
-
-  static void add_bounds(const scene::TriangleMesh& mesh, Json& row) {
-    Vec3d low{{INFINITY, INFINITY, INFINITY}};
-    Vec3d high = -low;
-    for (const Vec3d& p : mesh.points) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        low[i] = p[i] < low[i] ? p[i] : low[i];
-        high[i] = p[i] > high[i] ? p[i] : high[i];
-      }
-    }
-    const bool empty = mesh.points.empty();
-    row["lower"] = empty ? Json(nullptr) : numbers(low);
-    row["upper"] = empty ? Json(nullptr) : numbers(high);
-  }
 
   void add_derived(const scene::TriangleMesh& mesh, Json& row) {
     row["hash"] = hex(mesh_hash(mesh));
@@ -319,47 +360,10 @@ class Writer {
         }
       }
     });
-    name_value(track, row);
+    name_value(scene_, track, row);
     row["samples"] = track.times.size();
     row["held"] = is_held(track);
     return row;
-  }
-
-  template <class Track>
-  static bool is_held(const Track& track) {
-    if constexpr (requires { track.held; }) {
-      return track.held;
-    } else {
-      return true;
-    }
-  }
-
-  template <class Track>
-  void name_value(const Track&, Json&) {}
-  void name_value(const scene::PoseTrack& track, Json& row) {
-    row["value"] = "pose";
-    if (!track.joint) {
-      row.erase("side");
-    }
-  }
-  void name_value(const scene::BoundsTrack&, Json& row) { row["value"] = "limits"; }
-  void name_value(const scene::GravityTrack&, Json& row) { row["value"] = "gravity"; }
-  void name_value(const scene::ShapesTrack& track, Json& row) {
-    row["value"] = "shapes";
-    for (const Index i : track.colliders) {
-      row["colliders"].push_back(scene_.colliders[i].path.str());
-    }
-    row["lastMass"] = number(track.shapes.back().mass);
-    row["lastCenterOfMass"] = numbers(track.shapes.back().center_of_mass);
-  }
-  void name_value(const scene::SwitchTrack& track, Json& row) {
-    const List list = list_of(track, List::BySwitch);
-    const Json object = row["object"];
-    row = Json::object();
-    row[list == List::Bodies ? "body" : list == List::Colliders ? "collider" : "joint"] = object;
-    row["value"] = track.what == scene::Switch::BodyKinematic    ? "kinematic"
-                   : track.what == scene::Switch::JointCollision ? "collisionEnabled"
-                                                                 : "enabled";
   }
 
   const PhysicsScene& scene_;

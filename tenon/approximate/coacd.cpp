@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include <dlfcn.h>
+#include "tenon/base/shared_library.h"
 
 namespace tenon::approximate {
 namespace {
@@ -41,40 +41,22 @@ struct Library {
   Free free = nullptr;
 };
 
-/// The folder of the program, for an installed library beside it.
-std::string program_folder() {
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&coacd_is_there), &info) == 0) {
-    return {};
-  }
-  const std::string file = info.dli_fname == nullptr ? "" : info.dli_fname;
-  return file.substr(0, file.rfind('/') + 1);
-}
-
-void* open_library() {
+SharedLibrary open_library() {
   const char* chosen = std::getenv("TENON_COACD_LIBRARY");
   if (chosen != nullptr) {
-    return *chosen == '\0' ? nullptr : dlopen(chosen, RTLD_NOW | RTLD_LOCAL);
+    return SharedLibrary::open({chosen});
   }
-  const std::string beside = program_folder() + "../lib/tenon/coacd/lib_coacd.so";
-  void* found = dlopen(beside.c_str(), RTLD_NOW | RTLD_LOCAL);
-  const std::string built = TENON_COACD_LIBRARY;
-  if (found == nullptr && !built.empty()) {
-    found = dlopen(built.c_str(), RTLD_NOW | RTLD_LOCAL);
-  }
-  return found;
+  return SharedLibrary::open(
+      {folder_of_this_code() + "../lib/tenon/coacd/lib_coacd.so", TENON_COACD_LIBRARY});
 }
 
 Library load() {
   Library library;
-  void* handle = open_library();
-  if (handle == nullptr) {
-    return library;
-  }
-  library.run = reinterpret_cast<Run>(dlsym(handle, "CoACD_run"));
-  library.free = reinterpret_cast<Free>(dlsym(handle, "CoACD_freeMeshArray"));
-  const auto set_level = reinterpret_cast<SetLogLevel>(dlsym(handle, "CoACD_setLogLevel"));
-  if (set_level != nullptr) {
+  const SharedLibrary opened = open_library();
+  opened.find("CoACD_run", library.run);
+  opened.find("CoACD_freeMeshArray", library.free);
+  SetLogLevel set_level = nullptr;
+  if (opened.find("CoACD_setLogLevel", set_level)) {
     set_level("off");
   }
   return library;

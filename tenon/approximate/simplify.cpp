@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-#include <dlfcn.h>
 #include <meshoptimizer.h>
+
+#include "tenon/base/shared_library.h"
 
 namespace tenon::approximate {
 namespace {
@@ -33,9 +34,10 @@ static_assert(sizeof(static_cast<Simplify>(&::meshopt_simplify)) == sizeof(Simpl
 /// nullptr where there is no such library.
 Simplify simplify_function() {
   static const Simplify found = [] {
-    void* library = dlopen(TENON_MESHOPTIMIZER_SONAME, RTLD_NOW | RTLD_LOCAL);
-    return library == nullptr ? nullptr
-                              : reinterpret_cast<Simplify>(dlsym(library, "meshopt_simplify"));
+    const SharedLibrary library = SharedLibrary::open({TENON_MESHOPTIMIZER_SONAME});
+    Simplify function = nullptr;
+    library.find("meshopt_simplify", function);
+    return function;
   }();
   return found;
 }

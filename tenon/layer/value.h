@@ -147,7 +147,10 @@ class Value {
   template <class T>
   T get_or(T fallback) const {
     const T* value = get<T>();
-    return value == nullptr ? std::move(fallback) : *value;
+    if (value != nullptr) {
+      return *value;
+    }
+    return fallback;
   }
   /// The contents, moved out where nobody shares them; the value is empty afterwards. It must hold
   /// a T, which is no array and too large to be kept inline.

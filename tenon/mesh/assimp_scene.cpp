@@ -12,10 +12,9 @@
 #include <memory>
 #include <string_view>
 
-#include <dlfcn.h>
-
 #include "tenon/base/file_finding.h"
 #include "tenon/base/limits/limits.h"
+#include "tenon/base/shared_library.h"
 #include "tenon/math/matrix.h"
 #include "tenon/mesh/point_welder.h"
 
@@ -32,9 +31,9 @@ namespace tenon::mesh {
 #if TENON_WITH_ASSIMP
 namespace {
 
-/// What is used of the library; `library` is nullptr where it cannot be loaded.
+/// What is used of the library, where it can be loaded.
 struct Assimp {
-  void* library = nullptr;
+  bool is_there = false;
   decltype(&aiImportFileExWithProperties) import_file = nullptr;
   decltype(&aiReleaseImport) release = nullptr;
   decltype(&aiGetErrorString) error_text = nullptr;
@@ -48,26 +47,21 @@ struct Assimp {
   decltype(&aiGetVersionMinor) minor = nullptr;
 };
 
-template <class Function>
-bool load(void* library, const char* name, Function& function) {
-  function = reinterpret_cast<Function>(dlsym(library, name));
-  return function != nullptr;
-}
-
 Assimp load_assimp() {
   Assimp a;
-  void* library = dlopen(TENON_ASSIMP_SONAME, RTLD_LAZY | RTLD_LOCAL);
-  if (library != nullptr && load(library, "aiImportFileExWithProperties", a.import_file) &&
-      load(library, "aiReleaseImport", a.release) &&
-      load(library, "aiGetErrorString", a.error_text) &&
-      load(library, "aiCreatePropertyStore", a.make_properties) &&
-      load(library, "aiReleasePropertyStore", a.release_properties) &&
-      load(library, "aiSetImportPropertyInteger", a.set_integer) &&
-      load(library, "aiGetMaterialString", a.material_string) &&
-      load(library, "aiGetMaterialColor", a.material_color) &&
-      load(library, "aiGetMaterialFloatArray", a.material_floats) &&
-      load(library, "aiGetVersionMajor", a.major) && load(library, "aiGetVersionMinor", a.minor)) {
-    a.library = library;
+  const SharedLibrary library =
+      SharedLibrary::open({TENON_ASSIMP_SONAME}, SharedLibrary::Binding::Lazy);
+  if (library.find("aiImportFileExWithProperties", a.import_file) &&
+      library.find("aiReleaseImport", a.release) &&
+      library.find("aiGetErrorString", a.error_text) &&
+      library.find("aiCreatePropertyStore", a.make_properties) &&
+      library.find("aiReleasePropertyStore", a.release_properties) &&
+      library.find("aiSetImportPropertyInteger", a.set_integer) &&
+      library.find("aiGetMaterialString", a.material_string) &&
+      library.find("aiGetMaterialColor", a.material_color) &&
+      library.find("aiGetMaterialFloatArray", a.material_floats) &&
+      library.find("aiGetVersionMajor", a.major) && library.find("aiGetVersionMinor", a.minor)) {
+    a.is_there = true;
   }
   return a;
 }
@@ -385,7 +379,7 @@ class SceneReader {
 
 }  // namespace
 
-bool has_assimp() { return assimp().library != nullptr; }
+bool has_assimp() { return assimp().is_there; }
 
 std::string assimp_version() {
   return has_assimp() ? std::to_string(assimp().major()) + "." + std::to_string(assimp().minor())

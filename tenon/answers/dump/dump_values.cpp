@@ -181,6 +181,11 @@ struct ValueWriter {
         sha.update("{\"$asset\": " + ascii_quoted(path) + ", \"resolved\": " + resolved + "}");
         sha.update(std::string_view("\0", 1));
       }
+    } else if constexpr (std::is_same_v<T, layer::PathExpression>) {
+      for (const T& item : array) {
+        sha.update(ascii_quoted(item.text));
+        sha.update(std::string_view("\0", 1));
+      }
     } else if constexpr (std::is_trivially_copyable_v<T>) {
       sha.update({reinterpret_cast<const char*>(array.data()), array.size() * sizeof(array[0])});
     }

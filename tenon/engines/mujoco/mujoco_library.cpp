@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <dlfcn.h>
+#include "tenon/base/shared_library.h"
 
 namespace tenon {
 
@@ -17,48 +17,35 @@ namespace tenon {
 namespace tenon::engines::mujoco {
 namespace {
 
-void* opened_library = nullptr;
 mjfConFilt* contact_filter = nullptr;
 
-template <class Symbol>
-bool find_symbol(void* library, const char* name, Symbol& symbol) {
-  symbol = reinterpret_cast<Symbol>(dlsym(library, name));
-  return symbol != nullptr;
+const SharedLibrary& library() {
+  static const SharedLibrary opened =
+      SharedLibrary::open({TENON_MUJOCO_SONAME, TENON_MUJOCO_LIBRARY});
+  return opened;
 }
 
 /// "": all found; else what is wrong with the library.
-std::string find_symbols(void* library) {
-  if (!find_symbol(library, "mj_version", mj_version) || mj_version() != mjVERSION_HEADER) {
+std::string find_symbols() {
+  if (!library()) {
+    return library().why_not();
+  }
+  if (!library().find("mj_version", mj_version) || mj_version() != mjVERSION_HEADER) {
     return "it is another version than " + std::to_string(mjVERSION_HEADER);
   }
-#define TENON_MUJOCO_FUNCTION(name)                \
-  if (!find_symbol(library, #name, tenon::name)) { \
-    return "it has no " #name;                     \
+#define TENON_MUJOCO_FUNCTION(name)          \
+  if (!library().find(#name, tenon::name)) { \
+    return "it has no " #name;               \
   }
 #include "tenon/engines/mujoco/mujoco_functions.def"
 #undef TENON_MUJOCO_FUNCTION
-  return find_symbol(library, "mjcb_contactfilter", contact_filter)
-             ? ""
-             : "it has no mjcb_contactfilter";
-}
-
-std::string open_library() {
-  std::string why;
-  for (const char* file : {TENON_MUJOCO_SONAME, TENON_MUJOCO_LIBRARY}) {
-    opened_library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
-    if (opened_library != nullptr) {
-      return find_symbols(opened_library);
-    }
-    const char* words = dlerror();
-    why += (why.empty() ? "" : "; ") + std::string(words == nullptr ? file : words);
-  }
-  return why;
+  return library().find("mjcb_contactfilter", contact_filter) ? "" : "it has no mjcb_contactfilter";
 }
 
 }  // namespace
 
 Result<void> open_mujoco() {
-  static const std::string fault = open_library();
+  static const std::string fault = find_symbols();
   if (fault.empty()) {
     return {};
   }
@@ -68,7 +55,7 @@ Result<void> open_mujoco() {
       .with_fix("install tenon with its folder lib/tenon, which holds the library");
 }
 
-void* find_mujoco_function(const char* name) { return dlsym(opened_library, name); }
+void* find_mujoco_function(const char* name) { return library().address(name); }
 
 mjfConFilt& contact_filter_callback() { return *contact_filter; }
 

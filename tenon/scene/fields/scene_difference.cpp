@@ -23,6 +23,65 @@
 namespace tenon::scene {
 namespace {
 
+template <class T>
+constexpr bool is_list_of_structs() {
+  if constexpr (wire::kIsVector<T>) {
+    return HasTable<typename T::value_type>;
+  } else {
+    return false;
+  }
+}
+
+std::string words_of_struct(const FieldInfo& info) {
+  return info.inlined ? std::string() : words_of(info);
+}
+
+Material material_of(const Side& side, const std::optional<Index>& index) {
+  return index ? side.scene.materials[*index] : side.scene.unbound;
+}
+
+/// Whether a field of two structs says the same kind of thing.
+template <class T>
+bool are_comparable(const T&, const T&, const FieldInfo&, bool) {
+  return true;
+}
+/// Where a view holds several schemas of one law, one of another vendor may be read: what only that
+/// vendor has does not count for the motion.
+bool are_comparable(const Mimic& a, const Mimic& b, const FieldInfo& info, bool motion_alone) {
+  return !info.of_vendor || !motion_alone || a.schema == b.schema;
+}
+
+/// Names that one of two sets alone has.
+void add_names(std::string_view object, const std::set<std::string>& before,
+               const std::set<std::string>& after, std::vector<SceneDifference>& found) {
+  for (const auto& [list, other, change] :
+       {std::tuple(&before, &after, Change::Removed), std::tuple(&after, &before, Change::Added)}) {
+    for (const std::string& name : *list) {
+      if (!other->contains(name)) {
+        found.push_back({change, std::string(object), name, {}, {}, 0});
+      }
+    }
+  }
+}
+
+std::vector<SceneDifference> filter_differences(const Side& before, const Side& after,
+                                                bool motion_alone) {
+  const CollisionFilter& a = before.scene.filter;
+  const CollisionFilter& b = after.scene.filter;
+  std::vector<SceneDifference> found;
+  add_names("pair", pair_words(before, before.scene.disabled_pairs()),
+            pair_words(after, after.scene.disabled_pairs()), found);
+  add_names("pair for good", pair_words(before, a.permanent_pairs),
+            pair_words(after, b.permanent_pairs), found);
+  add_names("pair while a joint holds", joint_pair_words(before), joint_pair_words(after), found);
+  if (!motion_alone) {
+    add_names("filtered pair", pair_words(before, a.pairs_off), pair_words(after, b.pairs_off),
+              found);
+    add_names("collision group", group_words(before), group_words(after), found);
+  }
+  return found;
+}
+
 class Walk {
  public:
   Walk(const PhysicsScene& before, const PhysicsScene& after, const CompareOptions& options)
@@ -51,7 +110,11 @@ class Walk {
       return;
     }
     if constexpr (std::is_same_v<T, CollisionFilter>) {
-      filter(a, b);
+      for (SceneDifference& one : filter_differences(before_, after_, options_.motion_alone)) {
+        if (!is_full()) {
+          found_.push_back(std::move(one));
+        }
+      }
     } else if constexpr (wire::kIsVector<T>) {
       objects(a, b);
     } else {
@@ -117,21 +180,11 @@ class Walk {
   template <class T>
   void both(const T& a, const T& b, const Place& place) {
     each_field_of_both(a, b, [&](const FieldInfo& info, const auto& x, const auto& y) {
-      if (counts(info) && info.role != Role::Identity && are_comparable(a, b, info)) {
+      if (counts(info) && info.role != Role::Identity &&
+          are_comparable(a, b, info, options_.motion_alone)) {
         field(a, b, info, x, y, place);
       }
     });
-  }
-
-  /// Whether a field of two structs says the same kind of thing.
-  template <class T>
-  bool are_comparable(const T&, const T&, const FieldInfo&) const {
-    return true;
-  }
-  /// Where a view holds several schemas of one law, one of another vendor may be read: what only
-  /// that vendor has is not compared.
-  bool are_comparable(const Mimic& a, const Mimic& b, const FieldInfo& info) const {
-    return !info.of_vendor || !options_.motion_alone || a.schema == b.schema;
   }
 
   template <class Owner, class T>
@@ -171,19 +224,6 @@ class Walk {
       both(x[i].second, y[i].second,
            place.inside("of " + text_of(before_.path(List::Bodies, x[i].first))));
     }
-  }
-
-  template <class T>
-  static constexpr bool is_list_of_structs() {
-    if constexpr (wire::kIsVector<T>) {
-      return HasTable<typename T::value_type>;
-    } else {
-      return false;
-    }
-  }
-
-  static std::string words_of_struct(const FieldInfo& info) {
-    return info.inlined ? std::string() : words_of(info);
   }
 
   template <class T>
@@ -228,7 +268,7 @@ class Walk {
       return;
     }
     if (options_.motion_alone && info.refers == List::Materials) {
-      both(material(before_, x), material(after_, y), place.inside("material"));
+      both(material_of(before_, x), material_of(after_, y), place.inside("material"));
       return;
     }
     if (options_.motion_alone && info.refers == List::Scenes) {
@@ -238,10 +278,6 @@ class Walk {
       return;
     }
     leaf(a, b, info, x, y, place);
-  }
-
-  static Material material(const Side& side, const std::optional<Index>& index) {
-    return index ? side.scene.materials[*index] : side.scene.unbound;
   }
 
   /// Meshes count where the shape is of one.
@@ -336,36 +372,6 @@ class Walk {
     if (!is_full()) {
       found_.push_back(
           {change, std::string(object_), path_, std::move(before), std::move(after), largest});
-    }
-  }
-
-  // The filter.
-
-  /// Which of two sets of pairs or of words are in one alone.
-  void sets(std::string_view object, const std::set<std::string>& before,
-            const std::set<std::string>& after) {
-    object_ = object;
-    for (const auto& [list, other, change] : {std::tuple(&before, &after, Change::Removed),
-                                              std::tuple(&after, &before, Change::Added)}) {
-      for (const std::string& name : *list) {
-        if (!other->contains(name)) {
-          path_ = name;
-          came_or_went(change);
-        }
-      }
-    }
-  }
-
-  void filter(const CollisionFilter& before, const CollisionFilter& after) {
-    sets("pair", pair_words(before_, before_.scene.disabled_pairs()),
-         pair_words(after_, after_.scene.disabled_pairs()));
-    sets("pair for good", pair_words(before_, before.permanent_pairs),
-         pair_words(after_, after.permanent_pairs));
-    sets("pair while a joint holds", joint_pair_words(before_), joint_pair_words(after_));
-    if (!options_.motion_alone) {
-      sets("filtered pair", pair_words(before_, before.pairs_off),
-           pair_words(after_, after.pairs_off));
-      sets("collision group", group_words(before_), group_words(after_));
     }
   }
 

@@ -26,6 +26,82 @@ using layer::SpecKind;
 using layer::Value;
 namespace fields = layer::fields;
 
+/// Fields that no schema knows are left out, as OpenUSD does.
+void copy_field(Token name, const Value& value, Spec& spec) {
+  if (!value.holds<layer::UnregisteredValue>()) {
+    spec.set(name, value);
+  }
+}
+
+bool is_custom(const Spec& spec) { return spec.get_or(fields::custom, false); }
+layer::Variability variability_of(const Spec& spec) {
+  return spec.get_or(fields::variability, layer::Variability::Varying);
+}
+
+bool agrees_with_schema(const Spec& spec, const schema::PropertyDefinition* declared) {
+  const auto* type_name = spec.get<Token>(fields::typeName);
+  if (type_name == nullptr) {
+    return false;
+  }
+  return declared == nullptr
+             ? layer::find_type_name(*type_name) != nullptr
+             : declared->type_name == *type_name && !is_custom(spec) &&
+                   declared->variability == variability_of(spec) && !declared->is_relationship;
+}
+
+bool stays_the_same(const Spec& spec) {
+  for (const layer::Field& field : spec.fields()) {
+    const auto* samples = field.value.get<layer::TimeSamples>();
+    if (samples != nullptr && field.name == fields::timeSamples && !samples->empty()) {
+      for (const Value& value : samples->values) {
+        if (!value.is_block() && !means_same_anywhere(value)) {
+          return false;
+        }
+      }
+    } else if (!means_same_anywhere(field.value) ||
+               (field.name != fields::default_value && is_structure(field.name))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The spec of an attribute's only opinion when flattening would repeat it field by field.
+const Spec* spec_to_share(const PrimData& prim, Token name) {
+  const Spec* found = nullptr;
+  bool is_only = prim.clips == nullptr;
+  visit_property_opinions(prim, name, [&](const compose::Opinion& opinion) {
+    is_only = is_only && found == nullptr && opinion.offset.is_identity();
+    found = opinion.spec;
+    return !is_only;
+  });
+  return is_only && found != nullptr && found->kind == SpecKind::Attribute &&
+                 agrees_with_schema(*found, prim.definition->find_stock(name)) &&
+                 stays_the_same(*found)
+             ? found
+             : nullptr;
+}
+
+/// Clips may give values to attributes that no layer of the stage names.
+std::vector<Token> names_to_copy(const Prim& prim, const PrimData& data) {
+  if (data.clips == nullptr) {
+    return prim.authored_property_names();
+  }
+  std::vector<Token> names = prim.property_names();
+  const std::vector<Token>& authored = data.index->property_names;
+  std::erase_if(names, [&](Token name) {
+    return std::find(authored.begin(), authored.end(), name) == authored.end() &&
+           (prim.is_relationship(name) || !prim.attribute(name).has_authored_value());
+  });
+  return names;
+}
+
+/// The weakest opinion decides, as in OpenUSD; what schemas declare is not custom.
+bool is_custom(const PrimData& prim, Token name, const std::vector<SpecSite>& sites) {
+  return prim.definition->find_stock(name) == nullptr && !sites.empty() &&
+         sites.back().spec->get_or(fields::custom, false);
+}
+
 class Flattener {
  public:
   explicit Flattener(const Stage& stage) : stage_(stage), layer_("anon:flattened.usda") {
@@ -43,7 +119,7 @@ class Flattener {
   Layer run() {
     const StageData& data = stage_.data();
     visit_metadata(data, *data.root, root_opinions(data), AssetForm::Anchored,
-                   [&](Token name, Value value) { copy_field(name, value, layer_.root()); });
+                   [&](Token name, const Value& value) { copy_field(name, value, layer_.root()); });
     for (const Token arc : {fields::subLayers, fields::layerRelocates}) {
       layer_.root().erase(arc);
     }
@@ -72,13 +148,6 @@ class Flattener {
       count += 1 + prim.index->property_names.size();
     }
     layer_.reserve(count);
-  }
-
-  // Fields that no schema knows are left out, as OpenUSD does.
-  static void copy_field(Token name, const Value& value, Spec& spec) {
-    if (!value.holds<layer::UnregisteredValue>()) {
-      spec.set(name, value);
-    }
   }
 
   void copy_prototype(const Prim& prototype) {
@@ -159,7 +228,7 @@ class Flattener {
       spec.set(fields::references, std::move(references));
     }
     std::vector<Token> names;
-    for (const Token name : property_names(prim, data)) {
+    for (const Token name : names_to_copy(prim, data)) {
       if (copy_property(prim, data, path, name)) {
         names.push_back(name);
       }
@@ -193,27 +262,6 @@ class Flattener {
     return true;
   }
 
-  // The spec of an attribute's only opinion when flattening would repeat it field by field.
-  static const Spec* spec_to_share(const PrimData& prim, Token name) {
-    const Spec* found = nullptr;
-    bool is_only = prim.clips == nullptr;
-    visit_property_opinions(prim, name, [&](const compose::Opinion& opinion) {
-      is_only = is_only && found == nullptr && opinion.offset.is_identity();
-      found = opinion.spec;
-      return !is_only;
-    });
-    return is_only && found != nullptr && found->kind == SpecKind::Attribute &&
-                   agrees_with_schema(*found, prim.definition->find_stock(name)) &&
-                   stays_the_same(*found)
-               ? found
-               : nullptr;
-  }
-
-  static bool is_custom(const Spec& spec) { return spec.get_or(fields::custom, false); }
-  static layer::Variability variability(const Spec& spec) {
-    return spec.get_or(fields::variability, layer::Variability::Varying);
-  }
-
   /// The fields of an attribute with what binary layers leave out. Specs that share their fields
   /// share these, too.
   layer::FieldList complete(const Spec& spec) {
@@ -224,52 +272,10 @@ class Flattener {
     if (completed.items().empty()) {
       Spec whole = spec;
       whole.set(fields::custom, is_custom(spec));
-      whole.set(fields::variability, variability(spec));
+      whole.set(fields::variability, variability_of(spec));
       completed = whole.field_list();
     }
     return completed;
-  }
-
-  static bool agrees_with_schema(const Spec& spec, const schema::PropertyDefinition* declared) {
-    const auto* type_name = spec.get<Token>(fields::typeName);
-    if (type_name == nullptr) {
-      return false;
-    }
-    return declared == nullptr
-               ? layer::find_type_name(*type_name) != nullptr
-               : declared->type_name == *type_name && !is_custom(spec) &&
-                     declared->variability == variability(spec) && !declared->is_relationship;
-  }
-
-  static bool stays_the_same(const Spec& spec) {
-    for (const layer::Field& field : spec.fields()) {
-      const auto* samples = field.value.get<layer::TimeSamples>();
-      if (samples != nullptr && field.name == fields::timeSamples && !samples->empty()) {
-        for (const Value& value : samples->values) {
-          if (!value.is_block() && !means_same_anywhere(value)) {
-            return false;
-          }
-        }
-      } else if (!means_same_anywhere(field.value) ||
-                 (field.name != fields::default_value && is_structure(field.name))) {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  // Clips may give values to attributes that no layer of the stage names.
-  static std::vector<Token> property_names(const Prim& prim, const PrimData& data) {
-    if (data.clips == nullptr) {
-      return prim.authored_property_names();
-    }
-    std::vector<Token> names = prim.property_names();
-    const std::vector<Token>& authored = data.index->property_names;
-    std::erase_if(names, [&](Token name) {
-      return std::find(authored.begin(), authored.end(), name) == authored.end() &&
-             (prim.is_relationship(name) || !prim.attribute(name).has_authored_value());
-    });
-    return names;
   }
 
   // An empty list leaves no trace in what OpenUSD flattens.
@@ -281,12 +287,6 @@ class Flattener {
       target = moved(target);
     }
     spec.set(field, layer::ListOp<Path>::make_explicit(std::move(targets)));
-  }
-
-  // The weakest opinion decides, as in OpenUSD; what schemas declare is not custom.
-  static bool is_custom(const PrimData& prim, Token name, const std::vector<SpecSite>& sites) {
-    return prim.definition->find_stock(name) == nullptr && !sites.empty() &&
-           sites.back().spec->get_or(fields::custom, false);
   }
 
   void copy_metadata(const PrimData& prim, Token name, Spec& spec) {

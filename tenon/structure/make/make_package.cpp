@@ -8,17 +8,15 @@
 #include <algorithm>
 #include <optional>
 
-#include "tenon/physics/read_physics.h"
 #include "tenon/stage/stage.h"
 #include "tenon/structure/layer_tree.h"
+#include "tenon/structure/make/change_source.h"
 #include "tenon/structure/make/child_order.h"
 #include "tenon/structure/make/collect_assets.h"
 #include "tenon/structure/make/interface_layer.h"
-#include "tenon/structure/make/link_nesting.h"
 #include "tenon/structure/make/local_materials.h"
 #include "tenon/structure/make/mesh_wrappers.h"
 #include "tenon/structure/make/robot_metadata.h"
-#include "tenon/structure/make/schema_generation.h"
 #include "tenon/structure/make/sleeping_colliders.h"
 #include "tenon/structure/make/source_views.h"
 #include "tenon/structure/make/split.h"
@@ -65,15 +63,113 @@ Path first_place(Path prim, const std::map<Path, Path>& moves) {
   return first;
 }
 
+/// Wrappers and local materials: the same for all contents.
+void prepare(const MeshMoves& moves, Names names, Layer& content) {
+  content = moves.apply(content);
+  localize_materials(content, instance_material_scope(names));
+}
+
+View* view_of(std::vector<View>& views, std::string_view variant) {
+  const auto found = std::find_if(views.begin(), views.end(),
+                                  [&](const View& view) { return view.variant == variant; });
+  return found == views.end() ? nullptr : &*found;
+}
+
+/// What is there to prove a package against.
+struct Wanted {
+  const AssetSource& source;
+  const SourceViews& sources;
+  const std::vector<View>& views;
+  const MeshMoves& moves;
+  const std::set<Path>& colliders;
+  const KinematicOrder& order;
+  const CollectedAssets& assets;
+  Names names;
+};
+
+/// Opens a package under each variant and compares content and physics with what is wanted.
+class Prover {
+ public:
+  Prover(const StructuredAsset& asset, const Wanted& wanted, const ContentPhysics& physics)
+      : asset_(asset), wanted_(wanted), physics_(physics) {}
+
+  Result<void> run() const {
+    for (const View& view : wanted_.views) {
+      TENON_CHECK(prove(view));
+    }
+    for (const OtherVariant& other : wanted_.sources.others) {
+      TENON_CHECK(prove(other));
+    }
+    return {};
+  }
+
+ private:
+  std::string chosen_variant() const {
+    const std::string& chosen = wanted_.sources.physics[wanted_.sources.chosen].variant;
+    return chosen.empty() ? asset_.selection : chosen;
+  }
+
+  Result<stage::Stage> open_view(const std::string& set, const std::string& variant) const {
+    std::map<std::string, std::string> selections;
+    for (const std::string& other : wanted_.sources.set_order) {
+      selections[other] = "";
+    }
+    selections[std::string(kPhysicsSet)] = chosen_variant();
+    selections[set] = variant;
+    return open_package(asset_.package, selections, wanted_.source.max_work);
+  }
+
+  Result<void> prove(const View& view) const {
+    TENON_TRY(const stage::Stage stage, open_view(std::string(kPhysicsSet), view.variant));
+    TENON_TRY(Layer found, content_of(stage));
+    const Layer wanted = with_collected_assets(view.content, wanted_.assets);
+    if (const auto where = compare_contents(wanted, found)) {
+      return differs("Physics=" + view.variant, *where, "the stage");
+    }
+    if (view.role == Role::Base) {
+      return {};  // has none
+    }
+    TENON_TRY(const scene::PhysicsScene before, physics_.of(view.plain));
+    const auto where = compare_physics(before, physics_.of(stage),
+                                       [this](Path path) { return wanted_.moves.moved(path); });
+    return where ? Result<void>(differs("Physics=" + view.variant, *where, "the physics"))
+                 : Result<void>();
+  }
+
+  Result<void> prove(const OtherVariant& other) const {
+    const std::string chosen = chosen_variant();
+    const auto view = std::find_if(wanted_.views.begin(), wanted_.views.end(),
+                                   [&](const View& at) { return at.variant == chosen; });
+    const Role role = view == wanted_.views.end() ? Role::Base : view->role;
+    Layer plain = other.content;
+    prepare(wanted_.moves, wanted_.names, plain);
+    keep_roles(plain, roles_in(role));
+    add_robot_metadata(plain, wanted_.order);
+    if (role == Role::Base) {
+      put_to_sleep(plain, wanted_.colliders);
+    }
+    TENON_TRY(const stage::Stage stage, open_view(other.set, other.variant));
+    TENON_TRY(Layer found, content_of(stage));
+    keep_roles(found, roles_in(role));
+    const auto where = compare_contents(with_collected_assets(plain, wanted_.assets), found);
+    return where ? Result<void>(differs(other.set + "=" + other.variant, *where, "the stage"))
+                 : Result<void>();
+  }
+
+  const StructuredAsset& asset_;
+  const Wanted& wanted_;
+  const ContentPhysics& physics_;
+};
+
 class Maker {
  public:
   Maker(const AssetSource& source, const StructureOptions& options, Diagnostics& diagnostics)
-      : source_(source), options_(options), diagnostics_(diagnostics) {}
+      : source_(source), options_(options), diagnostics_(diagnostics), physics_(source) {}
 
   Result<StructuredAsset> run() {
     TENON_TRY(sources_, read_views(source_, diagnostics_));
-    TENON_CHECK(change_generation());
-    TENON_CHECK(move_links());
+    TENON_CHECK(change_generation(sources_, options_.schema, physics_, diagnostics_));
+    TENON_TRY(links_, move_links(sources_, options_.links, physics_, diagnostics_));
     make_views();
     TENON_CHECK(give_wrappers());
     make_base();
@@ -84,7 +180,9 @@ class Maker {
     list_moves();
     assets_ = collect_assets(source_, options_.names, asset_.package, diagnostics_);
     TENON_CHECK(store_layers(asset_.package));
-    TENON_CHECK(prove());
+    const Wanted wanted{source_,    sources_, views_,  *moves_,
+                        colliders_, order_,   assets_, options_.names};
+    TENON_CHECK(Prover(asset_, wanted, physics_).run());
     return std::move(asset_);
   }
 
@@ -131,99 +229,9 @@ class Maker {
     }
   }
 
-  View* find(std::string_view variant) {
-    const auto found = std::find_if(views_.begin(), views_.end(),
-                                    [&](const View& view) { return view.variant == variant; });
-    return found == views_.end() ? nullptr : &*found;
-  }
-
-  // Schemas.
-
-  /// Proven as well: the physics of every variant stays what it was.
-  Result<void> change_generation() {
-    if (options_.schema == SchemaGeneration::AsAuthored) {
-      return {};
-    }
-    const std::vector<SourceView> before = sources_.physics;
-    const std::set<std::string> widened = use_generation(sources_, options_.schema, diagnostics_);
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      const SourceView& after = sources_.physics[i];
-      if (widened.contains(after.variant)) {
-        continue;
-      }
-      TENON_TRY(const scene::PhysicsScene was, physics_of(before[i].content));
-      TENON_TRY(const scene::PhysicsScene is, physics_of(after.content));
-      if (const auto where = compare_physics(was, is, [](Path path) { return path; })) {
-        return differs("Physics=" + after.variant, *where, "the physics in other schemas");
-      }
-    }
-    return {};
-  }
-
-  // Links.
-
-  Result<void> move_links() {
-    if (options_.links == LinkNesting::AsAuthored) {
-      return {};
-    }
-    std::vector<const Layer*> contents;
-    for (const SourceView& view : sources_.physics) {
-      contents.push_back(&view.content);
-    }
-    const Layer united = unite(contents);
-    TENON_TRY(const scene::PhysicsScene scene, physics_of(united));
-    const LinkMoves& moves = links_.emplace(united, scene, options_.links, diagnostics_);
-    if (moves.empty()) {
-      return {};
-    }
-    for (SourceView& view : sources_.physics) {
-      TENON_CHECK(move_links(moves, "Physics=" + view.variant, view.content));
-    }
-    for (OtherVariant& other : sources_.others) {
-      TENON_CHECK(move_links(moves, other.set + "=" + other.variant, other.content));
-    }
-    return {};
-  }
-
-  /// Proven as well: nothing stands elsewhere or moves otherwise.
-  Result<void> move_links(const LinkMoves& moves, const std::string& variant,
-                          Layer& content) const {
-    TENON_TRY(const stage::Stage before, stage_of(content));
-    Layer result = moves.apply(content, before);
-    TENON_TRY(const stage::Stage after, stage_of(result));
-    if (const auto where = moves.compare(content, before, after)) {
-      return differs(variant, *where, "the scene with its links moved");
-    }
-    content = std::move(result);
-    return {};
-  }
-
-  Result<stage::Stage> stage_of(const Layer& content) const {
-    stage::StageOptions options;
-    options.compose.set_max_work(source_.max_work);
-    return stage::Stage::open(std::make_shared<Layer>(content), nullptr, source_.open_layer,
-                              options);
-  }
-
-  Result<scene::PhysicsScene> physics_of(const Layer& content) const {
-    TENON_TRY(const stage::Stage stage, stage_of(content));
-    return physics_of(stage);
-  }
-
-  scene::PhysicsScene physics_of(const stage::Stage& stage) const {
-    physics::ReadOptions options;
-    options.mesh_cache = &meshes_;
-    options.mesh_tools = scene::MeshTools{};  // both sides have the same meshes
-    Diagnostics ignored;
-    return physics::read_physics(stage, options, ignored);
-  }
+  View* find(std::string_view variant) { return view_of(views_, variant); }
 
   // Wrappers, local materials, metadata: the same for all.
-
-  void prepare(Layer& content) const {
-    content = moves_->apply(content);
-    localize_materials(content, instance_material_scope(options_.names));
-  }
 
   std::vector<const Layer*> contents() const {
     std::vector<const Layer*> all;
@@ -239,13 +247,13 @@ class Maker {
   Result<void> give_wrappers() {
     moves_.emplace(unite(contents()));
     for (View& view : views_) {
-      prepare(view.content);
+      prepare(*moves_, options_.names, view.content);
     }
     const View* physics = views_.size() > 1 ? &views_[1] : nullptr;
     if (physics == nullptr) {
       return {};
     }
-    TENON_TRY(const scene::PhysicsScene scene, physics_of(physics->content));
+    TENON_TRY(const scene::PhysicsScene scene, physics_.of(physics->content));
     order_ = kinematic_order(physics->content, scene);
     for (View& view : views_) {
       add_robot_metadata(view.content, order_);
@@ -304,10 +312,10 @@ class Maker {
       return;
     }
     Layer weak = chosen().content;
-    prepare(weak);
+    prepare(*moves_, options_.names, weak);
     for (const OtherVariant& other : sources_.others) {
       Layer strong = other.content;
-      prepare(strong);
+      prepare(*moves_, options_.names, strong);
       order_like(strong, base_);
       const std::string name = file_of_variant(other.set, other.variant);
       Layer over = difference(weak, strong, identifier_in_package(name));
@@ -431,78 +439,6 @@ class Maker {
     return views_.back().over ? views_.back().variant : std::string(kNoVariant);
   }
 
-  // The proof.
-
-  static Error differs(const std::string& variant, const Disagreement& where, const char* of) {
-    Diagnostic diagnostic;
-    diagnostic.severity = Severity::Error;
-    diagnostic.rule = "structure.differs";
-    diagnostic.message = std::string("the structured asset would not be the same: ") + of +
-                         " under " + variant + ": " + where.what;
-    diagnostic.prim = where.prim;
-    diagnostic.property = where.property;
-    diagnostic.fix = "nothing was written; please report the asset";
-    return {ErrorCode::Invalid, std::move(diagnostic)};
-  }
-
-  Result<void> prove() {
-    for (const View& view : views_) {
-      TENON_CHECK(prove(view));
-    }
-    for (const OtherVariant& other : sources_.others) {
-      TENON_CHECK(prove(other));
-    }
-    return {};
-  }
-
-  Result<stage::Stage> open_view(const std::string& set, const std::string& variant) const {
-    std::map<std::string, std::string> selections;
-    for (const std::string& other : sources_.set_order) {
-      selections[other] = "";
-    }
-    selections[std::string(kPhysicsSet)] = chosen_variant();
-    selections[set] = variant;
-    return open_package(asset_.package, selections, source_.max_work);
-  }
-
-  std::string chosen_variant() const {
-    return chosen().variant.empty() ? asset_.selection : chosen().variant;
-  }
-
-  Result<void> prove(const View& view) const {
-    TENON_TRY(const stage::Stage stage, open_view(std::string(kPhysicsSet), view.variant));
-    TENON_TRY(Layer found, content_of(stage));
-    if (const auto where = compare_contents(with_collected_assets(view.content, assets_), found)) {
-      return differs("Physics=" + view.variant, *where, "the stage");
-    }
-    if (view.role == Role::Base) {
-      return {};  // has none
-    }
-    TENON_TRY(const scene::PhysicsScene before, physics_of(view.plain));
-    const auto where = compare_physics(before, physics_of(stage),
-                                       [this](Path path) { return moves_->moved(path); });
-    return where ? Result<void>(differs("Physics=" + view.variant, *where, "the physics"))
-                 : Result<void>();
-  }
-
-  Result<void> prove(const OtherVariant& other) {
-    const View* view = find(chosen_variant());
-    const Role role = view == nullptr ? Role::Base : view->role;
-    Layer plain = other.content;
-    prepare(plain);
-    keep_roles(plain, roles_in(role));
-    add_robot_metadata(plain, order_);
-    if (role == Role::Base) {
-      put_to_sleep(plain, colliders_);
-    }
-    TENON_TRY(const stage::Stage stage, open_view(other.set, other.variant));
-    TENON_TRY(Layer found, content_of(stage));
-    keep_roles(found, roles_in(role));
-    const auto where = compare_contents(with_collected_assets(plain, assets_), found);
-    return where ? Result<void>(differs(other.set + "=" + other.variant, *where, "the stage"))
-                 : Result<void>();
-  }
-
   const AssetSource& source_;
   const StructureOptions& options_;
   Diagnostics& diagnostics_;
@@ -518,7 +454,7 @@ class Maker {
   InterfaceParts interface_;
   CollectedAssets assets_;
   StructuredAsset asset_;
-  mutable physics::MeshCache meshes_;
+  ContentPhysics physics_;
 };
 
 }  // namespace

@@ -162,6 +162,18 @@ class Comparison {
 
 }  // namespace
 
+Error differs(const std::string& variant, const Disagreement& where, const char* of) {
+  Diagnostic diagnostic;
+  diagnostic.severity = Severity::Error;
+  diagnostic.rule = "structure.differs";
+  diagnostic.message = std::string("the structured asset would not be the same: ") + of +
+                       " under " + variant + ": " + where.what;
+  diagnostic.prim = where.prim;
+  diagnostic.property = where.property;
+  diagnostic.fix = "nothing was written; please report the asset";
+  return {ErrorCode::Invalid, std::move(diagnostic)};
+}
+
 std::optional<Disagreement> compare_contents(const Layer& expected, const Layer& found) {
   return Comparison(expected, found).run();
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tenon/base/path.h"
+#include "tenon/base/result.h"
 #include "tenon/layer/layer.h"
 #include "tenon/scene/physics_scene.h"
 
@@ -18,6 +19,9 @@ struct Disagreement {
   std::string property;
   std::string what;
 };
+
+/// Invalid, "structure.differs": `of`, what is composed, would not be the same under a variant.
+Error differs(const std::string& variant, const Disagreement& where, const char* of);
 
 /// The first prim, property or value that one content has and the other has not. Order of children
 /// and of lists of API schemas, prims that are switched off, blocked values and empty lists of

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tenon {
+
+/// A library that is opened when it is needed, and then stays. Functions that only it has are found
+/// by name; its own names hide nobody else's.
+class SharedLibrary {
+ public:
+  /// When the library's own calls of others are bound: at once, so that what is missing is known
+  /// when it is opened; or when made, which is faster for large libraries.
+  enum class Binding : unsigned char { Now, Lazy };
+
+  /// The first of `files` that can be opened: a path, or a name that the system looks for. An empty
+  /// one is passed over.
+  static SharedLibrary open(const std::vector<std::string>& files, Binding binding = Binding::Now);
+
+  explicit operator bool() const { return handle_ != nullptr; }
+  /// What the system said of each file; "" where one was opened.
+  const std::string& why_not() const { return why_not_; }
+
+  /// Sets a pointer to a function or variable of that name; false, and null, where there is none.
+  template <class Symbol>
+  bool find(const char* name, Symbol*& symbol) const {
+    symbol = reinterpret_cast<Symbol*>(address(name));
+    return symbol != nullptr;
+  }
+  void* address(const char* name) const;
+
+ private:
+  void* handle_ = nullptr;
+  std::string why_not_;
+};
+
+/// The folder, with a '/' behind it, of the program or library that this code is in; "" where the
+/// system cannot tell.
+std::string folder_of_this_code();
+
+}  // namespace tenon
