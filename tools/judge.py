@@ -151,6 +151,8 @@ def run(judgement, python, jobs):
             status = -1
     minutes = (time.monotonic() - start) / 60
     result = last_line(path)
+    if judgement.command[0].startswith("fuzz/"):
+        status = 1 if status else 0  # 77 is a finding there
     if judgement.command[0] == "ctest":
         result, skipped = result_of_tests(path)
         status = 1 if skipped else status

@@ -82,16 +82,30 @@ def findings(clang_tidy, name):
     return found
 
 
-def judge(clang_tidy, names, jobs):
-    """-> number of findings; each is printed once, though many files include a header."""
-    seen = set()
+def judge(clang_tidy, names, jobs, everywhere):
+    """-> number of findings; each is printed once, though many files include a header. What is in
+    headers that are not among the files counts only with `everywhere`."""
+    seen, own = set(), set(names)
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for found in pool.map(lambda name: findings(clang_tidy, name), names):
             for line in found:
-                if line not in seen:
+                if line not in seen and (everywhere or line.split(":", 1)[0] in own):
                     seen.add(line)
                     print(line, flush=True)
     return len(seen)
+
+
+def chosen(options):
+    """The files to look at; None, and why on standard output, where it cannot be known."""
+    names = options.files or [name for name in source_files.project_files() if is_judged(name)]
+    if options.changed:
+        changed = changed_since(recorded())
+        if changed is None:
+            print(f"skipped: commit {recorded()} of tools/tidied.txt is not in this clone")
+            return None
+        return [name for name in names if name in set(changed)]
+    # Headers are seen with the sources.
+    return names if options.files else [name for name in names if name.endswith(".cpp")]
 
 
 def main():
@@ -104,20 +118,15 @@ def main():
     if clang_tidy is None:
         print("skipped: clang-tidy is missing (tools/make_oracle.sh)")
         return SKIPPED
-    names = options.files or [name for name in source_files.project_files() if is_judged(name)]
-    if not options.files and not options.changed:
-        names = [name for name in names if name.endswith(".cpp")]  # headers are seen with them
-    if options.changed:
-        changed = changed_since(recorded())
-        if changed is None:
-            print(f"skipped: commit {recorded()} of tools/tidied.txt is not in this clone")
-            return SKIPPED
-        names = [name for name in names if name in set(changed)]
+    names = chosen(options)
+    if names is None:
+        return SKIPPED
     if not configure():
         return 1
-    count = judge(clang_tidy, names, options.jobs)
+    everywhere = not options.files and not options.changed
+    count = judge(clang_tidy, names, options.jobs, everywhere)
     print(f"{len(names)} files, {count} findings")
-    if count == 0 and not options.files and not options.changed and git("status", "-s") == "":
+    if count == 0 and everywhere and git("status", "-s") == "":
         with open(RECORD, "w", encoding="utf-8") as file:
             file.write(git("rev-parse", "HEAD"))
     return 1 if count else 0

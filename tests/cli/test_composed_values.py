@@ -55,6 +55,31 @@ class ComposedValues(unittest.TestCase):
         prims = tenon("dump", "--xforms", asset).stdout
         self.assertEqual(prims.count('"localToWorld"'), 1)
 
+    def test_flattening_writes_no_text_that_cannot_be_read(self):
+        """A value of one layer under the type of another: text has no words for it, binary has."""
+        self.write("weak.usda", 'def "A" {\n double a = 1\n double b = 2\n double c = 3\n'
+                   " double d.timeSamples = { 0: 1 }\n}\n")  # fmt: skip
+        clip = self.write("clip.usda", 'def "A" {\n double e.timeSamples = { 0: 1 }\n}\n')
+        clips = (f"clips = {{\n dictionary default = {{\n asset[] assetPaths = [@./{clip.name}@]\n"
+                 ' string primPath = "/A"\n double2[] active = [(0, 0)]\n}\n}\n')
+        for line, flags in [("matrix4d a", ["--flatten", "--flatten-layer-stack"]),
+                            ("string b", ["--flatten", "--flatten-layer-stack"]),
+                            ("double[] c", ["--flatten", "--flatten-layer-stack"]),
+                            ("token d", ["--flatten", "--flatten-layer-stack"]),
+                            ("string e", ["--flatten"])]:  # fmt: skip
+            root = self.write("root.usda", "(subLayers = [@./weak.usda@])\n"
+                              f'over "A" ({clips}) {{\n {line}\n}}\n')  # fmt: skip
+            for flag in flags:
+                with self.subTest(line, flag=flag):
+                    run = tenon("cat", flag, root, "-o", self.folder / "out.usda")
+                    self.assertEqual(run.returncode, 2, run.stderr)
+                    self.assertIn("no text form", run.stderr)
+                    self.assertFalse((self.folder / "out.usda").exists())
+                    run = tenon("cat", flag, root, "-o", self.folder / "out.usdc")
+                    self.assertEqual(run.returncode, 0, run.stderr)
+        root = self.write("root.usda", '(subLayers = [@./weak.usda@])\nover "A" {\n double a\n}\n')
+        self.assertEqual(tenon("cat", "--flatten", root).returncode, 0)
+
     def test_flattening_anchors_what_a_package_does_not_have(self):
         with zipfile.ZipFile(self.folder / "p.usdz", "w") as package:
             package.writestr("a.usda", "#usda 1.0\n")

@@ -319,13 +319,25 @@ class Flattener {
     }
   }
 
-  void copy_values(const PrimData& prim, const Attribute& attribute, Spec& spec) const {
+  /// A value of another type than the attribute's has no text there, and nor may the layer then.
+  void note_type(const Value& value, const layer::TypeName* type) {
+    const bool fits =
+        value.empty() || value.is_block() ||
+        (type != nullptr && value.type() == type->type && value.is_array() == type->is_array);
+    if (!fits) {
+      layer_.set_may_lack_text();
+    }
+  }
+
+  void copy_values(const PrimData& prim, const Attribute& attribute, Spec& spec) {
     const Token name = attribute.name();
+    const layer::TypeName* const type = layer::find_type_name(attribute.type_name());
     const ResolvedValue unanimated = resolve_value(prim, name, Asked::DefaultTime);
     if (unanimated.blocked) {
       spec.set(fields::default_value, layer::ValueBlock{});
     } else if (unanimated.source == ValueSource::Default) {
       Value value = read(prim, name, unanimated, Time());
+      note_type(value, type);
       spec.set(fields::default_value,
                value.empty() ? Value(layer::ValueBlock{}) : std::move(value));
     }
@@ -333,6 +345,7 @@ class Flattener {
     layer::TimeSamples samples;
     for (const double time : attribute.time_samples()) {
       Value value = read(prim, name, animated, time);
+      note_type(value, type);
       samples.times.push_back(time);
       samples.values.push_back(value.empty() ? Value(layer::ValueBlock{}) : std::move(value));
     }

@@ -135,6 +135,11 @@ bool is_dropped(const layer::Field& field) {
 
 void lay_over(layer::Layer& result, const layer::Layer::Entry& entry, const StackMover& mover) {
   const Spec* weaker = result.find(entry.path);
+  if (weaker != nullptr &&
+      (weaker->kind != entry.spec.kind ||
+       weaker->get_or(fields::typeName, Token()) != entry.spec.get_or(fields::typeName, Token()))) {
+    result.set_may_lack_text();  // values of one may stand under the type of the other
+  }
   Spec merged = weaker == nullptr ? Spec() : *weaker;
   merged.kind = entry.spec.kind;
   if (entry.spec.has(fields::default_value)) {
