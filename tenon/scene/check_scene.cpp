@@ -91,7 +91,7 @@ class Check {
       place_ += " <" + (value.path.empty() ? std::string() : value.path.str()) + ">";
     }
     each_field(value, [this, &value](const FieldInfo& info, const auto& member) {
-      visit(value, info, member);
+      this->visit(value, info, member);
     });
     place_ = around;
   }

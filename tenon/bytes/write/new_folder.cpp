@@ -74,8 +74,8 @@ void sweep(const std::string& parent) {
 Result<NewFolder> NewFolder::beside(const std::string& place) {
   NewFolder made(place);
   sweep(parent_of(place));
-  constexpr int kTries = 10;  // another program may sweep the folder away before it is locked
-  for (int i = 0; i < kTries && (i == 0 || ::access(made.path_.c_str(), F_OK) != 0); ++i) {
+  constexpr int kNames = 10;  // another program may sweep the folder away before it is locked
+  for (int i = 0; i < kNames && (i == 0 || ::access(made.path_.c_str(), F_OK) != 0); ++i) {
     const int error = with_free_name(parent_of(place), made.path_, [](const std::string& name) {
       return ::mkdir(name.c_str(), 0777) == 0;
     });
