@@ -44,8 +44,22 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fail(canonical, back.error().to_string());
   }
   const std::string again = tenon::formats::write_text(*back);
-  if (again != canonical) {
+  // Reading binary layers shortens tangents that would turn a spline back in time, as OpenUSD does:
+  // that settles in one round.
+  const bool has_spline = canonical.find(".spline") != std::string::npos;
+  if (again != canonical && !has_spline) {
     fail(canonical, again);
+  }
+  if (has_spline) {
+    const auto twice = tenon::formats::write_crate(*back);
+    if (!twice) {
+      fail(canonical, twice.error().to_string());
+    }
+    const auto settled =
+        tenon::formats::read_crate(tenon::bytes::FileBytes::own(*twice), "fuzz.usdc", diagnostics);
+    if (!settled || tenon::formats::write_text(*settled) != again) {
+      fail(again, settled ? tenon::formats::write_text(*settled) : settled.error().to_string());
+    }
   }
   return 0;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -104,9 +105,15 @@ bool same(const Value& a, const Value& b) {
 tenon::layer::Layer through_crate(const tenon::layer::Layer& layer) {
   tenon::Diagnostics diagnostics;
   const auto crate = tenon::formats::write_crate(layer);
+  if (!crate) {
+    std::fprintf(stderr, "%s\n", crate.error().to_string().c_str());
+  }
   check(crate.has_value());
   auto read =
       tenon::formats::read_crate(tenon::bytes::FileBytes::own(*crate), "spline.usdc", diagnostics);
+  if (!read) {
+    std::fprintf(stderr, "%s\n", read.error().to_string().c_str());
+  }
   check(read.has_value());
   return *std::move(read);
 }

@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/layer/time/ease_tangents.h"
 
+#include <cmath>
+#include <utility>
+
 #include <gtest/gtest.h>
+
+#include "tenon/layer/time/spline_rules.h"
 
 namespace tenon::layer {
 namespace {
@@ -28,6 +33,18 @@ TEST(EaseTangents, FollowTheNeighbours) {
   EXPECT_EQ(spline.knots[2].pre_tangent.slope, 0);
   EXPECT_DOUBLE_EQ(spline.knots[3].pre_tangent.width, 2.0 / 3);
   EXPECT_EQ(spline.knots[3].post_tangent.slope, 8);
+}
+
+TEST(SplineRules, WidthsFarApartStayFiniteAndAboveZero) {
+  for (const auto& [first, last] :
+       {std::pair(1e300, 2.0), std::pair(2.0, 1e300), std::pair(1e6, 3.0), std::pair(1e-3, 1e9)}) {
+    const TangentWidths widths = without_regression({first, last});
+    for (const double width : {widths.first, widths.last}) {
+      EXPECT_TRUE(std::isfinite(width)) << first << " " << last;
+      EXPECT_GE(width, 0) << first << " " << last;
+      EXPECT_LE(width, 4.0 / 3) << first << " " << last;
+    }
+  }
 }
 
 }  // namespace

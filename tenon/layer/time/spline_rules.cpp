@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/layer/time/spline_rules.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tenon::layer {
@@ -60,8 +61,12 @@ TangentWidths without_regression(TangentWidths widths) {
     return {1 - kWritePadding, widths.last};
   }
   const double ratio = widths.first / widths.last;
+  if (!std::isfinite(ratio * ratio)) {
+    return {1 - kWritePadding, 0};  // where the formula below leads to
+  }
   const double last = (std::sqrt(ratio) + ratio + 1) / (ratio * ratio + ratio + 1);
-  return {ratio * last - kWritePadding, last - kWritePadding};
+  // No width is below zero, however far the two are apart.
+  return {std::max(0.0, ratio * last - kWritePadding), std::max(0.0, last - kWritePadding)};
 }
 
 void shorten_tangents(Spline& spline) {
