@@ -298,6 +298,19 @@ TEST_F(AssetInMemory, EditsAndStructureReadFromMemory) {
   Diagnostics diagnostics;
   const auto made = structure_asset("/hand/inspire_hand.usda", open, {}, diagnostics);
   EXPECT_TRUE(made) << (made ? "" : made.error().diagnostic().message);
+  AssetEdit edit;
+  edit.object = Path::from("/inspire_hand/r_base_link.physics:mass");
+  edit.value = "0.5";
+  EditOptions options;
+  options.open = open;
+  const auto edited = edit_asset("/hand/inspire_hand.usda", {edit}, options, diagnostics);
+  ASSERT_TRUE(edited) << edited.error().diagnostic().message;
+  ASSERT_EQ(edited->files.size(), 1u);
+  const std::string name = "payloads/Physics/physics.usda";
+  EXPECT_EQ(edited->files[0].path, "/hand/" + name);
+  std::string expected = hand.at(name);
+  expected.replace(expected.find("0.398207"), std::string("0.398207").size(), "0.5");
+  EXPECT_EQ(edited->files[0].after, expected);
 }
 
 TEST_F(AssetInMemory, DescriptionsConvertFromMemoryAndWorkersNeedTheDisk) {
