@@ -45,6 +45,35 @@ std::string listed(const Files& files, const std::string& folder) {
   return result;
 }
 
+/// A source of one's own: names in capitals mean the same as in small letters.
+class FilesOfAnyCase : public FileSource {
+ public:
+  explicit FilesOfAnyCase(Files small) : small_(std::move(small)) {}
+
+  NameKind kind(const std::string& path) const override { return small_->kind(small(path)); }
+  std::string real_path(const std::string& path) const override {
+    return small_->real_path(small(path));
+  }
+  Result<std::shared_ptr<const FileBytes>> open(const std::string& path,
+                                                const FileRules& rules) const override {
+    return small_->open(small(path), rules);
+  }
+  Result<std::vector<FolderEntry>> list(const std::string& folder) const override {
+    return small_->list(small(folder));
+  }
+  bool is_on_disk(const std::string&) const override { return false; }
+
+ private:
+  static std::string small(std::string path) {
+    for (char& c : path) {
+      c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    }
+    return path;
+  }
+
+  Files small_;
+};
+
 /// A folder on the disk with one folder in it, links to both and a pipe.
 class FilesTest : public testing::Test {
  protected:
@@ -149,6 +178,17 @@ TEST_F(FilesTest, UnsavedTextOverUnsavedText) {
   const Files twice = memory.with({{"/a", text("2")}}).with({{"/c", text("3")}});
   EXPECT_EQ(read(twice, "/a") + read(twice, "/b") + read(twice, "/c"), "213");
   EXPECT_EQ(read(memory, "/a") + read(memory, "/c"), "1(file.not-found)");
+}
+
+TEST_F(FilesTest, ASourceOfOnesOwnIsAskedInThePlaceOfTheDisk) {
+  const Files files(std::make_shared<const FilesOfAnyCase>(
+      Files::in_memory({{"/r/a.usda", text("A")}, {"/s/b.usda", text("B")}})));
+  const AssetResolver resolver({{}, {"/R"}, files});
+  EXPECT_EQ(*resolver.resolve("./A.usda", "/r/root.usda"), "/r/A.usda");
+  EXPECT_EQ((*resolver.open("/R/A.USDA"))->text(), "A");
+  EXPECT_EQ(resolver.open("/S/B.usda").error().diagnostic().rule, "layer.outside");
+  EXPECT_EQ(read(files.with({{"/R/A.usda", text("unsaved")}}), "/r/a.USDA"), "unsaved");
+  EXPECT_EQ(files_below(files, "/R")->size(), 1u);
 }
 
 TEST_F(FilesTest, RulesHoldForWhatIsInMemoryToo) {
