@@ -131,7 +131,7 @@ std::string fingerprint_of(const check::Finding& finding, const std::string& fol
   return d.rule + "\n" + shown + "\n" + d.prim + "\n" + d.property;
 }
 
-Json sarif_log(const std::vector<ReportedFinding>& findings) {
+Json sarif_log(const std::vector<ReportedFinding>& findings, const bytes::Files& files) {
   std::map<std::string, Severity> broken;
   for (const ReportedFinding& reported : findings) {
     broken.emplace(reported.finding.diagnostic.rule, reported.finding.diagnostic.severity);
@@ -147,7 +147,8 @@ Json sarif_log(const std::vector<ReportedFinding>& findings) {
   for (const ReportedFinding& reported : findings) {
     diagnostics.push_back(&reported.finding.diagnostic);
   }
-  const std::vector<formats::CharacterColumns> columns = formats::character_columns(diagnostics);
+  const std::vector<formats::CharacterColumns> columns =
+      formats::character_columns(diagnostics, files);
   for (std::size_t i = 0; i < findings.size(); ++i) {
     results.push_back(result_json(findings[i], columns[i], index[diagnostics[i]->rule]));
   }

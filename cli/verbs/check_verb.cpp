@@ -152,7 +152,8 @@ class Run {
     if (!checked) {
       return std::vector<CorrectedFile>();
     }
-    TENON_TRY(std::vector<CorrectedFile> files, corrected_files(checked->findings));
+    TENON_TRY(std::vector<CorrectedFile> files,
+              corrected_files(checked->findings, check.open.files));
     Outputs outputs = Outputs::in_place();
     for (const CorrectedFile& file : files) {
       outputs.put(file.path, file.after);
@@ -292,8 +293,8 @@ Result<void> claim_reports(const CheckArguments& options, Outputs& outputs) {
 Result<void> write_reports(const Outcome& outcome, const CheckArguments& options,
                            Outputs& outputs) {
   if (!options.sarif.empty()) {
-    const std::string text =
-        sarif_log(outcome.findings).dump(2, ' ', false, Json::error_handler_t::replace);
+    const std::string text = sarif_log(outcome.findings, options.asset.open_options().files)
+                                 .dump(2, ' ', false, Json::error_handler_t::replace);
     outputs.put(options.sarif, text + "\n");
   }
   if (!options.write_baseline.empty()) {
