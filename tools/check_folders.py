@@ -37,7 +37,7 @@ LIBRARIES = {
     "pugixml.hpp": ["tenon/asset/mjcf_files.cpp", "tenon/urdf/*"],
     "assimp/*": ["tenon/mesh/assimp_scene.cpp"],
     "CLI/*": ["cli/command_line.cpp"],
-    "nlohmann/*": ["tenon/answers/*", "cli/*", "tests/*", "bench/*"],
+    "nlohmann/*": ["tenon/answers/*", "tests/*", "bench/*"],
 }
 
 

@@ -10,6 +10,8 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/answers/diagnostic_json.h"
+#include "tenon/asset/repeat_edit.h"
 #include "tenon/asset_policy.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/asset_resolver.h"
@@ -112,13 +114,14 @@ int run_cat(const Globals& globals, const CatArguments& options) {
             .with_fix("name an output file with -o"));
   }
   const Progress progress(globals, "reading and writing " + shown_path(options.asset.asset));
-  const auto written = edit_files(report, [&] { return write(options, report.diagnostics); });
+  const auto written =
+      repeat_edit(report.diagnostics, [&] { return write(options, report.diagnostics); });
   if (!written) {
     return report.fail(written.error());
   }
   const bool package = bytes::is_package_name(options.output) || options.format == "usdz";
   return report.finish(package && left_out(report.diagnostics) ? kNo : kOk,
-                       {{"output", options.output}});
+                       answers::output_json(options.output));
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/text/sarif.h"
+#include "tenon/asset/checking/reported_finding.h"
 #include "tenon/base/result.h"
 
-namespace tenon::cli {
+namespace tenon {
 
 /// Findings that are known and are not to be reported again, by rule, file, prim and property, so
 /// that a file may grow above them. Files are relative to the folder of the baseline.
@@ -27,4 +27,4 @@ class Baseline {
   std::map<std::string, std::size_t> count_;  // by fingerprint
 };
 
-}  // namespace tenon::cli
+}  // namespace tenon
