@@ -86,6 +86,23 @@ bool fits_template(std::string_view name, std::string_view pattern) {
   return name.empty();
 }
 
+/// How the layer `own_name` names `target`: as it did where that leads there.
+std::string path_to(const std::string& target, const std::string& own_name,
+                    const std::string& authored) {
+  const std::string folder = folder_of(own_name);
+  if (!authored.starts_with('/') && normal(folder + authored) == target) {
+    return authored;
+  }
+  const std::string outer = bytes::split_package_path(target).package;
+  const std::string inner = target.substr(outer.size());
+  std::string path =
+      fs::path(outer).lexically_relative(folder.empty() ? "." : folder).generic_string();
+  if (!path.starts_with("../")) {
+    path = "./" + path;
+  }
+  return path + inner;
+}
+
 class Packer {
  public:
   Packer(const bytes::AssetResolver& resolver, const bytes::ReadPolicy& policy,
@@ -422,23 +439,6 @@ class Packer {
       }
     }
     return pattern;
-  }
-
-  /// How the layer `own_name` names `target`: as it did where that leads there.
-  static std::string path_to(const std::string& target, const std::string& own_name,
-                             const std::string& authored) {
-    const std::string folder = folder_of(own_name);
-    if (!authored.starts_with('/') && normal(folder + authored) == target) {
-      return authored;
-    }
-    const std::string outer = bytes::split_package_path(target).package;
-    const std::string inner = target.substr(outer.size());
-    std::string path =
-        fs::path(outer).lexically_relative(folder.empty() ? "." : folder).generic_string();
-    if (!path.starts_with("../")) {
-      path = "./" + path;
-    }
-    return path + inner;
   }
 
   const bytes::AssetResolver& resolver_;
