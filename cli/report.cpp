@@ -12,7 +12,7 @@
 #include "cli/text/terminal_text.h"
 #include "tenon/answers/diagnostic_json.h"
 #include "tenon/asset/missing_input.h"
-#include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/files.h"
 #include "tenon/formats/find_places.h"
 
 namespace tenon::cli {
@@ -54,10 +54,11 @@ int Report::finish(int code, const Json& body) {
         std::any_of(diagnostics.begin(), diagnostics.end(), tells_of_missing_input);
     code = missing ? kNo : kOk;
   }
-  formats::find_places(diagnostics, [&](const std::string& identifier) {
-    const bool piped = asset_ == "-" && identifier == bytes::absolute_file_path("-");
-    return piped ? standard_input() : formats::source_bytes(identifier);
-  });
+  const bool piped =
+      asset_ == "-" && std::any_of(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& d) {
+        return d.file == bytes::absolute_file_path("-");
+      });
+  formats::find_places(diagnostics, piped ? disk_and_standard_input() : bytes::Files());
   if (!json()) {
     print_diagnostics();
     return code;

@@ -28,6 +28,8 @@ std::shared_ptr<const bytes::FileBytes> standard_input() {
   return contents;
 }
 
+bytes::Files disk_and_standard_input() { return bytes::Files().with({{"-", standard_input()}}); }
+
 void AssetArguments::add_to(const Command& verb) {
   verb.add_option("asset", asset, "A .usd, .usda, .usdc or .usdz file").required().file_only();
   add_options_to(verb);
@@ -69,7 +71,6 @@ bool AssetArguments::selects() const {
 
 OpenOptions AssetArguments::open_options() const {
   OpenOptions options;
-  options.contents = asset == "-" ? standard_input() : nullptr;
   options.physics_variant = physics;
   options.overrides = overrides;
   const bool none = load == std::vector<std::string>{"none"};
@@ -81,6 +82,12 @@ OpenOptions AssetArguments::open_options() const {
   options.muted = muted;
   options.mask = mask;
   files.apply_to(options);
+  if (asset == "-") {
+    options.files = disk_and_standard_input();
+    if (!options.sandbox_roots.empty()) {
+      options.sandbox_roots.push_back(asset);
+    }
+  }
   return options;
 }
 

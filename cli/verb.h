@@ -10,7 +10,7 @@
 
 #include "cli/command_line.h"
 #include "cli/file_access.h"
-#include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/files.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -35,6 +35,8 @@ struct Chosen {
 /// All of standard input, read once however often it is asked for. Throws std::runtime_error where
 /// it cannot be read or is too large.
 std::shared_ptr<const bytes::FileBytes> standard_input();
+/// The disk, with standard input in the place of a file named "-".
+bytes::Files disk_and_standard_input();
 
 /// The asset and how it is to be composed: shared by the verbs that open a stage.
 struct AssetArguments {

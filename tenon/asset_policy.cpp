@@ -12,9 +12,10 @@
 namespace tenon {
 
 bytes::ReadPolicy policy_for(const std::string& path, const OpenOptions& options) {
-  bytes::ReadPolicy policy(options.sandbox_roots);
+  bytes::ReadPolicy policy(options.sandbox_roots, options.files);
   if (options.sandbox_roots.empty()) {
-    for (const std::string& root : bytes::roots_of_asset(bytes::split_package_path(path).package)) {
+    const std::string file = bytes::split_package_path(path).package;
+    for (const std::string& root : bytes::roots_of_asset(options.files, file)) {
       policy.add(root);
     }
     for (const std::string& folder : options.search_paths) {
@@ -35,7 +36,7 @@ void name_outside_layer(const std::string& layer, const std::string& asset,
   if (layer == asset || !layer.starts_with('/') || policy.allows(layer)) {
     return;
   }
-  const std::string file = bytes::real_file_path(bytes::split_package_path(layer).package);
+  const std::string file = policy.files()->real_path(bytes::split_package_path(layer).package);
   diagnostics.add(file_finding(
       Severity::Warning, kOutsideLayerRule,
       "the layer @" + layer +

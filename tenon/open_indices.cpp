@@ -10,7 +10,6 @@ Result<std::unique_ptr<compose::IndexCache>> open_indices(const std::string& pat
                                                           Diagnostics& diagnostics) {
   TENON_TRY(const StageSources sources, open_sources(path, options));
   TENON_TRY(auto compose, compose_options(options, *sources.root));
-  diagnostics.append(sources.of_contents);
   diagnostics.append(sources.registry->diagnostics());
   return std::make_unique<compose::IndexCache>(sources.root, sources.session, sources.opener(),
                                                std::move(compose));

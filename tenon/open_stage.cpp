@@ -115,11 +115,6 @@ Result<layer::LayerPtr> open_layer(const std::string& path, Diagnostics& diagnos
 
 Result<layer::LayerPtr> open_layer(const std::string& path, const OpenOptions& options,
                                    Diagnostics& diagnostics) {
-  if (options.contents != nullptr) {
-    TENON_TRY(auto layer,
-              formats::read_layer(options.contents, bytes::absolute_file_path(path), diagnostics));
-    return layer::LayerPtr(std::make_shared<const layer::Layer>(std::move(layer)));
-  }
   const bytes::AssetResolver resolver(resolver_options(options));
   TENON_TRY(auto layer, formats::open_layer_file(resolver, path, diagnostics));
   return layer::LayerPtr(std::make_shared<const layer::Layer>(std::move(layer)));
@@ -142,7 +137,6 @@ Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& opti
   if (options.layer_units) {
     TENON_CHECK(convert_layers(sources, options, stage));
   }
-  diagnostics.append(sources.of_contents);
   diagnostics.append(sources.registry->diagnostics());
   diagnostics.append(stage.diagnostics());
   if (!options.sandbox_roots.empty()) {

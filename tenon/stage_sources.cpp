@@ -13,7 +13,7 @@ compose::LayerOpener StageSources::opener() const {
 }
 
 bytes::ResolverOptions resolver_options(const OpenOptions& options) {
-  bytes::ResolverOptions result{options.search_paths, options.sandbox_roots};
+  bytes::ResolverOptions result{options.search_paths, options.sandbox_roots, options.files};
   if (!result.roots.empty()) {
     result.roots.insert(result.roots.end(), options.allowed_reads.begin(),
                         options.allowed_reads.end());
@@ -55,12 +55,6 @@ Result<StageSources> open_sources(const std::string& path, const OpenOptions& op
   StageSources sources;
   sources.registry =
       std::make_shared<formats::LayerRegistry>(bytes::AssetResolver(resolver_options(options)));
-  if (options.contents != nullptr) {
-    TENON_TRY(layer::Layer layer,
-              formats::read_layer(options.contents, bytes::absolute_file_path(path),
-                                  sources.of_contents));
-    sources.registry->insert(std::make_shared<const layer::Layer>(std::move(layer)));
-  }
   TENON_TRY(sources.root, sources.registry->open_root(path));
   if (!options.session_path.empty()) {
     TENON_TRY(sources.session, sources.registry->open(options.session_path, nullptr));

@@ -19,14 +19,13 @@ namespace tenon {
 struct StageSources {
   std::shared_ptr<formats::LayerRegistry> registry;
   layer::LayerPtr root;
-  Diagnostics of_contents;  ///< findings in OpenOptions::contents
   layer::LayerPtr session;  ///< null when nothing asks for one
 
   /// Keeps the registry alive.
   compose::LayerOpener opener() const;
 };
 
-/// Search paths and sandbox of the options.
+/// Search paths, sandbox and files of the options.
 bytes::ResolverOptions resolver_options(const OpenOptions& options);
 
 /// What the options say about payloads, muted layers and variants; `root` is the root layer. Fails

@@ -10,7 +10,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
-#include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/files.h"
 #include "tenon/compose/cache/index_cache.h"
 #include "tenon/engines/engines.h"
 #include "tenon/engines/simulation.h"
@@ -26,9 +26,9 @@ struct OpenOptions {
   std::string physics_variant;
   /// "PATH.attr=value" in text form of the attribute's type: opinions in the session layer.
   std::vector<std::string> overrides;
-  /// What the asset holds where it is in no file, such as a layer from a pipe; its path says where
-  /// it counts as standing. Null: the file at the path is read.
-  std::shared_ptr<const bytes::FileBytes> contents;
+  /// Where every file is read from that the asset and its layers name: the disk, memory, unsaved
+  /// text over either. Search paths, sandbox and session layer are looked up there as well.
+  bytes::Files files;
   /// A session layer file; the two options above are written over its opinions, in memory.
   std::string session_path;
   bool load_payloads = true;
@@ -55,10 +55,10 @@ struct OpenOptions {
   bool layer_units = false;
 };
 
-/// Opens one layer file of any kind, without composing it.
+/// Opens one layer file of any kind on the disk, without composing it.
 Result<layer::LayerPtr> open_layer(const std::string& path, Diagnostics& diagnostics);
 
-/// The same under the options' sandbox and search paths.
+/// The same from the options' files, under their sandbox and search paths.
 Result<layer::LayerPtr> open_layer(const std::string& path, const OpenOptions& options,
                                    Diagnostics& diagnostics);
 

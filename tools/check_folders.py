@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the dependency rule of tenon/folders.txt over every #include line of tenon/, and that a
-source file includes its own header first, which proves that the header stands alone.
+"""Holds the dependency rule of tenon/folders.txt over every #include line of tenon/, that a source
+file includes its own header first, which proves that the header stands alone, and that above
+tenon/bytes files are asked for through bytes::Files, never from the disk itself.
 
 Usage: check_folders.py [ROOT]. Exit 0: the rule holds; 1: each breach on a line of its own.
 """
@@ -16,6 +17,7 @@ import source_files
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 USERS = ("cli/", "worker/", "tests/", "bench/", "fuzz/")
+BELOW_FILES = ("base", "bytes")
 
 # Libraries that only some files may name: pattern of the include -> patterns of the files.
 SYSTEM = ["tenon/base/*", "tenon/bytes/*", "tenon/guard/*", "worker/*", "cli/*", "tests/*",
@@ -38,6 +40,26 @@ LIBRARIES = {
     "assimp/*": ["tenon/mesh/assimp_scene.cpp"],
     "CLI/*": ["cli/command_line.cpp"],
     "nlohmann/*": ["tenon/answers/*", "tests/*", "bench/*"],
+}
+
+# What asks the disk whatever files were handed over. Of std::filesystem only paths do not, and
+# Files() and AssetResolver() without arguments are the disk.
+DISK = re.compile(
+    r"\bFileBytes::open\b|(?<!~)\b(?:Files|AssetResolver)(?:\(\)|\{\})|\b[io]?fstream\b"
+    r"|\b(?:fopen|freopen|opendir)\(|\busing namespace std::filesystem\b"
+    r"|\b(?:fs|filesystem)::(?!path\b)\w+")
+IGNORED = re.compile(r'//.*|\bfopen\("/dev/null"|(?<!#include )"(?:[^"\\]|\\.)*"')
+# Who does, and why. One that does not any more is a fault, too.
+DISK_USERS = {
+    "tenon/approximate/piece_cache.cpp": "keeps a cache of its own",
+    "tenon/asset/layers/output_place.cpp": "looks at what is to be written to",
+    "tenon/formats/open_layer.cpp": "opens layers of the disk for tools",
+    "tenon/guard/worker_place.cpp": "finds the worker's program",
+    "tenon/guard/workers.cpp": "tells the worker where files lie",
+    "tenon/mjcf/read_mjcf.cpp": "runs in the worker",
+    "tenon/mjcf/shapes/textures.cpp": "runs in the worker",
+    "tenon/structure/write_folder.cpp": "writes",
+    "tenon/structure/written_note.cpp": "looks at what is to be written over",
 }
 
 
@@ -110,6 +132,25 @@ def own_header(root, path):
     return header if there else None
 
 
+def asks_disk(root, path):
+    """-> [(line number, what)] of a file above tenon/bytes that is no test."""
+    if not path.startswith("tenon/") or is_of_tests(path) or path.split("/")[1] in BELOW_FILES:
+        return []
+    with open(os.path.join(root, path), encoding="utf-8") as file:
+        return [(number, found[0]) for number, line in enumerate(file, 1)
+                if (found := DISK.search(IGNORED.sub("", line)))]
+
+
+def disk_faults(root, files):
+    found = {path: asks_disk(root, path) for path in files}
+    for path, places in found.items():
+        if path in DISK_USERS and not places:
+            yield f"tools/check_folders.py:1: {path} does not ask the disk: leave DISK_USERS"
+        for number, what in places if path not in DISK_USERS else []:
+            yield (f"{path}:{number}: `{what}` asks the disk: read through the bytes::Files of "
+                   "the options, the resolver or the policy")
+
+
 def check_file(root, path, folders, tests):
     in_library = path.startswith("tenon/")
     if in_library and folder_of(path, folders) is None:
@@ -142,6 +183,7 @@ def check(root):
     ]
     for path in files:
         faults.extend(check_file(root, path, folders, tests))
+    faults.extend(disk_faults(root, files))
     return files, faults
 
 

@@ -67,6 +67,36 @@ class Folders(unittest.TestCase):
                 self.assertEqual(files, [path])
                 self.assertEqual(faults == [], allowed, faults)
 
+    DISK_CASES = [
+        # file, line, allowed
+        ("tenon/layer/a.cpp", "fs::path(name).parent_path();", True),
+        ("tenon/layer/a.cpp", "namespace fs = std::filesystem;", True),
+        ("tenon/layer/a.cpp", "fs::exists(name, error);", False),
+        ("tenon/layer/a.cpp", "std::filesystem::recursive_directory_iterator at(name);", False),
+        ("tenon/layer/a.cpp", "using namespace std::filesystem;", False),
+        ("tenon/layer/a.cpp", "bytes::FileBytes::open(name);", False),
+        ("tenon/layer/a.cpp", "bytes::FileBytes::own(text);", True),
+        ("tenon/layer/a.cpp", "bytes::AssetResolver().open(name);", False),
+        ("tenon/layer/a.cpp", "bytes::Files()->open(name, {});", False),
+        ("tenon/layer/a.h", "  bytes::Files files;", True),
+        ("tenon/layer/a.cpp", "std::ifstream file(name);", False),
+        ("tenon/layer/a.cpp", "#include <fstream>", False),
+        ("tenon/layer/a.cpp", "// fs::exists(name)", True),
+        ("tenon/layer/a.cpp", 'say("fs::exists(name)");', True),
+        ("tenon/layer/a_test.cpp", "fs::exists(name, error);", True),
+        ("tenon/base/a.cpp", "fs::exists(name, error);", True),
+        ("tenon/guard/workers.cpp", "fs::exists(name, error);", True),
+        ("tenon/guard/workers.cpp", "fs::path(name);", False),  # need not be an exception
+        ("cli/a.cpp", "fs::exists(name, error);", True),
+    ]
+
+    def test_who_asks_the_disk(self):
+        rule = {"tenon/folders.txt": RULE + "guard : base\n"}
+        for path, line, allowed in self.DISK_CASES:
+            with self.subTest(path=path, line=line), tree({path: line + "\n", **rule}) as root:
+                faults = check_folders.check(root)[1]
+                self.assertEqual(faults == [], allowed, faults)
+
     def test_own_header_first(self):
         own, other = '#include "tenon/layer/a.h"\n', '#include "tenon/base/b.h"\n'
         for text, faults in ((own + other, 0), (other + own, 1), ("", 0)):

@@ -79,7 +79,8 @@ def judgements():
                                         "build/release/bin/tenon", "--all"], "release")
     yield Judgement("random_scenes", ["{python}", "-B", "tests/differential/compose_random.py",
                                       "build/bench/bin/tenon_composition_dump", "--seed", "5001",
-                                      "--scenes", "5000", "--show", "3"],
+                                      "--scenes", "5000", "--show", "3", "--misses",
+                                      "tests/differential/random_scenes_misses.txt"],
                     "bench", ["tenon_composition_dump"])
     for source in sorted(glob.glob(os.path.join(ROOT, "fuzz/*_fuzz.cpp"))):
         target = os.path.basename(source)[:-len(".cpp")]

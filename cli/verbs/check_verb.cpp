@@ -123,7 +123,8 @@ Result<void> claim_reports(const CheckArguments& options, Outputs& outputs) {
 Result<void> write_reports(const CheckedAssets& outcome, const CheckArguments& options,
                            Outputs& outputs) {
   if (!options.sarif.empty()) {
-    outputs.put(options.sarif, answers::printed(sarif_log(outcome.findings, TENON_VERSION)));
+    outputs.put(options.sarif, answers::printed(sarif_log(outcome.findings, TENON_VERSION,
+                                                          options.asset.open_options().files)));
   }
   if (!options.write_baseline.empty()) {
     outputs.put(options.write_baseline,

@@ -55,7 +55,7 @@ Result<ConvertFileOptions> convert_options(const ConvertArguments& options) {
                         : options.schema == "both" ? convert::SchemaGeneration::Both
                                                    : convert::SchemaGeneration::Current;
   if (!options.gains.empty()) {
-    TENON_CHECK(read_gains(options.gains, result.robot));
+    TENON_CHECK(read_gains(options.gains, result.open.files, result.robot));
   }
   for (const std::string& text : options.packages) {
     TENON_TRY(auto package, split_assignment(text));

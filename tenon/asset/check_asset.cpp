@@ -16,7 +16,7 @@
 
 #include "tenon/asset/check_profile.h"
 #include "tenon/asset/physics_options.h"
-#include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/files.h"
 #include "tenon/check/apply_edits.h"
 #include "tenon/check/rule.h"
 #include "tenon/formats/find_places.h"
@@ -133,10 +133,10 @@ std::vector<std::string> roots_of(const std::vector<std::string>& files,
   return roots;
 }
 
-Result<CorrectedFile> corrected_file(const std::string& path,
+Result<CorrectedFile> corrected_file(const bytes::Files& files, const std::string& path,
                                      const std::vector<check::SpecEdit>& edits) {
   Diagnostics ignored;
-  TENON_TRY(const auto bytes, bytes::FileBytes::open(path));
+  TENON_TRY(const auto bytes, files->open(path, {}));
   if (formats::format_of(*bytes) == formats::LayerFormat::Package) {
     // Writing the layer would lose the other files of the package.
     return Error(ErrorCode::Unsupported, "a package cannot be corrected in place").in_file(path);
@@ -191,39 +191,30 @@ Result<CheckedAsset> check_asset(const std::string& path, const CheckOptions& op
   for (check::Finding& finding : checked.findings) {
     found.push_back(&finding.diagnostic);
   }
-  formats::find_places(found);
+  formats::find_places(found, options.open.files);
   check::sort_by_place(checked.findings);
   return checked;
 }
 
-Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Finding>& findings) {
-  std::vector<CorrectedFile> files;
+Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Finding>& findings,
+                                                   const bytes::Files& files) {
+  std::vector<CorrectedFile> corrected;
   for (const auto& [path, edits] : check::edits_by_layer(findings)) {
-    TENON_TRY(CorrectedFile file, corrected_file(path, edits));
+    TENON_TRY(CorrectedFile file, corrected_file(files, path, edits));
     if (!file.text || file.before != file.after) {
-      files.push_back(std::move(file));
+      corrected.push_back(std::move(file));
     }
   }
-  return files;
+  return corrected;
 }
 
 Result<std::vector<std::string>> root_assets(const std::string& path, const OpenOptions& options) {
-  std::error_code error;
-  if (!fs::is_directory(path, error)) {
+  if (options.files->kind(path) != bytes::NameKind::Folder) {
     return std::vector<std::string>{path};
   }
-  std::vector<std::string> files;
-  fs::recursive_directory_iterator at(path, fs::directory_options::skip_permission_denied, error);
-  for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
-    std::error_code ignored;
-    if (at->is_regular_file(ignored) && is_usd_file(at->path())) {
-      files.push_back(fs::absolute(at->path(), ignored).lexically_normal().string());
-    }
-  }
-  if (error) {
-    return Error(ErrorCode::Io, "the folder cannot be read: " + error.message()).in_file(path);
-  }
-  std::sort(files.begin(), files.end());
+  TENON_TRY(std::vector<std::string> files,
+            bytes::files_below(options.files, bytes::absolute_file_path(path)));
+  std::erase_if(files, [](const std::string& file) { return !is_usd_file(file); });
   return roots_of(files, options);
 }
 

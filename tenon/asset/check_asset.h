@@ -39,9 +39,11 @@ struct CorrectedFile {
   bool kept_layout = true;  ///< comments and layout of text stay
 };
 
-/// What the fixes of the findings make of the files that own the opinions. No file is touched: the
-/// caller writes them together, in place (Outputs of cli/output.h, bytes/write/file_transaction.h).
-Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Finding>& findings);
+/// What the fixes of the findings make of the files that own the opinions; `files` are those that
+/// were checked. No file is touched: the caller writes them together, in place (Outputs of
+/// cli/output.h, bytes/write/file_transaction.h).
+Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Finding>& findings,
+                                                   const bytes::Files& files);
 
 /// Files below a folder that no other of them uses as a layer, sorted; a file alone is one.
 /// What cannot be opened, or may not by the options, counts as used by nobody. Errors:

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/asset/check_profile.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "tenon/stage_sources.h"
@@ -12,17 +11,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> layers_below(const fs::path& folder) {
-  std::vector<std::string> found;
-  std::error_code error;
-  fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
-  for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
-    const std::string ending = at->path().extension().string();
-    if (ending == ".usd" || ending == ".usda" || ending == ".usdc") {
-      found.push_back(at->path().string());
-    }
-  }
-  std::sort(found.begin(), found.end());
+std::vector<std::string> layers_below(const bytes::Files& files, const std::string& folder) {
+  std::vector<std::string> found =
+      bytes::files_below(files, folder).value_or(std::vector<std::string>());
+  std::erase_if(found, [](const std::string& name) { return !formats::is_layer_name(name); });
   return found;
 }
 
@@ -36,14 +28,13 @@ Result<structure::AssetFiles> asset_files(const std::string& path, const OpenOpt
   structure::AssetFiles files;
   files.interface = sources.root;
   const fs::path folder = fs::path(sources.root->identifier()).parent_path() / "payloads";
-  for (const std::string& name : layers_below(folder)) {
+  for (const std::string& name : layers_below(options.files, folder.string())) {
     if (auto layer = sources.registry->open(name, nullptr)) {
       files.payloads.push_back(*std::move(layer));
     }
   }
-  files.exists = [](const std::string& identifier) {
-    std::error_code ignored;
-    return fs::exists(identifier, ignored);
+  files.exists = [all = options.files](const std::string& identifier) {
+    return all->kind(identifier) != bytes::NameKind::Nothing;
   };
   return files;
 }

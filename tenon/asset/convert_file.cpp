@@ -8,7 +8,7 @@
 
 #include "tenon/asset/mjcf_files.h"
 #include "tenon/asset_policy.h"
-#include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/files.h"
 #include "tenon/bytes/read_record.h"
 #include "tenon/guard/not_a_number.h"
 #include "tenon/guard/workers.h"
@@ -59,6 +59,7 @@ bool is_mjcf(std::string_view text) {
 /// By MuJoCo in tenon-worker. What comes back is checked before anybody uses it.
 Result<robot::RobotModel> read_mjcf(const std::string& path, bytes::ReadPolicy& policy,
                                     Diagnostics& diagnostics) {
+  TENON_CHECK(bytes::check_on_disk(policy.files(), path));
   TENON_CHECK(admit_mjcf_files(path, policy));
   guard::Workers workers;
   std::vector<std::string> opened;
@@ -82,7 +83,7 @@ Result<robot::RobotModel> read_mjcf(const std::string& path, bytes::ReadPolicy& 
 Result<robot::RobotModel> read_model(const std::string& path, const ConvertFileOptions& options,
                                      bytes::ReadPolicy& policy, Diagnostics& diagnostics) {
   TENON_TRY(const auto bytes,
-            policy.is_closed() ? policy.open(path) : bytes::FileBytes::open(path));
+            policy.is_closed() ? policy.open(path) : policy.files()->open(path, {}));
   if (!is_mjcf(bytes->text())) {
     return urdf::read_urdf_text(bytes->text(), path,
                                 {options.packages, options.open.search_paths, policy}, diagnostics);

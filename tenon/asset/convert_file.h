@@ -17,7 +17,8 @@ namespace tenon {
 struct ConvertFileOptions {
   convert::ConvertOptions robot;
   std::map<std::string, std::string> packages;  ///< folders of ROS packages by name
-  /// Of these sandbox, search paths and what may be read count; `robot.reading` is made of them.
+  /// Of these files, sandbox, search paths and what may be read count; `robot.reading` is made of
+  /// them.
   OpenOptions open;
 };
 
@@ -33,7 +34,8 @@ struct ConvertedFile {
 /// A robot's description as a layer (convert/convert_robot.h): URDF or MJCF, told by its root.
 /// Asset paths of the layer are absolute. What the description names is read from the folders that
 /// belong to it (docs/reading.md); other files are left out, with an error. Errors: those of
-/// reading and converting; Missing for MJCF without MuJoCo.
+/// reading and converting; Missing for MJCF without MuJoCo; Unsupported "file.not-on-disk" for
+/// MJCF, Collada and glTF that the worker would not find on the disk.
 Result<ConvertedFile> convert_file(const std::string& path, const ConvertFileOptions& options,
                                    Diagnostics& diagnostics);
 

@@ -17,7 +17,7 @@
 #include "tenon/base/limits/reading_limits.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/asset_roots.h"
-#include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/files.h"
 #include "tenon/bytes/read_record.h"
 
 namespace tenon {
@@ -60,7 +60,7 @@ class NamedFiles {
     while (!pending_.empty()) {
       const std::string file = pending_.back();
       pending_.pop_back();
-      if (seen_.insert(bytes::real_file_path(file)).second) {
+      if (seen_.insert(policy_.files()->real_path(file)).second) {
         TENON_CHECK(read(file));
       }
     }
@@ -76,7 +76,7 @@ class NamedFiles {
   static fs::path folder_of(const std::string& file) { return fs::path(file).parent_path(); }
 
   Result<void> read(const std::string& file) {
-    const auto bytes = bytes::FileBytes::open(file);
+    const auto bytes = policy_.files()->open(file, {});
     pugi::xml_document document;
     if (!bytes || !document.load_buffer((*bytes)->text().data(), (*bytes)->size())) {
       return {};
@@ -128,15 +128,17 @@ class NamedFiles {
   }
 
   Result<void> admit_file(const std::string& file, const Name& name) {
-    std::error_code ignored;
-    if (fs::is_directory(file, ignored) || !fs::exists(file, ignored)) {
+    const bytes::NameKind kind = policy_.files()->kind(file);
+    if (kind == bytes::NameKind::Nothing || kind == bytes::NameKind::Folder) {
       return {};
     }
+    TENON_CHECK(bytes::check_on_disk(policy_.files(), file));
     bytes::note_read(file);
     if (policy_.allows(file)) {
       return {};
     }
-    if (const auto folder = bytes::parts_folder(path_, file); folder && !policy_.is_closed()) {
+    if (const auto folder = bytes::parts_folder(policy_.files(), path_, file);
+        folder && !policy_.is_closed()) {
       policy_.add_found(*folder);
       return {};
     }

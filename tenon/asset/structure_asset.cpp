@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/asset/structure_asset.h"
 
-#include <filesystem>
-
 #include "tenon/asset_policy.h"
 #include "tenon/stage_sources.h"
 
@@ -22,6 +20,7 @@ structure::AssetSource source_of(const StageSources& sources, const bytes::ReadP
     return registry->resolver().resolve(asset, anchor.identifier()).value_or(std::string());
   };
   source.open_asset = [policy](const std::string& identifier) { return policy.open(identifier); };
+  source.files = policy.files();
   return source;
 }
 
@@ -33,10 +32,9 @@ structure::AssetSource asset_source(layer::Layer layer, const bytes::ReadPolicy&
   source.open_layer = [](const std::string& asset, const layer::Layer&) -> Result<layer::LayerPtr> {
     return Error(ErrorCode::NotFound, "the layer stands alone").in_file(asset);
   };
-  source.resolve_asset = [](const std::string& asset, const layer::Layer&) {
-    std::error_code error;
-    const bool found =
-        std::filesystem::path(asset).is_absolute() && std::filesystem::exists(asset, error);
+  source.files = policy.files();
+  source.resolve_asset = [files = policy.files()](const std::string& asset, const layer::Layer&) {
+    const bool found = asset.starts_with('/') && files->kind(asset) != bytes::NameKind::Nothing;
     return found ? asset : std::string();
   };
   source.open_asset = [policy](const std::string& identifier) { return policy.open(identifier); };

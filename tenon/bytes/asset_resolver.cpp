@@ -12,19 +12,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <sys/stat.h>
-
 #include "tenon/base/limits/limits.h"
 #include "tenon/base/limits/reading_limits.h"
 #include "tenon/bytes/zip/zip_archive.h"
 
 namespace tenon::bytes {
 namespace {
-
-bool exists(const std::string& file) {
-  struct stat info = {};
-  return ::stat(file.c_str(), &info) == 0 && S_ISREG(info.st_mode);
-}
 
 bool is_absolute(std::string_view path) { return path.starts_with('/'); }
 bool is_file_relative(std::string_view path) {
@@ -144,12 +137,6 @@ bool is_in_package(std::string_view path) {
   return !split_package_path(path).inner.empty() || is_package_name(path);
 }
 
-std::string absolute_file_path(std::string_view path) {
-  std::error_code ignored;
-  const std::filesystem::path absolute = std::filesystem::absolute(path, ignored);
-  return absolute.lexically_normal().string();
-}
-
 Result<std::string> AssetResolver::resolve(const std::string& asset_path,
                                            const std::string& anchor) const {
   if (asset_path.empty()) {
@@ -191,7 +178,7 @@ Result<std::string> AssetResolver::resolve_file(const std::string& asset_path,
     }
   }
   for (const std::string& candidate : candidates) {
-    if (exists(candidate)) {
+    if (options_.files->kind(candidate) == NameKind::File) {
       std::string file = absolute_file_path(candidate);
       TENON_CHECK(check_sandbox(file));
       return file;
@@ -231,7 +218,7 @@ Result<std::string> AssetResolver::resolve_in_package(const std::string& asset_p
 }
 
 Result<void> AssetResolver::check_sandbox(const std::string& file) const {
-  return options_.roots.empty() ? Result<void>() : check_real_path(real_file_path(file));
+  return options_.roots.empty() ? Result<void>() : check_real_path(options_.files->real_path(file));
 }
 
 Result<void> AssetResolver::check_real_path(const std::string& real) const {
@@ -253,13 +240,14 @@ Result<std::shared_ptr<const FileBytes>> AssetResolver::open(const std::string& 
     rules.may_map = false;
     rules.max_bytes = limits::kCopiedFileBytes;
   }
-  return open_identifier(identifier, rules);
+  return open_identifier(options_.files, identifier, rules);
 }
 
-Result<std::shared_ptr<const FileBytes>> open_identifier(const std::string& identifier,
+Result<std::shared_ptr<const FileBytes>> open_identifier(const Files& files,
+                                                         const std::string& identifier,
                                                          const FileRules& rules) {
   PackagePath path = split_package_path(identifier);
-  TENON_TRY(std::shared_ptr<const FileBytes> bytes, FileBytes::open(path.package, rules));
+  TENON_TRY(std::shared_ptr<const FileBytes> bytes, files->open(path.package, rules));
   for (std::size_t depth = 0; !path.inner.empty(); ++depth) {
     if (depth == limits::kPackageNesting) {
       return Error(ErrorCode::Limit, "packages are nested too deeply").in_file(identifier);

@@ -9,6 +9,7 @@
 
 #include "tenon/base/result.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/files.h"
 #include "tenon/bytes/read_policy.h"
 
 /// From asset paths as layers name them to files. The rules are those of OpenUSD's default
@@ -37,6 +38,7 @@ struct ResolverOptions {
   /// When not empty: no file outside of these folders, symbolic links followed; files are copied
   /// rather than mapped.
   std::vector<std::string> roots;
+  Files files = {};  ///< where all of them are looked up
 };
 
 /// `path` without what stands around a file's name: a `file:` URI becomes a path, arguments of the
@@ -50,7 +52,7 @@ class AssetResolver {
  public:
   AssetResolver() = default;
   explicit AssetResolver(ResolverOptions options)
-      : options_(std::move(options)), sandbox_(options_.roots) {}
+      : options_(std::move(options)), sandbox_(options_.roots, options_.files) {}
 
   const ResolverOptions& options() const { return options_; }
 
@@ -73,10 +75,8 @@ class AssetResolver {
 };
 
 /// The bytes of what `identifier` names, without a sandbox. `rules` are for the outer file.
-Result<std::shared_ptr<const FileBytes>> open_identifier(const std::string& identifier,
+Result<std::shared_ptr<const FileBytes>> open_identifier(const Files& files,
+                                                         const std::string& identifier,
                                                          const FileRules& rules = {});
-
-/// The absolute form of a path in the file system, "." and ".." removed, links kept.
-std::string absolute_file_path(std::string_view path);
 
 }  // namespace tenon::bytes

@@ -63,32 +63,30 @@ std::optional<std::string> structured_asset_of(const fs::path& folder) {
 
 }  // namespace
 
-std::shared_ptr<const FileBytes> package_xml_of(const std::string& folder) {
+std::shared_ptr<const FileBytes> package_xml_of(const Files& files, const std::string& folder) {
   FileRules rules;
   rules.max_bytes = limits::kPackageXmlBytes;
-  return FileBytes::open(folder + "/package.xml", rules).value_or(nullptr);
+  return files->open(folder + "/package.xml", rules).value_or(nullptr);
 }
 
-bool is_ros_package(const std::string& folder) {
-  const auto bytes = package_xml_of(folder);
+bool is_ros_package(const Files& files, const std::string& folder) {
+  const auto bytes = package_xml_of(files, folder);
   return bytes != nullptr && bytes->text().find("<package") != std::string_view::npos;
 }
 
-std::optional<std::string> ros_package_of(const std::string& folder) {
-  for (fs::path at = real_file_path(folder); at != at.parent_path(); at = at.parent_path()) {
-    if (is_ros_package(at.string())) {
+std::optional<std::string> ros_package_of(const Files& files, const std::string& folder) {
+  for (fs::path at = files->real_path(folder); at != at.parent_path(); at = at.parent_path()) {
+    if (is_ros_package(files, at.string())) {
       return at.string();
     }
   }
   return std::nullopt;
 }
 
-std::vector<std::string> roots_of_asset(const std::string& path) {
-  std::error_code error;
-  std::vector<std::string> roots{
-      fs::absolute(path, error).lexically_normal().parent_path().string()};
-  const std::string real = fs::path(real_file_path(path)).parent_path().string();
-  if (real != real_file_path(roots.front())) {
+std::vector<std::string> roots_of_asset(const Files& files, const std::string& path) {
+  std::vector<std::string> roots{fs::path(absolute_file_path(path)).parent_path().string()};
+  const std::string real = fs::path(files->real_path(path)).parent_path().string();
+  if (real != files->real_path(roots.front())) {
     roots.push_back(real);
   }
   const std::size_t folders = roots.size();
@@ -96,16 +94,17 @@ std::vector<std::string> roots_of_asset(const std::string& path) {
     if (const auto asset = structured_asset_of(roots[i])) {
       roots.push_back(*asset);
     }
-    if (const auto package = ros_package_of(roots[i])) {
+    if (const auto package = ros_package_of(files, roots[i])) {
       roots.push_back(*package);
     }
   }
   return roots;
 }
 
-std::optional<std::string> parts_folder(const std::string& path, const std::string& file) {
-  const fs::path real = real_file_path(file);
-  fs::path above = fs::path(real_file_path(path)).parent_path();
+std::optional<std::string> parts_folder(const Files& files, const std::string& path,
+                                        const std::string& file) {
+  const fs::path real = files->real_path(file);
+  fs::path above = fs::path(files->real_path(path)).parent_path();
   for (std::size_t i = 0; i < limits::kPartsFolderLevels; ++i) {
     above = above.parent_path();
     if (above == above.parent_path()) {

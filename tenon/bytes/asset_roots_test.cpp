@@ -35,7 +35,7 @@ class AssetRoots : public testing::Test {
   void TearDown() override { fs::remove_all(root_); }
   std::string at(const std::string& name) const { return (root_ / name).string(); }
   bool has_root(const std::string& asset, const std::string& folder) const {
-    const std::vector<std::string> roots = roots_of_asset(at(asset));
+    const std::vector<std::string> roots = roots_of_asset(Files(), at(asset));
     return std::find(roots.begin(), roots.end(), at(folder)) != roots.end();
   }
 
@@ -43,12 +43,12 @@ class AssetRoots : public testing::Test {
 };
 
 TEST_F(AssetRoots, AnAssetHasItsFolderAndItsPackage) {
-  EXPECT_EQ(roots_of_asset(at("hand/hand.usda")), std::vector<std::string>{at("hand")});
+  EXPECT_EQ(roots_of_asset(Files(), at("hand/hand.usda")), std::vector<std::string>{at("hand")});
   EXPECT_TRUE(has_root("hand/payloads/base.usda", "hand"));
   EXPECT_TRUE(has_root("hand/payloads/Physics/physx.usda", "hand"));
   EXPECT_TRUE(has_root("pkg/urdf/deep/r.urdf", "pkg/urdf/deep"));
   EXPECT_TRUE(has_root("pkg/urdf/deep/r.urdf", "pkg"));
-  EXPECT_FALSE(is_ros_package(at("other")));  // its package.xml is none
+  EXPECT_FALSE(is_ros_package(Files(), at("other")));  // its package.xml is none
 }
 
 TEST_F(AssetRoots, ALinkToAnAssetHasTheFoldersOfBoth) {
@@ -58,22 +58,25 @@ TEST_F(AssetRoots, ALinkToAnAssetHasTheFoldersOfBoth) {
 }
 
 TEST_F(AssetRoots, PartsLieBesideTheDescription) {
-  EXPECT_EQ(parts_folder(at("pkg/urdf/deep/r.urdf"), at("pkg/meshes/m.stl")), at("pkg/meshes"));
-  EXPECT_EQ(parts_folder(at("assets/hand/reach.xml"), at("assets/hand/../stls/hand/a.stl")),
-            at("assets/stls"));
-  EXPECT_EQ(parts_folder(at("arms/gripper/g.urdf"), at("arms/fingers/meshes/f.obj")),
+  EXPECT_EQ(parts_folder(Files(), at("pkg/urdf/deep/r.urdf"), at("pkg/meshes/m.stl")),
+            at("pkg/meshes"));
+  EXPECT_EQ(
+      parts_folder(Files(), at("assets/hand/reach.xml"), at("assets/hand/../stls/hand/a.stl")),
+      at("assets/stls"));
+  EXPECT_EQ(parts_folder(Files(), at("arms/gripper/g.urdf"), at("arms/fingers/meshes/f.obj")),
             at("arms/fingers/meshes"));
 }
 
 TEST_F(AssetRoots, WhatIsNoPartOfARobotIsNot) {
-  EXPECT_EQ(parts_folder(at("pkg/urdf/deep/r.urdf"), at("secret/s.png")), std::nullopt);
-  EXPECT_EQ(
-      parts_folder(at("arms/gripper/g.urdf"), at("arms/gripper/../../private/x/meshes/m.obj")),
-      std::nullopt);  // too far down
+  EXPECT_EQ(parts_folder(Files(), at("pkg/urdf/deep/r.urdf"), at("secret/s.png")), std::nullopt);
+  EXPECT_EQ(parts_folder(Files(), at("arms/gripper/g.urdf"),
+                         at("arms/gripper/../../private/x/meshes/m.obj")),
+            std::nullopt);  // too far down
   fs::create_directories(at("hand/meshes"));
   fs::create_symlink(at("secret/s.png"), at("hand/meshes/s.png"));
-  EXPECT_EQ(parts_folder(at("pkg/urdf/deep/r.urdf"), at("hand/meshes/s.png")), std::nullopt);
-  EXPECT_EQ(parts_folder("/x.urdf", "/etc/passwd"), std::nullopt);
+  EXPECT_EQ(parts_folder(Files(), at("pkg/urdf/deep/r.urdf"), at("hand/meshes/s.png")),
+            std::nullopt);
+  EXPECT_EQ(parts_folder(Files(), "/x.urdf", "/etc/passwd"), std::nullopt);
 }
 
 }  // namespace

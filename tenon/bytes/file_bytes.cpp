@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A file is opened once, and what is asked about it afterwards, its real path, its kind and size,
+// is asked of the open file: a name may lead elsewhere by then. Devices, which do something when
+// they are opened, are told before. Small files are read, since mapping costs more than it saves.
 #include "tenon/bytes/file_bytes.h"
 
 #include <algorithm>
@@ -83,6 +87,17 @@ std::shared_ptr<const FileBytes> noted(std::shared_ptr<const FileBytes> bytes,
 
 }  // namespace
 
+Result<void> check_size(std::uint64_t bytes, const FileRules& rules, const std::string& path) {
+  const std::uint64_t most = std::min<std::uint64_t>(rules.max_bytes, PTRDIFF_MAX);
+  if (bytes <= most) {
+    return {};
+  }
+  return Error(ErrorCode::Limit, "the file has " + std::to_string(bytes) + " bytes, more than " +
+                                     std::to_string(most))
+      .in_file(path)
+      .with_rule("file.too-large");
+}
+
 FileBytes::~FileBytes() {
   if (mapping_ != nullptr) {
     ::munmap(mapping_, span_.size());
@@ -105,14 +120,8 @@ Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path
   if (!S_ISREG(info.st_mode)) {
     return Error(ErrorCode::Io, "not a regular file").in_file(path).with_rule("file.unreadable");
   }
-  const std::uint64_t most = std::min<std::uint64_t>(rules.max_bytes, PTRDIFF_MAX);
   const auto claimed = static_cast<std::uint64_t>(info.st_size);
-  if (claimed > most) {
-    return Error(ErrorCode::Limit, "the file has " + std::to_string(claimed) +
-                                       " bytes, more than " + std::to_string(most))
-        .in_file(path)
-        .with_rule("file.too-large");
-  }
+  TENON_CHECK(check_size(claimed, rules, path));
   const auto size = static_cast<std::size_t>(claimed);
   if (size < kMapFrom || !rules.may_map) {
     TENON_TRY(std::string contents, read_all(file.descriptor, size, path));

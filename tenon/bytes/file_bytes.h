@@ -24,6 +24,9 @@ struct FileRules {
   std::uint64_t max_bytes = UINT64_MAX;  ///< of the file; for more ErrorCode::Limit
 };
 
+/// ErrorCode::Limit, rule "file.too-large", for a file of more bytes than the rules allow.
+Result<void> check_size(std::uint64_t bytes, const FileRules& rules, const std::string& path);
+
 /// The bytes of a file or a part of one, read-only and shared by all who read from them.
 class FileBytes {
  public:
@@ -31,8 +34,9 @@ class FileBytes {
   FileBytes& operator=(const FileBytes&) = delete;
   ~FileBytes();
 
-  /// All of the file at `path`: mapped when large, read when small. ErrorCode::NotFound when there
-  /// is none, Io when it cannot be read. A mapped file must not be shortened while it is in use,
+  /// All of the file at `path` on the disk: mapped when large, read when small. What reads assets
+  /// asks a Files instead (files.h). ErrorCode::NotFound when there is none, Io when it cannot be
+  /// read. A mapped file must not be shortened while it is in use,
   /// which ends the program (SIGBUS); replacing it (atomic_write.h) is fine.
   static Result<std::shared_ptr<const FileBytes>> open(const std::string& path,
                                                        const FileRules& rules = {});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "tenon/base/limits/reading_limits.h"
 #include "tenon/bytes/asset_resolver.h"
@@ -12,22 +13,20 @@ namespace tenon::bytes {
 
 namespace fs = std::filesystem;
 
-std::string real_file_path(const std::string& path) {
-  std::error_code error;
-  const fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
-  return error ? absolute_file_path(path) : real.string();
-}
-
-ReadPolicy::ReadPolicy(const std::vector<std::string>& folders) {
+ReadPolicy::ReadPolicy(const std::vector<std::string>& folders, Files files)
+    : files_(std::move(files)) {
   for (const std::string& folder : folders) {
     add(folder);
   }
 }
 
 void ReadPolicy::add(const std::string& folder) {
-  std::error_code error;
-  const std::string real = fs::canonical(folder.empty() ? "." : folder, error).string();
-  if (!error && std::find(roots_.begin(), roots_.end(), real) == roots_.end()) {
+  const std::string named = folder.empty() ? "." : folder;
+  if (files_->kind(named) == NameKind::Nothing) {
+    return;
+  }
+  const std::string real = files_->real_path(named);
+  if (std::find(roots_.begin(), roots_.end(), real) == roots_.end()) {
     roots_.push_back(real);
   }
 }
@@ -45,7 +44,7 @@ bool ReadPolicy::allows_real(const std::string& real) const {
 }
 
 bool ReadPolicy::allows(const std::string& path) const {
-  return allows_real(real_file_path(split_package_path(path).package));
+  return allows_real(files_->real_path(split_package_path(path).package));
 }
 
 Result<void> ReadPolicy::check_real(const std::string& real, const std::string& path) const {
@@ -62,7 +61,7 @@ Result<void> ReadPolicy::check_real(const std::string& real, const std::string& 
 
 Result<void> ReadPolicy::check(const std::string& path) const {
   const std::string file = split_package_path(path).package;
-  return check_real(real_file_path(file), absolute_file_path(file));
+  return check_real(files_->real_path(file), absolute_file_path(file));
 }
 
 Result<std::shared_ptr<const FileBytes>> ReadPolicy::open(const std::string& identifier) const {
@@ -71,7 +70,7 @@ Result<std::shared_ptr<const FileBytes>> ReadPolicy::open(const std::string& ide
   FileRules rules;
   rules.check = [&](const std::string& real) { return check_real(real, file); };
   rules.max_bytes = limits::kCopiedFileBytes;
-  return open_identifier(identifier, rules);
+  return open_identifier(files_, identifier, rules);
 }
 
 }  // namespace tenon::bytes

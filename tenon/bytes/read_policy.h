@@ -8,6 +8,7 @@
 
 #include "tenon/base/result.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/files.h"
 
 /// What an asset may have read on its behalf (docs/reading.md). An asset comes from somebody else
 /// and names files at will; what it names goes into an output only from folders that belong to it,
@@ -21,7 +22,7 @@ inline constexpr const char* kOutsideRule = "read.outside";
 class ReadPolicy {
  public:
   ReadPolicy() = default;
-  explicit ReadPolicy(const std::vector<std::string>& folders);
+  explicit ReadPolicy(const std::vector<std::string>& folders, Files files = {});
   /// Every file there is.
   static ReadPolicy unrestricted() { return ReadPolicy({"/"}); }
 
@@ -33,6 +34,8 @@ class ReadPolicy {
   bool is_closed() const { return is_closed_; }
   /// A folder that was found to belong to the asset, while it reads.
   void add_found(const std::string& folder);
+  /// Where the files are that it judges.
+  const Files& files() const { return files_; }
   /// Absolute, without symbolic links.
   const std::vector<std::string>& roots() const { return roots_; }
 
@@ -45,17 +48,15 @@ class ReadPolicy {
   Result<void> check(const std::string& path) const;
 
   /// The bytes of a file or of a file in a package, checked once more when it is open. Errors:
-  /// kOutsideRule; those of FileBytes::open; Limit for more than kCopiedFileBytes.
+  /// kOutsideRule; those of FileSource::open; Limit for more than kCopiedFileBytes.
   Result<std::shared_ptr<const FileBytes>> open(const std::string& identifier) const;
 
  private:
   Result<void> check_real(const std::string& real, const std::string& path) const;
 
+  Files files_;
   std::vector<std::string> roots_;
   bool is_closed_ = false;
 };
-
-/// The file or folder that `path` leads to; as far as there is one.
-std::string real_file_path(const std::string& path);
 
 }  // namespace tenon::bytes

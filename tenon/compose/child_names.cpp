@@ -225,7 +225,7 @@ void compose_property_names(PrimIndex& index) {
   const std::vector<NodeOpinions> opinions = opinions_by_node(index);
   NameList list;
   for (const std::uint32_t id : weak_to_strong(index.nodes)) {
-    if (index.nodes[id].can_contribute()) {
+    if (opinions[id].end != 0 && !is_in_culled_subtree(index.nodes, id)) {
       add_names(index, opinions[id], fields::properties, nullptr, list);
     }
   }

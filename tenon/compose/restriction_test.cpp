@@ -3,9 +3,8 @@
 // From which depth on nodes do not contribute: it decides about variants of ancestors.
 #include <gtest/gtest.h>
 
-#include "tenon/compose/cache/index_cache.h"
 #include "tenon/compose/node_graph.h"
-#include "tenon/formats/text/reader.h"
+#include "tenon/compose/test_scene.h"
 
 namespace tenon::compose {
 namespace {
@@ -29,54 +28,34 @@ TEST(Restriction, CullingDoesNotReleaseTheAncestorsOfANode) {
 }
 
 TEST(Restriction, WhatARelocateLeavesOutGetsNoVariantsOfItsAncestors) {
-  Diagnostics diagnostics;
-  auto layer = formats::read_text(R"(#usda 1.0
-(
-    relocates = { </C/y>: </C/r> }
-)
-def "A" (references = [</B>, </_d>]) {
+  TestScene scene(R"((relocates = { </C/y>: </C/r> })
+def "A" ( references = [</B>, </_d>] ) {}
+def "B" ( variantSets = "w" ) {
+    def "_k" ( references = </C> ) { def "x" ( inherits = </B/_k/y> ) {} }
+    variantSet "w" = { "b" ( references = </C> ) {} }
 }
-def "B" (variantSets = "w") {
-    def "_k" (references = </C>) {
-        def "x" (inherits = </B/_k/y>) {
-        }
-    }
-    variantSet "w" = {
-        "b" (references = </C>) {
-        }
-    }
+def "C" { def "_k" { def "y" {} } }
+def "_d" ( references = </_e>
+    variants = { string w = "b" } ) {}
+def "_e" { def "x" ( inherits = </_e/_k>
+    instanceable = true ) {} })");
+  EXPECT_EQ(scene.specs("/A/x/x"), "root/B/_k/x, root/C/_k/y");
 }
-def "C" {
-    def "_k" {
-        def "y" {
-        }
-    }
-}
-def "_d" (
-    references = </_e>
-    variants = { string w = "b" }
-) {
-}
-def "_e" {
-    def "x" (
-        inherits = </_e/_k>
-        instanceable = true
-    ) {
-    }
-}
-)",
-                                  "root", diagnostics);
-  ASSERT_TRUE(layer);
-  const LayerOpener opener = [](const std::string& path,
-                                const layer::Layer&) -> Result<layer::LayerPtr> {
-    return Error(ErrorCode::NotFound, "no " + path);
-  };
-  IndexCache cache(std::make_shared<const layer::Layer>(*std::move(layer)), nullptr, opener, {});
-  std::string specs;
-  for (const Opinion& opinion : cache.index(Path::from("/A/x/x")).opinions) {
-    specs += opinion.path.str() + " ";
-  }
-  EXPECT_EQ(specs, "/B/_k/x /C/_k/y ");
+
+// Below an instance the variant that a node is in contributes nothing: as OpenUSD has it, the sets
+// of its ancestors are decided once more, and wrong selections of them told.
+TEST(Restriction, SetsAroundAVariantThatContributesNothingAreDecidedAgain) {
+  ComposeOptions options;
+  options.variant_fallbacks = {{"v", {"c"}}, {"w", {"c"}}};
+  TestScene scene({{"root", R"(
+class "_c" { def "y" ( instanceable = true
+    variants = { string w = "`${SEL}`" } ) {} }
+def "C" ( variantSets = ["v", "w"] ) { variantSet "v" = { "c" ( references = </_c/y> ) {
+    over "y" ( references = </B> ) {} } } }
+def "B" { def "x" ( inherits = </B/z> ) {} })"}},
+                  options);
+  EXPECT_EQ(scene.specs("/C/y/x"), "root/B/x");
+  EXPECT_EQ(scene.errors("/C/y/x"), "variable-expression-error");
 }
 
 }  // namespace

@@ -3,12 +3,15 @@
 //
 // List edits apply from the weakest layer to the strongest. Items are converted first, so that
 // edits compare what is meant: asset paths after their expressions are evaluated and, where several
-// layers author the field, by the asset that each layer reaches with them. An item counts as
+// layers author the field or one layer writes them in several ways, by the asset that each layer
+// reaches with them. An item counts as
 // authored in the strongest layer that names it. Selections of variants are no lists: the strongest
 // one counts, and one whose expression is wrong leaves the word to a weaker layer.
 #include "tenon/compose/site.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/expressions/variable_expression.h"
@@ -56,6 +59,29 @@ struct EditedArc {
   }
 };
 
+/// Two items lead to prims of one path over asset paths of different text, which may mean one file.
+template <class Authored>
+bool may_name_an_asset_twice(const ListOp<Authored>& op) {
+  const std::array lists{&op.explicit_items, &op.prepended, &op.appended, &op.added, &op.deleted};
+  std::size_t count = 0;
+  for (const auto* items : lists) {
+    count += items->size();
+  }
+  if (count < 2) {
+    return false;
+  }
+  std::map<Path, std::string_view> known;
+  for (const auto* items : lists) {
+    for (const Authored& item : *items) {
+      const auto [at, is_new] = known.try_emplace(item.prim_path, item.asset_path);
+      if (!is_new && at->second != item.asset_path) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// The strongest layer that names an item is where it counts as authored.
 template <class Item>
 void apply_and_attribute(const ListOp<Item>& op, std::vector<Item>& list) {
@@ -101,6 +127,7 @@ class AssetArcList {
 
   template <class Authored>
   void apply(const ListOp<Authored>& op, const StackedLayer& stacked) {
+    by_identity_ = many_layers_ || may_name_an_asset_twice(op);
     apply_and_attribute(
         converted<EditedArc>(op, [&](const Authored& item, auto& to) { add(item, stacked, to); }),
         list_);
@@ -127,7 +154,7 @@ class AssetArcList {
       }
     }
     edited.identity = edited.arc.asset_path;
-    if (many_layers_ && !edited.identity.empty()) {
+    if (by_identity_ && !edited.identity.empty()) {
       edited.identity = identity_(edited.arc.asset_path, *stacked.layer);
     }
     to.push_back(std::move(edited));
@@ -154,6 +181,7 @@ class AssetArcList {
   Path path_;
   const AssetIdentity& identity_;
   bool many_layers_;
+  bool by_identity_ = false;  // text is not enough to tell the items of the edit at hand apart
   std::string_view what_;
   Diagnostics* errors_;
   std::vector<EditedArc> list_;

@@ -40,8 +40,13 @@ int sibling_order(const NodeGraph& graph, NodeId a, NodeId b) {
   return after_a == b || after_b == kNoNode ? -1 : 1;
 }
 
-/// Which of two linked nodes a walk in order of strength meets first.
-int tree_order(const NodeGraph& graph, NodeId a, NodeId b) {
+/// Two children of one node on the ways to two nodes; two nodes of one way are their own.
+struct Branches {
+  NodeId a;
+  NodeId b;
+};
+
+Branches branches_to(const NodeGraph& graph, NodeId a, NodeId b) {
   const std::size_t a_depth = graph[a].arcs_above;
   const std::size_t b_depth = graph[b].arcs_above;
   std::size_t steps = a_depth > b_depth ? a_depth - b_depth : b_depth - a_depth;
@@ -51,16 +56,19 @@ int tree_order(const NodeGraph& graph, NodeId a, NodeId b) {
   while (graph[b].arcs_above > a_depth) {
     b = graph[b].parent;
   }
-  if (a == b) {
-    graph.count(steps / kStepsForUnit);
-    return ascending(a_depth, b_depth);
-  }
-  for (; graph[a].parent != graph[b].parent; ++steps) {
+  for (; a != b && graph[a].parent != graph[b].parent; ++steps) {
     a = graph[a].parent;
     b = graph[b].parent;
   }
   graph.count(steps / kStepsForUnit);
-  return sibling_order(graph, a, b);
+  return {a, b};
+}
+
+/// Which of two linked nodes a walk in order of strength meets first.
+int tree_order(const NodeGraph& graph, NodeId a, NodeId b) {
+  const Branches at = branches_to(graph, a, b);
+  return at.a == at.b ? ascending(graph[a].arcs_above, graph[b].arcs_above)
+                      : sibling_order(graph, at.a, at.b);
 }
 
 /// One lies below the other, going from a copied specialize to where it was authored.
@@ -145,21 +153,20 @@ int compare_siblings(const NodeGraph& graph, NodeId a_id, NodeId b_id) {
   if (a.arc != b.arc) {
     return ascending(a.arc, b.arc);
   }
-  int order = 0;
   if (a.arc == ArcKind::Specialize) {
-    order = compare_specializes(graph, a_id, b_id);
-  } else if (a.namespace_depth != b.namespace_depth) {
-    order = descending(a.namespace_depth, b.namespace_depth);
-  } else if (a.origin != b.origin) {
-    order = tree_order(graph, a.origin, b.origin);
-  } else {
-    order = ascending(a.sibling_number, b.sibling_number);
+    return compare_specializes(graph, a_id, b_id);
   }
-  return order != 0 ? order : ascending(a_id, b_id);
+  if (a.namespace_depth != b.namespace_depth) {
+    return descending(a.namespace_depth, b.namespace_depth);
+  }
+  return a.origin != b.origin ? tree_order(graph, a.origin, b.origin)
+                              : ascending(a.sibling_number, b.sibling_number);
 }
 
 int compare_nodes(const NodeGraph& graph, NodeId a, NodeId b) {
-  return a == b ? 0 : tree_order(graph, a, b);
+  const Branches at = branches_to(graph, a, b);
+  return at.a == at.b ? ascending(graph[a].arcs_above, graph[b].arcs_above)
+                      : compare_siblings(graph, at.a, at.b);
 }
 
 }  // namespace tenon::compose

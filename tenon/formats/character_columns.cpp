@@ -55,7 +55,8 @@ class CharacterCounter {
 
 }  // namespace
 
-std::vector<CharacterColumns> character_columns(const std::vector<const Diagnostic*>& findings) {
+std::vector<CharacterColumns> character_columns(const std::vector<const Diagnostic*>& findings,
+                                                const bytes::Files& files) {
   std::vector<CharacterColumns> columns(findings.size());
   std::map<std::string, std::vector<Mark>> by_file;
   for (std::size_t i = 0; i < findings.size(); ++i) {
@@ -69,7 +70,7 @@ std::vector<CharacterColumns> character_columns(const std::vector<const Diagnost
     add(finding.end_line, finding.end_column, columns[i].end_column);
   }
   for (auto& [file, marks] : by_file) {
-    const auto bytes = source_bytes(file);
+    const auto bytes = source_bytes(files, file);
     if (bytes == nullptr) {
       continue;
     }

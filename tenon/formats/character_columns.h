@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/bytes/files.h"
 
 namespace tenon::formats {
 
@@ -16,8 +17,9 @@ struct CharacterColumns {
 };
 
 /// The columns of findings, which are in bytes, in characters: (finding_count). Each file they
-/// name is read again, in time linear in its size. Columns stay unknown where the file has no such
-/// line any more, or is no file.
-std::vector<CharacterColumns> character_columns(const std::vector<const Diagnostic*>& findings);
+/// name is read again from `files`, in time linear in its size. Columns stay unknown where the file
+/// has no such line any more, or is no file.
+std::vector<CharacterColumns> character_columns(const std::vector<const Diagnostic*>& findings,
+                                                const bytes::Files& files);
 
 }  // namespace tenon::formats

@@ -10,6 +10,7 @@
 
 #include "tenon/base/path.h"
 #include "tenon/formats/open_layer.h"
+#include "tenon/formats/source_bytes.h"
 #include "tenon/formats/text/cursor.h"
 #include "tenon/formats/text/layout/part_finder.h"
 #include "tenon/formats/text/reader.h"
@@ -104,7 +105,7 @@ auto order_of(const Diagnostic& finding) {
 
 }  // namespace
 
-void find_places(const std::vector<Diagnostic*>& findings, const SourceOpener& open) {
+void find_places(const std::vector<Diagnostic*>& findings, const bytes::Files& files) {
   std::map<std::string, std::vector<Diagnostic*>> by_file;
   for (Diagnostic* finding : findings) {
     if (!finding->part.spec.empty() && !finding->file.empty()) {
@@ -112,7 +113,7 @@ void find_places(const std::vector<Diagnostic*>& findings, const SourceOpener& o
     }
   }
   for (auto& [file, found] : by_file) {
-    const auto bytes = open(file);
+    const auto bytes = source_bytes(files, file);
     const bool is_text = bytes != nullptr && format_of(*bytes) == LayerFormat::Text;
     if (is_text) {
       std::stable_sort(found.begin(), found.end(), [](const Diagnostic* a, const Diagnostic* b) {
@@ -133,12 +134,12 @@ void find_places(const std::vector<Diagnostic*>& findings, const SourceOpener& o
   }
 }
 
-void find_places(Diagnostics& findings, const SourceOpener& open) {
+void find_places(Diagnostics& findings, const bytes::Files& files) {
   std::vector<Diagnostic*> all;
   for (Diagnostic& finding : findings) {
     all.push_back(&finding);
   }
-  find_places(all, open);
+  find_places(all, files);
 }
 
 }  // namespace tenon::formats

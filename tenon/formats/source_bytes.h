@@ -6,10 +6,12 @@
 #include <string>
 
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/files.h"
 
 namespace tenon::formats {
 
 /// What the file or layer that findings name was read from; nothing for what is no file.
-std::shared_ptr<const bytes::FileBytes> source_bytes(const std::string& identifier);
+std::shared_ptr<const bytes::FileBytes> source_bytes(const bytes::Files& files,
+                                                     const std::string& identifier);
 
 }  // namespace tenon::formats

@@ -134,10 +134,10 @@ Result<void> check_gltf_files(std::string_view bytes, const std::string& path,
     // As a name and as a URI: readers differ in which it is to them.
     for (const std::string& name : {uri, bytes::plain_asset_path("file:" + uri)}) {
       const std::string file = (folder / bytes::plain_asset_path(name)).generic_string();
-      std::error_code ignored;
-      if (!fs::exists(file, ignored)) {
+      if (policy.files()->kind(file) == bytes::NameKind::Nothing) {
         continue;
       }
+      TENON_CHECK(bytes::check_on_disk(policy.files(), file));
       bytes::note_read(file);
       if (!policy.allows(file)) {
         return std::move(policy.check(file)).error().in_file(path);

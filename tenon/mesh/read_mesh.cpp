@@ -53,6 +53,7 @@ Result<MeshScene> read_mesh(const std::string& path, const MeshReading& reading,
   TENON_TRY(const auto bytes, reading.policy.open(path));
   TENON_CHECK(bytes::check_no_lfs_pointer(bytes->text(), path));
   if (by_assimp) {
+    TENON_CHECK(bytes::check_on_disk(reading.policy.files(), path));
     if (ending != "dae") {
       TENON_CHECK(check_gltf_files(bytes->text(), path, reading.policy));
     }

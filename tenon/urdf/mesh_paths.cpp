@@ -10,7 +10,6 @@
 
 #include <filesystem>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include <pugixml.hpp>
@@ -24,9 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<std::string> file_at(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) {
+std::optional<std::string> file_at(const bytes::Files& files, const fs::path& path) {
+  if (files->kind(path.string()) != bytes::NameKind::File) {
     return std::nullopt;
   }
   return path.lexically_normal().generic_string();
@@ -57,16 +55,14 @@ MeshPaths::MeshPaths(const std::string& path, const UrdfOptions& options)
       packages_(options.packages),
       search_paths_(options.search_paths),
       reading_(options.reading) {
-  std::error_code error;
-  const fs::path absolute = fs::absolute(path, error);
-  folder_ = (error ? fs::path(path) : absolute).lexically_normal().parent_path().generic_string();
+  folder_ = fs::path(bytes::absolute_file_path(path)).parent_path().generic_string();
 }
 
 const std::string& MeshPaths::package_name(const std::string& folder) {
   const auto [at, is_new] = names_.emplace(folder, "");
   if (is_new) {
     const bool may_look = !reading_.is_closed() || reading_.allows(folder + "/package.xml");
-    const auto bytes = may_look ? bytes::package_xml_of(folder) : nullptr;
+    const auto bytes = may_look ? bytes::package_xml_of(reading_.files(), folder) : nullptr;
     pugi::xml_document document;
     if (bytes != nullptr && document.load_buffer(bytes->text().data(), bytes->size())) {
       at->second = document.child("package").child("name").text().as_string();
@@ -81,13 +77,13 @@ std::optional<std::string> MeshPaths::find_in_package(const std::string& name,
     return std::nullopt;
   }
   if (const auto given = packages_.find(name); given != packages_.end()) {
-    return file_at(fs::path(given->second) / rest);
+    return file_at(reading_.files(), fs::path(given->second) / rest);
   }
   if (auto found = find_upward(name, rest)) {
     return found;
   }
   for (const std::string& folder : search_paths_) {
-    if (auto found = file_at(fs::path(folder) / name / rest)) {
+    if (auto found = file_at(reading_.files(), fs::path(folder) / name / rest)) {
       return found;
     }
   }
@@ -99,7 +95,7 @@ std::optional<std::string> MeshPaths::find_upward(const std::string& name,
   for (fs::path at = folder_;; at = at.parent_path()) {
     const bool is_named_so = package_name(at.generic_string()) == name;
     if (at.filename() == name || is_named_so) {
-      if (auto found = file_at(at / rest)) {
+      if (auto found = file_at(reading_.files(), at / rest)) {
         if (is_named_so) {
           take_folder(at.generic_string());
         }
@@ -107,7 +103,7 @@ std::optional<std::string> MeshPaths::find_upward(const std::string& name,
       }
     }
     const fs::path below = at / name;
-    if (auto found = file_at(below / rest)) {
+    if (auto found = file_at(reading_.files(), below / rest)) {
       if (!package_name(below.generic_string()).empty()) {
         take_folder(below.generic_string());
       }
@@ -132,7 +128,7 @@ Result<std::string> MeshPaths::find(const std::string& written) {
     return Error(ErrorCode::NotFound, "the file cannot be found");
   }
   if (!reading_.allows(*file)) {
-    if (const auto folder = bytes::parts_folder(path_, *file)) {
+    if (const auto folder = bytes::parts_folder(reading_.files(), path_, *file)) {
       take_folder(*folder);
     }
   }
@@ -152,7 +148,7 @@ std::optional<std::string> MeshPaths::look_for(const std::string& written) {
   if (plain.empty() || plain.find("://") != std::string::npos) {
     return std::nullopt;
   }
-  return file_at(fs::path(folder_) / plain);
+  return file_at(reading_.files(), fs::path(folder_) / plain);
 }
 
 std::string MeshPaths::advice(const std::string& written) const {

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 
-#include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/lfs_pointer.h"
 #include "tenon/urdf/urdf_reader.h"
 
@@ -117,7 +116,7 @@ Result<robot::RobotModel> read_urdf_text(std::string_view text, const std::strin
 
 Result<robot::RobotModel> read_urdf(const std::string& path, const UrdfOptions& options,
                                     Diagnostics& diagnostics) {
-  TENON_TRY(const auto bytes, bytes::FileBytes::open(path));
+  TENON_TRY(const auto bytes, options.reading.files()->open(path, {}));
   TENON_CHECK(bytes::check_no_lfs_pointer(bytes->text(), path));
   return read_urdf_text(bytes->text(), path, options, diagnostics);
 }

@@ -46,12 +46,20 @@ class Oracle:
         self.options = options
         self.faults = []
 
+    def is_rejected(self):
+        """The root layer or the session's cannot be read."""
+        try:
+            Sdf.Layer.FindOrOpen(self.root_path)
+            if "session" in self.options:
+                Sdf.Layer.FindOrOpen(os.path.join(self.folder, self.options["session"]))
+        except Tf.ErrorException:
+            return True
+        return False
+
     def composed(self):
         """With payloads by the load rules. Which prims there are is known when all is composed, so
         this asks again until no more turn up."""
-        try:
-            Sdf.Layer.FindOrOpen(self.root_path)
-        except Tf.ErrorException:
+        if self.is_rejected():
             return {"exit": ["rejected"]}
         wanted, before = {path for path in POSSIBLE if self.is_loaded(path)}, None
         while wanted != before:
@@ -64,9 +72,7 @@ class Oracle:
 
     def composed_one(self, path):
         """The same of one prim, but for what it is an instance like."""
-        try:
-            Sdf.Layer.FindOrOpen(self.root_path)
-        except Tf.ErrorException:
+        if self.is_rejected():
             return {"exit": ["rejected"]}
         wanted = {path for path in POSSIBLE if self.is_loaded(path)}
         wanted |= {p for p in Sdf.Path(path).GetPrefixes() if self.is_loaded(p)}

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@
 /// What the programs that dump composed scenes have in common. Options of composition:
 /// [--no-payloads] [--loaded PRIM]... [--unloaded PRIM]... [--rule PRIM
 /// AllRule|OnlyRule|NoneRule]...
-/// [--muted LAYER]... [--fallback SET VARIANT]...
+/// [--muted LAYER]... [--fallback SET VARIANT]... [--max-work UNITS]
 namespace tenon::tests {
 
 /// False when `words` from `i` on are no option of composition; else `i` is at its last word.
@@ -40,6 +41,8 @@ inline bool read_compose_option(const std::vector<std::string>& words, std::size
   } else if (word == "--fallback" && left >= 2) {
     options.variant_fallbacks[words[i + 1]].push_back(words[i + 2]);
     i += 2;
+  } else if (word == "--max-work" && left >= 1) {
+    options.set_max_work(std::strtoull(words[++i].c_str(), nullptr, 10));
   } else {
     return false;
   }

@@ -8,6 +8,7 @@
 
 #include "tenon/asset/checking/reported_finding.h"
 #include "tenon/base/result.h"
+#include "tenon/bytes/files.h"
 
 namespace tenon {
 
@@ -15,7 +16,7 @@ namespace tenon {
 /// that a file may grow above them. Files are relative to the folder of the baseline.
 class Baseline {
  public:
-  static Result<Baseline> read(const std::string& path);
+  static Result<Baseline> read(const std::string& path, const bytes::Files& files);
   /// The text of a baseline with these findings, to be written to `path`.
   static std::string text_of(const std::vector<ReportedFinding>& findings, const std::string& path);
 

@@ -73,7 +73,8 @@ class AssetsCheck {
     if (!checked) {
       return std::vector<CorrectedFile>();
     }
-    TENON_TRY(std::vector<CorrectedFile> files, corrected_files(checked->findings));
+    TENON_TRY(std::vector<CorrectedFile> files,
+              corrected_files(checked->findings, options_.check.open.files));
     if (options_.write) {
       TENON_CHECK(options_.write(files));
     }
@@ -135,7 +136,7 @@ Result<CheckedAssets> check_assets(const std::vector<std::string>& paths,
   }
   CheckedAssets checked = check.take();
   if (!options.baseline.empty()) {
-    TENON_TRY(const Baseline baseline, Baseline::read(options.baseline));
+    TENON_TRY(const Baseline baseline, Baseline::read(options.baseline, options.check.open.files));
     baseline.suppress(checked.findings);
   }
   return checked;

@@ -4,13 +4,14 @@
 
 #include <filesystem>
 
+#include "tenon/bytes/files.h"
+
 namespace tenon {
 
 std::string fingerprint_of(const check::Finding& finding, const std::string& folder) {
   namespace fs = std::filesystem;
   const Diagnostic& d = finding.diagnostic;
-  std::error_code ignored;
-  const fs::path base = fs::absolute(folder.empty() ? "." : folder, ignored).lexically_normal();
+  const fs::path base = bytes::absolute_file_path(folder.empty() ? "." : folder);
   const fs::path file(d.file);
   const std::string shown =
       file.is_absolute() ? file.lexically_proximate(base).generic_string() : d.file;

@@ -122,7 +122,8 @@ Json sarif_result(const ReportedFinding& reported, formats::CharacterColumns col
 
 }  // namespace
 
-Json sarif_log(const std::vector<ReportedFinding>& findings, const std::string& version) {
+Json sarif_log(const std::vector<ReportedFinding>& findings, const std::string& version,
+               const bytes::Files& files) {
   std::map<std::string, Severity> broken;
   for (const ReportedFinding& reported : findings) {
     broken.emplace(reported.finding.diagnostic.rule, reported.finding.diagnostic.severity);
@@ -138,7 +139,8 @@ Json sarif_log(const std::vector<ReportedFinding>& findings, const std::string& 
   for (const ReportedFinding& reported : findings) {
     diagnostics.push_back(&reported.finding.diagnostic);
   }
-  const std::vector<formats::CharacterColumns> columns = formats::character_columns(diagnostics);
+  const std::vector<formats::CharacterColumns> columns =
+      formats::character_columns(diagnostics, files);
   for (std::size_t i = 0; i < findings.size(); ++i) {
     results.push_back(sarif_result(findings[i], columns[i], index[diagnostics[i]->rule]));
   }

@@ -15,6 +15,7 @@
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset_policy.h"
 #include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/files.h"
 #include "tenon/bytes/zip/zip_archive.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/physics/read_physics.h"
@@ -81,19 +82,18 @@ Result<void> compare_stages(const SidePair& sides, const CompareOptions& options
   return {};
 }
 
-bool is_folder(const std::string& path) {
-  std::error_code ignored;
-  return fs::is_directory(path, ignored);
+bool is_folder(const std::string& path, const CompareOptions& options) {
+  return options.open.files->kind(bytes::absolute_file_path(path)) == bytes::NameKind::Folder;
 }
 
-bool is_package(const std::string& path) {
-  return is_folder(path) ||
+bool is_package(const std::string& path, const CompareOptions& options) {
+  return is_folder(path, options) ||
          (bytes::is_package_name(path) && bytes::split_package_path(path).inner.empty());
 }
 
 /// What may be read of a folder, whose files may be links, or of a package.
 bytes::ReadPolicy side_policy(const std::string& path, const CompareOptions& options) {
-  return policy_for(is_folder(path) ? path + "/." : path, options.open);
+  return policy_for(is_folder(path, options) ? path + "/." : path, options.open);
 }
 
 /// Files of a package or folder: name below it -> identifier. Hidden ones are left out.
@@ -103,7 +103,7 @@ Result<std::map<std::string, std::string>> files_of(const std::string& path,
   if (path == kNoFile) {
     return files;
   }
-  if (!is_folder(path)) {
+  if (!is_folder(path, options)) {
     const std::string file = bytes::absolute_file_path(path);
     TENON_TRY(const auto contents, side_policy(path, options).open(file));
     TENON_TRY(const bytes::ZipArchive archive, bytes::ZipArchive::open(contents));
@@ -113,18 +113,13 @@ Result<std::map<std::string, std::string>> files_of(const std::string& path,
     return files;
   }
   const fs::path root = bytes::absolute_file_path(path);
-  std::error_code error;
-  for (fs::recursive_directory_iterator at(root, error), end; !error && at != end;
-       at.increment(error)) {
-    const std::string name = at->path().lexically_relative(root).generic_string();
-    if (at->path().filename().string().starts_with('.')) {
-      at.disable_recursion_pending();
-    } else if (at->is_regular_file(error)) {
-      files.emplace(name, at->path().string());
+  TENON_TRY(const std::vector<std::string> found,
+            bytes::files_below(options.open.files, root.string()));
+  for (const std::string& file : found) {
+    const std::string name = fs::path(file).lexically_relative(root).generic_string();
+    if (!name.starts_with('.') && name.find("/.") == std::string::npos) {
+      files.emplace(name, file);
     }
-  }
-  if (error) {
-    return Error(ErrorCode::Io, "cannot list the folder: " + error.message()).in_file(path);
   }
   return files;
 }
@@ -198,10 +193,10 @@ Result<void> compare_packages(const SidePair& sides, const CompareOptions& optio
   return {};
 }
 
-bool are_packages(const SidePair& sides) {
-  return (is_package(sides.before) || sides.before == kNoFile) &&
-         (is_package(sides.after) || sides.after == kNoFile) &&
-         (is_package(sides.before) || is_package(sides.after));
+bool are_packages(const SidePair& sides, const CompareOptions& options) {
+  return (is_package(sides.before, options) || sides.before == kNoFile) &&
+         (is_package(sides.after, options) || sides.after == kNoFile) &&
+         (is_package(sides.before, options) || is_package(sides.after, options));
 }
 
 /// What is compared, as people are told, and the differences.
@@ -211,7 +206,7 @@ Result<std::string> compare(const SidePair& sides, const CompareOptions& options
     TENON_CHECK(compare_stages(sides, options, diagnostics, found));
     return std::string(options.mode == CompareMode::Physics ? "physics" : "composed");
   }
-  if (are_packages(sides)) {
+  if (are_packages(sides, options)) {
     TENON_CHECK(compare_packages(sides, options, diagnostics, found));
     return std::string("packages");
   }

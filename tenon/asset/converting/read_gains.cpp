@@ -28,13 +28,14 @@ std::optional<convert::Gains> gains_of(const std::string& text) {
 }
 
 /// A JSON object: joint -> [K, D], "*" for all others.
-Result<void> read_gains_file(const std::string& path, convert::ConvertOptions& options) {
+Result<void> read_gains_file(const std::string& path, const bytes::Files& files,
+                             convert::ConvertOptions& options) {
   const auto fault = [&](const std::string& message) {
     return Error(ErrorCode::Invalid, message)
         .in_file(path)
         .with_fix("write {\"joint\": [K, D], \"*\": [K, D]} in N m/rad and N m s/rad");
   };
-  const auto file = bytes::FileBytes::open(path);
+  const auto file = files->open(path, {});
   if (!file) {
     return fault("the gains are neither two numbers K,D nor a file that can be read");
   }
@@ -61,9 +62,10 @@ Result<void> read_gains_file(const std::string& path, convert::ConvertOptions& o
 
 }  // namespace
 
-Result<void> read_gains(const std::string& text, convert::ConvertOptions& options) {
+Result<void> read_gains(const std::string& text, const bytes::Files& files,
+                        convert::ConvertOptions& options) {
   options.gains = gains_of(text);
-  return options.gains ? Result<void>() : read_gains_file(text, options);
+  return options.gains ? Result<void>() : read_gains_file(text, files, options);
 }
 
 }  // namespace tenon

@@ -15,6 +15,7 @@
 #include "tenon/asset_policy.h"
 #include "tenon/base/content_digest.h"
 #include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/files.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/pack_asset.h"
@@ -26,7 +27,7 @@ namespace fs = std::filesystem;
 
 /// Absolute asset paths become relative to the folder of `output`.
 void make_relative(layer::Layer& layer, const std::string& output) {
-  const fs::path folder = fs::absolute(output).lexically_normal().parent_path();
+  const fs::path folder = fs::path(bytes::absolute_file_path(output)).parent_path();
   for (const layer::Layer::Entry& entry : layer.entries()) {
     const auto* asset = entry.spec.get<layer::AssetPath>(layer::fields::default_value);
     if (asset == nullptr || !fs::path(asset->authored).is_absolute()) {
@@ -76,7 +77,7 @@ convert::InnerImages place_images(convert::InnerImages images, const std::string
   if (images.empty()) {
     return placed;
   }
-  const fs::path file = fs::absolute(output).lexically_normal();
+  const fs::path file = bytes::absolute_file_path(output);
   const fs::path folder = file.parent_path() / (file.stem().string() + "_images");
   std::map<std::string, std::string> place_of;
   std::set<std::string> taken;
@@ -99,7 +100,7 @@ convert::InnerImages place_images(convert::InnerImages images, const std::string
 
 /// Digests of files beside the output, by their names from there.
 structure::Digests digests_of(const convert::InnerImages& files, const std::string& output) {
-  const fs::path folder = fs::absolute(output).lexically_normal().parent_path();
+  const fs::path folder = fs::path(bytes::absolute_file_path(output)).parent_path();
   structure::Digests digests;
   for (const auto& [place, contents] : files) {
     digests.emplace(fs::path(place).lexically_relative(folder).generic_string(),

@@ -16,6 +16,7 @@
 #include "tenon/asset/layers/output_place.h"
 #include "tenon/asset_policy.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/files.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
@@ -114,7 +115,7 @@ Result<AssetLayers> AssetLayers::open(const std::string& path, const OpenOptions
 /// One file; a text that loses its layout is noted under the name of its original.
 Result<MadeFile> AssetLayers::made(const layer::Layer& layer, const std::string& original,
                                    const std::string& file) {
-  TENON_TRY(LayerContents made, edited_contents(layer, file));
+  TENON_TRY(LayerContents made, edited_contents(layer, file, resolver_.options().files));
   if (!made.kept_layout) {
     without_layout_.push_back(original);
   }
@@ -155,7 +156,7 @@ std::map<std::string, std::string> AssetLayers::new_places(const std::string& ou
       moves[i] = needed ? 1 : 0;
     }
   }
-  const fs::path target = fs::absolute(root_output(output, *layers_[0].layer)).lexically_normal();
+  const fs::path target = bytes::absolute_file_path(root_output(output, *layers_[0].layer));
   const fs::path beside = target.parent_path();
   const fs::path folder = names_folder(output) ? beside : beside / (target.stem() += "_layers");
   const fs::path home = fs::path(layers_[0].layer->identifier()).parent_path();
@@ -176,10 +177,10 @@ std::map<std::string, std::string> AssetLayers::new_places(const std::string& ou
 
 /// A folder may hold the asset itself, whose layers nobody wanted to be replaced.
 Result<void> AssetLayers::check_apart(const std::map<std::string, std::string>& places) const {
+  const bytes::Files& files = resolver_.options().files;
   for (const auto& [from, to] : places) {
     const bool is_own = std::any_of(layers_.begin(), layers_.end(), [&](const AssetLayer& part) {
-      std::error_code ignored;
-      return fs::equivalent(part.layer->identifier(), to, ignored);
+      return files->real_path(part.layer->identifier()) == files->real_path(to);
     });
     if (is_own) {
       return Error(ErrorCode::Invalid, "the result would replace a layer of the asset itself")
@@ -267,10 +268,11 @@ std::string root_output(const std::string& output, const layer::Layer& root) {
   return (fs::path(output) / name).string();
 }
 
-Result<LayerContents> edited_contents(const layer::Layer& layer, const std::string& file) {
+Result<LayerContents> edited_contents(const layer::Layer& layer, const std::string& file,
+                                      const bytes::Files& files) {
   const auto wanted = file == "-" ? Result<formats::LayerFormat>(formats::LayerFormat::Text)
                                   : formats::layer_format_for(file);
-  const auto bytes = bytes::FileBytes::open(layer.identifier());
+  const auto bytes = files->open(layer.identifier(), {});
   const bool in_place = file == layer.identifier();
   const bool text = bytes && formats::format_of(**bytes) == formats::LayerFormat::Text &&
                     (in_place || (wanted && *wanted == formats::LayerFormat::Text));
@@ -296,8 +298,7 @@ Result<std::string> new_contents(const layer::Layer& layer, const std::string& f
 layer::Layer layer_over(const layer::Layer& asset, const std::string& output) {
   layer::Layer over(output);
   over.set_may_lack_text();
-  const fs::path folder =
-      output == "-" ? fs::current_path() : fs::absolute(output).lexically_normal().parent_path();
+  const fs::path folder = fs::path(bytes::absolute_file_path(output)).parent_path();
   const std::string name = fs::path(asset.identifier()).lexically_relative(folder).generic_string();
   over.root().set(
       "subLayers",

@@ -89,8 +89,10 @@ struct LayerContents {
 };
 
 /// `layer` as the contents of `file`, text for "-". Where the layer's own file is text and the new
-/// one is to be text, its comments and layout stay but for what changed, if they can.
-Result<LayerContents> edited_contents(const layer::Layer& layer, const std::string& file);
+/// one is to be text, its comments and layout stay but for what changed, if they can; `files` have
+/// the layer's.
+Result<LayerContents> edited_contents(const layer::Layer& layer, const std::string& file,
+                                      const bytes::Files& files);
 
 /// `layer` in the format that the name of `file` asks for; as text for "-".
 Result<std::string> new_contents(const layer::Layer& layer, const std::string& file);

@@ -26,7 +26,7 @@ Result<layer::Layer> copy_layer(const std::string& path, const OpenOptions& open
 }
 
 void note_named_layers(layer::Layer& layer, const OpenOptions& open) {
-  const bytes::AssetResolver resolver({open.search_paths, open.sandbox_roots});
+  const bytes::AssetResolver resolver({open.search_paths, open.sandbox_roots, open.files});
   formats::rename_assets(layer, [&](const std::string& name, formats::AssetUse use, Path) {
     const bool is_layer = use == formats::AssetUse::Layer && !name.empty();
     const auto identifier = is_layer ? resolver.resolve(name, layer.identifier()) : std::string();

@@ -15,6 +15,7 @@
 #include "tenon/bake/over_specs.h"
 #include "tenon/base/assignment.h"
 #include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/files.h"
 #include "tenon/formats/save_layer.h"
 
 namespace tenon {
@@ -67,7 +68,7 @@ layer::Layer with_selection(layer::Layer layer, const VariantSelection& selectio
 bool keeps_asset_paths(const layer::Layer& root, const std::string& output) {
   namespace fs = std::filesystem;
   return output == "-" || (!bytes::is_in_package(root.identifier()) &&
-                           fs::absolute(output).parent_path().lexically_normal() ==
+                           fs::path(bytes::absolute_file_path(output)).parent_path() ==
                                fs::path(root.identifier()).parent_path());
 }
 
@@ -94,7 +95,8 @@ Result<SelectedVariant> select_variant(const std::string& path, const SelectOpti
         .in_file(output)
         .with_fix("give -o FILE, or unpack it: tenon zip PACKAGE --extract FOLDER");
   }
-  TENON_TRY(LayerContents made, edited_contents(with_selection(root, result.selection), output));
+  TENON_TRY(LayerContents made,
+            edited_contents(with_selection(root, result.selection), output, options.open.files));
   result.file.contents = std::move(made.contents);
   result.kept_layout = made.kept_layout;
   return result;

@@ -14,6 +14,7 @@
 #include "tenon/base/file_finding.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/files.h"
 
 namespace tenon {
 namespace {
@@ -88,8 +89,8 @@ Result<MutedAsset> mute_asset(const std::string& path, const StripOptions& optio
   TENON_TRY(const stage::Stage stage, open_stage(path, options.open, diagnostics));
   const layer::Layer& root = stage.root_layer();
   const std::string output = root_output(options.output, root);
-  std::error_code ignored;
-  if (std::filesystem::equivalent(root.identifier(), output, ignored)) {
+  const bytes::Files& files = options.open.files;
+  if (files->real_path(root.identifier()) == files->real_path(bytes::absolute_file_path(output))) {
     return Error(ErrorCode::Invalid, "the layer over the asset would replace the asset")
         .in_file(output)
         .with_rule("output.is-input")
@@ -99,7 +100,7 @@ Result<MutedAsset> mute_asset(const std::string& path, const StripOptions& optio
   MutedAsset muted;
   muted.counts = bake::mute_physics(stage, layer, diagnostics);
   if (options.in_place) {
-    TENON_TRY(LayerContents made, edited_contents(layer, layer.identifier()));
+    TENON_TRY(LayerContents made, edited_contents(layer, layer.identifier(), files));
     muted.file = {layer.identifier(), std::move(made.contents)};
   } else {
     TENON_TRY(std::string contents, new_contents(layer, output));

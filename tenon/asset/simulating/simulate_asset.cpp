@@ -17,6 +17,7 @@
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/grouped_digits.h"
 #include "tenon/base/text/text_number.h"
+#include "tenon/bytes/files.h"
 #include "tenon/physics/read_physics.h"
 
 namespace tenon {
@@ -146,8 +147,8 @@ layer::Layer motion_layer(const SimulatedAsset& simulated, const std::string& pa
                           Diagnostics& diagnostics) {
   namespace fs = std::filesystem;
   bake::BakeOptions bake;
-  const fs::path folder = output == "-" ? fs::current_path() : fs::absolute(output).parent_path();
-  const fs::path asset = fs::absolute(path).lexically_normal();
+  const fs::path folder = fs::path(bytes::absolute_file_path(output)).parent_path();
+  const fs::path asset = bytes::absolute_file_path(path);
   const std::string relative = asset.lexically_relative(folder.lexically_normal()).generic_string();
   bake.uninstance = options.uninstance;
   bake.asset_path = relative.empty()          ? asset.generic_string()

@@ -191,9 +191,10 @@ void eval_variant_sets(Indexer& indexer, NodeId node) {
 void eval_ancestral_variant_sets(Indexer& indexer, NodeId node) {
   for (Path path = indexer.graph[node].path.parent(); !path.empty() && !path.is_absolute_root();
        path = path.parent()) {
-    if (can_contribute_at(indexer.graph[node], path)) {
-      add_set_tasks(indexer, node, path, TaskKind::AncestralVariantAuthored);
+    if (!can_contribute_at(indexer.graph[node], path)) {
+      continue;
     }
+    add_set_tasks(indexer, node, path, TaskKind::AncestralVariantAuthored);
     if (path.is_variant_selection()) {
       return;  // sets further up are decided: this variant is one of theirs
     }

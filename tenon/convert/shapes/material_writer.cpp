@@ -67,8 +67,7 @@ std::optional<Error> refusal_of(const std::string& image, const InnerImages& inn
                ? std::nullopt
                : std::optional(bytes::not_media(image));
   }
-  std::error_code error;
-  if (!std::filesystem::exists(image, error)) {
+  if (reading.files()->kind(image) == bytes::NameKind::Nothing) {
     return std::nullopt;
   }
   const auto bytes = reading.open(image);

@@ -423,11 +423,10 @@ class Packer {
     const std::string folder =
         path.starts_with('/') ? folder_of(path) : normal(folder_of(anchor) + folder_of(path));
     std::set<std::string> names;
-    std::error_code error;
-    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-      const std::string name = at->path().filename().string();
-      if (fits_template(name, file_pattern)) {
-        names.insert(name);
+    const auto entries = resolver_.options().files->list(folder);
+    for (const auto& entry : entries ? *entries : std::vector<bytes::FolderEntry>()) {
+      if (fits_template(entry.name, file_pattern)) {
+        names.insert(entry.name);
       }
     }
     std::string pattern;

@@ -184,12 +184,12 @@ class Collector {
   }
 
   /// Tiles of a pattern, for one, need not be there.
-  static bool is_there(const std::string& asset, const Error& error) {
+  bool is_there(const std::string& asset, const Error& error) const {
     if (error.diagnostic().rule != bytes::kOutsideRule) {
       return error.code() != ErrorCode::NotFound;
     }
-    std::error_code ignored;
-    return fs::exists(bytes::split_package_path(asset).package, ignored);
+    return source_.files->kind(bytes::split_package_path(asset).package) !=
+           bytes::NameKind::Nothing;
   }
   /// The name in the folder, with a number where another file has it.
   std::string free_place(const std::string& name, const Files& files) const {

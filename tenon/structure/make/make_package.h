@@ -12,6 +12,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/files.h"
 #include "tenon/compose/layer_opener.h"
 #include "tenon/layer/layer.h"
 #include "tenon/structure/layout.h"
@@ -31,6 +32,7 @@ struct AssetSource {
       open_asset;
   /// Units of work of composition, as in compose::ComposeOptions; 0: the limit.
   std::size_t max_work = 0;
+  bytes::Files files = {};  ///< where it it is looked up whether an asset that was refused is there
 };
 
 /// Vendors' schemas of joints (schema_generation.h); UsdPhysics is the same in all.
