@@ -172,6 +172,12 @@ void Outputs::put_beside(const std::string& path, std::string contents) {
   put(path, std::move(contents));
 }
 
+void Outputs::put_all(MadeFiles files) {
+  for (MadeFile& file : files) {
+    put_beside(file.path, std::move(file.contents));
+  }
+}
+
 Result<void> Outputs::commit() const {
   bytes::FileTransaction transaction;
   for (const auto& [path, contents] : files_) {

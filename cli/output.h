@@ -12,8 +12,8 @@
 #include "cli/print.h"
 #include "cli/report.h"
 #include "tenon/asset/edit_asset.h"
+#include "tenon/asset/made_file.h"
 #include "tenon/base/result.h"
-#include "tenon/bytes/read_record.h"
 #include "tenon/bytes/zip/zip_archive.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/structure/package.h"
@@ -55,6 +55,8 @@ class Outputs {
   void put(const std::string& path, std::string contents);
   /// A file of an output of several, in folders that are made for it.
   void put_beside(const std::string& path, std::string contents);
+  /// Files that were made of an asset, in folders that are made for them.
+  void put_all(MadeFiles files);
   /// Asked once nobody else can write, right before anything is written.
   void check_before_commit(std::function<Result<void>()> check) { check_ = std::move(check); }
   /// Writes what was put. Errors: those of bytes::FileTransaction; ErrorCode::Invalid for contents
@@ -71,27 +73,6 @@ class Outputs {
 
 /// The ending says which format a layer has; .usd may be text or binary.
 Result<void> check_layer_name(const std::string& path, formats::LayerFormat format);
-
-/// For edits of files: repeats `work` as long as it ends because somebody else has changed what was
-/// read, so that no edit is lost.
-template <class Work>
-auto edit_files(Report& report, Work work) {
-  constexpr int kAttempts = 100;
-  const Diagnostics before = report.diagnostics;
-  bytes::ReadRecord* record = bytes::ReadRecord::current();
-  if (record != nullptr) {
-    record->keep_digests();
-  }
-  auto done = work();
-  for (int i = 1; i < kAttempts && !done && bytes::is_changed_meanwhile(done.error()); ++i) {
-    if (record != nullptr) {
-      record->clear();
-    }
-    report.diagnostics = before;
-    done = work();
-  }
-  return done;
-}
 
 /// What other parts make into files, behind the same guards: an asset as a folder, edits of an
 /// asset's files, a package unpacked.

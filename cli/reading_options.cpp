@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/reading_options.h"
 
-#include "cli/verb.h"
+#include "tenon/asset/physics_options.h"
 #include "tenon/base/assignment.h"
+#include "tenon/tenon.h"
 
 namespace tenon::cli {
 
@@ -19,6 +20,15 @@ Result<physics::Readings> chosen_readings(const std::vector<std::string>& assign
     TENON_CHECK(physics::set_reading(readings, pair.first, pair.second));
   }
   return readings;
+}
+
+Result<ReadableAsset> open_with_readings(const AssetArguments& asset,
+                                         const std::vector<std::string>& assignments,
+                                         Diagnostics& diagnostics) {
+  TENON_TRY(const physics::Readings readings, chosen_readings(assignments));
+  TENON_TRY(stage::Stage stage,
+            open_stage(asset.asset, with_readings(asset.open_options(), readings), diagnostics));
+  return ReadableAsset{readings, std::move(stage)};
 }
 
 std::string readings_help() {

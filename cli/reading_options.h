@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "cli/verb.h"
+#include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/physics/readings.h"
+#include "tenon/stage/stage.h"
 
 namespace tenon::cli {
 
@@ -15,6 +18,15 @@ namespace tenon::cli {
 void add_readings(const Command& verb, std::vector<std::string>& assignments);
 /// Errors: Invalid, with the names and values that there are.
 Result<physics::Readings> chosen_readings(const std::vector<std::string>& assignments);
+/// An asset whose physics is to be read with --reading.
+struct ReadableAsset {
+  physics::Readings readings;
+  stage::Stage stage;
+};
+/// Errors: those of chosen_readings and open_stage.
+Result<ReadableAsset> open_with_readings(const AssetArguments& asset,
+                                         const std::vector<std::string>& assignments,
+                                         Diagnostics& diagnostics);
 /// Help of --reading: every name with its values and who reads how.
 std::string readings_help();
 

@@ -8,36 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/missing_input.h"
 #include "cli/print.h"
 #include "cli/text/terminal_text.h"
-#include "tenon/base/text/shown_path.h"
+#include "tenon/answers/diagnostic_json.h"
+#include "tenon/asset/missing_input.h"
 #include "tenon/bytes/files.h"
 #include "tenon/formats/find_places.h"
 
 namespace tenon::cli {
-namespace {
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-Json number_or_null(std::uint32_t number) { return number == 0 ? Json(nullptr) : Json(number); }
-
-}  // namespace
-
-Json diagnostic_json(const Diagnostic& d) {
-  Json item = Json::object();
-  item["severity"] = severity_name(d.severity);
-  item["rule"] = text_or_null(d.rule);
-  item["message"] = d.message;
-  item["file"] = d.file.empty() ? Json(nullptr) : Json(shown_path(d.file));
-  item["line"] = number_or_null(d.line);
-  item["column"] = number_or_null(d.column);
-  item["endLine"] = number_or_null(d.end_line);
-  item["endColumn"] = number_or_null(d.end_column);
-  item["prim"] = text_or_null(d.prim);
-  item["property"] = text_or_null(d.property);
-  item["fix"] = text_or_null(d.fix);
-  return item;
-}
 
 bool use_color(const Globals& globals, bool is_terminal) {
   if (globals.color != "auto") {
@@ -85,25 +63,13 @@ int Report::finish(int code, const Json& body) {
     print_diagnostics();
     return code;
   }
-  Json envelope = Json::object();
-  envelope["tool"] = "tenon";
-  envelope["version"] = TENON_VERSION;
-  envelope["schema"] = "tenon." + verb_ + "/1";
-  envelope["asset"] = asset_.empty() ? Json(nullptr) : Json(asset_);
-  envelope["ok"] = code == kOk;
-  envelope["diagnostics"] = Json::array();
-  for (const Diagnostic& d : diagnostics) {
-    envelope["diagnostics"].push_back(diagnostic_json(d));
-  }
-  envelope.update(body);
+  Json envelope =
+      answers::envelope_json({TENON_VERSION, verb_, asset_, code == kOk}, diagnostics, body);
   if (globals_.collected != nullptr) {
     globals_.collected->list.push_back(std::move(envelope));
     return code;
   }
-  const bool only_ascii = stdout_is_terminal();
-  const std::string text =
-      envelope.dump(2, ' ', only_ascii, nlohmann::ordered_json::error_handler_t::replace);
-  print_data(text + "\n");
+  print_data(answers::printed(envelope, stdout_is_terminal()));
   return code;
 }
 
@@ -141,7 +107,7 @@ int each_asset(const Globals& globals, const std::string& verb,
     return code;
   }
   Report report(globals, verb, "");
-  return report.finish(code, {{"assets", std::move(envelopes.list)}});
+  return report.finish(code, answers::assets_json(std::move(envelopes.list)));
 }
 
 }  // namespace tenon::cli

@@ -42,7 +42,7 @@ class Report {
 
   /// Prints the diagnostics, or with --json the envelope with `body` appended. Returns `code`, but
   /// 1 for 0 when a layer, a payload or a mesh that the input names was missing.
-  int finish(int code, const Json& body = Json::object());
+  int finish(int code, const Json& body = answers::nothing());
   /// The same for a run that came to nothing.
   int fail(const Error& error);
 
@@ -58,7 +58,7 @@ class Report {
 
 /// The JSON objects of several assets, until they are printed as one.
 struct Envelopes {
-  Json list = Json::array();
+  std::vector<Json> list;
 };
 
 /// Answers for every asset in turn: as text each under a title, as JSON one object whose "assets"
@@ -68,8 +68,6 @@ using RunOne = std::function<int(const Globals& globals, const std::string& asse
 int each_asset(const Globals& globals, const std::string& verb,
                const std::vector<std::string>& assets, const RunOne& run);
 
-/// The JSON form of a diagnostic: null for what is unknown.
-Json diagnostic_json(const Diagnostic& diagnostic);
 /// The stream is a terminal and colour is wanted (--color, NO_COLOR).
 bool use_color(const Globals& globals, bool is_terminal);
 bool use_color(const Globals& globals);  ///< of standard error

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,12 +9,9 @@
 #include "cli/output.h"
 #include "cli/report.h"
 #include "cli/verb.h"
-#include "tenon/bake/run_simulation.h"
-#include "tenon/engines/simulation.h"
-#include "tenon/scene/physics_scene.h"
-#include "tenon/stage/stage.h"
+#include "tenon/asset/simulating/simulate_asset.h"
 
-/// What `sim` and `bake` share: open, read the physics, run.
+/// What `sim` and `bake` share.
 namespace tenon::cli {
 
 struct SimulateArguments {
@@ -30,25 +26,14 @@ struct SimulateArguments {
   void add_to(const Command& verb);
 };
 
-/// A finished run and everything that it was made of; the simulation refers to the scene.
-struct Simulated {
-  std::unique_ptr<stage::Stage> stage;
-  std::unique_ptr<scene::PhysicsScene> scene;
-  std::unique_ptr<engines::Simulation> simulation;
-  std::string engine_version;
-  bake::Run run;
-  double wall_seconds = 0;
+int exit_code_of(const SimulatedAsset& simulated);
 
-  bool unstable() const { return run.failure && run.failure->code() == ErrorCode::Unstable; }
-  int exit_code() const;
-};
-
-/// Runs; progress goes to a terminal's standard error. A run that failed on its way is a result
-/// (see Run::failure), one that could not begin is an Error.
-Result<Simulated> simulate(const SimulateArguments& arguments, Report& report);
+/// Runs (tenon/asset/simulating/simulate_asset.h); progress goes to a terminal's standard error,
+/// and an interrupt stops the run.
+Result<SimulatedAsset> simulate(const SimulateArguments& arguments, Report& report);
 
 /// Puts the overlay layer that plays the run among the outputs.
-Result<void> put_bake(const Simulated& simulated, const SimulateArguments& arguments,
+Result<void> put_bake(const SimulatedAsset& simulated, const SimulateArguments& arguments,
                       const std::string& output, Outputs& outputs, Report& report);
 
 }  // namespace tenon::cli

@@ -5,9 +5,32 @@
 #include <utility>
 
 #include "tenon/asset_policy.h"
+#include "tenon/compose/expressions/variable_expression.h"
+#include "tenon/layer/fields.h"
 #include "tenon/stage_sources.h"
 
 namespace tenon {
+namespace {
+
+/// Expressions with the variables of the asset's root layer, over those of the layer that holds
+/// them, which count where the layer is referenced.
+formats::ReadExpression expressions_of(const layer::Layer& root) {
+  return [&root](const std::string& expression, const layer::Layer& layer) -> Result<std::string> {
+    const auto variables_of = [](const layer::Layer& from) {
+      const auto* variables =
+          from.root().get<layer::Dictionary>(layer::fields::expressionVariables);
+      return variables == nullptr ? layer::Dictionary() : *variables;
+    };
+    const compose::ExpressionResult result =
+        compose::evaluate_text(expression, merge(variables_of(root), variables_of(layer)));
+    if (!result.errors.empty()) {
+      return Error(ErrorCode::Invalid, result.errors);
+    }
+    return result.text;
+  };
+}
+
+}  // namespace
 
 Result<PackedAsset> pack_asset(const std::string& path, const OpenOptions& options,
                                Diagnostics& diagnostics) {
@@ -18,7 +41,7 @@ Result<PackedAsset> pack_asset(const std::string& path, const OpenOptions& optio
   PackedAsset packed;
   TENON_TRY(packed.package,
             formats::pack(bytes::AssetResolver(std::move(resolver)), policy_for(path, options),
-                          *root, diagnostics, &packed.files));
+                          *root, diagnostics, &packed.files, {}, expressions_of(*root)));
   return packed;
 }
 
@@ -33,7 +56,7 @@ Result<std::string> pack_layer(layer::Layer layer, const std::string& path,
   bytes::ResolverOptions resolver = resolver_options(options);
   resolver.search_paths.insert(resolver.search_paths.begin(), folder);
   return formats::pack(bytes::AssetResolver(std::move(resolver)), policy_for(path, options), layer,
-                       diagnostics, nullptr, made);
+                       diagnostics, nullptr, made, expressions_of(layer));
 }
 
 }  // namespace tenon

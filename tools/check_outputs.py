@@ -60,7 +60,7 @@ def headers_that_write(texts):
 def space_of(path):
     """-> the namespace of a folder of tenon/, as code in cli/ writes it before a name."""
     folder = path.split("/")[1:-1]
-    return "" if folder in ([], ["asset"]) else folder[-1] + "::"
+    return "" if folder[:1] in ([], ["asset"]) else folder[-1] + "::"
 
 
 def functions_that_write(texts, headers):

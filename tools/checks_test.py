@@ -8,6 +8,7 @@ import tempfile
 import types
 import unittest
 
+import check_answers
 import check_folders
 import check_limits
 import check_outputs
@@ -147,6 +148,39 @@ class Outputs(unittest.TestCase):
             files = {**self.FILES, path: line + "\n"}
             with self.subTest(path=path, line=line), tree(files) as root:
                 faults = check_outputs.check(root, list(files))
+                self.assertEqual(faults == [], allowed, faults)
+
+
+class Answers(unittest.TestCase):
+    CASES = [
+        # file, line, allowed
+        ("cli/a.cpp", "return report.finish(kOk, edited_json(edits));", True),
+        ("cli/a.cpp", 'print(answer["masses"].get<std::string>());', True),
+        ("cli/a.cpp", 'if (answer["prim"] == name) {', True),
+        ("cli/a.cpp", "const Json answer = answers::info_json(stage);", True),
+        ("cli/a.cpp", 'rows.push_back({"body", "mass"});', True),
+        ("cli/a.cpp", '// return {{"rule", id}};', True),
+        ("cli/a.cpp", "#include <nlohmann/json.hpp>", False),
+        ("cli/a.cpp", 'return report.finish(kOk, {{"rule", id}, {"page", page}});', False),
+        ("cli/a.cpp", 'return report.finish(\n    kOk,\n    {{"rule", id}});', False),
+        ("cli/a.cpp", 'return {{"rule", id}};', False),
+        ("cli/a.cpp", 'rows.push_back({{"rule", id}});', False),
+        ("cli/a.cpp", "Json rows = Json::array();", False),
+        ("cli/a.cpp", "const Json json = Json::parse(text);", False),
+        ("cli/a.cpp", "return text.empty() ? Json(nullptr) : other;", False),
+        ("cli/a.cpp", 'body["prims"] = tree;', False),
+        ("cli/a.cpp", "Json body;", False),
+        ("cli/a.cpp", 'const Json body = {{"rule", id}};', False),
+        ("cli/a.cpp", "print_data(body.dump(2));", False),
+        ("cli/text/command_json.cpp", "Json rows = Json::array();", True),
+        ("cli/a_test.cpp", "Json rows = Json::array();", True),
+        ("tenon/asset/a.cpp", "Json rows = Json::array();", True),
+    ]
+
+    def test_who_builds_json(self):
+        for path, line, allowed in self.CASES:
+            with self.subTest(path=path, line=line), tree({path: line + "\n"}) as root:
+                faults = check_answers.check(root, [path])
                 self.assertEqual(faults == [], allowed, faults)
 
 

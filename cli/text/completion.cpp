@@ -4,8 +4,8 @@
 // The scripts are made of the table that the parser fills, so they follow the options by
 // themselves. Each offers, for a verb, its own options with those of the commands below it and of
 // the program; values come from the closed choices of an option, else the shell completes files. In
-// bash and zsh the verb is the first word that is no option, in fish any word that is the name of a
-// verb.
+// bash and zsh the verb is the first word that is neither an option nor the value of one of the
+// program's options, in fish any word that is the name of a verb.
 #include "cli/text/completion.h"
 
 #include <functional>
@@ -76,24 +76,45 @@ std::string bash_reply(const std::vector<std::string>& words) {
   return "COMPREPLY=($(compgen -W " + shell_quoted(joined(words, " ")) + " -- \"$word\"))";
 }
 
+/// The values that options have behind a verb, or with "" in front of one.
+std::string bash_choices(const std::string& verb, const std::vector<OptionInfo>& options) {
+  std::string text;
+  for (const OptionInfo& option : options) {
+    if (!option.choices.empty()) {
+      for (const std::string& name : option.names) {
+        text += "    " + verb + "," + name + ") " + bash_reply(option.choices) + "; return ;;\n";
+      }
+    }
+  }
+  return text;
+}
+
+/// A loop for bash and zsh that puts the verb into `verb`: the words that are complete are those
+/// of the array `words` from index `first` to before index `end`.
+std::string verb_loop(const CommandInfo& program, const std::string& words, const char* first,
+                      const std::string& end) {
+  std::string with_value;
+  for (const OptionInfo& option : program.options) {
+    for (const std::string& name : option.names) {
+      with_value += option.value.empty() ? "" : (with_value.empty() ? "" : "|") + name;
+    }
+  }
+  std::string text = "  for ((i = " + std::string(first) + "; i < " + end + "; ++i)); do\n" +
+                     "    case ${" + words + "[i]} in\n";
+  text += with_value.empty() ? "" : "      " + with_value + ") ((++i)) ;;\n";
+  return text + "      -*) ;;\n" + "      *) verb=${" + words + "[i]}; break ;;\n" +
+         "    esac\n  done\n";
+}
+
 std::string bash_script(const CommandInfo& program) {
   std::string text =
       "# Completion of tenon for bash, made by: tenon completion bash\n"
       "_tenon() {\n"
-      "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} verb= i\n"
-      "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
-      "    [[ ${COMP_WORDS[i]} == -* ]] || { verb=${COMP_WORDS[i]}; break; }\n"
-      "  done\n"
-      "  case $verb,$before in\n";
+      "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} verb= i\n";
+  text += verb_loop(program, "COMP_WORDS", "1", "COMP_CWORD") + "  case $verb,$before in\n";
+  text += bash_choices("", program.options);
   for (const CommandInfo& verb : program.commands) {
-    for (const OptionInfo& option : options_of(program, verb)) {
-      if (!option.choices.empty()) {
-        for (const std::string& name : option.names) {
-          text +=
-              "    " + verb.name + "," + name + ") " + bash_reply(option.choices) + "; return ;;\n";
-        }
-      }
-    }
+    text += bash_choices(verb.name, options_of(program, verb));
   }
   text += "  esac\n  case $verb in\n";
   text += "    '') " + bash_reply(with_names(names_of_verbs(program), program.options)) +
@@ -140,10 +161,8 @@ std::string zsh_script(const CommandInfo& program) {
   for (const CommandInfo& verb : program.commands) {
     text += "    " + shell_quoted(verb.name + ":" + zsh_escaped(verb.about)) + "\n";
   }
+  text += "  )\n  local verb= i\n" + verb_loop(program, "words", "2", "CURRENT");
   text +=
-      "  )\n"
-      "  local verb=${words[(r)[a-z]*]}\n"
-      "  (( CURRENT > 2 )) && verb=${${words[2,CURRENT-1]}[(r)[a-z]*]} || verb=\n"
       "  case $verb in\n"
       "    '')\n      _describe verb verbs\n      _arguments";
   for (const OptionInfo& option : program.options) {

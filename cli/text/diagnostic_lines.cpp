@@ -5,6 +5,7 @@
 #include <map>
 
 #include "cli/text/terminal_text.h"
+#include "tenon/base/text/grouped_digits.h"
 #include "tenon/base/text/shown_path.h"
 
 namespace tenon::cli {
@@ -89,14 +90,6 @@ std::vector<std::size_t> weights(const std::vector<Remark>& findings) {
 }
 
 }  // namespace
-
-std::string grouped_digits(std::size_t number) {
-  std::string text = std::to_string(number);
-  for (std::size_t at = text.size(); at > 3; at -= 3) {
-    text.insert(at - 3, ",");
-  }
-  return text;
-}
 
 std::vector<std::string> diagnostic_lines(const std::vector<Remark>& findings, bool color,
                                           bool all) {

@@ -29,7 +29,4 @@ constexpr std::size_t kShownOfAKind = 10;
 /// The line of one finding, with the file as shown_path has it.
 std::string diagnostic_line(Diagnostic diagnostic, bool color);
 
-/// "19,999".
-std::string grouped_digits(std::size_t number);
-
 }  // namespace tenon::cli

@@ -70,12 +70,5 @@ TEST(DiagnosticLines, NothingActsOnATerminalButColours) {
   EXPECT_EQ(diagnostic_line(d, true), "\033[31merror:\033[0m evil \\x1b]0;title\\x07\\x0anext");
 }
 
-TEST(DiagnosticLines, DigitsAreGrouped) {
-  EXPECT_EQ(grouped_digits(0), "0");
-  EXPECT_EQ(grouped_digits(999), "999");
-  EXPECT_EQ(grouped_digits(1000), "1,000");
-  EXPECT_EQ(grouped_digits(1234567), "1,234,567");
-}
-
 }  // namespace
 }  // namespace tenon::cli

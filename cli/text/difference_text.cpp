@@ -205,4 +205,16 @@ std::string difference_text(const scene::SceneDifference& difference) {
   return text + "  " + change_words(difference);
 }
 
+std::string difference_text(const FileDifference& difference) {
+  if (const auto* file = std::get_if<FileChange>(&difference.what)) {
+    return std::string(mark_of(file->change)) + " " + difference.file + "  file " +
+           std::string(change_name(file->change));
+  }
+  const auto* layers = std::get_if<diff::Difference>(&difference.what);
+  const std::string text = layers != nullptr
+                               ? difference_text(*layers)
+                               : difference_text(std::get<scene::SceneDifference>(difference.what));
+  return (difference.file.empty() ? "" : difference.file + ": ") + text;
+}
+
 }  // namespace tenon::cli

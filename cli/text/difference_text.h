@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "cli/report.h"
+#include "tenon/asset/comparing/compare_files.h"
 #include "tenon/diff/layer_difference.h"
 #include "tenon/scene/fields/scene_difference.h"
 
@@ -15,5 +15,8 @@ std::string difference_text(const diff::Difference& difference);
 
 /// One line, "~ joint /j  upper limit 75 deg -> 60 deg"; angles in degrees.
 std::string difference_text(const scene::SceneDifference& difference);
+
+/// The same with the file in front where there is one, or "~ NAME  file changed".
+std::string difference_text(const FileDifference& difference);
 
 }  // namespace tenon::cli

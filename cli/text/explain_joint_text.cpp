@@ -31,7 +31,7 @@ std::string side_text(const Json& side, const char* name) {
 
 std::string bound_text(const Json& value, bool angular) {
   return value.is_null() ? "unlimited"
-                         : text(Json(value.get<double>() * (angular ? kDegreesPerRadian : 1))) +
+                         : rounded_text(value.get<double>() * (angular ? kDegreesPerRadian : 1)) +
                                (angular ? " deg" : " m");
 }
 
@@ -74,7 +74,7 @@ std::string joint_text(const Json& joint) {
                         (joint["enabled"].get<bool>() ? "\n" : ", disabled [S-91]\n");
   text_of += side_text(joint["side0"], "body0") + side_text(joint["side1"], "body1");
   text_of += "    at the start frame 1 is " + text(joint["start"]["distance"]) + " m and " +
-             text(Json(joint["start"]["angle"].get<double>() * kDegreesPerRadian)) +
+             rounded_text(joint["start"]["angle"].get<double>() * kDegreesPerRadian) +
              " deg away from frame 0\n";
   for (const Json& row : joint["dofs"]) {
     text_of += dof_text(row);

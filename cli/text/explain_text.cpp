@@ -65,7 +65,7 @@ std::string explain_prim_text(const Json& answer) {
   }
   for (const char* name : {"scene", "material", "articulation"}) {
     if (answer.contains(name)) {
-      text += std::string("  ") + name + ": " + answer[name].dump() + "\n";
+      text += std::string("  ") + name + ": " + answers::on_one_line(answer[name]) + "\n";
     }
   }
   for (const Json& row : answer["properties"]) {

@@ -5,6 +5,7 @@
 #include "cli/report.h"
 #include "cli/simulate.h"
 #include "cli/verb.h"
+#include "tenon/asset/simulating/simulated_json.h"
 #include "tenon/base/text/shown_path.h"
 
 namespace tenon::cli {
@@ -47,10 +48,7 @@ int run_bake(const Globals& globals, const BakeArguments& options) {
     report.note(shown_path(options.output) + ": " + std::to_string(frames) + " frames of " +
                 std::to_string(bodies) + " bodies");
   }
-  return report.finish(simulated->exit_code(), {{"output", options.output},
-                                                {"frames", frames},
-                                                {"bodies", bodies},
-                                                {"time", simulated->run.time}});
+  return report.finish(exit_code_of(*simulated), motion_json(*simulated, options.output));
 }
 
 }  // namespace

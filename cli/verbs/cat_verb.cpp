@@ -10,13 +10,13 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/answers/diagnostic_json.h"
+#include "tenon/asset/layers/copy_layer.h"
+#include "tenon/asset/repeat_edit.h"
 #include "tenon/asset_policy.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/asset_resolver.h"
-#include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
-#include "tenon/stage/flatten/flatten.h"
-#include "tenon/tenon.h"
 
 namespace tenon::cli {
 namespace {
@@ -30,31 +30,11 @@ struct CatArguments {
   bool in_place = false;
 };
 
-Result<layer::Layer> read_input(const CatArguments& options, Diagnostics& diagnostics) {
-  const bool compose = options.flatten || options.flatten_layer_stack || options.asset.selects();
-  if (!compose) {
-    TENON_TRY(const layer::LayerPtr layer,
-              open_layer(options.asset.asset, options.asset.open_options(), diagnostics));
-    return *layer;
+CopyForm form_of(const CatArguments& options) {
+  if (options.flatten_layer_stack) {
+    return CopyForm::FlattenedLayerStack;
   }
-  TENON_TRY(const stage::Stage stage,
-            open_stage(options.asset.asset, options.asset.open_options(), diagnostics));
-  name_outside_layers(stage, policy_for(options.asset.asset, options.asset.open_options()),
-                      diagnostics);
-  return options.flatten_layer_stack ? stage::flatten_layer_stack(stage) : stage::flatten(stage);
-}
-
-/// A layer that is copied as it is opens none of those that it names: they are inputs nevertheless.
-void note_named_layers(layer::Layer& layer, const OpenOptions& open) {
-  const bytes::AssetResolver resolver({open.search_paths, open.sandbox_roots, open.files});
-  formats::rename_assets(layer, [&](const std::string& name, formats::AssetUse use, Path) {
-    const bool is_layer = use == formats::AssetUse::Layer && !name.empty();
-    const auto identifier = is_layer ? resolver.resolve(name, layer.identifier()) : std::string();
-    if (identifier && !identifier->empty()) {
-      bytes::note_read(bytes::split_package_path(*identifier).package);
-    }
-    return name;
-  });
+  return options.flatten || options.asset.selects() ? CopyForm::Flattened : CopyForm::AsItIs;
 }
 
 /// Gives what a composed scene took back to the system: writing then needs nothing on top of it.
@@ -87,20 +67,17 @@ Result<formats::LayerFormat> claim(const CatArguments& options, Outputs& outputs
 Result<void> write(const CatArguments& options, Diagnostics& diagnostics) {
   Outputs outputs = options.in_place ? Outputs::in_place() : Outputs();
   TENON_TRY(const formats::LayerFormat format, claim(options, outputs));
-  TENON_TRY(layer::Layer layer, read_input(options, diagnostics));
+  const std::string& asset = options.asset.asset;
+  const OpenOptions open = options.asset.open_options();
+  TENON_TRY(layer::Layer layer, copy_layer(asset, open, form_of(options), diagnostics));
   std::error_code error;
   if (std::filesystem::exists(options.output, error)) {
-    note_named_layers(layer, options.asset.open_options());
+    note_named_layers(layer, open);
   }
   return_free_memory();
-  if (format == formats::LayerFormat::Package) {
-    TENON_TRY(std::string package, pack_layer(std::move(layer), options.asset.asset,
-                                              options.asset.open_options(), diagnostics));
-    outputs.put(options.output, std::move(package));
-    return outputs.commit();
-  }
-  TENON_TRY(std::string bytes, formats::encode_layer(layer, format));
-  outputs.put(options.output, std::move(bytes));
+  TENON_TRY(std::string contents,
+            copied_contents(std::move(layer), format, asset, open, diagnostics));
+  outputs.put(options.output, std::move(contents));
   return outputs.commit();
 }
 
@@ -112,13 +89,14 @@ int run_cat(const Globals& globals, const CatArguments& options) {
             .with_fix("name an output file with -o"));
   }
   const Progress progress(globals, "reading and writing " + shown_path(options.asset.asset));
-  const auto written = edit_files(report, [&] { return write(options, report.diagnostics); });
+  const auto written =
+      repeat_edit(report.diagnostics, [&] { return write(options, report.diagnostics); });
   if (!written) {
     return report.fail(written.error());
   }
   const bool package = bytes::is_package_name(options.output) || options.format == "usdz";
   return report.finish(package && left_out(report.diagnostics) ? kNo : kOk,
-                       {{"output", options.output}});
+                       answers::output_json(options.output));
 }
 
 }  // namespace

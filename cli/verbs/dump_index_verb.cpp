@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,8 +8,8 @@
 #include "cli/report.h"
 #include "cli/variant_fallbacks.h"
 #include "cli/verb.h"
-#include "tenon/compose/dump_index.h"
-#include "tenon/tenon.h"
+#include "tenon/answers/diagnostic_json.h"
+#include "tenon/asset/answers/index_dump.h"
 
 namespace tenon::cli {
 namespace {
@@ -23,40 +22,13 @@ struct DumpIndexArguments {
   bool is_record = false;  ///< of the suite, whose errors stand in the text alone
 };
 
-Diagnostic missing(const compose::MissingArc& arc) {
-  Diagnostic finding;
-  finding.rule = "compose.invalid-asset-path";
-  finding.message = "the " + std::string(arc.arc) + " @" + arc.path + "@ cannot be opened";
-  finding.file = arc.layer;
-  finding.prim = arc.prim.str();
-  finding.fix = "correct the path or provide the file";
-  return finding;
-}
-
 Result<std::string> dump(const DumpIndexArguments& options, Report& report) {
   OpenOptions open = options.asset.open_options();
   open.session_path = options.session;
   TENON_TRY(open.variant_fallbacks, parse_variant_fallbacks(options.fallbacks));
-  std::vector<Path> prims;
-  for (const std::string& text : options.prims) {
-    TENON_TRY(const Path prim, Path::parse(text));
-    prims.push_back(prim);
-  }
-  TENON_TRY(auto cache, open_indices(options.asset.asset, open, report.diagnostics));
-  const std::filesystem::path folder =
-      std::filesystem::path(cache->layer_stack()->root->identifier()).parent_path();
-  const auto label = [&folder](const layer::Layer& layer) {
-    const std::filesystem::path path(layer.identifier());
-    return path.is_absolute() ? path.lexically_proximate(folder).generic_string()
-                              : layer.identifier();
-  };
-  std::string text = compose::dump_indices(*cache, label, prims);
-  for (const compose::MissingArc& arc : cache->missing_arcs()) {
-    if (!options.is_record) {
-      report.diagnostics.add(missing(arc));
-    }
-  }
-  return text;
+  Diagnostics in_text;
+  return dump_index(options.asset.asset, open, options.prims,
+                    {report.diagnostics, options.is_record ? in_text : report.diagnostics});
 }
 
 int run_dump_index(const Globals& globals, const DumpIndexArguments& options) {
@@ -66,7 +38,7 @@ int run_dump_index(const Globals& globals, const DumpIndexArguments& options) {
     return report.fail(text.error());
   }
   if (globals.json) {
-    return report.finish(kOk, {{"text", *text}});
+    return report.finish(kOk, answers::text_json(*text));
   }
   print_data(*text);
   return report.finish(kOk);

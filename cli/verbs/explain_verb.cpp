@@ -8,7 +8,9 @@
 #include "cli/text/explain_text.h"
 #include "cli/text/rule_numbers.h"
 #include "cli/verb.h"
+#include "tenon/answers/diagnostic_json.h"
 #include "tenon/answers/explain.h"
+#include "tenon/answers/where_opinions.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/check/rule.h"
 #include "tenon/physics/read_physics.h"
@@ -39,13 +41,8 @@ Result<ExplainedObject> find_object(const stage::Stage& stage, const std::string
         .with_fix("tenon tree lists all prims");
   }
   ExplainedObject object{prim, path.is_property() ? path.name() : Token()};
-  const bool unknown = path.is_property() && !prim.has_property(object.property) &&
-                       !prim.is_relationship(object.property) &&
-                       prim.attribute(object.property).definition() == nullptr;
-  if (unknown) {
-    return Error(ErrorCode::NotFound,
-                 "<" + prim_path.str() + "> has no property " + object.property.str())
-        .with_fix("tenon tree --attributes lists all properties");
+  if (path.is_property()) {
+    TENON_CHECK(answers::check_property(prim, object.property));
   }
   return object;
 }
@@ -83,28 +80,22 @@ int explain_rule_or_finding(const Globals& globals, const std::string& rule) {
   if (!report.json()) {
     print_text(is_rule_number(rule) ? rule + ": " + text + "\n" : text);
   }
-  return report.finish(kOk, {{"rule", rule}, {"page", text}});
+  return report.finish(kOk, answers::rule_page_json(rule, text));
 }
 
 int run_explain(const Globals& globals, const ExplainArguments& options) {
   Report report(globals, "explain", options.asset.asset);
-  auto readings = chosen_readings(options.readings);
-  if (!readings) {
-    return report.fail(readings.error());
+  const auto asset = open_with_readings(options.asset, options.readings, report.diagnostics);
+  if (!asset) {
+    return report.fail(asset.error());
   }
-  auto stage =
-      open_stage(options.asset.asset, with_readings(options.asset.open_options(), *readings),
-                 report.diagnostics);
-  if (!stage) {
-    return report.fail(stage.error());
-  }
-  auto object = find_object(*stage, options.object);
+  auto object = find_object(asset->stage, options.object);
   if (!object) {
     return report.fail(object.error());
   }
-  answers::Explained explained{*stage, {}, {}};
-  explained.scene = physics::read_physics(*stage, read_options(*readings), report.diagnostics,
-                                          &explained.provenance);
+  answers::Explained explained{asset->stage, {}, {}};
+  explained.scene = physics::read_physics(asset->stage, read_options(asset->readings),
+                                          report.diagnostics, &explained.provenance);
   if (!options.other.empty()) {
     return explain_two(report, explained, *object, options);
   }

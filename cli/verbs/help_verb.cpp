@@ -9,56 +9,14 @@
 #include "cli/print.h"
 #include "cli/program.h"
 #include "cli/report.h"
+#include "cli/text/command_json.h"
 #include "cli/text/completion.h"
 #include "cli/text/man_page.h"
 #include "cli/verb.h"
+#include "tenon/answers/diagnostic_json.h"
 
 namespace tenon::cli {
 namespace {
-
-Json option_json(const OptionInfo& option) {
-  Json range = nullptr;
-  if (option.range) {
-    range = {{"least", option.range->least},
-             {"most", option.range->most},
-             {"withoutLeast", option.range->without_least},
-             {"whole", option.range->whole}};
-  }
-  return {{"names", option.names},
-          {"value", option.value.empty() ? Json(nullptr) : Json(option.value)},
-          {"help", option.help},
-          {"choices", option.choices},
-          {"range", range},
-          {"positional", option.positional},
-          {"required", option.required},
-          {"list", option.list},
-          {"optionalValue", option.optional_value}};
-}
-
-Json options_json(const std::vector<OptionInfo>& options) {
-  Json list = Json::array();
-  for (const OptionInfo& option : options) {
-    list.push_back(option_json(option));
-  }
-  return list;
-}
-
-/// Verbs, and those below test-runner: two levels.
-Json verbs_json(const std::vector<CommandInfo>& verbs) {
-  Json list = Json::array();
-  for (const CommandInfo& verb : verbs) {
-    Json below = Json::array();
-    for (const CommandInfo& inner : verb.commands) {
-      below.push_back(
-          {{"name", inner.name}, {"about", inner.about}, {"options", options_json(inner.options)}});
-    }
-    list.push_back({{"name", verb.name},
-                    {"about", verb.about},
-                    {"options", options_json(verb.options)},
-                    {"verbs", std::move(below)}});
-  }
-  return list;
-}
 
 int run_help(const Globals& globals, const std::vector<std::string>& path) {
   Report report(globals, "help", "");
@@ -71,8 +29,7 @@ int run_help(const Globals& globals, const std::vector<std::string>& path) {
             .with_fix(did_you_mean(path.front(), verb_names(), "`tenon help` lists all verbs")));
   }
   if (report.json()) {
-    return report.finish(
-        kOk, {{"options", options_json(program.options)}, {"verbs", verbs_json(program.commands)}});
+    return report.finish(kOk, command_json(program));
   }
   print_text(help);
   return report.finish(kOk);
@@ -81,7 +38,7 @@ int run_help(const Globals& globals, const std::vector<std::string>& path) {
 /// Prints a text of the program's own, as it is.
 int print_own(Report& report, const std::string& text) {
   if (report.json()) {
-    return report.finish(kOk, {{"text", text}});
+    return report.finish(kOk, answers::text_json(text));
   }
   print_data(text);
   return report.finish(kOk);

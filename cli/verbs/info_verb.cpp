@@ -13,8 +13,7 @@
 namespace tenon::cli {
 namespace {
 
-void print_info(const Json& info) {
-  const Json& stage = info["stage"];
+void print_stage(const Json& stage) {
   print("default prim   %s\n", stage["defaultPrim"].get<std::string>().c_str());
   print("units          %g m, %g kg, up %s, %g time codes per second\n",
         stage["metersPerUnit"].get<double>(), stage["kilogramsPerUnit"].get<double>(),
@@ -24,7 +23,10 @@ void print_info(const Json& info) {
   for (const auto& layer : stage["layers"]) {
     print("  %s\n", layer.get<std::string>().c_str());
   }
-  for (const auto& variant : info["variants"]) {
+}
+
+void print_variants_of(const Json& variants) {
+  for (const auto& variant : variants) {
     std::string options;
     for (const auto& option : variant["options"]) {
       const auto name = option.get<std::string>();
@@ -34,7 +36,9 @@ void print_info(const Json& info) {
     print("variants       %s %s: %s\n", variant["prim"].get<std::string>().c_str(),
           variant["set"].get<std::string>().c_str(), options.c_str());
   }
-  const Json& p = info["physics"];
+}
+
+void print_physics(const Json& p) {
   print("physics        %zu scenes, %zu bodies (%zu kinematic), %.6g kg, %zu articulations\n",
         p["scenes"].get<std::size_t>(), p["bodies"].get<std::size_t>(),
         p["kinematicBodies"].get<std::size_t>(), p["mass_kg"].get<double>(),
@@ -52,6 +56,12 @@ void print_info(const Json& info) {
         p["limits"].get<std::size_t>(), p["mimics"].get<std::size_t>());
   print("colliders      %zu (%zu static)\n", p["colliders"].get<std::size_t>(),
         p["staticColliders"].get<std::size_t>());
+}
+
+void print_info(const Json& info) {
+  print_stage(info["stage"]);
+  print_variants_of(info["variants"]);
+  print_physics(info["physics"]);
   for (const auto& missing : info["missing"]) {
     print("missing        %s\n", missing["path"].get<std::string>().c_str());
   }

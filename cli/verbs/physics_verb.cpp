@@ -28,33 +28,28 @@ struct PhysicsArguments {
 
 int run_physics(const Globals& globals, const PhysicsArguments& options) {
   Report report(globals, "physics", options.asset.asset);
-  auto readings = chosen_readings(options.readings);
-  if (!readings) {
-    return report.fail(readings.error());
-  }
-  auto stage =
-      open_stage(options.asset.asset, with_readings(options.asset.open_options(), *readings),
-                 report.diagnostics);
-  if (!stage) {
-    return report.fail(stage.error());
+  const auto asset = open_with_readings(options.asset, options.readings, report.diagnostics);
+  if (!asset) {
+    return report.fail(asset.error());
   }
   physics::Provenance provenance;
-  const scene::PhysicsScene scene = physics::read_physics(
-      *stage, read_options(*readings), report.diagnostics, options.mass ? &provenance : nullptr);
+  const scene::PhysicsScene scene =
+      physics::read_physics(asset->stage, read_options(asset->readings), report.diagnostics,
+                            options.mass ? &provenance : nullptr);
   if (options.mass) {
-    const Json table = answers::mass_table_json(*stage, scene, provenance);
+    const Json answer = answers::masses_json(asset->stage, scene, provenance);
     if (!globals.json) {
-      print_text(mass_table_text(table));
+      print_text(mass_table_text(answer["masses"]));
     }
-    return report.finish(kOk, {{"masses", table}});
+    return report.finish(kOk, answer);
   }
   if (!globals.json) {
     print_text(physics_text(scene));
   }
   const answers::Geometry geometry =
       options.geometry == "inline" ? answers::Geometry::Inline : answers::Geometry::Hash;
-  return report.finish(kOk,
-                       globals.json ? answers::scene_json_value(scene, geometry) : Json::object());
+  return report.finish(
+      kOk, globals.json ? answers::scene_json_value(scene, geometry) : answers::nothing());
 }
 
 int run(const Globals& globals, PhysicsArguments& options) {

@@ -1,42 +1,29 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options become one list of edits in a fixed order: schemas are removed and applied first,
-// then come typed edits, plain values and last what is cleared, so that a schema that declares a
-// property is there before the property is set. Which file gets an edit, and whether it counts
-// there, is decided in tenon/asset/edit_asset.h. Reading, editing and writing are repeated together
-// when a file changed meanwhile. In a dry run standard output is the difference alone.
-#include <algorithm>
+// The options become one list of edits (tenon/asset/edit_request.h). Which file gets an edit, and
+// whether it counts there, is decided in tenon/asset/edit_asset.h. Reading, editing and writing are
+// repeated together when a file changed meanwhile. In a dry run standard output is the difference
+// alone.
 #include <cstdio>
-#include <functional>
 
 #include "cli/output.h"
 #include "cli/report.h"
 #include "cli/text/terminal_text.h"
-#include "cli/text/unified_diff.h"
 #include "cli/verb.h"
+#include "tenon/asset/answers/edited_json.h"
 #include "tenon/asset/edit_asset.h"
-#include "tenon/asset/typed_edits.h"
-#include "tenon/base/assignment.h"
+#include "tenon/asset/edit_request.h"
+#include "tenon/asset/repeat_edit.h"
 #include "tenon/base/text/shown_path.h"
-#include "tenon/property_value.h"
-#include "tenon/tenon.h"
+#include "tenon/diff/unified_diff.h"
 
 namespace tenon::cli {
 namespace {
 
 struct SetArguments {
   std::string asset;
-  std::vector<std::string> assignments;
-  std::vector<std::string> clear;
-  std::vector<std::string> apply;
-  std::vector<std::string> remove;
-  std::vector<std::string> mass;
-  std::vector<std::string> collider;
-  std::vector<std::string> material;
-  std::vector<std::string> drive;
-  std::vector<std::string> mimic;
-  std::string type;
+  EditRequest request;
   std::string layer;
   std::string engine;
   std::string physics;
@@ -53,128 +40,10 @@ EditOptions edit_options(const SetArguments& options) {
   return edit;
 }
 
-/// Whether it suits the edit is checked with the edit.
-Result<Path> read_path(const std::string& text, const std::string& kind) {
-  auto path = Path::parse(text);
-  if (path && path->is_absolute()) {
-    return path;
-  }
-  return not_a_path(text, kind);
-}
-
-Result<AssetEdit> assignment(const std::string& text, const SetArguments& options) {
-  TENON_TRY(const PropertyAssignment parts, read_assignment(text));
-  AssetEdit edit;
-  edit.object = parts.property;
-  edit.value = parts.value;
-  edit.type_name = Token(options.type);
-  return edit;
-}
-
-Result<AssetEdit> api_edit(const std::string& text, AssetEdit::Kind kind) {
-  const auto parts = split_assignment(text);
-  if (!parts) {
-    return Error(parts.error()).with_fix("write PRIM=SCHEMA, as in /hand/palm=PhysicsMassAPI");
-  }
-  AssetEdit edit;
-  edit.kind = kind;
-  TENON_TRY(edit.object, read_path(parts->first, "prim"));
-  edit.api = Token(parts->second);
-  return edit;
-}
-
-/// The typed edits look at joints and units: at the scene with physics, whichever variant has it.
-Result<stage::Stage> scene_with_physics(const SetArguments& options) {
-  Diagnostics ignored;  // the edit composes again and reports
-  const EditOptions edit = edit_options(options);
-  TENON_TRY(stage::Stage stage, open_stage(options.asset, edit.open, ignored));
-  const stage::Prim root = stage.default_prim();
-  if (!root || !options.physics.empty()) {
-    return stage;
-  }
-  for (const char* variant : {"physics", "physx", "mujoco"}) {
-    const auto names = root.variant_names("Physics");
-    if (std::find(names.begin(), names.end(), variant) != names.end()) {
-      OpenOptions open = edit.open;
-      open.physics_variant = variant;
-      return open_stage(options.asset, open, ignored);
-    }
-  }
-  return stage;
-}
-
-using ReadEdits = std::function<Result<std::vector<AssetEdit>>(const std::string&)>;
-
-Result<void> add_typed(const std::vector<std::string>& texts, const ReadEdits& read,
-                       std::vector<AssetEdit>& edits) {
-  for (const std::string& text : texts) {
-    TENON_TRY(const std::vector<AssetEdit> more, read(text));
-    edits.insert(edits.end(), more.begin(), more.end());
-  }
-  return {};
-}
-
-Result<void> add_typed(const SetArguments& options, std::vector<AssetEdit>& edits) {
-  TENON_CHECK(add_typed(options.collider, collider_edits, edits));
-  TENON_CHECK(add_typed(options.material, material_edits, edits));
-  TENON_CHECK(add_typed(
-      options.mimic, [&](const std::string& text) { return mimic_edits(text, options.engine); },
-      edits));
-  if (options.mass.empty() && options.drive.empty()) {
-    return {};
-  }
-  TENON_TRY(const stage::Stage stage, scene_with_physics(options));
-  TENON_CHECK(add_typed(
-      options.mass, [&](const std::string& text) { return mass_edits(stage, text); }, edits));
-  return add_typed(
-      options.drive, [&](const std::string& text) { return drive_edits(stage, text); }, edits);
-}
-
-/// Schemas first, so that the properties that they declare are known.
-Result<std::vector<AssetEdit>> edits_of(const SetArguments& options) {
-  std::vector<AssetEdit> edits;
-  for (const std::string& text : options.remove) {
-    TENON_TRY(AssetEdit edit, api_edit(text, AssetEdit::Kind::RemoveApi));
-    edits.push_back(std::move(edit));
-  }
-  for (const std::string& text : options.apply) {
-    TENON_TRY(AssetEdit edit, api_edit(text, AssetEdit::Kind::ApplyApi));
-    edits.push_back(std::move(edit));
-  }
-  TENON_CHECK(add_typed(options, edits));
-  for (const std::string& text : options.assignments) {
-    TENON_TRY(AssetEdit edit, assignment(text, options));
-    edits.push_back(std::move(edit));
-  }
-  for (const std::string& text : options.clear) {
-    AssetEdit edit;
-    edit.kind = AssetEdit::Kind::ClearProperty;
-    TENON_TRY(edit.object, read_path(text, "property"));
-    edits.push_back(std::move(edit));
-  }
-  if (edits.empty()) {
-    return Error(ErrorCode::Invalid, "nothing to set").with_fix("name a property: PATH.attr=VALUE");
-  }
-  return edits;
-}
-
 std::string what(const AssetEdit& edit) {
   const bool api = !edit.api.empty();
   return edit.object.str() +
          (api ? (edit.kind == AssetEdit::Kind::ApplyApi ? " + " : " - ") + edit.api.str() : "");
-}
-
-Json place_json(const AssetEdit& edit, const EditedPlace& place) {
-  Json row = {{"object", edit.object.str()},
-              {"api", edit.api.empty() ? Json(nullptr) : Json(edit.api.str())},
-              {"file", shown_path(place.file)},
-              {"line", place.line == 0 ? Json(nullptr) : Json(place.line)},
-              {"spec", place.spec.str()},
-              {"why", place.why},
-              {"before", place.before.empty() ? Json(nullptr) : Json(place.before)},
-              {"after", place.after.empty() ? Json(nullptr) : Json(place.after)}};
-  row["variants"] = place.variants;
-  return row;
 }
 
 std::string place_line(const AssetEdit& edit, const EditedPlace& place) {
@@ -195,23 +64,19 @@ std::string place_line(const AssetEdit& edit, const EditedPlace& place) {
   return text + ")";
 }
 
-Json files_json(const EditedAsset& asset) {
-  Json files = Json::array();
-  for (const EditedFile& file : asset.files) {
-    const std::string name = shown_path(file.path);
-    files.push_back(
-        {{"file", name},
-         {"diff", file.text ? Json(unified_diff(name, file.before, file.after)) : Json(nullptr)},
-         {"keptLayout", file.kept_layout}});
+/// In a dry run standard output is the difference.
+void print_places(const std::vector<AssetEdit>& edits, const EditedAsset& asset, bool dry_run) {
+  for (const EditedPlace& place : asset.places) {
+    const std::string line = place_line(edits[place.edit], place);
+    dry_run ? say_aside(terminal_text(line, false)) : print("%s\n", line.c_str());
   }
-  return files;
 }
 
 void print_files(const Report& report, const EditedAsset& asset, bool dry_run) {
   for (const EditedFile& file : asset.files) {
     const std::string name = shown_path(file.path);
     if (dry_run && file.text) {
-      print_data(unified_diff(name, file.before, file.after));
+      print_data(diff::unified_diff(name, file.before, file.after));
     } else if (dry_run) {
       report.note("would change " + name + ", which is not text");
     }
@@ -224,8 +89,8 @@ void print_files(const Report& report, const EditedAsset& asset, bool dry_run) {
 /// Reads the asset, edits it and writes it back; `edits` are those that were made.
 Result<EditedAsset> edit(const SetArguments& options, Report& report,
                          std::vector<AssetEdit>& edits) {
-  return edit_files(report, [&]() -> Result<EditedAsset> {
-    TENON_TRY(edits, edits_of(options));
+  return repeat_edit(report.diagnostics, [&]() -> Result<EditedAsset> {
+    TENON_TRY(edits, read_edits(options.asset, options.request, edit_options(options)));
     TENON_TRY(EditedAsset asset,
               edit_asset(options.asset, edits, edit_options(options), report.diagnostics));
     if (!options.dry_run) {
@@ -242,20 +107,11 @@ int run_set(const Globals& globals, const SetArguments& options) {
   if (!asset) {
     return report.fail(asset.error());
   }
-  Json places = Json::array();
-  for (const EditedPlace& place : asset->places) {
-    places.push_back(place_json(edits[place.edit], place));
-    if (!report.json()) {
-      const std::string line = place_line(edits[place.edit], place);
-      // In a dry run standard output is the difference.
-      options.dry_run ? say_aside(terminal_text(line, false)) : print("%s\n", line.c_str());
-    }
-  }
   if (!report.json()) {
+    print_places(edits, *asset, options.dry_run);
     print_files(report, *asset, options.dry_run);
   }
-  return report.finish(
-      kOk, {{"dryRun", options.dry_run}, {"edits", places}, {"files", files_json(*asset)}});
+  return report.finish(kOk, edited_json(edits, *asset, options.dry_run));
 }
 
 constexpr const char* kSetFooter =
@@ -277,7 +133,7 @@ constexpr const char* kSetFooter =
     "  tenon set hand.usda --apply /hand/palm=PhysxRigidBodyAPI\n"
     "Units of the typed edits: kilograms; else those of the schema, degrees for angles.";
 
-void add_edit_options(const Command& verb, SetArguments& options) {
+void add_edit_options(const Command& verb, EditRequest& options) {
   verb.add_option("--clear", options.clear, "Remove the owning file's opinion on PATH.attr")
       .repeatable();
   verb.add_option("--apply", options.apply, "PRIM=SCHEMA: apply an API schema").repeatable();
@@ -297,10 +153,10 @@ void add_set(const Command& parent, const Globals& globals, Chosen& chosen) {
       parent.add_subcommand("set", "Change properties of an asset, each in the file that owns it");
   auto options = std::make_shared<SetArguments>();
   verb.add_option("asset", options->asset, "A .usd, .usda or .usdc file").required().file_only();
-  verb.add_option("assignments", options->assignments,
+  verb.add_option("assignments", options->request.assignments,
                   "PATH.attr=VALUE as text layers print it; PATH.rel=/a,/b for relationships");
-  add_edit_options(verb, *options);
-  verb.add_option("--type", options->type, "The type of attributes that this creates");
+  add_edit_options(verb, options->request);
+  verb.add_option("--type", options->request.type, "The type of attributes that this creates");
   verb.add_option("--in", options->layer, "Edit this file, whichever owns the property");
   verb.add_option("--engine", options->engine,
                   "The file of this engine alone: physx, mujoco, newton");

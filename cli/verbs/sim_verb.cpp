@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The end state is made as JSON, and the text for people is printed from it, so the two forms say
+// The end state comes as JSON, and the text for people is printed from it, so the two forms say
 // the same. Bodies and joints are told in units of the stage, energy in joules. The log and the
 // baked layer are written in one commit: after a run that became unstable too, but not after an
 // interrupt.
@@ -15,8 +15,9 @@
 #include "cli/report.h"
 #include "cli/simulate.h"
 #include "cli/verb.h"
-#include "tenon/bake/stage_values.h"
+#include "tenon/asset/simulating/simulated_json.h"
 #include "tenon/bake/write_log.h"
+#include "tenon/base/text/grouped_digits.h"
 #include "tenon/base/text/rounded_text.h"
 
 namespace tenon::cli {
@@ -31,73 +32,6 @@ struct SimArguments {
 
   bool uses_standard_output() const { return log == "-" || bake == "-"; }
 };
-
-Json list(const Vec3d& v) { return Json(v.v); }
-Json list(const Quatd& q) { return Json::array({q.w, q.x, q.y, q.z}); }
-
-Json bodies_json(const Simulated& s) {
-  Json bodies = Json::object();
-  for (scene::Index i = 0; i < s.scene->bodies.size(); ++i) {
-    const engines::BodyState state = bake::in_stage_units(s.simulation->body_state(i), *s.scene);
-    bodies[s.scene->bodies[i].path.str()] = {{"position", list(state.pose.position)},
-                                             {"orientation", list(state.pose.orientation)},
-                                             {"linearVelocity", list(state.linear_velocity)},
-                                             {"angularVelocity", list(state.angular_velocity)}};
-  }
-  return bodies;
-}
-
-Json joints_json(const Simulated& s) {
-  Json joints = Json::object();
-  for (scene::Index i = 0; i < s.scene->joints.size(); ++i) {
-    const engines::JointState state =
-        bake::in_stage_units(s.simulation->joint_state(i), s.scene->joints[i], *s.scene);
-    joints[s.scene->joints[i].path.str()] = {{"position", state.position},
-                                             {"velocity", state.velocity}};
-  }
-  return joints;
-}
-
-Json not_mapped_json(const Simulated& s) {
-  Json items = Json::array();
-  for (const scene::NotRead& item : s.scene->not_read) {
-    items.push_back({{"prim", item.prim.str()}, {"property", item.property}, {"why", item.why}});
-  }
-  for (const engines::NotMapped& item : s.simulation->not_mapped()) {
-    items.push_back({{"prim", item.prim.str()}, {"property", item.property}, {"why", item.why}});
-  }
-  return items;
-}
-
-/// What changed for good: joints that broke (S-93).
-Json events_json(const Simulated& s) {
-  Json items = Json::array();
-  for (const engines::Event& event : s.simulation->events()) {
-    items.push_back({{"time", event.time}, {"prim", event.prim.str()}, {"what", event.what}});
-  }
-  return items;
-}
-
-Json end_state(const Simulated& s, const std::string& engine, bool timing) {
-  Json state = Json::object();
-  state["engine"] = engine;
-  state["engineVersion"] = s.engine_version;
-  state["dt"] = s.simulation->time_step();
-  state["steps"] = s.run.steps;
-  state["time"] = s.run.time;
-  if (timing) {
-    state["realTimeFactor"] = s.wall_seconds > 0 ? s.run.time / s.wall_seconds : 0.0;
-  }
-  state["unstable"] = s.unstable();
-  state["bodies"] = bodies_json(s);
-  state["joints"] = joints_json(s);
-  state["energy"] = {{"initial", s.run.initial_energy.total()},
-                     {"final", s.run.final_energy.total()}};
-  state["contacts"] = s.simulation->contact_count();
-  state["events"] = events_json(s);
-  state["notMapped"] = not_mapped_json(s);
-  return state;
-}
 
 void print_numbers(const Json& numbers) {
   for (const auto& number : numbers) {
@@ -183,7 +117,7 @@ Result<void> claim(const Globals& globals, const SimArguments& options, Outputs&
   return outputs.claim(OutputKind::Overlay, options.bake);
 }
 
-Result<void> write_outputs(const Simulated& s, const SimArguments& options, Outputs& outputs,
+Result<void> write_outputs(const SimulatedAsset& s, const SimArguments& options, Outputs& outputs,
                            Report& report) {
   if (!options.log.empty()) {
     const std::string kind = !options.format.empty() ? "." + options.format
@@ -215,7 +149,7 @@ int run_sim(const Globals& globals, const SimArguments& options) {
   if (!simulated) {
     return report.fail(simulated.error());
   }
-  const Json state = end_state(*simulated, options.simulate.engine, options.timing);
+  const Json state = simulated_json(*simulated, options.timing);
   if (!globals.json && !options.uses_standard_output()) {
     print_state(state);
   }
@@ -226,7 +160,7 @@ int run_sim(const Globals& globals, const SimArguments& options) {
     report.diagnostics.add(written.error().diagnostic());
     return report.finish(exit_code_of(written.error()), state);
   }
-  return report.finish(simulated->exit_code(), state);
+  return report.finish(exit_code_of(*simulated), state);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/asset/answers/structured_json.h"
+#include "tenon/asset/repeat_edit.h"
 #include "tenon/asset/structure_asset.h"
 #include "tenon/asset_policy.h"
 #include "tenon/base/text/shown_path.h"
@@ -27,37 +29,6 @@ struct StructureArguments {
   bool dry_run = false;
   structure::WriteOptions write;
 };
-
-struct ListedFile {
-  std::string name;
-  std::string role;
-  std::size_t size = 0;
-};
-
-std::vector<ListedFile> list_files(const structure::Package& package) {
-  std::vector<ListedFile> list;
-  for (const auto& [name, file] : package.files) {
-    const structure::Role role = structure::role_of_file_name(name);
-    list.push_back({name, std::string(structure::role_name(role)), file.bytes->size()});
-  }
-  return list;
-}
-
-Json json_of(const structure::StructuredAsset& asset, const std::vector<ListedFile>& files) {
-  Json body = Json::object();
-  body["interface"] = asset.package.interface;
-  body["files"] = Json::array();
-  for (const ListedFile& file : files) {
-    body["files"].push_back({{"file", file.name}, {"role", file.role}, {"bytes", file.size}});
-  }
-  body["variants"] = asset.physics_variants;
-  body["selection"] = asset.selection;
-  body["moved"] = Json::array();
-  for (const auto& [from, to] : asset.moved) {
-    body["moved"].push_back({{"from", from.str()}, {"to", to.str()}});
-  }
-  return body;
-}
 
 structure::SchemaGeneration generation_of(const std::string& name) {
   using structure::SchemaGeneration;
@@ -91,20 +62,66 @@ int run_structure(Report& report, const StructureArguments& options) {
     }
   }
   const Progress progress(report.globals(), "structuring " + shown_path(options.asset.asset));
-  const auto asset = edit_files(report, [&] { return make(options, report); });
+  const auto asset = repeat_edit(report.diagnostics, [&] { return make(options, report); });
   if (!asset) {
     return report.fail(asset.error());
   }
-  const std::vector<ListedFile> files = list_files(asset->package);
+  const std::vector<PackageFile> files = package_files(asset->package);
   if (options.dry_run && !report.json()) {
-    for (const ListedFile& file : files) {
-      print("%10zu  %-11s %s\n", file.size, file.role.c_str(), file.name.c_str());
+    for (const PackageFile& file : files) {
+      print("%10zu  %-11s %s\n", file.bytes, file.role.c_str(), file.name.c_str());
     }
   }
   report.note((options.dry_run ? "would write " : "wrote ") + std::to_string(files.size()) +
               " files; " + std::to_string(asset->moved.size()) +
               " prims moved; Physics=" + asset->selection + " is selected");
-  return report.finish(left_out(report.diagnostics) ? kNo : kOk, json_of(*asset, files));
+  return report.finish(left_out(report.diagnostics) ? kNo : kOk, structured_json(*asset));
+}
+
+void add_output_options(const Command& verb, StructureArguments& options) {
+  verb.add_option("-o,--output", options.output,
+                  "Folder of the new asset; an earlier one there is replaced in one step, unless "
+                  "it was edited since");
+  verb.add_flag("--force", options.write.force,
+                "Overwrite an asset that was edited since it was written");
+  verb.add_flag("--in-place", options.write.in_place,
+                "The folder may be that of the asset itself, which it is without -o");
+  options.write.can_be_in_place = true;
+}
+
+void add_form_options(const Command& verb, StructureArguments& options) {
+  verb.add_option("--name", options.structure.name,
+                  "Name of the file that opens the asset; that of the default prim if not given");
+  verb.add_option("--names", options.names,
+                  "Names of files and scopes: those of Isaac Sim 6, or "
+                  "those of its tutorial")
+      .one_of({"current", "tutorial"});
+  verb.add_option("--schema", options.schema,
+                  "Vendors' schemas for joints: as-authored, current (Newton mimics, PhysX joint "
+                  "axes), legacy (PhysX mimics and joints of Isaac Sim 5) or both")
+      .one_of({"as-authored", "current", "legacy", "both"});
+  verb.add_option("--links", options.links,
+                  "Rigid bodies of a robot: as-authored, flat (side by side) or nested (each below "
+                  "the one that carries it by a joint)")
+      .one_of({"as-authored", "flat", "nested"});
+  verb.add_flag("--overridable-colliders", options.structure.overridable_colliders,
+                "Meshes that collide are no instances: each engine's layer may tune them");
+}
+
+int run(const Globals& globals, StructureArguments& options) {
+  Report report(globals, "structure", options.asset.asset);
+  if (options.output.empty() && options.write.in_place) {
+    options.output = std::filesystem::absolute(options.asset.asset).parent_path().string();
+  }
+  if (options.output.empty() && !options.dry_run) {
+    return report.fail(Error(ErrorCode::Invalid, "say where to write the result")
+                           .with_fix("give -o FOLDER, --in-place or --dry-run"));
+  }
+  options.structure.names =
+      options.names == "tutorial" ? structure::Names::Tutorial : structure::Names::Current;
+  options.structure.schema = generation_of(options.schema);
+  options.structure.links = nesting_of(options.links);
+  return run_structure(report, options);
 }
 
 }  // namespace
@@ -114,30 +131,8 @@ void add_structure(const Command& parent, const Globals& globals, Chosen& chosen
       "structure", "Make an asset into Asset Structure 3.0, one file for each concern");
   auto options = std::make_shared<StructureArguments>();
   options->asset.add_to(verb);
-  verb.add_option("-o,--output", options->output,
-                  "Folder of the new asset; an earlier one there is replaced in one step, unless "
-                  "it was edited since");
-  verb.add_flag("--force", options->write.force,
-                "Overwrite an asset that was edited since it was written");
-  verb.add_flag("--in-place", options->write.in_place,
-                "The folder may be that of the asset itself, which it is without -o");
-  options->write.can_be_in_place = true;
-  verb.add_option("--name", options->structure.name,
-                  "Name of the file that opens the asset; that of the default prim if not given");
-  verb.add_option("--names", options->names,
-                  "Names of files and scopes: those of Isaac Sim 6, or "
-                  "those of its tutorial")
-      .one_of({"current", "tutorial"});
-  verb.add_option("--schema", options->schema,
-                  "Vendors' schemas for joints: as-authored, current (Newton mimics, PhysX joint "
-                  "axes), legacy (PhysX mimics and joints of Isaac Sim 5) or both")
-      .one_of({"as-authored", "current", "legacy", "both"});
-  verb.add_option("--links", options->links,
-                  "Rigid bodies of a robot: as-authored, flat (side by side) or nested (each below "
-                  "the one that carries it by a joint)")
-      .one_of({"as-authored", "flat", "nested"});
-  verb.add_flag("--overridable-colliders", options->structure.overridable_colliders,
-                "Meshes that collide are no instances: each engine's layer may tune them");
+  add_output_options(verb, *options);
+  add_form_options(verb, *options);
   verb.add_flag("--dry-run", options->dry_run, "List the files and write nothing");
   verb.footer(
       "The result is compared with the asset before it is written: each variant composes to the\n"
@@ -145,21 +140,7 @@ void add_structure(const Command& parent, const Globals& globals, Chosen& chosen
       "Examples:\n"
       "  tenon structure robot.usda -o robot\n"
       "  tenon structure robot.usda --dry-run --json");
-  choose(verb, chosen, [&globals, options] {
-    Report report(globals, "structure", options->asset.asset);
-    if (options->output.empty() && options->write.in_place) {
-      options->output = std::filesystem::absolute(options->asset.asset).parent_path().string();
-    }
-    if (options->output.empty() && !options->dry_run) {
-      return report.fail(Error(ErrorCode::Invalid, "say where to write the result")
-                             .with_fix("give -o FOLDER, --in-place or --dry-run"));
-    }
-    options->structure.names =
-        options->names == "tutorial" ? structure::Names::Tutorial : structure::Names::Current;
-    options->structure.schema = generation_of(options->schema);
-    options->structure.links = nesting_of(options->links);
-    return run_structure(report, *options);
-  });
+  choose(verb, chosen, [&globals, options] { return run(globals, *options); });
 }
 
 }  // namespace tenon::cli

@@ -12,11 +12,10 @@
 #include "cli/output.h"
 #include "cli/report.h"
 #include "cli/verb.h"
-#include "tenon/answers/dump/json_writer.h"
 #include "tenon/answers/dump/layer_json.h"
 #include "tenon/answers/dump/list_op_json.h"
 #include "tenon/answers/dump/schema_json.h"
-#include "tenon/base/text/text_number.h"
+#include "tenon/answers/dump/values_json.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -50,7 +49,7 @@ Result<std::string> layer_text(const LayerOptions& options, Diagnostics& diagnos
 Result<std::string> folded_list_ops(std::istream& in) {
   const std::string text(std::istreambuf_iterator<char>(in), {});
   TENON_TRY(const auto folded, answers::fold_list_ops(text));
-  return folded.dump();
+  return answers::on_one_line(folded);
 }
 
 struct ValueOptions {
@@ -58,17 +57,6 @@ struct ValueOptions {
   std::string attribute;
   std::vector<std::string> times;
 };
-
-Result<stage::Time> parse_time(const std::string& text) {
-  if (text == "default") {
-    return stage::Time();
-  }
-  const std::optional<double> code = parse_double(text);
-  if (!code) {
-    return Error(ErrorCode::Invalid, "\"" + text + "\" is neither a time code nor \"default\"");
-  }
-  return stage::Time(*code);
-}
 
 Result<std::string> values_text(const ValueOptions& options, Diagnostics& diagnostics) {
   TENON_TRY(const Path path, Path::parse(options.attribute));
@@ -79,18 +67,7 @@ Result<std::string> values_text(const ValueOptions& options, Diagnostics& diagno
     return Error(ErrorCode::NotFound,
                  "<" + options.attribute + "> is not an attribute of the stage");
   }
-  std::ostringstream out;
-  {
-    answers::JsonWriter json(out);
-    json.begin_object();
-    for (const std::string& text : options.times) {
-      TENON_TRY(const stage::Time time, parse_time(text));
-      json.key(text);
-      answers::write_plain_value(json, attribute.get(time));
-    }
-    json.end_object();
-  }
-  return out.str();
+  return answers::values_at_times(attribute, options.times);
 }
 
 void add_layer(const Command& runner, const Globals& globals, Chosen& chosen) {

@@ -105,28 +105,29 @@ void print_tree(const stage::Stage& stage, const TreeArguments& options) {
   }
 }
 
+int show_forest(const stage::Stage& stage, Report& report) {
+  const scene::PhysicsScene scene =
+      physics::read_physics(stage, read_options(), report.diagnostics);
+  const scene::JointForest forest = scene::joint_forest(scene);
+  if (!report.json()) {
+    print_text(forest_text(scene, forest));
+  }
+  return report.finish(kOk, answers::kinematic_tree_json(scene, forest));
+}
+
 int run_tree(const Globals& globals, const TreeArguments& options) {
   Report report(globals, "tree", options.asset.asset);
   auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }
-  Json body = Json::object();
-  if (!options.kinematic && globals.json) {
-    body["prims"] = answers::tree_json(*stage);
-  } else if (!options.kinematic) {
+  if (options.kinematic) {
+    return show_forest(*stage, report);
+  }
+  if (!report.json()) {
     print_tree(*stage, options);
   }
-  if (options.kinematic) {
-    const scene::PhysicsScene scene =
-        physics::read_physics(*stage, read_options(), report.diagnostics);
-    const scene::JointForest forest = scene::joint_forest(scene);
-    body["kinematicTree"] = answers::forest_json(scene, forest);
-    if (!globals.json) {
-      print_text(forest_text(scene, forest));
-    }
-  }
-  return report.finish(kOk, body);
+  return report.finish(kOk, report.json() ? answers::prims_json(*stage) : answers::nothing());
 }
 
 /// `--physics` without a value is the older way to write `--show physics`. In `tree --physics A`

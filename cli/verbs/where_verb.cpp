@@ -7,12 +7,11 @@
 #include "cli/text/where_text.h"
 #include "cli/verb.h"
 #include "tenon/answers/where_opinions.h"
+#include "tenon/asset/answers/where_variants.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
 namespace {
-
-constexpr const char* kPhysics = "Physics";
 
 struct WhereArguments {
   AssetArguments asset;
@@ -42,39 +41,10 @@ Result<stage::Prim> find(const stage::Stage& stage, const SoughtObject& object) 
     return Error(ErrorCode::NotFound, "there is no prim <" + object.prim.str() + ">")
         .with_fix("tenon tree lists all prims");
   }
-  const bool known = object.property.empty() || prim.has_property(object.property) ||
-                     prim.is_relationship(object.property) ||
-                     prim.attribute(object.property).definition() != nullptr;
-  if (!known) {
-    return Error(ErrorCode::NotFound,
-                 "<" + object.prim.str() + "> has no property " + object.property.str())
-        .with_fix("tenon tree --attributes lists all properties");
+  if (!object.property.empty()) {
+    TENON_CHECK(answers::check_property(prim, object.property));
   }
   return prim;
-}
-
-/// Opinions under the variants of "Physics" that are not selected.
-Result<void> add_variants(const stage::Stage& stage, const SoughtObject& object,
-                          const WhereArguments& options, Json& answer) {
-  const stage::Prim root = stage.default_prim();
-  if (!root) {
-    return {};
-  }
-  for (const std::string& variant : root.variant_names(kPhysics)) {
-    if (variant == root.variant_selection(kPhysics)) {
-      continue;
-    }
-    OpenOptions open = options.asset.open_options();
-    open.physics_variant = variant;
-    Diagnostics known;  // the first stage has reported them
-    TENON_TRY(const stage::Stage other, open_stage(options.asset.asset, open, known));
-    if (const stage::Prim prim = other.prim(object.prim)) {
-      answers::add_other_variant(answer,
-                                 answers::where_json(other, prim, object.property, options.time),
-                                 std::string(kPhysics) + "=" + variant);
-    }
-  }
-  return {};
 }
 
 int run_where(const Globals& globals, const WhereArguments& options) {
@@ -93,7 +63,10 @@ int run_where(const Globals& globals, const WhereArguments& options) {
   }
   Json answer = answers::where_json(*stage, *prim, object->property, options.time);
   if (options.variants) {
-    if (auto added = add_variants(*stage, *object, options, answer); !added) {
+    const auto added =
+        add_other_variants({*stage, options.asset.asset, options.asset.open_options()},
+                           {object->prim, object->property, options.time}, answer);
+    if (!added) {
       return report.fail(added.error());
     }
   }

@@ -1,9 +1,5 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Packs an asset (tenon/pack_asset.h), lists a package or unpacks it. The list names entries that
-// readers reject: those that are not stored or do not begin at a multiple of 64 bytes. The archive
-// copies nothing, so that the offset of an entry is where its bytes lie within those of the file.
 #include <algorithm>
 #include <cstdio>
 
@@ -11,12 +7,11 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/verb.h"
+#include "tenon/asset/answers/package_json.h"
+#include "tenon/asset/missing_input.h"
 #include "tenon/asset_policy.h"
 #include "tenon/base/text/shown_path.h"
-#include "tenon/bytes/zip/zip_archive.h"
 #include "tenon/pack_asset.h"
-#include "tenon/stage_sources.h"
-#include "tenon/tenon.h"
 
 namespace tenon::cli {
 namespace {
@@ -29,14 +24,6 @@ struct ZipArguments {
   bool strict = false;
   FileAccess files;
 };
-
-Json file_json(const formats::PackedFile& file) {
-  return {{"name", file.name},
-          {"source", file.source.empty() ? Json(nullptr) : Json(shown_path(file.source))},
-          {"size", file.size},
-          {"rewritten", file.rewritten},
-          {"outside", file.outside}};
-}
 
 void note_files(const Report& report, const std::vector<formats::PackedFile>& files) {
   for (const formats::PackedFile& file : files) {
@@ -62,8 +49,7 @@ int pack(Report& report, const ZipArguments& options) {
     return report.fail(packed.error());
   }
   const bool complete =
-      std::none_of(report.diagnostics.begin(), report.diagnostics.end(),
-                   [](const Diagnostic& finding) { return finding.rule == "package.missing"; });
+      std::none_of(report.diagnostics.begin(), report.diagnostics.end(), tells_of_missing_input);
   const bool refused = left_out(report.diagnostics);
   const bool write = (complete && !refused) || !options.strict;
   const std::size_t size = packed->package.size();
@@ -77,87 +63,40 @@ int pack(Report& report, const ZipArguments& options) {
   report.note(write ? shown_path(options.output) + ": " + std::to_string(packed->files.size()) +
                           " files, " + std::to_string(size) + " bytes"
                     : "nothing is written: files are missing");
-  Json files = Json::array();
-  for (const formats::PackedFile& file : packed->files) {
-    files.push_back(file_json(file));
-  }
-  return report.finish(write && !refused ? kOk : kNo,
-                       {{"output", write ? Json(options.output) : Json(nullptr)},
-                        {"size", size},
-                        {"complete", complete && !refused},
-                        {"files", std::move(files)}});
-}
-
-Result<std::shared_ptr<const bytes::FileBytes>> open_package(const ZipArguments& options) {
-  const bytes::AssetResolver resolver(resolver_options(options.files.open_options()));
-  TENON_TRY(auto contents, resolver.open(options.asset));
-  if (!bytes::ZipArchive::is_zip(contents->text())) {
-    return Error(ErrorCode::Invalid, "this is not a package")
-        .in_file(options.asset)
-        .with_fix("name a .usdz file; tenon zip ASSET -o NAME.usdz makes one");
-  }
-  return contents;
-}
-
-Result<bytes::ZipArchive> open_archive(const ZipArguments& options) {
-  TENON_TRY(auto contents, open_package(options));
-  auto archive = bytes::ZipArchive::open(std::move(contents));
-  if (!archive) {
-    return std::move(archive).error().in_file(options.asset);
-  }
-  return archive;
-}
-
-/// Offset of the data of an entry in the file; the specification wants multiples of 64.
-Result<std::size_t> data_offset(const bytes::FileBytes& file, const bytes::ZipArchive& archive,
-                                const bytes::ZipEntry& entry) {
-  TENON_TRY(const auto contents, archive.read(entry));
-  return static_cast<std::size_t>(contents->text().data() - file.text().data());
+  PackedAnswer answer;
+  answer.output = write ? options.output : "";
+  answer.size = size;
+  answer.complete = complete && !refused;
+  return report.finish(write && !refused ? kOk : kNo, packed_json(answer, packed->files));
 }
 
 int list(Report& report, const ZipArguments& options) {
-  const auto file = open_package(options);
-  if (!file) {
-    return report.fail(file.error());
+  const auto entries = list_package(options.asset, options.files.open_options());
+  if (!entries) {
+    return report.fail(entries.error());
   }
-  const auto archive = bytes::ZipArchive::open(*file);
-  if (!archive) {
-    return report.fail(Error(archive.error()).in_file(options.asset));
-  }
-  Json entries = Json::array();
-  for (const bytes::ZipEntry& entry : archive->entries()) {
-    const auto offset = data_offset(**file, *archive, entry);
-    const bool stored = entry.method == 0 && !entry.encrypted;
-    const bool aligned = offset && *offset % 64 == 0;
+  for (const PackageEntry& entry : *entries) {
     if (!report.json()) {
       print("%12llu  %s%s\n", static_cast<unsigned long long>(entry.size), entry.name.c_str(),
-            !stored    ? "  (not stored: readers reject it)"
-            : !aligned ? "  (not at a multiple of 64 bytes)"
-                       : "");
+            !entry.stored         ? "  (not stored: readers reject it)"
+            : !entry.is_aligned() ? "  (not at a multiple of 64 bytes)"
+                                  : "");
     }
-    entries.push_back({{"name", entry.name},
-                       {"size", entry.size},
-                       {"offset", offset ? Json(*offset) : Json(nullptr)},
-                       {"stored", stored},
-                       {"aligned", aligned}});
   }
-  return report.finish(kOk, {{"files", std::move(entries)}});
+  return report.finish(kOk, package_list_json(*entries));
 }
 
 int extract(Report& report, const ZipArguments& options) {
-  auto archive = open_archive(options);
+  const auto archive = open_package(options.asset, options.files.open_options());
   if (!archive) {
     return report.fail(archive.error());
   }
   if (auto written = unpack(*archive, options.folder); !written) {
     return report.fail(written.error());
   }
-  Json files = Json::array();
-  for (const bytes::ZipEntry& entry : archive->entries()) {
-    files.push_back(entry.name);
-  }
-  report.note(std::to_string(files.size()) + " files in " + shown_path(options.folder));
-  return report.finish(kOk, {{"folder", options.folder}, {"files", std::move(files)}});
+  report.note(std::to_string(archive->entries().size()) + " files in " +
+              shown_path(options.folder));
+  return report.finish(kOk, unpacked_json(*archive, options.folder));
 }
 
 int run_zip(const Globals& globals, const ZipArguments& options) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tenon/answers/or_null.h"
 #include "tenon/formats/text/write/value_text.h"
 #include "tenon/layer/value.h"
 
@@ -20,8 +21,6 @@ Json side_json(const layer::Value& value) {
 }
 
 Json number_if_finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json line_or_null(std::uint32_t line) { return line == 0 ? Json(nullptr) : Json(line); }
 
 Json fact_json(const scene::Fact& fact) {
   if (fact.name.empty()) {
@@ -71,12 +70,12 @@ Json difference_json(const diff::Difference& difference) {
   Json row = {{"change", std::string(change_name(difference.change))},
               {"path", difference.path.str()},
               {"kind", spec_kind_name(difference.kind)}};
-  row["field"] = difference.field.empty() ? Json(nullptr) : Json(difference.field.str());
-  row["key"] = difference.key.empty() ? Json(nullptr) : Json(difference.key);
+  row["field"] = or_null(difference.field);
+  row["key"] = or_null(difference.key);
   row["before"] = side_json(difference.before);
   row["after"] = side_json(difference.after);
-  row["beforeLine"] = line_or_null(difference.before_line);
-  row["afterLine"] = line_or_null(difference.after_line);
+  row["beforeLine"] = or_null(difference.before_line);
+  row["afterLine"] = or_null(difference.after_line);
   if (difference.field.empty()) {
     row["specs"] = difference.count;
   } else {
@@ -94,7 +93,7 @@ Json difference_json(const scene::SceneDifference& difference) {
               {"object", difference.object},
               {"path", difference.path}};
   row["what"] = object ? Json(nullptr) : Json(named.name);
-  row["unit"] = named.unit.empty() ? Json(nullptr) : Json(named.unit);
+  row["unit"] = or_null(named.unit);
   row["before"] = fact_json(difference.before);
   row["after"] = fact_json(difference.after);
   row["largest"] = number_if_finite(difference.largest);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tenon/answers/explain.h"
+#include "tenon/answers/or_null.h"
 #include "tenon/scene/joint_forest.h"
 #include "tenon/scene/joint_freedom.h"
 
@@ -34,7 +35,7 @@ Pose in_world(const scene::PhysicsScene& scene, const std::optional<scene::Index
 Json side_json(const Explained& explained, const std::optional<scene::Index>& body, Path target,
                const Pose& frame) {
   const bool moved = body && !(explained.scene.bodies[*body].path == target);
-  Json side = {{"target", target.empty() ? Json(nullptr) : Json(target.str())},
+  Json side = {{"target", or_null(target)},
                {"body", body ? Json(explained.scene.bodies[*body].path.str()) : Json(nullptr)},
                {"frame", pose_json(frame)},
                {"world", pose_json(in_world(explained.scene, body, frame))}};

@@ -8,6 +8,7 @@
 
 #include "tenon/answers/explain.h"
 #include "tenon/answers/opinions.h"
+#include "tenon/answers/or_null.h"
 
 namespace tenon::answers {
 namespace {
@@ -39,8 +40,8 @@ std::vector<Index> colliders_of(const scene::PhysicsScene& scene, Path path) {
 
 Json reason_json(const Explained& explained, const physics::PairReason& reason) {
   Json row = {{"rule", reason.rule}, {"why", reason.why}};
-  row["prim"] = reason.prim.empty() ? Json(nullptr) : Json(reason.prim.str());
-  row["property"] = reason.property.empty() ? Json(nullptr) : Json(reason.property.str());
+  row["prim"] = or_null(reason.prim);
+  row["property"] = or_null(reason.property);
   row["opinions"] = Json::array();
   const stage::Prim prim = reason.prim.empty() ? stage::Prim() : explained.stage.prim(reason.prim);
   if (prim) {

@@ -29,4 +29,8 @@ Json forest_json(const scene::PhysicsScene& scene, const scene::JointForest& for
   return {{"links", links}, {"loopJoints", loops}};
 }
 
+Json kinematic_tree_json(const scene::PhysicsScene& scene, const scene::JointForest& forest) {
+  return {{"kinematicTree", forest_json(scene, forest)}};
+}
+
 }  // namespace tenon::answers

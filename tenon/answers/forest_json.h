@@ -13,4 +13,7 @@ namespace tenon::answers {
 /// leaves free, 6 for a body that hangs on none and is not kinematic; "mass_kg" [kg].
 Json forest_json(const scene::PhysicsScene& scene, const scene::JointForest& forest);
 
+/// {"kinematicTree": that}.
+Json kinematic_tree_json(const scene::PhysicsScene& scene, const scene::JointForest& forest);
+
 }  // namespace tenon::answers

@@ -2,11 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 namespace tenon::answers {
 
 /// A value of JSON whose objects keep the order in which their keys were put in.
 using Json = nlohmann::ordered_json;
+
+/// The object without keys: an answer that says nothing.
+inline Json nothing() { return Json::object(); }
+
+/// As it is printed, indented by two. Bytes that are no UTF-8 are replaced; `only_ascii` writes
+/// other characters as escapes.
+inline std::string printed(const Json& json, bool only_ascii = false) {
+  return json.dump(2, ' ', only_ascii, Json::error_handler_t::replace) + "\n";
+}
+inline std::string on_one_line(const Json& json) { return json.dump(); }
 
 }  // namespace tenon::answers

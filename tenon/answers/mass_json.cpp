@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tenon/answers/opinions.h"
+#include "tenon/answers/or_null.h"
 
 namespace tenon::answers {
 namespace {
@@ -32,11 +33,6 @@ Json mass_properties_json(const physics::MassProperties& properties) {
           {"inertia", matrix_json(properties.inertia)}};
 }
 
-template <class T, class ToJson>
-Json or_null(const std::optional<T>& value, ToJson to_json) {
-  return value ? Json(to_json(*value)) : Json(nullptr);
-}
-
 Json authored_json(const physics::AuthoredMass& authored) {
   const auto number = [](double x) { return x; };
   return {{"mass", or_null(authored.mass, number)},
@@ -50,9 +46,9 @@ Json candidate_json(const stage::Stage& stage, const physics::MassCandidate& can
   Json row = Json::object();
   row["quantity"] = physics::mass_quantity_name(candidate.quantity);
   row["used"] = candidate.used;
-  row["value"] = candidate.value.empty() ? Json(nullptr) : Json(candidate.value);
-  row["prim"] = candidate.prim.empty() ? Json(nullptr) : Json(candidate.prim.str());
-  row["property"] = candidate.property.empty() ? Json(nullptr) : Json(candidate.property.str());
+  row["value"] = or_null(candidate.value);
+  row["prim"] = or_null(candidate.prim);
+  row["property"] = or_null(candidate.property);
   row["rule"] = candidate.rule;
   row["why"] = candidate.why;
   row["opinions"] = candidate.property.empty() ? Json::array()
@@ -117,6 +113,11 @@ Json mass_table_json(const stage::Stage& stage, const scene::PhysicsScene& scene
     table.push_back(std::move(row));
   }
   return table;
+}
+
+Json masses_json(const stage::Stage& stage, const scene::PhysicsScene& scene,
+                 const physics::Provenance& all) {
+  return {{"masses", mass_table_json(stage, scene, all)}};
 }
 
 }  // namespace tenon::answers

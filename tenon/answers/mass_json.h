@@ -22,4 +22,8 @@ Json mass_json(const stage::Stage& stage, const scene::PhysicsScene& scene,
 Json mass_table_json(const stage::Stage& stage, const scene::PhysicsScene& scene,
                      const physics::Provenance& all);
 
+/// {"masses": that table}.
+Json masses_json(const stage::Stage& stage, const scene::PhysicsScene& scene,
+                 const physics::Provenance& all);
+
 }  // namespace tenon::answers

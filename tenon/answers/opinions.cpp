@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tenon/answers/list_item_text.h"
+#include "tenon/answers/or_null.h"
 #include "tenon/answers/specifier_word.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/formats/text/write/value_text.h"
@@ -139,7 +140,7 @@ void add_clip(const stage::TracedOpinion& opinion, Json& row) {
   if (opinion.clip) {
     const std::string& layer = opinion.clip->layer;
     row["clipSet"] = opinion.clip->set;
-    row["clip"] = layer.empty() ? Json(nullptr) : Json(shown_path(layer));
+    row["clip"] = file_or_null(layer);
     row["value"] = opinion.clip->set + (layer.empty() ? "" : " @" + shown_path(layer) + "@");
   }
 }

@@ -31,6 +31,21 @@ using scene::Index;
 using scene::List;
 using scene::PhysicsScene;
 
+/// All fit into an int and are whole.
+bool are_whole(const std::vector<double>& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) {
+    return std::fabs(x) <= std::numeric_limits<int>::max() && x == std::trunc(x);
+  });
+}
+
+/// Fills `to` with the numbers from index `from` on.
+template <class Numbers>
+void take_numbers(const std::vector<double>& numbers, std::size_t from, Numbers& to) {
+  for (auto& x : to) {
+    x = static_cast<std::remove_reference_t<decltype(x)>>(numbers[from++]);
+  }
+}
+
 constexpr int kDepth = 16;  // of the form itself: 7
 
 class Reader {
@@ -212,11 +227,6 @@ class Reader {
     for (std::size_t i = 0; i < json.size() && !fault_; ++i) {
       number(json[i], numbers[i], at);
     }
-    const auto take = [&](auto& to, std::size_t from) {
-      for (auto& x : to) {
-        x = static_cast<std::remove_reference_t<decltype(x)>>(numbers[from++]);
-      }
-    };
     const auto has = [&](std::size_t count) {
       if (!fault_ && numbers.size() != count) {
         fault(at, "does not have " + std::to_string(count) + " numbers");
@@ -229,25 +239,22 @@ class Reader {
       }
     } else if constexpr (wire::kIsArray<T>) {
       if (has(value.size())) {
-        take(value, 0);
+        take_numbers(numbers, 0, value);
       }
     } else if constexpr (std::is_same_v<T, Vec3i>) {
-      const bool whole = std::all_of(numbers.begin(), numbers.end(), [](double x) {
-        return std::fabs(x) <= std::numeric_limits<int>::max() && x == std::trunc(x);
-      });
-      if (!whole) {
+      if (!are_whole(numbers)) {
         fault(at, "is no whole number");
       } else if (has(3)) {
-        take(value.v, 0);
+        take_numbers(numbers, 0, value.v);
       }
     } else if constexpr (requires { value.v; }) {
       if (has(value.v.size())) {
-        take(value.v, 0);
+        take_numbers(numbers, 0, value.v);
       }
     } else {
       const std::size_t rows = value.m.size();
       for (std::size_t row = 0; row < rows && has(rows * rows); ++row) {
-        take(value.m[row], row * rows);
+        take_numbers(numbers, row * rows, value.m[row]);
       }
     }
   }

@@ -21,4 +21,6 @@ Json tree_json(const stage::Stage& stage) {
   return prims;
 }
 
+Json prims_json(const stage::Stage& stage) { return {{"prims", tree_json(stage)}}; }
+
 }  // namespace tenon::answers

@@ -11,4 +11,7 @@ namespace tenon::answers {
 /// first, children in order.
 Json tree_json(const stage::Stage& stage);
 
+/// {"prims": that}.
+Json prims_json(const stage::Stage& stage);
+
 }  // namespace tenon::answers

@@ -25,4 +25,8 @@ Json variants_json(const stage::Stage& stage, const std::string& only) {
   return variants;
 }
 
+Json variant_list_json(const stage::Stage& stage, const std::string& only) {
+  return {{"variants", variants_json(stage, only)}};
+}
+
 }  // namespace tenon::answers

@@ -13,6 +13,9 @@ namespace tenon::answers {
 /// first. With `only`, of the prim at that path alone; empty: of all.
 Json variants_json(const stage::Stage& stage, const std::string& only);
 
+/// {"variants": those rows}.
+Json variant_list_json(const stage::Stage& stage, const std::string& only);
+
 /// Appends the rows of one prim.
 void add_variants(const stage::Prim& prim, Json& variants);
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "tenon/answers/opinions.h"
+#include "tenon/answers/or_null.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/compose/arcs/arc_name.h"
 #include "tenon/layer/fields.h"
@@ -38,7 +39,7 @@ Json optional_number(std::uint32_t number) { return number == 0 ? Json(nullptr) 
 Json arc_json(const stage::ArcStep& step) {
   Json arc = {{"arc", std::string(compose::arc_name(step.kind))},
               {"from", step.from.str()},
-              {"file", step.layer.empty() ? Json(nullptr) : Json(shown_path(step.layer))},
+              {"file", file_or_null(step.layer)},
               {"line", optional_number(step.line)},
               {"to", step.to.str()},
               {"layer", shown_path(step.to_layer)}};
@@ -112,7 +113,7 @@ std::string reason_text(OpinionReason reason, const std::string& by) {
 
 void conclude(Json& row, const char* verdict, const std::string& why = {}) {
   row["verdict"] = verdict;
-  row["why"] = why.empty() ? Json(nullptr) : Json(why);
+  row["why"] = or_null(why);
 }
 
 /// The rows of fields, each with its role and reason.
@@ -142,7 +143,7 @@ Json traced_row(const stage::TracedOpinion& opinion) {
           {"arcs", Json::array()},
           {"what", "fallback"},
           {"value", short_value_text(*opinion.value)},
-          {"schema", opinion.schema.empty() ? Json(nullptr) : Json(opinion.schema.str())}};
+          {"schema", or_null(opinion.schema)}};
 }
 
 /// The traces of one attribute at the default time and at another one, opinion by opinion.
@@ -270,8 +271,7 @@ void add_ignored(const stage::Stage& stage, Path prim, Token property, Json& ans
 
 Json where_json(const stage::Stage& stage, const stage::Prim& prim, Token property,
                 std::optional<double> time) {
-  Json answer = {{"prim", prim.path().str()},
-                 {"property", property.empty() ? Json(nullptr) : Json(property.str())}};
+  Json answer = {{"prim", prim.path().str()}, {"property", or_null(property)}};
   if (property.empty()) {
     answer["type"] = prim.type_name().str();
     answer["opinions"] = field_rows(stage::trace_fields(stage, prim.path()));
@@ -282,6 +282,16 @@ Json where_json(const stage::Stage& stage, const stage::Prim& prim, Token proper
   }
   add_ignored(stage, prim.path(), property, answer);
   return answer;
+}
+
+Result<void> check_property(const stage::Prim& prim, Token property) {
+  const bool known = prim.has_property(property) || prim.is_relationship(property) ||
+                     prim.attribute(property).definition() != nullptr;
+  if (known) {
+    return {};
+  }
+  return Error(ErrorCode::NotFound, "<" + prim.path().str() + "> has no property " + property.str())
+      .with_fix("tenon tree --attributes lists all properties");
 }
 
 void add_other_variant(Json& answer, const Json& other, const std::string& selection) {

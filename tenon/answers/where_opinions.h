@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tenon/answers/json.h"
+#include "tenon/base/result.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon::answers {
@@ -20,6 +21,9 @@ namespace tenon::answers {
 /// "valueAtTime".
 Json where_json(const stage::Stage& stage, const stage::Prim& prim, Token property,
                 std::optional<double> time);
+
+/// Errors: NotFound, for a name that neither a schema nor a layer knows as a property of the prim.
+Result<void> check_property(const stage::Prim& prim, Token property);
 
 /// Appends the opinions of `other`, the same object under other variant selections, that `answer`
 /// does not have, as "not in force".

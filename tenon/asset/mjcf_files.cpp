@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool names_folder(std::string_view attribute) { return attribute.ends_with("dir"); }
+bool names_directory(std::string_view attribute) { return attribute.ends_with("dir"); }
 
 /// "file" and those of the six sides of a cube; what plugins are given may be anything.
 bool names_file(std::string_view attribute, std::string_view element) {
@@ -83,7 +83,7 @@ class NamedFiles {
     }
     for (pugi::xml_node node = document.first_child(); node; node = next_in_text(node)) {
       for (const pugi::xml_attribute attribute : node.attributes()) {
-        if (names_folder(attribute.name())) {
+        if (names_directory(attribute.name())) {
           folders_.insert(attribute.value());
         } else if (names_file(attribute.name(), node.name())) {
           TENON_CHECK(take(node, attribute.value(), file, (*bytes)->text()));

@@ -199,6 +199,37 @@ class Command(unittest.TestCase):
         process = subprocess.run(["bash", "-c", ask], capture_output=True, text=True, check=False)
         self.assertEqual(process.stdout.split(), ["mujoco", "structure"], process.stderr)
 
+    def test_completion_finds_the_verb_behind_options_of_the_program(self):
+        script = self.write("tenon.bash", tenon("completion", "bash").stdout)
+        cases = [("tenon -q stru", "structure"), ("tenon --color never stru", "structure"),
+                 ("tenon -q --color never sim --engine mu", "mujoco"),
+                 ("tenon --color ne", "never"), ("tenon stru", "structure"),
+                 ("tenon sim --color ne", "never")]
+        for line, wanted in cases:
+            ask = (f"source {script}; COMP_WORDS=({line}); COMP_CWORD={len(line.split()) - 1}; "
+                   "_tenon; echo ${COMPREPLY[@]}")
+            process = subprocess.run(["bash", "-c", ask], capture_output=True, text=True,
+                                     check=False)
+            self.assertEqual(process.stdout.split(), [wanted], (line, process.stderr))
+
+    def test_zsh_finds_the_verb_in_the_words_of_its_completion(self):
+        # The loop is in the language that bash and zsh share; the arrays of zsh begin with 1.
+        script = tenon("completion", "zsh").stdout
+        loop = script[script.index("  for (("):script.index("  done\n") + len("  done\n")]
+        for shell in filter(shutil.which, ("bash", "zsh")):
+            front = "0 " if shell == "bash" else ""
+            for line, verb in [("tenon ", ""), ("tenon stru", ""), ("tenon -q ''", ""),
+                               ("tenon -q stru", ""), ("tenon -q check ''", "check"),
+                               ("tenon --color never ''", ""),
+                               ("tenon check hand.usda ''", "check"),
+                               ("tenon --color never check --fix ''", "check")]:
+                count = len(line.split()) if not line.endswith(" ") else len(line.split()) + 1
+                ask = (f"words=({front}{line}); CURRENT={count}; verb= i="
+                       f"\n{loop}\necho \"<$verb>\"")
+                process = subprocess.run([shell, "-c", ask], capture_output=True, text=True,
+                                         check=False)
+                self.assertEqual(process.stdout, f"<{verb}>\n", (shell, line, process.stderr))
+
     def test_manual_is_sound_roff(self):
         if not shutil.which("groff"):
             self.skipTest("groff is not installed")

@@ -186,6 +186,56 @@ class Zip(unittest.TestCase):
         self.assertIsNone(answer["output"])
         self.assertEqual(self.package.read_bytes(), before)
 
+    def test_what_an_expression_stands_for_goes_in(self):
+        for name in ("asset/wood.png", "lib/far.png"):
+            self.write(name, "").write_bytes(b"\x89PNG\r\n\x1a\n")
+        self.write("asset/part.usda", '#usda 1.0\nover "A"\n{\n}\n')
+        self.write("asset/ref.usda", '#usda 1.0\n(\n    defaultPrim = "R"\n'
+                   '    expressionVariables = {\n        string OWN = "wood"\n'
+                   '        string PART = "weaker"\n    }\n)\n'
+                   'def "R"\n{\n    asset w = @`"./${OWN}.png"`@\n'
+                   '    asset p = @`"./${PART}.usda"`@\n}\n')
+        text = """#usda 1.0
+(
+    defaultPrim = "A"
+    expressionVariables = {
+        string PART = "part"
+    }
+    subLayers = [@`"./${PART}.usda"`@]
+)
+def "A" (
+    references = @./ref.usda@
+)
+{
+    asset none = @`None`@
+    asset gone = @`"./${PART}.png"`@
+    asset bad = @`${`@
+    asset unset = @`"${NOPE}.png"`@
+    asset far = @`"../lib/far.png"`@
+}
+"""
+        asset = self.write("asset/a.usda", text)
+        answer = self.run_json(asset, "-o", self.package, "--allow-read", self.folder / "lib",
+                               code=1)
+        self.assertEqual({file["name"] for file in answer["files"]},
+                         {"a.usda", "part.usda", "ref.usda", "wood.png", "0/far.png"})
+        told = {finding["property"]: finding["rule"] for finding in answer["diagnostics"]
+                if finding["severity"] == "warning"}
+        self.assertEqual(told, {"gone": "package.missing", "bad": "package.expression",
+                                "unset": "package.missing", "far": "package.expression"})
+        self.assertIn('@./part.png@, which @`"./${PART}.png"`@ stands for, is not in the package',
+                      str([finding["message"] for finding in answer["diagnostics"]]))
+        self.assertFalse(answer["complete"])
+        with zipfile.ZipFile(self.package) as package:
+            self.assertEqual(package.read("a.usda").decode(), text)
+        for path in ("${PART}", "${NOPE}", "../lib/far"):
+            text = text.replace(path + ".png", "wood.png")
+        text = text.replace("`${`", '`"wood.png"`')
+        whole = self.write("asset/b.usda", text)
+        self.assertTrue(self.run_json(whole, "-o", self.package)["complete"])
+        flat = tenon("cat", "--flatten", self.package).stdout
+        self.assertEqual(flat.count("wood.png"), 5, flat)
+
     def test_a_missing_file_stands_where_it_is_named(self):
         text = """#usda 1.0
 (

@@ -86,11 +86,32 @@ bool fits_template(std::string_view name, std::string_view pattern) {
   return name.empty();
 }
 
+/// How the layer `own_name` names `target`: as it did where that leads there.
+std::string path_to(const std::string& target, const std::string& own_name,
+                    const std::string& authored) {
+  const std::string folder = folder_of(own_name);
+  if (!authored.starts_with('/') && normal(folder + authored) == target) {
+    return authored;
+  }
+  const std::string outer = bytes::split_package_path(target).package;
+  const std::string inner = target.substr(outer.size());
+  std::string path =
+      fs::path(outer).lexically_relative(folder.empty() ? "." : folder).generic_string();
+  if (!path.starts_with("../")) {
+    path = "./" + path;
+  }
+  return path + inner;
+}
+
 class Packer {
  public:
   Packer(const bytes::AssetResolver& resolver, const bytes::ReadPolicy& policy,
-         const MadeFiles& made, Diagnostics& diagnostics)
-      : resolver_(resolver), policy_(policy), made_(made), diagnostics_(diagnostics) {}
+         const MadeFiles& made, const ReadExpression& read_expression, Diagnostics& diagnostics)
+      : resolver_(resolver),
+        policy_(policy),
+        made_(made),
+        read_expression_(read_expression),
+        diagnostics_(diagnostics) {}
 
   const std::vector<PackedFile>& packed() const { return packed_; }
 
@@ -190,29 +211,76 @@ class Packer {
   }
 
   bool rename_all(layer::Layer& layer, const std::string& own_name) {
-    const std::string anchor = layer.identifier();
     return rename_asset_parts(
         layer, [&](const std::string& path, AssetUse use, Path spec, const StatementPart& part) {
-          refusals_.clear();
-          const std::string target = use == AssetUse::ClipTemplate   ? template_target(path, anchor)
-                                     : path.find(kUdim) != path.npos ? udim_target(path, anchor)
-                                                                     : target_of(path, anchor, use);
-          for (const Error& refusal : refusals_) {
-            report_refused(refusal, layer, spec, part);
+          const AssetName name{path, layer, use, spec, part};
+          if (path.starts_with('`')) {
+            follow_expression(own_name, name);
+            return path;
           }
-          if (target.empty() && refusals_.empty()) {
-            report_missing(path, layer, spec, part);
-          }
+          const std::string target = followed(path, name);
           return target.empty() ? path : path_to(target, own_name, path);
         });
   }
 
-  void report_missing(const std::string& path, const layer::Layer& layer, Path spec,
-                      const StatementPart& part) {
-    report_at(layer, spec, part,
+  /// Where and how a layer names an asset.
+  struct AssetName {
+    const std::string& authored;  ///< perhaps an expression
+    const layer::Layer& layer;
+    AssetUse use;
+    Path spec;
+    const StatementPart& part;
+  };
+
+  /// The name in the package of what an asset path leads to; empty, and reported, where it stays
+  /// out.
+  std::string followed(const std::string& path, const AssetName& name) {
+    const std::string& anchor = name.layer.identifier();
+    refusals_.clear();
+    const std::string target = name.use == AssetUse::ClipTemplate ? template_target(path, anchor)
+                               : path.find(kUdim) != std::string::npos
+                                   ? udim_target(path, anchor)
+                                   : target_of(path, anchor, name.use);
+    for (const Error& refusal : refusals_) {
+      report_refused(refusal, name.layer, name.spec, name.part);
+    }
+    if (target.empty() && refusals_.empty()) {
+      report_missing(path, name);
+    }
+    return target;
+  }
+
+  /// What an expression stands for goes in. The expression stays, as the variables do.
+  void follow_expression(const std::string& own_name, const AssetName& name) {
+    const std::string& expression = name.authored;
+    const Result<std::string> path =
+        read_expression_ ? read_expression_(expression, name.layer) : std::string();
+    if (!path) {
+      report_at(name.layer, name.spec, name.part,
+                file_finding(Severity::Warning, "package.expression",
+                             "what @" + expression +
+                                 "@ stands for is not in the package: " + path.error().message(),
+                             {}, 0, "correct the expression, or name the file"));
+      return;
+    }
+    const std::string target = path->empty() ? std::string() : followed(*path, name);
+    if (!target.empty() && path_to(target, own_name, *path) != *path) {
+      report_at(name.layer, name.spec, name.part,
+                file_finding(Severity::Warning, "package.expression",
+                             "@" + expression + "@ stands for @" + *path +
+                                 "@, which is in the package as " + target +
+                                 ", where the expression does not lead",
+                             {}, 0, "move the file into the asset's folder, or name it"));
+    }
+  }
+
+  void report_missing(const std::string& path, const AssetName& name) {
+    const std::string origin =
+        path == name.authored ? "" : ", which @" + name.authored + "@ stands for,";
+    report_at(name.layer, name.spec, name.part,
               file_finding(Severity::Warning, "package.missing",
-                           "@" + path + "@ is not in the package: it cannot be found", {}, 0,
-                           "put the file there, or correct the path"));
+                           "@" + path + "@" + origin + " is not in the package: it cannot be found",
+                           {}, 0, "put the file there, or correct the path"));
   }
 
   void report_refused(const Error& refusal, const layer::Layer& layer, Path spec,
@@ -233,9 +301,6 @@ class Packer {
 
   /// The name in the package of what an asset path means; empty for nothing.
   std::string target_of(const std::string& path, const std::string& anchor, AssetUse use) {
-    if (path.starts_with('`')) {
-      return {};  // an expression has no file of its own
-    }
     if (made_.contains(path)) {
       return name_of(path, use);
     }
@@ -375,26 +440,10 @@ class Packer {
     return pattern;
   }
 
-  /// How the layer `own_name` names `target`: as it did where that leads there.
-  static std::string path_to(const std::string& target, const std::string& own_name,
-                             const std::string& authored) {
-    const std::string folder = folder_of(own_name);
-    if (!authored.starts_with('/') && normal(folder + authored) == target) {
-      return authored;
-    }
-    const std::string outer = bytes::split_package_path(target).package;
-    const std::string inner = target.substr(outer.size());
-    std::string path =
-        fs::path(outer).lexically_relative(folder.empty() ? "." : folder).generic_string();
-    if (!path.starts_with("../")) {
-      path = "./" + path;
-    }
-    return path + inner;
-  }
-
   const bytes::AssetResolver& resolver_;
   const bytes::ReadPolicy& policy_;
   const MadeFiles& made_;
+  const ReadExpression& read_expression_;
   Diagnostics& diagnostics_;
   std::string base_;          // what identifiers of files that keep their place begin with
   std::string base_package_;  // the package that the root layer is in
@@ -411,8 +460,9 @@ class Packer {
 
 Result<std::string> pack(const bytes::AssetResolver& resolver, const bytes::ReadPolicy& policy,
                          const layer::Layer& root, Diagnostics& diagnostics,
-                         std::vector<PackedFile>* files, const MadeFiles& made) {
-  Packer packer(resolver, policy, made, diagnostics);
+                         std::vector<PackedFile>* files, const MadeFiles& made,
+                         const ReadExpression& read_expression) {
+  Packer packer(resolver, policy, made, read_expression, diagnostics);
   TENON_TRY(std::string package, packer.run(root));
   if (files != nullptr) {
     *files = packer.packed();

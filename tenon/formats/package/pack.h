@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,12 +28,19 @@ struct PackedFile {
 /// Files that are in no place yet, by the absolute path that layers name them by.
 using MadeFiles = std::map<std::string, std::string>;
 
+/// What a variable expression of a layer (`"${NAME}.png"`, backquotes included) stands for; empty
+/// for nothing. Errors: what is wrong with it.
+using ReadExpression =
+    std::function<Result<std::string>(const std::string& expression, const layer::Layer& layer)>;
+
 /// A package (.usdz) with the layer in front and everything that it needs: all layers that it and
 /// they name in sublayers, references, payloads and clips (templates included), and all files that
 /// asset values name (`<UDIM>` patterns: every tile that is there). Files below the layer's folder
 /// keep their place; others come into numbered folders, and the paths to them are rewritten. Files
 /// that need no change go in byte by byte; packages that are named go in whole.
 /// Diagnostics: "package.missing" for what cannot be found, which stays as it was named;
+/// "package.expression" for a variable expression that names no file, or one whose place in the
+/// package it does not lead to: expressions are followed and never rewritten;
 /// "package.outside" (info) for files from outside of the layer's folder; "package.file-type" for
 /// files of a type that the specification of packages does not name.
 /// `files`, where given, receives what went in, in the order of the package. What `made` holds goes
@@ -43,6 +51,7 @@ using MadeFiles = std::map<std::string, std::string>;
 /// Errors: those of reading the layers, of write_crate and of bytes::write_zip.
 Result<std::string> pack(const bytes::AssetResolver& resolver, const bytes::ReadPolicy& policy,
                          const layer::Layer& root, Diagnostics& diagnostics,
-                         std::vector<PackedFile>* files = nullptr, const MadeFiles& made = {});
+                         std::vector<PackedFile>* files = nullptr, const MadeFiles& made = {},
+                         const ReadExpression& read_expression = {});
 
 }  // namespace tenon::formats

@@ -6,16 +6,17 @@
 // over the edges, every layer that is edited or that names one that moves, because it has to name
 // the copy. Edges to the root layer do not count. Whatever does not move stays where it is: asset
 // paths of the copies lead to other copies where there are some, else back to the original files.
-#include "cli/asset_copy.h"
+#include "tenon/asset/layers/asset_layers.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <set>
 
-#include "cli/output_place.h"
-#include "cli/report.h"
+#include "tenon/asset/layers/output_place.h"
 #include "tenon/asset_policy.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/files.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
@@ -23,18 +24,18 @@
 #include "tenon/layer/metadata_fields.h"
 #include "tenon/stage_sources.h"
 
-namespace tenon::cli {
+namespace tenon {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct NamedLayers {
+struct LayerNames {
   std::set<std::string> names;  ///< as the layer writes them
   bool patterns = false;        ///< clips by a template, which stands for names
 };
 
-NamedLayers named_layers(layer::Layer layer) {
-  NamedLayers named;
+LayerNames layer_names(layer::Layer layer) {
+  LayerNames named;
   formats::rename_assets(layer, [&](const std::string& name, formats::AssetUse use, Path) {
     if (use == formats::AssetUse::Layer && !name.empty()) {
       named.names.insert(name);
@@ -52,9 +53,41 @@ std::string relative_to(const std::string& file, const std::string& folder) {
 
 }  // namespace
 
+struct AssetLayers::Search {
+  const OpenOptions& options;
+  bytes::ReadPolicy policy;
+  std::map<std::string, std::size_t> known;  // index by identifier
+};
+
+/// The index of the layer that `from` names, which is opened where it is new.
+std::optional<std::size_t> AssetLayers::named_layer(const std::string& name,
+                                                    const layer::Layer& from, Search& search) {
+  const auto identifier = resolver_.resolve(name, from.identifier());
+  if (!identifier) {  // a missing layer holds no physics
+    if (identifier.error().diagnostic().rule == "layer.outside") {
+      refused_.add(identifier.error().diagnostic());
+    }
+    return std::nullopt;
+  }
+  if (!search.policy.allows(*identifier)) {
+    outside_.insert(*identifier);
+    return std::nullopt;
+  }
+  if (const auto known = search.known.find(*identifier); known != search.known.end()) {
+    return known->second;
+  }
+  Diagnostics ignored;  // whoever opens the stage reports them
+  auto opened = open_layer(*identifier, search.options, ignored);
+  if (!opened) {
+    return std::nullopt;
+  }
+  layers_.push_back({*std::move(opened), nullptr});
+  return search.known.emplace(*identifier, layers_.size() - 1).first->second;
+}
+
 Result<AssetLayers> AssetLayers::open(const std::string& path, const OpenOptions& options) {
   AssetLayers asset;
-  const bytes::ReadPolicy policy = policy_for(path, options);
+  Search search{options, policy_for(path, options), {}};
   Diagnostics ignored;  // whoever opens the stage reports them
   TENON_TRY(layer::LayerPtr root, open_layer(path, options, ignored));
   bytes::ResolverOptions resolving = resolver_options(options);
@@ -62,45 +95,35 @@ Result<AssetLayers> AssetLayers::open(const std::string& path, const OpenOptions
   resolving.search_paths.insert(resolving.search_paths.begin(),
                                 file.substr(0, file.rfind('/') + 1));  // as composition has it
   asset.resolver_ = bytes::AssetResolver(std::move(resolving));
+  search.known.emplace(root->identifier(), 0);
   asset.layers_.push_back({std::move(root), nullptr});
-  std::map<std::string, std::size_t> known{{asset.layers_.front().layer->identifier(), 0}};
   for (std::size_t i = 0; i < asset.layers_.size(); ++i) {
-    asset.leads_to_.emplace_back();
     const layer::LayerPtr from = asset.layers_[i].layer;
-    const NamedLayers named = named_layers(*from);
-    asset.is_whole_ = asset.is_whole_ && !named.patterns;
+    const LayerNames named = layer_names(*from);
+    std::vector<std::size_t> leads_to;
     for (const std::string& name : named.names) {
-      const auto identifier = asset.resolver_.resolve(name, from->identifier());
-      if (!identifier) {  // a missing layer holds no physics
-        asset.is_whole_ = false;
-        if (identifier.error().diagnostic().rule == "layer.outside") {
-          asset.refused_.add(identifier.error().diagnostic());
-        }
-        continue;
+      if (const auto other = asset.named_layer(name, *from, search)) {
+        leads_to.push_back(*other);
       }
-      if (!policy.allows(*identifier)) {
-        asset.is_whole_ = false;
-        asset.outside_.insert(*identifier);
-        continue;
-      }
-      const auto [entry, is_new] = known.try_emplace(*identifier, asset.layers_.size());
-      if (is_new) {
-        auto opened = open_layer(*identifier, options, ignored);
-        if (!opened) {
-          asset.is_whole_ = false;
-          known.erase(entry);
-          continue;
-        }
-        asset.layers_.push_back({*std::move(opened), nullptr});
-      }
-      asset.leads_to_[i].push_back(known[*identifier]);
     }
+    asset.is_whole_ = asset.is_whole_ && !named.patterns && leads_to.size() == named.names.size();
+    asset.leads_to_.push_back(std::move(leads_to));
   }
   return asset;
 }
 
-Result<std::vector<std::string>> AssetLayers::put_in_place(Outputs& outputs) {
-  std::vector<std::string> written;
+/// One file; a text that loses its layout is noted under the name of its original.
+Result<MadeFile> AssetLayers::made(const layer::Layer& layer, const std::string& original,
+                                   const std::string& file) {
+  TENON_TRY(LayerContents made, edited_contents(layer, file, resolver_.options().files));
+  if (!made.kept_layout) {
+    without_layout_.push_back(original);
+  }
+  return MadeFile{file, std::move(made.contents)};
+}
+
+Result<MadeFiles> AssetLayers::in_place() {
+  MadeFiles files;
   for (const AssetLayer& part : layers_) {
     if (part.edited != nullptr && bytes::is_in_package(part.layer->identifier())) {
       return Error(ErrorCode::Unsupported,
@@ -110,14 +133,12 @@ Result<std::vector<std::string>> AssetLayers::put_in_place(Outputs& outputs) {
   }
   for (const AssetLayer& part : layers_) {
     if (part.edited != nullptr) {
-      TENON_TRY(const bool kept, put_edited(*part.edited, part.layer->identifier(), outputs));
-      if (!kept) {
-        without_layout_.push_back(part.layer->identifier());
-      }
-      written.push_back(part.layer->identifier());
+      const std::string& file = part.layer->identifier();
+      TENON_TRY(MadeFile one, made(*part.edited, file, file));
+      files.push_back(std::move(one));
     }
   }
-  return written;
+  return files;
 }
 
 /// Where copies go, by identifier of the original: the root layer and all that lead to an edit.
@@ -135,7 +156,7 @@ std::map<std::string, std::string> AssetLayers::new_places(const std::string& ou
       moves[i] = needed ? 1 : 0;
     }
   }
-  const fs::path target = fs::absolute(root_output(output, *layers_[0].layer)).lexically_normal();
+  const fs::path target = bytes::absolute_file_path(root_output(output, *layers_[0].layer));
   const fs::path beside = target.parent_path();
   const fs::path folder = names_folder(output) ? beside : beside / (target.stem() += "_layers");
   const fs::path home = fs::path(layers_[0].layer->identifier()).parent_path();
@@ -156,10 +177,10 @@ std::map<std::string, std::string> AssetLayers::new_places(const std::string& ou
 
 /// A folder may hold the asset itself, whose layers nobody wanted to be replaced.
 Result<void> AssetLayers::check_apart(const std::map<std::string, std::string>& places) const {
+  const bytes::Files& files = resolver_.options().files;
   for (const auto& [from, to] : places) {
     const bool is_own = std::any_of(layers_.begin(), layers_.end(), [&](const AssetLayer& part) {
-      std::error_code ignored;
-      return fs::equivalent(part.layer->identifier(), to, ignored);
+      return files->real_path(part.layer->identifier()) == files->real_path(to);
     });
     if (is_own) {
       return Error(ErrorCode::Invalid, "the result would replace a layer of the asset itself")
@@ -196,26 +217,32 @@ void AssetLayers::rename(layer::Layer& layer, const std::string& from, const std
   });
 }
 
-Result<std::vector<std::string>> AssetLayers::put_to(const std::string& output, Outputs& outputs) {
-  if (output == "-") {
-    for (std::size_t i = 1; i < layers_.size(); ++i) {
-      if (layers_[i].edited != nullptr) {
-        return Error(ErrorCode::Unsupported,
-                     "standard output takes one layer, and a layer below the asset changes too")
-            .in_file(layers_[i].layer->identifier())
-            .with_fix("give -o FILE, or one layer: tenon cat --flatten");
-      }
+/// Standard output takes one layer.
+Result<void> AssetLayers::check_one_edit() const {
+  for (std::size_t i = 1; i < layers_.size(); ++i) {
+    if (layers_[i].edited != nullptr) {
+      return Error(ErrorCode::Unsupported,
+                   "standard output takes one layer, and a layer below the asset changes too")
+          .in_file(layers_[i].layer->identifier())
+          .with_fix("give -o FILE, or one layer: tenon cat --flatten");
     }
+  }
+  return {};
+}
+
+Result<MadeFiles> AssetLayers::elsewhere(const std::string& output) {
+  MadeFiles files;
+  if (output == "-") {
+    TENON_CHECK(check_one_edit());
     const layer::Layer& root = layers_[0].edited ? *layers_[0].edited : *layers_[0].layer;
     TENON_TRY(std::string text, formats::encode_layer(root, formats::LayerFormat::Text));
-    outputs.put("-", std::move(text));
-    return std::vector<std::string>{"-"};
+    files.push_back({"-", std::move(text)});
+    return files;
   }
   const std::map<std::string, std::string> places = new_places(output);
   if (names_folder(output)) {
     TENON_CHECK(check_apart(places));
   }
-  std::vector<std::string> written;
   for (const AssetLayer& part : layers_) {
     const auto place = places.find(part.layer->identifier());
     if (place == places.end()) {
@@ -223,13 +250,10 @@ Result<std::vector<std::string>> AssetLayers::put_to(const std::string& output, 
     }
     layer::Layer copy = part.edited ? *part.edited : *part.layer;
     rename(copy, part.layer->identifier(), place->second, places);
-    TENON_TRY(const bool kept, put_edited(copy, place->second, outputs));
-    if (!kept) {
-      without_layout_.push_back(part.layer->identifier());
-    }
-    written.push_back(place->second);
+    TENON_TRY(MadeFile one, made(copy, part.layer->identifier(), place->second));
+    files.push_back(std::move(one));
   }
-  return written;
+  return files;
 }
 
 std::string root_output(const std::string& output, const layer::Layer& root) {
@@ -244,30 +268,37 @@ std::string root_output(const std::string& output, const layer::Layer& root) {
   return (fs::path(output) / name).string();
 }
 
-Result<bool> put_edited(const layer::Layer& layer, const std::string& file, Outputs& outputs) {
-  const auto wanted = formats::layer_format_for(file);
-  const auto bytes = bytes::FileBytes::open(layer.identifier());
+Result<LayerContents> edited_contents(const layer::Layer& layer, const std::string& file,
+                                      const bytes::Files& files) {
+  const auto wanted = file == "-" ? Result<formats::LayerFormat>(formats::LayerFormat::Text)
+                                  : formats::layer_format_for(file);
+  const auto bytes = files->open(layer.identifier(), {});
   const bool in_place = file == layer.identifier();
   const bool text = bytes && formats::format_of(**bytes) == formats::LayerFormat::Text &&
                     (in_place || (wanted && *wanted == formats::LayerFormat::Text));
   if (text) {
     formats::EditedText edited = formats::edit_text((*bytes)->text(), layer);
-    outputs.put_beside(file, std::move(edited.text));
-    return edited.kept_layout;
+    return LayerContents{std::move(edited.text), edited.kept_layout};
   }
   const bool keeps_format = in_place && bytes;  // whatever its name says
   TENON_TRY(const formats::LayerFormat format,
             keeps_format ? Result<formats::LayerFormat>(formats::format_of(**bytes)) : wanted);
   TENON_TRY(std::string contents, formats::encode_layer(layer, format));
-  outputs.put_beside(file, std::move(contents));
-  return true;  // nothing but a binary layer, or another format: no layout to keep
+  return LayerContents{std::move(contents)};  // binary, or another format: no layout to keep
+}
+
+Result<std::string> new_contents(const layer::Layer& layer, const std::string& file) {
+  formats::LayerFormat format = formats::LayerFormat::Text;
+  if (file != "-") {
+    TENON_TRY(format, formats::layer_format_for(file));
+  }
+  return formats::encode_layer(layer, format);
 }
 
 layer::Layer layer_over(const layer::Layer& asset, const std::string& output) {
   layer::Layer over(output);
   over.set_may_lack_text();
-  const fs::path folder =
-      output == "-" ? fs::current_path() : fs::absolute(output).lexically_normal().parent_path();
+  const fs::path folder = fs::path(bytes::absolute_file_path(output)).parent_path();
   const std::string name = fs::path(asset.identifier()).lexically_relative(folder).generic_string();
   over.root().set(
       "subLayers",
@@ -283,4 +314,4 @@ layer::Layer layer_over(const layer::Layer& asset, const std::string& output) {
   return over;
 }
 
-}  // namespace tenon::cli
+}  // namespace tenon

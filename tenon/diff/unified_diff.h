@@ -4,11 +4,11 @@
 
 #include <string>
 
-namespace tenon::cli {
+namespace tenon::diff {
 
 /// The lines that differ, as patch(1) reads them: "--- a/NAME", "+++ b/NAME", hunks with three
 /// lines around. Empty for equal texts.
 std::string unified_diff(const std::string& name, const std::string& before,
                          const std::string& after);
 
-}  // namespace tenon::cli
+}  // namespace tenon::diff

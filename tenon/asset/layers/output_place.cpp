@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/output_place.h"
+#include "tenon/asset/layers/output_place.h"
 
 #include <filesystem>
 
-namespace tenon::cli {
+namespace tenon {
 
 bool names_folder(const std::string& output) {
   std::error_code error;
@@ -12,4 +12,4 @@ bool names_folder(const std::string& output) {
          std::filesystem::is_directory(output, error);
 }
 
-}  // namespace tenon::cli
+}  // namespace tenon

@@ -4,9 +4,9 @@
 
 #include <string>
 
-namespace tenon::cli {
+namespace tenon {
 
 /// Whether an output names a folder: it ends with '/', has no ending, or is a folder.
 bool names_folder(const std::string& output);
 
-}  // namespace tenon::cli
+}  // namespace tenon

@@ -3,13 +3,13 @@
 //
 // Myers' greedy search ("An O(ND) Difference Algorithm and Its Variations", 1986) over lines. What
 // two texts begin and end with is left out first, so that few lines are searched.
-#include "cli/text/unified_diff.h"
+#include "tenon/diff/unified_diff.h"
 
 #include <algorithm>
 #include <string_view>
 #include <vector>
 
-namespace tenon::cli {
+namespace tenon::diff {
 namespace {
 
 using Lines = std::vector<std::string_view>;
@@ -181,4 +181,4 @@ std::string unified_diff(const std::string& name, const std::string& before,
   return out;
 }
 
-}  // namespace tenon::cli
+}  // namespace tenon::diff

@@ -1,22 +1,25 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/baseline.h"
+#include "tenon/asset/checking/baseline.h"
 
 #include <filesystem>
 
+#include "tenon/answers/json.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/check/rule.h"
 
-namespace tenon::cli {
+namespace tenon {
 namespace {
 
-constexpr const char* kSchema = "tenon.baseline/1";
+using answers::Json;
 
-std::string folder_of(const std::string& path) {
+constexpr const char* kBaselineSchema = "tenon.baseline/1";
+
+std::string baseline_folder(const std::string& path) {
   return std::filesystem::path(path).parent_path().string();
 }
 
-std::string text_at(const Json& item, const char* key) {
+std::string baseline_text(const Json& item, const char* key) {
   return item.is_object() && item.contains(key) && item[key].is_string()
              ? item[key].get<std::string>()
              : std::string();
@@ -24,10 +27,10 @@ std::string text_at(const Json& item, const char* key) {
 
 }  // namespace
 
-Result<Baseline> Baseline::read(const std::string& path) {
-  TENON_TRY(const auto bytes, bytes::FileBytes::open(path));
+Result<Baseline> Baseline::read(const std::string& path, const bytes::Files& files) {
+  TENON_TRY(const auto bytes, files->open(path, {}));
   const Json json = Json::parse(bytes->text(), nullptr, false);
-  const bool usable = json.is_object() && text_at(json, "schema") == kSchema &&
+  const bool usable = json.is_object() && baseline_text(json, "schema") == kBaselineSchema &&
                       json.contains("findings") && json["findings"].is_array();
   if (!usable) {
     return Error(ErrorCode::Parse, "the file is not a baseline that tenon check wrote")
@@ -35,11 +38,11 @@ Result<Baseline> Baseline::read(const std::string& path) {
         .with_fix("write one with --write-baseline");
   }
   Baseline baseline;
-  baseline.folder_ = folder_of(path);
+  baseline.folder_ = baseline_folder(path);
   for (const Json& item : json["findings"]) {
-    const std::string key = std::string(check::current_id(text_at(item, "rule"))) + "\n" +
-                            text_at(item, "file") + "\n" + text_at(item, "prim") + "\n" +
-                            text_at(item, "property");
+    const std::string key = std::string(check::current_id(baseline_text(item, "rule"))) + "\n" +
+                            baseline_text(item, "file") + "\n" + baseline_text(item, "prim") +
+                            "\n" + baseline_text(item, "property");
     const bool counted =
         item.is_object() && item.contains("count") && item["count"].is_number_unsigned();
     baseline.count_[key] += counted ? item["count"].get<std::size_t>() : 1;
@@ -53,7 +56,7 @@ std::string Baseline::text_of(const std::vector<ReportedFinding>& findings,
     const check::Finding* finding = nullptr;
     std::size_t count = 0;
   };
-  const std::string folder = folder_of(path);
+  const std::string folder = baseline_folder(path);
   std::map<std::string, Known> known;
   for (const ReportedFinding& reported : findings) {
     Known& entry = known[fingerprint_of(reported.finding, folder)];
@@ -73,7 +76,7 @@ std::string Baseline::text_of(const std::vector<ReportedFinding>& findings,
     }
     items.push_back(std::move(item));
   }
-  Json json = {{"tool", "tenon"}, {"schema", kSchema}, {"findings", std::move(items)}};
+  Json json = {{"tool", "tenon"}, {"schema", kBaselineSchema}, {"findings", std::move(items)}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -88,4 +91,4 @@ void Baseline::suppress(std::vector<ReportedFinding>& findings) const {
   }
 }
 
-}  // namespace tenon::cli
+}  // namespace tenon

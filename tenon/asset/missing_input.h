@@ -4,17 +4,17 @@
 
 #include <string>
 
-#include "cli/report.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/tenon.h"
 
-namespace tenon::cli {
+namespace tenon {
 
 /// The finding says that something that the input names was not there, could not be read, or was
 /// left out at a limit, so that the answer is about less than was asked for.
 bool tells_of_missing_input(const Diagnostic& finding);
 
 /// For verbs that work on layers without composing them: adds what composing finds missing.
-void add_missing_input(const std::string& asset, const OpenOptions& options, Report& report);
+void add_missing_input(const std::string& asset, const OpenOptions& options,
+                       Diagnostics& diagnostics);
 
-}  // namespace tenon::cli
+}  // namespace tenon

@@ -6,16 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "cli/text/sarif.h"
+#include "tenon/asset/checking/reported_finding.h"
 #include "tenon/base/result.h"
+#include "tenon/bytes/files.h"
 
-namespace tenon::cli {
+namespace tenon {
 
 /// Findings that are known and are not to be reported again, by rule, file, prim and property, so
 /// that a file may grow above them. Files are relative to the folder of the baseline.
 class Baseline {
  public:
-  static Result<Baseline> read(const std::string& path);
+  static Result<Baseline> read(const std::string& path, const bytes::Files& files);
   /// The text of a baseline with these findings, to be written to `path`.
   static std::string text_of(const std::vector<ReportedFinding>& findings, const std::string& path);
 
@@ -27,4 +28,4 @@ class Baseline {
   std::map<std::string, std::size_t> count_;  // by fingerprint
 };
 
-}  // namespace tenon::cli
+}  // namespace tenon

@@ -6,10 +6,9 @@
 // nor message: it stays the same while a file grows above the finding. Columns of a diagnostic are
 // bytes and have to be turned into characters, which is done for all findings together. Findings
 // that a baseline knows stay in the log, marked as suppressed.
-#include "cli/text/sarif.h"
+#include "tenon/asset/checking/sarif.h"
 
 #include <cctype>
-#include <filesystem>
 #include <map>
 
 #include "tenon/base/sha256.h"
@@ -17,10 +16,12 @@
 #include "tenon/check/rule.h"
 #include "tenon/formats/character_columns.h"
 
-namespace tenon::cli {
+namespace tenon {
 namespace {
 
-const char* level_of(Severity severity) {
+using answers::Json;
+
+const char* sarif_level(Severity severity) {
   switch (severity) {
     case Severity::Error:
       return "error";
@@ -33,7 +34,7 @@ const char* level_of(Severity severity) {
 }
 
 /// The path of a URI: what is not a plain letter of one is written as its bytes.
-std::string uri_of(const std::string& path) {
+std::string sarif_uri(const std::string& path) {
   std::string uri;
   for (const char c : shown_path(path)) {
     const auto byte = static_cast<unsigned char>(c);
@@ -49,7 +50,7 @@ std::string uri_of(const std::string& path) {
   return uri;
 }
 
-Json rule_json(const std::string& id, Severity severity) {
+Json sarif_rule(const std::string& id, Severity severity) {
   const check::Rule* rule = check::find_rule(id);
   const std::string_view page = check::page_of(id);
   Json json = Json::object();
@@ -59,7 +60,8 @@ Json rule_json(const std::string& id, Severity severity) {
   if (!page.empty()) {
     json["help"] = {{"text", page}, {"markdown", page}};
   }
-  json["defaultConfiguration"] = {{"level", level_of(rule == nullptr ? severity : rule->severity)}};
+  json["defaultConfiguration"] = {
+      {"level", sarif_level(rule == nullptr ? severity : rule->severity)}};
   if (rule != nullptr && !rule->numbers.empty()) {
     json["properties"] = {{"numbers", rule->numbers}};
   }
@@ -67,7 +69,7 @@ Json rule_json(const std::string& id, Severity severity) {
 }
 
 /// Where a finding stands, from its first character to the one behind its last.
-Json region_json(const Diagnostic& d, formats::CharacterColumns columns) {
+Json sarif_region(const Diagnostic& d, formats::CharacterColumns columns) {
   Json region = {{"startLine", d.line}};
   if (columns.column > 0) {
     region["startColumn"] = columns.column;
@@ -79,12 +81,12 @@ Json region_json(const Diagnostic& d, formats::CharacterColumns columns) {
   return region;
 }
 
-Json location_json(const Diagnostic& d, formats::CharacterColumns columns) {
+Json sarif_location(const Diagnostic& d, formats::CharacterColumns columns) {
   Json location = Json::object();
   if (!d.file.empty()) {
-    Json physical = {{"artifactLocation", {{"uri", uri_of(d.file)}}}};
+    Json physical = {{"artifactLocation", {{"uri", sarif_uri(d.file)}}}};
     if (d.line > 0) {
-      physical["region"] = region_json(d, columns);
+      physical["region"] = sarif_region(d, columns);
     }
     location["physicalLocation"] = std::move(physical);
   }
@@ -96,15 +98,15 @@ Json location_json(const Diagnostic& d, formats::CharacterColumns columns) {
   return location;
 }
 
-Json result_json(const ReportedFinding& reported, formats::CharacterColumns columns,
-                 std::size_t rule_index) {
+Json sarif_result(const ReportedFinding& reported, formats::CharacterColumns columns,
+                  std::size_t rule_index) {
   const Diagnostic& d = reported.finding.diagnostic;
   Json result = Json::object();
   result["ruleId"] = d.rule;
   result["ruleIndex"] = rule_index;
-  result["level"] = level_of(d.severity);
+  result["level"] = sarif_level(d.severity);
   result["message"] = {{"text", d.fix.empty() ? d.message : d.message + "; " + d.fix}};
-  const Json location = location_json(d, columns);
+  const Json location = sarif_location(d, columns);
   result["locations"] = location.empty() ? Json::array() : Json::array({location});
   Sha256 digest;
   digest.update(fingerprint_of(reported.finding, "."));
@@ -120,18 +122,8 @@ Json result_json(const ReportedFinding& reported, formats::CharacterColumns colu
 
 }  // namespace
 
-std::string fingerprint_of(const check::Finding& finding, const std::string& folder) {
-  namespace fs = std::filesystem;
-  const Diagnostic& d = finding.diagnostic;
-  std::error_code ignored;
-  const fs::path base = fs::absolute(folder.empty() ? "." : folder, ignored).lexically_normal();
-  const fs::path file(d.file);
-  const std::string shown =
-      file.is_absolute() ? file.lexically_proximate(base).generic_string() : d.file;
-  return d.rule + "\n" + shown + "\n" + d.prim + "\n" + d.property;
-}
-
-Json sarif_log(const std::vector<ReportedFinding>& findings, const bytes::Files& files) {
+Json sarif_log(const std::vector<ReportedFinding>& findings, const std::string& version,
+               const bytes::Files& files) {
   std::map<std::string, Severity> broken;
   for (const ReportedFinding& reported : findings) {
     broken.emplace(reported.finding.diagnostic.rule, reported.finding.diagnostic.severity);
@@ -140,7 +132,7 @@ Json sarif_log(const std::vector<ReportedFinding>& findings, const bytes::Files&
   Json rules = Json::array();
   for (const auto& [id, severity] : broken) {
     index[id] = rules.size();
-    rules.push_back(rule_json(id, severity));
+    rules.push_back(sarif_rule(id, severity));
   }
   Json results = Json::array();
   std::vector<const Diagnostic*> diagnostics;
@@ -150,9 +142,9 @@ Json sarif_log(const std::vector<ReportedFinding>& findings, const bytes::Files&
   const std::vector<formats::CharacterColumns> columns =
       formats::character_columns(diagnostics, files);
   for (std::size_t i = 0; i < findings.size(); ++i) {
-    results.push_back(result_json(findings[i], columns[i], index[diagnostics[i]->rule]));
+    results.push_back(sarif_result(findings[i], columns[i], index[diagnostics[i]->rule]));
   }
-  Json driver = {{"name", "tenon"}, {"version", TENON_VERSION}, {"rules", std::move(rules)}};
+  Json driver = {{"name", "tenon"}, {"version", version}, {"rules", std::move(rules)}};
   Json run = Json::object();
   run["tool"] = {{"driver", std::move(driver)}};
   run["columnKind"] = "unicodeCodePoints";  // elsewhere columns are bytes
@@ -164,4 +156,4 @@ Json sarif_log(const std::vector<ReportedFinding>& findings, const bytes::Files&
   return log;
 }
 
-}  // namespace tenon::cli
+}  // namespace tenon

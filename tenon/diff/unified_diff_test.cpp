@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/text/unified_diff.h"
+#include "tenon/diff/unified_diff.h"
 
 #include <gtest/gtest.h>
 
-namespace tenon::cli {
+namespace tenon::diff {
 namespace {
 
 TEST(UnifiedDiff, IsEmptyForEqualTexts) { EXPECT_EQ(unified_diff("a", "x\ny\n", "x\ny\n"), ""); }
@@ -42,4 +42,4 @@ TEST(UnifiedDiff, WritesFromNothing) {
 }
 
 }  // namespace
-}  // namespace tenon::cli
+}  // namespace tenon::diff

@@ -4,18 +4,19 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "cli/output.h"
+#include "tenon/asset/made_file.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/layer/layer.h"
 #include "tenon/tenon.h"
 
-namespace tenon::cli {
+namespace tenon {
 
 /// One layer of an asset and, where it is to change, what it becomes.
 struct AssetLayer {
@@ -31,16 +32,16 @@ class AssetLayers {
   static Result<AssetLayers> open(const std::string& path, const OpenOptions& options);
 
   std::vector<AssetLayer>& layers() { return layers_; }
-  /// Puts the edited layers among the outputs, over their files; text keeps its layout. The files.
+  /// The edited layers in their files; text keeps its layout.
   /// Errors: Unsupported where one lies in a package.
-  Result<std::vector<std::string>> put_in_place(Outputs& outputs);
-  /// Puts the root layer to `output` and, into the folder "<output without its ending>_layers",
-  /// every layer that is edited or leads to an edited one; asset paths follow. The files.
-  /// A folder (names_folder) takes them all, each under its own name, where it stands beside the
-  /// root layer. "-" is standard output, for the root layer as text.
+  Result<MadeFiles> in_place();
+  /// The root layer for `output` and, in the folder "<output without its ending>_layers", every
+  /// layer that is edited or leads to an edited one; asset paths follow. A folder (names_folder)
+  /// takes them all, each under its own name, where it stands beside the root layer. "-" is
+  /// standard output, for the root layer as text.
   /// Errors: Unsupported for "-" where another layer is edited; Invalid for a folder where a layer
   /// of the asset itself would be written over.
-  Result<std::vector<std::string>> put_to(const std::string& output, Outputs& outputs);
+  Result<MadeFiles> elsewhere(const std::string& output);
   /// Every layer that one of them names is among them, so that composing finds none missing either.
   /// False also where a name has to be composed to be known.
   bool is_whole() const { return is_whole_; }
@@ -52,8 +53,15 @@ class AssetLayers {
   const std::vector<std::string>& without_layout() const { return without_layout_; }
 
  private:
+  struct Search;
+
+  std::optional<std::size_t> named_layer(const std::string& name, const layer::Layer& from,
+                                         Search& search);
   std::map<std::string, std::string> new_places(const std::string& output) const;
   Result<void> check_apart(const std::map<std::string, std::string>& places) const;
+  Result<void> check_one_edit() const;
+  Result<MadeFile> made(const layer::Layer& layer, const std::string& original,
+                        const std::string& file);
   void rename(layer::Layer& layer, const std::string& from, const std::string& to,
               const std::map<std::string, std::string>& places) const;
 
@@ -74,8 +82,19 @@ std::string root_output(const std::string& output, const layer::Layer& root);
 /// of the asset's file may.
 layer::Layer layer_over(const layer::Layer& asset, const std::string& output);
 
-/// Puts `layer` among the outputs, as `file`. Where the layer's own file is text and the new one is
-/// to be text, its comments and layout stay but for what changed: the answer is whether they did.
-Result<bool> put_edited(const layer::Layer& layer, const std::string& file, Outputs& outputs);
+/// The contents of a file.
+struct LayerContents {
+  std::string contents;
+  bool kept_layout = true;  ///< comments and layout of text stay
+};
 
-}  // namespace tenon::cli
+/// `layer` as the contents of `file`, text for "-". Where the layer's own file is text and the new
+/// one is to be text, its comments and layout stay but for what changed, if they can; `files` have
+/// the layer's.
+Result<LayerContents> edited_contents(const layer::Layer& layer, const std::string& file,
+                                      const bytes::Files& files);
+
+/// `layer` in the format that the name of `file` asks for; as text for "-".
+Result<std::string> new_contents(const layer::Layer& layer, const std::string& file);
+
+}  // namespace tenon

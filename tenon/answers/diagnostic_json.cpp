@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/answers/diagnostic_json.h"
+
+#include <utility>
+
+#include "tenon/answers/or_null.h"
+#include "tenon/base/text/shown_path.h"
+
+namespace tenon::answers {
+
+Json diagnostic_json(const Diagnostic& d) {
+  Json item = Json::object();
+  item["severity"] = severity_name(d.severity);
+  item["rule"] = or_null(d.rule);
+  item["message"] = d.message;
+  item["file"] = file_or_null(d.file);
+  item["line"] = or_null(d.line);
+  item["column"] = or_null(d.column);
+  item["endLine"] = or_null(d.end_line);
+  item["endColumn"] = or_null(d.end_column);
+  item["prim"] = or_null(d.prim);
+  item["property"] = or_null(d.property);
+  item["fix"] = or_null(d.fix);
+  return item;
+}
+
+Json envelope_json(const Envelope& envelope, const Diagnostics& diagnostics, const Json& body) {
+  Json json = Json::object();
+  json["tool"] = "tenon";
+  json["version"] = envelope.version;
+  json["schema"] = "tenon." + envelope.verb + "/1";
+  json["asset"] = or_null(envelope.asset);
+  json["ok"] = envelope.ok;
+  json["diagnostics"] = Json::array();
+  for (const Diagnostic& d : diagnostics) {
+    json["diagnostics"].push_back(diagnostic_json(d));
+  }
+  json.update(body);
+  return json;
+}
+
+Json assets_json(std::vector<Json> answers) {
+  Json list = Json::array();
+  for (Json& answer : answers) {
+    list.push_back(std::move(answer));
+  }
+  return {{"assets", std::move(list)}};
+}
+
+Json text_json(const std::string& text) { return {{"text", text}}; }
+
+Json output_json(const std::string& output) { return {{"output", output}}; }
+
+Json rule_page_json(const std::string& rule, std::string_view page) {
+  return {{"rule", rule}, {"page", page}};
+}
+
+}  // namespace tenon::answers

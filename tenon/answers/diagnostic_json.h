@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tenon/answers/json.h"
+#include "tenon/base/diagnostics.h"
+
+namespace tenon::answers {
+
+/// {"severity", "rule", "message", "file", "line", "column", "endLine", "endColumn", "prim",
+/// "property", "fix"}: null for what is unknown.
+Json diagnostic_json(const Diagnostic& diagnostic);
+
+/// What every answer says before it comes to its subject.
+struct Envelope {
+  std::string version;  ///< of the program
+  std::string verb;
+  std::string asset;  ///< empty: the verb is not about one
+  bool ok = true;
+};
+
+/// {"tool", "version", "schema", "asset", "ok", "diagnostics"}, then the keys of `body`, which may
+/// have diagnostics of its own.
+Json envelope_json(const Envelope& envelope, const Diagnostics& diagnostics, const Json& body);
+
+/// {"assets"}: the answers for several assets in one.
+Json assets_json(std::vector<Json> answers);
+
+/// {"text"}: an answer that is a text.
+Json text_json(const std::string& text);
+
+/// {"output"}: where the answer was written.
+Json output_json(const std::string& output);
+
+/// {"rule", "page"}: what is said of a rule.
+Json rule_page_json(const std::string& rule, std::string_view page);
+
+}  // namespace tenon::answers

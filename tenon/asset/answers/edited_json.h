@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tenon/answers/json.h"
+#include "tenon/asset/edit_asset.h"
+
+namespace tenon {
+
+/// What edits did, or with `dry_run` would do: {"dryRun", "edits": [{"object", "api", "file",
+/// "line", "spec", "why", "before", "after", "variants"}], "files": [{"file", "diff",
+/// "keptLayout"}]}. "diff" is null for what is no text.
+answers::Json edited_json(const std::vector<AssetEdit>& edits, const EditedAsset& asset,
+                          bool dry_run);
+
+/// The difference of a text as JSON, as patch(1) reads it; null for what is no text.
+answers::Json text_difference_json(const std::string& name, const std::string& before,
+                                   const std::string& after, bool is_text);
+
+}  // namespace tenon

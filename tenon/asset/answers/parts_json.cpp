@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/asset/answers/parts_json.h"
+
+#include <algorithm>
+
+#include "tenon/approximate/mesh_approximator.h"
+#include "tenon/guard/workers.h"
+#include "tenon/tenon.h"
+
+namespace tenon {
+namespace {
+
+using answers::Json;
+
+/// What the worker says of itself; not available: why.
+Result<guard::AboutWorker> about_worker() {
+  guard::Workers workers;
+  Diagnostics none;
+  return guard::read_guarded<guard::AboutWorker>(workers, {guard::Reader::About, "", {}}, none);
+}
+
+/// Which reads meshes in .dae, .gltf and .glb.
+approximate::LibraryInfo mesh_library(const Result<guard::AboutWorker>& worker) {
+  approximate::LibraryInfo info;
+  info.name = "assimp";
+  info.available = worker && !worker->assimp.empty();
+  info.version = info.available ? worker->assimp : "";
+  info.how_to_get = info.available ? "" : "install libassimp5 to read meshes in Collada and glTF";
+  return info;
+}
+
+/// The process that reads formats of others, and what holds it.
+approximate::LibraryInfo worker_program(const Result<guard::AboutWorker>& worker) {
+  approximate::LibraryInfo info;
+  info.name = "worker";
+  info.available = worker.has_value();
+  if (!worker) {
+    info.how_to_get = worker.error().message() + "; " + worker.error().diagnostic().fix;
+    return info;
+  }
+  const guard::Confinement& held = worker->confinement;
+  info.version = held.memory ? "memory" : "memory (watched)";
+  info.version += ", time";
+  if (held.landlock > 0) {
+    info.version += ", Landlock " + std::to_string(held.landlock);
+  }
+  info.version += held.system_calls ? ", seccomp" : "";
+  info.version += held.no_new_privileges ? ", no new privileges" : "";
+  return info;
+}
+
+template <class Info>
+OptionalPart part_of(const Info& info) {
+  return {info.name, info.available, info.available ? info.version : "",
+          info.available ? "" : info.how_to_get};
+}
+
+Json list_of(const std::vector<OptionalPart>& parts) {
+  Json list = Json::array();
+  for (const OptionalPart& part : parts) {
+    list.push_back({{"name", part.name},
+                    {"available", part.available},
+                    {"version", part.available ? Json(part.version) : Json(nullptr)},
+                    {"howToGet", part.available ? Json(nullptr) : Json(part.how_to_get)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+bool OptionalParts::has_all_engines() const {
+  return std::all_of(engines.begin(), engines.end(),
+                     [](const OptionalPart& part) { return part.available; });
+}
+
+OptionalParts optional_parts() {
+  OptionalParts parts;
+  for (const engines::EngineInfo& engine : list_engines()) {
+    parts.engines.push_back(part_of(engine));
+  }
+  const Result<guard::AboutWorker> worker = about_worker();
+  for (const approximate::LibraryInfo& library :
+       {approximate::decomposition_library(), approximate::simplification_library(),
+        mesh_library(worker), worker_program(worker)}) {
+    parts.libraries.push_back(part_of(library));
+  }
+  return parts;
+}
+
+Json parts_json(const OptionalParts& parts) {
+  return {{"engines", list_of(parts.engines)}, {"libraries", list_of(parts.libraries)}};
+}
+
+}  // namespace tenon

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// All assets add to one list of findings. They share layers, so a finding counts once by its place,
+// rule and message. Where fixes are wanted, an asset is checked, what they make of its files is
+// written, and it is checked again, so that the findings are those that are left; where nothing is
+// written, they are those of the first check. The baseline is held against the whole list at the
+// end, because it says how many equal findings are known.
+#include "tenon/asset/checking/check_assets.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <set>
+#include <tuple>
+
+#include "tenon/asset/checking/baseline.h"
+#include "tenon/asset/repeat_edit.h"
+#include "tenon/check/rule.h"
+
+namespace tenon {
+namespace {
+
+class AssetsCheck {
+ public:
+  explicit AssetsCheck(const CheckAssetsOptions& options) : options_(options) {}
+
+  Result<void> add_asset(const std::string& path) {
+    Result<CheckedAsset> checked = CheckedAsset();
+    bool changed = false;
+    if (options_.correct) {
+      TENON_TRY(changed, correct(path, checked));
+    }
+    if (!options_.correct || (changed && options_.write)) {
+      checked = check_asset(path, options_.check);
+    }
+    result_.assets.push_back(
+        {path, checked.has_value(), checked ? checked->variants : std::vector<std::string>()});
+    if (!checked) {
+      add(checked.error().diagnostic());
+      for (const Diagnostic& further : checked.error().further()) {
+        add(further);
+      }
+      return {};
+    }
+    for (check::Finding& finding : checked->findings) {
+      add(std::move(finding));
+    }
+    return {};
+  }
+
+  CheckedAssets take() { return std::move(result_); }
+
+ private:
+  void add(const Diagnostic& fault) {
+    check::Finding finding;
+    finding.diagnostic = fault;
+    finding.rule = check::find_rule(fault.rule);
+    add(std::move(finding));
+  }
+
+  void add(check::Finding finding) {
+    const Diagnostic& d = finding.diagnostic;
+    if (known_.emplace(d.file, d.line, d.column, d.prim, d.property, d.rule, d.message).second) {
+      result_.findings.push_back({std::move(finding), false});
+    }
+  }
+
+  /// None for an asset that cannot be checked.
+  Result<std::vector<CorrectedFile>> write_corrected(const std::string& path,
+                                                     Result<CheckedAsset>& checked) const {
+    checked = check_asset(path, options_.check);
+    if (!checked) {
+      return std::vector<CorrectedFile>();
+    }
+    TENON_TRY(std::vector<CorrectedFile> files,
+              corrected_files(checked->findings, options_.check.open.files));
+    if (options_.write) {
+      TENON_CHECK(options_.write(files));
+    }
+    return files;
+  }
+
+  /// Whether there was something to correct.
+  Result<bool> correct(const std::string& path, Result<CheckedAsset>& checked) {
+    Diagnostics none;  // findings are values here
+    TENON_TRY(std::vector<CorrectedFile> files,
+              repeat_edit(none, [&] { return write_corrected(path, checked); }));
+    for (CorrectedFile& file : files) {
+      const bool known =
+          std::any_of(result_.corrected.begin(), result_.corrected.end(),
+                      [&](const CorrectedFile& other) { return other.path == file.path; });
+      if (!known) {
+        result_.corrected.push_back(std::move(file));
+      }
+    }
+    return !files.empty();
+  }
+
+  const CheckAssetsOptions& options_;
+  CheckedAssets result_;
+  std::set<std::tuple<std::string, std::uint32_t, std::uint32_t, std::string, std::string,
+                      std::string, std::string>>
+      known_;
+};
+
+/// The root assets of all paths, each once.
+Result<std::vector<std::string>> all_roots(const std::vector<std::string>& paths,
+                                           const OpenOptions& options) {
+  std::set<std::string> seen;
+  std::vector<std::string> all;
+  for (const std::string& path : paths) {
+    TENON_TRY(const std::vector<std::string> roots, root_assets(path, options));
+    std::copy_if(roots.begin(), roots.end(), std::back_inserter(all),
+                 [&](const std::string& root) { return seen.insert(root).second; });
+  }
+  return all;
+}
+
+}  // namespace
+
+bool CheckedAssets::all_opened() const {
+  return std::all_of(assets.begin(), assets.end(),
+                     [](const AssetChecked& asset) { return asset.opened; });
+}
+
+Result<CheckedAssets> check_assets(const std::vector<std::string>& paths,
+                                   const CheckAssetsOptions& options) {
+  TENON_TRY(const std::vector<std::string> all, all_roots(paths, options.check.open));
+  AssetsCheck check(options);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (options.progress) {
+      options.progress(i, all.size());
+    }
+    TENON_CHECK(check.add_asset(all[i]));
+  }
+  CheckedAssets checked = check.take();
+  if (!options.baseline.empty()) {
+    TENON_TRY(const Baseline baseline, Baseline::read(options.baseline, options.check.open.files));
+    baseline.suppress(checked.findings);
+  }
+  return checked;
+}
+
+FindingCounts count_findings(const std::vector<ReportedFinding>& findings) {
+  FindingCounts counts;
+  for (const ReportedFinding& reported : findings) {
+    if (reported.suppressed) {
+      ++counts.suppressed;
+      continue;
+    }
+    const Severity severity = reported.finding.diagnostic.severity;
+    ++(severity == Severity::Error     ? counts.errors
+       : severity == Severity::Warning ? counts.warnings
+                                       : counts.infos);
+    counts.fixable += reported.finding.fix ? 1 : 0;
+  }
+  return counts;
+}
+
+Result<void> check_selection(const check::Selection& rules) {
+  for (const auto* list : {&rules.only, &rules.skip}) {
+    for (const std::string& name : *list) {
+      const bool known =
+          std::any_of(check::rules().begin(), check::rules().end(), [&](const check::Rule& rule) {
+            return rule.id == check::current_id(name) ||
+                   rule.id.substr(0, rule.id.find('.')) == name;
+          });
+      if (!known && check::page_of(name).empty()) {
+        return Error(ErrorCode::NotFound, "there is no rule or family of rules \"" + name + "\"")
+            .with_fix("tenon check --list-rules names all");
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace tenon

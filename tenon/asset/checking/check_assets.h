@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tenon/asset/check_asset.h"
+#include "tenon/asset/checking/reported_finding.h"
+#include "tenon/base/result.h"
+
+namespace tenon {
+
+struct CheckAssetsOptions {
+  CheckOptions check;
+  bool correct = false;  ///< what has a safe fix
+  /// Writes what was corrected of one asset; the asset is then checked again. Empty: nothing is
+  /// written, and the findings are those before.
+  std::function<Result<void>(const std::vector<CorrectedFile>& files)> write;
+  std::string baseline;  ///< file of findings that are known; empty: none are
+  std::function<void(std::size_t done, std::size_t total)> progress;  ///< in assets; may be empty
+};
+
+/// One of the assets.
+struct AssetChecked {
+  std::string path;
+  bool opened = true;
+  std::vector<std::string> variants;  ///< of "Physics" that were looked at
+};
+
+/// What came of all assets together.
+struct CheckedAssets {
+  std::vector<ReportedFinding> findings;  ///< each once, in the order of the assets
+  std::vector<CorrectedFile> corrected;   ///< each once
+  std::vector<AssetChecked> assets;
+
+  bool all_opened() const;
+};
+
+/// Checks the root assets (root_assets) of all paths. An asset that does not open is a finding.
+/// Errors: those of root_assets and of a baseline that cannot be read; those of `write`.
+Result<CheckedAssets> check_assets(const std::vector<std::string>& paths,
+                                   const CheckAssetsOptions& options);
+
+struct FindingCounts {
+  std::size_t errors = 0;
+  std::size_t warnings = 0;
+  std::size_t infos = 0;
+  std::size_t fixable = 0;
+  std::size_t suppressed = 0;  ///< counted as nothing else
+};
+FindingCounts count_findings(const std::vector<ReportedFinding>& findings);
+
+/// Errors: NotFound, for what is neither a rule nor a family of rules.
+Result<void> check_selection(const check::Selection& rules);
+
+}  // namespace tenon

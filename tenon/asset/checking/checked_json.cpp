@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/asset/checking/checked_json.h"
+
+#include "tenon/answers/diagnostic_json.h"
+#include "tenon/asset/answers/edited_json.h"
+#include "tenon/base/text/shown_path.h"
+#include "tenon/check/rule.h"
+
+namespace tenon {
+namespace {
+
+using answers::Json;
+
+Json finding_json(const ReportedFinding& reported) {
+  const check::Finding& finding = reported.finding;
+  Json item = answers::diagnostic_json(finding.diagnostic);
+  item["variants"] = finding.variants.empty() ? Json(nullptr) : Json(finding.variants);
+  const bool numbered = finding.rule != nullptr && !finding.rule->numbers.empty();
+  item["numbers"] = numbered ? Json(finding.rule->numbers) : Json(nullptr);
+  item["autofix"] = finding.fix ? Json(finding.fix->what) : Json(nullptr);
+  item["suppressed"] = reported.suppressed;
+  return item;
+}
+
+/// The files that are corrected, with what changes in those that are text.
+Json corrected_json(const std::vector<CorrectedFile>& corrected) {
+  Json files = Json::array();
+  for (const CorrectedFile& file : corrected) {
+    const std::string name = shown_path(file.path);
+    files.push_back(
+        {{"file", name}, {"diff", text_difference_json(name, file.before, file.after, file.text)}});
+  }
+  return files;
+}
+
+}  // namespace
+
+Json checked_json(const CheckedAssets& checked, std::string_view corrected_key) {
+  Json body = Json::object();
+  body["diagnostics"] = Json::array();
+  for (const ReportedFinding& reported : checked.findings) {
+    body["diagnostics"].push_back(finding_json(reported));
+  }
+  const FindingCounts counts = count_findings(checked.findings);
+  body["summary"] = {{"errors", counts.errors},
+                     {"warnings", counts.warnings},
+                     {"infos", counts.infos},
+                     {"fixable", counts.fixable},
+                     {"suppressed", counts.suppressed}};
+  body["assets"] = Json::array();
+  for (const AssetChecked& asset : checked.assets) {
+    body["assets"].push_back({{"asset", shown_path(asset.path)},
+                              {"opened", asset.opened},
+                              {"variants", asset.variants}});
+  }
+  if (!corrected_key.empty()) {
+    body[std::string(corrected_key)] = corrected_json(checked.corrected);
+  }
+  return body;
+}
+
+Json rules_json() {
+  Json list = Json::array();
+  for (const check::Rule& rule : check::rules()) {
+    list.push_back({{"rule", rule.id},
+                    {"severity", severity_name(rule.severity)},
+                    {"numbers", rule.numbers},
+                    {"autofix", rule.fix != nullptr},
+                    {"title", check::title_of(check::page_of(rule.id))}});
+  }
+  return {{"rules", std::move(list)}};
+}
+
+}  // namespace tenon

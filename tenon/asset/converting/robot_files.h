@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "tenon/answers/json.h"
+#include "tenon/asset/convert_file.h"
+#include "tenon/asset/made_file.h"
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/structure/make/make_package.h"
+#include "tenon/structure/written_note.h"
+
+/// A converted robot as the files of an asset.
+namespace tenon {
+
+/// Files that say what was written, for the next time (structure/written_note.h).
+struct NotedFiles {
+  MadeFiles files;            ///< the asset or description last
+  structure::Digests beside;  ///< of the others, by their names from there
+};
+
+/// One layer or package for a file at `output`, and images beside it: those that are in no file of
+/// their own, and those outside of the folders of the output. No file is touched. Errors: those of
+/// encoding; Invalid for the name.
+Result<NotedFiles> robot_files(ConvertedFile converted, const std::string& output,
+                               Diagnostics& diagnostics);
+
+/// As `tenon structure` would make it of the same asset in a file, proven in the same way.
+Result<structure::StructuredAsset> structured_robot(const ConvertedFile& converted,
+                                                    Diagnostics& diagnostics);
+
+/// How much the description holds.
+struct RobotCounts {
+  std::size_t links = 0;
+  std::size_t joints = 0;
+  std::size_t meshes = 0;  ///< files
+};
+RobotCounts counts_of(const ConvertedFile& converted);
+
+/// {"output", "links", "joints", "meshes"}.
+answers::Json converted_json(const RobotCounts& counts, const std::string& output);
+
+}  // namespace tenon

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Typed edits of masses and drives look at the composed scene, with the first variant of "Physics"
+// that has physics; the others are made of the text alone.
+#include "tenon/asset/edit_request.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "tenon/asset/typed_edits.h"
+#include "tenon/base/assignment.h"
+#include "tenon/property_value.h"
+#include "tenon/tenon.h"
+
+namespace tenon {
+namespace {
+
+/// Whether it suits the edit is checked with the edit.
+Result<Path> read_path(const std::string& text, const std::string& kind) {
+  auto path = Path::parse(text);
+  if (path && path->is_absolute()) {
+    return path;
+  }
+  return not_a_path(text, kind);
+}
+
+Result<AssetEdit> assigned(const std::string& text, const std::string& type) {
+  TENON_TRY(const PropertyAssignment parts, read_assignment(text));
+  AssetEdit edit;
+  edit.object = parts.property;
+  edit.value = parts.value;
+  edit.type_name = Token(type);
+  return edit;
+}
+
+Result<AssetEdit> api_edit(const std::string& text, AssetEdit::Kind kind) {
+  const auto parts = split_assignment(text);
+  if (!parts) {
+    return Error(parts.error()).with_fix("write PRIM=SCHEMA, as in /hand/palm=PhysicsMassAPI");
+  }
+  AssetEdit edit;
+  edit.kind = kind;
+  TENON_TRY(edit.object, read_path(parts->first, "prim"));
+  edit.api = Token(parts->second);
+  return edit;
+}
+
+/// The typed edits look at joints and units: at the scene with physics, whichever variant has it.
+Result<stage::Stage> scene_with_physics(const std::string& asset, OpenOptions open) {
+  Diagnostics ignored;  // the edit composes again and reports
+  TENON_TRY(stage::Stage stage, open_stage(asset, open, ignored));
+  const stage::Prim root = stage.default_prim();
+  if (!root || !open.physics_variant.empty()) {
+    return stage;
+  }
+  for (const char* variant : {"physics", "physx", "mujoco"}) {
+    const auto names = root.variant_names("Physics");
+    if (std::find(names.begin(), names.end(), variant) != names.end()) {
+      open.physics_variant = variant;
+      return open_stage(asset, open, ignored);
+    }
+  }
+  return stage;
+}
+
+using ReadEdits = std::function<Result<std::vector<AssetEdit>>(const std::string&)>;
+
+Result<void> add_typed(const std::vector<std::string>& texts, const ReadEdits& read,
+                       std::vector<AssetEdit>& edits) {
+  for (const std::string& text : texts) {
+    TENON_TRY(const std::vector<AssetEdit> more, read(text));
+    edits.insert(edits.end(), more.begin(), more.end());
+  }
+  return {};
+}
+
+Result<void> add_typed(const std::string& asset, const EditRequest& request,
+                       const EditOptions& options, std::vector<AssetEdit>& edits) {
+  TENON_CHECK(add_typed(request.collider, collider_edits, edits));
+  TENON_CHECK(add_typed(request.material, material_edits, edits));
+  TENON_CHECK(add_typed(
+      request.mimic, [&](const std::string& text) { return mimic_edits(text, options.engine); },
+      edits));
+  if (request.mass.empty() && request.drive.empty()) {
+    return {};
+  }
+  TENON_TRY(const stage::Stage stage, scene_with_physics(asset, options.open));
+  TENON_CHECK(add_typed(
+      request.mass, [&](const std::string& text) { return mass_edits(stage, text); }, edits));
+  return add_typed(
+      request.drive, [&](const std::string& text) { return drive_edits(stage, text); }, edits);
+}
+
+}  // namespace
+
+Result<std::vector<AssetEdit>> read_edits(const std::string& asset, const EditRequest& request,
+                                          const EditOptions& options) {
+  std::vector<AssetEdit> edits;
+  for (const std::string& text : request.remove) {
+    TENON_TRY(AssetEdit edit, api_edit(text, AssetEdit::Kind::RemoveApi));
+    edits.push_back(std::move(edit));
+  }
+  for (const std::string& text : request.apply) {
+    TENON_TRY(AssetEdit edit, api_edit(text, AssetEdit::Kind::ApplyApi));
+    edits.push_back(std::move(edit));
+  }
+  TENON_CHECK(add_typed(asset, request, options, edits));
+  for (const std::string& text : request.assignments) {
+    TENON_TRY(AssetEdit edit, assigned(text, request.type));
+    edits.push_back(std::move(edit));
+  }
+  for (const std::string& text : request.clear) {
+    AssetEdit edit;
+    edit.kind = AssetEdit::Kind::ClearProperty;
+    TENON_TRY(edit.object, read_path(text, "property"));
+    edits.push_back(std::move(edit));
+  }
+  if (edits.empty()) {
+    return Error(ErrorCode::Invalid, "nothing to set").with_fix("name a property: PATH.attr=VALUE");
+  }
+  return edits;
+}
+
+}  // namespace tenon

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tenon/asset/edit_asset.h"
+#include "tenon/base/result.h"
+
+namespace tenon {
+
+/// What is asked for of an asset, as people write it (`tenon set`).
+struct EditRequest {
+  std::vector<std::string> assignments;  ///< PATH.property=VALUE
+  std::vector<std::string> clear;        ///< PATH.property
+  std::vector<std::string> apply;        ///< PRIM=SCHEMA
+  std::vector<std::string> remove;       ///< PRIM=SCHEMA
+  std::vector<std::string> mass;         ///< this and the next: see typed_edits.h
+  std::vector<std::string> collider;
+  std::vector<std::string> material;
+  std::vector<std::string> drive;
+  std::vector<std::string> mimic;
+  std::string type;  ///< of attributes that assignments create
+};
+
+/// The edits in a fixed order: schemas are removed and applied first, so that the properties that
+/// they declare are known, then typed edits, assignments, and last what is cleared. Errors:
+/// Invalid, what cannot be read, and a request for nothing; those of opening the asset, which some
+/// typed edits look at.
+Result<std::vector<AssetEdit>> read_edits(const std::string& asset, const EditRequest& request,
+                                          const EditOptions& options);
+
+}  // namespace tenon

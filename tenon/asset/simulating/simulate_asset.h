@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "tenon/bake/run_simulation.h"
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/engines/simulation.h"
+#include "tenon/layer/layer.h"
+#include "tenon/physics/readings.h"
+#include "tenon/scene/physics_scene.h"
+#include "tenon/stage/stage.h"
+#include "tenon/tenon.h"
+
+/// A run as a value: an asset, what to do with it, and what came of it.
+namespace tenon {
+
+/// What is told while it goes on; each may be empty.
+struct SimulationListener {
+  std::function<void(const std::string& what)> next_part;  ///< "simulating"
+  /// A finding about work that will take long, before it begins; without it, it comes with the
+  /// others.
+  std::function<void(const Diagnostic& finding)> announce;
+  /// Now and then, with the simulated time and that of the whole run [s]; false stops it.
+  std::function<bool(double seconds, double duration)> go_on;
+};
+
+struct SimulateAssetOptions {
+  OpenOptions open;
+  physics::Readings readings;  ///< how the physics is read
+  std::string engine = "mujoco";
+  std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5
+  double time_step = 0;            ///< [s]; 0: the asset's, else the engine's
+  double frames_per_second = 60;   ///< of the recording
+  SimulationListener listener;
+};
+
+/// A finished run and everything that it was made of; the simulation refers to the scene.
+struct SimulatedAsset {
+  std::unique_ptr<stage::Stage> stage;
+  std::unique_ptr<scene::PhysicsScene> scene;
+  std::unique_ptr<engines::Simulation> simulation;
+  std::string engine;
+  std::string engine_version;
+  bake::Run run;
+  double wall_seconds = 0;
+
+  bool unstable() const { return run.failure && run.failure->code() == ErrorCode::Unstable; }
+};
+
+/// Opens, reads the physics and runs. A run that failed on its way is a result (see Run::failure)
+/// and a finding; one that could not begin is an Error: those of open_stage and make_simulation,
+/// Invalid (sim.time-step), Limit (sim.record-too-long).
+Result<SimulatedAsset> simulate_asset(const std::string& path, const SimulateAssetOptions& options,
+                                      Diagnostics& diagnostics);
+
+struct MotionOptions {
+  std::string physics_variant;  ///< that ran; empty: the asset's own selection
+  bool uninstance = false;      ///< instances with moving bodies inside become ordinary prims
+};
+
+/// The layer that plays the run over the asset at `path`, for a file at `output` ("-": in the
+/// current folder), from where it names the asset.
+layer::Layer motion_layer(const SimulatedAsset& simulated, const std::string& path,
+                          const std::string& output, const MotionOptions& options,
+                          Diagnostics& diagnostics);
+
+}  // namespace tenon

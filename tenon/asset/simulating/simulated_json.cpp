@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/asset/simulating/simulated_json.h"
+
+#include "tenon/bake/stage_values.h"
+
+namespace tenon {
+namespace {
+
+using answers::Json;
+
+Json list_json(const Vec3d& v) { return Json(v.v); }
+Json list_json(const Quatd& q) { return Json::array({q.w, q.x, q.y, q.z}); }
+
+Json bodies_json(const SimulatedAsset& s) {
+  Json bodies = Json::object();
+  for (scene::Index i = 0; i < s.scene->bodies.size(); ++i) {
+    const engines::BodyState state = bake::in_stage_units(s.simulation->body_state(i), *s.scene);
+    bodies[s.scene->bodies[i].path.str()] = {
+        {"position", list_json(state.pose.position)},
+        {"orientation", list_json(state.pose.orientation)},
+        {"linearVelocity", list_json(state.linear_velocity)},
+        {"angularVelocity", list_json(state.angular_velocity)}};
+  }
+  return bodies;
+}
+
+Json joints_json(const SimulatedAsset& s) {
+  Json joints = Json::object();
+  for (scene::Index i = 0; i < s.scene->joints.size(); ++i) {
+    const engines::JointState state =
+        bake::in_stage_units(s.simulation->joint_state(i), s.scene->joints[i], *s.scene);
+    joints[s.scene->joints[i].path.str()] = {{"position", state.position},
+                                             {"velocity", state.velocity}};
+  }
+  return joints;
+}
+
+Json not_mapped_json(const SimulatedAsset& s) {
+  Json items = Json::array();
+  for (const scene::NotRead& item : s.scene->not_read) {
+    items.push_back({{"prim", item.prim.str()}, {"property", item.property}, {"why", item.why}});
+  }
+  for (const engines::NotMapped& item : s.simulation->not_mapped()) {
+    items.push_back({{"prim", item.prim.str()}, {"property", item.property}, {"why", item.why}});
+  }
+  return items;
+}
+
+/// What changed for good: joints that broke (S-93).
+Json events_json(const SimulatedAsset& s) {
+  Json items = Json::array();
+  for (const engines::Event& event : s.simulation->events()) {
+    items.push_back({{"time", event.time}, {"prim", event.prim.str()}, {"what", event.what}});
+  }
+  return items;
+}
+
+}  // namespace
+
+Json simulated_json(const SimulatedAsset& s, bool timing) {
+  Json state = Json::object();
+  state["engine"] = s.engine;
+  state["engineVersion"] = s.engine_version;
+  state["dt"] = s.simulation->time_step();
+  state["steps"] = s.run.steps;
+  state["time"] = s.run.time;
+  if (timing) {
+    state["realTimeFactor"] = s.wall_seconds > 0 ? s.run.time / s.wall_seconds : 0.0;
+  }
+  state["unstable"] = s.unstable();
+  state["bodies"] = bodies_json(s);
+  state["joints"] = joints_json(s);
+  state["energy"] = {{"initial", s.run.initial_energy.total()},
+                     {"final", s.run.final_energy.total()}};
+  state["contacts"] = s.simulation->contact_count();
+  state["events"] = events_json(s);
+  state["notMapped"] = not_mapped_json(s);
+  return state;
+}
+
+Json motion_json(const SimulatedAsset& simulated, const std::string& output) {
+  return {{"output", output},
+          {"frames", simulated.run.recording.frame_count()},
+          {"bodies", simulated.scene->bodies.size()},
+          {"time", simulated.run.time}};
+}
+
+}  // namespace tenon
