@@ -23,6 +23,7 @@
 #include "cli/text/unified_diff.h"
 #include "cli/verb.h"
 #include "tenon/asset/check_asset.h"
+#include "tenon/asset_policy.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/check/rule.h"
 
@@ -144,15 +145,35 @@ class Run {
     }
   }
 
+  /// An asset may name layers of others, which are not its to change. What is to be checked belongs
+  /// to it.
+  bool belongs(const CorrectedFile& file, const std::string& asset, const CheckOptions& check) {
+    bytes::ReadPolicy policy = policy_for(asset, check.open);
+    for (const std::string& given : options_.paths) {
+      policy.add(given);
+    }
+    const Result<void> admitted = policy.check(file.path);
+    if (!admitted) {
+      Diagnostic finding = admitted.error().diagnostic();
+      finding.severity = Severity::Warning;
+      finding.file = asset;
+      finding.message = "the layer " + finding.message + ", and is not corrected";
+      finding.fix = "if it is to be corrected, name it or its folder, or give --allow-read FOLDER";
+      add(finding);
+    }
+    return admitted.has_value();
+  }
+
   /// None for an asset that cannot be checked.
   Result<std::vector<CorrectedFile>> write_corrected(const std::string& path,
                                                      const CheckOptions& check,
-                                                     Result<CheckedAsset>& checked) const {
+                                                     Result<CheckedAsset>& checked) {
     checked = check_asset(path, check);
     if (!checked) {
       return std::vector<CorrectedFile>();
     }
     TENON_TRY(std::vector<CorrectedFile> files, corrected_files(checked->findings));
+    std::erase_if(files, [&](const CorrectedFile& file) { return !belongs(file, path, check); });
     Outputs outputs = Outputs::in_place();
     for (const CorrectedFile& file : files) {
       outputs.put(file.path, file.after);
@@ -438,7 +459,8 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
   auto options = std::make_shared<CheckArguments>();
   verb.add_option("assets", options->paths, "USD files or folders").file_only();
   options->asset.add_options_to(verb);
-  verb.add_flag("--fix", options->fix, "Correct what has a safe fix, in the files that own it");
+  verb.add_flag("--fix", options->fix,
+                "Correct what has a safe fix, in the files of the asset that own it");
   verb.add_flag("--dry-run", options->dry_run, "With --fix: print the difference, write nothing");
   verb.add_flag("--strict", options->strict, "Warnings count as errors for the exit code");
   add_readings(verb, options->readings);

@@ -150,7 +150,9 @@ int extract(Report& report, const ZipArguments& options) {
     return report.fail(archive.error());
   }
   if (auto written = unpack(*archive, options.folder); !written) {
-    return report.fail(written.error());
+    const bool is_about_package = written.error().diagnostic().file.empty();
+    return report.fail(is_about_package ? Error(written.error()).in_file(options.asset)
+                                        : written.error());
   }
   Json files = Json::array();
   for (const bytes::ZipEntry& entry : archive->entries()) {
