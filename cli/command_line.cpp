@@ -131,11 +131,13 @@ std::string without_name(const std::string& text, const CLI::App& app) {
                                                                          : text;
 }
 
+bool is_option_like(const std::string& text) {
+  return text.size() > 1 && text.front() == '-' && text != "--";
+}
+
 /// What is left over: an option that does not exist, or a word too many.
 Error leftover(const CLI::App& app, const std::vector<std::string>& rest) {
-  const auto option = std::find_if(rest.begin(), rest.end(), [](const std::string& text) {
-    return text.size() > 1 && text.front() == '-' && text != "--";
-  });
+  const auto option = std::find_if(rest.begin(), rest.end(), is_option_like);
   if (option != rest.end()) {
     const std::string name = option->substr(0, option->find('='));
     return usage_error(app, spoken(app) + " has no option " + name, "usage.unknown-option",
@@ -151,8 +153,11 @@ Error leftover(const CLI::App& app, const std::vector<std::string>& rest) {
                      "usage.too-many-arguments");
 }
 
-/// The first argument that has to be there and is not.
+/// The first argument that has to be there and is not; an option that does not exist comes first.
 Error missing(const CLI::App& app, const std::vector<std::string>& rest) {
+  if (std::any_of(rest.begin(), rest.end(), is_option_like)) {
+    return leftover(app, rest);
+  }
   for (const CLI::App* at = &app; at != nullptr; at = at->get_parent()) {
     for (const CLI::Option* option : at->get_options()) {
       if (option->get_required() && option->count() == 0) {
@@ -344,7 +349,9 @@ Option Command::add_option(const std::string& names, std::optional<double>& valu
 Option Command::add_option(const std::string& names, std::size_t& value, NumberRange range,
                            const std::string& help) const {
   range.whole = true;
-  return add_number(app_->add_option(names, value), names, range, help);
+  // By way of a number with a point, so that 1e9 may be written.
+  const auto assign = [&value](const double& number) { value = static_cast<std::size_t>(number); };
+  return add_number(app_->add_option_function<double>(names, assign), names, range, help);
 }
 
 Option Command::add_flag(const std::string& names, bool& value, const std::string& help) const {

@@ -250,7 +250,8 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
   auto options = std::make_shared<CheckArguments>();
   verb.add_option("assets", options->paths, "USD files or folders").file_only();
   options->asset.add_options_to(verb);
-  verb.add_flag("--fix", options->fix, "Correct what has a safe fix, in the files that own it");
+  verb.add_flag("--fix", options->fix,
+                "Correct what has a safe fix, in the files of the asset that own it");
   verb.add_flag("--dry-run", options->dry_run, "With --fix: print the difference, write nothing");
   verb.add_flag("--strict", options->strict, "Warnings count as errors for the exit code");
   add_readings(verb, options->readings);

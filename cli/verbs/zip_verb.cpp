@@ -92,7 +92,9 @@ int extract(Report& report, const ZipArguments& options) {
     return report.fail(archive.error());
   }
   if (auto written = unpack(*archive, options.folder); !written) {
-    return report.fail(written.error());
+    const bool is_about_package = written.error().diagnostic().file.empty();
+    return report.fail(is_about_package ? Error(written.error()).in_file(options.asset)
+                                        : written.error());
   }
   report.note(std::to_string(archive->entries().size()) + " files in " +
               shown_path(options.folder));

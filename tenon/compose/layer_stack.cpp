@@ -1,18 +1,22 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 // A stack is the depth-first list of a layer and its sublayers, first the session's, then the
-// root's. Sublayers are opened in a loop per layer; depth and count are limited.
+// root's. Sublayers are opened in a loop per layer. Depth and count are limited, and so is what
+// cannot be opened: layers that name one another make more such names than layers. All of it counts
+// as work of the stage, which has many stacks.
 #include "tenon/compose/layer_stack.h"
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
+#include "tenon/base/limits/fault_limits.h"
 #include "tenon/base/limits/limits.h"
 #include "tenon/compose/arcs/relocations.h"
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/expressions/variable_expression.h"
 #include "tenon/compose/muting.h"
+#include "tenon/compose/work_meter.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/finding_place.h"
 
@@ -20,6 +24,9 @@ namespace tenon::compose {
 namespace {
 
 namespace fields = layer::fields;
+
+constexpr std::size_t kLayerUnits = 20;     // of work for a layer of a stack
+constexpr std::size_t kFindingUnits = 400;  // for one that is left out
 
 struct Sublayer {
   layer::LayerPtr layer;
@@ -63,17 +70,41 @@ class Builder {
     return inputs_.muted != nullptr && inputs_.muted->count(layer.identifier()) != 0;
   }
 
+  /// Whether this is as much as a stack may hold, which is told the first time.
+  bool is_full(const layer::Layer& layer) {
+    const bool full = stack_.layers.size() >= limits::kLayerStackLayers ||
+                      stack_.errors.size() >= limits::kStageFindings ||
+                      (inputs_.work != nullptr && inputs_.work->exhausted());
+    if (full) {
+      report_limit(layer);
+    }
+    return full;
+  }
+
+  void report_limit(const layer::Layer& layer) {
+    if (!limit_reported_) {
+      limit_reported_ = true;
+      report(error_class::kCapacityExceeded, layer,
+             "there are too many sublayers; the rest is left out", "use fewer sublayers", {});
+    }
+  }
+
+  void count(std::size_t units) const {
+    if (inputs_.work != nullptr) {
+      inputs_.work->count(units);
+    }
+  }
+
   /// Depth-first; `depth` counts sublayers above this layer.
   void add(const layer::LayerPtr& layer, const layer::LayerOffset& offset, std::size_t depth) {
-    if (stack_.layers.size() >= limits::kLayerStackLayers || depth > limits::kSublayerDepth) {
-      if (!limit_reported_) {
-        limit_reported_ = true;
-        report(error_class::kCapacityExceeded, *layer,
-               "there are too many sublayers; the rest is left out", "use fewer sublayers", {});
-      }
+    if (depth > limits::kSublayerDepth) {
+      return report_limit(*layer);
+    }
+    if (depth > 0 && is_full(*layer)) {
       return;
     }
     stack_.layers.push_back({layer, offset});
+    count(kLayerUnits);
     if (layer->sublayers().empty()) {
       return;
     }
@@ -90,7 +121,7 @@ class Builder {
                                        const layer::LayerOffset& offset) {
     std::vector<Sublayer> result;
     const std::vector<std::string>& paths = layer.sublayers();
-    for (std::size_t i = 0; i < paths.size(); ++i) {
+    for (std::size_t i = 0; i < paths.size() && !is_full(layer); ++i) {
       const std::string path = evaluated(paths[i], layer);
       if (path.empty() ||
           (inputs_.muted != nullptr && compose::is_muted(*inputs_.muted, path, layer))) {
@@ -176,6 +207,7 @@ class Builder {
   /// `sublayer` as it is authored; empty where the finding is about all of them.
   void report(std::string_view error_class, const layer::Layer& layer, std::string message,
               std::string fix, const std::string& sublayer) {
+    count(kFindingUnits);
     const StatementPart part =
         layer::item_part(fields::subLayers, layer::item_text(sublayer, Path()));
     stack_.errors.add(composition_error(error_class, Severity::Error,

@@ -15,6 +15,8 @@
 
 namespace tenon::compose {
 
+class WorkMeter;
+
 /// One layer of a stack and how its times map to the stack's root layer.
 struct StackedLayer {
   layer::LayerPtr layer;
@@ -71,6 +73,7 @@ struct LayerStackInputs {
   const LayerOpener* opener = nullptr;
   const std::set<std::string>* muted = nullptr;  ///< identifiers of layers to leave out
   const LayerStack* override_source = nullptr;   ///< whose expression variables win; may be null
+  WorkMeter* work = nullptr;  ///< counts it, and ends it when there is no more; may be null
 };
 
 /// Opens all sublayers and composes offsets, expression variables and relocates. Never fails: what

@@ -21,11 +21,12 @@ constexpr std::size_t kNodeUnits = 8;         // of work to make a node
 constexpr std::size_t kNodesLookedAt = 4;     // for a unit, where nothing else is done with them
 constexpr std::size_t kKeptUnits = 16;        // for a node of the finished index
 constexpr std::size_t kElementsForUnit = 16;  // of paths
+constexpr std::size_t kPairsForUnit = 32;     // pairs of maps compared with one another
 
 /// To make such a map: each of its pairs is compared with all others.
 std::size_t map_units(const MapFunction& map) {
   const std::size_t pairs = map.pairs().size();
-  return pairs == 0 ? 0 : 6 + pairs * pairs;
+  return pairs == 0 ? 0 : 6 + pairs + pairs * pairs / kPairsForUnit;
 }
 
 std::uint16_t clamped(std::size_t value) {

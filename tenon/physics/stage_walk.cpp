@@ -5,10 +5,12 @@
 // and articulation root are handed down from parent to child, so one visit of each prim is enough.
 // Prims to visit lie on a stack, children in reverse, which gives the order of the stage without
 // recursion. Below a point instancer only prototypes count: each is walked once per instance, with
-// paths of its own below the instancer (S-38). The number of instances and the nesting of
-// instancers are bounded.
+// paths of its own below the instancer (S-38). Instances multiply without any room in the file, so
+// the prims that they bring and the nesting of instancers are bounded; the arrays of an instancer
+// are read once, however often it is met.
 #include "tenon/physics/stage_walk.h"
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -50,6 +52,7 @@ class Walker {
       pending_.pop_back();
       visit(next.prim, std::move(next.above));
     }
+    report_expanded();
   }
 
  private:
@@ -98,7 +101,7 @@ class Walker {
     if (roles.vendor) {
       walk_.vendor_prims.push_back(prim);
     }
-    if (roles.matters()) {
+    if (roles.matters() && counts_as_instanced(prim, state)) {
       add(prim, roles, state);
     }
     if (roles.kind != PrimKind::PointInstancer) {
@@ -108,24 +111,72 @@ class Walker {
     }
   }
 
+  /// A point instancer, however often it is met.
+  struct Instancer {
+    stage::Prim prim;
+    InstancerReading reading;
+    std::size_t simulated = 0;
+    bool in_body = false;
+    bool cut_short = false;
+  };
+
+  Instancer& instancer_of(const stage::Prim& prim) {
+    const auto [known, is_new] = instancer_index_.emplace(prim.path(), instancers_.size());
+    if (is_new) {
+      instancers_.push_back({prim, read_point_instancer(values_, prim)});
+      const std::string& fault = instancers_.back().reading.fault;
+      if (!fault.empty()) {
+        report(values_.diagnostics(), prim, Severity::Error, "point-instancer.invalid",
+               "the point instancer is not simulated: " + fault,
+               "author protoIndices that name prototypes, and as many positions");
+      }
+    }
+    return instancers_[known->second];
+  }
+
+  /// Whether its instances stay within the limits.
+  bool has_room(Instancer& known, const Inherited& state) const {
+    const bool fits =
+        walk_.instances.size() + known.reading.instances.size() <= limits::kPointInstances &&
+        depth_of(state.instance) < limits::kPointInstancerDepth;
+    if (!fits && !known.cut_short) {
+      known.cut_short = true;
+      report(values_.diagnostics(), known.prim, Severity::Error, "stage.too-many-prims",
+             "the point instancer is not simulated everywhere: there are more than " +
+                 std::to_string(limits::kPointInstances) +
+                 " instances (kPointInstances), or more than " +
+                 std::to_string(limits::kPointInstancerDepth) +
+                 " instancers within one another (kPointInstancerDepth)",
+             "reduce the instancers that multiply with each other");
+    }
+    return fits;
+  }
+
+  /// Counts what instances bring; false beyond the limit.
+  bool counts_as_instanced(const stage::Prim& prim, const Inherited& state) {
+    if (state.instance == kNone && !prim.is_instance_proxy()) {
+      return true;
+    }
+    if (++instanced_ == limits::kInstancedPhysics + 1) {
+      report(values_.diagnostics(), prim, Severity::Error, "stage.too-many-prims",
+             "instances bring more than " + std::to_string(limits::kInstancedPhysics) +
+                 " prims with physics (kInstancedPhysics); this one and those behind it are left "
+                 "out",
+             "reduce the references that multiply with each other");
+    }
+    return instanced_ <= limits::kInstancedPhysics;
+  }
+
   // S-38: prototypes are simulated once per instance, not where they stand.
   void expand(const stage::Prim& instancer, const Inherited& state) {
     if (!has_physics(instancer)) {
       return;
     }
-    const InstancerReading reading = read_point_instancer(values_, instancer);
-    std::string fault = reading.fault;
-    if (walk_.instances.size() + reading.instances.size() > limits::kPointInstances ||
-        depth_of(state.instance) >= limits::kPointInstancerDepth) {
-      fault = "there are more instances, or instancers within instancers, than the limit";
-    }
-    if (!fault.empty()) {
-      report(values_.diagnostics(), instancer, Severity::Error, "point-instancer.invalid",
-             "the point instancer is not simulated: " + fault,
-             "author protoIndices that name prototypes, and as many positions");
+    Instancer& known = instancer_of(instancer);
+    const InstancerReading& reading = known.reading;
+    if (!reading.fault.empty() || !has_room(known, state)) {
       return;
     }
-    std::size_t simulated = 0;
     const std::string stem = free_stem(instancer);
     const Path place = placed_path(instancer, state.instance);
     for (std::size_t i = reading.instances.size(); i > 0; --i) {
@@ -142,20 +193,25 @@ class Walker {
                                  state.world, state.instance});
       inside.world = walk_.instances.back().placement();
       pending_.push_back({prototype, inside});
-      ++simulated;
-    }
-    if (simulated > 0) {
-      report_expanded(instancer, simulated, state.body != kNone);
+      ++known.simulated;
+      known.in_body = known.in_body || state.body != kNone;
     }
   }
 
-  void report_expanded(const stage::Prim& instancer, std::size_t count, bool in_body) const {
-    report(values_.diagnostics(), instancer, Severity::Warning, "point-instancer.readings",
-           std::to_string(count) +
-               " instances of prototypes with physics are simulated one by one; OpenUSD's parser "
-               "passes over them" +
-               (in_body ? ", its mass properties of the body above count each prototype once" : ""),
-           "use instanceable references, which all readers take alike");
+  void report_expanded() const {
+    for (const Instancer& known : instancers_) {
+      if (known.simulated == 0) {
+        continue;
+      }
+      report(
+          values_.diagnostics(), known.prim, Severity::Warning, "point-instancer.readings",
+          std::to_string(known.simulated) +
+              " instances of prototypes with physics are simulated one by one; OpenUSD's parser "
+              "passes over them" +
+              (known.in_body ? ", its mass properties of the body above count each prototype once"
+                             : ""),
+          "use instanceable references, which all readers take alike");
+    }
   }
 
   /// Beginning of the names of instances, such as no child of the instancer has.
@@ -295,6 +351,9 @@ class Walker {
   RoleFinder finder_;
   std::vector<Pending> pending_;
   std::unordered_map<Path, bool> physics_below_;
+  std::unordered_map<Path, std::size_t> instancer_index_;
+  std::deque<Instancer> instancers_;  // by the first time that they are met
+  std::size_t instanced_ = 0;
 };
 
 }  // namespace

@@ -275,6 +275,22 @@ class Outputs(unittest.TestCase):
         self.assertEqual(over.read_text(), before)
         self.assertIn("physics:restitution = 1\n", weak.read_text())
 
+    def test_layers_of_others_are_not_corrected(self):
+        """A stranger's asset may name any layer; only what is to be checked is changed."""
+        own = self.copy("material.restitution", "mine/own.usda")
+        asset = self.write("stranger/a.usda", "#usda 1.0\n(\n    defaultPrim = \"World\"\n    "
+                           "kilogramsPerUnit = 1\n    metersPerUnit = 1\n    subLayers = "
+                           "[@../mine/own.usda@]\n    upAxis = \"Z\"\n)\n")
+        before = own.read_text()
+        answer = self.json(asset, "--fix")
+        self.assertEqual(answer["corrected"], [])
+        self.assertIn("read.outside", {d["rule"] for d in answer["diagnostics"]})
+        self.assertEqual(own.read_text(), before)
+        for more in (["--allow-read", own.parent], [own.parent]):
+            own.write_text(before)
+            answer = self.json(asset, "--fix", *more)
+            self.assertEqual([f["file"].split("/")[-1] for f in answer["corrected"]], ["own.usda"])
+
     def test_targets_below_what_is_switched_off_are_not_missing(self):
         scene = (SCENES / "stage.target-missing.clean.usda").read_text()
         scene = scene.replace("custom rel likes = </World>", "custom rel likes = </World/Off/Part>")

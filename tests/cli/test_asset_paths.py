@@ -142,6 +142,22 @@ class AssetPaths(unittest.TestCase):
         self.assertIn("read.wrong-kind", run.stdout)
         self.assertFalse(os.path.exists(self.path("made/Textures/skin.png")))
 
+    def test_what_structure_may_not_read_is_told_with_the_file(self):
+        self.put("in/painted.usda", PAINTED.replace("@gone.png@", "@/etc/hostname@"))
+        run = self.run_tenon("structure", self.path("in/painted.usda"), "-o", self.path("made"))
+        self.assertEqual(run.returncode, 1)
+        self.assertRegex(run.stderr, r"painted\.usda: error: @/etc/hostname@ lies outside")
+
+    def test_a_default_prim_that_is_physics_itself_is_not_structured(self):
+        for kind in ("PhysicsPrismaticJoint", "PhysicsFixedJoint", "PhysicsScene",
+                     "PhysicsCollisionGroup"):
+            self.put("in/part.usda", f'#usda 1.0\n(\n    defaultPrim = "A"\n)\ndef {kind} "A"\n{{\n'
+                                     "}\n")
+            run = self.run_tenon("structure", self.path("in/part.usda"), "-o", self.path("part"))
+            self.assertEqual(run.returncode, 2, kind)
+            self.assertIn(kind + ", which is physics itself", run.stderr)
+            self.assertFalse(os.path.exists(self.path("part")))
+
 
 if __name__ == "__main__":
     TENON = os.path.abspath(sys.argv.pop(1))

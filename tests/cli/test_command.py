@@ -129,6 +129,7 @@ class Command(unittest.TestCase):
         self.usage_error([], "no verb is given", "tenon help")
         self.usage_error(["help", "chek"], 'did you mean "check"')
         self.usage_error(["info", HAND, "--jsno"], "no option --jsno", 'did you mean "--json"')
+        self.usage_error(["info", "--jsno"], "no option --jsno", 'did you mean "--json"')
         self.usage_error(["sim", HAND, "--engine", "mujco"], 'did you mean "mujoco"')
         self.usage_error(["cat", HAND, "--format", "usdaa"], 'did you mean "usda"')
         self.usage_error(["tree", HAND, "--show", "physic"], 'did you mean "physics"')
@@ -272,6 +273,11 @@ class Command(unittest.TestCase):
                 self.assertIn("takes a ", process.stderr, (words, option["names"], text))
                 self.assertIn(option["names"][-1], process.stderr)
 
+    def test_whole_numbers_may_be_written_with_an_exponent(self):
+        for name in ("1e9", "1000000000", "1.0e9"):
+            self.assertEqual(tenon("info", self.scene, "--max-work", name).returncode, 0, name)
+        self.usage_error(["info", self.scene, "--max-work", "1.5"], "takes a whole number")
+
     def test_runs_without_a_step_or_without_an_end_are_refused(self):
         process = tenon("sim", self.scene, "--dt", 10, "--duration", 2)
         self.assertEqual(process.returncode, 2)
@@ -346,6 +352,20 @@ class Command(unittest.TestCase):
         process = tenon("sim", self.write("many.usda", SCENE % bodies), "--duration", 0.01)
         self.assertLess(len(process.stdout.splitlines()), 15)
         self.assertIn("--json", process.stdout)
+
+    def test_a_set_up_that_takes_long_is_announced(self):
+        """MuJoCo's grows with the square of the bodies."""
+        def said(count):
+            bodies = "".join(
+                f'    def Sphere "b{i}" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) {{\n'
+                f'double3 xformOp:translate = ({i}, 0, 0)\nuniform token[] xformOpOrder = '
+                '["xformOp:translate"]\n}\n' for i in range(count))
+            process = tenon("sim", self.write("many.usda", SCENE % bodies), "--duration", 0)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            return process.stderr
+
+        self.assertRegex(said(3700), r"setting up 3,70\d bodies on MuJoCo takes about \d+ s")
+        self.assertNotIn("setting up", said(500))
 
     def test_missing_input_is_no_in_every_verb_that_answers(self):
         broken = self.write("broken.usda", SCENE % (

@@ -55,6 +55,16 @@ class ComposedValues(unittest.TestCase):
         prims = tenon("dump", "--xforms", asset).stdout
         self.assertEqual(prims.count('"localToWorld"'), 1)
 
+    def test_two_blocks_of_one_variant_are_merged_and_told(self):
+        """OpenUSD loses opinions of the first block without a word (CONFORMANCE.md)."""
+        asset = self.write("a.usda", 'def "A" (\n variants = { string v = "x" }\n'
+                           ' variantSets = "v"\n)\n{\n variantSet "v" = {\n'
+                           ' "x" {\n  double a = 1\n  double b = 1\n }\n'
+                           ' "x" {\n  double b = 2\n  double c = 2\n }\n }\n}\n')  # fmt: skip
+        for name, value in (("a", 1), ("b", 2), ("c", 2)):
+            self.assertEqual(self.values(asset, f"/A.{name}", "default"), [value], name)
+        self.assertIn("given twice; both blocks are merged", tenon("info", asset).stderr)
+
     def test_flattening_writes_no_text_that_cannot_be_read(self):
         """A value of one layer under the type of another: text has no words for it, binary has."""
         self.write("weak.usda", 'def "A" {\n double a = 1\n double b = 2\n double c = 3\n'

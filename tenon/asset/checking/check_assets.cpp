@@ -5,7 +5,8 @@
 // rule and message. Where fixes are wanted, an asset is checked, what they make of its files is
 // written, and it is checked again, so that the findings are those that are left; where nothing is
 // written, they are those of the first check. The baseline is held against the whole list at the
-// end, because it says how many equal findings are known.
+// end, because it says how many equal findings are known. An asset may name layers of others, which
+// are not its to change: only what belongs to it, or to what is to be checked, is corrected.
 #include "tenon/asset/checking/check_assets.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 
 #include "tenon/asset/checking/baseline.h"
 #include "tenon/asset/repeat_edit.h"
+#include "tenon/asset_policy.h"
 #include "tenon/check/rule.h"
 
 namespace tenon {
@@ -23,7 +25,9 @@ namespace {
 
 class AssetsCheck {
  public:
-  explicit AssetsCheck(const CheckAssetsOptions& options) : options_(options) {}
+  /// What the paths name may be corrected.
+  AssetsCheck(const std::vector<std::string>& paths, const CheckAssetsOptions& options)
+      : paths_(paths), options_(options) {}
 
   Result<void> add_asset(const std::string& path) {
     Result<CheckedAsset> checked = CheckedAsset();
@@ -66,15 +70,33 @@ class AssetsCheck {
     }
   }
 
+  bool belongs(const CorrectedFile& file, const std::string& asset) {
+    bytes::ReadPolicy policy = policy_for(asset, options_.check.open);
+    for (const std::string& given : paths_) {
+      policy.add(given);
+    }
+    const Result<void> admitted = policy.check(file.path);
+    if (!admitted) {
+      Diagnostic finding = admitted.error().diagnostic();
+      finding.severity = Severity::Warning;
+      finding.file = asset;
+      finding.message = "the layer " + finding.message + ", and is not corrected";
+      finding.fix = "if it is to be corrected, name it or its folder, or give --allow-read FOLDER";
+      add(finding);
+    }
+    return admitted.has_value();
+  }
+
   /// None for an asset that cannot be checked.
   Result<std::vector<CorrectedFile>> write_corrected(const std::string& path,
-                                                     Result<CheckedAsset>& checked) const {
+                                                     Result<CheckedAsset>& checked) {
     checked = check_asset(path, options_.check);
     if (!checked) {
       return std::vector<CorrectedFile>();
     }
     TENON_TRY(std::vector<CorrectedFile> files,
               corrected_files(checked->findings, options_.check.open.files));
+    std::erase_if(files, [&](const CorrectedFile& file) { return !belongs(file, path); });
     if (options_.write) {
       TENON_CHECK(options_.write(files));
     }
@@ -97,6 +119,7 @@ class AssetsCheck {
     return !files.empty();
   }
 
+  const std::vector<std::string>& paths_;
   const CheckAssetsOptions& options_;
   CheckedAssets result_;
   std::set<std::tuple<std::string, std::uint32_t, std::uint32_t, std::string, std::string,
@@ -127,7 +150,7 @@ bool CheckedAssets::all_opened() const {
 Result<CheckedAssets> check_assets(const std::vector<std::string>& paths,
                                    const CheckAssetsOptions& options) {
   TENON_TRY(const std::vector<std::string> all, all_roots(paths, options.check.open));
-  AssetsCheck check(options);
+  AssetsCheck check(paths, options);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (options.progress) {
       options.progress(i, all.size());

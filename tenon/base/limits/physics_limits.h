@@ -7,7 +7,8 @@
 /// Limits that only physics asks for, beside those of tenon/base/limits/limits.h.
 namespace tenon::limits {
 
-inline constexpr std::size_t kPointInstances = 1'000'000;     ///< instances with physics of a stage
+inline constexpr std::size_t kPointInstances = 250'000;       ///< instances with physics of a stage
+inline constexpr std::size_t kInstancedPhysics = 150'000;     ///< prims with physics by instances
 inline constexpr std::size_t kPointInstancerDepth = 8;        ///< point instancers in one another
 inline constexpr std::size_t kDecomposedTriangles = 200'000;  ///< of a mesh that is decomposed
 inline constexpr std::size_t kShapeSamples = 4'000;           ///< of shapes that move inside a body

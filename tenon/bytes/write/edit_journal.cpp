@@ -7,7 +7,8 @@
 // passed over when it is done already, so it can be followed from the start at any point. It is
 // believed only where it can do no harm: a plain file of this user and of bounded size, about files
 // below its own folder without links on the way, that moves nothing but the hidden files of
-// transactions.
+// transactions. And only where it was written: its text names its own file by number and time of
+// birth, which nobody can foretell who packs a journal into an archive or a repository.
 #include "tenon/bytes/write/edit_journal.h"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = CommitStep::Kind;
 
-constexpr std::string_view kJournalHeader = "tenon journal 1";
+constexpr std::string_view kJournalHeader = "tenon journal 2 ";
 constexpr off_t kJournalBytes = 64 << 20;
 
 bool take_step(const CommitStep& step) {
@@ -75,10 +76,12 @@ bool stays_inside(const std::string& home, const std::string& name) {
   return fs::canonical(folder, error) == folder && !error;
 }
 
-/// The steps of a journal; empty for a text that is none.
-std::vector<CommitStep> steps_of(const std::string& home, std::string_view text) {
+/// The steps of the journal in a file of that birth; empty for a text that is none.
+std::vector<CommitStep> steps_of(const std::string& home, const std::string& birth,
+                                 std::string_view text) {
   const std::vector<std::string> pieces = pieces_of(text);
-  if (pieces.empty() || pieces.front() != kJournalHeader || pieces.size() % 2 != 1) {
+  if (birth.empty() || pieces.empty() || pieces.size() % 2 != 1 ||
+      pieces.front() != std::string(kJournalHeader) + birth) {
     return {};
   }
   std::vector<CommitStep> steps;
@@ -98,33 +101,40 @@ std::vector<CommitStep> steps_of(const std::string& home, std::string_view text)
   return steps;
 }
 
-/// The journal's text, if it is a file that belongs to this user.
-std::optional<std::string> read_journal(const std::string& path) {
+struct Journal {
+  std::string birth;
+  std::string text;
+};
+
+/// A journal, if it is a file that belongs to this user.
+std::optional<Journal> read_journal(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) {
     return std::nullopt;
   }
   struct stat info = {};
-  std::optional<std::string> text;
+  std::optional<Journal> journal;
   if (::fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode) && info.st_uid == ::geteuid() &&
       info.st_size <= kJournalBytes) {
-    text.emplace(static_cast<std::size_t>(info.st_size), '\0');
-    if (read_up_to(descriptor, *text) != 0) {
-      text.reset();
+    journal.emplace();
+    journal->birth = file_birth(descriptor);
+    journal->text.resize(static_cast<std::size_t>(info.st_size));
+    if (read_up_to(descriptor, journal->text) != 0) {
+      journal.reset();
     }
   }
   ::close(descriptor);
-  return text;
+  return journal;
 }
 
 Result<void> finish_journal(const std::string& home) {
   TENON_TRY(const FolderLock lock, FolderLock::take({home}));  // whoever is at it ends first
   const std::string path = home + "/" + std::string(kJournalName);
-  const std::optional<std::string> text = read_journal(path);
-  if (!text) {
+  const std::optional<Journal> journal = read_journal(path);
+  if (!journal) {
     return {};
   }
-  for (const CommitStep& step : steps_of(home, *text)) {
+  for (const CommitStep& step : steps_of(home, journal->birth, journal->text)) {
     const bool done = step.kind == Kind::Rename && ::access(step.from.c_str(), F_OK) != 0;
     if (!done && !take_step(step)) {
       return Error(ErrorCode::Io, "an edit that was interrupted cannot be finished: " +
@@ -195,8 +205,21 @@ std::string common_folder(const std::vector<std::string>& files) {
   return common.parent_path().has_relative_path() ? common.string() : std::string();
 }
 
-std::string journal_text(const std::string& home, const std::vector<CommitStep>& steps) {
-  std::string text(kJournalHeader);
+std::string file_birth(int descriptor) {
+#ifdef STATX_BTIME
+  struct statx info = {};
+  if (::statx(descriptor, "", AT_EMPTY_PATH, STATX_INO | STATX_BTIME, &info) == 0 &&
+      (info.stx_mask & STATX_BTIME) != 0) {
+    return std::to_string(info.stx_ino) + " " + std::to_string(info.stx_btime.tv_sec) + " " +
+           std::to_string(info.stx_btime.tv_nsec);
+  }
+#endif
+  return {};
+}
+
+std::string journal_text(const std::string& home, const std::string& birth,
+                         const std::vector<CommitStep>& steps) {
+  std::string text = std::string(kJournalHeader) + birth;
   text += '\0';
   for (const CommitStep& step : steps) {
     const auto to = name_in(home, step.to);

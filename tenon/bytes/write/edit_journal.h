@@ -37,11 +37,17 @@ inline constexpr std::string_view kJournalName = ".tenon-journal";
 
 /// The folder that holds all these files; "" where that is "/" or right below it.
 std::string common_folder(const std::vector<std::string>& files);
-/// The text of the journal in `home` for those steps that rename and remove.
-std::string journal_text(const std::string& home, const std::vector<CommitStep>& steps);
+/// Number and time of birth of an open file, which no copy of it has; "" where the file system
+/// keeps no such time.
+std::string file_birth(int descriptor);
+/// The text of the journal in `home` for those steps that rename and remove; `birth` is that of the
+/// journal's own file.
+std::string journal_text(const std::string& home, const std::string& birth,
+                         const std::vector<CommitStep>& steps);
 
 /// Finishes what a transaction has left when the machine failed, in these folders and in those that
-/// they lie in. Files outside of a journal's folder are not touched, whatever it says.
+/// they lie in. Files outside of a journal's folder are not touched, whatever it says, and a
+/// journal that came there by an archive or a copy is not followed.
 Result<void> finish_journals(const std::set<std::string>& folders);
 
 }  // namespace tenon::bytes

@@ -294,7 +294,11 @@ class Commit {
   /// Where it cannot be written, an unkillable child is all there is.
   void add_journal(NewFile& journal, std::vector<CommitStep>& links,
                    std::vector<CommitStep>& steps) const {
-    if (home_.empty() || journal.open() != 0 || journal.write(journal_text(home_, steps)) != 0 ||
+    if (home_.empty() || journal.open() != 0) {
+      return;
+    }
+    const std::string birth = file_birth(journal.descriptor());
+    if (birth.empty() || journal.write(journal_text(home_, birth, steps)) != 0 ||
         journal.sync() != 0) {
       return;
     }

@@ -40,6 +40,7 @@ class NewFile {
   void close();
   int rename_to(const std::string& target);
 
+  int descriptor() const { return descriptor_; }
   /// "" while it has none.
   const std::string& name() const { return name_; }
   /// Where a file without a name can be linked from, by this process and its children.

@@ -299,7 +299,9 @@ MapFunction arc_map(const Indexer& indexer, Path source, NodeId target, layer::L
   }
   const MapFunction relocates = relocates_map(*node.layer_stack, target_path);
   const std::size_t pairs = relocates.pairs().size();
-  indexer.graph.count(node.layer_stack->relocates.size() / 4 + pairs * pairs);
+  constexpr std::size_t kPairsForUnit = 32;  // compared with one another
+  indexer.graph.count(node.layer_stack->relocates.size() / 4 + pairs +
+                      pairs * pairs / kPairsForUnit);
   return relocates.compose(map);
 }
 

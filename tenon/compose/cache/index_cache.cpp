@@ -103,6 +103,7 @@ struct IndexCache::State {
     inputs.opener = &open_once;
     inputs.muted = &options.muted;
     inputs.override_source = variables;
+    inputs.work = &work;
     LayerStackPtr stack = build_layer_stack(inputs);
     errors.append(stack->errors);
     for (const MissingArc& arc : stack->missing) {

@@ -141,7 +141,8 @@ class Collector {
   }
 
   void report(Severity severity, const char* rule, std::string message, std::string fix, Path at) {
-    Diagnostic finding = file_finding(severity, rule, std::move(message), "", 0, std::move(fix));
+    Diagnostic finding = file_finding(severity, rule, std::move(message),
+                                      source_.root->identifier(), 0, std::move(fix));
     finding.prim = at.prim().str();
     finding.property = at.name().str();
     diagnostics_.add(std::move(finding));
