@@ -77,7 +77,11 @@ LayerChange LayerEditor::take_change() {
   return change;
 }
 
-void LayerEditor::roll_back() { edit::apply(inverse(take_change()), *layer_); }
+LayerChange LayerEditor::roll_back() {
+  LayerChange back = inverse(take_change());
+  edit::apply(back, *layer_);
+  return back;
+}
 
 Spec& LayerEditor::touch(Path path) {
   Spec* const spec = layer_->find(path);
@@ -299,6 +303,24 @@ Result<void> LayerEditor::remove_property(Path path) {
   }
   remove_child(path.parent(), fields::properties, path.name());
   return {};
+}
+
+void LayerEditor::add_api(Path prim, Token name) {
+  const auto op = get_or(prim, fields::apiSchemas, layer::ListOp<Token>{});
+  const auto has = [&](const std::vector<Token>& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (!(op.is_explicit ? has(op.explicit_items) : has(op.prepended) || has(op.appended))) {
+    edit_list(prim, fields::apiSchemas, ListEdit<Token>::add(name));
+  }
+}
+
+void LayerEditor::remove_api(Path prim, Token name) {
+  edit_list(prim, fields::apiSchemas, ListEdit<Token>::remove(name));
+}
+
+void LayerEditor::withdraw_api(Path prim, Token name) {
+  edit_list(prim, fields::apiSchemas, ListEdit<Token>::withdraw(name));
 }
 
 void LayerEditor::set_time_sample(Path attribute, double time, Value value) {
