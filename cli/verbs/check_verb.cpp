@@ -56,7 +56,7 @@ struct Counts {
 /// What came of all assets together.
 struct Outcome {
   std::vector<ReportedFinding> findings;
-  std::vector<CorrectedFile> corrected;
+  std::vector<EditedFile> corrected;
   Json assets = Json::array();
   bool failed = false;
 };
@@ -145,16 +145,16 @@ class Run {
   }
 
   /// None for an asset that cannot be checked.
-  Result<std::vector<CorrectedFile>> write_corrected(const std::string& path,
-                                                     const CheckOptions& check,
-                                                     Result<CheckedAsset>& checked) const {
+  Result<std::vector<EditedFile>> write_corrected(const std::string& path,
+                                                  const CheckOptions& check,
+                                                  Result<CheckedAsset>& checked) const {
     checked = check_asset(path, check);
     if (!checked) {
-      return std::vector<CorrectedFile>();
+      return std::vector<EditedFile>();
     }
-    TENON_TRY(std::vector<CorrectedFile> files, corrected_files(checked->findings));
+    TENON_TRY(std::vector<EditedFile> files, corrected_files(checked->findings));
     Outputs outputs = Outputs::in_place();
-    for (const CorrectedFile& file : files) {
+    for (const EditedFile& file : files) {
       outputs.put(file.path, file.after);
     }
     if (!options_.dry_run) {
@@ -166,12 +166,12 @@ class Run {
   /// Whether there was something to correct.
   Result<bool> correct(const std::string& path, const CheckOptions& check,
                        Result<CheckedAsset>& checked) {
-    TENON_TRY(std::vector<CorrectedFile> files,
+    TENON_TRY(std::vector<EditedFile> files,
               edit_files(report_, [&] { return write_corrected(path, check, checked); }));
-    for (CorrectedFile& file : files) {
+    for (EditedFile& file : files) {
       const bool known =
           std::any_of(outcome_.corrected.begin(), outcome_.corrected.end(),
-                      [&](const CorrectedFile& other) { return other.path == file.path; });
+                      [&](const EditedFile& other) { return other.path == file.path; });
       if (!known) {
         outcome_.corrected.push_back(std::move(file));
       }
@@ -218,7 +218,7 @@ Json finding_json(const ReportedFinding& reported) {
 /// The files that --fix changes, with what changes in those that are text.
 Json corrected_json(const Outcome& outcome) {
   Json files = Json::array();
-  for (const CorrectedFile& file : outcome.corrected) {
+  for (const EditedFile& file : outcome.corrected) {
     Json item = {{"file", shown_path(file.path)}};
     item["diff"] = file.text ? Json(unified_diff(shown_path(file.path), file.before, file.after))
                              : Json(nullptr);
@@ -306,7 +306,7 @@ Result<void> write_reports(const Outcome& outcome, const CheckArguments& options
 void print_outcome(const Outcome& outcome, const Counts& counts, const CheckArguments& options,
                    const Globals& globals, const Report& report) {
   const bool diff = options.fix && options.dry_run;
-  for (const CorrectedFile& file : outcome.corrected) {
+  for (const EditedFile& file : outcome.corrected) {
     if (diff && file.text) {
       const std::string name = shown_path(file.path);
       print_data(unified_diff(name, file.before, file.after));
