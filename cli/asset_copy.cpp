@@ -14,12 +14,12 @@
 
 #include "cli/output_place.h"
 #include "cli/report.h"
+#include "tenon/asset/edited_file.h"
 #include "tenon/asset_policy.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
-#include "tenon/formats/text/layout/layout_edit.h"
 #include "tenon/layer/metadata_fields.h"
 #include "tenon/stage_sources.h"
 
@@ -250,14 +250,12 @@ Result<bool> put_edited(const layer::Layer& layer, const std::string& file, Outp
   const bool in_place = file == layer.identifier();
   const bool text = bytes && formats::format_of(**bytes) == formats::LayerFormat::Text &&
                     (in_place || (wanted && *wanted == formats::LayerFormat::Text));
-  if (text) {
-    formats::EditedText edited = formats::edit_text((*bytes)->text(), layer);
-    outputs.put_beside(file, std::move(edited.text));
+  if (text || (in_place && bytes)) {  // whatever its name says
+    TENON_TRY(EditedFile edited, edited_file(**bytes, layer));
+    outputs.put_beside(file, std::move(edited.after));
     return edited.kept_layout;
   }
-  const bool keeps_format = in_place && bytes;  // whatever its name says
-  TENON_TRY(const formats::LayerFormat format,
-            keeps_format ? Result<formats::LayerFormat>(formats::format_of(**bytes)) : wanted);
+  TENON_TRY(const formats::LayerFormat format, wanted);
   TENON_TRY(std::string contents, formats::encode_layer(layer, format));
   outputs.put_beside(file, std::move(contents));
   return true;  // nothing but a binary layer, or another format: no layout to keep

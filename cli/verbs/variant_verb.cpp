@@ -15,13 +15,13 @@
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/answers/variants_json.h"
-#include "tenon/bake/over_specs.h"
+#include "tenon/asset/edited_file.h"
 #include "tenon/base/assignment.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/edit/layer_editor.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/save_layer.h"
-#include "tenon/formats/text/layout/layout_edit.h"
 #include "tenon/tenon.h"
 
 namespace tenon::cli {
@@ -85,11 +85,10 @@ Result<Selection> find_selection(const stage::Stage& stage, const VariantArgumen
   return Selection{prim.path(), set, variant};
 }
 
-layer::Layer with_selection(layer::Layer layer, const Selection& selection) {
-  layer::Spec& spec = bake::over_prim(layer, selection.prim);
-  auto selections = spec.get_or("variantSelection", layer::VariantSelections{});
-  selections.items[selection.set] = selection.variant;
-  spec.set("variantSelection", layer::Value(std::move(selections)));
+Result<layer::Layer> with_selection(layer::Layer layer, const Selection& selection) {
+  edit::LayerEditor editor(layer);
+  TENON_CHECK(editor.create_prim(selection.prim));
+  editor.select_variant(selection.prim, selection.set, selection.variant);
   return layer;
 }
 
@@ -99,11 +98,11 @@ Result<std::optional<std::string>> edited_text(const layer::Layer& edited, Repor
   if (formats::format_of(*bytes) != formats::LayerFormat::Text) {
     return std::optional<std::string>();
   }
-  formats::EditedText text = formats::edit_text(bytes->text(), edited);
-  if (!text.kept_layout) {
+  TENON_TRY(EditedFile file, edited_file(*bytes, edited));
+  if (!file.kept_layout) {
     report.note("comments and layout of " + shown_path(edited.identifier()) + " are not kept");
   }
-  return std::optional<std::string>(std::move(text.text));
+  return std::optional<std::string>(std::move(file.after));
 }
 
 /// The contents of the file to be written.
@@ -118,9 +117,10 @@ Result<std::string> with_selection_written(const layer::Layer& layer, const Sele
     layer::Layer over = layer_over(layer, output);
     report.note(shown_path(output) + " is a layer over " + shown_path(layer.identifier()));
     TENON_TRY(const formats::LayerFormat format, formats::layer_format_for(output));
-    return formats::encode_layer(with_selection(std::move(over), selection), format);
+    TENON_TRY(over, with_selection(std::move(over), selection));
+    return formats::encode_layer(over, format);
   }
-  const layer::Layer changed = with_selection(layer, selection);
+  TENON_TRY(const layer::Layer changed, with_selection(layer, selection));
   const auto format = formats::layer_format_for(output);
   if (options.in_place || output == "-" || (format && *format == formats::LayerFormat::Text)) {
     TENON_TRY(auto text, edited_text(changed, report));

@@ -191,6 +191,20 @@ Result<void> LayerEditor::create_variant(Path prim, const std::string& set,
   return {};
 }
 
+void LayerEditor::select_variant(Path prim, const std::string& set, const std::string& variant) {
+  auto selections = get_or(prim, fields::variantSelection, layer::VariantSelections{});
+  selections.items.insert_or_assign(set, variant);
+  this->set(prim, fields::variantSelection, Value(std::move(selections)));
+}
+
+void LayerEditor::clear_selection(Path prim, const std::string& set) {
+  auto selections = get_or(prim, fields::variantSelection, layer::VariantSelections{});
+  selections.items.erase(set);
+  selections.items.empty()
+      ? erase(prim, fields::variantSelection)
+      : this->set(prim, fields::variantSelection, Value(std::move(selections)));
+}
+
 /// Everything in the layer at and below `path`, in the order of making.
 std::vector<Path> LayerEditor::subtree(Path path) const {
   std::vector<Path> found;

@@ -53,6 +53,9 @@ class LayerEditor {
   Result<void> create_variant_set(Path prim, const std::string& set,
                                   ListPosition position = ListPosition::BackOfPrependList);
   Result<void> create_variant(Path prim, const std::string& set, const std::string& variant);
+  /// The prim must exist; an empty `variant` selects none, whatever weaker layers select.
+  void select_variant(Path prim, const std::string& set, const std::string& variant);
+  void clear_selection(Path prim, const std::string& set);
   /// Removes the prim (or variant) with all that is below it.
   Result<void> remove_prim(Path path);
   /// Moves a prim with all that is below it to a path where none is and whose parent exists. Within
