@@ -11,7 +11,7 @@
 
 #include "cli/print.h"
 #include "cli/report.h"
-#include "tenon/asset/edit_asset.h"
+#include "tenon/asset/edited_file.h"
 #include "tenon/asset/made_file.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/zip/zip_archive.h"

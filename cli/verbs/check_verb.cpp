@@ -55,9 +55,9 @@ Result<CheckAssetsOptions> check_options(const CheckArguments& options) {
   TENON_TRY(wanted.check.readings, chosen_readings(options.readings));
   wanted.correct = options.fix;
   if (!options.dry_run) {
-    wanted.write = [](const std::vector<CorrectedFile>& files) {
+    wanted.write = [](const std::vector<EditedFile>& files) {
       Outputs outputs = Outputs::in_place();
-      for (const CorrectedFile& file : files) {
+      for (const EditedFile& file : files) {
         outputs.put(file.path, file.after);
       }
       return outputs.commit();
@@ -136,7 +136,7 @@ Result<void> write_reports(const CheckedAssets& outcome, const CheckArguments& o
 void print_outcome(const CheckedAssets& outcome, const FindingCounts& counts,
                    const CheckArguments& options, const Globals& globals, const Report& report) {
   const bool diff = options.fix && options.dry_run;
-  for (const CorrectedFile& file : outcome.corrected) {
+  for (const EditedFile& file : outcome.corrected) {
     if (diff && file.text) {
       const std::string name = shown_path(file.path);
       print_data(diff::unified_diff(name, file.before, file.after));

@@ -22,8 +22,6 @@
 #include "tenon/formats/find_places.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
-#include "tenon/formats/save_layer.h"
-#include "tenon/formats/text/layout/layout_edit.h"
 
 namespace tenon {
 namespace {
@@ -133,8 +131,8 @@ std::vector<std::string> roots_of(const std::vector<std::string>& files,
   return roots;
 }
 
-Result<CorrectedFile> corrected_file(const bytes::Files& files, const std::string& path,
-                                     const std::vector<check::SpecEdit>& edits) {
+Result<EditedFile> corrected_file(const bytes::Files& files, const std::string& path,
+                                  const std::vector<check::SpecEdit>& edits) {
   Diagnostics ignored;
   TENON_TRY(const auto bytes, files->open(path, {}));
   if (formats::format_of(*bytes) == formats::LayerFormat::Package) {
@@ -143,19 +141,7 @@ Result<CorrectedFile> corrected_file(const bytes::Files& files, const std::strin
   }
   TENON_TRY(layer::Layer layer, formats::read_layer(bytes, path, ignored));
   TENON_CHECK(check::apply_edits(edits, layer));
-  CorrectedFile file;
-  file.path = path;
-  const formats::LayerFormat format = formats::format_of(*bytes);
-  file.text = format == formats::LayerFormat::Text;
-  if (file.text) {
-    file.before = bytes->text();
-    formats::EditedText edited = formats::edit_text(bytes->text(), layer);
-    file.after = std::move(edited.text);
-    file.kept_layout = edited.kept_layout;
-  } else {
-    TENON_TRY(file.after, formats::encode_layer(layer, format));
-  }
-  return file;
+  return edited_file(*bytes, layer);
 }
 
 }  // namespace
@@ -196,12 +182,12 @@ Result<CheckedAsset> check_asset(const std::string& path, const CheckOptions& op
   return checked;
 }
 
-Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Finding>& findings,
-                                                   const bytes::Files& files) {
-  std::vector<CorrectedFile> corrected;
+Result<std::vector<EditedFile>> corrected_files(const std::vector<check::Finding>& findings,
+                                                const bytes::Files& files) {
+  std::vector<EditedFile> corrected;
   for (const auto& [path, edits] : check::edits_by_layer(findings)) {
-    TENON_TRY(CorrectedFile file, corrected_file(files, path, edits));
-    if (!file.text || file.before != file.after) {
+    TENON_TRY(EditedFile file, corrected_file(files, path, edits));
+    if (file.differs()) {
       corrected.push_back(std::move(file));
     }
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tenon/asset/edited_file.h"
 #include "tenon/base/result.h"
 #include "tenon/check/check_stage.h"
 #include "tenon/check/finding.h"
@@ -30,20 +31,11 @@ struct CheckedAsset {
 /// itself where its selection names none of them. Fails as open_stage does.
 Result<CheckedAsset> check_asset(const std::string& path, const CheckOptions& options);
 
-/// A file before and after the fixes.
-struct CorrectedFile {
-  std::string path;
-  std::string before;  ///< empty for what is no text
-  std::string after;   ///< text, or the bytes of a binary layer
-  bool text = false;
-  bool kept_layout = true;  ///< comments and layout of text stay
-};
-
 /// What the fixes of the findings make of the files that own the opinions; `files` are those that
 /// were checked. No file is touched: the caller writes them together, in place (Outputs of
 /// cli/output.h, bytes/write/file_transaction.h).
-Result<std::vector<CorrectedFile>> corrected_files(const std::vector<check::Finding>& findings,
-                                                   const bytes::Files& files);
+Result<std::vector<EditedFile>> corrected_files(const std::vector<check::Finding>& findings,
+                                                const bytes::Files& files);
 
 /// Files below a folder that no other of them uses as a layer, sorted; a file alone is one.
 /// What cannot be opened, or may not by the options, counts as used by nobody. Errors:

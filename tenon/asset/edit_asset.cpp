@@ -1,26 +1,33 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The asset is composed under every selection of "Physics", which collects its layers. For each
-// edit a file is chosen, a copy of its layer is changed at the place where an opinion on the prim
-// counts, and the edit is proved: everything is composed again from the changed layers, and the
-// first selection that uses the file has to show what was asked for. Where another one does not,
-// that is a warning. Later edits see the earlier ones; an error ends all, and no file is written
-// here. The work of all compositions together is bounded by one account.
+// The asset is composed under every selection of "Physics", which collects its layers; each
+// selection is a session layer over the same edited layers (edit::StageEditor). For each edit a
+// file is chosen, the editor of the first selection that uses the file gets the place there as its
+// edit target and authors, and the edit is proved: the scenes are composed again from the changed
+// layers, and the first selection that uses the file has to show what was asked for. Where another
+// one does not, that is a warning. Later edits see the earlier ones; an error takes all of the call
+// back.
+//
+// Composing takes most of the time, so that edits wait for their proof as long as none depends on
+// another. The value of a property, and the list of schemas of a prim, come from the specs at the
+// sites of the prim and from nothing else: an edit has to wait for the proof of those before it
+// when one of them has written to a spec at its sites, or when it writes to a spec at theirs. An
+// edit that fails is tried again after the proof, because an earlier one may have made what it
+// lacks. The work of all compositions of a call is bounded by one account.
 #include "tenon/asset/edit_asset.h"
 
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
+#include <utility>
 
 #include "tenon/asset/edit_file_choice.h"
 #include "tenon/asset/edit_value.h"
-#include "tenon/bytes/write/file_transaction.h"
+#include "tenon/edit/api_schemas.h"
 #include "tenon/edit/edit_target.h"
-#include "tenon/edit/layer_editor.h"
-#include "tenon/formats/open_layer.h"
-#include "tenon/formats/save_layer.h"
-#include "tenon/formats/text/layout/layout_edit.h"
+#include "tenon/edit/stage_editor.h"
 #include "tenon/formats/text/reader.h"
 #include "tenon/layer/fields.h"
 #include "tenon/session_opinions.h"
@@ -36,12 +43,6 @@ using Kind = AssetEdit::Kind;
 using StagePtr = std::shared_ptr<const stage::Stage>;
 
 constexpr const char* kVariantSet = "Physics";
-
-/// The asset under one selection of the set "Physics".
-struct Selection {
-  std::string variant;  ///< empty: as it opens
-  std::string shown;    ///< empty when there is no such set
-};
 
 Error no_prim(Path prim) {
   return Error(ErrorCode::NotFound, "there is no prim <" + prim.str() + ">, in no variant")
@@ -69,125 +70,101 @@ Result<void> check_object(const AssetEdit& edit) {
   return not_a_path(path.str(), edit.is_about_api() ? "prim" : "property");
 }
 
-/// One layer changed by one edit.
-class Author {
+/// What helps where files are edited.
+Error with_file_fix(Error error) {
+  const std::string& rule = error.diagnostic().rule;
+  if (rule == "edit.no-spec") {
+    return std::move(error).with_fix("tenon where names the files that do");
+  }
+  return rule == "edit.outside-target" ? std::move(error).with_fix("name another file with --in")
+                                       : std::move(error);
+}
+
+/// Takes back what the file itself says where that suffices, so that adding and removing leave
+/// nothing behind; else deletes the schema from weaker layers.
+Result<void> remove_api(edit::StageEditor& editor, Path prim, Path spec, Token api) {
+  layer::ListOp<Token> op;
+  if (const layer::LayerPtr layer = editor.layer(editor.target().layer);
+      layer && layer->has(spec)) {
+    op = layer->find(spec)->get_or(fields::apiSchemas, std::move(op));
+  }
+  const bool deletes = std::find(op.deleted.begin(), op.deleted.end(), api) != op.deleted.end();
+  return edit::adds(op, api) && !deletes ? editor.withdraw_applied_schema(prim, api)
+                                         : editor.remove_applied_schema(prim, api);
+}
+
+/// Authors the edit at the editor's target, as one step; `spec` is the object there.
+Result<void> author(edit::StageEditor& editor, const AssetEdit& edit, Path spec,
+                    const PropertyValue& typed) {
+  const Path object = edit.object;
+  switch (edit.kind) {
+    case Kind::ClearProperty:
+      return editor.remove_property(object);
+    case Kind::RemoveApi:
+      return remove_api(editor, object, spec, edit.api);
+    case Kind::ApplyApi:
+      return editor.as_one_step([&]() -> Result<void> {
+        TENON_CHECK(editor.withdraw_applied_schema(object, edit.api));  // a deletion, too
+        return editor.apply_api(object, edit.api);
+      });
+    case Kind::SetProperty:
+      break;
+  }
+  return editor.as_one_step([&]() -> Result<void> {
+    if (typed.is_relationship) {
+      TENON_CHECK(editor.create_relationship(object, typed.custom));
+      return editor.edit_targets(object, edit::ListEdit<Path>::set(typed.targets));
+    }
+    TENON_CHECK(editor.create_attribute(object, typed.type_name, typed.custom, typed.variability));
+    return editor.set_value(object, typed.value);
+  });
+}
+
+/// The lines of the places in the new texts.
+Result<void> find_lines(const AssetEditor& editor, EditedAsset& asset) {
+  std::map<std::string, layer::LayerPtr> read;
+  for (const EditedFile& file : asset.files) {
+    Diagnostics ignored;
+    if (file.text) {
+      TENON_TRY(layer::Layer again, formats::read_text(file.after, file.path, ignored));
+      read[file.path] = std::make_shared<const layer::Layer>(std::move(again));
+    }
+  }
+  for (EditedPlace& place : asset.places) {
+    const auto known = read.find(place.file);
+    const layer::LayerPtr layer = known == read.end() ? editor.layer(place.file) : known->second;
+    const layer::Spec* spec = layer == nullptr ? nullptr : layer->find(place.spec);
+    place.line = spec == nullptr ? 0 : spec->line;
+  }
+  return {};
+}
+
+}  // namespace
+
+class AssetEditor::State {
  public:
-  Author(layer::Layer& layer, const stage::LayerSite& site) : editor_(layer), site_(site) {}
-
-  Result<Path> run(const AssetEdit& edit, const PropertyValue& typed) {
-    if (edit.kind == Kind::ClearProperty) {
-      return clear(site_.path.property(edit.object.name()));
-    }
-    TENON_CHECK(editor_.create_prim(site_.path));
-    if (edit.kind == Kind::ApplyApi) {
-      return apply(edit.api);
-    }
-    if (edit.kind == Kind::RemoveApi) {
-      return remove(edit.api);
-    }
-    const Path path = site_.path.property(edit.object.name());
-    return typed.is_relationship ? set_targets(path, typed) : set_value(path, typed);
-  }
-
- private:
-  Result<Path> set_value(Path path, const PropertyValue& typed) {
-    if (!editor_.layer().has(path)) {
-      TENON_CHECK(editor_.create_attribute(path, typed.type_name, typed.variability, typed.custom));
-    }
-    editor_.set(path, fields::default_value, typed.value);
-    return path;
-  }
-
-  Result<Path> set_targets(Path path, const PropertyValue& typed) {
-    const std::string layer = editor_.layer().identifier();
-    const edit::EditTarget target = edit::node_target(*site_.index, site_.node, layer);
-    std::vector<Path> targets;
-    for (const Path& asked : typed.targets) {
-      const Path own = site_.shared_from.empty()
-                           ? asked
-                           : asked.replace_prefix(site_.shared_from, site_.shared_as, false);
-      targets.push_back(target.target_path(own));
-      if (targets.back().empty()) {
-        return Error(ErrorCode::Invalid, "<" + asked.str() + "> has no name in this file")
-            .in_file(layer)
-            .with_rule("edit.outside-target")
-            .with_fix("name another file with --in");
-      }
-    }
-    if (!editor_.layer().has(path)) {
-      TENON_CHECK(editor_.create_relationship(path, layer::Variability::Uniform, typed.custom));
-    }
-    editor_.set(path, fields::targetPaths,
-                layer::Value(layer::ListOp<Path>::make_explicit(std::move(targets))));
-    return path;
-  }
-
-  Result<Path> clear(Path path) {
-    const layer::Spec* spec = editor_.layer().find(path);
-    if (spec == nullptr) {
-      return Error(ErrorCode::NotFound, "this file says nothing about <" + path.str() + ">")
-          .in_file(editor_.layer().identifier())
-          .with_rule("edit.no-spec")
-          .with_fix("tenon where names the files that do");
-    }
-    TENON_CHECK(editor_.remove_property(path));
-    return path.parent();
-  }
-
-  Result<Path> apply(Token api) {
-    auto op = editor_.get_or(site_.path, fields::apiSchemas, layer::ListOp<Token>());
-    std::erase(op.deleted, api);
-    edit::apply(edit::ListEdit<Token>::add(api), op);
-    editor_.set(site_.path, fields::apiSchemas, layer::Value(std::move(op)));
-    return site_.path;
-  }
-
-  Result<Path> remove(Token api) {
-    auto op = editor_.get_or(site_.path, fields::apiSchemas, layer::ListOp<Token>());
-    std::size_t taken = 0;
-    for (auto* list : {&op.explicit_items, &op.prepended, &op.appended, &op.added}) {
-      taken += std::erase(*list, api);
-    }
-    if (taken == 0 && !op.is_explicit) {
-      edit::apply(edit::ListEdit<Token>::remove(api), op);
-    }
-    if (op.empty()) {
-      editor_.erase(site_.path, fields::apiSchemas);
-    } else {
-      editor_.set(site_.path, fields::apiSchemas, layer::Value(std::move(op)));
-    }
-    return site_.path;
-  }
-
-  edit::LayerEditor editor_;
-  const stage::LayerSite& site_;
-};
-
-class AssetEditor {
- public:
-  AssetEditor(const std::string& path, const EditOptions& options, Diagnostics& diagnostics)
-      : path_(path), options_(options), diagnostics_(diagnostics), work_(options.open.max_work) {}
+  explicit State(const EditOptions& options) : options_(options), work_(options.open.max_work) {}
 
   /// Composes the asset under all variants, to know its files.
-  Result<void> open() {
-    selections_.push_back({options_.open.physics_variant, options_.open.physics_variant});
-    TENON_TRY(const StagePtr first, composed(selections_.front()));
+  Result<void> open(const std::string& path, Diagnostics& diagnostics) {
+    TENON_CHECK(open_first(path));
+    const StagePtr first = looks_.front().stage;
     TENON_CHECK(check_in_no_package(first->root_layer().identifier()));
-    diagnostics_.append(first->diagnostics());  // an edit of what is not there counts for nothing
+    diagnostics.append(first->diagnostics());  // an edit of what is not there counts for nothing
     const stage::Prim root = first->default_prim();
     if (root && options_.open.physics_variant.empty()) {
-      selections_.front().shown = root.variant_selection(kVariantSet);
-      for (const std::string& variant : root.variant_names(kVariantSet)) {
-        if (variant != selections_.front().shown) {
-          selections_.push_back({variant, variant});
+      TENON_CHECK(open_variants(root));
+    }
+    std::map<std::string, layer::LayerPtr> all;
+    for (const Look& look : looks_) {
+      for (const layer::LayerPtr& layer : look.stage->used_layers()) {
+        if (layer.get() != look.stage->session_layer()) {
+          all.emplace(layer->identifier(), layer);
         }
       }
     }
     std::vector<layer::LayerPtr> layers;
-    for (const Selection& selection : selections_) {
-      TENON_TRY(const StagePtr stage, composed(selection));
-    }
-    for (const auto& [identifier, layer] : layers_) {
+    for (const auto& [identifier, layer] : all) {
       layers.push_back(layer);
       names_.push_back(identifier);
     }
@@ -195,25 +172,150 @@ class AssetEditor {
     return {};
   }
 
-  Result<void> edit(std::size_t number, const AssetEdit& edit) {
-    TENON_CHECK(check_object(edit));
-    const Path prim_path = edit.object.prim();
-    TENON_TRY(const StagePtr stage, stage_with(prim_path));
-    const stage::Prim prim = stage->prim(prim_path);
-    if (edit.kind == Kind::ApplyApi) {
-      TENON_CHECK(check_api(prim, edit.api));
-    }
-    TENON_TRY(const FileChoice file, choose_file({*stage, prim, edit, roles_, names_, options_}));
-    TENON_CHECK(check_in_no_package(file.layer));
-    for (const Selection& selection : selections_) {
-      TENON_TRY(const StagePtr at, composed(selection));
-      const auto site = stage::site_in_layer(*at, prim_path, file.layer);
-      if (at->prim(prim_path) && site && edit.kind == Kind::ApplyApi &&
-          is_as_asked(at->prim(prim_path), edit, {})) {
-        return {};  // it is there already
+  Result<std::vector<EditedPlace>> edit(const std::vector<AssetEdit>& edits,
+                                        Diagnostics& diagnostics) {
+    diagnostics_ = &diagnostics;
+    TENON_CHECK(settle());  // after an undo
+    Result<void> done = history().as_one_step([&]() -> Result<void> {
+      for (std::size_t i = 0; i < edits.size(); ++i) {
+        TENON_CHECK(edit_one(i, edits[i]));
       }
-      if (at->prim(prim_path) && site) {
-        return author(number, edit, file, *at, *site);
+      return settle();
+    });
+    forget_unproved();
+    std::vector<EditedPlace> places = std::exchange(places_, {});
+    work_ = stage::WorkAccount(options_.open.max_work);
+    return done ? Result<std::vector<EditedPlace>>(std::move(places)) : done.error();
+  }
+
+  edit::StageEditor& history() { return looks_.front().editor; }
+
+  layer::LayerPtr layer(const std::string& identifier) {
+    for (Look& look : looks_) {
+      if (layer::LayerPtr found = look.editor.layer(identifier)) {
+        return found;
+      }
+    }
+    return nullptr;
+  }
+
+  Result<std::vector<EditedFile>> files() {
+    std::vector<EditedFile> files;
+    for (const auto& [identifier, layer] : history().edited_layers()) {
+      const bytes::AssetResolver resolver(resolver_options(options_.open));
+      TENON_TRY(const auto bytes, resolver.open(identifier));
+      TENON_TRY(EditedFile file, edited_file(*bytes, *layer));
+      if (file.differs()) {
+        files.push_back(std::move(file));
+      }
+    }
+    return files;
+  }
+
+ private:
+  /// The asset under one selection of the set "Physics".
+  struct Look {
+    std::string shown;  ///< the selection; empty when there is no such set
+    edit::StageEditor editor;
+    StagePtr stage;  ///< with all edits that are proved
+  };
+
+  /// An edit that was made and is not proved yet.
+  struct Unproved {
+    const AssetEdit* edit = nullptr;
+    PropertyValue typed;
+    EditedPlace place;
+  };
+
+  Result<void> open_first(const std::string& path) {
+    StageSources sources;
+    OpenOptions open = options_.open;
+    open.session_path.clear();
+    TENON_TRY(sources, open_sources(path, open));
+    root_ = sources.root;
+    stage::StageOptions stage_options;
+    TENON_TRY(stage_options.compose, compose_options(options_.open, *root_));
+    looks_.push_back({options_.open.physics_variant,
+                      edit::StageEditor::over(root_, sources.session, sources.opener(),
+                                              std::move(stage_options)),
+                      nullptr});
+    return compose(looks_.front());
+  }
+
+  Result<void> open_variants(const stage::Prim& root) {
+    looks_.front().shown = root.variant_selection(kVariantSet);
+    for (const std::string& variant : root.variant_names(kVariantSet)) {
+      if (variant != looks_.front().shown) {
+        TENON_TRY(layer::LayerPtr session, with_variant(nullptr, *root_, kVariantSet, variant));
+        looks_.push_back({variant, history().under_session(std::move(session)), nullptr});
+        TENON_CHECK(compose(looks_.back()));
+      }
+    }
+    return {};
+  }
+
+  Result<void> compose(Look& look) {
+    TENON_TRY(const StagePtr stage, look.editor.stage());
+    if (stage != look.stage) {
+      look.stage = stage;
+      TENON_CHECK(work_.spend(*stage));
+    }
+    return {};
+  }
+
+  /// Proves what was edited since the scenes were composed last.
+  Result<void> settle() {
+    const std::vector<Unproved> unproved = forget_unproved();
+    for (Look& look : looks_) {
+      TENON_CHECK(compose(look));
+    }
+    for (const Unproved& one : unproved) {
+      places_.push_back(one.place);
+      TENON_CHECK(prove(*one.edit, one.typed, places_.back()));
+    }
+    return {};
+  }
+
+  std::vector<Unproved> forget_unproved() {
+    written_.clear();
+    sites_.clear();
+    return std::exchange(unproved_, {});
+  }
+
+  Result<void> edit_one(std::size_t number, const AssetEdit& edit) {
+    TENON_CHECK(check_object(edit));
+    Result<bool> done = try_edit(number, edit);
+    if (!(done && *done) && !unproved_.empty()) {
+      TENON_CHECK(settle());
+      done = try_edit(number, edit);
+    }
+    return done ? Result<void>() : with_file_fix(done.error());
+  }
+
+  /// False, and nothing is done, when the edit depends on one that is not proved.
+  Result<bool> try_edit(std::size_t number, const AssetEdit& edit) {
+    const Path prim_path = edit.object.prim();
+    const auto has_prim = [&](const Look& look) { return bool(look.stage->prim(prim_path)); };
+    const auto first = std::find_if(looks_.begin(), looks_.end(), has_prim);
+    if (first == looks_.end()) {
+      return no_prim(prim_path);
+    }
+    if (reads_what_is_written(edit)) {
+      return false;
+    }
+    const stage::Prim prim = first->stage->prim(prim_path);
+    if (edit.kind == Kind::ApplyApi) {
+      TENON_CHECK(edit::check_api(prim, edit.api));
+    }
+    TENON_TRY(const FileChoice file,
+              choose_file({*first->stage, prim, edit, roles_, names_, options_}));
+    TENON_CHECK(check_in_no_package(file.layer));
+    for (Look& look : looks_) {
+      const auto site = stage::site_in_layer(*look.stage, prim_path, file.layer);
+      if (has_prim(look) && site) {
+        const bool there =
+            edit.kind == Kind::ApplyApi && is_as_asked(look.stage->prim(prim_path), edit, {});
+        return there ? Result<bool>(true) : author_in(look, *site, number, edit, file);
       }
     }
     return Error(ErrorCode::Invalid, "what " + file_part(file.layer) + " says about <" +
@@ -225,105 +327,81 @@ class AssetEditor {
                                            : "tenon where names the files that count");
   }
 
-  Result<EditedAsset> finish() {
-    EditedAsset asset;
-    for (const auto& [identifier, layer] : edited_) {
-      TENON_TRY(EditedFile file, written(identifier, *layer));
-      if (!file.text || file.before != file.after) {
-        asset.files.push_back(std::move(file));
-      }
+  Result<bool> author_in(Look& look, const stage::LayerSite& site, std::size_t number,
+                         const AssetEdit& edit, const FileChoice& file) {
+    edit::EditTarget target = edit::site_target(site, file.layer);
+    const Path spec = target.spec_path(edit.object);
+    if (sites_.contains(spec)) {
+      return false;
     }
-    asset.places = std::move(places_);
-    return asset;
-  }
-
- private:
-  Result<StagePtr> composed(const Selection& selection) {
-    if (const auto known = stages_.find(selection.variant); known != stages_.end()) {
-      return known->second;
-    }
-    StageSources sources;
-    sources.registry = std::make_shared<formats::LayerRegistry>(
-        bytes::AssetResolver(resolver_options(options_.open)));
-    for (const auto& [identifier, layer] : layers_) {
-      sources.registry->insert(layer);
-    }
-    TENON_TRY(sources.root, sources.registry->open_root(path_));
-    if (!selection.variant.empty()) {
-      TENON_TRY(sources.session,
-                with_variant(nullptr, *sources.root, kVariantSet, selection.variant));
-    }
-    stage::StageOptions stage_options;
-    TENON_TRY(stage_options.compose, compose_options(options_.open, *sources.root));
-    TENON_TRY(stage::Stage stage, stage::Stage::open(sources.root, sources.session,
-                                                     sources.opener(), std::move(stage_options)));
-    TENON_CHECK(work_.spend(stage));
-    for (const layer::LayerPtr& layer : stage.used_layers()) {
-      if (layer != sources.session) {
-        layers_.emplace(layer->identifier(), layer);
-      }
-    }
-    return stages_[selection.variant] = std::make_shared<const stage::Stage>(std::move(stage));
-  }
-
-  /// The first selection under which there is such a prim.
-  Result<StagePtr> stage_with(Path prim) {
-    for (const Selection& selection : selections_) {
-      TENON_TRY(const StagePtr stage, composed(selection));
-      if (stage->prim(prim)) {
-        return stage;
-      }
-    }
-    return no_prim(prim);
-  }
-
-  Result<void> author(std::size_t number, const AssetEdit& edit, const FileChoice& file,
-                      const stage::Stage& stage, const stage::LayerSite& site) {
-    const stage::Prim prim = stage.prim(edit.object.prim());
-    auto changed = std::make_shared<layer::Layer>(*layers_.at(file.layer));
-    PropertyValue typed;
-    EditedPlace place;
+    Unproved made{&edit, {}, {}};
     if (!edit.is_about_api()) {
-      TENON_TRY(typed,
-                typed_edit(prim, edit, changed->find(site.path.property(edit.object.name()))));
-      place.before = composed_text(prim, edit.object.name());
+      const stage::Prim prim = look.stage->prim(edit.object.prim());
+      const layer::LayerPtr layer = look.editor.layer(file.layer);
+      TENON_TRY(made.typed, typed_edit(prim, edit, layer->find(spec)));
+      made.place.before = composed_text(prim, edit.object.name());
     }
-    TENON_TRY(place.spec, Author(*changed, site).run(edit, typed));
-    layers_[file.layer] = edited_[file.layer] = changed;
-    stages_.clear();
-    place.edit = number;
-    place.file = file.layer;
-    place.why = file.why;
-    TENON_CHECK(prove(edit, typed, place));
-    places_.push_back(std::move(place));
-    return {};
+    TENON_CHECK(look.editor.set_target(std::move(target)));
+    TENON_CHECK(author(look.editor, edit, spec, made.typed));
+    written_.insert(spec);
+    sites_.insert(spec);
+    for (const Path at : sites_of(edit)) {
+      sites_.insert(at);
+    }
+    made.place.edit = number;
+    made.place.file = file.layer;
+    made.place.spec = edit.kind == Kind::ClearProperty ? spec.parent() : spec;
+    made.place.why = file.why;
+    unproved_.push_back(std::move(made));
+    return true;
   }
 
-  /// Composes again and looks whether the scene is now as it was asked for, wherever the file
-  /// counts: first as the asset opens, or else in the first variant that has the file.
+  /// The specs that say what the edit is about, in all layers and under all selections.
+  std::vector<Path> sites_of(const AssetEdit& edit) const {
+    std::vector<Path> sites;
+    for (const Look& look : looks_) {
+      for (const stage::SpecSite& site : look.stage->prim(edit.object.prim()).spec_stack()) {
+        sites.push_back(edit.is_about_api() ? site.path : site.path.property(edit.object.name()));
+      }
+    }
+    return sites;
+  }
+
+  /// The schemas of a prim decide which properties it has.
+  bool reads_what_is_written(const AssetEdit& edit) const {
+    if (written_.empty()) {
+      return false;
+    }
+    const std::vector<Path> sites = sites_of(edit);
+    return std::any_of(sites.begin(), sites.end(), [&](Path site) {
+      return written_.contains(site) || written_.contains(site.prim());
+    });
+  }
+
+  /// Looks whether the scene is now as it was asked for, wherever the file counts: first as the
+  /// asset opens, or else in the first variant that has the file.
   Result<void> prove(const AssetEdit& edit, const PropertyValue& typed, EditedPlace& place) {
     bool first = true;
-    for (const Selection& selection : selections_) {
-      TENON_TRY(const StagePtr stage, composed(selection));
-      const stage::Prim prim = stage->prim(edit.object.prim());
-      if (!prim || !stage::site_in_layer(*stage, prim.path(), place.file)) {
+    for (const Look& look : looks_) {
+      const stage::Prim prim = look.stage->prim(edit.object.prim());
+      if (!prim || !stage::site_in_layer(*look.stage, prim.path(), place.file)) {
         continue;
       }
       if (is_as_asked(prim, edit, typed)) {
-        if (!selection.shown.empty()) {
-          place.variants.push_back(selection.shown);
+        if (!look.shown.empty()) {
+          place.variants.push_back(look.shown);
         }
         if (first && !edit.is_about_api()) {
           place.after = composed_text(prim, edit.object.name());
           warn_of_samples(prim, edit, typed);
         }
       } else if (first) {
-        return hidden(*stage, edit, place.file, selection);
+        return hidden(look, edit, place.file);
       } else {
-        Diagnostic finding = hidden(*stage, edit, place.file, selection).diagnostic();
+        Diagnostic finding = hidden(look, edit, place.file).diagnostic();
         finding.severity = Severity::Warning;
         finding.rule = "edit.hidden-in-variant";
-        diagnostics_.add(std::move(finding));
+        diagnostics_->add(std::move(finding));
       }
       first = false;
     }
@@ -335,19 +413,18 @@ class AssetEditor {
                          prim.attribute(edit.object.name()).value_source(stage::Time(0.0)) !=
                              prim.attribute(edit.object.name()).value_source();
     if (samples && edit.kind == Kind::SetProperty) {
-      diagnostics_.add(prim.attribute(edit.object.name())
-                           .located(Severity::Warning, "edit.has-samples",
-                                    "the value has time samples, which count at all times but the "
-                                    "default one"));
+      diagnostics_->add(prim.attribute(edit.object.name())
+                            .located(Severity::Warning, "edit.has-samples",
+                                     "the value has time samples, which count at all times but the "
+                                     "default one"));
     }
   }
 
-  Error hidden(const stage::Stage& stage, const AssetEdit& edit, const std::string& file,
-               const Selection& selection) const {
+  static Error hidden(const Look& look, const AssetEdit& edit, const std::string& file) {
     const Token property = edit.is_about_api() ? Token() : edit.object.name();
     std::string stronger = "another layer";
     std::uint32_t line = 0;
-    for (const auto& source : stage::opinion_sources(stage, edit.object.prim(), property)) {
+    for (const auto& source : stage::opinion_sources(*look.stage, edit.object.prim(), property)) {
       if (source.layer->identifier() == file) {
         break;
       }
@@ -359,7 +436,7 @@ class AssetEditor {
         break;
       }
     }
-    const std::string where = selection.shown.empty() ? "" : " under Physics=" + selection.shown;
+    const std::string where = look.shown.empty() ? "" : " under Physics=" + look.shown;
     Error error(ErrorCode::Invalid, "what " + file_part(file) + " says about <" +
                                         edit.object.str() + "> does not count" + where +
                                         ": a stronger opinion hides it");
@@ -369,60 +446,54 @@ class AssetEditor {
         .with_fix("edit that file, with --in or --engine, or clear the value there");
   }
 
-  Result<EditedFile> written(const std::string& identifier, const layer::Layer& layer) {
-    EditedFile file;
-    file.path = identifier;
-    const bytes::AssetResolver resolver(resolver_options(options_.open));
-    TENON_TRY(const auto bytes, resolver.open(identifier));
-    if (formats::format_of(*bytes) != formats::LayerFormat::Text) {
-      TENON_TRY(file.after, formats::encode_layer(layer, formats::LayerFormat::Crate));
-      return file;
-    }
-    file.text = true;
-    file.before = std::string(bytes->text());
-    formats::EditedText edited = formats::edit_text(file.before, layer);
-    file.after = std::move(edited.text);
-    file.kept_layout = edited.kept_layout;
-    Diagnostics ignored;
-    TENON_TRY(const layer::Layer again, formats::read_text(file.after, identifier, ignored));
-    for (EditedPlace& place : places_) {
-      const layer::Spec* spec = place.file == identifier ? again.find(place.spec) : nullptr;
-      place.line = spec == nullptr ? place.line : spec->line;
-    }
-    return file;
-  }
-
-  const std::string& path_;
-  const EditOptions& options_;
-  Diagnostics& diagnostics_;
-  std::vector<Selection> selections_;
-  std::map<std::string, layer::LayerPtr> layers_;  // as they are now, by identifier
-  std::map<std::string, layer::LayerPtr> edited_;
-  std::map<std::string, StagePtr> stages_;  // of the layers as they are now, by variant
+  EditOptions options_;
+  Diagnostics* diagnostics_ = nullptr;  // of the call
+  layer::LayerPtr root_;
+  std::vector<Look> looks_;  // first: as the asset opens
   stage::WorkAccount work_;
   std::vector<std::string> names_;
   structure::RolesOfFiles roles_;
+  std::vector<Unproved> unproved_;
+  std::set<Path> written_;  // by unproved edits
+  std::set<Path> sites_;    // of what these are about
   std::vector<EditedPlace> places_;
 };
 
-}  // namespace
+AssetEditor::AssetEditor(std::unique_ptr<State> state) : state_(std::move(state)) {}
+AssetEditor::AssetEditor(AssetEditor&&) noexcept = default;
+AssetEditor& AssetEditor::operator=(AssetEditor&&) noexcept = default;
+AssetEditor::~AssetEditor() = default;
+
+Result<AssetEditor> AssetEditor::open(const std::string& path, const EditOptions& options,
+                                      Diagnostics& diagnostics) {
+  auto state = std::make_unique<State>(options);
+  TENON_CHECK(state->open(path, diagnostics));
+  return AssetEditor(std::move(state));
+}
+
+Result<std::vector<EditedPlace>> AssetEditor::edit(const std::vector<AssetEdit>& edits,
+                                                   Diagnostics& diagnostics) {
+  return state_->edit(edits, diagnostics);
+}
+
+bool AssetEditor::undo() { return state_->history().undo(); }
+
+bool AssetEditor::redo() { return state_->history().redo(); }
+
+Result<std::vector<EditedFile>> AssetEditor::files() const { return state_->files(); }
+
+layer::LayerPtr AssetEditor::layer(const std::string& identifier) const {
+  return state_->layer(identifier);
+}
 
 Result<EditedAsset> edit_asset(const std::string& path, const std::vector<AssetEdit>& edits,
                                const EditOptions& options, Diagnostics& diagnostics) {
-  AssetEditor editor(path, options, diagnostics);
-  TENON_CHECK(editor.open());
-  for (std::size_t i = 0; i < edits.size(); ++i) {
-    TENON_CHECK(editor.edit(i, edits[i]));
-  }
-  return editor.finish();
-}
-
-Result<void> write_files(const std::vector<EditedFile>& files) {
-  bytes::FileTransaction transaction;
-  for (const EditedFile& file : files) {
-    transaction.put(file.path, file.after);
-  }
-  return transaction.commit({.in_place = true});
+  TENON_TRY(AssetEditor editor, AssetEditor::open(path, options, diagnostics));
+  EditedAsset asset;
+  TENON_TRY(asset.places, editor.edit(edits, diagnostics));
+  TENON_TRY(asset.files, editor.files());
+  TENON_CHECK(find_lines(editor, asset));
+  return asset;
 }
 
 }  // namespace tenon

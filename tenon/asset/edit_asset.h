@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "tenon/asset/edited_file.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
+#include "tenon/layer/layer.h"
 #include "tenon/tenon.h"
 
 /// Edits of assets in files: each lands in the file that owns what it changes.
@@ -46,32 +49,52 @@ struct EditedPlace {
   std::vector<std::string> variants;  ///< of "Physics" in which it counts; empty: no such set
 };
 
-struct EditedFile {
-  std::string path;
-  std::string before;  ///< empty for binary layers
-  std::string after;   ///< text, or the bytes of a binary layer
-  bool text = false;
-  bool kept_layout = true;  ///< comments and layout of text stay
-};
-
 struct EditedAsset {
   std::vector<EditedPlace> places;  ///< one for each edit; none for schemas applied already
   std::vector<EditedFile> files;    ///< that differ, sorted by path
 };
 
-/// What the edits make of the asset's files. No file is touched: `write_files` does that.
+/// Edits of an asset in its files, with undo. Composes the asset under every selection of
+/// "Physics"; all of them look at the same layers, which edits change in memory. No file is
+/// touched.
 ///
 /// In an asset of the structure 3.0 (tenon/structure/layout.h) an edit goes to the file that owns
 /// the property or API schema; what instances share to the file of the instances; with
 /// `options.engine` to that engine's file. Elsewhere to the strongest layer with an opinion, else
-/// to the root layer. Each edit is proved: the scene is composed again, and where the value is not
-/// what was asked for, nothing comes of it. Errors: ErrorCode::NotFound (prim, property, file),
-/// Invalid (types, values, an opinion elsewhere is stronger), Unsupported (files in packages).
-/// Diagnostics: "edit.hidden-in-variant", "edit.has-samples".
+/// to the root layer. What is authored there is what edit::StageEditor authors.
+class AssetEditor {
+ public:
+  /// Errors: those of open_stage, and Unsupported for assets in packages.
+  static Result<AssetEditor> open(const std::string& path, const EditOptions& options,
+                                  Diagnostics& diagnostics);
+  AssetEditor(AssetEditor&&) noexcept;
+  AssetEditor& operator=(AssetEditor&&) noexcept;
+  ~AssetEditor();
+
+  /// All edits as one step of the history, or none of them. Each is proved: the scene is composed
+  /// again, and where the value is not what was asked for, nothing comes of it. Errors:
+  /// ErrorCode::NotFound (prim, property, file), Invalid (types, values, an opinion elsewhere is
+  /// stronger), Unsupported (files in packages). Diagnostics: "edit.hidden-in-variant",
+  /// "edit.has-samples".
+  Result<std::vector<EditedPlace>> edit(const std::vector<AssetEdit>& edits,
+                                        Diagnostics& diagnostics);
+  bool undo();  ///< false when there is nothing to take back
+  bool redo();
+
+  /// What all edits in force make of the files, those that differ alone, sorted by path.
+  Result<std::vector<EditedFile>> files() const;
+  /// A layer as it is now; null when the asset has none of that identifier.
+  layer::LayerPtr layer(const std::string& identifier) const;
+
+ private:
+  class State;
+  explicit AssetEditor(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// What the edits make of the asset's files, as one call: open, edit, files. `write_files` of
+/// edited_file.h writes them.
 Result<EditedAsset> edit_asset(const std::string& path, const std::vector<AssetEdit>& edits,
                                const EditOptions& options, Diagnostics& diagnostics);
-
-/// Writes all files in one step, also when the process is killed (bytes/write/file_transaction.h).
-Result<void> write_files(const std::vector<EditedFile>& files);
 
 }  // namespace tenon

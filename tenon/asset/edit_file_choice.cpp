@@ -9,9 +9,8 @@
 // the owner.
 #include "tenon/asset/edit_file_choice.h"
 
-#include <algorithm>
-
 #include "tenon/bytes/asset_resolver.h"
+#include "tenon/edit/list_edit.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/stage/sources/opinion_sources.h"
@@ -72,11 +71,7 @@ bool speaks(const stage::OpinionSource& source, const AssetEdit& edit) {
   if (op == nullptr) {
     return false;
   }
-  const auto has = [&](const std::vector<Token>& list) {
-    return std::find(list.begin(), list.end(), edit.api) != list.end();
-  };
-  return edit.kind == AssetEdit::Kind::ApplyApi || has(op->explicit_items) || has(op->prepended) ||
-         has(op->appended) || has(op->added);
+  return edit.kind == AssetEdit::Kind::ApplyApi || edit::adds(*op, edit.api);
 }
 
 /// Layers with an opinion, strongest first.

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 
-#include "tenon/base/text/nearest_name.h"
 #include "tenon/formats/text/write/value_text.h"
 #include "tenon/layer/field_values.h"
-#include "tenon/schema/registry.h"
 
 namespace tenon {
 
@@ -54,42 +52,6 @@ bool is_as_asked(const stage::Prim& prim, const AssetEdit& edit, const PropertyV
   // Asset paths come back resolved: what was authored counts.
   const layer::Value value = attribute.get();
   return value == typed.value || formats::value_text(value) == formats::value_text(typed.value);
-}
-
-Result<void> check_api(const stage::Prim& prim, Token api) {
-  const auto [name, instance] = schema::split_api_name(api);
-  const schema::Schema* schema = schema::Registry::instance().find(name);
-  const auto invalid = [&](const std::string& message, const std::string& fix) {
-    return Error(ErrorCode::Invalid, message)
-        .with_prim(prim.path().str())
-        .with_rule("edit.unknown-schema")
-        .with_fix(fix);
-  };
-  if (schema == nullptr || !schema->is_applied_api()) {
-    std::vector<std::string_view> names;
-    for (const schema::Schema* known : schema::Registry::instance().schemas()) {
-      if (known->is_applied_api()) {
-        names.push_back(known->name.view());
-      }
-    }
-    const std::string nearest(nearest_name(name.view(), names));
-    return invalid("no API schema is called \"" + name.str() + "\"",
-                   nearest.empty() ? "tenon cat shows what other prims have"
-                                   : "did you mean " + nearest + "?");
-  }
-  const bool multiple = schema->kind == schema::SchemaKind::MultipleApplyApi;
-  if (multiple == instance.empty()) {
-    return invalid(
-        multiple ? name.str() + " is applied with a name of its own"
-                 : name.str() + " is applied without a name",
-        multiple ? "write " + name.str() + ":angular, or another name" : "write " + name.str());
-  }
-  const auto& types = schema->can_only_apply_to;
-  const bool fits = types.empty() || std::any_of(types.begin(), types.end(),
-                                                 [&](Token type) { return prim.is_a(type); });
-  return fits ? Result<void>()
-              : invalid(name.str() + " is not for a " + prim.type_name().str(),
-                        "apply it to a " + types.front().str());
 }
 
 }  // namespace tenon

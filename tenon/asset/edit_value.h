@@ -24,7 +24,4 @@ std::string composed_text(const stage::Prim& prim, Token property);
 /// The property, or the API schema, is now as the edit says.
 bool is_as_asked(const stage::Prim& prim, const AssetEdit& edit, const PropertyValue& typed);
 
-/// No schema of that name, or it cannot be applied to the prim.
-Result<void> check_api(const stage::Prim& prim, Token api);
-
 }  // namespace tenon

@@ -6,6 +6,7 @@
 
 #include "tenon/base/limits/limits.h"
 #include "tenon/base/path.h"
+#include "tenon/base/text/text_cursor.h"
 #include "tenon/base/text/unicode.h"
 
 namespace tenon {
@@ -52,9 +53,9 @@ std::size_t variant_name_length(std::string_view text) {
   return at;
 }
 
-class PathReader {
+class PathReader : private TextCursor {
  public:
-  explicit PathReader(std::string_view text, std::size_t depth) : text_(text), depth_(depth) {}
+  PathReader(std::string_view text, std::size_t depth) : TextCursor(text), depth_(depth) {}
 
   Result<Path> read() {
     TENON_TRY(Path path, read_prims());
@@ -66,16 +67,6 @@ class PathReader {
   }
 
  private:
-  bool at_end() const { return at_ >= text_.size(); }
-  char peek() const { return at_end() ? '\0' : text_[at_]; }
-  std::string_view rest() const { return text_.substr(at_); }
-  bool accept(std::string_view word) {
-    if (rest().substr(0, word.size()) != word) {
-      return false;
-    }
-    at_ += word.size();
-    return true;
-  }
   void skip_blanks() {
     while (peek() == ' ' || peek() == '\t') {
       ++at_;
@@ -229,8 +220,6 @@ class PathReader {
     return PathReader(text_.substr(start, at_ - 1 - start), depth_ + 1).read();
   }
 
-  std::string_view text_;
-  std::size_t at_ = 0;
   std::size_t depth_;
 };
 

@@ -5,8 +5,6 @@
 #include <algorithm>
 
 #include "tenon/edit/layer_editor.h"
-#include "tenon/layer/field_values.h"
-#include "tenon/layer/fields.h"
 
 namespace tenon::check {
 namespace {
@@ -14,24 +12,6 @@ namespace {
 bool same_place(const SpecEdit& a, const SpecEdit& b) {
   return a.path == b.path && a.field == b.field && a.added_api == b.added_api &&
          a.removed_api == b.removed_api;
-}
-
-/// Puts a name into the list of applied schemas, or takes it out; an empty list goes.
-void edit_apis(const SpecEdit& edit, edit::LayerEditor& editor) {
-  namespace fields = layer::fields;
-  auto op = editor.get_or(edit.path, fields::apiSchemas, layer::ListOp<Token>{});
-  if (!edit.added_api.empty()) {
-    (op.is_explicit ? op.explicit_items : op.prepended).push_back(edit.added_api);
-  }
-  for (std::vector<Token>* list :
-       {&op.explicit_items, &op.prepended, &op.appended, &op.added, &op.ordered}) {
-    std::erase(*list, edit.removed_api);
-  }
-  if (op.empty()) {
-    editor.erase(edit.path, fields::apiSchemas);
-  } else {
-    editor.set(edit.path, fields::apiSchemas, layer::Value(std::move(op)));
-  }
 }
 
 Result<void> apply_one(const SpecEdit& edit, edit::LayerEditor& editor) {
@@ -44,8 +24,10 @@ Result<void> apply_one(const SpecEdit& edit, edit::LayerEditor& editor) {
     return Error(ErrorCode::NotFound, "there is no spec <" + edit.path.str() + "> to correct")
         .in_file(edit.layer);
   }
-  if (!edit.added_api.empty() || !edit.removed_api.empty()) {
-    edit_apis(edit, editor);
+  if (!edit.added_api.empty()) {
+    editor.add_api(edit.path, edit.added_api);
+  } else if (!edit.removed_api.empty()) {
+    editor.withdraw_api(edit.path, edit.removed_api);
   } else if (edit.value.empty()) {
     editor.erase(edit.path, edit.field);
   } else {

@@ -14,6 +14,7 @@
 
 #include "tenon/base/text/text_number.h"
 #include "tenon/check/subject.h"
+#include "tenon/edit/list_edit.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/stage/collections/material_binding.h"
@@ -80,11 +81,7 @@ std::optional<Fix> remove_api(const stage::Prim& prim, Token api) {
   Fix fix{"remove " + api.str(), {}};
   for (const SpecSite& site : prim.spec_stack()) {
     const auto* op = site.spec->get<layer::ListOp<Token>>(fields::apiSchemas);
-    const auto adds = [&](const std::vector<Token>& list) {
-      return std::find(list.begin(), list.end(), api) != list.end();
-    };
-    if (op == nullptr || !(adds(op->explicit_items) || adds(op->prepended) || adds(op->appended) ||
-                           adds(op->added))) {
+    if (op == nullptr || !edit::adds(*op, api)) {
       continue;
     }
     if (!is_writable(*site.layer)) {

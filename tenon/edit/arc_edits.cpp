@@ -204,29 +204,21 @@ Result<void> StageEditor::set_variant_selection(Path prim, const std::string& se
     return bad_variant(set, variant);
   }
   return edit_prim(prim, [&](LayerEditor& editor, Path path) -> Result<void> {
-    auto selections = editor.get_or(path, fields::variantSelection, layer::VariantSelections{});
-    selections.items.insert_or_assign(set, variant);
-    editor.set(path, fields::variantSelection, Value(std::move(selections)));
+    editor.select_variant(path, set, variant);
     return {};
   });
 }
 
 Result<void> StageEditor::clear_variant_selection(Path prim, const std::string& set) {
   return edit_prim(prim, [&](LayerEditor& editor, Path path) -> Result<void> {
-    auto selections = editor.get_or(path, fields::variantSelection, layer::VariantSelections{});
-    selections.items.erase(set);
-    selections.items.empty()
-        ? editor.erase(path, fields::variantSelection)
-        : editor.set(path, fields::variantSelection, Value(std::move(selections)));
+    editor.clear_selection(path, set);
     return {};
   });
 }
 
 Result<void> StageEditor::block_variant_selection(Path prim, const std::string& set) {
   return edit_prim(prim, [&](LayerEditor& editor, Path path) -> Result<void> {
-    auto selections = editor.get_or(path, fields::variantSelection, layer::VariantSelections{});
-    selections.items.insert_or_assign(set, std::string());
-    editor.set(path, fields::variantSelection, Value(std::move(selections)));
+    editor.select_variant(path, set, {});
     return {};
   });
 }

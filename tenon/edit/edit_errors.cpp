@@ -48,6 +48,13 @@ Error outside_target(Path path, const std::string& layer) {
       .with_fix("choose an edit target whose arc reaches this path, such as the root layer");
 }
 
+Error no_name_in_target(Path path, const std::string& layer) {
+  return Error(ErrorCode::Invalid, "<" + path.str() + "> has no name in this file")
+      .in_file(layer)
+      .with_rule("edit.outside-target")
+      .with_fix("choose an edit target whose arc reaches this path, such as the root layer");
+}
+
 Error no_property(Path property, const std::string& what) {
   return Error(ErrorCode::NotFound, "there is no " + what + " <" + property.str() + ">")
       .with_prim(property.prim().str())

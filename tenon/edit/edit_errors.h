@@ -16,6 +16,8 @@ Error bad_path(Path path, const std::string& wanted);
 Error bad_variant(const std::string& set, const std::string& variant);
 Error instance_proxy(Path prim);
 Error outside_target(Path path, const std::string& layer);
+/// Of a target or connection.
+Error no_name_in_target(Path path, const std::string& layer);
 Error no_property(Path property, const std::string& what);
 Error wrong_kind(Path property, const std::string& there);
 /// `wanted` and `given` are names of types.

@@ -75,4 +75,14 @@ EditTarget node_target(const compose::PrimIndex& index, std::uint32_t node,
   return {layer, map.compose_offset(offset_in(*at.layer_stack, layer))};
 }
 
+EditTarget site_target(const stage::LayerSite& site, const std::string& layer) {
+  EditTarget target = node_target(*site.index, site.node, layer);
+  if (!site.shared_from.empty()) {
+    const Path root = Path::absolute_root();
+    target.map =
+        MapFunction::make({{site.shared_as, site.shared_from}, {root, root}}).compose(target.map);
+  }
+  return target;
+}
+
 }  // namespace tenon::edit

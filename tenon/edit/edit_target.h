@@ -9,6 +9,7 @@
 #include "tenon/compose/map_function.h"
 #include "tenon/compose/prim_index.h"
 #include "tenon/layer/value.h"
+#include "tenon/stage/sources/opinion_sources.h"
 
 namespace tenon::edit {
 
@@ -35,5 +36,9 @@ EditTarget variant_target(std::string layer, Path variant_path);
 /// A layer of the stack of a node, which may lie behind arcs.
 EditTarget node_target(const compose::PrimIndex& index, std::uint32_t node,
                        const std::string& layer);
+
+/// The place where an opinion of `layer` counts for a prim, as stage::site_in_layer finds it.
+/// Inside of instances: what they share, with the paths of the one that was asked for.
+EditTarget site_target(const stage::LayerSite& site, const std::string& layer);
 
 }  // namespace tenon::edit

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/edit/layer_change.h"
 
-#include <algorithm>
+#include <map>
+#include <utility>
 
 #include "tenon/layer/spec_equality.h"
 
@@ -26,25 +27,24 @@ LayerChange inverse(LayerChange change) {
 }
 
 LayerChange difference(const layer::Layer& before, const layer::Layer& after) {
-  LayerChange change{after.identifier(), {}};
+  std::map<Path, SpecChange> changes;
   for (const layer::Layer::Entry& entry : before.entries()) {
-    if (entry.path.empty()) {
-      continue;
-    }
-    const layer::Spec* now = after.find(entry.path);
-    if (now == nullptr) {
-      change.specs.push_back({entry.path, entry.spec, std::nullopt});
-    } else if (!layer::same_spec(entry.spec, *now)) {
-      change.specs.push_back({entry.path, entry.spec, *now});
+    const layer::Spec* now = entry.path.empty() ? nullptr : after.find(entry.path);
+    if (now != nullptr && !layer::same_spec(entry.spec, *now)) {
+      changes[entry.path] = {entry.path, entry.spec, *now};
+    } else if (now == nullptr && !entry.path.empty()) {
+      changes[entry.path] = {entry.path, entry.spec, std::nullopt};
     }
   }
   for (const layer::Layer::Entry& entry : after.entries()) {
     if (!entry.path.empty() && !before.has(entry.path)) {
-      change.specs.push_back({entry.path, std::nullopt, entry.spec});
+      changes[entry.path] = {entry.path, std::nullopt, entry.spec};
     }
   }
-  std::sort(change.specs.begin(), change.specs.end(),
-            [](const SpecChange& a, const SpecChange& b) { return a.path < b.path; });
+  LayerChange change{after.identifier(), {}};
+  for (auto& [path, spec] : changes) {
+    change.specs.push_back(std::move(spec));
+  }
   return change;
 }
 

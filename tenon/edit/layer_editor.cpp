@@ -77,7 +77,11 @@ LayerChange LayerEditor::take_change() {
   return change;
 }
 
-void LayerEditor::roll_back() { edit::apply(inverse(take_change()), *layer_); }
+LayerChange LayerEditor::roll_back() {
+  LayerChange back = inverse(take_change());
+  edit::apply(back, *layer_);
+  return back;
+}
 
 Spec& LayerEditor::touch(Path path) {
   Spec* const spec = layer_->find(path);
@@ -185,6 +189,20 @@ Result<void> LayerEditor::create_variant(Path prim, const std::string& set,
     add_spec(path, SpecKind::Variant);
   }
   return {};
+}
+
+void LayerEditor::select_variant(Path prim, const std::string& set, const std::string& variant) {
+  auto selections = get_or(prim, fields::variantSelection, layer::VariantSelections{});
+  selections.items.insert_or_assign(set, variant);
+  this->set(prim, fields::variantSelection, Value(std::move(selections)));
+}
+
+void LayerEditor::clear_selection(Path prim, const std::string& set) {
+  auto selections = get_or(prim, fields::variantSelection, layer::VariantSelections{});
+  selections.items.erase(set);
+  selections.items.empty()
+      ? erase(prim, fields::variantSelection)
+      : this->set(prim, fields::variantSelection, Value(std::move(selections)));
 }
 
 /// Everything in the layer at and below `path`, in the order of making.
@@ -299,6 +317,24 @@ Result<void> LayerEditor::remove_property(Path path) {
   }
   remove_child(path.parent(), fields::properties, path.name());
   return {};
+}
+
+void LayerEditor::add_api(Path prim, Token name) {
+  const auto op = get_or(prim, fields::apiSchemas, layer::ListOp<Token>{});
+  const auto has = [&](const std::vector<Token>& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (!(op.is_explicit ? has(op.explicit_items) : has(op.prepended) || has(op.appended))) {
+    edit_list(prim, fields::apiSchemas, ListEdit<Token>::add(name));
+  }
+}
+
+void LayerEditor::remove_api(Path prim, Token name) {
+  edit_list(prim, fields::apiSchemas, ListEdit<Token>::remove(name));
+}
+
+void LayerEditor::withdraw_api(Path prim, Token name) {
+  edit_list(prim, fields::apiSchemas, ListEdit<Token>::withdraw(name));
 }
 
 void LayerEditor::set_time_sample(Path attribute, double time, Value value) {

@@ -32,8 +32,8 @@ class LayerEditor {
   }
   /// What was done since the editor was made or asked last; specs that are as they were left out.
   LayerChange take_change();
-  /// Takes back what was done since then.
-  void roll_back();
+  /// Takes back what was done since then, and says what that changed.
+  LayerChange roll_back();
 
   // Fields. A spec that is missing is made by `set`.
   void set(Path path, Token field, layer::Value value);
@@ -53,6 +53,9 @@ class LayerEditor {
   Result<void> create_variant_set(Path prim, const std::string& set,
                                   ListPosition position = ListPosition::BackOfPrependList);
   Result<void> create_variant(Path prim, const std::string& set, const std::string& variant);
+  /// The prim must exist; an empty `variant` selects none, whatever weaker layers select.
+  void select_variant(Path prim, const std::string& set, const std::string& variant);
+  void clear_selection(Path prim, const std::string& set);
   /// Removes the prim (or variant) with all that is below it.
   Result<void> remove_prim(Path path);
   /// Moves a prim with all that is below it to a path where none is and whose parent exists. Within
@@ -64,6 +67,14 @@ class LayerEditor {
                                 bool custom);
   Result<void> create_relationship(Path path, layer::Variability variability, bool custom);
   Result<void> remove_property(Path path);
+
+  // Applied API schemas. The prim must exist.
+  /// Names it in the list, unless it is there. What the layer deletes from weaker ones stays.
+  void add_api(Path prim, Token name);
+  /// Takes it out, and deletes it from weaker layers.
+  void remove_api(Path prim, Token name);
+  /// Takes back whatever the layer says of it; weaker layers may still apply it.
+  void withdraw_api(Path prim, Token name);
 
   // Samples, in the layer's time. The attribute must exist.
   void set_time_sample(Path attribute, double time, layer::Value value);

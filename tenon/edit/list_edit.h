@@ -19,8 +19,13 @@ enum class ListPosition : unsigned char {
 };
 
 template <class T>
+inline constexpr std::vector<T> layer::ListOp<T>::* kListsThatAdd[] = {
+    &layer::ListOp<T>::explicit_items, &layer::ListOp<T>::prepended, &layer::ListOp<T>::appended,
+    &layer::ListOp<T>::added};
+
+template <class T>
 struct ListEdit {
-  enum class Kind : unsigned char { Add, Remove, Set, Clear };
+  enum class Kind : unsigned char { Add, Remove, Withdraw, Set, Clear };
 
   Kind kind = Kind::Clear;
   std::vector<T> items;
@@ -33,11 +38,22 @@ struct ListEdit {
   }
   /// Takes one item out of the lists, and deletes it from weaker ones.
   static ListEdit remove(T item) { return {Kind::Remove, {std::move(item)}, {}}; }
+  /// Takes back whatever the opinion says of one item, so that weaker ones decide. An explicit list
+  /// loses it and stays.
+  static ListEdit withdraw(T item) { return {Kind::Withdraw, {std::move(item)}, {}}; }
   /// The whole list, explicitly.
   static ListEdit set(std::vector<T> items) { return {Kind::Set, std::move(items), {}}; }
   /// No opinion.
   static ListEdit clear() { return {}; }
 };
+
+/// Some list of the opinion brings the item in.
+template <class T>
+bool adds(const layer::ListOp<T>& op, const T& item) {
+  return std::any_of(std::begin(kListsThatAdd<T>), std::end(kListsThatAdd<T>), [&](auto list) {
+    return std::find((op.*list).begin(), (op.*list).end(), item) != (op.*list).end();
+  });
+}
 
 namespace detail {
 
@@ -52,7 +68,7 @@ void insert(std::vector<T>& list, const T& item, bool front) {
 
 }  // namespace detail
 
-/// The semantics of OpenUSD's Add*, Remove*, Set* and Clear* functions.
+/// The semantics of OpenUSD's Add*, Remove*, Set* and Clear* functions; withdrawing is tenon's own.
 template <class T>
 void apply(const ListEdit<T>& edit, layer::ListOp<T>& op) {
   using Kind = typename ListEdit<T>::Kind;
@@ -73,8 +89,13 @@ void apply(const ListEdit<T>& edit, layer::ListOp<T>& op) {
                      item, front);
       continue;
     }
-    for (std::vector<T>* list : {&op.explicit_items, &op.added, &op.prepended, &op.appended}) {
-      std::erase(*list, item);
+    for (const auto list : kListsThatAdd<T>) {
+      std::erase(op.*list, item);
+    }
+    if (edit.kind == Kind::Withdraw) {
+      std::erase(op.deleted, item);
+      std::erase(op.ordered, item);
+      continue;
     }
     if (!op.is_explicit &&
         std::find(op.deleted.begin(), op.deleted.end(), item) == op.deleted.end()) {

@@ -4,13 +4,13 @@
 // Metadata of the stage, of prims and of properties, and the API schemas applied to prims.
 #include <algorithm>
 
+#include "tenon/edit/api_schemas.h"
 #include "tenon/edit/composed_view.h"
 #include "tenon/edit/edit_errors.h"
 #include "tenon/edit/stage_editor.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/metadata_fields.h"
 #include "tenon/layer/type_names.h"
-#include "tenon/schema/registry.h"
 
 namespace tenon::edit {
 
@@ -89,36 +89,6 @@ void set_key(layer::Dictionary& dictionary, const std::string& key_path, const V
   dictionary.items.insert_or_assign(key, Value(std::move(below)));
 }
 
-Error unknown_schema(Path prim, Token name, const std::string& why, const std::string& fix) {
-  return Error(ErrorCode::Invalid, "\"" + name.str() + "\" " + why)
-      .with_prim(prim.str())
-      .with_rule("edit.unknown-schema")
-      .with_fix(fix);
-}
-
-Result<void> check_schema(Path prim, Token name) {
-  const auto [schema_name, instance] = schema::split_api_name(name);
-  const schema::Schema* found = schema::Registry::instance().find(schema_name);
-  if (found == nullptr || !found->is_applied_api()) {
-    return unknown_schema(prim, name, "is not an API schema that can be applied",
-                          "use the name of one, such as PhysicsRigidBodyAPI");
-  }
-  const bool multiple = found->kind == schema::SchemaKind::MultipleApplyApi;
-  if (multiple && instance.empty()) {
-    return unknown_schema(prim, name, "is applied under a name",
-                          "write " + schema_name.str() + ":name");
-  }
-  if (!multiple && !instance.empty()) {
-    return unknown_schema(prim, name, "is applied once, without a name",
-                          "write " + schema_name.str());
-  }
-  return {};
-}
-
-bool contains(const std::vector<Token>& names, Token name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 }  // namespace
 
 /// The spec that metadata of an object goes to, made where it is missing.
@@ -188,30 +158,32 @@ Result<void> StageEditor::clear_metadata(Path object, Token field, const std::st
 }
 
 Result<void> StageEditor::apply_api(Path prim, Token schema) {
-  TENON_CHECK(check_schema(prim, schema));
+  TENON_CHECK(check_api_name(prim, schema));
   return add_applied_schema(prim, schema);
 }
 
 Result<void> StageEditor::remove_api(Path prim, Token schema) {
-  TENON_CHECK(check_schema(prim, schema));
+  TENON_CHECK(check_api_name(prim, schema));
   return remove_applied_schema(prim, schema);
 }
 
 Result<void> StageEditor::add_applied_schema(Path prim, Token name) {
   return edit_prim(prim, [&](LayerEditor& editor, Path path) -> Result<void> {
-    const auto op = editor.get_or(path, fields::apiSchemas, layer::ListOp<Token>{});
-    const bool there = op.is_explicit ? contains(op.explicit_items, name)
-                                      : contains(op.prepended, name) || contains(op.appended, name);
-    if (!there) {
-      editor.edit_list(path, fields::apiSchemas, ListEdit<Token>::add(name));
-    }
+    editor.add_api(path, name);
     return {};
   });
 }
 
 Result<void> StageEditor::remove_applied_schema(Path prim, Token name) {
   return edit_prim(prim, [&](LayerEditor& editor, Path path) -> Result<void> {
-    editor.edit_list(path, fields::apiSchemas, ListEdit<Token>::remove(name));
+    editor.remove_api(path, name);
+    return {};
+  });
+}
+
+Result<void> StageEditor::withdraw_applied_schema(Path prim, Token name) {
+  return edit_prim(prim, [&](LayerEditor& editor, Path path) -> Result<void> {
+    editor.withdraw_api(path, name);
     return {};
   });
 }

@@ -162,11 +162,11 @@ Result<void> StageEditor::set_value(Path attribute, Value value, stage::Time tim
   if (found.kind == SpecKind::None) {
     return no_property(attribute, "attribute");
   }
-  if (found.kind == SpecKind::Attribute) {
-    TENON_CHECK(check_type(attribute, found.type_name, value));
-  }
   value = target_.layer_value(value);
   return edit_attribute(attribute, [&](LayerEditor& editor, Path path) -> Result<void> {
+    if (!check_type(attribute, editor.get_or(path, fields::typeName, Token()), value)) {
+      TENON_CHECK(check_type(attribute, found.type_name, value));
+    }
     if (time.is_default()) {
       editor.set(path, fields::default_value, value);
     } else {
@@ -217,7 +217,7 @@ Result<Path> mapped_target(const EditTarget& place, Path owner, Path target) {
   }
   const Path mapped = place.target_path(absolute);
   if (mapped.empty()) {
-    return outside_target(target, place.layer);
+    return no_name_in_target(target, place.layer);
   }
   return mapped;
 }

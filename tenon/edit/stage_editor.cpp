@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Layers, edit target, history and composition; the edits themselves stand in *_edits.cpp.
+// Layers, edit target and composition; the edits themselves stand in *_edits.cpp, the history in
+// edited_layers.cpp. There are two looks at the composed scene. `view()` composes the prims that an
+// edit asks for and no others; it looks at the edited layers where they are, and serves until prims
+// may be composed otherwise, so that many values can be set in a row. `stage()` composes everything
+// and is handed out: it keeps its layers, and the next edit of one of them changes a copy.
 #include "tenon/edit/stage_editor.h"
 
 #include "tenon/edit/composed_view.h"
@@ -23,7 +27,8 @@ StageEditor::StageEditor(layer::LayerPtr root, layer::LayerPtr session, compose:
     : root_(std::move(root)),
       session_(std::move(session)),
       opener_(std::move(opener)),
-      options_(std::move(options)) {
+      options_(std::move(options)),
+      layers_(std::make_shared<EditedLayers>()) {
   target_.layer = root_->identifier();
 }
 
@@ -41,42 +46,54 @@ StageEditor StageEditor::over(layer::LayerPtr root, layer::LayerPtr session,
   return StageEditor(std::move(root), std::move(session), std::move(opener), std::move(options));
 }
 
+StageEditor StageEditor::under_session(layer::LayerPtr session) const {
+  StageEditor other(root_, std::move(session), opener_, options_);
+  other.layers_ = layers_;
+  return other;
+}
+
 // Composition
 
 ComposedView& StageEditor::view() {
-  if (view_ == nullptr) {
-    view_ = std::make_unique<ComposedView>(layers_.current(root_), layers_.current(session_),
-                                           layers_.opener(opener_), options_.compose);
+  if (view_ == nullptr || view_composition_ != layers_->composition()) {
+    view_ = std::make_unique<ComposedView>(layers_->lent(root_), layers_->lent(session_),
+                                           layers_->lending_opener(opener_), options_.compose);
+    view_composition_ = layers_->composition();
   }
   return *view_;
 }
 
 Result<std::shared_ptr<const stage::Stage>> StageEditor::stage() {
-  if (stage_ != nullptr && stage_is_current_) {
+  if (stage_ != nullptr && stage_revision_ == layers_->revision()) {
     return stage_;
   }
   TENON_TRY(stage::Stage composed,
-            stage::Stage::open(layers_.current(root_), layers_.current(session_),
-                               layers_.opener(opener_), options_));
-  auto now = std::make_shared<const stage::Stage>(std::move(composed));
-  if (stage_ != nullptr) {
-    notice_ = compare_stages(*stage_, *now, unnoticed_);
-  }
-  unnoticed_.clear();
-  stage_ = std::move(now);
-  stage_is_current_ = true;
+            stage::Stage::open(layers_->current(root_), layers_->current(session_),
+                               layers_->opener(opener_), options_));
+  earlier_ = std::move(stage_);
+  earlier_changes_ = stage_changes_;
+  stage_ = std::make_shared<const stage::Stage>(std::move(composed));
+  stage_revision_ = layers_->revision();
+  stage_changes_ = layers_->log().size();
   return stage_;
 }
 
-void StageEditor::changed() {
-  view_.reset();
-  stage_is_current_ = false;
+const ChangeNotice& StageEditor::notice() {
+  if (earlier_ != nullptr) {
+    const std::vector<LayerChange>& log = layers_->log();
+    const auto begin = log.begin();
+    notice_ = compare_stages(*earlier_, *stage_,
+                             {begin + static_cast<std::ptrdiff_t>(earlier_changes_),
+                              begin + static_cast<std::ptrdiff_t>(stage_changes_)});
+    earlier_.reset();
+  }
+  return notice_;
 }
 
 // Layers
 
 layer::LayerPtr StageEditor::layer(const std::string& identifier) {
-  if (layer::LayerPtr copy = layers_.find(identifier)) {
+  if (layer::LayerPtr copy = layers_->find(identifier)) {
     return copy;
   }
   for (const layer::LayerPtr& known : {root_, session_, target_layer_}) {
@@ -93,29 +110,12 @@ layer::LayerPtr StageEditor::layer(const std::string& identifier) {
   return found;
 }
 
-void StageEditor::add_layer(layer::Layer layer) {
-  layers_.add(std::move(layer));
-  changed();
-}
-
-/// A copy that nobody else holds; nullptr for an unknown layer.
-layer::Layer* StageEditor::writable(const std::string& identifier) {
-  if (layers_.find(identifier) == nullptr) {
-    const layer::LayerPtr original = layer(identifier);
-    if (original == nullptr) {
-      return nullptr;
-    }
-    layers_.copy(original);
-    changed();
-  }
-  view_.reset();
-  return &layers_.writable(identifier);
-}
+void StageEditor::add_layer(layer::Layer layer) { layers_->add(std::move(layer)); }
 
 std::map<std::string, layer::LayerPtr> StageEditor::edited_layers() const {
   std::map<std::string, layer::LayerPtr> edited;
   for (const LayerChange& change : changes()) {
-    edited.emplace(change.layer, layers_.find(change.layer));
+    edited.emplace(change.layer, layers_->find(change.layer));
   }
   return edited;
 }
@@ -136,7 +136,9 @@ Result<void> StageEditor::set_target(EditTarget target) {
   if (found == nullptr) {
     return unknown_layer(target.layer);
   }
-  target_layer_ = found;
+  if (layers_->find(target.layer) == nullptr) {
+    target_layer_ = found;
+  }
   target_ = std::move(target);
   return {};
 }
@@ -167,7 +169,7 @@ Result<EditTarget> StageEditor::arc_target(Path prim, const std::string& identif
       .with_fix("choose a layer that the prim's opinions come from");
 }
 
-// History
+// Edits
 
 Result<void> StageEditor::edit(const std::function<Result<void>(LayerEditor&)>& work) {
   return edit_layer(target_.layer, work);
@@ -175,86 +177,14 @@ Result<void> StageEditor::edit(const std::function<Result<void>(LayerEditor&)>& 
 
 Result<void> StageEditor::edit_layer(const std::string& identifier,
                                      const std::function<Result<void>(LayerEditor&)>& work) {
-  layer::Layer* layer = writable(identifier);
-  if (layer == nullptr) {
-    return unknown_layer(identifier);
+  if (layers_->find(identifier) == nullptr) {
+    const layer::LayerPtr original = layer(identifier);
+    if (original == nullptr) {
+      return unknown_layer(identifier);
+    }
+    layers_->copy(original);
   }
-  LayerEditor editor(*layer);
-  Result<void> done = work(editor);
-  if (done) {
-    record(editor.take_change());
-  } else {
-    editor.roll_back();
-    view_.reset();
-  }
-  return done;
-}
-
-void StageEditor::record(LayerChange change) {
-  view_.reset();
-  if (change.empty()) {
-    return;
-  }
-  changed();
-  unnoticed_.push_back(change);
-  undone_.clear();
-  if (open_step_ != nullptr) {
-    open_step_->push_back(std::move(change));
-  } else {
-    done_.push_back({std::move(change)});
-  }
-}
-
-void StageEditor::apply_step(const Step& step) {
-  for (const LayerChange& change : step) {
-    edit::apply(change, *writable(change.layer));
-    unnoticed_.push_back(change);
-  }
-  changed();
-}
-
-StageEditor::Step StageEditor::backwards(const Step& step) {
-  Step result;
-  for (auto change = step.rbegin(); change != step.rend(); ++change) {
-    result.push_back(inverse(*change));
-  }
-  return result;
-}
-
-bool StageEditor::undo() {
-  if (done_.empty() || open_step_ != nullptr) {
-    return false;
-  }
-  apply_step(backwards(done_.back()));
-  undone_.push_back(std::move(done_.back()));
-  done_.pop_back();
-  return true;
-}
-
-bool StageEditor::redo() {
-  if (undone_.empty() || open_step_ != nullptr) {
-    return false;
-  }
-  apply_step(undone_.back());
-  done_.push_back(std::move(undone_.back()));
-  undone_.pop_back();
-  return true;
-}
-
-Result<void> StageEditor::as_one_step(const std::function<Result<void>()>& work) {
-  if (open_step_ != nullptr) {
-    return work();  // part of the step around it
-  }
-  Step step;
-  open_step_ = &step;
-  Result<void> result = work();
-  open_step_ = nullptr;
-  if (!result) {
-    apply_step(backwards(step));
-  } else if (!step.empty()) {
-    done_.push_back(std::move(step));
-  }
-  return result;
+  return layers_->edit(identifier, work);
 }
 
 }  // namespace tenon::edit

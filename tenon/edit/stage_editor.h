@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -44,6 +45,9 @@ class StageEditor {
   /// The stage of `root` and `session` (may be null); `opener` gives the layers that arcs name.
   static StageEditor over(layer::LayerPtr root, layer::LayerPtr session,
                           compose::LayerOpener opener, stage::StageOptions options = {});
+  /// The same layers under another session layer (may be null), for example one that selects
+  /// another variant: edits through either are seen by both and stand in one history.
+  StageEditor under_session(layer::LayerPtr session) const;
   StageEditor(StageEditor&&) noexcept;
   StageEditor& operator=(StageEditor&&) noexcept;
   ~StageEditor();
@@ -52,7 +56,7 @@ class StageEditor {
   /// it was.
   Result<std::shared_ptr<const stage::Stage>> stage();
   /// What changed between the stages of the last two `stage()` calls with edits between them.
-  const ChangeNotice& notice() const { return notice_; }
+  const ChangeNotice& notice();
 
   // Layers
   /// A layer of the scene as it is now; null when composition has not opened it.
@@ -69,17 +73,20 @@ class StageEditor {
   Result<void> set_target(EditTarget target);
   /// The target for a variant of a prim, in the layer of the current one; the variant may be new.
   Result<EditTarget> variant_target(Path prim, const std::string& set, const std::string& variant);
-  /// The target for the strongest node of a prim that comes over an arc from `layer`.
+  /// The target for the strongest node of a prim that comes over an arc from `layer`. For what
+  /// instances share: site_target of edit_target.h.
   Result<EditTarget> arc_target(Path prim, const std::string& layer);
 
   // History
-  bool undo();  ///< false when there is nothing to take back
-  bool redo();
+  bool undo() { return layers_->undo(); }  ///< false when there is nothing to take back
+  bool redo() { return layers_->redo(); }
   /// All edits of `work` as one step; when it returns an Error none of them stays.
-  Result<void> as_one_step(const std::function<Result<void>()>& work);
+  Result<void> as_one_step(const std::function<Result<void>()>& work) {
+    return layers_->as_one_step(work);
+  }
   /// The edits since the beginning that are in force, by layer: for dry runs, and to be applied to
   /// the layers elsewhere.
-  std::vector<LayerChange> changes() const { return layers_.changes(); }
+  std::vector<LayerChange> changes() const { return layers_->changes(); }
 
   // Prims
   Result<void> define_prim(Path prim, Token type_name = {});
@@ -113,7 +120,8 @@ class StageEditor {
                                 layer::Variability variability = layer::Variability::Varying);
   Result<void> create_relationship(Path relationship, bool custom = true);
   Result<void> remove_property(Path property);
-  /// The value must have the attribute's type; layer::ValueBlock fits all.
+  /// The value must have the attribute's type, or the one under which the target layer has the
+  /// attribute already; layer::ValueBlock fits all.
   Result<void> set_value(Path attribute, layer::Value value, stage::Time time = {});
   Result<void> clear_value(Path attribute, stage::Time time = {});  ///< at one time
   Result<void> clear_values(Path attribute);                        ///< default and samples
@@ -128,6 +136,8 @@ class StageEditor {
   /// The same for names that no registry knows.
   Result<void> add_applied_schema(Path prim, Token name);
   Result<void> remove_applied_schema(Path prim, Token name);
+  /// Takes back whatever the target layer says of it; weaker layers may still apply it.
+  Result<void> withdraw_applied_schema(Path prim, Token name);
 
   // Arcs. Prim paths of internal ones are paths of the stage.
   Result<void> edit_references(Path prim, ListEdit<layer::Reference> edit);
@@ -151,21 +161,14 @@ class StageEditor {
   Result<void> block_variant_selection(Path prim, const std::string& set);
 
  private:
-  using Step = std::vector<LayerChange>;
-
   StageEditor(layer::LayerPtr root, layer::LayerPtr session, compose::LayerOpener opener,
               stage::StageOptions options);
 
   ComposedView& view();
-  layer::Layer* writable(const std::string& identifier);
   /// Runs an edit of the target layer; its changes become (part of) a step.
   Result<void> edit(const std::function<Result<void>(LayerEditor&)>& work);
   Result<void> edit_layer(const std::string& identifier,
                           const std::function<Result<void>(LayerEditor&)>& work);
-  void record(LayerChange change);
-  void apply_step(const Step& step);
-  static Step backwards(const Step& step);
-  void changed();
 
   Result<void> check_editable(Path prim);
   Result<FoundPrim> find_prim(Path prim);
@@ -189,17 +192,17 @@ class StageEditor {
   layer::LayerPtr session_;  // as given, or null
   compose::LayerOpener opener_;
   stage::StageOptions options_;
-  EditedLayers layers_;  // and added ones
+  std::shared_ptr<EditedLayers> layers_;  // shared with the editors under other sessions
   EditTarget target_;
-  layer::LayerPtr target_layer_;               // as it was when it became the target
-  std::unique_ptr<ComposedView> view_;         // of the layers as they are, or null
-  std::shared_ptr<const stage::Stage> stage_;  // the last that was handed out
-  bool stage_is_current_ = false;
+  layer::LayerPtr target_layer_;                 // as it was given, where composition lacks it
+  std::unique_ptr<ComposedView> view_;           // of lent layers
+  std::size_t view_composition_ = 0;             // EditedLayers::composition() of the view
+  std::shared_ptr<const stage::Stage> stage_;    // the last that was handed out
+  std::size_t stage_revision_ = 0;               // EditedLayers::revision() of it
+  std::size_t stage_changes_ = 0;                // changes in the log when it was composed
+  std::shared_ptr<const stage::Stage> earlier_;  // before it, until somebody asks for the notice
+  std::size_t earlier_changes_ = 0;
   ChangeNotice notice_;
-  std::vector<LayerChange> unnoticed_;  // since stage_
-  std::vector<Step> done_;
-  std::vector<Step> undone_;
-  Step* open_step_ = nullptr;  // while as_one_step runs
 };
 
 }  // namespace tenon::edit

@@ -8,6 +8,8 @@
 
 #include "tenon/formats/text/reader.h"
 #include "tenon/formats/text/write/writer.h"
+#include "tenon/layer/field_values.h"
+#include "tenon/layer/fields.h"
 
 namespace tenon::edit {
 namespace {
@@ -233,6 +235,89 @@ TEST(StageEditor, OpensLayersThatAreInNoFile) {
   EXPECT_TRUE(stage->prim(at("/A/Pin")).is_valid());
   EXPECT_TRUE(stage->prim(at("/Part/Pin")).is_valid());
   EXPECT_EQ(refusal(editor.insert_sublayer(0, "anon:part.usda")), "edit.bad-path");
+}
+
+TEST(StageEditor, EditorsUnderTwoSessionsShareLayersAndHistory) {
+  StageEditor red = open_text({{"root",
+                                "def \"A\" (\n prepend variantSets = \"look\"\n"
+                                " variants = {\n string look = \"red\"\n }\n) {\n double x = 1\n"
+                                " variantSet \"look\" = {\n \"red\" {\n double own = 1\n }\n"
+                                " \"blue\" {\n double own = 2\n }\n }\n}\n"}});
+  layer::Layer session("anon:session");
+  LayerEditor writer(session);
+  ASSERT_TRUE(writer.create_prim(at("/A")));
+  writer.set(at("/A"), layer::fields::variantSelection,
+             Value(layer::VariantSelections{{{"look", "blue"}}}));
+  StageEditor blue = red.under_session(std::make_shared<const layer::Layer>(session));
+  const auto value = [](StageEditor& editor, const char* name) {
+    return (*editor.stage())->prim(at("/A")).attribute(name).get_as<double>();
+  };
+  EXPECT_EQ(value(red, "own"), 1.0);
+  EXPECT_EQ(value(blue, "own"), 2.0);
+  ASSERT_TRUE(red.as_one_step([&]() -> Result<void> {
+    TENON_CHECK(red.set_value(at("/A.x"), Value(3.0)));
+    TENON_CHECK(blue.set_target(*blue.variant_target(at("/A"), "look", "blue")));
+    return blue.set_value(at("/A.own"), Value(4.0));
+  }));
+  EXPECT_EQ(value(blue, "x"), 3.0);
+  EXPECT_EQ(value(red, "own"), 1.0);
+  EXPECT_EQ(value(blue, "own"), 4.0);
+  EXPECT_EQ(strings(blue.notice().changed_info), (Strings{"/A.own", "/A.x"}));
+  EXPECT_TRUE(blue.undo());
+  EXPECT_FALSE(red.undo());
+  EXPECT_EQ(value(red, "x"), 1.0);
+  EXPECT_EQ(value(blue, "own"), 2.0);
+}
+
+TEST(StageEditor, ManyEditsBetweenTwoLooksSeeEachOther) {
+  StageEditor editor = open_text({{"root", "def \"A\" {\n double x = 1\n}\n"}});
+  ASSERT_TRUE(editor.stage());
+  ASSERT_TRUE(editor.set_value(at("/A.x"), Value(2.0)));
+  ASSERT_TRUE(editor.create_attribute(at("/A.y"), "double"));
+  ASSERT_TRUE(editor.set_value(at("/A.y"), Value(3.0)));
+  ASSERT_TRUE(editor.define_prim(at("/A/B"), "Sphere"));
+  ASSERT_TRUE(editor.set_value(at("/A/B.radius"), Value(4.0)));
+  ASSERT_TRUE(editor.apply_api(at("/A/B"), "PhysicsMassAPI"));
+  ASSERT_TRUE(editor.set_value(at("/A/B.physics:mass"), Value(5.0f)));
+  // A refused edit takes back what it had made, and what looked at that forgets it.
+  EXPECT_EQ(refusal(editor.set_value(at("/A/B.radius"), Value(1))), "edit.type-mismatch");
+  EXPECT_FALSE(editor.as_one_step([&]() -> Result<void> {
+    TENON_CHECK(editor.define_prim(at("/A/B/C")));
+    return editor.remove_prim(at("/Gone"));
+  }));
+  EXPECT_EQ(refusal(editor.set_value(at("/A/B/C.x"), Value(1.0))), "edit.no-prim");
+  EXPECT_TRUE(editor.undo());
+  EXPECT_TRUE(editor.undo());
+  EXPECT_EQ(refusal(editor.set_value(at("/A/B.physics:mass"), Value(5.0f))), "edit.no-property");
+  EXPECT_TRUE(editor.undo());
+  EXPECT_TRUE(editor.undo());
+  EXPECT_EQ(refusal(editor.set_value(at("/A/B.radius"), Value(4.0))), "edit.no-prim");
+  const auto stage = *editor.stage();
+  EXPECT_EQ(stage->prim(at("/A")).attribute("x").get_as<double>(), 2.0);
+  EXPECT_EQ(stage->prim(at("/A")).attribute("y").get_as<double>(), 3.0);
+}
+
+TEST(StageEditor, WithdrawnSchemasLeaveNothingBehind) {
+  StageEditor editor = open_text({{"root", "(\n subLayers = [@sub@]\n)\ndef \"A\" {\n}\n"},
+                                  {"sub",
+                                   "over \"A\" (\n prepend apiSchemas = [\"PhysicsMassAPI\"]\n)"
+                                   " {\n}\n"}});
+  const std::string before = text_of(editor, "root");
+  const auto applied = [&] { return (*editor.stage())->prim(at("/A")).authored_api_schemas(); };
+  ASSERT_TRUE(editor.remove_api(at("/A"), "PhysicsMassAPI"));
+  EXPECT_TRUE(applied().empty());
+  ASSERT_TRUE(editor.withdraw_applied_schema(at("/A"), "PhysicsMassAPI"));
+  EXPECT_EQ(applied(), std::vector<Token>{"PhysicsMassAPI"});
+  ASSERT_TRUE(editor.apply_api(at("/A"), "PhysicsRigidBodyAPI"));
+  ASSERT_TRUE(editor.withdraw_applied_schema(at("/A"), "PhysicsRigidBodyAPI"));
+  EXPECT_EQ(text_of(editor, "root"), before);
+}
+
+TEST(StageEditor, AValueFitsTheTypeUnderWhichItsLayerHasTheAttribute) {
+  StageEditor editor = open_text({{"root", "def Cube \"A\" {\n float size = 1\n}\n"}});
+  EXPECT_TRUE(editor.set_value(at("/A.size"), Value(2.0f)));
+  EXPECT_TRUE(editor.set_value(at("/A.size"), Value(2.0)));
+  EXPECT_EQ(refusal(editor.set_value(at("/A.size"), Value(2))), "edit.type-mismatch");
 }
 
 }  // namespace

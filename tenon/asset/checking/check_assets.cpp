@@ -70,7 +70,7 @@ class AssetsCheck {
     }
   }
 
-  bool belongs(const CorrectedFile& file, const std::string& asset) {
+  bool belongs(const EditedFile& file, const std::string& asset) {
     bytes::ReadPolicy policy = policy_for(asset, options_.check.open);
     for (const std::string& given : paths_) {
       policy.add(given);
@@ -88,15 +88,15 @@ class AssetsCheck {
   }
 
   /// None for an asset that cannot be checked.
-  Result<std::vector<CorrectedFile>> write_corrected(const std::string& path,
-                                                     Result<CheckedAsset>& checked) {
+  Result<std::vector<EditedFile>> write_corrected(const std::string& path,
+                                                  Result<CheckedAsset>& checked) {
     checked = check_asset(path, options_.check);
     if (!checked) {
-      return std::vector<CorrectedFile>();
+      return std::vector<EditedFile>();
     }
-    TENON_TRY(std::vector<CorrectedFile> files,
+    TENON_TRY(std::vector<EditedFile> files,
               corrected_files(checked->findings, options_.check.open.files));
-    std::erase_if(files, [&](const CorrectedFile& file) { return !belongs(file, path); });
+    std::erase_if(files, [&](const EditedFile& file) { return !belongs(file, path); });
     if (options_.write) {
       TENON_CHECK(options_.write(files));
     }
@@ -106,12 +106,12 @@ class AssetsCheck {
   /// Whether there was something to correct.
   Result<bool> correct(const std::string& path, Result<CheckedAsset>& checked) {
     Diagnostics none;  // findings are values here
-    TENON_TRY(std::vector<CorrectedFile> files,
+    TENON_TRY(std::vector<EditedFile> files,
               repeat_edit(none, [&] { return write_corrected(path, checked); }));
-    for (CorrectedFile& file : files) {
+    for (EditedFile& file : files) {
       const bool known =
           std::any_of(result_.corrected.begin(), result_.corrected.end(),
-                      [&](const CorrectedFile& other) { return other.path == file.path; });
+                      [&](const EditedFile& other) { return other.path == file.path; });
       if (!known) {
         result_.corrected.push_back(std::move(file));
       }

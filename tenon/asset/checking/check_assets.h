@@ -18,7 +18,7 @@ struct CheckAssetsOptions {
   bool correct = false;  ///< what has a safe fix
   /// Writes what was corrected of one asset; the asset is then checked again. Empty: nothing is
   /// written, and the findings are those before.
-  std::function<Result<void>(const std::vector<CorrectedFile>& files)> write;
+  std::function<Result<void>(const std::vector<EditedFile>& files)> write;
   std::string baseline;  ///< file of findings that are known; empty: none are
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< in assets; may be empty
 };
@@ -33,7 +33,7 @@ struct AssetChecked {
 /// What came of all assets together.
 struct CheckedAssets {
   std::vector<ReportedFinding> findings;  ///< each once, in the order of the assets
-  std::vector<CorrectedFile> corrected;   ///< each once
+  std::vector<EditedFile> corrected;      ///< each once
   std::vector<AssetChecked> assets;
 
   bool all_opened() const;

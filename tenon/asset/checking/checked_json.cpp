@@ -24,9 +24,9 @@ Json finding_json(const ReportedFinding& reported) {
 }
 
 /// The files that are corrected, with what changes in those that are text.
-Json corrected_json(const std::vector<CorrectedFile>& corrected) {
+Json corrected_json(const std::vector<EditedFile>& corrected) {
   Json files = Json::array();
-  for (const CorrectedFile& file : corrected) {
+  for (const EditedFile& file : corrected) {
     const std::string name = shown_path(file.path);
     files.push_back(
         {{"file", name}, {"diff", text_difference_json(name, file.before, file.after, file.text)}});

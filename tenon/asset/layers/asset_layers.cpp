@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 
+#include "tenon/asset/edited_file.h"
 #include "tenon/asset/layers/output_place.h"
 #include "tenon/asset_policy.h"
 #include "tenon/bytes/file_bytes.h"
@@ -20,7 +21,6 @@
 #include "tenon/formats/open_layer.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/formats/save_layer.h"
-#include "tenon/formats/text/layout/layout_edit.h"
 #include "tenon/layer/metadata_fields.h"
 #include "tenon/stage_sources.h"
 
@@ -276,13 +276,11 @@ Result<LayerContents> edited_contents(const layer::Layer& layer, const std::stri
   const bool in_place = file == layer.identifier();
   const bool text = bytes && formats::format_of(**bytes) == formats::LayerFormat::Text &&
                     (in_place || (wanted && *wanted == formats::LayerFormat::Text));
-  if (text) {
-    formats::EditedText edited = formats::edit_text((*bytes)->text(), layer);
-    return LayerContents{std::move(edited.text), edited.kept_layout};
+  if (text || (in_place && bytes)) {  // whatever its name says
+    TENON_TRY(EditedFile edited, edited_file(**bytes, layer));
+    return LayerContents{std::move(edited.after), edited.kept_layout};
   }
-  const bool keeps_format = in_place && bytes;  // whatever its name says
-  TENON_TRY(const formats::LayerFormat format,
-            keeps_format ? Result<formats::LayerFormat>(formats::format_of(**bytes)) : wanted);
+  TENON_TRY(const formats::LayerFormat format, wanted);
   TENON_TRY(std::string contents, formats::encode_layer(layer, format));
   return LayerContents{std::move(contents)};  // binary, or another format: no layout to keep
 }

@@ -12,10 +12,10 @@
 #include <utility>
 
 #include "tenon/asset/layers/asset_layers.h"
-#include "tenon/bake/over_specs.h"
 #include "tenon/base/assignment.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/files.h"
+#include "tenon/edit/layer_editor.h"
 #include "tenon/formats/save_layer.h"
 
 namespace tenon {
@@ -56,11 +56,10 @@ Result<VariantSelection> find_selection(const stage::Stage& stage, const std::st
   return VariantSelection{prim.path(), set, variant};
 }
 
-layer::Layer with_selection(layer::Layer layer, const VariantSelection& selection) {
-  layer::Spec& spec = bake::over_prim(layer, selection.prim);
-  auto selections = spec.get_or("variantSelection", layer::VariantSelections{});
-  selections.items[selection.set] = selection.variant;
-  spec.set("variantSelection", layer::Value(std::move(selections)));
+Result<layer::Layer> with_selection(layer::Layer layer, const VariantSelection& selection) {
+  edit::LayerEditor editor(layer);
+  TENON_CHECK(editor.create_prim(selection.prim));
+  editor.select_variant(selection.prim, selection.set, selection.variant);
   return layer;
 }
 
@@ -86,8 +85,8 @@ Result<SelectedVariant> select_variant(const std::string& path, const SelectOpti
   result.root = root.identifier();
   if (!options.in_place && !keeps_asset_paths(root, output)) {
     result.is_layer_over = true;
-    TENON_TRY(result.file.contents,
-              new_contents(with_selection(layer_over(root, output), result.selection), output));
+    TENON_TRY(const layer::Layer over, with_selection(layer_over(root, output), result.selection));
+    TENON_TRY(result.file.contents, new_contents(over, output));
     return result;
   }
   if (options.in_place && bytes::is_in_package(output)) {
@@ -95,8 +94,8 @@ Result<SelectedVariant> select_variant(const std::string& path, const SelectOpti
         .in_file(output)
         .with_fix("give -o FILE, or unpack it: tenon zip PACKAGE --extract FOLDER");
   }
-  TENON_TRY(LayerContents made,
-            edited_contents(with_selection(root, result.selection), output, options.open.files));
+  TENON_TRY(const layer::Layer changed, with_selection(root, result.selection));
+  TENON_TRY(LayerContents made, edited_contents(changed, output, options.open.files));
   result.file.contents = std::move(made.contents);
   result.kept_layout = made.kept_layout;
   return result;

@@ -12,17 +12,13 @@
 
 #include "tenon/base/limits/limits.h"
 #include "tenon/base/text/quoted_text.h"
+#include "tenon/base/text/text_cursor.h"
 #include "tenon/base/text/text_number.h"
 
 namespace tenon::compose {
 namespace {
 
 using Syntax = VariableSyntax;
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_word_character(char c) {
-  return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
 
 struct Function {
   std::string_view name;
@@ -38,9 +34,9 @@ constexpr Function kFunctions[] = {{"if", 2, 3},          {"and", 2, kAnyNumber}
                                    {"contains", 2, 2},    {"at", 2, 2},
                                    {"len", 1, 1},         {"defined", 1, kAnyNumber}};
 
-class Parser {
+class Parser : private TextCursor {
  public:
-  explicit Parser(std::string_view text) : text_(text) {}
+  explicit Parser(std::string_view text) : TextCursor(text) {}
 
   Result<Syntax> parse() {
     Syntax result;
@@ -51,19 +47,9 @@ class Parser {
   }
 
  private:
-  char peek(std::size_t ahead = 0) const {
-    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
-  }
   bool fail(const std::string& message) {
     if (error_.empty()) {
       error_ = message + " at character " + std::to_string(at_);
-    }
-    return false;
-  }
-  bool accept(char c) {
-    if (at_ < text_.size() && text_[at_] == c) {
-      ++at_;
-      return true;
     }
     return false;
   }
@@ -72,14 +58,6 @@ class Parser {
     while (peek() == ' ') {
       ++at_;
     }
-  }
-  /// The identifier at the position, not taken.
-  std::string_view word() const {
-    std::size_t end = at_;
-    while (end < text_.size() && is_word_character(text_[end])) {
-      ++end;
-    }
-    return is_digit(peek()) ? std::string_view() : text_.substr(at_, end - at_);
   }
 
   bool body(Syntax& result, std::size_t depth) {
@@ -104,7 +82,7 @@ class Parser {
     if (is_digit(peek()) || (peek() == '-' && is_digit(peek(1)))) {
       return integer(result);
     }
-    const std::string_view name = word();
+    const std::string_view name = ascii_identifier();
     if (name == "True" || name == "true" || name == "False" || name == "false") {
       result.constant = ExpressionValue::of(name[0] == 'T' || name[0] == 't');
     } else if (name != "None" && name != "none") {
@@ -117,7 +95,7 @@ class Parser {
   bool variable(Syntax& result) {
     at_ += 2;
     result.kind = Syntax::Kind::Variable;
-    result.name = word();
+    result.name = ascii_identifier();
     if (result.name.empty()) {
       return fail("variables must be identifiers");
     }
@@ -155,7 +133,7 @@ class Parser {
       const bool escapes = next == '`' || next == '$' || next == '\\' || next == quote;
       at_ += peek() == '\\' && at_ + 1 < text_.size() && escapes ? 2 : 1;
     }
-    return unescaped(text_.substr(start, at_ - start));
+    return unescaped(since(start));
   }
 
   bool integer(Syntax& result) {
@@ -164,10 +142,9 @@ class Parser {
     while (is_digit(peek())) {
       ++at_;
     }
-    const auto number = parse_int64(text_.substr(start, at_ - start));
+    const auto number = parse_int64(since(start));
     if (!number) {
-      return fail("the integer " + std::string(text_.substr(start, at_ - start)) +
-                  " is out of range");
+      return fail("the integer " + std::string(since(start)) + " is out of range");
     }
     result.constant = ExpressionValue::of(*number);
     return true;
@@ -226,8 +203,6 @@ class Parser {
     return expect(end);
   }
 
-  std::string_view text_;
-  std::size_t at_ = 0;
   std::string error_;
 };
 

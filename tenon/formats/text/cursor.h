@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "tenon/base/error.h"
+#include "tenon/base/text/text_cursor.h"
 
 namespace tenon::formats::text {
 
@@ -19,28 +20,10 @@ struct SourcePlace {
 
 /// A read position in the text of a layer: blanks, comments, words, and the first error.
 /// Functions that return bool return false after an error was kept with `fail`.
-class Cursor {
+class Cursor : public TextCursor {
  public:
-  Cursor(std::string_view text, std::string_view file) : text_(text), file_(file) {}
+  Cursor(std::string_view text, std::string_view file) : TextCursor(text), file_(file) {}
 
-  std::string_view text() const { return text_; }
-  std::size_t offset() const { return at_; }
-  void seek(std::size_t offset) { at_ = offset; }
-  void advance(std::size_t count = 1) { at_ += count; }
-  bool at_end() const { return at_ >= text_.size(); }
-  char peek(std::size_t ahead = 0) const {
-    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
-  }
-  std::string_view rest() const { return text_.substr(at_); }
-  bool starts_with(std::string_view word) const { return rest().substr(0, word.size()) == word; }
-
-  bool accept(char c) {
-    if (at_ < text_.size() && text_[at_] == c) {
-      ++at_;
-      return true;
-    }
-    return false;
-  }
   /// Takes `c` or fails with "expected 'c' `where`".
   bool expect(char c, std::string_view where);
 
@@ -87,9 +70,7 @@ class Cursor {
   bool accept_whole_word(std::string_view word);
   bool skip_block_comment();
 
-  std::string_view text_;
   std::string_view file_;
-  std::size_t at_ = 0;
   std::optional<Error> error_;
   std::size_t fault_ = 0;
   std::string prim_;

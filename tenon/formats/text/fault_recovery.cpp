@@ -95,12 +95,10 @@ class Line {
 };
 
 /// Walks over text that is wrong somewhere, one token after the other.
-class Walk {
+class Walk : public TextCursor {
  public:
-  Walk(std::string_view text, std::size_t at) : text_(text), at_(at), line_(text) {}
+  Walk(std::string_view text, std::size_t at) : TextCursor(text, at), line_(text) {}
 
-  std::size_t at() const { return at_; }
-  bool at_end() const { return at_ >= text_.size(); }
   /// A comment or string has no end: nothing behind it can be told.
   bool is_lost() const { return lost_; }
 
@@ -139,8 +137,6 @@ class Walk {
   }
 
  private:
-  std::string_view text_;
-  std::size_t at_;
   Line line_;
   bool lost_ = false;
 };
@@ -207,7 +203,7 @@ bool begins_or_ends_block(std::string_view text, std::size_t at) {
 std::size_t next_token(std::string_view text, std::size_t at, bool same_line) {
   Walk walk(text, at);
   while (!walk.at_end()) {
-    const std::size_t before = walk.at();
+    const std::size_t before = walk.offset();
     const char c = text[before];
     const bool is_comment = c == '#' || starts(text, before, "//") || starts(text, before, "/*");
     const bool is_end = c == '\n' || c == '\r';
@@ -269,7 +265,7 @@ std::optional<std::size_t> end_of_faulty_statement(std::string_view text, std::s
   Walk walk(text, start);
   Brackets brackets(text);
   while (!walk.at_end()) {
-    const std::size_t at = walk.at();
+    const std::size_t at = walk.offset();
     const char c = walk.next();
     const Brackets::Met met = brackets.meet(c, at);
     if (walk.is_lost() || met == Brackets::Met::Wrong) {
@@ -292,7 +288,7 @@ std::optional<std::size_t> end_of_faulty_block(std::string_view text, std::size_
   bool is_open = false;
   bool at_line_start = false;
   while (!walk.at_end()) {
-    const std::size_t at = walk.at();
+    const std::size_t at = walk.offset();
     // The words in front of '{' hold no other prim.
     if (!is_open && brackets.empty() && at_line_start && begins_or_ends_block(text, at)) {
       return std::nullopt;
@@ -305,8 +301,8 @@ std::optional<std::size_t> end_of_faulty_block(std::string_view text, std::size_
       return std::nullopt;
     }
     if (is_open && brackets.empty()) {
-      return walk.at() > fault && ends_line(text, walk.at()) ? std::optional(walk.at())
-                                                             : std::nullopt;
+      return walk.offset() > fault && ends_line(text, walk.offset()) ? std::optional(walk.offset())
+                                                                     : std::nullopt;
     }
   }
   return std::nullopt;
@@ -326,7 +322,7 @@ std::size_t end_of_fault(std::string_view text, std::size_t offset) {
   }
   Walk walk(text, offset);
   walk.next();
-  return walk.at();
+  return walk.offset();
 }
 
 }  // namespace tenon::formats::text

@@ -7,21 +7,20 @@
 #include <string>
 #include <string_view>
 
+#include "tenon/base/text/text_cursor.h"
+
 namespace tenon::formats::text {
 
 /// Walks over text that is known to be a layer's. Knows just enough of the grammar to skip what may
 /// contain brackets without meaning them: comments, strings and asset paths.
-class Scanner {
+class Scanner : public TextCursor {
  public:
-  Scanner(std::string_view text, std::size_t at) : text_(text), at_(at) {}
-
-  std::size_t at() const { return at_; }
-  bool at_end() const { return at_ >= text_.size(); }
-  char peek() const { return at_end() ? '\0' : text_[at_]; }
+  Scanner(std::string_view text, std::size_t at) : TextCursor(text, at) {}
 
   void skip_blanks_and_comments() {
-    while (!at_end() && (is_blank(peek()) || peek() == '#' || starts("//") || starts("/*"))) {
-      if (starts("/*")) {
+    while (!at_end() &&
+           (is_blank(peek()) || peek() == '#' || starts_with("//") || starts_with("/*"))) {
+      if (starts_with("/*")) {
         to_after("*/", 2);
       } else if (is_blank(peek())) {
         ++at_;
@@ -42,7 +41,7 @@ class Scanner {
     if (c == '"' || c == '\'') {
       skip_string(c);
     } else if (c == '@') {
-      starts("@@@") ? to_after("@@@", 3) : to_after("@", 1);
+      starts_with("@@@") ? to_after("@@@", 3) : to_after("@", 1);
     } else if (is_word(c)) {
       while (is_word(peek())) {
         ++at_;
@@ -72,19 +71,18 @@ class Scanner {
 
  private:
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-  bool starts(std::string_view word) const { return text_.substr(at_, word.size()) == word; }
   void to_after(std::string_view end, std::size_t from) {
     const std::size_t found = text_.find(end, at_ + from);
     at_ = found == std::string_view::npos ? text_.size() : found + end.size();
   }
   void skip_string(char quote) {
     const std::string three(3, quote);
-    const bool triple = starts(three);
+    const bool triple = starts_with(three);
     at_ += triple ? 3 : 1;
     while (!at_end()) {
       if (peek() == '\\') {
         at_ += 2;
-      } else if (triple ? starts(three) : peek() == quote) {
+      } else if (triple ? starts_with(three) : peek() == quote) {
         at_ += triple ? 3 : 1;
         return;
       } else {
@@ -93,9 +91,6 @@ class Scanner {
     }
     at_ = text_.size();
   }
-
-  std::string_view text_;
-  std::size_t at_;
 };
 
 }  // namespace tenon::formats::text

@@ -361,7 +361,7 @@ class PathExpressionReader {
   }
 
   bool identifier() {
-    const std::size_t length = scanner_.identifier().size();
+    const std::size_t length = scanner_.ascii_identifier().size();
     scanner_.seek(scanner_.offset() + length);
     return length > 0;
   }

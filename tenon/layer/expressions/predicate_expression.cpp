@@ -91,7 +91,7 @@ class PredicateReader {
 
   /// A call, a group or "not" in front of one.
   bool at_factor() const {
-    const std::string_view word = scanner_.identifier();
+    const std::string_view word = scanner_.ascii_identifier();
     return scanner_.peek() == '(' || (!word.empty() && (!is_reserved(word) || word == "not"));
   }
 
@@ -111,7 +111,7 @@ class PredicateReader {
   }
 
   bool call() {
-    const std::string_view name = scanner_.identifier();
+    const std::string_view name = scanner_.ascii_identifier();
     if (name.empty() || is_reserved(name)) {
       return scanner_.fail("expected a predicate");
     }
@@ -151,7 +151,7 @@ class PredicateReader {
   /// Takes `name =` when it stands here.
   bool keyword(std::string& name) {
     const std::size_t start = scanner_.offset();
-    const std::string_view word = scanner_.identifier();
+    const std::string_view word = scanner_.ascii_identifier();
     if (!word.empty() && !is_reserved(word)) {
       scanner_.seek(start + word.size());
       scanner_.blanks();

@@ -198,8 +198,11 @@ std::optional<LayerSite> site_in_layer(const Stage& stage, Path prim, const std:
         site.index = record->index;
         site.node = id;
         if (proxy) {
-          site.shared_from = rest;
-          site.shared_as = record->source_path;
+          const PrimData* shared = record;
+          for (site.shared_from = rest; !shared->is_prototype_root; shared = shared->parent) {
+            site.shared_from = site.shared_from.parent();
+          }
+          site.shared_as = shared->source_path;
         }
         return site;
       }

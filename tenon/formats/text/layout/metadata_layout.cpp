@@ -83,7 +83,7 @@ bool read_entries(std::string_view text, std::size_t open, std::map<std::string,
       if (!scanner.skip_block()) {
         return false;
       }
-      entry.value.end = scanner.at();
+      entry.value.end = scanner.offset();
     } else if (value.front() != '"' && value.front() != '\'' && value.front() != '@') {
       // A number may have signs and points.
       entry.value.end = std::min(text.find_first_of(" \t\r\n;}#", entry.value.begin), text.size());

@@ -144,9 +144,9 @@ void PartFinder::add_property_values(const StatementText& first, FieldText& foun
 std::optional<StatementText> PartFinder::next_about(const StatementText& statement) {
   Scanner scanner(text_, end_of(text_, statement));
   while (work_left_ > 0) {
-    const std::size_t begin = scanner.at();
+    const std::size_t begin = scanner.offset();
     scanner.skip_blanks_and_comments();
-    const std::size_t start = scanner.at();
+    const std::size_t start = scanner.offset();
     std::string_view token = scanner.next();
     if (token.empty() || token == "}") {
       break;
@@ -170,7 +170,7 @@ std::optional<StatementText> PartFinder::next_about(const StatementText& stateme
       }
       scanner = Scanner(text_, end_of(text_, *found));
     }
-    spend(scanner.at() - begin);
+    spend(scanner.offset() - begin);
   }
   return std::nullopt;
 }
@@ -226,7 +226,7 @@ SourceRange PartFinder::find_entry(const FieldText& field, const StatementPart& 
       while ((entry = take_entry(text_, scanner)) && !is_key(entry->key, key)) {
       }
     }
-    spend(scanner.at() - value.begin);
+    spend(scanner.offset() - value.begin);
     if (!entry) {
       return best;
     }

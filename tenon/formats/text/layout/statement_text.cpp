@@ -41,12 +41,12 @@ std::size_t metadata_after(std::string_view text, std::size_t end, bool on_any_l
   } else {
     scanner = Scanner(text, skip_inline(text, end));
   }
-  return scanner.peek() == '(' ? scanner.at() : kNowhere;
+  return scanner.peek() == '(' ? scanner.offset() : kNowhere;
 }
 
 /// A path at the scanner, which stands before '<'.
 void skip_path(std::string_view text, Scanner& scanner) {
-  const std::size_t close = text.find('>', scanner.at());
+  const std::size_t close = text.find('>', scanner.offset());
   scanner = Scanner(text, close == kNowhere ? text.size() : close + 1);
 }
 
@@ -116,8 +116,8 @@ std::optional<StatementText> block_statement(std::string_view text, std::size_t 
     return std::nullopt;
   }
   found.name = unquoted(token);
-  found.range.end = scanner.at();
-  found.metadata = metadata_after(text, scanner.at(), true);
+  found.range.end = scanner.offset();
+  found.metadata = metadata_after(text, scanner.offset(), true);
   return found;
 }
 
@@ -156,7 +156,7 @@ std::size_t end_of(std::string_view text, const StatementText& statement) {
   }
   Scanner scanner(text, statement.metadata + 1);
   scanner.skip_block();
-  return scanner.at();
+  return scanner.offset();
 }
 
 std::optional<MetadataText> take_metadata(std::string_view text, Scanner& scanner) {
@@ -190,7 +190,7 @@ std::optional<MetadataText> take_metadata(std::string_view text, Scanner& scanne
     scanner = Scanner(text, parameters + 1);
     scanner.skip_block();
   }
-  found.range.end = scanner.at();
+  found.range.end = scanner.offset();
   return found;
 }
 
@@ -201,7 +201,7 @@ std::optional<EntryText> take_entry(std::string_view text, Scanner& scanner) {
     scanner.skip_blanks_and_comments();
   }
   EntryText found;
-  found.range.begin = scanner.at();
+  found.range.begin = scanner.offset();
   const char c = scanner.peek();
   if (scanner.at_end() || c == '}') {
     return std::nullopt;
@@ -210,9 +210,9 @@ std::optional<EntryText> take_entry(std::string_view text, Scanner& scanner) {
     if (c == '<') {
       skip_path(text, scanner);
     }
-    const std::size_t colon = text.find(':', scanner.at());
+    const std::size_t colon = text.find(':', scanner.offset());
     found.key =
-        text.substr(found.range.begin, (c == '<' ? scanner.at() : colon) - found.range.begin);
+        text.substr(found.range.begin, (c == '<' ? scanner.offset() : colon) - found.range.begin);
     if (colon == kNowhere) {
       return std::nullopt;
     }
@@ -236,7 +236,7 @@ std::optional<EntryText> take_entry(std::string_view text, Scanner& scanner) {
 
 SourceRange take_value(std::string_view text, Scanner& scanner) {
   scanner.skip_blanks_and_comments();
-  const std::size_t begin = scanner.at();
+  const std::size_t begin = scanner.offset();
   const char c = scanner.peek();
   if (c == '[' || c == '(' || c == '{') {
     scanner.next();
@@ -247,7 +247,7 @@ SourceRange take_value(std::string_view text, Scanner& scanner) {
     skip_path(text, scanner);
   } else if (c == '@') {
     scanner.next();
-    const std::size_t path = skip_inline(text, scanner.at());
+    const std::size_t path = skip_inline(text, scanner.offset());
     if (path < text.size() && text[path] == '<') {
       scanner = Scanner(text, path);
       skip_path(text, scanner);
@@ -256,7 +256,7 @@ SourceRange take_value(std::string_view text, Scanner& scanner) {
     const std::size_t end = text.find_first_of(" \t\r\n;,()[]{}#", begin);
     scanner = Scanner(text, std::min(end, text.size()));
   }
-  return {begin, scanner.at()};
+  return {begin, scanner.offset()};
 }
 
 std::size_t offset_of_item(std::string_view text, std::size_t begin, std::size_t number) {

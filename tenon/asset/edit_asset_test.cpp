@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/asset/edit_asset.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+namespace tenon {
+namespace {
+
+namespace fs = std::filesystem;
+
+AssetEdit set(const char* property, const char* value, const char* type = "") {
+  AssetEdit edit;
+  edit.object = Path::from(property);
+  edit.value = value;
+  edit.type_name = Token(type);
+  return edit;
+}
+
+AssetEdit about_api(AssetEdit::Kind kind, const char* prim, const char* api) {
+  AssetEdit edit;
+  edit.kind = kind;
+  edit.object = Path::from(prim);
+  edit.api = Token(api);
+  return edit;
+}
+
+class AssetEdits : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        fs::path(testing::TempDir()) /
+        ("tenon_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << "#usda 1.0\n" << text;
+    return (folder_ / name).string();
+  }
+  AssetEditor open(const std::string& path, const EditOptions& options = {}) {
+    auto editor = AssetEditor::open(path, options, diagnostics_);
+    EXPECT_TRUE(editor) << editor.error().to_string();
+    return *std::move(editor);
+  }
+  static std::string only_text(const AssetEditor& editor) {
+    const auto files = editor.files();
+    EXPECT_TRUE(files) << files.error().to_string();
+    return files->size() == 1 ? files->front().after : std::to_string(files->size()) + " files";
+  }
+  static std::string refusal(const Result<std::vector<EditedPlace>>& done) {
+    return done ? "" : done.error().diagnostic().rule;
+  }
+
+  fs::path folder_;
+  Diagnostics diagnostics_;
+};
+
+TEST_F(AssetEdits, ACallIsOneStepThatUndoTakesBack) {
+  AssetEditor editor = open(write("a.usda", "def Cube \"A\" {\n    double size = 1\n}\n"));
+  ASSERT_TRUE(editor.edit({set("/A.size", "2"), set("/A.visibility", "invisible")}, diagnostics_));
+  ASSERT_TRUE(editor.edit({set("/A.size", "3")}, diagnostics_));
+  EXPECT_NE(only_text(editor).find("double size = 3"), std::string::npos);
+  EXPECT_TRUE(editor.undo());
+  EXPECT_NE(only_text(editor).find("double size = 2"), std::string::npos);
+  const auto again = editor.edit({set("/A.size", "4")}, diagnostics_);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->front().before, "2");
+  EXPECT_EQ(again->front().after, "4");
+  EXPECT_TRUE(editor.undo());
+  EXPECT_TRUE(editor.undo());
+  EXPECT_EQ(only_text(editor), "0 files");
+  EXPECT_FALSE(editor.undo());
+  EXPECT_TRUE(editor.redo());
+  EXPECT_NE(only_text(editor).find("invisible"), std::string::npos);
+}
+
+TEST_F(AssetEdits, ARefusedCallLeavesNothing) {
+  AssetEditor editor = open(write("a.usda", "def Cube \"A\" {\n    double size = 1\n}\n"));
+  EXPECT_EQ(refusal(editor.edit({set("/A.size", "2"), set("/B.size", "3")}, diagnostics_)),
+            "edit.no-prim");
+  EXPECT_EQ(only_text(editor), "0 files");
+  const auto done = editor.edit({set("/A.size", "5")}, diagnostics_);
+  ASSERT_TRUE(done);
+  EXPECT_EQ(done->front().before, "1");
+}
+
+TEST_F(AssetEdits, LaterEditsOfOneThingSeeTheEarlierOnes) {
+  AssetEditor editor = open(write("a.usda", "def Cube \"A\" {\n    double size = 1\n}\n"));
+  const auto done = editor.edit(
+      {set("/A.size", "2"), about_api(AssetEdit::Kind::ApplyApi, "/A", "PhysicsMassAPI"),
+       set("/A.physics:mass", "7"), set("/A.size", "3"), set("/A.note", "x", "string"),
+       set("/A.note", "y")},
+      diagnostics_);
+  ASSERT_TRUE(done) << done.error().to_string();
+  EXPECT_EQ(done->at(3).before, "2");
+  EXPECT_EQ(done->at(5).before, "\"x\"");
+  EXPECT_EQ(done->at(5).after, "\"y\"");
+}
+
+// Both prims have what the class says: the second edit writes where the first one reads.
+TEST_F(AssetEdits, EditsThatMeetInOneSpecAreProvedOneAfterTheOther) {
+  const std::string path = write("a.usda",
+                                 "class \"_c\" {\n    double x = 1\n}\n"
+                                 "def \"A\" (\n    inherits = </_c>\n) {\n}\n"
+                                 "def \"B\" (\n    inherits = </_c>\n) {\n}\n");
+  AssetEditor editor = open(path);
+  const auto done =
+      editor.edit({set("/_c.x", "2"), set("/A.x", "3"), set("/B.x", "4")}, diagnostics_);
+  ASSERT_TRUE(done) << done.error().to_string();
+  EXPECT_EQ(done->at(1).before, "2");
+  EXPECT_EQ(done->at(1).after, "3");
+  EXPECT_EQ(done->at(2).before, "2");
+}
+
+TEST_F(AssetEdits, SchemasThatComeAndGoLeaveTheFileAsItWas) {
+  write("weak.usda", "def Cube \"A\" (\n    prepend apiSchemas = [\"PhysicsMassAPI\"]\n) {\n}\n");
+  const std::string path =
+      write("a.usda", "(\n    subLayers = [@./weak.usda@]\n)\nover \"A\" {\n}\n");
+  EditOptions options;
+  options.layer = "a.usda";
+  AssetEditor editor = open(path, options);
+  const auto step = [&](AssetEdit::Kind kind, const char* api) {
+    const auto done = editor.edit({about_api(kind, "/A", api)}, diagnostics_);
+    EXPECT_TRUE(done) << done.error().to_string();
+  };
+  step(AssetEdit::Kind::ApplyApi, "PhysicsRigidBodyAPI");
+  EXPECT_NE(only_text(editor).find("PhysicsRigidBodyAPI"), std::string::npos);
+  step(AssetEdit::Kind::RemoveApi, "PhysicsRigidBodyAPI");
+  EXPECT_EQ(only_text(editor), "0 files");
+  step(AssetEdit::Kind::RemoveApi, "PhysicsMassAPI");
+  EXPECT_NE(only_text(editor).find("delete apiSchemas"), std::string::npos);
+  step(AssetEdit::Kind::ApplyApi, "PhysicsMassAPI");
+  EXPECT_EQ(only_text(editor).find("delete apiSchemas"), std::string::npos);
+}
+
+// Two instances share one prototype, which is made of the first: an edit below the second one has
+// to find the names of the shared file all the same.
+TEST_F(AssetEdits, TargetsBelowAnyInstanceAreNamedAsItsFileDoes) {
+  write("part.usda",
+        "(\n    defaultPrim = \"P\"\n)\ndef \"P\" {\n    def \"X\" {\n    rel r\n    }\n"
+        "    def \"Y\" {\n    }\n}\n");
+  const std::string path =
+      write("a.usda",
+            "def \"I1\" (\n    instanceable = true\n    references = @./part.usda@\n) {\n}\n"
+            "def \"I2\" (\n    instanceable = true\n    references = @./part.usda@\n) {\n}\n");
+  for (const std::string instance : {"/I1", "/I2"}) {
+    AssetEditor editor = open(path);
+    const std::string property = instance + "/X.r";
+    const std::string target = instance + "/Y";
+    const auto done = editor.edit({set(property.c_str(), target.c_str())}, diagnostics_);
+    ASSERT_TRUE(done) << done.error().to_string();
+    EXPECT_EQ(done->front().spec.str(), "/P/X.r");
+    EXPECT_EQ(done->front().after, "<" + target + ">");
+    EXPECT_NE(only_text(editor).find("rel r = </P/Y>"), std::string::npos) << only_text(editor);
+    EXPECT_EQ(refusal(editor.edit({set(property.c_str(), "/Elsewhere")}, diagnostics_)),
+              "edit.outside-target");
+  }
+}
+
+}  // namespace
+}  // namespace tenon
