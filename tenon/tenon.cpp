@@ -3,6 +3,7 @@
 #include "tenon/tenon.h"
 
 #include <span>
+#include <utility>
 
 #include "tenon/engines/engines.h"
 #if TENON_WITH_MUJOCO
@@ -15,7 +16,7 @@ namespace {
 std::span<const engines::Engine> built_engines() {
 #if TENON_WITH_MUJOCO
   static constexpr engines::Engine kBuilt[] = {
-      {engines::mujoco::info, engines::mujoco::make_simulation}};
+      {engines::mujoco::info, engines::mujoco::make_simulation, engines::mujoco::make_simulations}};
   return kBuilt;
 #else
   return {};
@@ -30,6 +31,21 @@ Result<std::unique_ptr<engines::Simulation>> make_simulation(
     const std::string& engine, const scene::PhysicsScene& scene,
     const engines::SimulationOptions& options, Diagnostics& diagnostics) {
   return engines::make_simulation(built_engines(), engine, scene, options, diagnostics);
+}
+
+Result<engines::World> make_world(const std::string& engine, const scene::PhysicsScene& scene,
+                                  const engines::SimulationOptions& options,
+                                  Diagnostics& diagnostics) {
+  TENON_TRY(auto simulation, make_simulation(engine, scene, options, diagnostics));
+  return engines::World(std::move(simulation));
+}
+
+Result<engines::Environments> make_environments(const std::string& engine,
+                                                const scene::PhysicsScene& scene,
+                                                const engines::EnvironmentOptions& options,
+                                                Diagnostics& diagnostics) {
+  TENON_TRY(const engines::Engine* found, engines::find_engine(built_engines(), engine));
+  return engines::Environments::make(*found, scene, options, diagnostics);
 }
 
 }  // namespace tenon

@@ -13,7 +13,9 @@
 #include "tenon/bytes/files.h"
 #include "tenon/compose/cache/index_cache.h"
 #include "tenon/engines/engines.h"
+#include "tenon/engines/environments.h"
 #include "tenon/engines/simulation.h"
+#include "tenon/engines/world.h"
 #include "tenon/layer/layer.h"
 #include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
@@ -84,5 +86,16 @@ std::vector<engines::EngineInfo> list_engines();
 Result<std::unique_ptr<engines::Simulation>> make_simulation(
     const std::string& engine, const scene::PhysicsScene& scene,
     const engines::SimulationOptions& options, Diagnostics& diagnostics);
+
+/// The same as a value, which has no virtual functions in sight.
+Result<engines::World> make_world(const std::string& engine, const scene::PhysicsScene& scene,
+                                  const engines::SimulationOptions& options,
+                                  Diagnostics& diagnostics);
+
+/// Many simulations of `scene` (which must outlive them), side by side on threads.
+Result<engines::Environments> make_environments(const std::string& engine,
+                                                const scene::PhysicsScene& scene,
+                                                const engines::EnvironmentOptions& options,
+                                                Diagnostics& diagnostics);
 
 }  // namespace tenon

@@ -34,6 +34,14 @@ class MadeUpMotion : public engines::Simulation {
   std::size_t dof_count() const override { return 1; }
   const std::vector<engines::NotMapped>& not_mapped() const override { return none_; }
   const std::vector<engines::Event>& events() const override { return no_events_; }
+  Vec3d center_of_mass(scene::Index body) const override { return body_state(body).pose.position; }
+  bool can(engines::Ability) const override { return false; }
+  engines::EngineObjects engine_objects() const override { return {}; }
+  const engines::Outputs& outputs() const override { return no_outputs_; }
+  Result<void> reset() override {
+    count_ = 0;
+    return {};
+  }
 
  private:
   double step_;
@@ -41,6 +49,7 @@ class MadeUpMotion : public engines::Simulation {
   std::size_t count_ = 0;
   std::vector<engines::NotMapped> none_;
   std::vector<engines::Event> no_events_;
+  engines::Outputs no_outputs_;
 };
 
 RunOptions options_of(double duration, double frames_per_second) {

@@ -9,6 +9,8 @@
 #include <thread>
 #endif
 
+#include <vector>
+
 #include "tenon/base/heap.h"
 
 namespace tenon {
@@ -17,6 +19,18 @@ namespace {
 void* run(void* call) {
   prepare_thread_heap();
   (*static_cast<const std::function<void()>*>(call))();
+  return nullptr;
+}
+
+struct Numbered {
+  const std::function<void(std::size_t)>* call = nullptr;
+  std::size_t number = 0;
+};
+
+void* run_numbered(void* numbered) {
+  prepare_thread_heap();
+  const auto* task = static_cast<const Numbered*>(numbered);
+  (*task->call)(task->number);
   return nullptr;
 }
 
@@ -43,6 +57,27 @@ void run_both(const std::function<void()>& first, const std::function<void()>& s
     pthread_join(other, nullptr);
   } else {
     first();
+  }
+}
+
+void run_each(std::size_t count, const std::function<void(std::size_t)>& call) {
+  std::vector<Numbered> tasks(count, Numbered{&call, 0});
+  std::vector<pthread_t> threads;
+  std::vector<std::size_t> own;
+  for (std::size_t i = 0; i < count; ++i) {
+    tasks[i].number = i;
+    pthread_t thread{};
+    if (i + 1 < count && pthread_create(&thread, nullptr, run_numbered, &tasks[i]) == 0) {
+      threads.push_back(thread);
+    } else {
+      own.push_back(i);
+    }
+  }
+  for (const std::size_t i : own) {
+    call(i);
+  }
+  for (const pthread_t thread : threads) {
+    pthread_join(thread, nullptr);
   }
 }
 

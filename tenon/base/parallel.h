@@ -14,4 +14,9 @@ std::size_t usable_processors();
 /// else one after the other. They must not throw.
 void run_both(const std::function<void()>& first, const std::function<void()>& second);
 
+/// Calls `call(i)` for i = 0 .. count - 1, each on a thread of its own beside this one, which has
+/// the last; returns when all have ended. Where no thread can be had, this one does it. They must
+/// not throw.
+void run_each(std::size_t count, const std::function<void(std::size_t)>& call);
+
 }  // namespace tenon

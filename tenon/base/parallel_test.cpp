@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/base/parallel.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace tenon {
@@ -15,6 +17,14 @@ TEST(Parallel, BothCallsHaveEnded) {
     run_both([&] { first = round + 1; }, [&] { second = round + 2; });
     EXPECT_EQ(first, round + 1);
     EXPECT_EQ(second, round + 2);
+  }
+}
+
+TEST(Parallel, CallsEachNumberOnce) {
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{5}}) {
+    std::vector<int> calls(count, 0);
+    run_each(count, [&](std::size_t i) { ++calls[i]; });
+    EXPECT_EQ(calls, std::vector<int>(count, 1));
   }
 }
 

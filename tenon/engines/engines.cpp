@@ -40,14 +40,10 @@ std::vector<EngineInfo> list_engines(std::span<const Engine> built) {
   return infos;
 }
 
-Result<std::unique_ptr<Simulation>> make_simulation(std::span<const Engine> built,
-                                                    const std::string& engine,
-                                                    const scene::PhysicsScene& scene,
-                                                    const SimulationOptions& options,
-                                                    Diagnostics& diagnostics) {
+Result<const Engine*> find_engine(std::span<const Engine> built, const std::string& engine) {
   for (const Engine& candidate : built) {
     if (candidate.info().name == engine) {
-      return candidate.make(scene, options, diagnostics);
+      return &candidate;
     }
   }
   std::string names;
@@ -61,6 +57,15 @@ Result<std::unique_ptr<Simulation>> make_simulation(std::span<const Engine> buil
   }
   return Error(ErrorCode::NotFound, "there is no engine \"" + engine + "\"; known are " + names)
       .with_rule("engine.unknown");
+}
+
+Result<std::unique_ptr<Simulation>> make_simulation(std::span<const Engine> built,
+                                                    const std::string& engine,
+                                                    const scene::PhysicsScene& scene,
+                                                    const SimulationOptions& options,
+                                                    Diagnostics& diagnostics) {
+  TENON_TRY(const Engine* found, find_engine(built, engine));
+  return found->make(scene, options, diagnostics);
 }
 
 }  // namespace tenon::engines

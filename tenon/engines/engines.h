@@ -28,14 +28,22 @@ struct Engine {
   Result<std::unique_ptr<Simulation>> (*make)(const scene::PhysicsScene& scene,
                                               const SimulationOptions& options,
                                               Diagnostics& diagnostics) = nullptr;
+  /// Many of one scene, which may share what is the same in all; nullptr: made one by one.
+  Result<std::vector<std::unique_ptr<Simulation>>> (*make_many)(const scene::PhysicsScene& scene,
+                                                                const SimulationOptions& options,
+                                                                std::size_t count,
+                                                                Diagnostics& diagnostics) = nullptr;
 };
 
 /// The built ones and the known ones that are not built, sorted by name.
 std::vector<EngineInfo> list_engines(std::span<const Engine> built);
 
-/// Builds a model of the scene; the scene must outlive the simulation. Errors: Missing when the
-/// engine is known but not built in, NotFound for an unknown name, Unsupported or Invalid when no
-/// model can be made.
+/// The built engine of that name. Errors: Missing when the engine is known but not built in,
+/// NotFound for an unknown name.
+Result<const Engine*> find_engine(std::span<const Engine> built, const std::string& engine);
+
+/// Builds a model of the scene; the scene must outlive the simulation. Errors: those of
+/// find_engine; Unsupported or Invalid when no model can be made.
 Result<std::unique_ptr<Simulation>> make_simulation(std::span<const Engine> built,
                                                     const std::string& engine,
                                                     const scene::PhysicsScene& scene,

@@ -10,5 +10,6 @@ namespace tenon::limits {
 inline constexpr std::size_t kModelBodies = 65'000;          ///< bodies, and as many joints
 inline constexpr std::size_t kModelGeoms = 100'000;          ///< shapes, pieces of meshes too
 inline constexpr std::size_t kModelMeshPoints = 30'000'000;  ///< corners of all their meshes
+inline constexpr std::size_t kEnvironments = 1'000'000;      ///< simulations of one scene
 
 }  // namespace tenon::limits

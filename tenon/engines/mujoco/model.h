@@ -31,6 +31,7 @@ struct DataDeleter {
 };
 using SpecPtr = std::unique_ptr<mjSpec, SpecDeleter>;
 using ModelPtr = std::unique_ptr<mjModel, ModelDeleter>;
+using SharedModel = std::shared_ptr<mjModel>;
 using DataPtr = std::unique_ptr<mjData, DataDeleter>;
 
 /// MuJoCo quaternions are real first.
@@ -106,9 +107,8 @@ struct Surfaces {
   std::vector<char> keeps_solref;
 };
 
-struct Model {
-  ModelPtr model;
-  DataPtr data;
+/// What connects the numbers of a model with those of the scene.
+struct ModelMaps {
   TreePlan plan;
   std::vector<BodyMap> bodies;   ///< (body_count)
   std::vector<JointMap> joints;  ///< (joint_count)
@@ -119,6 +119,18 @@ struct Model {
   ContactFilter filter;
   Surfaces surfaces;
   std::vector<NotMapped> not_mapped;
+  std::vector<int> auxiliary_bodies;  ///< MuJoCo bodies whose weights compile() has set
 };
+
+struct Model : ModelMaps {
+  SharedModel model;
+  bool shared = false;  ///< others step `model` too: own_model() before it is written
+  DataPtr data;
+};
+
+/// The model for writing: a copy of its own where it is shared.
+mjModel& own_model(Model& model);
+/// A model of the same maps and the same shared mjModel without data.
+Model share_model(const ModelMaps& maps, const SharedModel& model);
 
 }  // namespace tenon::engines::mujoco

@@ -21,4 +21,18 @@ Result<std::unique_ptr<Simulation>> make_simulation(const scene::PhysicsScene& s
   return std::unique_ptr<Simulation>(std::move(simulation));
 }
 
+Result<std::vector<std::unique_ptr<Simulation>>> make_simulations(const scene::PhysicsScene& scene,
+                                                                  const SimulationOptions& options,
+                                                                  std::size_t count,
+                                                                  Diagnostics& diagnostics) {
+  TENON_TRY(auto first, MujocoSimulation::make(scene, options, diagnostics, count));
+  std::vector<std::unique_ptr<Simulation>> made;
+  for (std::size_t i = 1; i < count; ++i) {
+    TENON_TRY(auto next, first->another());
+    made.push_back(std::move(next));
+  }
+  made.insert(made.begin(), std::move(first));
+  return made;
+}
+
 }  // namespace tenon::engines::mujoco

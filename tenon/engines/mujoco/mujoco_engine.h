@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
@@ -21,5 +23,12 @@ EngineInfo info();
 Result<std::unique_ptr<Simulation>> make_simulation(const scene::PhysicsScene& scene,
                                                     const SimulationOptions& options,
                                                     Diagnostics& diagnostics);
+
+/// `count` simulations of one compiled model, which each shares until it is given values of its
+/// own. Errors as above.
+Result<std::vector<std::unique_ptr<Simulation>>> make_simulations(const scene::PhysicsScene& scene,
+                                                                  const SimulationOptions& options,
+                                                                  std::size_t count,
+                                                                  Diagnostics& diagnostics);
 
 }  // namespace tenon::engines::mujoco

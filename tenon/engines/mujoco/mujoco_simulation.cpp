@@ -8,16 +8,17 @@
 // from which MuJoCo derives poses and velocities only when something is read.
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <utility>
 
 #include "tenon/engines/mujoco/build/build.h"
-#include "tenon/engines/mujoco/build/min_inertia.h"
 #include "tenon/engines/mujoco/build/surfaces.h"
 #include "tenon/engines/mujoco/contact_filter.h"
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/run/carry_over.h"
+#include "tenon/engines/mujoco/run/control.h"
 #include "tenon/engines/mujoco/run/read_state.h"
 
 namespace tenon::engines::mujoco {
@@ -25,37 +26,76 @@ namespace {
 
 using scene::PhysicsScene;
 
-/// What MuJoCo still moves.
-scene::BodyMass min_mass() {
-  scene::BodyMass least;
-  least.mass = kMinMass;
-  least.inertia = {};
-  for (std::size_t i = 0; i < 3; ++i) {
-    least.inertia[i][i] = kMinMoment;
-  }
-  return least;
+constexpr std::size_t kMemoryOfMany = std::size_t{2} << 20u;  // [bytes]
+constexpr std::size_t kMemoryOfManyPerBody = std::size_t{128} << 10u;
+
+std::unique_ptr<scene::Timeline> make_timeline(const PhysicsScene& scene) {
+  return scene::Timeline::is_needed(scene) ? timeline_of(scene) : nullptr;
 }
 
 }  // namespace
 
 Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::make(const PhysicsScene& scene,
                                                                  const SimulationOptions& options,
-                                                                 Diagnostics& diagnostics) {
-  auto timeline = scene::Timeline::is_needed(scene)
-                      ? std::make_unique<scene::Timeline>(scene, min_mass())
-                      : nullptr;
+                                                                 Diagnostics& diagnostics,
+                                                                 std::size_t how_many) {
+  auto timeline = make_timeline(scene);
   const PhysicsScene& now = timeline == nullptr ? scene : timeline->scene();
   TENON_TRY(Model model, build_model(now, options, diagnostics));
-  return std::unique_ptr<MujocoSimulation>(
-      new MujocoSimulation(scene, std::move(timeline), std::move(model)));
+  auto start = std::make_shared<Start>();
+  start->scene = &scene;
+  start->options = options;
+  start->maps = model;
+  start->model = model.model;
+  start->state = integration_state(*model.model, *model.data);
+  start->asleep.assign(model.data->tree_asleep, model.data->tree_asleep + model.model->ntree);
+  model.shared = true;
+  if (how_many > 1) {  // room for contacts and constraints of each further one
+    model.model->narena = std::min<mjtSize>(
+        model.model->narena, kMemoryOfMany + kMemoryOfManyPerBody * scene.bodies.size());
+  }
+  std::unique_ptr<MujocoSimulation> made(
+      new MujocoSimulation(std::move(start), std::move(timeline), std::move(model)));
+  if (made->outputs_) {
+    TENON_CHECK(made->outputs_->at_rest(*made->scene_, made->model_));
+  }
+  return made;
 }
 
-MujocoSimulation::MujocoSimulation(const PhysicsScene& scene,
+Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::from_start(
+    std::shared_ptr<const Start> start, DataPtr data) {
+  Model model = share_model(start->maps, start->model);
+  model.data = std::move(data);
+  mjData* made_data = nullptr;
+  TENON_CHECK(guarded([&] {
+    if (model.data != nullptr) {
+      mj_resetData(model.model.get(), model.data.get());
+    } else {
+      made_data = mj_makeData(model.model.get());
+    }
+  }));
+  if (made_data != nullptr) {
+    model.data.reset(made_data);
+  }
+  if (model.data == nullptr) {
+    return Error(ErrorCode::Limit, "MuJoCo has no memory for the simulation");
+  }
+  TENON_CHECK(write_state(model, start->state, start->asleep));
+  auto timeline = make_timeline(*start->scene);
+  std::unique_ptr<MujocoSimulation> made(
+      new MujocoSimulation(std::move(start), std::move(timeline), std::move(model)));
+  if (made->outputs_) {
+    TENON_CHECK(made->outputs_->at_rest(*made->scene_, made->model_));
+  }
+  return made;
+}
+
+MujocoSimulation::MujocoSimulation(std::shared_ptr<const Start> start,
                                    std::unique_ptr<scene::Timeline> timeline, Model model)
-    : timeline_(std::move(timeline)),
-      scene_(timeline_ == nullptr ? &scene : &timeline_->scene()),
-      model_(std::move(model)),
-      not_mapped_(model_.not_mapped) {
+    : start_(std::move(start)),
+      timeline_(std::move(timeline)),
+      scene_(timeline_ == nullptr ? start_->scene : &timeline_->scene()),
+      model_(std::move(model)) {
   connect();
 }
 
@@ -66,6 +106,11 @@ void MujocoSimulation::connect() {
     bounds_ = MovingBounds(*scene_, model_);
     breaking_ = Breaking(*scene_, model_);
   }
+  if (outputs().any()) {
+    const Work work = outputs_ ? outputs_->work : Work{};
+    outputs_.emplace(outputs(), *scene_, model_);
+    outputs_->work = work;
+  }
   stale_ = true;
 }
 
@@ -73,65 +118,99 @@ Result<void> MujocoSimulation::step() {
   if (timeline_ != nullptr) {
     TENON_CHECK(follow_changes());
   }
-  if (inputs_.needs_motion()) {
+  if (inputs_.needs_motion() || outputs_) {
     bring_up_to_date();
   }
+  if (!steering_.efforts.empty()) {
+    bring_up_to_date();
+    write_efforts(*scene_, steering_, model_);
+  }
   inputs_.before_step(model_);
+  if (outputs_) {
+    outputs_->begin(*scene_, model_);
+  }
   stale_ = true;
   {
     const FilterScope filter(model_.filter);
     TENON_CHECK(guarded([this] { advance(); }));
   }
   TENON_CHECK(check());
+  if (outputs_) {
+    TENON_CHECK(outputs_->end(*scene_, steering_, model_));
+  }
   inputs_.after_step(model_);
   return breaking_.empty() ? Result<void>() : break_joints();
 }
 
 Result<void> MujocoSimulation::follow_changes() {
-  const scene::SceneChange change = timeline_->advance(time());
-  if (change.gravity) {
-    write_vector(model_.model->opt.gravity, scene_->scenes.front().gravity);
-    set_other_gravities(*scene_, model_);
-    inputs_.take_constant_forces(model_);
+  const double now = time();
+  scene::SceneChange changed;
+  TENON_CHECK(change([&]() -> Result<void> {
+    changed = timeline_->advance(now);
+    return changed.gravity ? write_gravities() : Result<void>();
+  }));
+  const bool fits = !changed.bounds || bounds_.write(*scene_, model_);
+  if (changed.structure || !fits) {
+    return rebuild({now, now, {}, {}, {}});
   }
-  const bool fits = !change.bounds || bounds_.write(*scene_, model_);
-  return change.structure || !fits ? rebuild() : Result<void>();
+  advanced_to_ = now;
+  return {};
 }
 
-Result<void> MujocoSimulation::rebuild() {
-  std::vector<BodyState> states;
-  for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
-    states.push_back(body_state(static_cast<scene::Index>(b)));
-  }
-  const std::vector<scene::MergedBody> joined = timeline_->restart(states);
-  Diagnostics silent;  // what there is to say was said at the start
-  TENON_TRY(Model next, build_model(*scene_, {.time_step = time_step()}, silent, Begin::Middle));
-  carry_joints_over(model_, next);
-  next.data->time = model_.data->time;
-  model_ = std::move(next);
-  connect();
-  const FilterScope filter(model_.filter);
-  return guarded([&] {
-    mj_forward(model_.model.get(), model_.data.get());
-    for (const scene::MergedBody& part : joined) {
-      join_momentum(scene_->bodies[part.body], model_.bodies[part.body], model_);
+Result<void> MujocoSimulation::write_gravities() {
+  write_gravity(*scene_, steering_, model_);
+  inputs_.take_constant_forces(model_);
+  return {};
+}
+
+// From where the last model has brought the bodies.
+Result<void> MujocoSimulation::rebuild(Restart restart) {
+  return change([&]() -> Result<void> {
+    for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
+      restart.states.push_back(body_state(static_cast<scene::Index>(b)));
     }
-    if (!joined.empty()) {
+    const std::vector<scene::MergedBody> joined = timeline_->restart(restart.states);
+    const Model last = std::exchange(model_, Model());
+    TENON_TRY(model_, model_in_the_middle(*scene_, start_->options, last.model->opt.timestep));
+    carry_joints_over(last, model_);
+    model_.data->time = last.data->time;
+    advanced_to_ = restart.advanced_to;
+    history_.push_back(std::move(restart));
+    connect();
+    TENON_CHECK(apply_steering());
+    const FilterScope filter(model_.filter);
+    return guarded([&] {
       mj_forward(model_.model.get(), model_.data.get());
-    }
+      for (const scene::MergedBody& part : joined) {
+        join_momentum(scene_->bodies[part.body], model_.bodies[part.body], model_);
+      }
+      if (!joined.empty()) {
+        mj_forward(model_.model.get(), model_.data.get());
+      }
+    });
   });
 }
 
 Result<void> MujocoSimulation::break_joints() {
   TENON_TRY(const std::vector<Breaking::Broken> broken, breaking_.broken(*scene_, model_));
+  if (broken.empty()) {
+    return {};
+  }
+  Restart restart{time(), advanced_to_, {}, {}, {}};
   for (const Breaking::Broken& part : broken) {
+    restart.broken.push_back({part.joint, part.force, part.torque});
+  }
+  note_broken(restart);
+  return rebuild(std::move(restart));
+}
+
+void MujocoSimulation::note_broken(const Restart& restart) {
+  for (const BrokenJoint& part : restart.broken) {
     char what[96];
-    std::snprintf(what, sizeof what, "broke under %.4g N and %.4g N m", length(part.load.force),
-                  length(part.load.torque));
-    events_.push_back({time(), scene_->joints[part.joint].path, what});
+    std::snprintf(what, sizeof what, "broke under %.4g N and %.4g N m", part.force, part.torque);
+    events_.push_back({restart.time, scene_->joints[part.joint].path, what});
     timeline_->break_joint(part.joint);
   }
-  return broken.empty() ? Result<void>() : rebuild();
 }
 
 // Pair averages of friction and restitution are written between the making of contacts and that of
@@ -215,9 +294,14 @@ JointState MujocoSimulation::joint_state(scene::Index joint) const {
   return read_joint_state(*scene_, model_, joint);
 }
 
+Vec3d MujocoSimulation::center_of_mass(scene::Index body) const {
+  bring_up_to_date();
+  return read_center_of_mass(model_, body);
+}
+
 Energy MujocoSimulation::energy() const {
   bring_up_to_date();
-  return read_energy(*scene_, model_);
+  return read_energy(*scene_, model_, steering_.gravity_of(*scene_));
 }
 
 }  // namespace tenon::engines::mujoco

@@ -94,6 +94,15 @@ SceneChange Timeline::advance(double seconds) {
   return change;
 }
 
+void Timeline::hold_pose(Index body) {
+  PoseTrack track;
+  track.body = body;
+  track.times = {0};
+  track.poses = {scene_.bodies[body].pose};
+  track.held = true;
+  scene_.pose_tracks.push_back(std::move(track));
+}
+
 void Timeline::break_joint(Index joint) {
   scene_.joints[joint].enabled = false;
   broken_[joint] = 1;

@@ -39,6 +39,8 @@ class Timeline {
 
   /// Brings the scene to a time [s], which never goes back.
   SceneChange advance(double seconds);
+  /// Lets a kinematic body stand where it is until an engine moves it: it gets a track of one pose.
+  void hold_pose(Index body);
   /// For good: no switch makes it whole again (S-93).
   void break_joint(Index joint);
   /// What a simulation reached (body_count) becomes the start of the scene, so that a model can be

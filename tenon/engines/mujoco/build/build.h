@@ -32,6 +32,7 @@ struct Build {
   Diagnostics& diagnostics;
   SpecPtr spec;
   double time_step = 0.002;  ///< [s]
+  DriveTerms drive_terms = DriveTerms::Engine;
   TreePlan plan;
   std::vector<mjsBody*> bodies;              ///< (body_count)
   std::vector<Pose> engine_frames;           ///< X_BE (body_count)

@@ -136,6 +136,7 @@ Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const Simulati
     Diagnostics findings;
     Build build(scene, findings);
     build.time_step = time_step;
+    build.drive_terms = options.drives;
     build.refused = refused;
     Result<Model> model = build_once(build, begin);
     if (model.has_value()) {

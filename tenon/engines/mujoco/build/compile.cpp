@@ -163,6 +163,7 @@ void stiffen_auxiliary_welds(const Build& build, Model& result) {
   mjModel& m = *result.model;
   for (const AuxiliaryBody& auxiliary : build.auxiliary_bodies) {
     const int id = mjs_getId(auxiliary.body->element);
+    result.auxiliary_bodies.push_back(id);
     const int partner = mjs_getId(auxiliary.welded_to->element);
     double weight[2] = {m.body_invweight0[2 * partner], m.body_invweight0[2 * partner + 1]};
     if (!(weight[0] > 0)) {  // welded to the world
@@ -182,6 +183,10 @@ void stiffen_auxiliary_welds(const Build& build, Model& result) {
 // step that is implicit in position too.
 void choose_integrator(const Build& build, Model& result) {
   mjModel& m = *result.model;
+  if (build.drive_terms == DriveTerms::Explicit) {
+    m.opt.integrator = mjINT_EULER;  // damping of joints stays implicit, drives are not
+    return;
+  }
   const auto& settings = build.scene.scenes.front().parts.mujoco;
   if (settings && std::any_of(settings->begin(), settings->end(), [](const auto& setting) {
         return setting.name == "option:integrator";
@@ -215,7 +220,7 @@ Result<Model> compile(Build& build) {
   if (model == nullptr) {
     return rejected(build.spec.get());
   }
-  result.model.reset(model);
+  result.model = SharedModel(model, ModelDeleter());
   map_bodies(build, result);
   map_joints(build, result);
   map_drives(build, result);

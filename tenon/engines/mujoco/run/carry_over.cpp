@@ -6,9 +6,28 @@
 #include <cstddef>
 #include <vector>
 
+#include "tenon/engines/mujoco/build/build.h"
+#include "tenon/engines/mujoco/build/min_inertia.h"
 #include "tenon/math/inertia.h"
 
 namespace tenon::engines::mujoco {
+
+Result<Model> model_in_the_middle(const scene::PhysicsScene& scene, SimulationOptions options,
+                                  double time_step) {
+  options.time_step = time_step;
+  Diagnostics silent;  // what there is to say was said at the start
+  return build_model(scene, options, silent, Begin::Middle);
+}
+
+std::unique_ptr<scene::Timeline> timeline_of(const scene::PhysicsScene& scene) {
+  scene::BodyMass least;
+  least.mass = kMinMass;
+  least.inertia = {};
+  for (std::size_t i = 0; i < 3; ++i) {
+    least.inertia[i][i] = kMinMoment;
+  }
+  return std::make_unique<scene::Timeline>(scene, least);
+}
 
 bool same_coordinates(const JointDofs& a, const JointDofs& b) {
   if (a.free.size() != b.free.size() || a.ball != b.ball) {

@@ -59,7 +59,7 @@ bool MovingBounds::write(const scene::PhysicsScene& scene, Model& model) const {
 
 // Bounds on coordinates and tendons that there are; false where the model lacks one.
 bool MovingBounds::write(const scene::Joint& joint, const Bounded& bounded, Model& model) {
-  mjModel& m = *model.model;
+  mjModel& m = own_model(model);
   const JointMap& map = model.joints[bounded.joint];
   const JointDofs dofs = joint_dofs(joint, map.dofs.rotations);
   if (!same_coordinates(dofs, map.dofs)) {

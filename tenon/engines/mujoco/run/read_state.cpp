@@ -118,7 +118,12 @@ JointState read_joint_state(const scene::PhysicsScene& scene, const Model& model
                                      : loop_joint_state(scene, model, joint);
 }
 
-Energy read_energy(const scene::PhysicsScene& scene, const Model& model) {
+Vec3d read_center_of_mass(const Model& model, scene::Index body) {
+  return read_vector(model.data->xipos + 3 * model.bodies[body].id);
+}
+
+Energy read_energy(const scene::PhysicsScene& scene, const Model& model,
+                   std::span<const Vec3d> gravity) {
   const mjModel* m = model.model.get();
   const mjData* d = model.data.get();
   Energy energy;
@@ -134,8 +139,8 @@ Energy read_energy(const scene::PhysicsScene& scene, const Model& model) {
     for (int i = 0; i < 3; ++i) {
       energy.kinetic += m->body_inertia[3 * map.id + i] * v[i] * v[i] / 2;
     }
-    const Vec3d gravity = scene.scenes[body.scene].gravity * body.gravity_scale;
-    energy.potential -= map.mass * dot(gravity, read_vector(d->xipos + 3 * map.id));
+    const Vec3d pull = gravity[body.scene] * body.gravity_scale;
+    energy.potential -= map.mass * dot(pull, read_vector(d->xipos + 3 * map.id));
   }
   for (int i = 0; i < m->nv; ++i) {
     energy.kinetic += m->dof_armature[i] * d->qvel[i] * d->qvel[i] / 2;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "tenon/engines/mujoco/model.h"
 
@@ -20,7 +21,11 @@ JointState read_joint_state(const scene::PhysicsScene& scene, const Model& model
                             scene::Index joint);
 /// Kinetic energy of bodies and armatures; potential of gravity (zero at the world's origin) and of
 /// passive springs. Kinematic bodies and drives are left out.
-Energy read_energy(const scene::PhysicsScene& scene, const Model& model);
+/// `gravity` is that of each scene now [m/s^2] (scene_count).
+Energy read_energy(const scene::PhysicsScene& scene, const Model& model,
+                   std::span<const Vec3d> gravity);
+/// The centre of mass of a body, world [m].
+Vec3d read_center_of_mass(const Model& model, scene::Index body);
 /// Contacts that push.
 std::size_t read_contact_count(const Model& model);
 

@@ -36,6 +36,7 @@ void StepInputs::before_step(Model& model) {
 void StepInputs::take_constant_forces(const Model& model) {
   for (DampedBody& damped : damped_bodies_) {
     damped.constant_force = read_vector(model.data->xfrc_applied + 6 * damped.id);
+    damped.constant_torque = read_vector(model.data->xfrc_applied + 6 * damped.id + 3);
   }
 }
 
@@ -66,6 +67,7 @@ void StepInputs::collect_tracks(const scene::PhysicsScene& scene, const Model& m
     if (track.body.has_value() && model.plan.bases[*track.body] == BodyBase::Driven) {
       DrivenBody driven;
       driven.track = &track;
+      driven.index = *track.body;
       driven.body = model.bodies[*track.body];
       driven_bodies_.push_back(driven);
     } else if (track.collider.has_value() && model.mocap_of_collider[*track.collider] >= 0) {
@@ -81,8 +83,8 @@ void StepInputs::collect_damped_bodies(const scene::PhysicsScene& scene, const M
     if (damped && !body.kinematic && model.plan.bases[b] == BodyBase::Jointed) {
       const BodyMap& map = model.bodies[b];
       const double* force = model.data->xfrc_applied + 6 * map.id;
-      damped_bodies_.push_back(
-          {map.id, body.linear_damping, body.angular_damping, read_vector(force)});
+      damped_bodies_.push_back({map.id, body.linear_damping, body.angular_damping,
+                                read_vector(force), read_vector(force + 3)});
     }
   }
 }
@@ -90,37 +92,80 @@ void StepInputs::collect_damped_bodies(const scene::PhysicsScene& scene, const M
 void StepInputs::follow_drive_tracks(Model& model) {
   const double now = model.data->time;
   for (const TrackedDrive& tracked : tracked_drives_) {
-    const double value = tracked.track->at(now);
-    const DriveMap& map = model.drives[tracked.drive];
-    scene::Drive& drive = drives_[tracked.drive];
-    switch (tracked.track->what) {
-      case scene::Animated::DriveTargetPosition:
-        model.data->ctrl[map.control] = value;
-        break;
-      case scene::Animated::DriveTargetVelocity:
-        model.data->ctrl[map.control + 1] = value;
-        break;
-      case scene::Animated::DriveStiffness:
-        drive.stiffness = value;
-        model.model->actuator_biasprm[mjNBIAS * map.actuator + 1] = -value;
-        break;
-      case scene::Animated::DriveDamping:
-        drive.damping = value;
-        model.model->actuator_biasprm[mjNBIAS * map.actuator + 2] = -value;
-        break;
-      case scene::Animated::DriveMaxForce:
-        model.model->actuator_forcelimited[map.actuator] = value < scene::kUnlimited ? 1 : 0;
-        model.model->actuator_forcerange[2 * map.actuator] = -value;
-        model.model->actuator_forcerange[2 * map.actuator + 1] = value;
-        break;
+    if (!tracked.overruled) {
+      write_gain(tracked.drive, tracked.track->what, tracked.track->at(now), model);
     }
   }
+}
+
+void StepInputs::write_gain(std::size_t at, scene::Animated what, double value, Model& model) {
+  const DriveMap& map = model.drives[at];
+  scene::Drive& drive = drives_[at];
+  switch (what) {
+    case scene::Animated::DriveTargetPosition:
+      model.data->ctrl[map.control] = value;
+      break;
+    case scene::Animated::DriveTargetVelocity:
+      model.data->ctrl[map.control + 1] = value;
+      break;
+    case scene::Animated::DriveStiffness:
+      drive.stiffness = value;
+      own_model(model).actuator_biasprm[mjNBIAS * map.actuator + 1] = -value;
+      break;
+    case scene::Animated::DriveDamping:
+      drive.damping = value;
+      own_model(model).actuator_biasprm[mjNBIAS * map.actuator + 2] = -value;
+      break;
+    case scene::Animated::DriveMaxForce: {
+      mjModel& m = own_model(model);
+      m.actuator_forcelimited[map.actuator] = value < scene::kUnlimited ? 1 : 0;
+      m.actuator_forcerange[2 * map.actuator] = -value;
+      m.actuator_forcerange[2 * map.actuator + 1] = value;
+      break;
+    }
+  }
+}
+
+void StepInputs::overrule(std::size_t drive, scene::Animated what) {
+  for (TrackedDrive& tracked : tracked_drives_) {
+    if (tracked.drive == drive && tracked.track->what == what) {
+      tracked.overruled = true;
+    }
+  }
+}
+
+void StepInputs::set_target(std::size_t drive, const DriveTarget& target, Model& model) {
+  overrule(drive, scene::Animated::DriveTargetPosition);
+  overrule(drive, scene::Animated::DriveTargetVelocity);
+  write_gain(drive, scene::Animated::DriveTargetPosition, target.position, model);
+  write_gain(drive, scene::Animated::DriveTargetVelocity, target.velocity, model);
+}
+
+void StepInputs::set_gain(std::size_t drive, Parameter what, double value, Model& model) {
+  const scene::Animated number = what == Parameter::DriveStiffness ? scene::Animated::DriveStiffness
+                                 : what == Parameter::DriveDamping ? scene::Animated::DriveDamping
+                                                                   : scene::Animated::DriveMaxForce;
+  overrule(drive, number);
+  write_gain(drive, number, value, model);
+}
+
+bool StepInputs::set_pose(scene::Index body, const Pose& pose) {
+  for (DrivenBody& driven : driven_bodies_) {
+    if (driven.index == body) {
+      driven.wanted = pose;
+      return true;
+    }
+  }
+  return false;
 }
 
 // Effective inertia of a coordinate: what a unit force on it meets, 1 / (e M^-1 e). M is factored
 // in every step; here that of the pose one step ago is used.
 void StepInputs::scale_acceleration_drives(Model& model) {
-  mjModel* m = model.model.get();
+  if (acceleration_drives_.empty()) {
+    return;
+  }
+  mjModel* m = &own_model(model);
   mjData* d = model.data.get();
   for (const std::size_t i : acceleration_drives_) {
     const DriveMap& map = model.drives[i];
@@ -161,7 +206,8 @@ void StepInputs::damp_bodies(Model& model) const {
     }
     force = rotate(principal, force) + damped.constant_force;
     write_vector(d->xfrc_applied + 6 * id, force);
-    write_vector(d->xfrc_applied + 6 * id + 3, rotate(principal, torque));
+    torque = rotate(principal, torque) + damped.constant_torque;
+    write_vector(d->xfrc_applied + 6 * id + 3, torque);
   }
 }
 
@@ -175,7 +221,7 @@ void StepInputs::push_driven_bodies(Model& model) {
     const BodyMap& body = driven.body;
     const Vec3d position = read_vector(d->qpos + body.free_qpos);
     const Quatd orientation = read_quaternion(d->qpos + body.free_qpos + 3);
-    driven.next = driven.track->at(d->time + dt);
+    driven.next = driven.wanted.has_value() ? *driven.wanted : driven.track->at(d->time + dt);
     driven.next.orientation = normalized(driven.next.orientation);
     driven.linear_velocity = (driven.next.position - position) * (1 / dt);
     driven.angular_velocity =

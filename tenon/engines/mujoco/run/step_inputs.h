@@ -25,14 +25,23 @@ class StepInputs {
   void after_step(Model& model) const;
   /// The constant forces of the model are other ones.
   void take_constant_forces(const Model& model);
+  /// Takes the word of a user in place of the asset's samples. False: the body is not driven.
+  bool set_pose(scene::Index body, const Pose& pose);
+  void set_target(std::size_t drive, const DriveTarget& target, Model& model);
+  /// The number of a drive, into Model::drives, is another one.
+  void set_gain(std::size_t drive, Parameter what, double value, Model& model);
+  bool has_acceleration_drives() const { return !acceleration_drives_.empty(); }
 
  private:
   struct TrackedDrive {
     const scene::ScalarTrack* track = nullptr;
-    std::size_t drive = 0;  ///< into Model::drives
+    std::size_t drive = 0;   ///< into Model::drives
+    bool overruled = false;  ///< the user has set it
   };
   struct DrivenBody {
     const scene::PoseTrack* track = nullptr;
+    scene::Index index = 0;      ///< into the scene's bodies
+    std::optional<Pose> wanted;  ///< set by the user, in place of the track
     BodyMap body;
     Pose next;
     Vec3d linear_velocity;   ///< over the step that is under way, world axes
@@ -47,12 +56,15 @@ class StepInputs {
     double linear = 0;
     double angular = 0;
     Vec3d constant_force;
+    Vec3d constant_torque;
   };
   void collect_drives(const scene::PhysicsScene& scene, const Model& model);
   void collect_tracks(const scene::PhysicsScene& scene, const Model& model);
   void collect_damped_bodies(const scene::PhysicsScene& scene, const Model& model);
   void start_driven_bodies(Model& model);
   void follow_drive_tracks(Model& model);
+  void write_gain(std::size_t drive, scene::Animated what, double value, Model& model);
+  void overrule(std::size_t drive, scene::Animated what);
   void scale_acceleration_drives(Model& model);
   void move_colliders(Model& model) const;
   void damp_bodies(Model& model) const;

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/environments.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "tenon/base/limits/engine_limits.h"
+#include "tenon/base/parallel.h"
+#include "tenon/engines/simulation.h"
+#include "tenon/engines/steering.h"
+
+namespace tenon::engines {
+namespace {
+
+using Simulations = std::vector<std::unique_ptr<Simulation>>;
+
+Result<Simulations> make_simulations(const Engine& engine, const scene::PhysicsScene& scene,
+                                     const EnvironmentOptions& options, Diagnostics& diagnostics) {
+  if (engine.make_many != nullptr) {
+    return engine.make_many(scene, options.simulation, options.count, diagnostics);
+  }
+  Simulations made;
+  for (std::size_t i = 0; i < options.count; ++i) {
+    Diagnostics again;  // what there is to say the first one says
+    TENON_TRY(auto simulation,
+              engine.make(scene, options.simulation, i == 0 ? diagnostics : again));
+    made.push_back(std::move(simulation));
+  }
+  return made;
+}
+
+}  // namespace
+
+Result<Environments> Environments::make(const Engine& engine, const scene::PhysicsScene& scene,
+                                        const EnvironmentOptions& options,
+                                        Diagnostics& diagnostics) {
+  if (options.count == 0 || options.count > limits::kEnvironments) {
+    return Error(ErrorCode::Limit, std::to_string(options.count) +
+                                       " environments are not between 1 and " +
+                                       std::to_string(limits::kEnvironments))
+        .with_rule("engine.environments");
+  }
+  TENON_TRY(Simulations made, make_simulations(engine, scene, options, diagnostics));
+  Environments result;
+  for (std::unique_ptr<Simulation>& simulation : made) {
+    result.worlds_.emplace_back(std::move(simulation));
+  }
+  result.failures_.resize(options.count);
+  result.threads_ = std::clamp<std::size_t>(
+      options.threads == 0 ? usable_processors() : options.threads, 1, options.count);
+  result.joint_count_ = scene.joints.size();
+  for (scene::Index j = 0; j < scene.joints.size(); ++j) {
+    result.coordinate_count_ += result.worlds_.front().joint_state(j).position.size();
+    for (scene::Index d = 0; d < scene.joints[j].drives.size(); ++d) {
+      result.drives_.push_back({j, d});
+    }
+  }
+  return result;
+}
+
+std::size_t Environments::step(std::size_t count) {
+  run_each(threads_, [&](std::size_t thread) {
+    for (std::size_t i = thread; i < worlds_.size(); i += threads_) {
+      if (failures_[i].has_value()) {
+        continue;
+      }
+      if (Result<void> done = worlds_[i].step(count); !done) {
+        failures_[i] = std::move(done).error();
+      }
+    }
+  });
+  return static_cast<std::size_t>(
+      std::count_if(failures_.begin(), failures_.end(),
+                    [](const std::optional<Error>& failure) { return failure.has_value(); }));
+}
+
+const Error* Environments::failure(std::size_t i) const {
+  return failures_[i].has_value() ? &*failures_[i] : nullptr;
+}
+
+Result<void> Environments::reset(std::size_t i) {
+  TENON_CHECK(worlds_[i].reset());
+  failures_[i].reset();
+  return {};
+}
+
+Result<void> Environments::read_joints(std::span<double> positions,
+                                       std::span<double> velocities) const {
+  const std::size_t wanted = worlds_.size() * coordinate_count_;
+  if (positions.size() != wanted || velocities.size() != wanted) {
+    return bad_argument("positions and velocities must have " + std::to_string(wanted) +
+                        " numbers each");
+  }
+  std::size_t at = 0;
+  for (const World& world : worlds_) {
+    for (scene::Index j = 0; j < joint_count_; ++j) {
+      const JointState state = world.joint_state(j);
+      for (std::size_t i = 0; i < state.position.size() && at < wanted; ++i, ++at) {
+        positions[at] = state.position[i];
+        velocities[at] = state.velocity[i];
+      }
+    }
+  }
+  return {};
+}
+
+Result<void> Environments::set_drive_positions(std::span<const double> targets) {
+  const std::size_t wanted = worlds_.size() * drives_.size();
+  if (targets.size() != wanted) {
+    return bad_argument("targets must have " + std::to_string(wanted) + " numbers");
+  }
+  for (std::size_t at = 0; at < wanted; ++at) {
+    const DriveAt& drive = drives_[at % drives_.size()];
+    Result<void> done =
+        worlds_[at / drives_.size()].set_drive_target(drive.joint, drive.drive, {targets[at], 0});
+    if (!done && done.error().code() != ErrorCode::Unsupported) {
+      return done;
+    }
+  }
+  return {};
+}
+
+}  // namespace tenon::engines

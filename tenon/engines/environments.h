@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/engines/engines.h"
+#include "tenon/engines/world.h"
+
+namespace tenon::engines {
+
+struct EnvironmentOptions {
+  std::size_t count = 1;
+  std::size_t threads = 0;  ///< 0: as many as this process may use
+  SimulationOptions simulation{};
+};
+
+/// Many simulations of one scene, apart from each other. Each can be given values of its own (mass,
+/// friction, gains, gravity, states) as a World; those that share a value share its memory where
+/// the engine can. What comes out does not depend on the number of threads.
+class Environments {
+ public:
+  /// `scene` must outlive them. Errors: Limit for more than limits::kEnvironments; those of making
+  /// a simulation.
+  static Result<Environments> make(const Engine& engine, const scene::PhysicsScene& scene,
+                                   const EnvironmentOptions& options, Diagnostics& diagnostics);
+
+  std::size_t size() const { return worlds_.size(); }
+  /// Not while step() runs.
+  World& operator[](std::size_t i) { return worlds_[i]; }
+  const World& operator[](std::size_t i) const { return worlds_[i]; }
+
+  /// Steps all of them, side by side. Those that fail stand still from then on; gives how many.
+  std::size_t step(std::size_t count = 1);
+  /// Why an environment stands still; nullptr while it does not.
+  const Error* failure(std::size_t i) const;
+  /// Brings one back to the start, and to life.
+  Result<void> reset(std::size_t i);
+
+  /// Coordinates of all joints, joint by joint, and how many an environment has.
+  std::size_t coordinate_count() const { return coordinate_count_; }
+  /// Positions and velocities [m, rad, m/s, rad/s], (size x coordinate_count) each, row by row.
+  /// Errors: Invalid where the spans have other sizes.
+  Result<void> read_joints(std::span<double> positions, std::span<double> velocities) const;
+  /// Drives of all joints, joint by joint, and how many an environment has.
+  std::size_t drive_count() const { return drives_.size(); }
+  /// Position targets [m or rad], (size x drive_count), row by row; velocity targets become 0.
+  /// Drives that exert no force are passed over. Errors: Invalid for another size or such numbers.
+  Result<void> set_drive_positions(std::span<const double> targets);
+
+ private:
+  struct DriveAt {
+    scene::Index joint = 0;
+    scene::Index drive = 0;
+  };
+  Environments() = default;
+
+  std::vector<World> worlds_;
+  std::vector<std::optional<Error>> failures_;
+  std::size_t threads_ = 1;
+  std::size_t joint_count_ = 0;
+  std::size_t coordinate_count_ = 0;
+  std::vector<DriveAt> drives_;
+};
+
+}  // namespace tenon::engines
