@@ -170,10 +170,10 @@ Result<void> MujocoSimulation::rebuild(Restart restart) {
       restart.states.push_back(body_state(static_cast<scene::Index>(b)));
     }
     const std::vector<scene::MergedBody> joined = timeline_->restart(restart.states);
-    const Model last = std::exchange(model_, Model());
-    TENON_TRY(model_, model_in_the_middle(*scene_, start_->options, last.model->opt.timestep));
-    carry_joints_over(last, model_);
-    model_.data->time = last.data->time;
+    TENON_TRY(Model next, model_in_the_middle(*scene_, start_->options, time_step()));
+    carry_joints_over(model_, next);
+    next.data->time = model_.data->time;
+    model_ = std::move(next);
     advanced_to_ = restart.advanced_to;
     history_.push_back(std::move(restart));
     connect();
