@@ -170,10 +170,10 @@ Result<void> MujocoSimulation::rebuild(Restart restart) {
       restart.states.push_back(body_state(static_cast<scene::Index>(b)));
     }
     const std::vector<scene::MergedBody> joined = timeline_->restart(restart.states);
-    const Model last = std::exchange(model_, Model());
-    TENON_TRY(model_, model_in_the_middle(*scene_, start_->options, last.model->opt.timestep));
-    carry_joints_over(last, model_);
-    model_.data->time = last.data->time;
+    TENON_TRY(Model next, model_in_the_middle(*scene_, start_->options, time_step()));
+    carry_joints_over(model_, next);
+    next.data->time = model_.data->time;
+    model_ = std::move(next);
     advanced_to_ = restart.advanced_to;
     history_.push_back(std::move(restart));
     connect();
@@ -213,15 +213,36 @@ void MujocoSimulation::note_broken(const Restart& restart) {
   }
 }
 
-// Pair averages of friction and restitution are written between the making of contacts and that of
-// constraints, which are then made again; without them this is one mj_step.
+// Pair averages of friction are written between the making of contacts and that of constraints;
+// without them this is one mj_step.
 void MujocoSimulation::advance() {
   const mjModel* m = model_.model.get();
   mjData* d = model_.data.get();
   if (model_.surfaces.kinds.size() <= 1) {
     mj_step(m, d);
-    return;
+  } else if ((m->opt.enableflags & mjENBL_SLEEP) != 0) {
+    advance_sleepers();
+  } else {  // mj_step1 by its parts, of which a model without sensors has these
+    mj_checkPos(m, d);
+    mj_checkVel(m, d);
+    mj_fwdKinematics(m, d);
+    mj_makeM(m, d);
+    mj_factorM(m, d);
+    mj_collision(m, d);
+    apply_surfaces(model_.surfaces, d);
+    mj_makeConstraint(m, d);
+    mj_island(m, d);
+    mj_transmission(m, d);
+    mj_projectConstraint(m, d);
+    mj_fwdVelocity(m, d);
+    mj_step2(m, d);
   }
+}
+
+// What wakes and falls asleep is decided inside mj_step1: constraints are made again after it.
+void MujocoSimulation::advance_sleepers() {
+  const mjModel* m = model_.model.get();
+  mjData* d = model_.data.get();
   mj_step1(m, d);
   if (apply_surfaces(model_.surfaces, d)) {
     mj_makeConstraint(m, d);

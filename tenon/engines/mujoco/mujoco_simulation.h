@@ -105,6 +105,7 @@ class MujocoSimulation final : public Simulation {
   Result<void> change(const Call& call);
   void note_broken(const Restart& restart);
   void advance();
+  void advance_sleepers();
   Result<void> check() const;
   Error unstable(int warning) const;
   void bring_up_to_date() const;

@@ -8,6 +8,7 @@
 // last, by those weights. What passes noted per collider becomes tables per geom.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 
 #include "tenon/engines/mujoco/build/build.h"
@@ -82,7 +83,7 @@ void map_drives(const Build& build, Model& result) {
       if (const mjsActuator* actuator = build.actuators[j][i]; actuator != nullptr) {
         map.actuator = mjs_getId(actuator->element);
         map.control = m.actuator_ctrladr[map.actuator];
-        map.dof = m.jnt_dofadr[m.actuator_trnid[2 * map.actuator]];
+        map.dof = m.jnt_dofadr[m.actuator_trnid[std::ptrdiff_t{2} * map.actuator]];
       }
       result.drives.push_back(map);
     }
@@ -113,7 +114,7 @@ bool restore_inertias(const Build& build, Model& result) {
     const double* wanted = build.bodies[b]->inertia;
     const double sum = wanted[0] + wanted[1] + wanted[2];
     if (2 * std::max({wanted[0], wanted[1], wanted[2]}) > sum) {
-      std::copy(wanted, wanted + 3, m.body_inertia + 3 * result.bodies[b].id);
+      std::copy(wanted, wanted + 3, m.body_inertia + std::ptrdiff_t{3} * result.bodies[b].id);
       changed = true;
     }
   }
@@ -165,12 +166,13 @@ void stiffen_auxiliary_welds(const Build& build, Model& result) {
     const int id = mjs_getId(auxiliary.body->element);
     result.auxiliary_bodies.push_back(id);
     const int partner = mjs_getId(auxiliary.welded_to->element);
-    double weight[2] = {m.body_invweight0[2 * partner], m.body_invweight0[2 * partner + 1]};
+    double weight[2] = {m.body_invweight0[std::ptrdiff_t{2} * partner],
+                        m.body_invweight0[2 * partner + 1]};
     if (!(weight[0] > 0)) {  // welded to the world
-      weight[0] = m.body_invweight0[2 * id] * kAuxiliaryMassRatio;
+      weight[0] = m.body_invweight0[std::ptrdiff_t{2} * id] * kAuxiliaryMassRatio;
       weight[1] = m.body_invweight0[2 * id + 1] * kAuxiliaryMassRatio;
     }
-    std::copy(weight, weight + 2, m.body_invweight0 + 2 * id);
+    std::copy(weight, weight + 2, m.body_invweight0 + std::ptrdiff_t{2} * id);
     for (int i = 0; i < m.body_dofnum[id]; ++i) {
       const int dof = m.body_dofadr[id] + i;
       const bool angular = m.jnt_type[m.dof_jntid[dof]] != mjJNT_SLIDE;

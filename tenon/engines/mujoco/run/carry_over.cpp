@@ -67,7 +67,8 @@ void join_momentum(const scene::Body& body, const BodyMap& map, Model& model) {
   const auto nv = static_cast<std::size_t>(model.model->nv);
   std::vector<double> move(3 * nv);
   std::vector<double> turn(3 * nv);
-  const Pose engine{read_vector(data.xpos + 3 * map.id), read_quaternion(data.xquat + 4 * map.id)};
+  const Pose engine{read_vector(data.xpos + std::ptrdiff_t{3} * map.id),
+                    read_quaternion(data.xquat + std::ptrdiff_t{4} * map.id)};
   const Pose pose = engine * inverse(map.engine_frame);
   const Vec3d center = transform_point(pose, body.center_of_mass);
   mj_jac(model.model.get(), &data, move.data(), turn.data(), center.v.data(), map.id);

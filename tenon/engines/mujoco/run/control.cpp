@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/error_hook.h"
@@ -110,7 +111,8 @@ Result<void> write_mass(Index body, double mass, Model& model) {
   const DataPtr owner(scratch);
   TENON_CHECK(guarded([&] { mj_setConst(&m, scratch); }));
   for (const int id : model.auxiliary_bodies) {
-    std::copy_n(body_weights.begin() + 2 * id, 2, m.body_invweight0 + 2 * id);
+    std::copy_n(body_weights.begin() + std::ptrdiff_t{2} * id, 2,
+                m.body_invweight0 + std::ptrdiff_t{2} * id);
     std::copy_n(dof_weights.begin() + m.body_dofadr[id], m.body_dofnum[id],
                 m.dof_invweight0 + m.body_dofadr[id]);
   }
@@ -126,7 +128,7 @@ void write_friction(Index collider, double friction, Model& model) {
   Surfaces& surfaces = model.surfaces;
   for (const int geom : model.geoms_of_collider[collider]) {
     int& number = surfaces.geom_surface[static_cast<std::size_t>(geom)];
-    m.geom_friction[3 * geom] = friction;
+    m.geom_friction[std::ptrdiff_t{3} * geom] = friction;
     if (number < 0) {
       continue;
     }
@@ -134,7 +136,7 @@ void write_friction(Index collider, double friction, Model& model) {
     kind.friction = friction;
     const auto same = std::find(surfaces.kinds.begin(), surfaces.kinds.end(), kind);
     number = static_cast<int>(same - surfaces.kinds.begin());
-    m.geom_friction[3 * geom] =
+    m.geom_friction[std::ptrdiff_t{3} * geom] =
         scene::combine(friction, kind.friction_combine, friction, kind.friction_combine);
     if (same == surfaces.kinds.end()) {
       surfaces.kinds.push_back(kind);
@@ -195,8 +197,9 @@ void write_gravity(const PhysicsScene& scene, const Steering& steering, Model& m
       wrench.force += set->second.force;
       wrench.torque += set->second.torque;
     }
-    write_vector(model.data->xfrc_applied + 6 * model.bodies[b].id, wrench.force);
-    write_vector(model.data->xfrc_applied + 6 * model.bodies[b].id + 3, wrench.torque);
+    write_vector(model.data->xfrc_applied + std::ptrdiff_t{6} * model.bodies[b].id, wrench.force);
+    write_vector(model.data->xfrc_applied + std::ptrdiff_t{6} * model.bodies[b].id + 3,
+                 wrench.torque);
   }
 }
 

@@ -7,6 +7,7 @@
 // 0; body 1 gets the opposite. A distance is carried by tendons along the line between the anchors.
 #include "tenon/engines/mujoco/run/joint_reactions.h"
 
+#include <cstddef>
 #include <string>
 
 #include "tenon/engines/mujoco/build/build.h"
@@ -68,10 +69,11 @@ Wrench cone_pull(const scene::Joint& joint, const Model& model, const JointCarri
 Wrench tree_wrench(const Model& model, const JointCarriers& carriers, const Frames& frames) {
   const mjModel& m = *model.model;
   const mjData& d = *model.data;
-  const double* wrench = d.cfrc_int + 6 * carriers.child;
+  const double* wrench = d.cfrc_int + std::ptrdiff_t{6} * carriers.child;
   const double sign = carriers.reversed ? -1 : 1;  // the child is body 0
   const Vec3d force = read_vector(wrench + 3);
-  const Vec3d center = read_vector(d.subtree_com + 3 * m.body_rootid[carriers.child]);
+  const Vec3d center =
+      read_vector(d.subtree_com + std::ptrdiff_t{3} * m.body_rootid[carriers.child]);
   const Vec3d torque = read_vector(wrench) + cross(center - frames.side1.position, force);
   return {force * sign, torque * sign};
 }

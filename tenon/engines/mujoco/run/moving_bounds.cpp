@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 #include "tenon/engines/mujoco/build/build.h"
@@ -17,14 +18,14 @@ void set_range(mjModel& m, int joint, const FreeDof& dof, const scene::MujocoSof
   constexpr double kOpenEnd = 1e10;
   const bool limited = dof.lower > -scene::kUnlimited || dof.upper < scene::kUnlimited;
   if (limited && m.jnt_limited[joint] == 0) {
-    mjtNum* solref = m.jnt_solref + mjNREF * joint;
-    mjtNum* solimp = m.jnt_solimp + mjNIMP * joint;
+    mjtNum* solref = m.jnt_solref + std::ptrdiff_t{mjNREF} * joint;
+    mjtNum* solimp = m.jnt_solimp + std::ptrdiff_t{mjNIMP} * joint;
     make_hard(m.opt.timestep, solref, solimp);
     std::copy(softness.solref_limit.begin(), softness.solref_limit.end(), solref);
     std::copy(softness.solimp_limit.begin(), softness.solimp_limit.end(), solimp);
   }
   m.jnt_limited[joint] = limited ? 1 : 0;
-  m.jnt_range[2 * joint] = std::max(dof.lower, -kOpenEnd);
+  m.jnt_range[std::ptrdiff_t{2} * joint] = std::max(dof.lower, -kOpenEnd);
   m.jnt_range[2 * joint + 1] = std::min(dof.upper, kOpenEnd);
 }
 
@@ -80,7 +81,7 @@ bool MovingBounds::write(const scene::Joint& joint, const Bounded& bounded, Mode
     m.tendon_range[2 * bounded.tendon_max + 1] = std::max(distance.upper, 1e-9);
   }
   if (bounded.tendon_min >= 0) {
-    m.tendon_range[2 * bounded.tendon_min] = distance.lower;
+    m.tendon_range[std::ptrdiff_t{2} * bounded.tendon_min] = distance.lower;
   }
   if (bounded.tendon_cone >= 0) {
     m.tendon_range[2 * bounded.tendon_cone + 1] = bounded.cone_reach * std::sin(cone / 2);

@@ -9,6 +9,8 @@
 // sees them.
 #include "tenon/engines/mujoco/run/read_state.h"
 
+#include <cstddef>
+
 namespace tenon::engines::mujoco {
 namespace {
 
@@ -19,8 +21,8 @@ struct Velocity {
 
 Pose body_pose(const Model& model, scene::Index body) {
   const BodyMap& map = model.bodies[body];
-  const Pose engine{read_vector(model.data->xpos + 3 * map.id),
-                    read_quaternion(model.data->xquat + 4 * map.id)};
+  const Pose engine{read_vector(model.data->xpos + std::ptrdiff_t{3} * map.id),
+                    read_quaternion(model.data->xquat + std::ptrdiff_t{4} * map.id)};
   return engine * inverse(map.engine_frame);
 }
 
@@ -34,7 +36,7 @@ Velocity velocity_of(const Model& model, const std::optional<scene::Index>& body
   double velocity[6];
   mj_objectVelocity(model.model.get(), model.data.get(), mjOBJ_BODY, id, velocity, 0);
   const Vec3d angular = read_vector(velocity);
-  const Vec3d arm = point - read_vector(model.data->xipos + 3 * id);
+  const Vec3d arm = point - read_vector(model.data->xipos + std::ptrdiff_t{3} * id);
   return {read_vector(velocity + 3) + cross(angular, arm), angular};
 }
 
@@ -119,7 +121,7 @@ JointState read_joint_state(const scene::PhysicsScene& scene, const Model& model
 }
 
 Vec3d read_center_of_mass(const Model& model, scene::Index body) {
-  return read_vector(model.data->xipos + 3 * model.bodies[body].id);
+  return read_vector(model.data->xipos + std::ptrdiff_t{3} * model.bodies[body].id);
 }
 
 Energy read_energy(const scene::PhysicsScene& scene, const Model& model,
@@ -140,7 +142,7 @@ Energy read_energy(const scene::PhysicsScene& scene, const Model& model,
       energy.kinetic += m->body_inertia[3 * map.id + i] * v[i] * v[i] / 2;
     }
     const Vec3d pull = gravity[body.scene] * body.gravity_scale;
-    energy.potential -= map.mass * dot(pull, read_vector(d->xipos + 3 * map.id));
+    energy.potential -= map.mass * dot(pull, read_vector(d->xipos + std::ptrdiff_t{3} * map.id));
   }
   for (int i = 0; i < m->nv; ++i) {
     energy.kinetic += m->dof_armature[i] * d->qvel[i] * d->qvel[i] / 2;

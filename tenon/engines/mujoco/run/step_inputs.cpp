@@ -9,6 +9,7 @@
 #include "tenon/engines/mujoco/run/step_inputs.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace tenon::engines::mujoco {
 
@@ -35,8 +36,9 @@ void StepInputs::before_step(Model& model) {
 
 void StepInputs::take_constant_forces(const Model& model) {
   for (DampedBody& damped : damped_bodies_) {
-    damped.constant_force = read_vector(model.data->xfrc_applied + 6 * damped.id);
-    damped.constant_torque = read_vector(model.data->xfrc_applied + 6 * damped.id + 3);
+    damped.constant_force = read_vector(model.data->xfrc_applied + std::ptrdiff_t{6} * damped.id);
+    damped.constant_torque =
+        read_vector(model.data->xfrc_applied + std::ptrdiff_t{6} * damped.id + 3);
   }
 }
 
@@ -82,7 +84,7 @@ void StepInputs::collect_damped_bodies(const scene::PhysicsScene& scene, const M
     const bool damped = body.linear_damping > 0 || body.angular_damping > 0;
     if (damped && !body.kinematic && model.plan.bases[b] == BodyBase::Jointed) {
       const BodyMap& map = model.bodies[b];
-      const double* force = model.data->xfrc_applied + 6 * map.id;
+      const double* force = model.data->xfrc_applied + std::ptrdiff_t{6} * map.id;
       damped_bodies_.push_back({map.id, body.linear_damping, body.angular_damping,
                                 read_vector(force), read_vector(force + 3)});
     }
@@ -119,7 +121,7 @@ void StepInputs::write_gain(std::size_t at, scene::Animated what, double value, 
     case scene::Animated::DriveMaxForce: {
       mjModel& m = own_model(model);
       m.actuator_forcelimited[map.actuator] = value < scene::kUnlimited ? 1 : 0;
-      m.actuator_forcerange[2 * map.actuator] = -value;
+      m.actuator_forcerange[std::ptrdiff_t{2} * map.actuator] = -value;
       m.actuator_forcerange[2 * map.actuator + 1] = value;
       break;
     }
@@ -183,8 +185,8 @@ void StepInputs::move_colliders(Model& model) const {
   mjData* d = model.data.get();
   for (const MovedCollider& moved : moved_colliders_) {
     const Pose pose = moved.track->at(d->time);
-    write_vector(d->mocap_pos + 3 * moved.mocap, pose.position);
-    write_quaternion(d->mocap_quat + 4 * moved.mocap, normalized(pose.orientation));
+    write_vector(d->mocap_pos + std::ptrdiff_t{3} * moved.mocap, pose.position);
+    write_quaternion(d->mocap_quat + std::ptrdiff_t{4} * moved.mocap, normalized(pose.orientation));
   }
 }
 
@@ -197,7 +199,7 @@ void StepInputs::damp_bodies(Model& model) const {
     const int id = damped.id;
     double velocity[6];
     mj_objectVelocity(m, d, mjOBJ_BODY, id, velocity, 1);
-    const Quatd principal = read_quaternion(d->xiquat + 4 * id);
+    const Quatd principal = read_quaternion(d->xiquat + std::ptrdiff_t{4} * id);
     Vec3d force = read_vector(velocity + 3) * (-m->body_mass[id] * std::min(damped.linear, most));
     Vec3d torque;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -205,9 +207,9 @@ void StepInputs::damp_bodies(Model& model) const {
                   std::min(damped.angular, most);
     }
     force = rotate(principal, force) + damped.constant_force;
-    write_vector(d->xfrc_applied + 6 * id, force);
+    write_vector(d->xfrc_applied + std::ptrdiff_t{6} * id, force);
     torque = rotate(principal, torque) + damped.constant_torque;
-    write_vector(d->xfrc_applied + 6 * id + 3, torque);
+    write_vector(d->xfrc_applied + std::ptrdiff_t{6} * id + 3, torque);
   }
 }
 

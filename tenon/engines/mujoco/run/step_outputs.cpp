@@ -11,6 +11,7 @@
 #include "tenon/engines/mujoco/run/step_outputs.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/run/read_state.h"
@@ -210,7 +211,7 @@ void StepOutputs::add_wrench_work(const PhysicsScene& scene, const Steering& ste
   for (Index b = 0; b < scene.bodies.size(); ++b) {
     const scene::Body& body = scene.bodies[b];
     const int id = model.bodies[b].id;
-    const double* applied = d.xfrc_applied + 6 * id;
+    const double* applied = d.xfrc_applied + std::ptrdiff_t{6} * id;
     if (body.kinematic || std::all_of(applied, applied + 6, [](double x) { return x == 0; })) {
       continue;
     }
@@ -255,7 +256,7 @@ void StepOutputs::read_contacts(const PhysicsScene& scene, const Model& model) {
     contact.depth = -found.dist;
     contact.normal_force = wrench[0];
     for (int axis = 0; axis < 3; ++axis) {
-      const Vec3d direction = read_vector(found.frame + 3 * axis) * sign;
+      const Vec3d direction = read_vector(found.frame + std::ptrdiff_t{3} * axis) * sign;
       contact.friction_force += direction * (axis == 0 ? 0 : wrench[axis]);
       contact.friction_torque += direction * wrench[3 + axis];
     }
