@@ -84,8 +84,10 @@ def findings(clang_tidy, name):
 
 def judge(clang_tidy, names, jobs, everywhere):
     """-> number of findings; each is printed once, though many files include a header. What is in
-    headers that are not among the files counts only with `everywhere`."""
+    headers that are not among the files counts only with `everywhere`. A header is seen with its
+    source where that is among the files, too."""
     seen, own = set(), set(names)
+    names = [name for name in names if not (name.endswith(".h") and name[:-1] + "cpp" in own)]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for found in pool.map(lambda name: findings(clang_tidy, name), names):
             for line in found:

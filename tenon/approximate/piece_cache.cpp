@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/approximate/piece_cache.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstdio>
@@ -54,7 +55,7 @@ struct Reader {
       failed = true;
       return number;
     }
-    std::memcpy(&number, bytes.data(), sizeof(T));
+    std::copy_n(bytes.begin(), sizeof(T), reinterpret_cast<char*>(&number));
     bytes.remove_prefix(sizeof(T));
     return number;
   }
@@ -139,7 +140,7 @@ void PieceCache::keep(const std::string& key,
   // A folder that cannot be written costs time at the next run, nothing else.
   bytes::FileTransaction transaction;
   transaction.put(folder_ + "/" + name_of(key), contents);
-  static_cast<void>(transaction.commit({.in_place = true}));  // also over a damaged one
+  [[maybe_unused]] const auto written = transaction.commit({.in_place = true});  // or a damaged one
 }
 
 }  // namespace tenon::approximate

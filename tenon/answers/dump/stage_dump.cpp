@@ -110,7 +110,7 @@ class StageDump {
   }
 
   std::string path_text(Path path) const {
-    const std::string text = path.str();
+    std::string text = path.str();
     if (text.starts_with("/__Prototype_")) {
       const std::size_t end = text.find_first_not_of("0123456789", 13);
       const auto it = prototype_names_.find(text.substr(0, end));
