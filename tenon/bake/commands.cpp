@@ -118,28 +118,28 @@ class CommandText {
   std::uint32_t column_ = 1;
 };
 
-Error unknown_column(const CommandText& text, std::string_view name, const KnownColumns& known) {
+/// What could be meant: of the joint that the name begins with, where there is one, else of all.
+std::string column_fix(std::string_view name, const KnownColumns& known) {
   constexpr std::size_t kLongest = 500;
+  const std::string path = std::string(name.substr(0, name.find('.'))) + ".";
   std::vector<std::string_view> names;
-  for (const auto& [column, what] : known) {
-    names.push_back(column);
+  std::string has;
+  for (auto at = known.lower_bound(path); at != known.end() && at->first.starts_with(path); ++at) {
+    names.push_back(at->first);
+    if (has.size() < kLongest) {
+      has += (has.empty() ? "" : ", ") + at->first.substr(path.size() - 1);
+    }
+  }
+  if (names.empty()) {
+    for (const auto& [column, what] : known) {
+      names.push_back(column);
+    }
   }
   const std::string_view nearest =
       name.size() > kLongest ? std::string_view() : nearest_name(name, names);
-  const std::string path(name.substr(0, name.find('.')));
-  std::string has;
-  for (auto at = known.lower_bound(path + "."); at != known.end(); ++at) {
-    if (!at->first.starts_with(path + ".") || has.size() > kLongest) {
-      break;
-    }
-    has += (has.empty() ? "" : ", ") + at->first.substr(path.size());
-  }
-  const std::string fix = !nearest.empty() ? "did you mean " + std::string(nearest) + "?"
-                          : !has.empty()   ? "this joint has " + has
-                                           : "name a joint's .target, .velocityTarget or .effort";
-  return text.error(ErrorCode::NotFound,
-                    "the scene has no drive and no degree of freedom for the column " + shown(name),
-                    fix);
+  return !nearest.empty() ? "did you mean " + std::string(nearest) + "?"
+         : !has.empty()   ? "this joint has " + has
+                          : "name a joint's .target, .velocityTarget or .effort";
 }
 
 Result<std::vector<CommandColumn>> read_header(CommandText& text, const KnownColumns& known) {
@@ -156,7 +156,10 @@ Result<std::vector<CommandColumn>> read_header(CommandText& text, const KnownCol
     const std::string_view name = text.next_cell();
     const auto found = known.find(name);
     if (found == known.end()) {
-      return unknown_column(text, name, known);
+      return text.error(
+          ErrorCode::NotFound,
+          "the scene has no drive and no degree of freedom for the column " + shown(name),
+          column_fix(name, known));
     }
     if (!seen.insert(name).second) {
       return text.error(ErrorCode::Parse, "the column " + shown(name) + " stands twice",

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "tenon/engines/simulation.h"
+#include "tenon/math/angle.h"
 #include "tenon/scene/physics_scene.h"
 
 namespace tenon::bake {
@@ -12,9 +13,9 @@ namespace tenon::bake {
 /// When bodies are said to rest: all of them that are not kinematic are slower than both bounds for
 /// a while.
 struct RestRule {
-  double linear_speed = 1e-3;                           ///< [m/s]
-  double angular_speed = 3.14159265358979323846 / 180;  ///< [rad/s]; one degree per second
-  double duration = 0.2;                                ///< [s]
+  double linear_speed = 1e-3;       ///< [m/s]
+  double angular_speed = kRadians;  ///< [rad/s]; one degree per second
+  double duration = 0.2;            ///< [s]
 };
 
 /// Looks at a simulation after each of its steps.
