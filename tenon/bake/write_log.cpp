@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// States come first, in columns or keys that are always there. Outputs follow as series that know
+// their object, their name and the labels of their numbers, so no writer lists outputs. Contacts
+// vary in number: they are a list in lines of JSON, and rows of a second table beside a table.
+// Numbers are the shortest that read back the same, so that equal runs give equal bytes.
 #include "tenon/bake/write_log.h"
 
 #include <array>
