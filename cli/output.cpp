@@ -53,6 +53,7 @@ constexpr KindRow kKinds[] = {
     {OutputKind::Package, "a package", {".usdz"}, false, false},
     {OutputKind::Log, "a log", {".csv", ".jsonl", ".npz"}, false, true},
     {OutputKind::NamedLog, "a log", {".csv", ".jsonl", ".npz"}, true, true},
+    {OutputKind::State, "a saved state", {".state"}, true, true},
     {OutputKind::Description, "a robot's description", {".xml", ".urdf"}, false, false},
     {OutputKind::Dump, "a dump", {".json"}, true, true},
     {OutputKind::Sarif, "a SARIF log", {".sarif", ".json"}, true, true},

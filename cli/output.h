@@ -30,6 +30,7 @@ enum class OutputKind : std::uint8_t {
   Package,      ///< .usdz
   Log,          ///< what a simulation did
   NamedLog,     ///< the same, in a format that was asked for by its own name
+  State,        ///< of a simulation, to go on from
   Description,  ///< of a robot, for other programs
   Dump,         ///< of a stage
   Sarif,

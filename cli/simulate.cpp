@@ -7,6 +7,7 @@
 #include "cli/progress.h"
 #include "cli/reading_options.h"
 #include "tenon/asset/layers/asset_layers.h"
+#include "tenon/bake/record_outputs.h"
 #include "tenon/base/text/shown_path.h"
 
 namespace tenon::cli {
@@ -37,6 +38,12 @@ Result<SimulateAssetOptions> simulation_options(const SimulateArguments& argumen
   options.duration = arguments.duration;
   options.time_step = arguments.time_step;
   options.frames_per_second = arguments.frames_per_second;
+  options.outputs = bake::outputs_named(arguments.log);
+  options.commands = arguments.commands;
+  options.state_in = arguments.state_in;
+  if (!arguments.until.empty()) {
+    options.until_rest.emplace();
+  }
   return options;
 }
 
@@ -60,6 +67,25 @@ void SimulateArguments::add_to(const Command& verb) {
       .repeatable();
 }
 
+void SimulateArguments::add_steering_to(const Command& verb) {
+  verb.add_option("--commands", commands,
+                  "Drive joints over time by a CSV file: time [s], then columns such as "
+                  "/hand/joint.target, .velocityTarget (degrees or stage units) and .effort (N, "
+                  "N m); each row holds until the next")
+      .file_only()
+      .value_name("FILE");
+  verb.add_option("--state-in", state_in,
+                  "Begin from a state that --state-out saved of this asset; --duration counts "
+                  "from there")
+      .file_only()
+      .value_name("FILE");
+  verb.add_option("--until", until,
+                  "End once every body has been slower than 1 mm/s and 1 degree/s for 0.2 s and "
+                  "all commands are given; exit 1 if --duration ends first")
+      .one_of({"rest"})
+      .value_name("WHEN");
+}
+
 int exit_code_of(const SimulatedAsset& simulated) {
   if (simulated.unstable()) {
     return kUnstable;
@@ -67,7 +93,10 @@ int exit_code_of(const SimulatedAsset& simulated) {
   if (simulated.run.failure) {
     return exit_code_of(*simulated.run.failure);
   }
-  return simulated.run.interrupted ? kInterrupted : kOk;
+  if (simulated.run.interrupted) {
+    return kInterrupted;
+  }
+  return simulated.until_rest && !simulated.run.rest_since ? kNo : kOk;
 }
 
 Result<SimulatedAsset> simulate(const SimulateArguments& arguments, Report& report) {

@@ -22,8 +22,14 @@ struct SimulateArguments {
   std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5
   double time_step = 0;            ///< [s]; 0: the asset's, else the engine's
   double frames_per_second = 60;
+  std::string commands;          ///< of sim: --commands
+  std::string state_in;          ///< of sim: --state-in
+  std::string until;             ///< of sim: "rest" or empty
+  std::vector<std::string> log;  ///< of sim: outputs beside states
 
   void add_to(const Command& verb);
+  /// What only `sim` offers: commands, states, an end at rest.
+  void add_steering_to(const Command& verb);
 };
 
 int exit_code_of(const SimulatedAsset& simulated);

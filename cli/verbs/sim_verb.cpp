@@ -4,7 +4,7 @@
 // The end state comes as JSON, and the text for people is printed from it, so the two forms say
 // the same. Bodies and joints are told in units of the stage, energy in joules. The log and the
 // baked layer are written in one commit: after a run that became unstable too, but not after an
-// interrupt.
+// interrupt. A saved state is not written of a run that failed.
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -16,6 +16,7 @@
 #include "cli/simulate.h"
 #include "cli/verb.h"
 #include "tenon/asset/simulating/simulated_json.h"
+#include "tenon/bake/record_outputs.h"
 #include "tenon/bake/write_log.h"
 #include "tenon/base/text/grouped_digits.h"
 #include "tenon/base/text/rounded_text.h"
@@ -29,8 +30,16 @@ struct SimArguments {
   std::string format;
   bool timing = false;  ///< --timing
   std::string bake;
+  std::string state_out;  ///< --state-out
 
-  bool uses_standard_output() const { return log == "-" || bake == "-"; }
+  bool uses_standard_output() const { return log == "-" || bake == "-" || state_out == "-"; }
+  /// The format of the log as the end of a name: ".csv".
+  std::string kind() const { return !format.empty() ? "." + format : log == "-" ? ".csv" : log; }
+  /// Contacts go into a table of their own where the log is a table.
+  bool has_contact_table() const {
+    return kind().ends_with(".csv") &&
+           std::find(simulate.log.begin(), simulate.log.end(), "contacts") != simulate.log.end();
+  }
 };
 
 void print_numbers(const Json& numbers) {
@@ -76,6 +85,23 @@ void print_not_mapped(const Json& items) {
   }
 }
 
+/// What the run was given and asked for, as far as it was.
+void print_request(const Json& state) {
+  if (state.contains("stateIn")) {
+    print("began at %g s from the state in %s\n", state["begin"].get<double>(),
+          state["stateIn"].get<std::string>().c_str());
+  }
+  if (state.contains("commands")) {
+    const Json& commands = state["commands"];
+    print("commands   %s rows of %zu columns from %s\n",
+          grouped_digits(commands["rows"].get<std::size_t>()).c_str(),
+          commands["columns"].get<std::size_t>(), commands["file"].get<std::string>().c_str());
+  }
+  if (state.contains("rest") && state["rest"]["reached"].get<bool>()) {
+    print("at rest since %g s\n", state["rest"]["since"].get<double>());
+  }
+}
+
 void print_state(const Json& state) {
   const std::string rate =
       state.contains("realTimeFactor")
@@ -91,6 +117,7 @@ void print_state(const Json& state) {
     print_rows(state["joints"], "joints", "joint positions (degrees or stage units)");
   }
   print_rows(state["bodies"], "bodies", "body positions (stage units)");
+  print_request(state);
   for (const auto& event : state["events"]) {
     print("at %g s  <%s> %s\n", event["time"].get<double>(),
           event["prim"].get<std::string>().c_str(), event["what"].get<std::string>().c_str());
@@ -98,10 +125,19 @@ void print_state(const Json& state) {
   print_not_mapped(state["notMapped"]);
 }
 
-Result<void> claim(const Globals& globals, const SimArguments& options, Outputs& outputs) {
-  if (globals.json && options.uses_standard_output()) {
-    return Error(ErrorCode::Invalid, "--json and another output both want standard output")
-        .with_fix("name an output file");
+/// Whether --log, -o and --format go together.
+Result<void> check_log(const SimArguments& options) {
+  if (options.log.empty() && !options.simulate.log.empty()) {
+    return Error(ErrorCode::Invalid, "--log adds to a log, and -o names none")
+        .with_rule("usage.value")
+        .with_fix("name the log with -o");
+  }
+  if (options.has_contact_table() && !options.log.ends_with(".csv")) {
+    return Error(ErrorCode::Invalid,
+                 "contacts go into a second table beside the log, which needs a file's name")
+        .in_file(options.log)
+        .with_rule("usage.value")
+        .with_fix("name a log that ends in .csv, or give --format jsonl");
   }
   const std::string wanted = "." + options.format;
   const bool speaks = options.log.ends_with(".csv") || options.log.ends_with(".jsonl") ||
@@ -112,19 +148,36 @@ Result<void> claim(const Globals& globals, const SimArguments& options, Outputs&
         .with_rule("output.kind")
         .with_fix("name a file that ends in " + wanted + ", or leave --format out");
   }
+  return {};
+}
+
+Result<void> claim(const Globals& globals, const SimArguments& options, Outputs& outputs) {
+  if (globals.json && options.uses_standard_output()) {
+    return Error(ErrorCode::Invalid, "--json and another output both want standard output")
+        .with_fix("name an output file");
+  }
+  TENON_CHECK(check_log(options));
   TENON_CHECK(
       outputs.claim(options.format.empty() ? OutputKind::Log : OutputKind::NamedLog, options.log));
+  if (options.has_contact_table()) {
+    TENON_CHECK(outputs.claim(OutputKind::Log, bake::contacts_path(options.log)));
+  }
+  TENON_CHECK(outputs.claim(OutputKind::State, options.state_out));
   return outputs.claim(OutputKind::Overlay, options.bake);
 }
 
 Result<void> write_outputs(const SimulatedAsset& s, const SimArguments& options, Outputs& outputs,
                            Report& report) {
   if (!options.log.empty()) {
-    const std::string kind = !options.format.empty() ? "." + options.format
-                             : options.log == "-"    ? ".csv"
-                                                     : options.log;
-    TENON_TRY(std::string log, bake::log_for(kind, *s.scene, s.run.recording));
+    TENON_TRY(std::string log, bake::log_for(options.kind(), *s.scene, s.run.recording));
     outputs.put(options.log, std::move(log));
+  }
+  if (options.has_contact_table()) {
+    outputs.put(bake::contacts_path(options.log), bake::contacts_csv(*s.scene, s.run.recording));
+  }
+  if (!options.state_out.empty() && !s.run.failure) {  // of what failed nothing can go on
+    TENON_TRY(std::string state, end_state(s));
+    outputs.put(options.state_out, std::move(state));
   }
   if (!options.bake.empty()) {
     TENON_CHECK(put_bake(s, options.simulate, options.bake, outputs, report));
@@ -173,11 +226,24 @@ void add_sim(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "Write a log: .csv, .jsonl or .npz; - is standard output");
   verb.add_option("--format", options->format, "Format of the log: csv (as for -o -), jsonl, npz")
       .one_of({"csv", "jsonl", "npz"});
+  verb.add_option("--log", options->simulate.log,
+                  "What the log has beside states; contacts of a .csv log go to NAME.contacts.csv")
+      .one_of(bake::log_output_names())
+      .split_at_commas()
+      .repeatable()
+      .value_name("WHAT");
+  options->simulate.add_steering_to(verb);
+  verb.add_option("--state-out", options->state_out,
+                  "Save the full state at the end, for --state-in; not of a run that failed")
+      .value_name("FILE");
   verb.add_option("--bake", options->bake, "Also write the motion as a layer over the asset");
   verb.add_flag("--timing", options->timing, "Also say how fast it ran");
   verb.footer(
       "Examples:\n"
       "  tenon sim hand.usda --physics physics --duration 5 -o run.csv\n"
+      "  tenon sim hand.usda --commands grasp.csv -o run.jsonl --log contacts,efforts\n"
+      "  tenon sim pile.usda --until rest --duration 60 --state-out rest.state\n"
+      "  tenon sim pile.usda --state-in rest.state --duration 1 -o run.csv\n"
       "  tenon sim door.usda --set /Door/hinge.drive:angular:physics:targetPosition=45 --json");
   choose(verb, chosen, [&globals, options] { return run_sim(globals, *options); });
 }

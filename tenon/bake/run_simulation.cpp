@@ -5,10 +5,14 @@
 // time of a frame, and a frame between is interpolated from both ends of the step, so a run with
 // few frames costs little more than its steps. Frame times are counted, not summed, and do not
 // drift; a frame at the end of a step, to 1e-9 of it, has the exact state. The state at the end is
-// recorded whether a frame falls there or not, unless the engine failed.
+// recorded whether a frame falls there or not, unless the engine failed. Frames are counted from
+// time 0 of the simulation, not from where the run begins.
 #include "tenon/bake/run_simulation.h"
 
 #include <cmath>
+#include <optional>
+
+#include "tenon/bake/record_outputs.h"
 
 namespace tenon::bake {
 namespace {
@@ -53,21 +57,36 @@ JointState mix(const JointState& a, const JointState& b, double t) {
   return result;
 }
 
+constexpr std::size_t kStepsBetweenQuestions = 64;
+
 class Recorder {
  public:
   Recorder(const Simulation& simulation, const scene::PhysicsScene& scene,
            const RunOptions& options, StateRecording& recording)
-      : simulation_(simulation), recording_(recording), rate_(options.frames_per_second) {
+      : simulation_(simulation),
+        recording_(recording),
+        rate_(options.frames_per_second),
+        outputs_(simulation, scene, recording.outputs) {
     recording_.body_count = scene.bodies.size();
     recording_.joint_count = scene.joints.size();
     for (Frame* frame : {&before_, &now_}) {
       frame->bodies.resize(scene.bodies.size());
       frame->joints.resize(scene.joints.size());
     }
-    if (rate_ > 0) {
-      read_frame(simulation_, now_);
-      store(now_, now_, 1);
+  }
+
+  /// The state before the first step.
+  Result<void> begin() {
+    if (rate_ <= 0) {
+      return {};
     }
+    read_frame(simulation_, now_);
+    const double frames = now_.time * rate_;
+    const bool on_grid =
+        std::abs(frames - std::round(frames)) <= 1e-9 * simulation_.time_step() * rate_;
+    const double last = on_grid ? std::round(frames) : std::floor(frames);
+    next_ = last + 1;
+    return store(now_, now_, 1, on_grid ? last / rate_ : now_.time);
   }
 
   /// Called before a step that may cross a frame's time.
@@ -78,54 +97,114 @@ class Recorder {
     }
   }
 
-  void after_step() {
+  Result<void> after_step() {
     if (!crossing_) {
-      return;
+      return {};
     }
     crossing_ = false;
     read_frame(simulation_, now_);
-    const double tolerance = 1e-9 * (now_.time - before_.time);
-    while (next_time() <= now_.time + tolerance) {
-      store(before_, now_, (next_time() - before_.time) / (now_.time - before_.time));
+    const double span = now_.time - before_.time;
+    for (; next_time() <= now_.time + 1e-9 * span; ++next_) {
+      TENON_CHECK(store(before_, now_, (next_time() - before_.time) / span, next_time()));
     }
+    return {};
   }
 
   /// The final state, unless the last frame was just that.
-  void finish() {
+  Result<void> finish() {
     if (rate_ > 0 && !recording_.times.empty() &&
         simulation_.time() - recording_.times.back() > 1e-9 / rate_) {
       read_frame(simulation_, now_);
-      const std::size_t frame = stored_;
-      store(now_, now_, 1);
-      stored_ = frame;
+      return store(now_, now_, 1, now_.time);
     }
+    return {};
   }
 
  private:
-  double next_time() const { return static_cast<double>(stored_) / rate_; }
+  double next_time() const { return next_ / rate_; }
 
-  void store(const Frame& a, const Frame& b, double t) {
+  Result<void> store(const Frame& a, const Frame& b, double t, double time) {
+    TENON_CHECK(outputs_.add_frame());
     const bool exact = t > 1 - 1e-9;
-    recording_.times.push_back(&a == &b ? b.time : next_time());
+    recording_.times.push_back(time);
     for (std::size_t i = 0; i < b.bodies.size(); ++i) {
       recording_.bodies.push_back(exact ? b.bodies[i] : mix(a.bodies[i], b.bodies[i], t));
     }
     for (std::size_t i = 0; i < b.joints.size(); ++i) {
       recording_.joints.push_back(exact ? b.joints[i] : mix(a.joints[i], b.joints[i], t));
     }
-    ++stored_;
+    return {};
   }
 
   const Simulation& simulation_;
   StateRecording& recording_;
   double rate_;
-  std::size_t stored_ = 0;
+  OutputRecorder outputs_;
+  double next_ = 0;  ///< number of the next frame, counted from time 0
   bool crossing_ = false;
   Frame before_;
   Frame now_;
 };
 
-constexpr std::size_t kStepsBetweenQuestions = 64;
+/// One run from its first question to its last step.
+class Runner {
+ public:
+  Runner(Simulation& simulation, const scene::PhysicsScene& scene, const RunOptions& options,
+         Run& run)
+      : simulation_(simulation),
+        options_(options),
+        run_(run),
+        recorder_(simulation, scene, options, run.recording) {
+    if (options.commands != nullptr) {
+      commands_.emplace(*options.commands, scene, simulation);
+    }
+    if (options.until_rest) {
+      rest_.emplace(simulation, scene, *options.until_rest);
+    }
+  }
+
+  Result<void> all_steps() {
+    TENON_CHECK(recorder_.begin());
+    const double step = simulation_.time_step();
+    const auto count = static_cast<std::size_t>(std::llround(options_.duration / step));
+    while (run_.steps < count && !run_.rest_since) {
+      if (is_stopped()) {
+        run_.interrupted = true;
+        break;
+      }
+      TENON_CHECK(one_step(step));
+    }
+    return recorder_.finish();
+  }
+
+ private:
+  bool is_stopped() const {
+    return run_.steps % kStepsBetweenQuestions == 0 && options_.go_on &&
+           !options_.go_on(simulation_.time());
+  }
+
+  Result<void> one_step(double step) {
+    if (commands_) {
+      TENON_CHECK(commands_->advance());
+    }
+    recorder_.before_step(step);
+    TENON_CHECK(simulation_.step());
+    TENON_CHECK(recorder_.after_step());
+    ++run_.steps;
+    run_.time = simulation_.time();
+    if (rest_ && (!commands_ || commands_->is_done())) {
+      run_.rest_since = rest_->look();
+    }
+    return {};
+  }
+
+  Simulation& simulation_;
+  const RunOptions& options_;
+  Run& run_;
+  Recorder recorder_;
+  std::optional<CommandPlayer> commands_;
+  std::optional<RestWatch> rest_;
+};
 
 }  // namespace
 
@@ -143,28 +222,11 @@ PoseRecording StateRecording::poses() const {
 Run run_simulation(Simulation& simulation, const scene::PhysicsScene& scene,
                    const RunOptions& options) {
   Run run;
-  const double step = simulation.time_step();
-  const auto count = static_cast<std::size_t>(std::llround(options.duration / step));
   run.initial_energy = simulation.energy();
   run.time = simulation.time();
-  Recorder recorder(simulation, scene, options, run.recording);
-  while (run.steps < count) {
-    if (run.steps % kStepsBetweenQuestions == 0 && options.go_on &&
-        !options.go_on(simulation.time())) {
-      run.interrupted = true;
-      break;
-    }
-    recorder.before_step(step);
-    if (auto stepped = simulation.step(); !stepped) {
-      run.failure = std::move(stepped).error();
-      break;
-    }
-    recorder.after_step();
-    ++run.steps;
-    run.time = simulation.time();
-  }
-  if (!run.failure) {
-    recorder.finish();
+  Runner runner(simulation, scene, options, run);
+  if (auto done = runner.all_steps(); !done) {
+    run.failure = std::move(done).error();
   }
   run.final_energy = simulation.energy();
   return run;

@@ -5,6 +5,8 @@
 #include <functional>
 #include <optional>
 
+#include "tenon/bake/commands.h"
+#include "tenon/bake/rest.h"
 #include "tenon/bake/state_recording.h"
 #include "tenon/base/error.h"
 #include "tenon/engines/simulation.h"
@@ -13,10 +15,13 @@
 namespace tenon::bake {
 
 struct RunOptions {
-  double duration = 5;            ///< [s]
+  double duration = 5;            ///< [s] from the time at which the simulation is
   double frames_per_second = 60;  ///< of the recording; 0: record nothing
   /// Called now and then with the simulated time; false stops the run. May be empty.
   std::function<bool(double seconds)> go_on;
+  const Commands* commands = nullptr;  ///< given as their time comes
+  std::optional<RestRule>
+      until_rest{};  ///< the run ends where this holds and all commands are given
 };
 
 struct Run {
@@ -26,11 +31,14 @@ struct Run {
   engines::Energy initial_energy;
   engines::Energy final_energy;
   bool interrupted = false;
-  std::optional<Error> failure;  ///< why the run ended early: unstable, for example
+  std::optional<double> rest_since;  ///< [s]; everything rested from then to the end
+  std::optional<Error> failure;      ///< why the run ended early: unstable, for example
 };
 
 /// Steps the simulation for the duration and records frames at the given rate. A frame between two
-/// steps is interpolated (linear, slerp); the last frame is the exact final state.
+/// steps is interpolated (linear, slerp); the first and the last are exact states. Frames stand at
+/// multiples of the frame time, also where the simulation does not begin at 0, so that a run that
+/// is continued has the frames of one that never ended. Outputs that are on are recorded too.
 Run run_simulation(engines::Simulation& simulation, const scene::PhysicsScene& scene,
                    const RunOptions& options);
 

@@ -96,6 +96,20 @@ TEST(RunSimulation, AnEndBetweenFramesIsRecordedToo) {
   EXPECT_DOUBLE_EQ(run.recording.times.back(), 0.25);
 }
 
+TEST(RunSimulation, ARunThatGoesOnHasTheFramesOfOneThatNeverEnded) {
+  const scene::PhysicsScene scene = one_body();
+  MadeUpMotion whole(0.01);
+  const std::string all = csv_log(scene, run_simulation(whole, scene, options_of(1, 7)).recording);
+  MadeUpMotion parts(0.01);
+  run_simulation(parts, scene, options_of(3.0 / 7, 7));  // ends at 0.43 s, between two frames
+  const bake::Run second = run_simulation(parts, scene, options_of(0.57, 7));
+  EXPECT_DOUBLE_EQ(second.recording.times[0], 0.43);
+  EXPECT_DOUBLE_EQ(second.recording.times[1], 4.0 / 7);
+  std::string rows = csv_log(scene, second.recording);
+  rows = rows.substr(rows.find("\n0.5714"));
+  EXPECT_TRUE(all.ends_with(rows)) << rows;
+}
+
 TEST(RunSimulation, AFailureEndsTheRunAndIsKept) {
   MadeUpMotion simulation(0.01, 5);
   const scene::PhysicsScene scene = one_body();

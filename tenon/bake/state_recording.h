@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "tenon/bake/output_recording.h"
 #include "tenon/bake/pose_recording.h"
 #include "tenon/engines/simulation.h"
 
@@ -16,6 +17,7 @@ struct StateRecording {
   std::vector<engines::JointState> joints;  ///< (frame_count x joint_count), row-major
   std::size_t body_count = 0;
   std::size_t joint_count = 0;
+  OutputRecording outputs;  ///< of the same frames
 
   std::size_t frame_count() const { return times.size(); }
   const engines::BodyState& body(std::size_t frame, std::size_t i) const {

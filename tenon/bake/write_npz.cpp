@@ -39,12 +39,14 @@ std::string npy(const std::vector<double>& numbers, const std::vector<std::size_
   return bytes;
 }
 
-std::string npy(const std::vector<std::int64_t>& numbers) {
-  std::string bytes = npy_header("<i8", {numbers.size()});
+std::string npy(const std::vector<std::int64_t>& numbers, const std::vector<std::size_t>& shape) {
+  std::string bytes = npy_header("<i8", shape);
   bytes.append(reinterpret_cast<const char*>(numbers.data()),
                numbers.size() * sizeof(std::int64_t));
   return bytes;
 }
+
+std::string npy(const std::vector<std::int64_t>& numbers) { return npy(numbers, {numbers.size()}); }
 
 /// Fixed-width byte strings.
 std::string npy(const std::vector<std::string>& texts) {
@@ -116,6 +118,65 @@ JointColumns joint_columns(const scene::PhysicsScene& scene, const StateRecordin
   return columns;
 }
 
+using NamedArrays = std::vector<std::pair<std::string, std::string>>;
+
+void add_series(const OutputRecording& outputs, std::size_t frames, NamedArrays& arrays) {
+  for (const OutputSeries& series : outputs.series) {
+    if (series.vectors) {
+      arrays.emplace_back(series.array + ".npy",
+                          npy(series.values, {frames, series.offsets.size() - 1, 3}));
+      continue;
+    }
+    arrays.emplace_back(series.array + ".npy", npy(series.values, {frames, series.width()}));
+    if (series.of == SeriesOf::Scene) {
+      std::vector<std::string> names;
+      for (const std::string& label : series.labels) {
+        names.push_back(label.substr(1));  // behind the dot
+      }
+      arrays.emplace_back(series.array + "_names.npy", npy(names));
+    } else {
+      arrays.emplace_back(
+          series.array + "_offsets.npy",
+          npy(std::vector<std::int64_t>(series.offsets.begin(), series.offsets.end())));
+    }
+  }
+}
+
+void add_contacts(const scene::PhysicsScene& scene, const OutputRecording& outputs,
+                  NamedArrays& arrays) {
+  const double unit = 1 / scene.meters_per_unit;
+  std::vector<std::int64_t> colliders;
+  std::vector<double> point;
+  std::vector<double> normal;
+  std::vector<double> depth;
+  std::vector<double> normal_force;
+  std::vector<double> friction_force;
+  std::vector<double> friction_torque;
+  for (const engines::Contact& c : outputs.contacts) {
+    for (const scene::Index collider : {c.collider0, c.collider1}) {
+      colliders.push_back(static_cast<std::int64_t>(collider));
+    }
+    append(point, c.point * unit);
+    append(normal, c.normal);
+    depth.push_back(c.depth * unit);
+    normal_force.push_back(c.normal_force);
+    append(friction_force, c.friction_force);
+    append(friction_torque, c.friction_torque);
+  }
+  const std::size_t count = outputs.contacts.size();
+  arrays.emplace_back("collider_paths.npy", npy(paths_of(scene.colliders)));
+  arrays.emplace_back("contact_offsets.npy",
+                      npy(std::vector<std::int64_t>(outputs.contact_offsets.begin(),
+                                                    outputs.contact_offsets.end())));
+  arrays.emplace_back("contact_colliders.npy", npy(colliders, {count, 2}));
+  arrays.emplace_back("contact_point.npy", npy(point, {count, 3}));
+  arrays.emplace_back("contact_normal.npy", npy(normal, {count, 3}));
+  arrays.emplace_back("contact_depth.npy", npy(depth, {count}));
+  arrays.emplace_back("contact_normal_force.npy", npy(normal_force, {count}));
+  arrays.emplace_back("contact_friction_force.npy", npy(friction_force, {count, 3}));
+  arrays.emplace_back("contact_friction_torque.npy", npy(friction_torque, {count, 3}));
+}
+
 }  // namespace
 
 Result<std::string> npz_log(const scene::PhysicsScene& scene, const StateRecording& recording) {
@@ -124,7 +185,7 @@ Result<std::string> npz_log(const scene::PhysicsScene& scene, const StateRecordi
   const BodyColumns body = body_columns(scene, recording);
   const JointColumns joint = joint_columns(scene, recording);
   const auto coordinates = static_cast<std::size_t>(joint.offsets.back());
-  const std::vector<std::pair<std::string, std::string>> arrays = {
+  NamedArrays arrays = {
       {"time.npy", npy(recording.times, {frames})},
       {"body_paths.npy", npy(paths_of(scene.bodies))},
       {"position.npy", npy(body.position, {frames, bodies, 3})},
@@ -136,6 +197,10 @@ Result<std::string> npz_log(const scene::PhysicsScene& scene, const StateRecordi
       {"joint_position.npy", npy(joint.position, {frames, coordinates})},
       {"joint_velocity.npy", npy(joint.velocity, {frames, coordinates})},
   };
+  add_series(recording.outputs, frames, arrays);
+  if (recording.outputs.has_contacts) {
+    add_contacts(scene, recording.outputs, arrays);
+  }
   std::vector<bytes::ZipFile> files;
   for (const auto& [name, contents] : arrays) {
     files.push_back({name, contents});

@@ -184,6 +184,8 @@ WRITING = {
     "set": [],  # in place alone
     "sim": [["sim", "scene.usda", "--duration", "0.1", "-o", "OUT.csv"],
             ["sim", "scene.usda", "--duration", "0.1", "-o", "OUT.npz"],
+            ["sim", "scene.usda", "--duration", "0.1", "-o", "OUT.csv", "--log", "contacts,energy"],
+            ["sim", "scene.usda", "--duration", "0.1", "--state-out", "OUT.state"],
             ["sim", "scene.usda", "--duration", "0.1", "--bake", "OUT.usdc"]],
     "strip": [["strip", "scene.usda", "-o", "OUT.usda"],
               ["strip", "scene.usda", "--mute", "-o", "OUT.usda"]],

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 
 #include "tenon/asset/physics_options.h"
@@ -38,16 +39,26 @@ double duration_of(const SimulateAssetOptions& options, const scene::PhysicsScen
   return authored > 0 && std::isfinite(authored) ? authored : 5.0;
 }
 
+/// How many values of the size of a state a frame has.
+double values_of_frame(const scene::PhysicsScene& scene, const engines::Outputs& outputs) {
+  const auto bodies = static_cast<double>(scene.bodies.size());
+  const auto joints = static_cast<double>(scene.joints.size());
+  return (bodies + joints) * (outputs.accelerations ? 2 : 1) +
+         joints * ((outputs.reactions ? 1 : 0) + (outputs.efforts ? 1 : 0));
+}
+
 /// Refuses what would take no step although time is to pass, and records that no memory holds.
-Result<void> check_run(const bake::RunOptions& run, double step, const scene::PhysicsScene& scene) {
+Result<void> check_run(const bake::RunOptions& run, const engines::Simulation& simulation,
+                       const scene::PhysicsScene& scene) {
+  const double step = simulation.time_step();
   if (run.duration > 0 && run.duration < step * (1 - 1e-9)) {
     return Error(ErrorCode::Invalid, "a time step of " + shortest(step) + " s is longer than the " +
                                          shortest(run.duration) + " s to simulate")
         .with_rule("sim.time-step")
         .with_fix("give a smaller --dt or a longer --duration");
   }
-  const double states = (run.duration * run.frames_per_second + 2) *
-                        static_cast<double>(scene.bodies.size() + scene.joints.size());
+  const double states =
+      (run.duration * run.frames_per_second + 2) * values_of_frame(scene, simulation.outputs());
   if (states > static_cast<double>(limits::kRecordedStates)) {
     return Error(ErrorCode::Limit, "the run would record " + shortest(std::floor(states)) +
                                        " states of bodies and joints; the limit is " +
@@ -105,6 +116,7 @@ Result<void> build_model(const SimulateAssetOptions& options, SimulatedAsset& as
                          Diagnostics& diagnostics) {
   engines::SimulationOptions simulation;
   simulation.time_step = options.time_step;
+  simulation.outputs = options.outputs;
   TENON_TRY(asset.simulation,
             make_simulation(options.engine, *asset.scene, simulation, diagnostics));
   asset.engine = options.engine;
@@ -116,6 +128,78 @@ Result<void> build_model(const SimulateAssetOptions& options, SimulatedAsset& as
   return {};
 }
 
+/// All of a file that the run is steered by; at most `limit` bytes.
+Result<std::shared_ptr<const bytes::FileBytes>> read_whole(const std::string& path,
+                                                           const SimulateAssetOptions& options,
+                                                           std::uint64_t limit) {
+  bytes::FileRules rules;
+  rules.max_bytes = limit;
+  return options.open.files->open(path, rules);
+}
+
+Result<void> begin_from_state(const SimulateAssetOptions& options, SimulatedAsset& asset) {
+  if (!options.state_in.empty()) {
+    TENON_TRY(const auto file, read_whole(options.state_in, options, limits::kStateBytes));
+    if (auto restored = asset.simulation->restore_state(file->text()); !restored) {
+      return std::move(restored)
+          .error()
+          .in_file(options.state_in)
+          .with_fix(
+              "give a state that --state-out wrote of this asset, with the same variants, values "
+              "and "
+              "time step");
+    }
+  }
+  asset.state_in = options.state_in;
+  asset.begin = asset.simulation->time();
+  return {};
+}
+
+Result<void> read_commands(const SimulateAssetOptions& options, SimulatedAsset& asset) {
+  if (options.commands.empty()) {
+    return {};
+  }
+  TENON_TRY(const auto file, read_whole(options.commands, options, limits::kCommandBytes));
+  auto commands = bake::commands_from_csv(file->text(), *asset.scene, *asset.simulation);
+  if (!commands) {
+    return std::move(commands).error().in_file(options.commands);
+  }
+  asset.commands = *std::move(commands);
+  asset.commands_file = options.commands;
+  return {};
+}
+
+/// What the run is asked for, of an asset that is ready.
+bake::RunOptions run_options(const SimulateAssetOptions& options, const SimulatedAsset& asset) {
+  bake::RunOptions run;
+  run.duration = duration_of(options, *asset.scene);
+  run.frames_per_second = options.frames_per_second;
+  run.commands = asset.commands ? &*asset.commands : nullptr;
+  run.until_rest = options.until_rest;
+  if (options.listener.go_on) {
+    run.go_on = [&options, begin = asset.begin, duration = run.duration](double seconds) {
+      return options.listener.go_on(seconds - begin, duration);
+    };
+  }
+  return run;
+}
+
+void report_end(const SimulateAssetOptions& options, const SimulatedAsset& asset,
+                Diagnostics& diagnostics) {
+  const bake::Run& run = asset.run;
+  if (run.failure) {
+    diagnostics.add(run.failure->diagnostic());
+  } else if (options.until_rest && !run.rest_since && !run.interrupted) {
+    Diagnostic finding;
+    finding.severity = Severity::Warning;
+    finding.rule = "sim.not-at-rest";
+    finding.message =
+        "not everything was at rest when the run ended at " + shortest(run.time) + " s";
+    finding.fix = "give a longer --duration";
+    diagnostics.add(std::move(finding));
+  }
+}
+
 }  // namespace
 
 Result<SimulatedAsset> simulate_asset(const std::string& path, const SimulateAssetOptions& options,
@@ -125,21 +209,24 @@ Result<SimulatedAsset> simulate_asset(const std::string& path, const SimulateAss
   tell_next(options,
             "building the model of " + std::to_string(asset.scene->bodies.size()) + " bodies");
   TENON_CHECK(build_model(options, asset, diagnostics));
-  bake::RunOptions run;
-  run.duration = duration_of(options, *asset.scene);
-  run.frames_per_second = options.frames_per_second;
-  TENON_CHECK(check_run(run, asset.simulation->time_step(), *asset.scene));
+  TENON_CHECK(begin_from_state(options, asset));
+  TENON_CHECK(read_commands(options, asset));
+  asset.until_rest = options.until_rest.has_value();
+  const bake::RunOptions run = run_options(options, asset);
+  TENON_CHECK(check_run(run, *asset.simulation, *asset.scene));
   tell_next(options, "simulating");
-  if (options.listener.go_on) {
-    run.go_on = [&](double seconds) { return options.listener.go_on(seconds, run.duration); };
-  }
   const auto start = Clock::now();
   asset.run = bake::run_simulation(*asset.simulation, *asset.scene, run);
   asset.wall_seconds = seconds_since(start);
-  if (asset.run.failure) {
-    diagnostics.add(asset.run.failure->diagnostic());
-  }
+  report_end(options, asset, diagnostics);
   return asset;
+}
+
+Result<std::string> end_state(const SimulatedAsset& simulated) {
+  if (simulated.run.failure) {
+    return *simulated.run.failure;
+  }
+  return simulated.simulation->save_state();
 }
 
 layer::Layer motion_layer(const SimulatedAsset& simulated, const std::string& path,

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "tenon/bake/commands.h"
 #include "tenon/bake/run_simulation.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
@@ -37,6 +38,10 @@ struct SimulateAssetOptions {
   std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5
   double time_step = 0;            ///< [s]; 0: the asset's, else the engine's
   double frames_per_second = 60;   ///< of the recording
+  engines::Outputs outputs;        ///< what the recording has beside states
+  std::string commands;            ///< a file of commands (bake/commands.h); empty: none
+  std::string state_in;            ///< a file with the saved state to begin from; empty: the start
+  std::optional<bake::RestRule> until_rest;  ///< the run ends where everything rests
   SimulationListener listener;
 };
 
@@ -47,6 +52,11 @@ struct SimulatedAsset {
   std::unique_ptr<engines::Simulation> simulation;
   std::string engine;
   std::string engine_version;
+  std::string state_in;  ///< as in the options, like the two below
+  std::string commands_file;
+  bool until_rest = false;
+  std::optional<bake::Commands> commands;
+  double begin = 0;  ///< [s]; later than 0 where a saved state was the beginning
   bake::Run run;
   double wall_seconds = 0;
 
@@ -55,9 +65,15 @@ struct SimulatedAsset {
 
 /// Opens, reads the physics and runs. A run that failed on its way is a result (see Run::failure)
 /// and a finding; one that could not begin is an Error: those of open_stage and make_simulation,
-/// Invalid (sim.time-step), Limit (sim.record-too-long).
+/// Invalid (sim.time-step), Limit (sim.record-too-long), those of commands_from_csv and of
+/// restore_state with their file. A run that was to end at rest and did not is a finding, too
+/// (sim.not-at-rest).
 Result<SimulatedAsset> simulate_asset(const std::string& path, const SimulateAssetOptions& options,
                                       Diagnostics& diagnostics);
+
+/// The full state at the end, for SimulateAssetOptions::state_in. Errors: Unsupported where the
+/// engine saves none; why the run failed where it did, because nothing could go on from there.
+Result<std::string> end_state(const SimulatedAsset& simulated);
 
 struct MotionOptions {
   std::string physics_variant;  ///< that ran; empty: the asset's own selection

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/asset/simulating/simulated_json.h"
 
+#include "tenon/bake/record_outputs.h"
 #include "tenon/bake/stage_values.h"
 
 namespace tenon {
@@ -56,6 +57,28 @@ Json events_json(const SimulatedAsset& s) {
   return items;
 }
 
+/// What the run was given and asked for.
+void add_request(const SimulatedAsset& s, Json& state) {
+  if (!s.state_in.empty()) {
+    state["stateIn"] = s.state_in;
+    state["begin"] = s.begin;
+  }
+  if (s.commands) {
+    state["commands"] = {{"file", s.commands_file},
+                         {"rows", s.commands->times.size()},
+                         {"columns", s.commands->columns.size()}};
+  }
+  if (s.until_rest) {
+    state["rest"] = {{"reached", s.run.rest_since.has_value()}};
+    if (s.run.rest_since) {
+      state["rest"]["since"] = *s.run.rest_since;
+    }
+  }
+  if (s.simulation->outputs().any()) {
+    state["log"] = bake::names_of(s.simulation->outputs());
+  }
+}
+
 }  // namespace
 
 Json simulated_json(const SimulatedAsset& s, bool timing) {
@@ -76,6 +99,7 @@ Json simulated_json(const SimulatedAsset& s, bool timing) {
   state["contacts"] = s.simulation->contact_count();
   state["events"] = events_json(s);
   state["notMapped"] = not_mapped_json(s);
+  add_request(s, state);
   return state;
 }
 

@@ -14,7 +14,8 @@ namespace tenon {
 /// y, z), "linearVelocity", "angularVelocity"}}, "joints": {PATH: {"position", "velocity"}},
 /// "energy": {"initial", "final"} [J], "contacts", "events": [{"time", "prim", "what"}],
 /// "notMapped": [{"prim", "property", "why"}]}. Bodies and joints in units of the stage and
-/// degrees.
+/// degrees. Of what was asked for: "begin" [s] and "stateIn", "commands": {"file", "rows",
+/// "columns"}, "rest": {"reached", "since" [s]}, "log": names of outputs.
 answers::Json simulated_json(const SimulatedAsset& simulated, bool timing);
 
 /// {"output", "frames", "bodies", "time"}: what a layer of motion holds.

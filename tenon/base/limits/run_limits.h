@@ -9,6 +9,10 @@ namespace tenon::limits {
 
 /// States of bodies and joints that a run records, frames times bodies and joints: about 2 GB.
 inline constexpr std::size_t kRecordedStates = 20'000'000;
+inline constexpr std::size_t kRecordedContacts = 5'000'000;   ///< of a run: about 0.7 GB
+inline constexpr std::size_t kCommandBytes = 268'435'456;     ///< of a file of commands
+inline constexpr std::size_t kCommandValues = 20'000'000;     ///< numbers in a file of commands
+inline constexpr std::size_t kStateBytes = 1'073'741'824;     ///< of a saved state that is read
 inline constexpr std::size_t kStandardInput = 4'294'967'296;  ///< bytes of a layer from a pipe
 
 }  // namespace tenon::limits
