@@ -17,7 +17,7 @@ help:
 	@echo "make clean   remove build/"
 
 build: packages
-	@tools/quiet_build.sh release $(JOBS) tenon_cli
+	@tools/quiet_build.sh release $(JOBS) all
 
 demo: build
 	@tools/demo.sh

@@ -5,10 +5,10 @@
 # taken apart and does without it, so that nothing here may stop a build.
 #
 # The official binary wheel, pinned by hash in thirdparty/coacd-requirements.txt, fetched once with
-# pip into build/_deps/coacd-<version> (shared by all presets), 3 MB.
+# pip into <TENON_FETCHED>/coacd-<version>, 3 MB.
 include(cmake/wheel.cmake)
 set(TENON_COACD_VERSION 1.0.14)
-set(tenon_coacd_root ${PROJECT_SOURCE_DIR}/build/_deps/coacd-${TENON_COACD_VERSION})
+set(tenon_coacd_root ${TENON_FETCHED}/coacd-${TENON_COACD_VERSION})
 
 # Puts coacd/ and coacd.libs/ of the pinned wheel and its licence into <destination>.
 function(tenon_fetch_coacd destination)

@@ -9,7 +9,8 @@
 # also makes
 #   tenon_<folder>_test      all *_test.cpp, each TEST registered with ctest under the label `unit`
 #   tenon_<folder>_headers   compiles every header without a source file alone, unless TENON_UNITY
-# A folder without any .cpp becomes an interface library.
+# A folder without any .cpp becomes an interface library. The others, and what they name as
+# LIBRARIES, are in the global properties TENON_FOLDER_LIBRARIES and TENON_FOLDER_NEEDS.
 function(tenon_folder folder)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;WITHOUT")
   string(REPLACE "/" "_" name ${folder})
@@ -36,6 +37,8 @@ function(tenon_folder folder)
     tenon_precompile(${library} folder)
     tenon_unity(${library})
     target_link_libraries(${library} PUBLIC tenon_flags ${dependencies} ${arg_LIBRARIES})
+    set_property(GLOBAL APPEND PROPERTY TENON_FOLDER_LIBRARIES ${library})
+    set_property(GLOBAL APPEND PROPERTY TENON_FOLDER_NEEDS ${arg_LIBRARIES})
   else()
     add_library(${library} INTERFACE)
     target_link_libraries(${library} INTERFACE tenon_flags ${dependencies} ${arg_LIBRARIES})
@@ -109,7 +112,7 @@ function(tenon_precompiled_gtest out)
   endif()
   if(NOT TARGET tenon_gtest)
     # A program, as the tests are: its flags have to be theirs.
-    set(unit ${CMAKE_BINARY_DIR}/gtest_header.cpp)
+    set(unit ${PROJECT_BINARY_DIR}/gtest_header.cpp)
     file(CONFIGURE OUTPUT ${unit} CONTENT "int main() {}\n" @ONLY)
     add_executable(tenon_gtest ${unit})
     target_link_libraries(tenon_gtest PRIVATE tenon_flags GTest::gtest)

@@ -1,25 +1,41 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-# Installs the executable, the worker that it starts, the engine library of both, and all licences.
+# Installs everything: the program, the worker that it starts, the engine library of both, all
+# licences; and the library with its headers and package files, which --component development
+# installs alone (with the component runtime, which it needs).
 # The build folder has the same layout, so that the executable finds the library from either place.
-set_target_properties(tenon_cli PROPERTIES INSTALL_RPATH
-                                           "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/tenon")
-install(TARGETS tenon_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME runtime)
 set_target_properties(tenon_worker PROPERTIES INSTALL_RPATH
                                               "$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}/tenon")
+if(TENON_WITH_MUJOCO)
+  set(library_folder ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/tenon)
+  file(MAKE_DIRECTORY ${library_folder})
+  file(CREATE_LINK ${tenon_mujoco_library} ${library_folder}/${tenon_mujoco_soname} SYMBOLIC)
+endif()
+if(TARGET tenon_cli)
+  set_target_properties(tenon_cli PROPERTIES INSTALL_RPATH
+                                             "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/tenon")
+endif()
+if(NOT TENON_INSTALL)
+  return()
+endif()
+
 install(TARGETS tenon_worker RUNTIME DESTINATION libexec/tenon)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon)
 include(licences)
-
+if(TARGET tenon_cli)
+  install(TARGETS tenon_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+endif()
 if(tenon_shell_files) # cli/CMakeLists.txt
-  install(FILES ${tenon_shell_files}/tenon.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${tenon_shell_files}/tenon.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+          COMPONENT program)
   install(FILES ${tenon_shell_files}/tenon
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
   install(FILES ${tenon_shell_files}/_tenon
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
   install(FILES ${tenon_shell_files}/tenon.fish
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
 endif()
 
 if(tenon_coacd_library)
@@ -29,10 +45,10 @@ if(tenon_coacd_library)
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon/coacd)
 endif()
 if(TENON_WITH_MUJOCO)
-  set(library_folder ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/tenon)
-  file(MAKE_DIRECTORY ${library_folder})
-  file(CREATE_LINK ${tenon_mujoco_library} ${library_folder}/${tenon_mujoco_soname} SYMBOLIC)
   install(FILES ${tenon_mujoco_library} DESTINATION ${CMAKE_INSTALL_LIBDIR}/tenon)
   install(FILES ${tenon_mujoco_licences}
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon/mujoco)
+endif()
+if(TARGET tenon_library)
+  include(install_library)
 endif()

@@ -4,7 +4,7 @@
 # it), and mujoco::mujoco, for programs that are linked to it.
 #
 # Default: the official binary wheel, pinned by hash in thirdparty/mujoco-requirements.txt, fetched
-# once with pip into build/_deps/mujoco-<version> (shared by all presets), 10 MB.
+# once with pip into <TENON_FETCHED>/mujoco-<version>, 10 MB.
 # Own MuJoCo: -DTENON_MUJOCO_DIR=<dir> with include/mujoco/mujoco.h and lib/libmujoco.so* (the
 # layout of MuJoCo's release archives and of an installed source build).
 include(cmake/wheel.cmake)
@@ -43,7 +43,7 @@ endfunction()
 if(TENON_MUJOCO_DIR)
   set(tenon_mujoco_root ${TENON_MUJOCO_DIR})
 else()
-  set(tenon_mujoco_root ${PROJECT_SOURCE_DIR}/build/_deps/mujoco-${TENON_MUJOCO_VERSION})
+  set(tenon_mujoco_root ${TENON_FETCHED}/mujoco-${TENON_MUJOCO_VERSION})
   tenon_fetch_once(tenon_fetch_mujoco ${tenon_mujoco_root} ${tenon_mujoco_root}/lib)
 endif()
 

@@ -3,7 +3,9 @@
 # Packages of the system; tools/bootstrap.sh installs them, docs/dependencies.md says why each.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
-find_package(CLI11 REQUIRED)
+if(TENON_PROGRAM)
+  find_package(CLI11 REQUIRED)
+endif()
 find_package(nlohmann_json 3.9 REQUIRED)
 find_package(tl-expected QUIET)
 find_path(TENON_EXPECTED_INCLUDE_DIR tl/expected.hpp)

@@ -1,8 +1,14 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Libraries out of binary wheels, pinned by hash, fetched once with pip into build/_deps (shared by
-# all presets).
+# Libraries out of binary wheels, pinned by hash, fetched once with pip into TENON_FETCHED: the
+# folder build/_deps of the source, which all presets share; as a part of another project its own
+# build folder.
+if(PROJECT_IS_TOP_LEVEL)
+  set(TENON_FETCHED ${PROJECT_SOURCE_DIR}/build/_deps)
+else()
+  set(TENON_FETCHED ${PROJECT_BINARY_DIR}/_deps)
+endif()
 
 # Runs <fetch>(<destination>) unless <proof> is there; configures that run beside each other wait.
 function(tenon_fetch_once fetch destination proof)

@@ -25,31 +25,31 @@ namespace tenon {
 
 struct OpenOptions {
   /// Variant of the default prim's variant set "Physics", selected in the session layer.
-  std::string physics_variant;
+  std::string physics_variant{};
   /// "PATH.attr=value" in text form of the attribute's type: opinions in the session layer.
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides{};
   /// Where every file is read from that the asset and its layers name: the disk, memory, unsaved
   /// text over either. Search paths, sandbox and session layer are looked up there as well.
-  bytes::Files files;
+  bytes::Files files{};
   /// A session layer file; the two options above are written over its opinions, in memory.
-  std::string session_path;
+  std::string session_path{};
   bool load_payloads = true;
   /// Prim paths; when not empty, payloads are left out but for those of these prims, of what is
   /// above and of what is below them.
-  std::vector<std::string> load;
-  std::vector<std::string> mask;  ///< prim paths; empty: everything
+  std::vector<std::string> load{};
+  std::vector<std::string> mask{};  ///< prim paths; empty: everything
   /// Layers that count as absent, the root layer cannot: files, relative to the working directory
   /// or to the asset, or asset paths as layers name them.
-  std::vector<std::string> muted;
-  std::map<std::string, std::vector<std::string>> variant_fallbacks;
+  std::vector<std::string> muted{};
+  std::map<std::string, std::vector<std::string>> variant_fallbacks{};
   /// When not empty, no file outside these folders is opened.
-  std::vector<std::string> sandbox_roots;
+  std::vector<std::string> sandbox_roots{};
   /// Folders that asset paths without "./" are looked up in, after the layer's own folder, the
   /// working directory and the folder of the asset.
-  std::vector<std::string> search_paths;
+  std::vector<std::string> search_paths{};
   /// Folders and files that may go into outputs, beside those that belong to the asset; with
   /// `sandbox_roots` they may be opened, too (tenon/asset_policy.h).
-  std::vector<std::string> allowed_reads;
+  std::vector<std::string> allowed_reads{};
   /// Units of work that composition may take; 0: limits::kComposeWork and more for larger layers.
   std::size_t max_work = 0;
   /// Opinions of layers whose metersPerUnit or kilogramsPerUnit are not those of the stage are

@@ -13,6 +13,7 @@
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/asset/convert_file.h"
+#include "tenon/asset/converting/converted_json.h"
 #include "tenon/asset/converting/describe_asset.h"
 #include "tenon/asset/converting/read_gains.h"
 #include "tenon/asset/converting/robot_files.h"

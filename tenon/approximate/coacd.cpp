@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tenon/base/shared_library.h"
 
@@ -46,8 +47,13 @@ SharedLibrary open_library() {
   if (chosen != nullptr) {
     return SharedLibrary::open({chosen});
   }
-  return SharedLibrary::open(
-      {folder_of_this_code() + "../lib/tenon/coacd/lib_coacd.so", TENON_COACD_LIBRARY});
+  const std::string here = folder_of_this_code();
+  std::vector<std::string> files;
+  if (!here.empty()) {
+    files = {here + "../lib/tenon/coacd/lib_coacd.so", here + "tenon/coacd/lib_coacd.so"};
+  }
+  files.emplace_back(TENON_COACD_LIBRARY);
+  return SharedLibrary::open(files);
 }
 
 Library load() {

@@ -9,7 +9,7 @@
 namespace tenon::approximate {
 
 /// lib_coacd.so can be loaded and has what is needed: from the file that the environment variable
-/// TENON_COACD_LIBRARY names, from ../lib/tenon/coacd beside the program, or from where the build
+/// TENON_COACD_LIBRARY names, from lib/tenon/coacd of the installation, or from where the build
 /// put it.
 bool coacd_is_there();
 

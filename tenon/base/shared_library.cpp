@@ -2,9 +2,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/base/shared_library.h"
 
+#include <array>
+
 #include <dlfcn.h>
+#include <sys/auxv.h>
+#include <unistd.h>
 
 namespace tenon {
+namespace {
+
+/// The file of the running program; the loader knows it only by the word that it was started with.
+std::string program_file() {
+  std::array<char, 4096> file{};
+  const ssize_t length = readlink("/proc/self/exe", file.data(), file.size());
+  return length > 0 ? std::string(file.data(), static_cast<std::size_t>(length)) : std::string();
+}
+
+/// Whether what starts at `base` is the running program and no library of it.
+bool is_program(const void* base) {
+  Dl_info info{};
+  const auto* headers = reinterpret_cast<const void*>(getauxval(AT_PHDR));
+  return dladdr(headers, &info) != 0 && info.dli_fbase == base;
+}
+
+}  // namespace
 
 SharedLibrary SharedLibrary::open(const std::vector<std::string>& files, Binding binding) {
   SharedLibrary library;
@@ -34,8 +55,9 @@ std::string folder_of_this_code() {
       info.dli_fname == nullptr) {
     return {};
   }
-  const std::string file = info.dli_fname;
-  return file.substr(0, file.rfind('/') + 1);
+  const std::string file = is_program(info.dli_fbase) ? program_file() : info.dli_fname;
+  // A relative path would be another one after a change of the working directory.
+  return file.starts_with('/') ? file.substr(0, file.rfind('/') + 1) : std::string();
 }
 
 }  // namespace tenon

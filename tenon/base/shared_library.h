@@ -36,8 +36,8 @@ class SharedLibrary {
   std::string why_not_;
 };
 
-/// The folder, with a '/' behind it, of the program or library that this code is in; "" where the
-/// system cannot tell.
+/// The folder, absolute and with a '/' behind it, of the program or library that this code is in;
+/// "" where the system cannot tell.
 std::string folder_of_this_code();
 
 }  // namespace tenon

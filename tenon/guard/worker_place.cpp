@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/guard/worker_place.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
 #include <vector>
 
 #include <unistd.h>
+
+#include "tenon/base/shared_library.h"
 
 namespace tenon::guard {
 namespace {
@@ -35,6 +38,28 @@ std::string chosen_path() {
   return named == nullptr ? "" : named;
 }
 
+/// As it is built and installed: seen from the library or program that this code is in (lib or
+/// lib/<machine> of the prefix, or bin), and from the running program.
+std::vector<std::string> usual_places() {
+  std::error_code error;
+  std::vector<std::string> places;
+  const auto add = [&places](const fs::path& place) {
+    if (std::find(places.begin(), places.end(), place.string()) == places.end()) {
+      places.push_back(place.string());
+    }
+  };
+  if (const std::string here = folder_of_this_code(); !here.empty()) {
+    const fs::path folder = fs::path(here).parent_path();
+    add(folder / "tenon-worker");
+    add(folder.parent_path() / "libexec/tenon/tenon-worker");
+    add(folder.parent_path().parent_path() / "libexec/tenon/tenon-worker");
+  }
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  add(folder / "tenon-worker");
+  add(folder.parent_path() / "libexec/tenon/tenon-worker");
+  return places;
+}
+
 }  // namespace
 
 void set_worker_program(std::string path) {
@@ -47,10 +72,7 @@ Result<std::string> worker_program() {
   if (const std::string named = chosen_path(); !named.empty()) {
     places.push_back(named);
   } else {
-    std::error_code error;
-    const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-    places.push_back((folder / "tenon-worker").string());
-    places.push_back((folder.parent_path() / "libexec/tenon/tenon-worker").string());
+    places = usual_places();
   }
   std::string looked;
   for (const std::string& path : places) {

@@ -12,9 +12,9 @@ namespace tenon::guard {
 /// an interpreter). To be called before any file is read; an empty path undoes it.
 void set_worker_program(std::string path);
 
-/// The worker's program: as set; else the environment variable TENON_WORKER; else beside the
-/// running program or in ../libexec/tenon, where it is built and installed. ErrorCode::Missing with
-/// the places where it was looked for.
+/// The worker's program: as set; else the environment variable TENON_WORKER; else as it is built
+/// and installed: beside the library (libtenon.so) or in ../libexec/tenon from there, then the same
+/// from the running program. ErrorCode::Missing with the places where it was looked for.
 Result<std::string> worker_program();
 
 }  // namespace tenon::guard

@@ -26,6 +26,10 @@ def Xform "Box" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])
 """
 # A library of MuJoCo's name that is none.
 OTHER = "int mj_version(void) { return 1; }\n"
+# A library that leaves a file where it was opened.
+PLANTED = """#include <fcntl.h>
+__attribute__((constructor)) static void opened(void) { open("opened", O_CREAT | O_WRONLY, 0600); }
+"""
 # Verb -> its exit code where MuJoCo cannot be used.
 EXITS = {"info": 0, "check": 0, "physics": 0, "sim": 4, "doctor": 4}
 
@@ -64,12 +68,31 @@ def faults_with_other_library(program, folder):
                 yield "doctor: MuJoCo is there, or it does not say how to get it"
 
 
+def is_opened_from_working_folder(program, folder):
+    """Whether the program, found by the PATH, opens what lies where its own libraries would be if
+    it stood in the working directory."""
+    work = os.path.join(folder, "bin")
+    place = os.path.join(folder, "lib/tenon/coacd")
+    os.makedirs(work)
+    os.makedirs(place)
+    source = os.path.join(folder, "planted.c")
+    with open(source, "w", encoding="utf-8") as file:
+        file.write(PLANTED)
+    subprocess.run(["cc", "-shared", "-fPIC", "-o", os.path.join(place, "lib_coacd.so"), source],
+                   check=True)
+    subprocess.run(["tenon", "doctor"], executable=program, cwd=work, capture_output=True,
+                   check=False)
+    return os.path.exists(os.path.join(work, "opened"))
+
+
 def main():
     build = installed.release_build()
     with installed.install(build) as prefix, tempfile.TemporaryDirectory() as folder:
         program = os.path.join(prefix, "bin/tenon")
         faults = [f"the program is linked to {name}" for name in needed(program)
                   if not SMALL.match(name)]
+        if is_opened_from_working_folder(program, folder):
+            faults.append("a library of CoACD's name is opened from beside the working directory")
         libraries = [name for name in os.listdir(os.path.join(prefix, "lib/tenon"))
                      if name.startswith("libmujoco.so")]
         if libraries:

@@ -171,15 +171,4 @@ Result<structure::StructuredAsset> structured_robot(const ConvertedFile& convert
   return structure::make_package(source, {}, diagnostics);
 }
 
-RobotCounts counts_of(const ConvertedFile& converted) {
-  return {converted.links, converted.joints, converted.meshes};
-}
-
-answers::Json converted_json(const RobotCounts& counts, const std::string& output) {
-  return {{"output", output},
-          {"links", counts.links},
-          {"joints", counts.joints},
-          {"meshes", counts.meshes}};
-}
-
 }  // namespace tenon

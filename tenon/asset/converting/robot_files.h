@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <string>
 
-#include "tenon/answers/json.h"
 #include "tenon/asset/convert_file.h"
 #include "tenon/asset/made_file.h"
 #include "tenon/base/diagnostics.h"
@@ -31,16 +29,5 @@ Result<NotedFiles> robot_files(ConvertedFile converted, const std::string& outpu
 /// As `tenon structure` would make it of the same asset in a file, proven in the same way.
 Result<structure::StructuredAsset> structured_robot(const ConvertedFile& converted,
                                                     Diagnostics& diagnostics);
-
-/// How much the description holds.
-struct RobotCounts {
-  std::size_t links = 0;
-  std::size_t joints = 0;
-  std::size_t meshes = 0;  ///< files
-};
-RobotCounts counts_of(const ConvertedFile& converted);
-
-/// {"output", "links", "joints", "meshes"}.
-answers::Json converted_json(const RobotCounts& counts, const std::string& output);
 
 }  // namespace tenon

@@ -1,0 +1,38 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+# tenon::tenon, the library of all folders as one shared library, for programs outside: installed
+# (cmake/install.cmake), or with this project as a part of theirs. Shared, because it finds the
+# worker and the engines beside itself, wherever the prefix was moved to, and because programs then
+# are linked to nothing else. It exports tenon's own names alone (tenon.map).
+get_property(folders GLOBAL PROPERTY TENON_FOLDER_LIBRARIES)
+get_property(needs GLOBAL PROPERTY TENON_FOLDER_NEEDS)
+set(objects ${folders})
+list(TRANSFORM objects REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>")
+# Reading by assimp and by MuJoCo is left to the worker, as in the program.
+list(TRANSFORM objects REPLACE "(.+:tenon_mesh>)" "$<FILTER:\\1,EXCLUDE,/assimp_scene>")
+list(TRANSFORM objects REPLACE "(.+:tenon_mjcf>)" "$<FILTER:\\1,INCLUDE,/write_>")
+add_library(tenon_library SHARED ${objects})
+add_library(tenon::tenon ALIAS tenon_library)
+add_dependencies(tenon_library tenon_worker)
+set_target_properties(
+  tenon_library
+  PROPERTIES OUTPUT_NAME tenon
+             EXPORT_NAME tenon
+             VERSION ${PROJECT_VERSION}
+             SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+             LINKER_LANGUAGE CXX
+             LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}
+             INSTALL_RPATH "$ORIGIN/tenon"
+             LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/tenon.map)
+target_link_libraries(tenon_library PRIVATE ${needs})
+# Its own calls stay inside: inline functions that a program was compiled with, by other options,
+# change no answer.
+target_link_options(
+  tenon_library PRIVATE LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/tenon.map
+                        LINKER:-Bsymbolic-functions LINKER:--no-undefined)
+target_compile_features(tenon_library INTERFACE cxx_std_20)
+target_include_directories(
+  tenon_library
+  INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR};${TENON_EXPECTED_INCLUDE_DIR}>"
+            "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>"
+            "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/tenon/thirdparty>")
