@@ -170,13 +170,14 @@ Result<std::vector<CommandColumn>> read_header(CommandText& text, const KnownCol
   return columns;
 }
 
-Result<double> read_number(const CommandText& text, std::string_view cell) {
+/// A number of units, as SI.
+Result<double> read_number(const CommandText& text, std::string_view cell, double unit = 1) {
   const std::optional<double> number = parse_double(cell);
-  if (!number || !std::isfinite(*number)) {
+  if (!number || !std::isfinite(*number * unit)) {
     return text.error(ErrorCode::Parse, shown(cell) + " is no finite number",
                       "write a number, or nothing where what held goes on");
   }
-  return *number;
+  return *number * unit;
 }
 
 Result<void> read_time(CommandText& text, Commands& commands) {
@@ -202,8 +203,8 @@ Result<void> read_row(CommandText& text, const std::vector<double>& units, Comma
       commands.values.push_back(std::numeric_limits<double>::quiet_NaN());
       ++count;
     } else {
-      TENON_TRY(const double number, read_number(text, cell));
-      commands.values.push_back(number * units[count++]);
+      TENON_TRY(const double number, read_number(text, cell, units[count++]));
+      commands.values.push_back(number);
     }
   }
   if (count != units.size()) {
