@@ -4,7 +4,6 @@
 # (cmake/install.cmake), or with this project as a part of theirs. Shared, because it finds the
 # worker and the engines beside itself, wherever the prefix was moved to, and because programs then
 # are linked to nothing else. It exports tenon's own names alone (tenon.map).
-
 get_property(folders GLOBAL PROPERTY TENON_FOLDER_LIBRARIES)
 get_property(needs GLOBAL PROPERTY TENON_FOLDER_NEEDS)
 set(objects ${folders})
