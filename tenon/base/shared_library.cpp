@@ -5,7 +5,7 @@
 #include <array>
 
 #include <dlfcn.h>
-#include <sys/auxv.h>
+#include <link.h>
 #include <unistd.h>
 
 namespace tenon {
@@ -16,13 +16,6 @@ std::string program_file() {
   std::array<char, 4096> file{};
   const ssize_t length = readlink("/proc/self/exe", file.data(), file.size());
   return length > 0 ? std::string(file.data(), static_cast<std::size_t>(length)) : std::string();
-}
-
-/// Whether what starts at `base` is the running program and no library of it.
-bool is_program(const void* base) {
-  Dl_info info{};
-  const auto* headers = reinterpret_cast<const void*>(getauxval(AT_PHDR));
-  return dladdr(headers, &info) != 0 && info.dli_fbase == base;
 }
 
 }  // namespace
@@ -51,11 +44,14 @@ void* SharedLibrary::address(const char* name) const {
 
 std::string folder_of_this_code() {
   Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&folder_of_this_code), &info) == 0 ||
-      info.dli_fname == nullptr) {
+  void* found = nullptr;
+  if (dladdr1(reinterpret_cast<const void*>(&folder_of_this_code), &info, &found,
+              RTLD_DL_LINKMAP) == 0 ||
+      found == nullptr) {
     return {};
   }
-  const std::string file = is_program(info.dli_fbase) ? program_file() : info.dli_fname;
+  const std::string name = static_cast<const link_map*>(found)->l_name;  // the program has none
+  const std::string file = name.empty() ? program_file() : name;
   // A relative path would be another one after a change of the working directory.
   return file.starts_with('/') ? file.substr(0, file.rfind('/') + 1) : std::string();
 }

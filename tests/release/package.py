@@ -71,8 +71,7 @@ def compile_headers(prefix, folder, compiler):
 def build_examples(prefix, folder, compiler, flags):
     place = os.path.join(folder, "examples_" + compiler)
     run("cmake", "-G", "Ninja", "-S", EXAMPLES, "-B", place, f"-DCMAKE_PREFIX_PATH={prefix}",
-        f"-DCMAKE_CXX_COMPILER={compiler}", f"-DCMAKE_CXX_FLAGS={flags}",
-        "-DCMAKE_BUILD_TYPE=Debug")
+        f"-DCMAKE_CXX_COMPILER={compiler}", f"-DCMAKE_CXX_FLAGS={flags}")
     run("cmake", "--build", place)
     return place
 

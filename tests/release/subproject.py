@@ -24,6 +24,7 @@ PARTS = ("CMakeLists.txt", "LICENSE", "cmake", "cli", "docs", "tenon", "tests", 
 PARENT = """cmake_minimum_required(VERSION 3.22)
 project(parent LANGUAGES C CXX)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 include(GNUInstallDirs) # its cache entries are the same for all projects
 function(state out)
   get_cmake_property(names VARIABLES)
@@ -130,7 +131,12 @@ def faults_of_options(build):
     command = next(each["command"] for each in commands if each["file"].endswith("/app.cpp"))
     words = command.split()[1:command.split().index("-o")]
     yield from (f"the parent's program is compiled with {word}" for word in words
-                if not re.match(r"-(I|isystem|std=gnu\+\+20)|/", word))
+                if not re.match(r"-(I|isystem|std=gnu\+\+20|fvisibility=hidden)|/", word))
+    own = [each["command"] for each in commands if "/tenon_base.dir/" in each["command"]]
+    hidden = [command for command in own
+              if re.findall(r"-fvisibility=(\w+)", command)[-1] != "default"]
+    if hidden or not own:
+        yield f"what the library exports is hidden as the parent's names are: {hidden}"
 
 
 def faults_of_places(sources, before, build):
