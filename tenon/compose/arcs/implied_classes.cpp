@@ -113,13 +113,13 @@ class ClassTree {
   }
 
   void visit(const Step& at, NodeId child) {
-    const Step step = at;  // opening another moves it
+    Step step = at;  // opening another moves it
     if (!is_class_based(graph_[child].arc) || continues_chain(step, child)) {
       return;
     }
     const NodeId implied = find_or_add(step, child);
     if (implied != kNoNode && graph_.has_class_based_child(child)) {
-      open({graph_.owner_of_children(implied), child, step.transfer, false});
+      open({graph_.owner_of_children(implied), child, std::move(step.transfer), false});
     }
   }
 
