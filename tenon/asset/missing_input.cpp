@@ -14,6 +14,7 @@ bool tells_of_missing_input(const Diagnostic& finding) {
       "compose.index-capacity-exceeded",
       "compose.invalid-asset-path",
       "compose.invalid-sublayer-path",
+      "compose.variable-expression-error",
       "compose.work-exceeded",
       "convert.mesh-unreadable",
       "package.expression",

@@ -86,23 +86,36 @@ struct RelocatedChildren {
   std::set<Token> added;
 };
 
+/// Calls `visit` with both paths of each pair whose first path is a child of `path`; the pairs are
+/// sorted, so what is at and below a path stands together.
+template <class Visit>
+void visit_children(const MapFunction::Pairs& pairs, Path path, const Visit& visit) {
+  auto pair =
+      std::lower_bound(pairs.begin(), pairs.end(), path,
+                       [](const MapFunction::Pair& at, Path wanted) { return at.first < wanted; });
+  for (; pair != pairs.end() && pair->first.has_prefix(path); ++pair) {
+    if (pair->first.parent() == path) {
+      visit(pair->first, pair->second);
+    }
+  }
+}
+
 RelocatedChildren relocated_children(const LayerStack& stack, Path path,
                                      std::set<Token>& prohibited) {
   RelocatedChildren result;
-  for (const auto& [source, target] : stack.relocates) {
-    const bool from_here = source.parent() == path;
-    const bool to_here = !target.empty() && target.parent() == path;
-    if (from_here) {
-      prohibited.insert(source.name());
-    }
-    if (from_here && to_here) {
+  visit_children(stack.relocates, path, [&](Path source, Path target) {
+    prohibited.insert(source.name());
+    if (!target.empty() && target.parent() == path) {
       result.renamed.emplace(source.name(), target.name());
-    } else if (from_here) {
+    } else {
       result.removed.insert(source.name());
-    } else if (to_here) {
+    }
+  });
+  visit_children(stack.relocates_by_target, path, [&](Path target, Path source) {
+    if (source.parent() != path) {
       result.added.insert(target.name());
     }
-  }
+  });
   return result;
 }
 

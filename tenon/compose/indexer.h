@@ -107,6 +107,13 @@ NodeId add_arc(Indexer& indexer, const Arc& arc, const Site& site, const ArcOpti
 std::uint16_t introduction_depth(const Indexer& indexer, NodeId parent);
 /// The map of an arc from `source` to the node `target`, relocates of the target's stack included.
 MapFunction arc_map(const Indexer& indexer, Path source, NodeId target, layer::LayerOffset offset);
+/// The same in the pool, where one of many relocates is made once.
+struct ArcEnds {
+  Path source;
+  layer::LayerOffset offset;
+  bool root_identity = false;  ///< paths outside the source map to themselves
+};
+const MapFunction* shared_arc_map(const Indexer& indexer, const ArcEnds& ends, NodeId target);
 /// Marks everything that `node` and its subtree can lead to.
 void add_tasks(Indexer& indexer, NodeId node, bool skip_expressed, bool ancestral_variants);
 void add_root_tasks(Indexer& indexer);

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <utility>
-#include <vector>
 
 #include "tenon/base/path.h"
+#include "tenon/compose/pair_lookup.h"
 #include "tenon/layer/arcs.h"
 
 namespace tenon::compose {
@@ -16,8 +17,8 @@ namespace tenon::compose {
 /// Core Spec 1.0.1 section on namespace mapping.
 class MapFunction {
  public:
-  using Pair = std::pair<Path, Path>;
-  using Pairs = std::vector<Pair>;
+  using Pair = PathPair;
+  using Pairs = PathPairs;
 
   /// Maps nothing.
   MapFunction() = default;
@@ -47,14 +48,14 @@ class MapFunction {
   /// Without it.
   MapFunction without_root_identity() const;
 
-  bool operator==(const MapFunction&) const = default;
+  bool operator==(const MapFunction& other) const;
 
  private:
-  MapFunction(Pairs pairs, bool root_identity, layer::LayerOffset offset)
-      : pairs_(std::move(pairs)), offset_(offset), root_identity_(root_identity) {}
+  MapFunction(Pairs pairs, bool root_identity, layer::LayerOffset offset);
   static MapFunction canonical(Pairs pairs, layer::LayerOffset offset);
 
-  Pairs pairs_;  // by depth of the source, then by source
+  Pairs pairs_;                             // by depth of the source, then by source
+  std::shared_ptr<const PairIndex> index_;  // of pairs_; null where they are few
   layer::LayerOffset offset_;
   bool root_identity_ = false;
 };

@@ -21,12 +21,14 @@ constexpr std::size_t kNodeUnits = 8;         // of work to make a node
 constexpr std::size_t kNodesLookedAt = 4;     // for a unit, where nothing else is done with them
 constexpr std::size_t kKeptUnits = 16;        // for a node of the finished index
 constexpr std::size_t kElementsForUnit = 16;  // of paths
-constexpr std::size_t kPairsForUnit = 32;     // pairs of maps compared with one another
 
-/// To make such a map: each of its pairs is compared with all others.
+/// To make such a map, or only to find it: making one of many pairs has been counted.
 std::size_t map_units(const MapFunction& map) {
   const std::size_t pairs = map.pairs().size();
-  return pairs == 0 ? 0 : 6 + pairs + pairs * pairs / kPairsForUnit;
+  if (pairs == 0) {
+    return 0;
+  }
+  return kKnownMapUnits + (pairs > kFewPairs ? 0 : map_making_units(pairs));
 }
 
 std::uint16_t clamped(std::size_t value) {
@@ -46,21 +48,6 @@ Path climb(Path path, std::uint16_t steps) {
 }
 
 }  // namespace
-
-const MapFunction* MapPool::add(MapFunction map) {
-  if (map.is_identity()) {
-    return identity();
-  }
-  maps_.push_back(std::move(map));
-  return &maps_.back();
-}
-
-const MapFunction* MapPool::compose(const MapFunction* outer, const MapFunction* inner) {
-  if (outer->is_identity()) {
-    return inner;
-  }
-  return inner->is_identity() ? outer : add(outer->compose(*inner));
-}
 
 std::uint16_t namespace_depth_of(Path path) {
   std::size_t depth = path.depth();
@@ -85,7 +72,7 @@ void NodeGraph::set_arc(NodeId id, const Arc& arc) {
   Node& node = nodes_[id];
   node.arc = arc.kind;
   node.map_to_parent = arc.map_to_parent;
-  node.map_to_root = maps_->compose(nodes_[arc.parent].map_to_root, arc.map_to_parent);
+  node.map_to_root = maps_->compose(nodes_[arc.parent].map_to_root, arc.map_to_parent, *work_);
   count(kNodeUnits + map_units(*node.map_to_root));
   node.parent = arc.parent;
   node.origin = arc.origin;
@@ -124,7 +111,8 @@ NodeId NodeGraph::insert_subgraph(const NodeGraph& other, const Arc& arc) {
   }
   set_arc(base, arc);
   for (NodeId id = base + 1; id < nodes_.size(); ++id) {
-    nodes_[id].map_to_root = maps_->compose(nodes_[base].map_to_root, nodes_[id].map_to_root);
+    nodes_[id].map_to_root =
+        maps_->compose(nodes_[base].map_to_root, nodes_[id].map_to_root, *work_);
     nodes_[id].arcs_above = clamped(nodes_[id].arcs_above + nodes_[base].arcs_above);
     count(kNodeUnits + map_units(*nodes_[id].map_to_root));
   }

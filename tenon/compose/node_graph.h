@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "tenon/compose/map_pool.h"
 #include "tenon/compose/prim_index.h"
 #include "tenon/compose/site.h"
 #include "tenon/compose/work_meter.h"
@@ -17,18 +17,6 @@
 namespace tenon::compose {
 
 using NodeId = std::uint32_t;
-
-/// Where map functions of nodes live; shared by all indices of a cache.
-class MapPool {
- public:
-  const MapFunction* identity() const { return &MapFunction::identity(); }
-  const MapFunction* add(MapFunction map);
-  /// First `inner`, then `outer`; identities cost nothing.
-  const MapFunction* compose(const MapFunction* outer, const MapFunction* inner);
-
- private:
-  std::deque<MapFunction> maps_;
-};
 
 /// An arc about to be added below `parent`.
 struct Arc {

@@ -143,6 +143,18 @@ std::string laughs(std::size_t levels) {
   return text;
 }
 
+/// Children of a reference, each of which is given another name.
+std::string relocations(std::size_t count) {
+  std::string pairs;
+  std::string children;
+  for (std::size_t i = 0; i < count; ++i) {
+    pairs += (i == 0 ? "" : ",\n") + numbered("</W/a", i) + ">: " + numbered("</W/b", i) + ">";
+    children += prim(numbered("a", i), "references", "", "");
+  }
+  return "#usda 1.0\n(\nrelocates = {\n" + pairs + "\n}\n)\n" +
+         prim("W", "references", "</_r>", "") + prim("_r", "references", "", children);
+}
+
 struct Composed {
   std::size_t work = 0;
   std::size_t prims = 0;
@@ -224,6 +236,9 @@ TEST(ComposeWork, IsInProportionToTheResult) {
     expect_linear("classes", chains_with_classes("inherits", length), 200);
     expect_linear("variants", variant_chains(length), 1500);
   }
+  for (const std::size_t count : {100, 1000, 5000}) {
+    expect_linear("relocations", relocations(count), 300);
+  }
   for (const std::size_t levels : {1, 2, 3, 4}) {
     expect_linear("laughs", laughs(levels), 200);
   }
@@ -261,7 +276,7 @@ TEST(ComposeWork, LayersAllowForWorkOfTheirSize) {
 TEST(ComposeWork, IsTheSameWhenBuiltAhead) {
   for (const std::size_t most : {20'000, 100'000, 10'000'000}) {
     for (const std::string& text : {laughs(3), chains("references", 8, 2), cycles("inherits", 4, 3),
-                                    diamonds("references", 8, 2)}) {
+                                    diamonds("references", 8, 2), relocations(100)}) {
       const auto plain = cache_of(text, with_work(most));
       const auto ahead = cache_of(text, with_work(most));
       const Composed expected = compose_all(*plain);

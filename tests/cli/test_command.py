@@ -394,6 +394,20 @@ class Command(unittest.TestCase):
                                      'filename="no.stl"/></geometry></visual></link></robot>')
         self.assertEqual(tenon("convert", robot, self.folder / "r.usda").returncode, 1)
 
+    def test_input_named_by_an_expression_without_a_value_is_no(self):
+        arcs = {"reference": ('(references = @`none_such("x")`@</X>)', ""),
+                "payload": ('(payload = @`none_such("x")`@</X>)', ""),
+                "sublayer": ("", '    subLayers = [@`none_such("x")`@]\n')}
+        more = {"where": ["/World"], "explain": ["/World"], "sim": ["--duration", "0.01"]}
+        for arc, (of_prim, of_layer) in arcs.items():
+            text = SCENE % f'    def Xform "mesh" {of_prim} {{}}\n'
+            broken = self.write(f"{arc}.usda", text.replace("(\n", "(\n" + of_layer, 1))
+            for name in ("info", "tree", "physics", "sim", "dump", "where", "explain", "check"):
+                process = tenon(name, broken, *more.get(name, []), cwd=self.folder)
+                self.assertEqual(process.returncode, 1, (arc, name, process.stderr))
+                self.assertIn("compose.variable-expression-error",
+                              process.stderr + process.stdout, (arc, name))
+
     def test_what_a_limit_cuts_short_is_no(self):
         for name in ("info", "tree", "physics", "dump", "check"):
             process = tenon(name, self.scene, "--max-work", "1")

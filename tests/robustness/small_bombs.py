@@ -87,6 +87,14 @@ def relocations(count):
         prim(f"a{i}") for i in range(count)), kind="class"), f"relocates = {{\n{pairs}\n}}\n")
 
 
+def relocations_under_references(count):
+    pairs = ",\n".join(f"</W/a{i}>: </W/b{i}>" for i in range(count))
+    arcs = ", ".join(f"</_r/x{i}>" for i in range(count))
+    return layer(prim("W", f"references = [{arcs}]") + prim("_r", inside="".join(
+        prim(f"x{i}", inside=prim(f"a{i}")) for i in range(count)), kind="class"),
+        f"relocates = {{\n{pairs}\n}}\n")
+
+
 def doubling(count):
     lines = "".join(f'string V{i} = "`\'${{V{i + 1}}}${{V{i + 1}}}\'`"\n' for i in range(count))
     return layer(prim("W", 'references = @`"${V0}"`@'),
@@ -112,8 +120,8 @@ BOMBS = {
     "clips without end": (template(1, 2, 1e-320), "kTemplateClips"),
     "clips between two equal times": (template(1e14, 1e14, 2e-5), ""),
     "clips for ever": (template(0, "inf", 1), "kTemplateClips"),
-    "relocations": (relocations(900), "prims          1802"),
-    "too many relocations": (relocations(20000), "kComposeWork"),
+    "relocations": (relocations(5000), "prims          10002"),
+    "too many relocations": (relocations_under_references(3000), "kComposeWork"),
     "variables that double": (doubling(60), "65536"),
 }
 

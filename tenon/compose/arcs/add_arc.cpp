@@ -298,11 +298,24 @@ MapFunction arc_map(const Indexer& indexer, Path source, NodeId target, layer::L
     return map;
   }
   const MapFunction relocates = relocates_map(*node.layer_stack, target_path);
-  const std::size_t pairs = relocates.pairs().size();
-  constexpr std::size_t kPairsForUnit = 32;  // compared with one another
-  indexer.graph.count(node.layer_stack->relocates.size() / 4 + pairs +
-                      pairs * pairs / kPairsForUnit);
+  indexer.graph.count(node.layer_stack->relocates.size() / 4 +
+                      map_making_units(relocates.pairs().size()));
   return relocates.compose(map);
+}
+
+const MapFunction* shared_arc_map(const Indexer& indexer, const ArcEnds& ends, NodeId target) {
+  const auto make = [&] {
+    const MapFunction map = arc_map(indexer, ends.source, target, ends.offset);
+    return ends.root_identity ? map.with_root_identity() : map;
+  };
+  MapPool& maps = *indexer.services.maps;
+  const Node& node = indexer.graph[target];
+  if (node.layer_stack->relocates.size() <= kFewPairs) {
+    return maps.add(make());
+  }
+  return maps.find_or_make({node.layer_stack, nullptr, ends.source, node.path.strip_variants(),
+                            ends.offset, ends.root_identity},
+                           make);
 }
 
 void add_root_tasks(Indexer& indexer) {

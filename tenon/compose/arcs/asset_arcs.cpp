@@ -36,13 +36,9 @@ class AssetArcAdder {
     ArcOptions options;
     const Path prim = prim_path(item, to, options);
     options.include_ancestral = prim.depth() != 1;
-    MapFunction map = arc_map(indexer_, prim, node_, offset);
-    if (item.asset_path.empty()) {
-      map = map.with_root_identity();
-    }
     Arc arc;
     arc.kind = kind_;
-    arc.map_to_parent = indexer_.services.maps->add(std::move(map));
+    arc.map_to_parent = shared_arc_map(indexer_, {prim, offset, item.asset_path.empty()}, node_);
     arc.parent = arc.origin = node_;
     arc.namespace_depth = introduction_depth(indexer_, node_);
     arc.sibling_number = number;

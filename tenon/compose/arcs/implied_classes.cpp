@@ -4,6 +4,8 @@
 // namespace, overrides of the class there apply as well: the arc is implied from node to parent,
 // moved through the map between them, up to the root.
 #include <algorithm>
+#include <optional>
+#include <unordered_set>
 #include <utility>
 
 #include "tenon/compose/indexer.h"
@@ -18,11 +20,19 @@ MapFunction implied_map(const MapFunction& transfer, const MapFunction& class_ma
     return class_map;
   }
   MapFunction::Pairs pairs;
+  const bool few = transfer.pairs().size() + class_map.pairs().size() <= kFewPairs;
+  std::optional<std::unordered_set<Path>> images;  // where they are many
+  if (!few) {
+    images.emplace();
+  }
+  const auto is_new = [&](Path image) {
+    return few ? std::none_of(pairs.begin(), pairs.end(),
+                              [&](const auto& pair) { return pair.first == image; })
+               : images->insert(image).second;
+  };
   const auto add = [&](Path source, Path target) {
     const Path image = transfer.map_source_to_target(source);
-    const bool is_new = std::none_of(pairs.begin(), pairs.end(),
-                                     [&](const auto& pair) { return pair.first == image; });
-    if (!image.empty() && is_new) {
+    if (!image.empty() && is_new(image)) {
       pairs.emplace_back(image, target);
     }
   };
@@ -103,13 +113,13 @@ class ClassTree {
   }
 
   void visit(const Step& at, NodeId child) {
-    const Step step = at;  // opening another moves it
+    Step step = at;  // opening another moves it
     if (!is_class_based(graph_[child].arc) || continues_chain(step, child)) {
       return;
     }
     const NodeId implied = find_or_add(step, child);
     if (implied != kNoNode && graph_.has_class_based_child(child)) {
-      open({graph_.owner_of_children(implied), child, step.transfer, false});
+      open({graph_.owner_of_children(implied), child, std::move(step.transfer), false});
     }
   }
 

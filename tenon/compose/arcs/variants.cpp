@@ -51,7 +51,8 @@ bool walk_down(const NodeGraph& graph, const TranslatedPath& from, const Visit& 
     for (NodeId child = graph[at.node].last_child; child != kNoNode;
          child = graph[child].previous_sibling) {
       const MapFunction& map = *graph[child].map_to_parent;
-      graph.count(kMapUnits + map.pairs().size() + 2 * std::size_t{at.path.depth()});
+      graph.count(kMapUnits + std::min(map.pairs().size(), kFewPairs) +
+                  2 * std::size_t{at.path.depth()});
       const Path down = map.map_target_to_source(at.path);
       if (!down.empty()) {
         open.push_back({child, down});

@@ -15,6 +15,7 @@ namespace {
 class BatchBuilder {
  public:
   BatchBuilder(const KnownIndices& known, IndexBatch& batch) : known_(known), batch_(batch) {
+    batch_.maps.take_from(*known_.maps, [this] { give_up(); });
     services_.maps = &batch_.maps;
     services_.options = known_.options;
     services_.root_stack = known_.root_stack;

@@ -36,10 +36,11 @@ struct IndexBatch {
 struct KnownIndices {
   const ComposeOptions* options = nullptr;
   const LayerStack* root_stack = nullptr;
-  std::size_t node_count = 0;   ///< nodes of all indices so far
-  std::size_t work_done = 0;    ///< units of all indices so far
-  std::size_t max_work = 0;     ///< units that all may take
-  std::size_t max_indices = 0;  ///< of one batch
+  const MapPool* maps = nullptr;  ///< of all indices that were asked for
+  std::size_t node_count = 0;     ///< nodes of all indices so far
+  std::size_t work_done = 0;      ///< units of all indices so far
+  std::size_t max_work = 0;       ///< units that all may take
+  std::size_t max_indices = 0;    ///< of one batch
   /// nullptr where an index, a layer or a stack is not there yet.
   std::function<const PrimIndex*(Path)> index;
   std::function<const Result<layer::LayerPtr>*(const std::string&, const layer::Layer&)> layer;

@@ -301,6 +301,7 @@ bool IndexCache::build_below(const std::vector<const PrimIndex*>& roots,
   KnownIndices known;
   known.options = &state.options;
   known.root_stack = state.root_stack.get();
+  known.maps = &state.maps;
   known.node_count = state.node_count;
   known.work_done = state.work.done();
   // Each of two threads gets half of what is left: work that nobody asks for is wasted.

@@ -123,11 +123,15 @@ ClipSet::Bracket ClipSet::layer_bracket(const TimeSamples& samples, double time)
 }
 
 ClipSet::Bracket ClipSet::clip_bracket(const Clip& clip, Path in_clip, double time) const {
-  std::array<double, 5> times{};
+  std::array<double, 5> times{};  // the first `count`, in order
   std::size_t count = 0;
   const auto add = [&](double candidate) {
     if (clip.start <= candidate && candidate < clip.end) {
-      times[count++] = candidate;
+      std::size_t at = count++;
+      for (; at > 0 && candidate < times[at - 1]; --at) {
+        times[at] = times[at - 1];
+      }
+      times[at] = candidate;
     }
   };
   if (const TimeSamples* samples = samples_in(clip.layer->get(), in_clip)) {
@@ -146,7 +150,6 @@ ClipSet::Bracket ClipSet::clip_bracket(const Clip& clip, Path in_clip, double ti
     }
   }
   add(clip.authored_start);
-  std::sort(times.begin(), times.begin() + count);
   const auto [lower, upper] = around(times.data(), times.data() + count, time);
   return {lower, upper};
 }
