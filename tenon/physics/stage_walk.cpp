@@ -13,7 +13,6 @@
 #include <deque>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "tenon/base/limits/physics_limits.h"
 #include "tenon/physics/physics_tokens.h"
@@ -48,9 +47,9 @@ class Walker {
   void run(const stage::Prim& root) {
     push_children(root, {});
     while (!pending_.empty()) {
-      Pending next = std::move(pending_.back());
+      const Pending next = pending_.back();
       pending_.pop_back();
-      visit(next.prim, std::move(next.above));
+      visit(next.prim, next.above);
     }
     report_expanded();
   }
@@ -302,7 +301,7 @@ class Walker {
       state.articulation_root = index;
     }
     walk_.index_of.emplace(found.path, index);
-    walk_.prims.push_back(std::move(found));
+    walk_.prims.push_back(found);
   }
 
   bool is_enabled_body(const stage::Prim& prim, const Roles& roles) const {

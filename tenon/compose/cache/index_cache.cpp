@@ -92,11 +92,11 @@ struct IndexCache::State {
     }
   }
 
-  LayerStackPtr build_stack(const layer::LayerPtr& root, const layer::LayerPtr& session,
+  LayerStackPtr build_stack(layer::LayerPtr root, layer::LayerPtr session,
                             const LayerStack* variables) {
     LayerStackInputs inputs;
-    inputs.root = root;
-    inputs.session = session;
+    inputs.root = std::move(root);
+    inputs.session = std::move(session);
     const LayerOpener open_once = [this](const std::string& path, const layer::Layer& anchor) {
       return open(path, anchor);
     };
@@ -245,9 +245,11 @@ IndexCache::IndexCache(layer::LayerPtr root, layer::LayerPtr session, LayerOpene
   if (session != nullptr) {
     state.allow_for(*session);
   }
-  state.root_stack = state.build_stack(root, session, nullptr);
-  if (session == nullptr && state.options.shares_root_stack) {
-    state.stacks.emplace(State::StackKey{root.get(), state.root_stack.get()}, state.root_stack);
+  const layer::Layer* root_layer = root.get();
+  const bool shares_root_stack = session == nullptr && state.options.shares_root_stack;
+  state.root_stack = state.build_stack(std::move(root), std::move(session), nullptr);
+  if (shares_root_stack) {
+    state.stacks.emplace(State::StackKey{root_layer, state.root_stack.get()}, state.root_stack);
   }
   state.services.maps = &state.maps;
   state.services.options = &state.options;
