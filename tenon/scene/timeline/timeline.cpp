@@ -35,7 +35,7 @@ PhysicsScene with_anchors(PhysicsScene scene) {
     (track.side == 0 ? joint.frame0 : joint.frame1) = {};
     track.body = index;
     track.joint.reset();
-    scene.bodies.push_back(std::move(anchor));
+    scene.bodies.push_back(anchor);
   }
   return scene;
 }
