@@ -39,11 +39,17 @@ Result<void> check_count(const scene::Joint& joint, std::size_t given, std::size
                       " degrees of freedom, not " + std::to_string(given));
 }
 
-bool is_usable(const Pose& pose) {
-  return is_finite(pose) && dot(pose.orientation, pose.orientation) > 1e-12;
+Result<void> check_pose_values(const Pose& pose) {
+  return is_usable(pose)
+             ? Result<void>()
+             : bad_argument("a pose must be finite, with an orientation that is not zero");
 }
 
 }  // namespace
+
+bool is_usable(const Pose& pose) {
+  return is_finite(pose) && dot(pose.orientation, pose.orientation) > 1e-12;
+}
 
 Error bad_argument(std::string message) {
   return Error(ErrorCode::Invalid, std::move(message)).with_rule("simulation.argument");
@@ -58,31 +64,37 @@ std::vector<Vec3d> Steering::gravity_of(const PhysicsScene& scene) const {
   return result;
 }
 
+Result<void> check_body(const PhysicsScene& scene, Index body) {
+  return check_index(body, scene.bodies.size(), "body");
+}
+
+Result<void> check_joint(const PhysicsScene& scene, Index joint) {
+  return check_index(joint, scene.joints.size(), "joint");
+}
+
 Result<void> check_target(const PhysicsScene& scene, Index joint, Index drive,
                           const DriveTarget& target) {
-  TENON_CHECK(check_index(joint, scene.joints.size(), "joint"));
+  TENON_CHECK(check_joint(scene, joint));
   TENON_CHECK(check_index(drive, scene.joints[joint].drives.size(), "drive"));
   return check_numbers(std::vector<double>{target.position, target.velocity}, "targets");
 }
 
 Result<void> check_efforts(const PhysicsScene& scene, Index joint, std::span<const double> efforts,
                            std::size_t dof_count) {
-  TENON_CHECK(check_index(joint, scene.joints.size(), "joint"));
+  TENON_CHECK(check_joint(scene, joint));
   TENON_CHECK(check_count(scene.joints[joint], efforts.size(), dof_count));
   return check_numbers(efforts, "efforts");
 }
 
 Result<void> check_wrench(const PhysicsScene& scene, Index body, const Wrench& wrench) {
-  TENON_CHECK(check_index(body, scene.bodies.size(), "body"));
+  TENON_CHECK(check_body(scene, body));
   TENON_CHECK(check_numbers(wrench.force.v, "forces"));
   return check_numbers(wrench.torque.v, "torques");
 }
 
 Result<void> check_pose(const PhysicsScene& scene, Index body, const Pose& pose) {
-  TENON_CHECK(check_index(body, scene.bodies.size(), "body"));
-  if (!is_usable(pose)) {
-    return bad_argument("a pose must be finite, with an orientation that is not zero");
-  }
+  TENON_CHECK(check_body(scene, body));
+  TENON_CHECK(check_pose_values(pose));
   return scene.bodies[body].kinematic
              ? Result<void>()
              : bad_argument("the body " + scene.bodies[body].path.str() + " is not kinematic");
@@ -96,7 +108,7 @@ Result<void> check_gravity(const PhysicsScene& scene, Index index, const Vec3d& 
 Result<void> check_parameter(const PhysicsScene& scene, const ParameterKey& key, double value) {
   switch (key.what) {
     case Parameter::BodyMass:
-      TENON_CHECK(check_index(key.object, scene.bodies.size(), "body"));
+      TENON_CHECK(check_body(scene, key.object));
       break;
     case Parameter::ColliderFriction:
       TENON_CHECK(check_index(key.object, scene.colliders.size(), "collider"));
@@ -104,13 +116,13 @@ Result<void> check_parameter(const PhysicsScene& scene, const ParameterKey& key,
     case Parameter::DriveStiffness:
     case Parameter::DriveDamping:
     case Parameter::DriveMaxForce:
-      TENON_CHECK(check_index(key.object, scene.joints.size(), "joint"));
+      TENON_CHECK(check_joint(scene, key.object));
       TENON_CHECK(check_index(key.part, scene.joints[key.object].drives.size(), "drive"));
       break;
     case Parameter::JointDamping:
     case Parameter::JointFriction:
     case Parameter::JointArmature:
-      TENON_CHECK(check_index(key.object, scene.joints.size(), "joint"));
+      TENON_CHECK(check_joint(scene, key.object));
       break;
   }
   const bool open = key.what == Parameter::DriveMaxForce && value == scene::kUnlimited;
@@ -124,7 +136,7 @@ Result<void> check_parameter(const PhysicsScene& scene, const ParameterKey& key,
 
 Result<void> check_joint_state(const PhysicsScene& scene, Index joint, const JointState& state,
                                std::size_t dof_count) {
-  TENON_CHECK(check_index(joint, scene.joints.size(), "joint"));
+  TENON_CHECK(check_joint(scene, joint));
   TENON_CHECK(check_count(scene.joints[joint], state.position.size(), dof_count));
   TENON_CHECK(check_count(scene.joints[joint], state.velocity.size(), dof_count));
   TENON_CHECK(check_numbers(state.position, "positions"));
@@ -132,10 +144,8 @@ Result<void> check_joint_state(const PhysicsScene& scene, Index joint, const Joi
 }
 
 Result<void> check_body_state(const PhysicsScene& scene, Index body, const BodyState& state) {
-  TENON_CHECK(check_index(body, scene.bodies.size(), "body"));
-  if (!is_usable(state.pose)) {
-    return bad_argument("a pose must be finite, with an orientation that is not zero");
-  }
+  TENON_CHECK(check_body(scene, body));
+  TENON_CHECK(check_pose_values(state.pose));
   TENON_CHECK(check_numbers(state.linear_velocity.v, "velocities"));
   return check_numbers(state.angular_velocity.v, "velocities");
 }
@@ -153,10 +163,8 @@ Result<void> check_steering(const PhysicsScene& scene, const Steering& steering,
     TENON_CHECK(check_wrench(scene, body, wrench));
   }
   for (const auto& [body, pose] : steering.poses) {
-    TENON_CHECK(check_index(body, scene.bodies.size(), "body"));
-    if (!is_usable(pose)) {
-      return bad_argument("a pose must be finite, with an orientation that is not zero");
-    }
+    TENON_CHECK(check_body(scene, body));
+    TENON_CHECK(check_pose_values(pose));
   }
   for (const auto& [index, gravity] : steering.gravity) {
     TENON_CHECK(check_gravity(scene, index, gravity));

@@ -32,6 +32,8 @@ struct Steering {
 
 // Whether arguments can be used. Errors: Invalid (rule simulation.argument).
 
+Result<void> check_body(const scene::PhysicsScene& scene, scene::Index body);
+Result<void> check_joint(const scene::PhysicsScene& scene, scene::Index joint);
 Result<void> check_target(const scene::PhysicsScene& scene, scene::Index joint, scene::Index drive,
                           const DriveTarget& target);
 /// `dof_count` is how many the joint has.
@@ -51,6 +53,9 @@ Result<void> check_body_state(const scene::PhysicsScene& scene, scene::Index bod
 /// All of it; `dof_counts` by joint.
 Result<void> check_steering(const scene::PhysicsScene& scene, const Steering& steering,
                             std::span<const std::size_t> dof_counts);
+
+/// Finite, with an orientation that is not zero.
+bool is_usable(const Pose& pose);
 
 /// Invalid (rule simulation.argument).
 Error bad_argument(std::string message);

@@ -48,12 +48,17 @@ Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::make(const PhysicsSc
   start->maps = model;
   start->model = model.model;
   start->state = integration_state(*model.model, *model.data);
-  start->asleep.assign(model.data->tree_asleep, model.data->tree_asleep + model.model->ntree);
+  start->asleep = sleeping_trees(*model.model, *model.data);
   model.shared = true;
   if (how_many > 1) {  // room for contacts and constraints of each further one
     model.model->narena = std::min<mjtSize>(
         model.model->narena, kMemoryOfMany + kMemoryOfManyPerBody * scene.bodies.size());
   }
+  return at_start(std::move(start), std::move(timeline), std::move(model));
+}
+
+Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::at_start(
+    std::shared_ptr<const Start> start, std::unique_ptr<scene::Timeline> timeline, Model model) {
   std::unique_ptr<MujocoSimulation> made(
       new MujocoSimulation(std::move(start), std::move(timeline), std::move(model)));
   if (made->outputs_) {
@@ -82,12 +87,7 @@ Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::from_start(
   }
   TENON_CHECK(write_state(model, start->state, start->asleep));
   auto timeline = make_timeline(*start->scene);
-  std::unique_ptr<MujocoSimulation> made(
-      new MujocoSimulation(std::move(start), std::move(timeline), std::move(model)));
-  if (made->outputs_) {
-    TENON_CHECK(made->outputs_->at_rest(*made->scene_, made->model_));
-  }
-  return made;
+  return at_start(std::move(start), std::move(timeline), std::move(model));
 }
 
 MujocoSimulation::MujocoSimulation(std::shared_ptr<const Start> start,

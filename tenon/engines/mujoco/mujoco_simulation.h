@@ -87,6 +87,9 @@ class MujocoSimulation final : public Simulation {
   MujocoSimulation(std::shared_ptr<const Start> start, std::unique_ptr<scene::Timeline> timeline,
                    Model model);
   MujocoSimulation& operator=(MujocoSimulation&&) = default;
+  /// One whose model is at the start, with its outputs there.
+  static Result<std::unique_ptr<MujocoSimulation>> at_start(
+      std::shared_ptr<const Start> start, std::unique_ptr<scene::Timeline> timeline, Model model);
   /// At the start; uses `data` of a simulation of the start's model where there is some.
   static Result<std::unique_ptr<MujocoSimulation>> from_start(std::shared_ptr<const Start> start,
                                                               DataPtr data);

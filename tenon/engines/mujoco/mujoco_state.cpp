@@ -25,9 +25,8 @@ bool all_finite(const std::vector<double>& numbers) {
 }
 
 bool is_finite_state(const BodyState& state) {
-  return is_finite(state.pose) && is_finite(state.linear_velocity) &&
-         is_finite(state.angular_velocity) &&
-         dot(state.pose.orientation, state.pose.orientation) > 1e-12;
+  return is_usable(state.pose) && is_finite(state.linear_velocity) &&
+         is_finite(state.angular_velocity);
 }
 
 // With which numbers the next step finds the inertia that acceleration drives look at.
@@ -42,13 +41,12 @@ void write_factor(const std::vector<double>& factor, const mjModel& m, mjData& d
   std::copy_n(factor.begin() + m.nC, m.nv, d.qLDiagInv);
 }
 
-Result<void> check_restart(const Restart& restart, const scene::PhysicsScene& scene,
-                           std::size_t body_count, std::size_t joint_count) {
+Result<void> check_restart(const Restart& restart, const scene::PhysicsScene& scene) {
   bool sound = std::isfinite(restart.time) && std::isfinite(restart.advanced_to) &&
-               restart.states.size() == body_count &&
+               restart.states.size() == scene.bodies.size() &&
                std::all_of(restart.states.begin(), restart.states.end(), is_finite_state);
   for (const BrokenJoint& part : restart.broken) {
-    sound = sound && part.joint < joint_count;
+    sound = sound && part.joint < scene.joints.size();
   }
   for (const Index body : restart.driven) {
     sound = sound && body < scene.bodies.size() && scene.bodies[body].kinematic;
@@ -82,7 +80,7 @@ Result<std::string> MujocoSimulation::save_state() const {
   run.history = history_;
   run.steering = steering_;
   run.state = integration_state(*model_.model, *model_.data);
-  run.asleep.assign(model_.data->tree_asleep, model_.data->tree_asleep + model_.model->ntree);
+  run.asleep = sleeping_trees(*model_.model, *model_.data);
   if (inputs_.has_acceleration_drives()) {
     run.factor = factor_of(*model_.model, *model_.data);
   }
@@ -134,7 +132,7 @@ Result<void> MujocoSimulation::replay(const SavedRun& run) {
     if (restart.advanced_to >= 0) {
       timeline_->advance(restart.advanced_to);
     }
-    TENON_CHECK(check_restart(restart, *scene_, scene_->bodies.size(), scene_->joints.size()));
+    TENON_CHECK(check_restart(restart, *scene_));
     note_broken(restart);
     for (const Index body : restart.driven) {
       timeline_->hold_pose(body);

@@ -5,8 +5,6 @@
 // gets it again. Values of the model itself (parameters, gravity) go into a copy of its own where
 // others step the same one. A kinematic body that nothing moves is a part of the world in MuJoCo:
 // the first pose that is set makes the model anew, with the body as one that is driven.
-#include <string>
-
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 #include "tenon/engines/mujoco/run/carry_over.h"
@@ -33,20 +31,6 @@ Result<std::size_t> drive_of(const Model& model, const scene::PhysicsScene& scen
         .with_fix("give the drive a stiffness or a damping");
   }
   return static_cast<std::size_t>(found);
-}
-
-Result<void> check_joint(const scene::PhysicsScene& scene, Index joint) {
-  return joint < scene.joints.size()
-             ? Result<void>()
-             : bad_argument("there is no joint " + std::to_string(joint) + "; the scene has " +
-                            std::to_string(scene.joints.size()));
-}
-
-Result<void> check_body(const scene::PhysicsScene& scene, Index body) {
-  return body < scene.bodies.size()
-             ? Result<void>()
-             : bad_argument("there is no body " + std::to_string(body) + "; the scene has " +
-                            std::to_string(scene.bodies.size()));
 }
 
 }  // namespace

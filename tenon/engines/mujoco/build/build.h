@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -85,8 +86,9 @@ enum class Begin : std::uint8_t { Start, Middle };
 /// qpos, qvel, controls and constant forces at time 0.
 Result<void> set_initial_state(const scene::PhysicsScene& scene, Begin begin, Model& model,
                                Diagnostics& diagnostics);
-/// Forces that bring the gravity of the first scene to that of others.
-void set_other_gravities(const scene::PhysicsScene& scene, Model& model);
+/// The model has the gravity of the first scene: what a body of another one feels beyond it [N].
+/// `mass` is the true one; `gravity` that of each scene [m/s^2].
+Vec3d other_gravity(const scene::Body& body, double mass, std::span<const Vec3d> gravity);
 /// Colliders that overlap at the start and may touch: MuJoCo pushes them apart.
 void report_overlaps(const scene::PhysicsScene& scene, const Model& model,
                      Diagnostics& diagnostics);

@@ -9,11 +9,13 @@
 // force.
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/contact_filter.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/steering.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -186,20 +188,22 @@ void set_controls(const PhysicsScene& scene, Model& model) {
   }
 }
 
+// Bodies of further scenes carry the difference as a constant force at their centre of mass.
+void set_other_gravities(const PhysicsScene& scene, Model& model) {
+  const std::vector<Vec3d> gravity = Steering{}.gravity_of(scene);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (scene.bodies[b].scene != 0 && !scene.bodies[b].kinematic) {
+      write_vector(model.data->xfrc_applied + std::ptrdiff_t{6} * model.bodies[b].id,
+                   other_gravity(scene.bodies[b], model.bodies[b].mass, gravity));
+    }
+  }
+}
+
 }  // namespace
 
-// The model has the gravity of the first scene; bodies of others carry the difference as a constant
-// force at their centre of mass.
-void set_other_gravities(const PhysicsScene& scene, Model& model) {
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const scene::Body& body = scene.bodies[b];
-    if (body.scene == 0 || body.kinematic) {
-      continue;
-    }
-    const Vec3d difference = scene.scenes[body.scene].gravity - scene.scenes.front().gravity;
-    write_vector(model.data->xfrc_applied + 6 * model.bodies[b].id,
-                 difference * (model.bodies[b].mass * body.gravity_scale));
-  }
+Vec3d other_gravity(const scene::Body& body, double mass, std::span<const Vec3d> gravity) {
+  return body.scene == 0 ? Vec3d{}
+                         : (gravity[body.scene] - gravity.front()) * (mass * body.gravity_scale);
 }
 
 Result<void> set_initial_state(const PhysicsScene& scene, Begin begin, Model& model,

@@ -187,11 +187,7 @@ void write_gravity(const PhysicsScene& scene, const Steering& steering, Model& m
     if (body.kinematic) {
       continue;
     }
-    Wrench wrench;
-    if (body.scene != 0) {
-      wrench.force =
-          (gravity[body.scene] - gravity.front()) * (model.bodies[b].mass * body.gravity_scale);
-    }
+    Wrench wrench{other_gravity(body, model.bodies[b].mass, gravity), {}};
     const auto set = steering.wrenches.find(static_cast<Index>(b));
     if (set != steering.wrenches.end()) {
       wrench.force += set->second.force;

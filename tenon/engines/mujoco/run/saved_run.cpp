@@ -16,6 +16,10 @@ std::vector<double> integration_state(const mjModel& m, const mjData& d) {
   return state;
 }
 
+std::vector<int> sleeping_trees(const mjModel& m, const mjData& d) {
+  return {d.tree_asleep, d.tree_asleep + m.ntree};
+}
+
 bool is_sound_sleep(const std::vector<int>& asleep) {
   const auto count = static_cast<int>(asleep.size());
   std::vector<char> pointed_at(asleep.size(), 0);

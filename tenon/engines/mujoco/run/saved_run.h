@@ -41,6 +41,8 @@ struct SavedRun {
 };
 
 std::vector<double> integration_state(const mjModel& m, const mjData& d);
+/// mjData::tree_asleep (tree_count).
+std::vector<int> sleeping_trees(const mjModel& m, const mjData& d);
 
 /// Whether sleeping trees form cycles and the others count down: MuJoCo follows them unchecked.
 bool is_sound_sleep(const std::vector<int>& asleep);

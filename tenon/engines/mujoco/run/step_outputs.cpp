@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/run/read_state.h"
 
@@ -104,7 +105,6 @@ void StepOutputs::begin(const PhysicsScene& scene, const Model& model) {
 
 Result<void> StepOutputs::end(const PhysicsScene& scene, const Steering& steering,
                               const Model& model) {
-  has_stepped = true;
   if (wanted_.contacts) {
     read_contacts(scene, model);
   }
@@ -129,7 +129,6 @@ Result<void> StepOutputs::end(const PhysicsScene& scene, const Steering& steerin
 
 Result<void> StepOutputs::at_rest(const PhysicsScene& scene, const Model& model) {
   const mjData& d = *model.data;
-  has_stepped = false;
   if (wanted_.contacts) {
     read_contacts(scene, model);
   }
@@ -149,21 +148,21 @@ StepOutputs::Forces StepOutputs::forces_of_step(const Model& model) const {
   const mjData& d = *model.data;
   const std::size_t nv = velocity_.size();
   const double dt = m.opt.timestep;
-  Forces forces{std::vector<double>(nv), std::vector<double>(nv), std::vector<double>(nv),
-                std::vector<double>(nv)};
+  Forces forces{std::vector<double>(nv), std::vector<double>(nv), std::vector<double>(nv)};
   std::vector<double> change(nv);
+  std::vector<double> correction(nv);  // what the integrator added to the forces
   for (std::size_t i = 0; i < nv; ++i) {
     change[i] = (d.qvel[i] - velocity_[i]) / dt;
     forces.mean_velocity[i] = driven_[i] != 0 ? 0 : (d.qvel[i] + velocity_[i]) / 2;
   }
-  mj_mulM(&m, &d, forces.correction.data(), change.data());
+  mj_mulM(&m, &d, correction.data(), change.data());
   const bool implicit = damps_implicitly(m);
   for (std::size_t i = 0; i < nv; ++i) {
-    forces.correction[i] -= d.qfrc_smooth[i] + d.qfrc_constraint[i];
+    correction[i] -= d.qfrc_smooth[i] + d.qfrc_constraint[i];
     forces.damping[i] = d.qfrc_damper[i] + d.qfrc_fluid[i];
     forces.drives[i] = d.qfrc_actuator[i];
     const double own = implicit ? -m.dof_damping[i] * change[i] * dt : 0;
-    (drive_of_dof_[i] > 0 ? forces.drives[i] : forces.damping[i]) += forces.correction[i] - own;
+    (drive_of_dof_[i] > 0 ? forces.drives[i] : forces.damping[i]) += correction[i] - own;
     forces.damping[i] += own;
   }
   return forces;
@@ -223,8 +222,8 @@ void StepOutputs::add_wrench_work(const PhysicsScene& scene, const Steering& ste
     if (found != steering.wrenches.end()) {
       set = found->second;
     }
-    Vec3d other = read_vector(applied) - set.force;
-    other -= (gravity[body.scene] - gravity.front()) * (model.bodies[b].mass * body.gravity_scale);
+    const Vec3d other =
+        read_vector(applied) - set.force - other_gravity(body, model.bodies[b].mass, gravity);
     const double dt = m.opt.timestep;
     work.applied += dt * (dot(set.force, linear) + dot(set.torque, angular));
     work.damping += dt * (dot(other, linear) + dot(read_vector(applied + 3) - set.torque, angular));

@@ -29,12 +29,10 @@ class StepOutputs {
   std::vector<Wrench> reactions;            ///< (joint_count)
   std::vector<BodyAcceleration> bodies;     ///< (body_count)
   std::vector<JointState> joints_at_begin;  ///< (joint_count)
-  bool has_stepped = false;
 
  private:
   struct Forces {
     std::vector<double> mean_velocity;  ///< of the step; 0 for driven bodies (dof_count)
-    std::vector<double> correction;     ///< what the integrator added to the forces (dof_count)
     std::vector<double> damping;        ///< (dof_count)
     std::vector<double> drives;         ///< (dof_count)
   };
