@@ -54,10 +54,6 @@ OutputSeries vector_series(SeriesOf of, const char* key, const char* array, std:
   return series;
 }
 
-void append_vector(std::vector<double>& values, const Vec3d& v) {
-  values.insert(values.end(), v.v.begin(), v.v.end());
-}
-
 }  // namespace
 
 std::vector<std::string> log_output_names() {
@@ -132,7 +128,7 @@ void OutputRecorder::add_reactions() {
     return [this, part](Numbers& values) -> Result<void> {
       for (Index j = 0; j < scene_.joints.size(); ++j) {
         TENON_TRY(const engines::Wrench wrench, simulation_.joint_reaction(j));
-        append_vector(values, wrench.*part);
+        append(values, wrench.*part);
       }
       return {};
     };
@@ -149,7 +145,7 @@ void OutputRecorder::add_accelerations() {
     return [this, part, unit](Numbers& values) -> Result<void> {
       for (Index i = 0; i < scene_.bodies.size(); ++i) {
         TENON_TRY(const engines::BodyAcceleration found, simulation_.body_acceleration(i));
-        append_vector(values, found.*part * unit);
+        append(values, found.*part * unit);
       }
       return {};
     };

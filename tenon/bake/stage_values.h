@@ -19,4 +19,8 @@ engines::BodyState in_stage_units(const engines::BodyState& state,
 engines::JointState in_stage_units(const engines::JointState& state, const scene::Joint& joint,
                                    const scene::PhysicsScene& scene);
 
+inline void append(std::vector<double>& numbers, const Vec3d& v) {
+  numbers.insert(numbers.end(), v.v.begin(), v.v.end());
+}
+
 }  // namespace tenon::bake

@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "tenon/bake/contact_fields.h"
+#include "tenon/bake/drive_names.h"
 #include "tenon/bake/stage_values.h"
 #include "tenon/base/text/text_number.h"
 
@@ -58,7 +60,7 @@ std::string csv_header(const PhysicsScene& scene, const StateRecording& recordin
     const std::size_t count = recording.joint(0, i).position.size();
     for (const char* what : {".position", ".velocity"}) {
       for (std::size_t k = 0; k < count; ++k) {
-        text += "," + path + what + (count == 1 ? "" : "." + std::to_string(k));
+        text += "," + path + what + part_label(k, count);
       }
     }
   }
@@ -121,17 +123,18 @@ std::string json_scene_outputs(const OutputRecording& outputs, std::size_t frame
 }
 
 std::string json_contact(const PhysicsScene& scene, const engines::Contact& c) {
-  const double unit = 1 / scene.meters_per_unit;
   const auto body = [&](const std::optional<scene::Index>& index) {
     return index ? "\"" + scene.bodies[*index].path.str() + "\"" : std::string("null");
   };
-  return "{\"colliders\":[\"" + scene.colliders[c.collider0].path.str() + "\",\"" +
-         scene.colliders[c.collider1].path.str() + "\"],\"bodies\":[" + body(c.body0) + "," +
-         body(c.body1) + "],\"point\":" + json_list(c.point * unit) +
-         ",\"normal\":" + json_list(c.normal) + ",\"depth\":" + shortest(c.depth * unit) +
-         ",\"normalForce\":" + shortest(c.normal_force) +
-         ",\"frictionForce\":" + json_list(c.friction_force) +
-         ",\"frictionTorque\":" + json_list(c.friction_torque) + "}";
+  std::string text = "{\"colliders\":[\"" + scene.colliders[c.collider0].path.str() + "\",\"" +
+                     scene.colliders[c.collider1].path.str() + "\"],\"bodies\":[" + body(c.body0) +
+                     "," + body(c.body1) + "]";
+  for (const ContactField& field : kContactFields) {
+    const std::vector<double> numbers = field.of(c, scene);
+    text += std::string(",\"") + field.key +
+            "\":" + (field.is_vector() ? json_list(numbers) : shortest(numbers.front()));
+  }
+  return text + "}";
 }
 
 std::string json_contacts(const PhysicsScene& scene, const OutputRecording& outputs,
@@ -216,15 +219,14 @@ std::string jsonl_log(const PhysicsScene& scene, const StateRecording& recording
 
 std::string contacts_csv(const PhysicsScene& scene, const StateRecording& recording) {
   std::string text = "time,collider0,collider1,body0,body1";
-  for (const char* vector : {"point", "normal"}) {
-    name_columns(text, vector, "");
-  }
-  text += ",depth,normalForce";
-  for (const char* vector : {"frictionForce", "frictionTorque"}) {
-    name_columns(text, vector, "");
+  for (const ContactField& field : kContactFields) {
+    if (field.is_vector()) {
+      name_columns(text, field.key, "");
+    } else {
+      text += std::string(",") + field.key;
+    }
   }
   text += "\n";
-  const double unit = 1 / scene.meters_per_unit;
   const OutputRecording& outputs = recording.outputs;
   for (std::size_t frame = 0; frame < recording.frame_count(); ++frame) {
     for (std::size_t i = outputs.contact_offsets[frame]; i < outputs.contact_offsets[frame + 1];
@@ -235,12 +237,11 @@ std::string contacts_csv(const PhysicsScene& scene, const StateRecording& record
       for (const auto& body : {c.body0, c.body1}) {
         text += "," + (body ? scene.bodies[*body].path.str() : std::string());
       }
-      add(text, c.point * unit);
-      add(text, c.normal);
-      add(text, c.depth * unit);
-      add(text, c.normal_force);
-      add(text, c.friction_force);
-      add(text, c.friction_torque);
+      for (const ContactField& field : kContactFields) {
+        for (const double number : field.of(c, scene)) {
+          add(text, number);
+        }
+      }
       text += "\n";
     }
   }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "tenon/bake/contact_fields.h"
 #include "tenon/bake/stage_values.h"
 #include "tenon/bake/write_log.h"
 #include "tenon/bytes/zip/zip_archive.h"
@@ -77,10 +78,6 @@ struct BodyColumns {
   std::vector<double> angular_velocity;
 };
 
-void append(std::vector<double>& column, const Vec3d& v) {
-  column.insert(column.end(), v.v.begin(), v.v.end());
-}
-
 BodyColumns body_columns(const scene::PhysicsScene& scene, const StateRecording& recording) {
   BodyColumns columns;
   for (const engines::BodyState& state : recording.bodies) {
@@ -144,24 +141,11 @@ void add_series(const OutputRecording& outputs, std::size_t frames, NamedArrays&
 
 void add_contacts(const scene::PhysicsScene& scene, const OutputRecording& outputs,
                   NamedArrays& arrays) {
-  const double unit = 1 / scene.meters_per_unit;
   std::vector<std::int64_t> colliders;
-  std::vector<double> point;
-  std::vector<double> normal;
-  std::vector<double> depth;
-  std::vector<double> normal_force;
-  std::vector<double> friction_force;
-  std::vector<double> friction_torque;
   for (const engines::Contact& c : outputs.contacts) {
     for (const scene::Index collider : {c.collider0, c.collider1}) {
       colliders.push_back(static_cast<std::int64_t>(collider));
     }
-    append(point, c.point * unit);
-    append(normal, c.normal);
-    depth.push_back(c.depth * unit);
-    normal_force.push_back(c.normal_force);
-    append(friction_force, c.friction_force);
-    append(friction_torque, c.friction_torque);
   }
   const std::size_t count = outputs.contacts.size();
   arrays.emplace_back("collider_paths.npy", npy(paths_of(scene.colliders)));
@@ -169,12 +153,15 @@ void add_contacts(const scene::PhysicsScene& scene, const OutputRecording& outpu
                       npy(std::vector<std::int64_t>(outputs.contact_offsets.begin(),
                                                     outputs.contact_offsets.end())));
   arrays.emplace_back("contact_colliders.npy", npy(colliders, {count, 2}));
-  arrays.emplace_back("contact_point.npy", npy(point, {count, 3}));
-  arrays.emplace_back("contact_normal.npy", npy(normal, {count, 3}));
-  arrays.emplace_back("contact_depth.npy", npy(depth, {count}));
-  arrays.emplace_back("contact_normal_force.npy", npy(normal_force, {count}));
-  arrays.emplace_back("contact_friction_force.npy", npy(friction_force, {count, 3}));
-  arrays.emplace_back("contact_friction_torque.npy", npy(friction_torque, {count, 3}));
+  for (const ContactField& field : kContactFields) {
+    std::vector<double> numbers;
+    for (const engines::Contact& c : outputs.contacts) {
+      field.append_to(numbers, c, scene);
+    }
+    const std::vector<std::size_t> shape =
+        field.is_vector() ? std::vector<std::size_t>{count, 3} : std::vector<std::size_t>{count};
+    arrays.emplace_back(std::string("contact_") + field.array + ".npy", npy(numbers, shape));
+  }
 }
 
 }  // namespace
