@@ -148,7 +148,7 @@ class AssetEditor::State {
   /// Composes the asset under all variants, to know its files.
   Result<void> open(const std::string& path, Diagnostics& diagnostics) {
     TENON_CHECK(open_first(path));
-    const StagePtr first = looks_.front().stage;
+    const StagePtr first = selections_.front().stage;
     TENON_CHECK(check_in_no_package(first->root_layer().identifier()));
     diagnostics.append(first->diagnostics());  // an edit of what is not there counts for nothing
     const stage::Prim root = first->default_prim();
@@ -156,9 +156,9 @@ class AssetEditor::State {
       TENON_CHECK(open_variants(root));
     }
     std::map<std::string, layer::LayerPtr> all;
-    for (const Look& look : looks_) {
-      for (const layer::LayerPtr& layer : look.stage->used_layers()) {
-        if (layer.get() != look.stage->session_layer()) {
+    for (const Selection& selection : selections_) {
+      for (const layer::LayerPtr& layer : selection.stage->used_layers()) {
+        if (layer.get() != selection.stage->session_layer()) {
           all.emplace(layer->identifier(), layer);
         }
       }
@@ -188,11 +188,11 @@ class AssetEditor::State {
     return done ? Result<std::vector<EditedPlace>>(std::move(places)) : done.error();
   }
 
-  edit::StageEditor& history() { return looks_.front().editor; }
+  edit::StageEditor& history() { return selections_.front().editor; }
 
   layer::LayerPtr layer(const std::string& identifier) {
-    for (Look& look : looks_) {
-      if (layer::LayerPtr found = look.editor.layer(identifier)) {
+    for (Selection& selection : selections_) {
+      if (layer::LayerPtr found = selection.editor.layer(identifier)) {
         return found;
       }
     }
@@ -200,9 +200,9 @@ class AssetEditor::State {
   }
 
   Result<std::vector<EditedFile>> files() {
+    const bytes::AssetResolver resolver(resolver_options(options_.open));
     std::vector<EditedFile> files;
     for (const auto& [identifier, layer] : history().edited_layers()) {
-      const bytes::AssetResolver resolver(resolver_options(options_.open));
       TENON_TRY(const auto bytes, resolver.open(identifier));
       TENON_TRY(EditedFile file, edited_file(*bytes, *layer));
       if (file.differs()) {
@@ -214,7 +214,7 @@ class AssetEditor::State {
 
  private:
   /// The asset under one selection of the set "Physics".
-  struct Look {
+  struct Selection {
     std::string shown;  ///< the selection; empty when there is no such set
     edit::StageEditor editor;
     StagePtr stage;  ///< with all edits that are proved
@@ -235,29 +235,29 @@ class AssetEditor::State {
     root_ = sources.root;
     stage::StageOptions stage_options;
     TENON_TRY(stage_options.compose, compose_options(options_.open, *root_));
-    looks_.push_back({options_.open.physics_variant,
-                      edit::StageEditor::over(root_, sources.session, sources.opener(),
-                                              std::move(stage_options)),
-                      nullptr});
-    return compose(looks_.front());
+    selections_.push_back({options_.open.physics_variant,
+                           edit::StageEditor::over(root_, sources.session, sources.opener(),
+                                                   std::move(stage_options)),
+                           nullptr});
+    return compose(selections_.front());
   }
 
   Result<void> open_variants(const stage::Prim& root) {
-    looks_.front().shown = root.variant_selection(kVariantSet);
+    selections_.front().shown = root.variant_selection(kVariantSet);
     for (const std::string& variant : root.variant_names(kVariantSet)) {
-      if (variant != looks_.front().shown) {
+      if (variant != selections_.front().shown) {
         TENON_TRY(layer::LayerPtr session, with_variant(nullptr, *root_, kVariantSet, variant));
-        looks_.push_back({variant, history().under_session(std::move(session)), nullptr});
-        TENON_CHECK(compose(looks_.back()));
+        selections_.push_back({variant, history().under_session(std::move(session)), nullptr});
+        TENON_CHECK(compose(selections_.back()));
       }
     }
     return {};
   }
 
-  Result<void> compose(Look& look) {
-    TENON_TRY(const StagePtr stage, look.editor.stage());
-    if (stage != look.stage) {
-      look.stage = stage;
+  Result<void> compose(Selection& selection) {
+    TENON_TRY(const StagePtr stage, selection.editor.stage());
+    if (stage != selection.stage) {
+      selection.stage = stage;
       TENON_CHECK(work_.spend(*stage));
     }
     return {};
@@ -266,8 +266,8 @@ class AssetEditor::State {
   /// Proves what was edited since the scenes were composed last.
   Result<void> settle() {
     const std::vector<Unproved> unproved = forget_unproved();
-    for (Look& look : looks_) {
-      TENON_CHECK(compose(look));
+    for (Selection& selection : selections_) {
+      TENON_CHECK(compose(selection));
     }
     for (const Unproved& one : unproved) {
       places_.push_back(one.place);
@@ -295,9 +295,11 @@ class AssetEditor::State {
   /// False, and nothing is done, when the edit depends on one that is not proved.
   Result<bool> try_edit(std::size_t number, const AssetEdit& edit) {
     const Path prim_path = edit.object.prim();
-    const auto has_prim = [&](const Look& look) { return bool(look.stage->prim(prim_path)); };
-    const auto first = std::find_if(looks_.begin(), looks_.end(), has_prim);
-    if (first == looks_.end()) {
+    const auto has_prim = [&](const Selection& selection) {
+      return bool(selection.stage->prim(prim_path));
+    };
+    const auto first = std::find_if(selections_.begin(), selections_.end(), has_prim);
+    if (first == selections_.end()) {
       return no_prim(prim_path);
     }
     if (reads_what_is_written(edit)) {
@@ -310,12 +312,12 @@ class AssetEditor::State {
     TENON_TRY(const FileChoice file,
               choose_file({*first->stage, prim, edit, roles_, names_, options_}));
     TENON_CHECK(check_in_no_package(file.layer));
-    for (Look& look : looks_) {
-      const auto site = stage::site_in_layer(*look.stage, prim_path, file.layer);
-      if (has_prim(look) && site) {
+    for (Selection& selection : selections_) {
+      const auto site = stage::site_in_layer(*selection.stage, prim_path, file.layer);
+      if (has_prim(selection) && site) {
         const bool there =
-            edit.kind == Kind::ApplyApi && is_as_asked(look.stage->prim(prim_path), edit, {});
-        return there ? Result<bool>(true) : author_in(look, *site, number, edit, file);
+            edit.kind == Kind::ApplyApi && is_as_asked(selection.stage->prim(prim_path), edit, {});
+        return there ? Result<bool>(true) : author_in(selection, *site, number, edit, file);
       }
     }
     return Error(ErrorCode::Invalid, "what " + file_part(file.layer) + " says about <" +
@@ -327,7 +329,7 @@ class AssetEditor::State {
                                            : "tenon where names the files that count");
   }
 
-  Result<bool> author_in(Look& look, const stage::LayerSite& site, std::size_t number,
+  Result<bool> author_in(Selection& selection, const stage::LayerSite& site, std::size_t number,
                          const AssetEdit& edit, const FileChoice& file) {
     edit::EditTarget target = edit::site_target(site, file.layer);
     const Path spec = target.spec_path(edit.object);
@@ -336,13 +338,13 @@ class AssetEditor::State {
     }
     Unproved made{&edit, {}, {}};
     if (!edit.is_about_api()) {
-      const stage::Prim prim = look.stage->prim(edit.object.prim());
-      const layer::LayerPtr layer = look.editor.layer(file.layer);
+      const stage::Prim prim = selection.stage->prim(edit.object.prim());
+      const layer::LayerPtr layer = selection.editor.layer(file.layer);
       TENON_TRY(made.typed, typed_edit(prim, edit, layer->find(spec)));
       made.place.before = composed_text(prim, edit.object.name());
     }
-    TENON_CHECK(look.editor.set_target(std::move(target)));
-    TENON_CHECK(author(look.editor, edit, spec, made.typed));
+    TENON_CHECK(selection.editor.set_target(std::move(target)));
+    TENON_CHECK(author(selection.editor, edit, spec, made.typed));
     written_.insert(spec);
     sites_.insert(spec);
     for (const Path at : sites_of(edit)) {
@@ -359,8 +361,8 @@ class AssetEditor::State {
   /// The specs that say what the edit is about, in all layers and under all selections.
   std::vector<Path> sites_of(const AssetEdit& edit) const {
     std::vector<Path> sites;
-    for (const Look& look : looks_) {
-      for (const stage::SpecSite& site : look.stage->prim(edit.object.prim()).spec_stack()) {
+    for (const Selection& selection : selections_) {
+      for (const stage::SpecSite& site : selection.stage->prim(edit.object.prim()).spec_stack()) {
         sites.push_back(edit.is_about_api() ? site.path : site.path.property(edit.object.name()));
       }
     }
@@ -382,23 +384,23 @@ class AssetEditor::State {
   /// asset opens, or else in the first variant that has the file.
   Result<void> prove(const AssetEdit& edit, const PropertyValue& typed, EditedPlace& place) {
     bool first = true;
-    for (const Look& look : looks_) {
-      const stage::Prim prim = look.stage->prim(edit.object.prim());
-      if (!prim || !stage::site_in_layer(*look.stage, prim.path(), place.file)) {
+    for (const Selection& selection : selections_) {
+      const stage::Prim prim = selection.stage->prim(edit.object.prim());
+      if (!prim || !stage::site_in_layer(*selection.stage, prim.path(), place.file)) {
         continue;
       }
       if (is_as_asked(prim, edit, typed)) {
-        if (!look.shown.empty()) {
-          place.variants.push_back(look.shown);
+        if (!selection.shown.empty()) {
+          place.variants.push_back(selection.shown);
         }
         if (first && !edit.is_about_api()) {
           place.after = composed_text(prim, edit.object.name());
           warn_of_samples(prim, edit, typed);
         }
       } else if (first) {
-        return hidden(look, edit, place.file);
+        return hidden(selection, edit, place.file);
       } else {
-        Diagnostic finding = hidden(look, edit, place.file).diagnostic();
+        Diagnostic finding = hidden(selection, edit, place.file).diagnostic();
         finding.severity = Severity::Warning;
         finding.rule = "edit.hidden-in-variant";
         diagnostics_->add(std::move(finding));
@@ -420,11 +422,12 @@ class AssetEditor::State {
     }
   }
 
-  static Error hidden(const Look& look, const AssetEdit& edit, const std::string& file) {
+  static Error hidden(const Selection& selection, const AssetEdit& edit, const std::string& file) {
     const Token property = edit.is_about_api() ? Token() : edit.object.name();
     std::string stronger = "another layer";
     std::uint32_t line = 0;
-    for (const auto& source : stage::opinion_sources(*look.stage, edit.object.prim(), property)) {
+    for (const auto& source :
+         stage::opinion_sources(*selection.stage, edit.object.prim(), property)) {
       if (source.layer->identifier() == file) {
         break;
       }
@@ -436,7 +439,7 @@ class AssetEditor::State {
         break;
       }
     }
-    const std::string where = look.shown.empty() ? "" : " under Physics=" + look.shown;
+    const std::string where = selection.shown.empty() ? "" : " under Physics=" + selection.shown;
     Error error(ErrorCode::Invalid, "what " + file_part(file) + " says about <" +
                                         edit.object.str() + "> does not count" + where +
                                         ": a stronger opinion hides it");
@@ -449,7 +452,7 @@ class AssetEditor::State {
   EditOptions options_;
   Diagnostics* diagnostics_ = nullptr;  // of the call
   layer::LayerPtr root_;
-  std::vector<Look> looks_;  // first: as the asset opens
+  std::vector<Selection> selections_;  // first: as the asset opens
   stage::WorkAccount work_;
   std::vector<std::string> names_;
   structure::RolesOfFiles roles_;

@@ -70,11 +70,16 @@ class AssetsCheck {
     }
   }
 
-  bool belongs(const EditedFile& file, const std::string& asset) {
+  /// The files of the asset and of what is to be checked.
+  bytes::ReadPolicy policy_of(const std::string& asset) const {
     bytes::ReadPolicy policy = policy_for(asset, options_.check.open);
     for (const std::string& given : paths_) {
       policy.add(given);
     }
+    return policy;
+  }
+
+  bool belongs(const EditedFile& file, const std::string& asset, const bytes::ReadPolicy& policy) {
     const Result<void> admitted = policy.check(file.path);
     if (!admitted) {
       Diagnostic finding = admitted.error().diagnostic();
@@ -96,7 +101,8 @@ class AssetsCheck {
     }
     TENON_TRY(std::vector<EditedFile> files,
               corrected_files(checked->findings, options_.check.open.files));
-    std::erase_if(files, [&](const EditedFile& file) { return !belongs(file, path); });
+    const bytes::ReadPolicy policy = policy_of(path);
+    std::erase_if(files, [&](const EditedFile& file) { return !belongs(file, path, policy); });
     if (options_.write) {
       TENON_CHECK(options_.write(files));
     }

@@ -11,8 +11,7 @@
 namespace tenon {
 
 /// Puts the drives' gains into `options`: `text` is "K,D" for all joints, or the name of a JSON
-/// file
-/// {"joint": [K, D], "*": [K, D]}, in N m/rad and N m s/rad (N/m and N s/m). Errors: Invalid.
+/// file {"joint": [K, D], "*": [K, D]}, in N m/rad and N m s/rad (N/m and N s/m). Errors: Invalid.
 Result<void> read_gains(const std::string& text, const bytes::Files& files,
                         convert::ConvertOptions& options);
 

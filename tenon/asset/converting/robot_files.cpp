@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 
+#include "tenon/asset/layers/relative_path.h"
 #include "tenon/asset/structure_asset.h"
 #include "tenon/asset_policy.h"
 #include "tenon/base/content_digest.h"
@@ -33,13 +34,9 @@ void make_relative(layer::Layer& layer, const std::string& output) {
     if (asset == nullptr || !fs::path(asset->authored).is_absolute()) {
       continue;
     }
-    std::string name = fs::path(asset->authored).lexically_relative(folder).generic_string();
-    if (!name.starts_with("../")) {
-      name.insert(0, "./");
-    }
+    const std::string name = relative_asset_path(asset->authored, folder);
     layer.find(entry.path)
-        ->set(layer::fields::default_value,
-              layer::Value(layer::AssetPath{std::move(name), "", ""}));
+        ->set(layer::fields::default_value, layer::Value(layer::AssetPath{name, "", ""}));
   }
 }
 

@@ -15,6 +15,7 @@
 
 #include "tenon/asset/edited_file.h"
 #include "tenon/asset/layers/output_place.h"
+#include "tenon/asset/layers/relative_path.h"
 #include "tenon/asset_policy.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/files.h"
@@ -44,11 +45,6 @@ LayerNames layer_names(layer::Layer layer) {
     return name;
   });
   return named;
-}
-
-std::string relative_to(const std::string& file, const std::string& folder) {
-  const std::string name = fs::path(file).lexically_relative(folder).generic_string();
-  return name.starts_with("../") ? name : "./" + name;
 }
 
 }  // namespace
@@ -203,7 +199,7 @@ void AssetLayers::rename(layer::Layer& layer, const std::string& from, const std
     const auto identifier = resolver_.resolve(name, from);
     const auto place = identifier ? places.find(*identifier) : places.end();
     if (use == formats::AssetUse::Layer && place != places.end()) {
-      return relative_to(place->second, folder);
+      return relative_asset_path(place->second, folder);
     }
     if (same_folder || fs::path(name).is_absolute()) {
       return name;
@@ -211,8 +207,8 @@ void AssetLayers::rename(layer::Layer& layer, const std::string& from, const std
     // Also patterns such as <UDIM>, which name no file: from the old folder.
     const bool found_beside = identifier.has_value() || name.starts_with(".");
     return found_beside && !bytes::is_in_package(from)
-               ? relative_to((fs::path(from).parent_path() / name).lexically_normal().string(),
-                             folder)
+               ? relative_asset_path(
+                     (fs::path(from).parent_path() / name).lexically_normal().string(), folder)
                : name;
   });
 }
@@ -297,10 +293,9 @@ layer::Layer layer_over(const layer::Layer& asset, const std::string& output) {
   layer::Layer over(output);
   over.set_may_lack_text();
   const fs::path folder = fs::path(bytes::absolute_file_path(output)).parent_path();
-  const std::string name = fs::path(asset.identifier()).lexically_relative(folder).generic_string();
   over.root().set(
       "subLayers",
-      layer::Value(std::vector<std::string>{name.starts_with("../") ? name : "./" + name}));
+      layer::Value(std::vector<std::string>{relative_asset_path(asset.identifier(), folder)}));
   for (const char* field : {"defaultPrim", "kilogramsPerUnit", "metersPerUnit", "upAxis",
                             "startTimeCode", "endTimeCode", "timeCodesPerSecond"}) {
     const layer::Value* value = asset.root().find(field);

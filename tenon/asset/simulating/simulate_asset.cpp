@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "tenon/asset/layers/relative_path.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/bake/write_time_samples.h"
 #include "tenon/base/limits/run_limits.h"
@@ -146,8 +147,7 @@ Result<void> begin_from_state(const SimulateAssetOptions& options, SimulatedAsse
           .in_file(options.state_in)
           .with_fix(
               "give a state that --state-out wrote of this asset, with the same variants, values "
-              "and "
-              "time step");
+              "and time step");
     }
   }
   asset.state_in = options.state_in;
@@ -235,12 +235,8 @@ layer::Layer motion_layer(const SimulatedAsset& simulated, const std::string& pa
   namespace fs = std::filesystem;
   bake::BakeOptions bake;
   const fs::path folder = fs::path(bytes::absolute_file_path(output)).parent_path();
-  const fs::path asset = bytes::absolute_file_path(path);
-  const std::string relative = asset.lexically_relative(folder.lexically_normal()).generic_string();
   bake.uninstance = options.uninstance;
-  bake.asset_path = relative.empty()          ? asset.generic_string()
-                    : relative.front() == '.' ? relative
-                                              : "./" + relative;
+  bake.asset_path = relative_asset_path(bytes::absolute_file_path(path), folder);
   if (!options.physics_variant.empty()) {
     bake.variant_selections["Physics"] = options.physics_variant;
   }
