@@ -16,12 +16,6 @@
 namespace tenon {
 namespace {
 
-void* run(void* call) {
-  prepare_thread_heap();
-  (*static_cast<const std::function<void()>*>(call))();
-  return nullptr;
-}
-
 struct Numbered {
   const std::function<void(std::size_t)>* call = nullptr;
   std::size_t number = 0;
@@ -48,18 +42,15 @@ std::size_t usable_processors() {
 }
 
 void run_both(const std::function<void()>& first, const std::function<void()>& second) {
-  // Not std::thread: where no thread can be had, that one throws.
-  pthread_t other{};
-  void* const call = const_cast<std::function<void()>*>(&first);
-  const bool started = usable_processors() > 1 && pthread_create(&other, nullptr, run, call) == 0;
-  second();
-  if (started) {
-    pthread_join(other, nullptr);
+  if (usable_processors() > 1) {
+    run_each(2, [&](std::size_t i) { i == 0 ? first() : second(); });
   } else {
+    second();
     first();
   }
 }
 
+// Not std::thread: where no thread can be had, that one throws.
 void run_each(std::size_t count, const std::function<void(std::size_t)>& call) {
   std::vector<Numbered> tasks(count, Numbered{&call, 0});
   std::vector<pthread_t> threads;
