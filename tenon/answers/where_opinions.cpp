@@ -34,13 +34,11 @@ using stage::OpinionRole;
 using stage::OpinionSource;
 using stage::ValueSource;
 
-Json optional_number(std::uint32_t number) { return number == 0 ? Json(nullptr) : Json(number); }
-
 Json arc_json(const stage::ArcStep& step) {
   Json arc = {{"arc", std::string(compose::arc_name(step.kind))},
               {"from", step.from.str()},
               {"file", file_or_null(step.layer)},
-              {"line", optional_number(step.line)},
+              {"line", or_null(step.line)},
               {"to", step.to.str()},
               {"layer", shown_path(step.to_layer)}};
   if (step.kind == compose::ArcKind::Variant) {
@@ -54,7 +52,7 @@ Json traced_row(const OpinionSource& source, const std::string& what, const laye
   const std::string& identifier = source.layer->identifier();
   Json row = {
       {"file", shown_path(identifier)},
-      {"line", optional_number(source.spec->line)},
+      {"line", or_null(source.spec->line)},
       {"column", source.spec->line == 0 ? Json(nullptr) : Json(source.spec->column)},
       {"path", source.path.str()},
       {"sublayerOf", source.stack == identifier ? Json(nullptr) : Json(shown_path(source.stack))}};

@@ -264,11 +264,14 @@ class Outputs(unittest.TestCase):
             found.append(line[region["startColumn"] - 1:region["endColumn"] - 1])
         self.assertEqual(found, ["</gone>", "</lost>"])
 
+    def write_over(self, name, sublayer):
+        return self.write(name, "#usda 1.0\n(\n    defaultPrim = \"World\"\n    "
+                          "kilogramsPerUnit = 1\n    metersPerUnit = 1\n    subLayers = "
+                          f"[@{sublayer}@]\n    upAxis = \"Z\"\n)\n")
+
     def test_fixes_land_in_the_layer_that_owns_the_opinion(self):
         weak = self.copy("material.restitution", "weak.usda")
-        over = self.write("over.usda", "#usda 1.0\n(\n    defaultPrim = \"World\"\n    "
-                          "kilogramsPerUnit = 1\n    metersPerUnit = 1\n    subLayers = "
-                          "[@./weak.usda@]\n    upAxis = \"Z\"\n)\n")
+        over = self.write_over("over.usda", "./weak.usda")
         before = over.read_text()
         answer = self.json(over, "--fix", code=0)
         self.assertEqual([pathlib.Path(f["file"]).name for f in answer["corrected"]], ["weak.usda"])
@@ -278,9 +281,7 @@ class Outputs(unittest.TestCase):
     def test_layers_of_others_are_not_corrected(self):
         """A stranger's asset may name any layer; only what is to be checked is changed."""
         own = self.copy("material.restitution", "mine/own.usda")
-        asset = self.write("stranger/a.usda", "#usda 1.0\n(\n    defaultPrim = \"World\"\n    "
-                           "kilogramsPerUnit = 1\n    metersPerUnit = 1\n    subLayers = "
-                           "[@../mine/own.usda@]\n    upAxis = \"Z\"\n)\n")
+        asset = self.write_over("stranger/a.usda", "../mine/own.usda")
         before = own.read_text()
         answer = self.json(asset, "--fix")
         self.assertEqual(answer["corrected"], [])
