@@ -153,7 +153,7 @@ Result<std::string> AssetResolver::resolve(const std::string& asset_path,
   if (wanted.inner.empty()) {
     return file;
   }
-  const std::string inner = join_package_path(file, wanted.inner);
+  std::string inner = join_package_path(file, wanted.inner);
   TENON_CHECK(open(inner));
   return inner;
 }
