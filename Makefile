@@ -4,13 +4,14 @@
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build bench judge tidy clean packages test-packages judge-packages oracle
+.PHONY: help demo test build docs bench judge tidy clean packages test-packages judge-packages oracle
 .DELETE_ON_ERROR:
 
 help:
 	@echo "make demo    build tenon, let the example hand grasp, say what to look at"
 	@echo "make test    build with sanitizers and run every test"
 	@echo "make build   only the program: build/release/bin/tenon"
+	@echo "make docs    the reference of the C++ headers: build/docs/html"
 	@echo "make bench   measure, beside usd-core; BASE=<commit>: beside that commit"
 	@echo "make judge   the long runs, hours of them; ONLY=\"NAME...\" chooses, tools/judge.py --list"
 	@echo "make tidy    clang-tidy over the whole program, half an hour of processor time"
@@ -18,6 +19,10 @@ help:
 
 build: packages
 	@tools/quiet_build.sh release $(JOBS) all
+
+docs: build
+	@tools/bootstrap.sh docs
+	@tools/python.sh tools/make_reference.py
 
 demo: build
 	@tools/demo.sh

@@ -18,7 +18,7 @@
 #include "tenon/formats/save_layer.h"
 #include "tenon/formats/text/reader.h"
 #include "tenon/formats/text/write/writer.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "bench/open_phases.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon::bench {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/open_phases.h"
 
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon::bench {
 namespace {

@@ -20,8 +20,9 @@
 
 #include "bench/measure.h"
 #include "tenon/engines/mujoco/mujoco_simulation.h"
+#include "tenon/make_simulation.h"
+#include "tenon/open_stage.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/tenon.h"
 
 namespace tenon::bench {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "tenon/asset/physics_options.h"
 #include "tenon/base/assignment.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon::cli {
 

@@ -11,7 +11,7 @@
 #include "cli/command_line.h"
 #include "cli/file_access.h"
 #include "tenon/bytes/files.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon::cli {
 

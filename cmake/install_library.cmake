@@ -27,7 +27,7 @@ libdir=${prefix}/@CMAKE_INSTALL_LIBDIR@
 Name: tenon
 Description: @PROJECT_DESCRIPTION@
 Version: @PROJECT_VERSION@
-Cflags: -I${includedir} -I${includedir}/tenon/thirdparty
+Cflags: -I${includedir}
 Libs: -L${libdir} -ltenon
 ]] @ONLY)
 install(FILES ${made_folder}/tenon.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
@@ -38,6 +38,3 @@ foreach(header IN LISTS headers)
   install(FILES ${PROJECT_SOURCE_DIR}/${header}
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
 endforeach()
-# The header behind Result, the one library that public headers name, as it was compiled in.
-install(FILES ${TENON_EXPECTED_INCLUDE_DIR}/tl/expected.hpp
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tenon/thirdparty/tl)

@@ -33,6 +33,5 @@ target_link_options(
 target_compile_features(tenon_library INTERFACE cxx_std_20)
 target_include_directories(
   tenon_library
-  INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR};${TENON_EXPECTED_INCLUDE_DIR}>"
-            "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>"
-            "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/tenon/thirdparty>")
+  INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>"
+            "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")

@@ -3,12 +3,12 @@
 
 # tenon_public_headers(<out>): the headers that programs outside include, relative to the project:
 # the wiring, every verb of tenon/asset, authoring and saving, and all that these include. Found by
-# their #include lines. What names another library than that of Result stays inside.
+# their #include lines. What names another library stays inside.
 function(tenon_public_headers out)
   file(GLOB_RECURSE wanted CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
        ${PROJECT_SOURCE_DIR}/tenon/asset/*.h)
-  list(APPEND wanted tenon/tenon.h tenon/stage_sources.h tenon/edit/stage_editor.h
-       tenon/formats/save_layer.h tenon/guard/worker_place.h)
+  list(APPEND wanted tenon/tenon.h tenon/open_indices.h tenon/stage_sources.h
+       tenon/edit/stage_editor.h tenon/formats/save_layer.h tenon/guard/worker_place.h)
   set(found)
   foreach(header IN LISTS wanted)
     tenon_included_headers(${header} headers is_public)
@@ -36,7 +36,7 @@ function(tenon_included_headers header out is_public)
       foreach(line IN LISTS lines)
         if(line MATCHES "\"(tenon/[^\"]+)\"")
           list(APPEND open ${CMAKE_MATCH_1})
-        elseif(line MATCHES "<(.+[/.].+)>" AND NOT CMAKE_MATCH_1 STREQUAL "tl/expected.hpp")
+        elseif(line MATCHES "<(.+[/.].+)>")
           set(public FALSE)
         endif()
       endforeach()

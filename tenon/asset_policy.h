@@ -6,8 +6,8 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/bytes/read_policy.h"
+#include "tenon/open_stage.h"
 #include "tenon/stage/stage.h"
-#include "tenon/tenon.h"
 
 /// What may go from files into an output that is made of an asset (docs/reading.md).
 namespace tenon {

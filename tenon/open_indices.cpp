@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include "tenon/open_indices.h"
+
+#include "tenon/open_stage.h"
 #include "tenon/stage_sources.h"
-#include "tenon/tenon.h"
 
 namespace tenon {
 

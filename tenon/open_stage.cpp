@@ -3,6 +3,8 @@
 //
 // Files, registry and composition wired together. What the caller asks for (a variant, overridden
 // attributes) becomes opinions of a session layer in memory; no file changes.
+#include "tenon/open_stage.h"
+
 #include <algorithm>
 #include <memory>
 
@@ -14,7 +16,6 @@
 #include "tenon/physics/layer_units.h"
 #include "tenon/session_opinions.h"
 #include "tenon/stage_sources.h"
-#include "tenon/tenon.h"
 
 namespace tenon {
 namespace {

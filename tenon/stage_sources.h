@@ -11,7 +11,7 @@
 #include "tenon/compose/layer_opener.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/layer/layer.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon {
 

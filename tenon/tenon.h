@@ -2,100 +2,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-#include <map>
-#include <memory>
-#include <string>
-#include <vector>
+/// The short path for programs that use tenon; docs/cpp has a page for each task. Nothing inside of
+/// tenon includes this.
 
-#include "tenon/base/diagnostics.h"
-#include "tenon/base/result.h"
-#include "tenon/bytes/files.h"
-#include "tenon/compose/cache/index_cache.h"
-#include "tenon/engines/engines.h"
-#include "tenon/engines/environments.h"
-#include "tenon/engines/simulation.h"
-#include "tenon/engines/world.h"
-#include "tenon/layer/layer.h"
-#include "tenon/scene/physics_scene.h"
+// Open and traverse.
+#include "tenon/open_stage.h"
+#include "tenon/stage/attribute.h"
+#include "tenon/stage/prim.h"
+#include "tenon/stage/relationship.h"
 #include "tenon/stage/stage.h"
 
-/// The short path for users: the only place that wires files, composition and engines together.
-namespace tenon {
+// Read physics as every verb reads it.
+#include "tenon/asset/physics_options.h"
+#include "tenon/physics/read_physics.h"
+#include "tenon/scene/physics_scene.h"
 
-struct OpenOptions {
-  /// Variant of the default prim's variant set "Physics", selected in the session layer.
-  std::string physics_variant{};
-  /// "PATH.attr=value" in text form of the attribute's type: opinions in the session layer.
-  std::vector<std::string> overrides{};
-  /// Where every file is read from that the asset and its layers name: the disk, memory, unsaved
-  /// text over either. Search paths, sandbox and session layer are looked up there as well.
-  bytes::Files files{};
-  /// A session layer file; the two options above are written over its opinions, in memory.
-  std::string session_path{};
-  bool load_payloads = true;
-  /// Prim paths; when not empty, payloads are left out but for those of these prims, of what is
-  /// above and of what is below them.
-  std::vector<std::string> load{};
-  std::vector<std::string> mask{};  ///< prim paths; empty: everything
-  /// Layers that count as absent, the root layer cannot: files, relative to the working directory
-  /// or to the asset, or asset paths as layers name them.
-  std::vector<std::string> muted{};
-  std::map<std::string, std::vector<std::string>> variant_fallbacks{};
-  /// When not empty, no file outside these folders is opened.
-  std::vector<std::string> sandbox_roots{};
-  /// Folders that asset paths without "./" are looked up in, after the layer's own folder, the
-  /// working directory and the folder of the asset.
-  std::vector<std::string> search_paths{};
-  /// Folders and files that may go into outputs, beside those that belong to the asset; with
-  /// `sandbox_roots` they may be opened, too (tenon/asset_policy.h).
-  std::vector<std::string> allowed_reads{};
-  /// Units of work that composition may take; 0: limits::kComposeWork and more for larger layers.
-  std::size_t max_work = 0;
-  /// Opinions of layers whose metersPerUnit or kilogramsPerUnit are not those of the stage are
-  /// converted to them (S-11, physics/layer_units.h).
-  bool layer_units = false;
-};
+// Simulate.
+#include "tenon/asset/simulating/simulate_asset.h"
+#include "tenon/make_simulation.h"
 
-/// Opens one layer file of any kind on the disk, without composing it.
-Result<layer::LayerPtr> open_layer(const std::string& path, Diagnostics& diagnostics);
+// Author, edit files that others wrote, save.
+#include "tenon/asset/edit_asset.h"
+#include "tenon/edit/stage_editor.h"
+#include "tenon/formats/save_layer.h"
 
-/// The same from the options' files, under their sandbox and search paths.
-Result<layer::LayerPtr> open_layer(const std::string& path, const OpenOptions& options,
-                                   Diagnostics& diagnostics);
+// Check and explain.
+#include "tenon/asset/check_asset.h"
+#include "tenon/asset/explain_asset.h"
 
-/// A package (.usdz) of a layer with all files that it needs (formats/package/pack.h); `path` names
-/// the asset that it comes from and that its asset paths are relative to.
-Result<std::string> pack_layer(layer::Layer layer, const std::string& path,
-                               const OpenOptions& options, Diagnostics& diagnostics);
-
-/// Opens a file and composes it. Recoverable findings, composition errors included, go to
-/// `diagnostics`.
-Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& options,
-                                Diagnostics& diagnostics);
-
-/// The composition of a file before it is populated, for those who look at indices.
-Result<std::unique_ptr<compose::IndexCache>> open_indices(const std::string& path,
-                                                          const OpenOptions& options,
-                                                          Diagnostics& diagnostics);
-
-/// The engines of this build, sorted by name; those not built are listed as not available.
-std::vector<engines::EngineInfo> list_engines();
-
-/// A simulation of `scene` (which must outlive it) on the engine of that name.
-Result<std::unique_ptr<engines::Simulation>> make_simulation(
-    const std::string& engine, const scene::PhysicsScene& scene,
-    const engines::SimulationOptions& options, Diagnostics& diagnostics);
-
-/// The same as a value, which has no virtual functions in sight.
-Result<engines::World> make_world(const std::string& engine, const scene::PhysicsScene& scene,
-                                  const engines::SimulationOptions& options,
-                                  Diagnostics& diagnostics);
-
-/// Many simulations of `scene` (which must outlive them), side by side on threads.
-Result<engines::Environments> make_environments(const std::string& engine,
-                                                const scene::PhysicsScene& scene,
-                                                const engines::EnvironmentOptions& options,
-                                                Diagnostics& diagnostics);
-
-}  // namespace tenon
+// Structure and convert.
+#include "tenon/asset/convert_file.h"
+#include "tenon/asset/converting/robot_files.h"
+#include "tenon/asset/export_mjcf.h"
+#include "tenon/asset/export_urdf.h"
+#include "tenon/asset/structure_asset.h"

@@ -5,6 +5,7 @@
 #   tools/bootstrap.sh build        to build the program
 #   tools/bootstrap.sh build test   to run the tests too
 #   tools/bootstrap.sh build test judge   and the long runs, some of which need clang
+#   tools/bootstrap.sh docs         to make the reference of the headers
 # Says what it does; asks for root only to install; with all there it does nothing, offline too.
 set -euo pipefail
 
@@ -51,7 +52,7 @@ need_for_build() {
   need_tool ninja-build ninja --version
   need_tool python3 python3 --version
   need_tool python3-pip python3 -m pip --version
-  need_package ca-certificates libcli11-dev nlohmann-json3-dev liblz4-dev libexpected-dev \
+  need_package ca-certificates libcli11-dev nlohmann-json3-dev liblz4-dev \
     libeigen3-dev libqhull-dev libpugixml-dev libassimp-dev libmeshoptimizer-dev
 }
 
@@ -64,6 +65,7 @@ need_for_test() {
 }
 
 need_for_judge() {
+  need_for_docs
   need_tool clang-19 clang++-19 --version
   need_package libclang-rt-19-dev
   if [ "$(dpkg --print-architecture)" = amd64 ]; then # of the preset bits32
@@ -73,6 +75,8 @@ need_for_judge() {
     done
   fi
 }
+
+need_for_docs() { need_tool doxygen doxygen --version; }
 
 install_missing() {
   local root=()
@@ -101,8 +105,9 @@ for part in "${@:-build}"; do
     build) need_for_build ;;
     test) need_for_test ;;
     judge) need_for_judge ;;
+    docs) need_for_docs ;;
     *)
-      echo "bootstrap: unknown part '$part'; expected: build, test, judge" >&2
+      echo "bootstrap: unknown part '$part'; expected: build, test, judge, docs" >&2
       exit 2
       ;;
   esac

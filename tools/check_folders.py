@@ -18,6 +18,8 @@ import source_files
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 USERS = ("cli/", "worker/", "tests/", "bench/", "fuzz/")
 BELOW_FILES = ("base", "bytes")
+# For programs outside: it may include all, and nothing inside includes it.
+SHORT_PATH = "tenon/tenon.h"
 
 # Libraries that only some files may name: pattern of the include -> patterns of the files.
 SYSTEM = ["tenon/base/*", "tenon/bytes/*", "tenon/guard/*", "worker/*", "cli/*", "tests/*",
@@ -27,7 +29,6 @@ LIBRARIES = {
     **dict.fromkeys(["sys/*", "unistd.h", "fcntl.h", "dlfcn.h", "spawn.h", "poll.h", "sched.h",
                      "signal.h", "pthread.h", "malloc.h", "termios.h", "dirent.h", "execinfo.h"],
                     SYSTEM),
-    "tl/*": ["tenon/base/result.h"],
     "Eigen/*": ["tenon/math/*.cpp"],
     "fast_float/*": ["tenon/base/number_from_text.h"],
     "meshoptimizer.h": ["tenon/approximate/*.cpp"],
@@ -82,7 +83,7 @@ def read_rule(path):
 
 
 def folder_of(path, folders):
-    """tenon/engines/mujoco/step.h -> engines/mujoco; tenon/tenon.h -> tenon; else None."""
+    """tenon/engines/mujoco/step.h -> engines/mujoco; tenon/open_stage.h -> tenon; else None."""
     parts = path.split("/")[1:-1]
     if not parts:
         return "tenon"
@@ -113,6 +114,10 @@ def folder_breach(path, quote, target, folders, tests):
         return f"nothing in tenon/ may include {target.split('/')[0]}/"
     if not target.startswith("tenon/"):
         return f'write the include from the root: "tenon/.../{target}"' if quote == '"' else None
+    if target == SHORT_PATH:
+        return "tenon.h is for programs outside: include the headers that it names"
+    if path == SHORT_PATH:
+        return None
     own = folder_of(path, folders)
     other = folder_of(target, folders)
     allowed = {own} | folders[own]

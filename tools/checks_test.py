@@ -13,6 +13,7 @@ import check_folders
 import check_limits
 import check_outputs
 import check_sizes
+import check_snippets
 import check_text
 
 RULE = "base :\nlayer : base\nengines : base\nengines/mujoco : base engines\ntenon : base layer\n"
@@ -41,7 +42,9 @@ class Folders(unittest.TestCase):
         ("tenon/base/a.h", '#  include "tenon/layer/b.h"', False),
         ("tenon/base/a.h", '#include "tenon/tenon.h"', False),
         ("tenon/tenon.h", '#include "tenon/layer/b.h"', True),
-        ("tenon/tenon.h", '#include "tenon/engines/b.h"', False),
+        ("tenon/tenon.h", '#include "tenon/engines/mujoco/b.h"', True),
+        ("tenon/wiring.h", '#include "tenon/engines/b.h"', False),
+        ("tenon/wiring.h", '#include "tenon/tenon.h"', False),
         ("tenon/engines/a.h", '#include "tenon/engines/mujoco/b.h"', False),
         ("tenon/engines/mujoco/a.h", '#include "tenon/engines/b.h"', True),
         ("tenon/engines/a.cpp", '#include "tenon/layer/b.h"', False),
@@ -232,6 +235,22 @@ class Sizes(unittest.TestCase):
                            ("tenon/base/a.h", licence + body), ("tests/a.cpp", licence + body),
                            ("tenon/base/a.cpp", licence + "int x;\n")]:
             self.assertFalse(check_sizes.lacks_head(path, text), path)
+
+
+class Snippets(unittest.TestCase):
+    PROGRAM = "int main() {\n  if (true) {\n    first();\n      second();\n  }\n}\n"
+
+    def faults(self, snippet):
+        page = f"# Page\n\n```cpp\n{snippet}```\n"
+        with tree({"docs/cpp/a.md": page, "examples/cpp/a.cpp": self.PROGRAM}) as root:
+            return check_snippets.check(root)[1]
+
+    def test_parts_of_programs(self):
+        for good in ("first();\n", "first();\n  second();\n", self.PROGRAM):
+            self.assertEqual(self.faults(good), [], good)
+        # Both the snippet and the program that no page shows are faults.
+        for bad in ("third();\n", "first();\nsecond();\n", "  first();\n"):
+            self.assertEqual(len(self.faults(bad)), 2, bad)
 
 
 class Text(unittest.TestCase):

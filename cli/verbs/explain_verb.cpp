@@ -10,11 +10,8 @@
 #include "cli/verb.h"
 #include "tenon/answers/diagnostic_json.h"
 #include "tenon/answers/explain.h"
-#include "tenon/answers/where_opinions.h"
-#include "tenon/asset/physics_options.h"
+#include "tenon/asset/answers/explained_stage.h"
 #include "tenon/check/rule.h"
-#include "tenon/physics/read_physics.h"
-#include "tenon/tenon.h"
 
 namespace tenon::cli {
 namespace {
@@ -25,40 +22,6 @@ struct ExplainArguments {
   std::string other;
   std::vector<std::string> readings;
 };
-
-struct ExplainedObject {
-  stage::Prim prim;
-  Token property;  ///< empty: the prim itself
-};
-
-Result<ExplainedObject> find_object(const stage::Stage& stage, const std::string& text) {
-  const Path path = Path::from(text);
-  const Path prim_path = path.is_property() ? path.parent() : path;
-  const stage::Prim prim =
-      path.is_prim() || path.is_property() ? stage.prim(prim_path) : stage::Prim();
-  if (!prim) {
-    return Error(ErrorCode::NotFound, "there is no prim <" + text + ">")
-        .with_fix("tenon tree lists all prims");
-  }
-  ExplainedObject object{prim, path.is_property() ? path.name() : Token()};
-  if (path.is_property()) {
-    TENON_CHECK(answers::check_property(prim, object.property));
-  }
-  return object;
-}
-
-int explain_two(Report& report, const answers::Explained& explained, const ExplainedObject& a,
-                const ExplainArguments& options) {
-  auto other = find_object(explained.stage, options.other);
-  if (!other) {
-    return report.fail(other.error());
-  }
-  const Json answer = answers::explain_pair(explained, a.prim, other->prim);
-  if (!report.json()) {
-    print_text(explain_pair_text(answer));
-  }
-  return report.finish(kOk, answer);
-}
 
 /// `tenon explain S-83`, `tenon explain joint.body-missing`: what a rule says.
 int explain_rule_or_finding(const Globals& globals, const std::string& rule) {
@@ -89,24 +52,20 @@ int run_explain(const Globals& globals, const ExplainArguments& options) {
   if (!asset) {
     return report.fail(asset.error());
   }
-  auto object = find_object(asset->stage, options.object);
-  if (!object) {
-    return report.fail(object.error());
+  if (const auto found = answers::check_object(asset->stage, options.object); !found) {
+    return report.fail(found.error());
   }
-  answers::Explained explained{asset->stage, {}, {}};
-  explained.scene = physics::read_physics(asset->stage, read_options(asset->readings),
-                                          report.diagnostics, &explained.provenance);
-  if (!options.other.empty()) {
-    return explain_two(report, explained, *object, options);
+  const auto explained = explained_stage(asset->stage, asset->readings, report.diagnostics);
+  const auto answer = answers::explain_object(explained, options.object, options.other);
+  if (!answer) {
+    return report.fail(answer.error());
   }
-  const bool property = !object->property.empty();
-  const Json answer = property
-                          ? answers::explain_property(explained, object->prim, object->property)
-                          : answers::explain_prim(explained, object->prim);
   if (!report.json()) {
-    print_text(property ? explain_property_text(answer) : explain_prim_text(answer));
+    print_text(!options.other.empty()                     ? explain_pair_text(*answer)
+               : Path::from(options.object).is_property() ? explain_property_text(*answer)
+                                                          : explain_prim_text(*answer));
   }
-  return report.finish(kOk, answer);
+  return report.finish(kOk, *answer);
 }
 
 }  // namespace

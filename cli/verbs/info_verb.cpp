@@ -7,8 +7,8 @@
 #include "cli/verb.h"
 #include "tenon/answers/info_json.h"
 #include "tenon/asset/physics_options.h"
+#include "tenon/open_stage.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/tenon.h"
 
 namespace tenon::cli {
 namespace {

@@ -12,7 +12,6 @@
 #include "tenon/answers/scene_json_value.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/tenon.h"
 
 namespace tenon::cli {
 namespace {

@@ -16,7 +16,7 @@
 #include "tenon/answers/dump/list_op_json.h"
 #include "tenon/answers/dump/schema_json.h"
 #include "tenon/answers/dump/values_json.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon::cli {
 namespace {

@@ -19,8 +19,8 @@
 #include "tenon/answers/tree_json.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/formats/text/write/value_text.h"
+#include "tenon/open_stage.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/tenon.h"
 
 namespace tenon::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "tenon/asset/layers/select_variant.h"
 #include "tenon/asset/repeat_edit.h"
 #include "tenon/base/text/shown_path.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "cli/verb.h"
 #include "tenon/answers/where_opinions.h"
 #include "tenon/asset/answers/where_variants.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon::cli {
 namespace {

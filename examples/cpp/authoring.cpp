@@ -6,9 +6,6 @@
 
 #include "example.h"
 
-#include "tenon/asset/physics_options.h"
-#include "tenon/edit/stage_editor.h"
-#include "tenon/formats/save_layer.h"
 #include "tenon/tenon.h"
 
 namespace {

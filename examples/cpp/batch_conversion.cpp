@@ -9,9 +9,6 @@
 
 #include "example.h"
 
-#include "tenon/asset/convert_file.h"
-#include "tenon/asset/converting/robot_files.h"
-#include "tenon/asset/physics_options.h"
 #include "tenon/tenon.h"
 
 namespace {

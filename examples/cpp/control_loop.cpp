@@ -8,7 +8,6 @@
 
 #include "example.h"
 
-#include "tenon/asset/physics_options.h"
 #include "tenon/tenon.h"
 
 namespace {

@@ -7,7 +7,6 @@
 
 #include "example.h"
 
-#include "tenon/asset/physics_options.h"
 #include "tenon/tenon.h"
 
 int main(int argc, char** argv) {

@@ -8,7 +8,6 @@
 
 #include "example.h"
 
-#include "tenon/asset/edit_asset.h"
 #include "tenon/tenon.h"
 
 namespace {

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "tenon/answers/json.h"
+#include "tenon/base/result.h"
 #include "tenon/physics/provenance.h"
 #include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
@@ -19,6 +22,14 @@ struct Explained {
   /// When physics reads what does not change: the start of the simulation.
   stage::Time start() const { return scene.start_time_code; }
 };
+
+/// ErrorCode::NotFound where the stage has no "/prim" or "/prim.property" of that path.
+Result<void> check_object(const stage::Stage& stage, const std::string& object);
+
+/// One of the three answers below: of "/prim", of "/prim.property", or with `other` of two prims.
+/// Errors: those of check_object.
+Result<Json> explain_object(const Explained& explained, const std::string& object,
+                            const std::string& other);
 
 /// {"prim", "type", "apis", "specs", "body", "collider", "joint", "material", "scene", "group",
 /// "articulation", "properties"}: those that the prim is.

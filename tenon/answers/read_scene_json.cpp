@@ -4,6 +4,7 @@
 // The way back: each struct is filled by its table from an object of JSON. A first look at the
 // lists finds which path is which index, so that references may point ahead. What the text may cost
 // is bounded by its length and depth; what it means is checked by check_scene.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/answers/scene_json.h"
 
+#include <cmath>
 #include <map>
 #include <string>
 

@@ -19,9 +19,9 @@
 #include "tenon/asset/structure_asset.h"
 #include "tenon/bytes/read_record.h"
 #include "tenon/bytes/zip/zip_archive.h"
+#include "tenon/open_stage.h"
 #include "tenon/pack_asset.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/tenon.h"
 
 namespace tenon {
 namespace {

@@ -9,7 +9,7 @@
 #include "tenon/base/result.h"
 #include "tenon/check/check_stage.h"
 #include "tenon/check/finding.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 /// Files checked and corrected: the rules of tenon/check over all Physics variants of an asset.
 namespace tenon {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "tenon/base/result.h"
+#include "tenon/open_stage.h"
 #include "tenon/structure/check_structure.h"
-#include "tenon/tenon.h"
 
 namespace tenon {
 

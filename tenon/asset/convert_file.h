@@ -10,7 +10,7 @@
 #include "tenon/base/result.h"
 #include "tenon/convert/convert_robot.h"
 #include "tenon/layer/layer.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon {
 

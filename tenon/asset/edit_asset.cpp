@@ -26,6 +26,7 @@
 #include "tenon/asset/edit_file_choice.h"
 #include "tenon/asset/edit_value.h"
 #include "tenon/edit/api_schemas.h"
+#include "tenon/edit/apply_list_edit.h"
 #include "tenon/edit/edit_target.h"
 #include "tenon/edit/stage_editor.h"
 #include "tenon/formats/text/reader.h"

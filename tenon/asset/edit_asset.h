@@ -12,7 +12,7 @@
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
 #include "tenon/layer/layer.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 /// Edits of assets in files: each lands in the file that owns what it changes.
 namespace tenon {

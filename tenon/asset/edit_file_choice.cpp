@@ -10,7 +10,7 @@
 #include "tenon/asset/edit_file_choice.h"
 
 #include "tenon/bytes/asset_resolver.h"
-#include "tenon/edit/list_edit.h"
+#include "tenon/edit/apply_list_edit.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/stage/sources/opinion_sources.h"

@@ -10,8 +10,8 @@
 
 #include "tenon/asset/typed_edits.h"
 #include "tenon/base/assignment.h"
+#include "tenon/open_stage.h"
 #include "tenon/property_value.h"
-#include "tenon/tenon.h"
 
 namespace tenon {
 namespace {

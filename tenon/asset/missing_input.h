@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tenon/base/diagnostics.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon {
 

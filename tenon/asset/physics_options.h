@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tenon/open_stage.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/physics/readings.h"
-#include "tenon/tenon.h"
 
 /// How every verb that prints, exports or simulates the physics of an asset opens and reads it, so
 /// that all of them give the same numbers.

@@ -7,8 +7,8 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/read_policy.h"
+#include "tenon/open_stage.h"
 #include "tenon/structure/make/make_package.h"
-#include "tenon/tenon.h"
 
 namespace tenon {
 

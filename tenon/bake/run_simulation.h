@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "tenon/bake/commands.h"
 #include "tenon/bake/rest.h"
 #include "tenon/bake/state_recording.h"
 #include "tenon/base/error.h"
+#include "tenon/base/function.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/scene/physics_scene.h"
 
@@ -18,7 +18,7 @@ struct RunOptions {
   double duration = 5;            ///< [s] from the time at which the simulation is
   double frames_per_second = 60;  ///< of the recording; 0: record nothing
   /// Called now and then with the simulated time; false stops the run. May be empty.
-  std::function<bool(double seconds)> go_on;
+  Function<bool(double seconds)> go_on;
   const Commands* commands = nullptr;  ///< given as their time comes
   std::optional<RestRule>
       until_rest{};  ///< the run ends where this holds and all commands are given

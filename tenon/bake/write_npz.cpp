@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 // A NumPy archive: a zip of .npy files, each a short text header and raw little-endian numbers.
+#include <algorithm>
 #include <bit>
 #include <cstring>
 

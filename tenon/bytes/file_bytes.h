@@ -4,12 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "tenon/base/function.h"
 #include "tenon/base/result.h"
 
 namespace tenon::bytes {
@@ -17,7 +17,7 @@ namespace tenon::bytes {
 /// What files may be opened and how.
 struct FileRules {
   /// Asked about the file that is open, by its path without symbolic links, before it is read.
-  std::function<Result<void>(const std::string& real_path)> check;
+  Function<Result<void>(const std::string& real_path)> check;
   bool may_map = true;  ///< false: large files are read, too
   /// False for what is looked at because it is to be replaced: it is noted in no ReadRecord.
   bool is_input = true;

@@ -6,6 +6,7 @@
 // at most 2 pi, look like radians. The other rules use the scene, where angles are compared modulo
 // a turn. Driven joints without a root are counted by islands, the bodies that joints of trees and
 // loops hold together.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>

@@ -11,7 +11,10 @@
 #include "tenon/base/result.h"
 #include "tenon/bytes/read_policy.h"
 #include "tenon/layer/layer.h"
-#include "tenon/robot/robot_model.h"
+
+namespace tenon::robot {
+struct RobotModel;
+}
 
 /// From robots to layers.
 namespace tenon::convert {
@@ -45,11 +48,13 @@ struct ConvertOptions {
 using InnerImages = std::map<std::string, std::string>;
 
 /// One layer that holds the robot as a plain asset: metres, kilograms, Z up.
+/// ```
 ///   /<robot>                   Xform, default prim, IsaacRobotAPI, PhysicsArticulationRootAPI
 ///   /<robot>/Geometry/<link>   Xforms, nested as the links are (`flat`: /<robot>/<link>), with
 ///                              visuals and colliders (purpose guide) below
 ///   /<robot>/Physics/<joint>   joints, and actuators where there are gains
 ///   /<robot>/Materials/<name>  materials, visual and physical
+/// ```
 /// With `scene` a PhysicsScene stands among the joints; else what is not usual of the model's world
 /// is listed ("convert.scene").
 /// A link without inertial is no body: at the root it stands still, on a fixed joint it is a frame

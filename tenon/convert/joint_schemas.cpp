@@ -10,6 +10,8 @@
 
 #include <cmath>
 
+#include "tenon/robot/robot_model.h"
+
 namespace tenon::convert {
 
 using layer::Value;

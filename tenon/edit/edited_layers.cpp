@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tenon/edit/layer_editor.h"
 #include "tenon/layer/fields.h"
 
 namespace tenon::edit {
@@ -194,7 +195,7 @@ bool EditedLayers::redo() {
   return true;
 }
 
-Result<void> EditedLayers::as_one_step(const std::function<Result<void>()>& work) {
+Result<void> EditedLayers::as_one_step(const Function<Result<void>()>& work) {
   if (open_step_ != nullptr) {
     return work();  // part of the step around it
   }

@@ -3,26 +3,27 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "tenon/base/function.h"
 #include "tenon/base/result.h"
 #include "tenon/compose/layer_opener.h"
 #include "tenon/edit/layer_change.h"
-#include "tenon/edit/layer_editor.h"
 #include "tenon/layer/layer.h"
 
 /// Internal to this folder.
 namespace tenon::edit {
 
+class LayerEditor;
+
 /// Copies of layers that edits have changed, beside the layers as they were given, and the history
 /// of these edits. Several editors may share one: each sees the edits of all, in one history.
 class EditedLayers {
  public:
-  using Edit = std::function<Result<void>(LayerEditor&)>;
+  using Edit = Function<Result<void>(LayerEditor&)>;
 
   /// The copy where there is one, else `original`, which may be null.
   layer::LayerPtr current(const layer::LayerPtr& original) const;
@@ -44,7 +45,7 @@ class EditedLayers {
   /// Runs an edit of a layer that there is a copy of, all or nothing; a step or part of one.
   Result<void> edit(const std::string& identifier, const Edit& work);
   /// All edits of `work` as one step; when it returns an Error none of them stays.
-  Result<void> as_one_step(const std::function<Result<void>()>& work);
+  Result<void> as_one_step(const Function<Result<void>()>& work);
   bool undo();  ///< false when there is nothing to take back
   bool redo();
 

@@ -10,6 +10,7 @@
 
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
+#include "tenon/edit/apply_list_edit.h"
 #include "tenon/edit/layer_change.h"
 #include "tenon/edit/list_edit.h"
 #include "tenon/layer/field_values.h"

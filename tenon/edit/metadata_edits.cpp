@@ -7,6 +7,7 @@
 #include "tenon/edit/api_schemas.h"
 #include "tenon/edit/composed_view.h"
 #include "tenon/edit/edit_errors.h"
+#include "tenon/edit/layer_editor.h"
 #include "tenon/edit/stage_editor.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/metadata_fields.h"

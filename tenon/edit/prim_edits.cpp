@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Prims: where their specs go, and what makes, moves and removes them.
+
 #include "tenon/edit/composed_view.h"
 #include "tenon/edit/edit_errors.h"
+#include "tenon/edit/layer_editor.h"
 #include "tenon/edit/stage_editor.h"
 #include "tenon/layer/fields.h"
 #include "tenon/stage/composed_type.h"
@@ -75,7 +77,7 @@ Result<Path> StageEditor::place(Path scene_path) const {
 }
 
 Result<void> StageEditor::edit_prim(Path prim,
-                                    const std::function<Result<void>(LayerEditor&, Path)>& work) {
+                                    const Function<Result<void>(LayerEditor&, Path)>& work) {
   TENON_CHECK(find_prim(prim));
   TENON_CHECK(check_editable(prim));
   TENON_TRY(const Path path, place(prim));

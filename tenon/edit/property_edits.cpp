@@ -6,6 +6,7 @@
 
 #include "tenon/edit/composed_view.h"
 #include "tenon/edit/edit_errors.h"
+#include "tenon/edit/layer_editor.h"
 #include "tenon/edit/stage_editor.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/type_names.h"
@@ -84,8 +85,8 @@ Result<void> StageEditor::make_property(LayerEditor& editor, Path scene_path, Pa
              : editor.create_relationship(spec_path, found.variability, found.custom);
 }
 
-Result<void> StageEditor::edit_property(
-    Path property, SpecKind kind, const std::function<Result<void>(LayerEditor&, Path)>& work) {
+Result<void> StageEditor::edit_property(Path property, SpecKind kind,
+                                        const Function<Result<void>(LayerEditor&, Path)>& work) {
   TENON_CHECK(check_property_path(property));
   TENON_CHECK(find_prim(property.parent()));
   TENON_CHECK(check_editable(property.parent()));
@@ -96,14 +97,14 @@ Result<void> StageEditor::edit_property(
   });
 }
 
-Result<void> StageEditor::edit_attribute(
-    Path attribute, const std::function<Result<void>(LayerEditor&, Path)>& work) {
+Result<void> StageEditor::edit_attribute(Path attribute,
+                                         const Function<Result<void>(LayerEditor&, Path)>& work) {
   return edit_property(attribute, SpecKind::Attribute, work);
 }
 
 /// Runs `work` where the target layer has a spec; there is nothing to take away elsewhere.
-Result<void> StageEditor::edit_existing(
-    Path object, SpecKind kind, const std::function<Result<void>(LayerEditor&, Path)>& work) {
+Result<void> StageEditor::edit_existing(Path object, SpecKind kind,
+                                        const Function<Result<void>(LayerEditor&, Path)>& work) {
   TENON_TRY(const FoundPrim prim, find_prim(object.prim()));
   TENON_CHECK(check_editable(object.prim()));
   if (object.is_property()) {

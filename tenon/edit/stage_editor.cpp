@@ -10,6 +10,7 @@
 
 #include "tenon/edit/composed_view.h"
 #include "tenon/edit/edit_errors.h"
+#include "tenon/edit/layer_editor.h"
 
 namespace tenon::edit {
 namespace {
@@ -171,12 +172,12 @@ Result<EditTarget> StageEditor::arc_target(Path prim, const std::string& identif
 
 // Edits
 
-Result<void> StageEditor::edit(const std::function<Result<void>(LayerEditor&)>& work) {
+Result<void> StageEditor::edit(const Function<Result<void>(LayerEditor&)>& work) {
   return edit_layer(target_.layer, work);
 }
 
 Result<void> StageEditor::edit_layer(const std::string& identifier,
-                                     const std::function<Result<void>(LayerEditor&)>& work) {
+                                     const Function<Result<void>(LayerEditor&)>& work) {
   if (layers_->find(identifier) == nullptr) {
     const layer::LayerPtr original = layer(identifier);
     if (original == nullptr) {

@@ -3,20 +3,19 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tenon/base/function.h"
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
 #include "tenon/edit/change_notice.h"
 #include "tenon/edit/edit_target.h"
 #include "tenon/edit/edited_layers.h"
 #include "tenon/edit/layer_change.h"
-#include "tenon/edit/layer_editor.h"
 #include "tenon/edit/list_edit.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/layer.h"
@@ -26,6 +25,7 @@
 namespace tenon::edit {
 
 class ComposedView;
+class LayerEditor;
 struct FoundPrim;
 
 /// Authoring on a composed scene. Layers are values: the editor changes copies of its own, no file
@@ -81,7 +81,7 @@ class StageEditor {
   bool undo() { return layers_->undo(); }  ///< false when there is nothing to take back
   bool redo() { return layers_->redo(); }
   /// All edits of `work` as one step; when it returns an Error none of them stays.
-  Result<void> as_one_step(const std::function<Result<void>()>& work) {
+  Result<void> as_one_step(const Function<Result<void>()>& work) {
     return layers_->as_one_step(work);
   }
   /// The edits since the beginning that are in force, by layer: for dry runs, and to be applied to
@@ -166,20 +166,20 @@ class StageEditor {
 
   ComposedView& view();
   /// Runs an edit of the target layer; its changes become (part of) a step.
-  Result<void> edit(const std::function<Result<void>(LayerEditor&)>& work);
+  Result<void> edit(const Function<Result<void>(LayerEditor&)>& work);
   Result<void> edit_layer(const std::string& identifier,
-                          const std::function<Result<void>(LayerEditor&)>& work);
+                          const Function<Result<void>(LayerEditor&)>& work);
 
   Result<void> check_editable(Path prim);
   Result<FoundPrim> find_prim(Path prim);
   Result<Path> place(Path scene_path) const;
-  Result<void> edit_prim(Path prim, const std::function<Result<void>(LayerEditor&, Path)>& work);
+  Result<void> edit_prim(Path prim, const Function<Result<void>(LayerEditor&, Path)>& work);
   Result<void> edit_attribute(Path attribute,
-                              const std::function<Result<void>(LayerEditor&, Path)>& work);
+                              const Function<Result<void>(LayerEditor&, Path)>& work);
   Result<void> edit_property(Path property, layer::SpecKind kind,
-                             const std::function<Result<void>(LayerEditor&, Path)>& work);
+                             const Function<Result<void>(LayerEditor&, Path)>& work);
   Result<void> edit_existing(Path object, layer::SpecKind kind,
-                             const std::function<Result<void>(LayerEditor&, Path)>& work);
+                             const Function<Result<void>(LayerEditor&, Path)>& work);
   Result<void> make_property(LayerEditor& editor, Path scene_path, Path spec_path,
                              layer::SpecKind kind);
   Result<Path> object_spec(LayerEditor& editor, Path object);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/edit/layer_editor.h"
 #include "tenon/formats/text/reader.h"
 #include "tenon/formats/text/write/writer.h"
 #include "tenon/layer/field_values.h"

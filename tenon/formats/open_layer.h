@@ -13,12 +13,10 @@
 #include "tenon/base/result.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/formats/layer_format.h"
 #include "tenon/layer/layer.h"
 
 namespace tenon::formats {
-
-/// How a layer is stored.
-enum class LayerFormat : unsigned char { Text, Crate, Package };
 
 /// Told by the first bytes, never by the name; what is neither crate nor zip is text.
 LayerFormat format_of(const bytes::FileBytes& bytes);

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "tenon/base/result.h"
-#include "tenon/formats/open_layer.h"
+#include "tenon/formats/layer_format.h"
 #include "tenon/layer/layer.h"
 
 namespace tenon::formats {

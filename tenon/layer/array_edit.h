@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 
@@ -30,7 +29,7 @@ enum class ArrayEditOp : std::uint8_t {
 inline constexpr std::size_t kArrayEditOps = 10;
 
 /// Where an insertion appends.
-inline constexpr std::int64_t kArrayEnd = std::numeric_limits<std::int64_t>::min();
+inline constexpr std::int64_t kArrayEnd = INT64_MIN;
 
 /// True for operations with a second argument.
 constexpr bool has_second_argument(ArrayEditOp op) {

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <string>
 #include <vector>
 
 namespace tenon::layer {
@@ -45,8 +44,11 @@ class ItemPositions {
 
   std::size_t find(const T& item) const {
     if (table_.empty()) {
-      const auto it = std::find(list_.begin(), list_.end(), item);
-      return it == list_.end() ? kNone : static_cast<std::size_t>(it - list_.begin());
+      std::size_t at = 0;
+      while (at < list_.size() && !(list_[at] == item)) {
+        ++at;
+      }
+      return at == list_.size() ? kNone : at;
     }
     const std::uint32_t at = table_[slot_of(item)];
     return at == kFree ? kNone : at;

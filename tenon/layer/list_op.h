@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -66,12 +65,10 @@ struct ListOp {
   }
 
  private:
-  static std::vector<T> unique_keeping_last(std::vector<T> items) {
-    std::reverse(items.begin(), items.end());
-    std::vector<T> result;
-    append_absent(result, items);
-    std::reverse(result.begin(), result.end());
-    return result;
+  static std::vector<T> unique_keeping_last(const std::vector<T>& items) {
+    std::vector<T> backwards;
+    append_absent(backwards, std::vector<T>(items.rbegin(), items.rend()));
+    return {backwards.rbegin(), backwards.rend()};
   }
 
  public:
@@ -90,7 +87,11 @@ struct ListOp {
     }
     const ItemPositions<T> named(keys);
     auto is_key = [&](const T& item) { return named.contains(item); };
-    std::vector<T> result(list.begin(), std::find_if(list.begin(), list.end(), is_key));
+    auto first = list.begin();
+    while (!is_key(*first)) {  // one of the keys is in the list
+      ++first;
+    }
+    std::vector<T> result(list.begin(), first);
     for (const T& key : keys) {
       std::size_t at = positions.find(key);
       do {

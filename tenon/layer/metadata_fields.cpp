@@ -3,6 +3,7 @@
 #include "tenon/layer/metadata_fields.h"
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <unordered_map>
 #include <unordered_set>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/layer/value.h"
 
+#include <mutex>
+
 #include "tenon/layer/field_values.h"
 
 namespace tenon::layer {

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
-
+#include "tenon/math/functions.h"
 #include "tenon/math/half.h"
 #include "tenon/math/vector.h"
 
@@ -52,8 +51,8 @@ inline double dot(const Quatd& a, const Quatd& b) {
 
 /// Unit quaternion; the identity for a zero or non-finite one.
 inline Quatd normalized(const Quatd& q) {
-  const double norm = std::sqrt(dot(q, q));
-  if (!(norm > 0) || !std::isfinite(norm)) {
+  const double norm = square_root(dot(q, q));
+  if (!(norm > 0) || !is_finite(norm)) {
     return kIdentityRotation;
   }
   return {q.x / norm, q.y / norm, q.z / norm, q.w / norm};
@@ -67,41 +66,13 @@ inline Vec3d rotate(const Quatd& q, const Vec3d& p) {
 }
 
 /// Rotation by `angle` radians about the unit vector `axis`.
-inline Quatd rotation_about(const Vec3d& axis, double angle) {
-  const double s = std::sin(angle / 2);
-  return {axis[0] * s, axis[1] * s, axis[2] * s, std::cos(angle / 2)};
-}
+Quatd rotation_about(const Vec3d& axis, double angle);
 
 /// Shortest rotation vector of a unit quaternion: unit axis times angle in radians.
-inline Vec3d rotation_vector(Quatd q) {
-  if (q.w < 0) {
-    q = {-q.x, -q.y, -q.z, -q.w};
-  }
-  const Vec3d axis{{q.x, q.y, q.z}};
-  const double s = length(axis);
-  if (s < 1e-300) {
-    return {};
-  }
-  return axis * (2 * std::atan2(s, q.w) / s);
-}
+Vec3d rotation_vector(Quatd q);
 
 /// Spherical interpolation along the shorter way:
 /// the sign of b is chosen so that the angle is at most pi.
-inline Quatd slerp(const Quatd& a, Quatd b, double t) {
-  double cosine = dot(a, b);
-  if (cosine < 0) {
-    b = {-b.x, -b.y, -b.z, -b.w};
-    cosine = -cosine;
-  }
-  double wa = 1 - t;
-  double wb = t;
-  if (1 - cosine > 1e-5) {
-    const double theta = std::acos(cosine);
-    const double sine = std::sin(theta);
-    wa = std::sin((1 - t) * theta) / sine;
-    wb = std::sin(t * theta) / sine;
-  }
-  return {wa * a.x + wb * b.x, wa * a.y + wb * b.y, wa * a.z + wb * b.z, wa * a.w + wb * b.w};
-}
+Quatd slerp(const Quatd& a, Quatd b, double t);
 
 }  // namespace tenon

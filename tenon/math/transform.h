@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
-
 #include "tenon/math/matrix.h"
 #include "tenon/math/quaternion.h"
 #include "tenon/math/vector.h"
@@ -19,7 +17,7 @@ struct Pose {
 };
 
 inline bool is_finite(const Quatd& q) {
-  return std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z) && std::isfinite(q.w);
+  return is_finite(q.x) && is_finite(q.y) && is_finite(q.z) && is_finite(q.w);
 }
 inline bool is_finite(const Pose& pose) {
   return is_finite(pose.position) && is_finite(pose.orientation);

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "tenon/math/functions.h"
 #include "tenon/math/half.h"
 
 namespace tenon {
@@ -70,11 +70,11 @@ constexpr double dot(const Vec<double, N>& a, const Vec<double, N>& b) {
 /// Written out, for a loop is not unrolled where this is called for every point of a mesh.
 template <class T>
 bool is_finite(const Vec<T, 2>& a) {
-  return std::isfinite(a[0]) && std::isfinite(a[1]);
+  return is_finite(a[0]) && is_finite(a[1]);
 }
 template <class T>
 bool is_finite(const Vec<T, 3>& a) {
-  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+  return is_finite(a[0]) && is_finite(a[1]) && is_finite(a[2]);
 }
 
 inline Vec3d cross(const Vec3d& a, const Vec3d& b) {
@@ -83,13 +83,16 @@ inline Vec3d cross(const Vec3d& a, const Vec3d& b) {
 
 template <std::size_t N>
 double length(const Vec<double, N>& a) {
-  return std::sqrt(dot(a, a));
+  return square_root(dot(a, a));
 }
 
 /// Unit vector of `a`, safe for tiny and huge lengths; `fallback` when `a` is zero or not finite.
 inline Vec3d normalized(Vec3d a, Vec3d fallback = {}) {
-  const double largest = std::fmax(std::fabs(a[0]), std::fmax(std::fabs(a[1]), std::fabs(a[2])));
-  if (!(largest > 0) || !std::isfinite(largest)) {
+  double largest = 0;
+  for (const double part : a.v) {
+    largest = absolute(part) > largest ? absolute(part) : largest;
+  }
+  if (!(largest > 0) || !is_finite(largest)) {
     return fallback;
   }
   a *= 1 / largest;

@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
-#include "tenon/physics/colliders/mesh_cache.h"
+#include "tenon/base/function.h"
 #include "tenon/physics/provenance.h"
 #include "tenon/physics/readings.h"
 #include "tenon/physics/scene_names.h"
@@ -20,10 +18,12 @@
 
 namespace tenon::physics {
 
+class MeshCache;
+
 struct ReadOptions {
   /// Stage time at which the simulation starts; NaN: the stage's startTimeCode when it is authored,
   /// else the default time (S-6).
-  double start_time_code = std::numeric_limits<double>::quiet_NaN();
+  double start_time_code = kNotANumber;
   /// Which reading counts where the proposal, OpenUSD and engines disagree.
   Readings readings;
   /// What takes meshes apart and simplifies them (S-62). Nothing: the library's own, without files
@@ -34,7 +34,7 @@ struct ReadOptions {
   /// Integrals of enabled colliders for those who know better (M-20): asked once per collider, in
   /// its rigid frame [m]. They replace what the shape weighs; a prim that is no shape known here
   /// weighs by them, too, and touches nothing. nullopt: the shape's own.
-  std::function<std::optional<SolidIntegrals>(const stage::Prim& collider)> integrals;
+  Function<std::optional<SolidIntegrals>(const stage::Prim& collider)> integrals;
 };
 
 /// Reads every physics prim of the stage. Findings about the asset go to `diagnostics` with stable

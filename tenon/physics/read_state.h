@@ -3,12 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "tenon/base/function.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/colliders/mesh_cache.h"
 #include "tenon/physics/physics_tokens.h"
@@ -41,7 +41,7 @@ struct ReadState {
   Units units;
   AttributeValues values;
   const MeshTools* mesh_tools = nullptr;
-  const std::function<std::optional<SolidIntegrals>(const stage::Prim&)>* integrals = nullptr;
+  const Function<std::optional<SolidIntegrals>(const stage::Prim&)>* integrals = nullptr;
   Provenance* provenance = nullptr;  ///< filled where not null
   MeshCache* mesh_cache = nullptr;
   Walk walk{};

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,7 +21,7 @@
 /// and no engine. Things refer to each other by index.
 namespace tenon::robot {
 
-inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+inline constexpr double kUnlimited = kInfinity;
 using Index = std::uint32_t;
 
 /// Where the description says something; zeros where that is unknown.

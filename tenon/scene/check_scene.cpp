@@ -19,7 +19,6 @@
 namespace tenon::scene {
 namespace {
 
-bool is_finite(double value) { return std::isfinite(value); }
 using tenon::is_finite;
 bool is_finite(const Mat3d& m) {
   return std::all_of(m.m.begin(), m.m.end(), [](const auto& row) {

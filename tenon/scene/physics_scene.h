@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,7 +21,7 @@
 /// any engine. Objects refer to each other by index; every list is sorted by path.
 namespace tenon::scene {
 
-inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+inline constexpr double kUnlimited = kInfinity;
 using Index = std::uint32_t;
 
 struct Scene {

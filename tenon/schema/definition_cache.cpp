@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/schema/definition_cache.h"
 
+#include <functional>
+
 namespace tenon::schema {
 
 std::size_t DefinitionCache::KeyHash::operator()(const Key& key) const noexcept {

@@ -5,6 +5,7 @@
 // populated once per instance key, under /__Prototype_N, from the index of one of the instances.
 // Inactive prims end the walk. An explicit stack keeps deep trees off ours.
 #include <algorithm>
+#include <unordered_map>
 
 #include "tenon/base/limits/fault_limits.h"
 #include "tenon/base/parallel.h"

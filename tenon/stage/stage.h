@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/base/function.h"
 #include "tenon/base/limits/limits.h"
 #include "tenon/base/limits/work_limits.h"
 #include "tenon/base/result.h"
@@ -33,8 +33,7 @@ struct StageOptions {
   std::size_t max_instanced_prims = limits::kInstancedPrims;
   std::size_t max_instanced_prims_per_spec = limits::kInstancedPrimsPerSpec;
   /// Asset path authored in a layer -> where it is, "" when nowhere; for resolved asset values.
-  std::function<std::string(const std::string& asset_path, const layer::Layer& anchor)>
-      resolve_asset;
+  Function<std::string(const std::string& asset_path, const layer::Layer& anchor)> resolve_asset;
   Interpolation interpolation = Interpolation::Linear;  ///< of time samples
 };
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/base/function.h"
 #include "tenon/layer/layer.h"
 #include "tenon/stage/stage.h"
 
@@ -16,7 +16,7 @@ namespace tenon::structure {
 struct AssetFiles {
   layer::LayerPtr interface;
   std::vector<layer::LayerPtr> payloads;  ///< all layers in the folder "payloads", used or not
-  std::function<bool(const std::string& identifier)> exists;
+  Function<bool(const std::string& identifier)> exists;
 };
 
 /// Holds each file to layout.h. Rules (docs/rules): structure.not-structured, wrong-layer,

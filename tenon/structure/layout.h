@@ -61,7 +61,8 @@ std::string_view role_name(Role role);
 /// Variant and Other, whose names depend on the asset.
 std::string file_name(Role role, Names names = Names::Current);
 /// Role of a file by its place in the asset's folder, in either generation; files of the formats
-/// usda, usdc and usd alike. A file at the top is the Interface, one in payloads/<Set>/ a Variant.
+/// usda, usdc and usd alike. A file at the top is the Interface, one in `payloads/<Set>/` a
+/// Variant.
 Role role_of_file_name(std::string_view place);
 /// Role of the variant of the set "Physics": Physics, Physx, Mujoco, Newton, else Engine.
 Role role_of_physics_variant(std::string_view variant);

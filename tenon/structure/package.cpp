@@ -4,6 +4,7 @@
 
 #include "tenon/base/content_digest.h"
 #include "tenon/bytes/read_record.h"
+#include "tenon/formats/open_layer.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"

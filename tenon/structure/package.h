@@ -12,7 +12,7 @@
 #include "tenon/base/result.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/compose/layer_opener.h"
-#include "tenon/formats/open_layer.h"
+#include "tenon/formats/layer_format.h"
 #include "tenon/layer/layer.h"
 #include "tenon/stage/stage.h"
 

@@ -17,6 +17,7 @@
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/read_record.h"
 #include "tenon/bytes/zip/zip_archive.h"
+#include "tenon/formats/open_layer.h"
 #include "tenon/layer/dictionary.h"
 #include "tenon/layer/fields.h"
 #include "tenon/structure/proof/digest_text.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tenon/base/result.h"
-#include "tenon/formats/open_layer.h"
+#include "tenon/formats/layer_format.h"
 #include "tenon/layer/layer.h"
 
 /// What a made asset says about its own files: in the layer that opens it, in customLayerData,

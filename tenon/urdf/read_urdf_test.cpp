@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/urdf/read_urdf.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/urdf/write_urdf.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tenon/urdf/read_urdf.h"

@@ -12,7 +12,6 @@
 #include "tenon/asset/convert_file.h"
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/tenon.h"
 #include "tests/convert/read_with_mujoco.h"
 
 namespace tenon {

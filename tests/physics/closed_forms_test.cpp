@@ -3,6 +3,8 @@
 //
 // Files whose motion has a closed form, from text to MuJoCo: springs and drives in each unit,
 // slopes, collisions, and what changes while it runs.
+#include <cmath>
+
 #include "tests/physics/scene_run.h"
 
 namespace tenon {

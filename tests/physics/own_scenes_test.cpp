@@ -4,6 +4,7 @@
 // The ideas of the seven published UsdPhysics examples in scenes of our own (metres), file to
 // MuJoCo.
 #include <algorithm>
+#include <cmath>
 
 #include "tests/physics/scene_run.h"
 

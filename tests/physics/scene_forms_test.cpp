@@ -11,9 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "tenon/answers/scene_json.h"
+#include "tenon/make_simulation.h"
+#include "tenon/open_stage.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/scene/fields/wire_form.h"
-#include "tenon/tenon.h"
 
 namespace tenon {
 namespace {

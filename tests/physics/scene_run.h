@@ -8,8 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/make_simulation.h"
+#include "tenon/open_stage.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/tenon.h"
 
 namespace tenon {
 

@@ -4,6 +4,7 @@
 // The seven published UsdPhysics examples, file to MuJoCo; centimetres, kilograms, g = 981 cm/s^2.
 // The files are not part of this repository: TENON_SHARED_DIR, or a folder `shared` beside it.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 

@@ -20,6 +20,8 @@ import installed
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 EXAMPLES = os.path.join(ROOT, "examples/cpp")
 HAND = os.path.join(ROOT, "examples/inspire_hand")
+USUAL_HEADERS = ("string", "vector", "span", "optional", "memory")
+MAX_HEADER_LINES = 12000  # preprocessed, not blank, beyond those of the usual headers
 STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 # Compiler -> what its programs are compiled with: with type information and exceptions, as most
 # programs are, and without, as the library is.
@@ -66,6 +68,23 @@ def compile_headers(prefix, folder, compiler):
                 PKG_CONFIG_PATH=os.path.join(prefix, "lib/pkgconfig")).stdout.split()
     run(compiler, "-std=c++20", *STRICT, "-fsyntax-only", *flags, source)
     return len(names)
+
+
+def preprocessed_lines(compiler, flags, *headers):
+    source = "".join(f"#include <{header}>\n" for header in headers)
+    done = subprocess.run([compiler, "-std=c++20", *flags, "-E", "-x", "c++", "-"], input=source,
+                          capture_output=True, text=True, check=True)
+    return sum(1 for line in done.stdout.split("\n") if line.strip() and not line.startswith("#"))
+
+
+def faults_of_length(prefix, compiler):
+    """tenon.h makes nobody wait: what it adds to the headers that every program has."""
+    flags = ["-I" + os.path.join(prefix, "include")]
+    lines = preprocessed_lines(compiler, flags, *USUAL_HEADERS, "tenon/tenon.h")
+    lines -= preprocessed_lines(compiler, flags, *USUAL_HEADERS)
+    print(f"{compiler}: tenon.h is {lines} lines beyond the usual headers")
+    if lines > MAX_HEADER_LINES:
+        yield f"tenon.h is {lines} lines, more than {MAX_HEADER_LINES}"
 
 
 def build_examples(prefix, folder, compiler, flags):
@@ -118,6 +137,14 @@ def faults_of_control_loop(place, hand, prefix):
         yield "control_loop: MuJoCo is not taken from the prefix"
 
 
+def faults_of_checking(place, hand):
+    output = run(os.path.join(place, "checking"), hand + "/inspire_hand.usda",
+                 "/inspire_hand").stdout
+    yield from faults_of_numbers("checking", output, {"errors": (0, 0), "files to correct": (0, 0)})
+    if '"prim": "/inspire_hand"' not in output:
+        yield f"checking: it explains nothing: {output}"
+
+
 def faults_of_environments(place, hand):
     output = run(os.path.join(place, "environments"), hand + "/inspire_hand.usda").stdout
     positions = [number(output, f"environment {i}") for i in range(16)]
@@ -148,6 +175,7 @@ def faults_of_examples(place, prefix, folder):
         yield from faults_of_physics(place, hand)
         yield from faults_of_control_loop(place, hand, prefix)
         yield from faults_of_environments(place, hand)
+        yield from faults_of_checking(place, hand)
         yield from faults_of_files(place, hand, work)
 
 
@@ -161,6 +189,7 @@ def main():
         faults = list(faults_of_paths(prefix, first))
         for compiler, flags in compilers.items():
             headers = compile_headers(prefix, folder, compiler)
+            faults += faults_of_length(prefix, compiler)
             place = build_examples(prefix, folder, compiler, flags)
             faults += [f"{compiler}: {fault}"
                        for fault in faults_of_examples(place, prefix, folder)]

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tenon/open_stage.h"
 #include "tenon/stage/collections/collection.h"
-#include "tenon/tenon.h"
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tenon/compose/dump_index.h"
+#include "tenon/open_indices.h"
 
 namespace tenon {
 namespace {

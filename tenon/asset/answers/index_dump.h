@@ -7,7 +7,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon {
 

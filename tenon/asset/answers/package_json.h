@@ -12,7 +12,7 @@
 #include "tenon/base/result.h"
 #include "tenon/bytes/zip/zip_archive.h"
 #include "tenon/formats/package/pack.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 /// Packages (.usdz) made, listed and unpacked.
 namespace tenon {

@@ -6,7 +6,7 @@
 
 #include "tenon/approximate/mesh_approximator.h"
 #include "tenon/guard/workers.h"
-#include "tenon/tenon.h"
+#include "tenon/make_simulation.h"
 
 namespace tenon {
 namespace {

@@ -8,8 +8,8 @@
 #include "tenon/answers/json.h"
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
+#include "tenon/open_stage.h"
 #include "tenon/stage/stage.h"
-#include "tenon/tenon.h"
 
 namespace tenon {
 

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "tenon/asset/check_asset.h"
 #include "tenon/asset/checking/reported_finding.h"
+#include "tenon/base/function.h"
 #include "tenon/base/result.h"
 
 namespace tenon {
@@ -18,9 +18,9 @@ struct CheckAssetsOptions {
   bool correct = false;  ///< what has a safe fix
   /// Writes what was corrected of one asset; the asset is then checked again. Empty: nothing is
   /// written, and the findings are those before.
-  std::function<Result<void>(const std::vector<EditedFile>& files)> write;
+  Function<Result<void>(const std::vector<EditedFile>& files)> write;
   std::string baseline;  ///< file of findings that are known; empty: none are
-  std::function<void(std::size_t done, std::size_t total)> progress;  ///< in assets; may be empty
+  Function<void(std::size_t done, std::size_t total)> progress;  ///< in assets; may be empty
 };
 
 /// One of the assets.

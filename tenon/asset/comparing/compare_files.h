@@ -11,8 +11,8 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/diff/layer_difference.h"
+#include "tenon/open_stage.h"
 #include "tenon/scene/fields/scene_difference.h"
-#include "tenon/tenon.h"
 
 /// Two layers, packages, folders or assets compared.
 namespace tenon {

@@ -10,7 +10,7 @@
 #include "tenon/asset/converting/robot_files.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon {
 

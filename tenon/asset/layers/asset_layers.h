@@ -14,7 +14,7 @@
 #include "tenon/base/result.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/layer/layer.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 namespace tenon {
 

@@ -9,7 +9,7 @@
 #include "tenon/base/result.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/layer/layer.h"
-#include "tenon/tenon.h"
+#include "tenon/open_stage.h"
 
 /// An asset as one layer.
 namespace tenon {

@@ -10,8 +10,8 @@
 #include "tenon/bake/mute_layer.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/open_stage.h"
 #include "tenon/physics/strip.h"
-#include "tenon/tenon.h"
 
 /// Assets without physics, or with physics that is switched off.
 namespace tenon {

@@ -20,6 +20,7 @@
 #include "tenon/base/text/grouped_digits.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/bytes/files.h"
+#include "tenon/make_simulation.h"
 #include "tenon/physics/read_physics.h"
 
 namespace tenon {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,25 +9,26 @@
 #include "tenon/bake/commands.h"
 #include "tenon/bake/run_simulation.h"
 #include "tenon/base/diagnostics.h"
+#include "tenon/base/function.h"
 #include "tenon/base/result.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/layer/layer.h"
+#include "tenon/open_stage.h"
 #include "tenon/physics/readings.h"
 #include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
-#include "tenon/tenon.h"
 
 /// A run as a value: an asset, what to do with it, and what came of it.
 namespace tenon {
 
 /// What is told while it goes on; each may be empty.
 struct SimulationListener {
-  std::function<void(const std::string& what)> next_part;  ///< "simulating"
+  Function<void(const std::string& what)> next_part;  ///< "simulating"
   /// A finding about work that will take long, before it begins; without it, it comes with the
   /// others.
-  std::function<void(const Diagnostic& finding)> announce;
+  Function<void(const Diagnostic& finding)> announce;
   /// Now and then, with the simulated time and that of the whole run [s]; false stops it.
-  std::function<bool(double seconds, double duration)> go_on;
+  Function<bool(double seconds, double duration)> go_on;
 };
 
 struct SimulateAssetOptions {

@@ -294,8 +294,7 @@ const PrimIndex& IndexCache::child_index(const PrimIndex& parent, Token name) {
 }
 
 bool IndexCache::build_below(const std::vector<const PrimIndex*>& roots,
-                             const std::function<bool(const PrimIndex&)>& enters,
-                             std::size_t most) {
+                             const Function<bool(const PrimIndex&)>& enters, std::size_t most) {
   const State& state = *state_;
   if (state.at_limit || state.ahead_full) {
     return false;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/base/function.h"
 #include "tenon/base/limits/limits.h"
 #include "tenon/base/limits/work_limits.h"
 #include "tenon/compose/layer_opener.h"
@@ -67,7 +67,7 @@ class IndexCache {
   /// `most` how many indices each thread may make. Later answers are the same as without, only
   /// sooner. False when something was left out.
   bool build_below(const std::vector<const PrimIndex*>& roots,
-                   const std::function<bool(const PrimIndex&)>& enters, std::size_t most);
+                   const Function<bool(const PrimIndex&)>& enters, std::size_t most);
   /// Layers that could not be opened and other errors of layer stacks, in order of discovery.
   const Diagnostics& errors() const;
   /// Units of work that what was asked for took: the same however it was built.

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include "tenon/engines/mujoco/test_scene.h"
 
 namespace tenon::engines::mujoco {

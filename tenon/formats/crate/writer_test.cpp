@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/crate/writer.h"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>

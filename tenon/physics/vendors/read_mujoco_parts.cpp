@@ -10,6 +10,7 @@
 #include "tenon/physics/vendors/read_mujoco_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include "tenon/physics/vendors/mujoco_settings.h"

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "tenon/base/function.h"
 #include "tenon/scene/physics_scene.h"
 
 namespace tenon::scene {
@@ -15,11 +15,11 @@ namespace tenon::scene {
 struct MeshTools {
   /// Convex pieces that together stand for a closed mesh, at most `most` with at most `vertices`
   /// corners each. Nothing: the library is not there, which shows when a mesh asks for it.
-  std::function<std::optional<std::vector<TriangleMesh>>(const TriangleMesh& mesh, int most,
-                                                         int vertices)>
+  Function<std::optional<std::vector<TriangleMesh>>(const TriangleMesh& mesh, int most,
+                                                    int vertices)>
       decompose;
   /// The mesh with fewer triangles, within one hundredth of its size. Nothing: as above.
-  std::function<std::optional<TriangleMesh>(const TriangleMesh& mesh)> simplify;
+  Function<std::optional<TriangleMesh>(const TriangleMesh& mesh)> simplify;
 };
 
 }  // namespace tenon::scene

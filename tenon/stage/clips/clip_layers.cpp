@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <mutex>
+
 #include "tenon/stage/clips/clip_places.h"
 #include "tenon/stage/clips/clip_set.h"
 

@@ -24,7 +24,7 @@ namespace {
 
 using layer::PredicateArgument;
 using Arguments = std::vector<PredicateArgument>;
-using Function = PrimPredicate::Function;
+using Matcher = PrimPredicate::Matcher;
 
 Error wrong_arguments(std::string_view function, std::string_view expected) {
   return Error(ErrorCode::Parse,
@@ -86,37 +86,37 @@ std::vector<Token> names_of(const Arguments& arguments) {
   return result;
 }
 
-Result<Function> bind_abstract(const Arguments& arguments) {
+Result<Matcher> bind_abstract(const Arguments& arguments) {
   TENON_TRY(const bool expected, expected_state("abstract", arguments, "isAbstract"));
-  return Function([expected](const Prim& prim, bool) { return prim.is_abstract() == expected; });
+  return Matcher([expected](const Prim& prim, bool) { return prim.is_abstract() == expected; });
 }
 
-Result<Function> bind_defined(const Arguments& arguments) {
+Result<Matcher> bind_defined(const Arguments& arguments) {
   TENON_TRY(const bool expected, expected_state("defined", arguments, "isDefined"));
-  return Function([expected](const Prim& prim, bool) { return prim.is_defined() == expected; });
+  return Matcher([expected](const Prim& prim, bool) { return prim.is_defined() == expected; });
 }
 
-Result<Function> bind_model(const Arguments& arguments) {
+Result<Matcher> bind_model(const Arguments& arguments) {
   TENON_TRY(const bool expected, expected_state("model", arguments, "isModel"));
-  return Function([expected](const Prim& prim, bool is_property) {
+  return Matcher([expected](const Prim& prim, bool is_property) {
     return !is_property && prim.is_model() == expected;
   });
 }
 
-Result<Function> bind_group(const Arguments& arguments) {
+Result<Matcher> bind_group(const Arguments& arguments) {
   TENON_TRY(const bool expected, expected_state("group", arguments, "isGroup"));
-  return Function([expected](const Prim& prim, bool is_property) {
+  return Matcher([expected](const Prim& prim, bool is_property) {
     return !is_property && prim.is_group() == expected;
   });
 }
 
-Result<Function> bind_kind(const Arguments& arguments) {
+Result<Matcher> bind_kind(const Arguments& arguments) {
   std::vector<Token> kinds = names_of(arguments);
   std::erase_if(kinds, [](Token kind) { return !schema::is_kind(kind, kind); });
   if (kinds.empty()) {
     return wrong_arguments("kind", "kinds such as component");
   }
-  return Function([kinds, strict = is_strict(arguments)](const Prim& prim, bool is_property) {
+  return Matcher([kinds, strict = is_strict(arguments)](const Prim& prim, bool is_property) {
     if (is_property) {
       return false;
     }
@@ -127,7 +127,7 @@ Result<Function> bind_kind(const Arguments& arguments) {
   });
 }
 
-Result<Function> bind_specifier(const Arguments& arguments) {
+Result<Matcher> bind_specifier(const Arguments& arguments) {
   std::array<bool, 3> wanted{};
   for (const PredicateArgument& argument : arguments) {
     const auto* text = argument.value.get<std::string>();
@@ -139,14 +139,14 @@ Result<Function> bind_specifier(const Arguments& arguments) {
     }
     wanted[static_cast<std::size_t>(found - kNames.begin())] = true;
   }
-  return Function([wanted](const Prim& prim, bool is_property) {
+  return Matcher([wanted](const Prim& prim, bool is_property) {
     return !is_property && wanted[static_cast<std::size_t>(prim.specifier())];
   });
 }
 
-Result<Function> bind_isa(const Arguments& arguments) {
-  return Function([types = names_of(arguments), strict = is_strict(arguments)](const Prim& prim,
-                                                                               bool is_property) {
+Result<Matcher> bind_isa(const Arguments& arguments) {
+  return Matcher([types = names_of(arguments), strict = is_strict(arguments)](const Prim& prim,
+                                                                              bool is_property) {
     return !is_property && std::any_of(types.begin(), types.end(), [&](Token type) {
       return strict ? prim.type_name() == type && schema::Registry::instance().find(type) != nullptr
                     : prim.is_a(type);
@@ -154,7 +154,7 @@ Result<Function> bind_isa(const Arguments& arguments) {
   });
 }
 
-Result<Function> bind_has_api(const Arguments& arguments) {
+Result<Matcher> bind_has_api(const Arguments& arguments) {
   std::string instance;
   for (const PredicateArgument& argument : arguments) {
     if (argument.keyword == "instanceName") {
@@ -166,7 +166,7 @@ Result<Function> bind_has_api(const Arguments& arguments) {
       break;
     }
   }
-  return Function([schemas = names_of(arguments), instance](const Prim& prim, bool is_property) {
+  return Matcher([schemas = names_of(arguments), instance](const Prim& prim, bool is_property) {
     return !is_property && std::any_of(schemas.begin(), schemas.end(), [&](Token schema) {
       return instance.empty() ? prim.has_api(schema) || !prim.api_instances(schema).empty()
                               : prim.has_api(Token(schema.str() + ":" + instance));
@@ -174,7 +174,7 @@ Result<Function> bind_has_api(const Arguments& arguments) {
   });
 }
 
-Result<Function> bind_variant(const Arguments& arguments) {
+Result<Matcher> bind_variant(const Arguments& arguments) {
   std::vector<std::pair<std::string, std::string>> wanted;
   for (const PredicateArgument& argument : arguments) {
     const auto* text = argument.value.get<std::string>();
@@ -184,17 +184,17 @@ Result<Function> bind_variant(const Arguments& arguments) {
     // What is no plain name is looked for anywhere in the selection.
     wanted.emplace_back(argument.keyword, is_identifier(*text) ? *text : '*' + *text + '*');
   }
-  return Function([wanted](const Prim& prim, bool is_property) {
+  return Matcher([wanted](const Prim& prim, bool is_property) {
     return !is_property && std::all_of(wanted.begin(), wanted.end(), [&](const auto& one) {
       return name_matches(one.second, prim.variant_selection(one.first));
     });
   });
 }
 
-Result<Function> bind_call(const layer::PredicateCall& call) {
+Result<Matcher> bind_call(const layer::PredicateCall& call) {
   struct Known {
     std::string_view name;
-    Result<Function> (*bind)(const Arguments&);
+    Result<Matcher> (*bind)(const Arguments&);
   };
   constexpr Known kFunctions[] = {
       {"abstract", bind_abstract}, {"defined", bind_defined}, {"model", bind_model},
@@ -215,7 +215,7 @@ Result<PrimPredicate> PrimPredicate::bind(const layer::PredicateExpression& expr
   PrimPredicate result;
   result.nodes_ = expression.nodes;
   for (const layer::PredicateCall& call : expression.calls) {
-    TENON_TRY(Function function, bind_call(call));
+    TENON_TRY(Matcher function, bind_call(call));
     result.functions_.push_back(std::move(function));
   }
   return result;

@@ -22,11 +22,11 @@ class PrimPredicate {
   /// Holds for the prim, or for a property of it.
   bool holds(const Prim& prim, bool is_property) const;
 
-  using Function = std::function<bool(const Prim& prim, bool is_property)>;
+  using Matcher = std::function<bool(const Prim& prim, bool is_property)>;
 
  private:
   std::vector<layer::ExpressionNode> nodes_;
-  std::vector<Function> functions_;
+  std::vector<Matcher> functions_;
 };
 
 }  // namespace tenon::stage

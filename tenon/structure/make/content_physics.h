@@ -4,6 +4,7 @@
 
 #include "tenon/base/result.h"
 #include "tenon/layer/layer.h"
+#include "tenon/physics/colliders/mesh_cache.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/stage/stage.h"
 #include "tenon/structure/make/make_package.h"

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/base/function.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/files.h"
@@ -25,10 +25,9 @@ struct AssetSource {
   layer::LayerPtr root;
   compose::LayerOpener open_layer;
   /// As in stage::StageOptions.
-  std::function<std::string(const std::string& asset_path, const layer::Layer& anchor)>
-      resolve_asset;
+  Function<std::string(const std::string& asset_path, const layer::Layer& anchor)> resolve_asset;
   /// The bytes of a resolved asset: a texture, a module of a material.
-  std::function<Result<std::shared_ptr<const bytes::FileBytes>>(const std::string& identifier)>
+  Function<Result<std::shared_ptr<const bytes::FileBytes>>(const std::string& identifier)>
       open_asset;
   /// Units of work of composition, as in compose::ComposeOptions; 0: the limit.
   std::size_t max_work = 0;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/formats/open_layer.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/layer/time/time_samples.h"
 #include "tenon/physics/read_physics.h"

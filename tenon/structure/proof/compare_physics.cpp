@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <functional>
+
 #include "tenon/scene/fields/scene_difference.h"
 #include "tenon/structure/proof/proof.h"
 

@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
 #include "tenon/engines/mujoco/test_scene.h"
 
 namespace tenon::engines::mujoco {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 
 #include "tenon/engines/mujoco/build/option_fields.h"
 #include "tenon/engines/mujoco/test_scene.h"

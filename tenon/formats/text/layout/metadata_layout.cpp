@@ -3,6 +3,7 @@
 //
 // Statements in parentheses. A dictionary is changed entry by entry.
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/tenon.h"
+
+#include "tenon/make_simulation.h"
 
 #include <span>
 #include <utility>
