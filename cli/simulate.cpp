@@ -69,7 +69,7 @@ void SimulateArguments::add_to(const Command& verb) {
 
 void SimulateArguments::add_steering_to(const Command& verb) {
   verb.add_option("--commands", commands,
-                  "Drive joints over time by a CSV file: time [s], then columns such as "
+                  "Drive joints over time by a table, .csv or .npz: time [s], then columns such as "
                   "/hand/joint.target, .velocityTarget (degrees or stage units) and .effort (N, "
                   "N m); each row holds until the next")
       .file_only()

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <string_view>
 
 #include "tenon/bake/commands.h"
 #include "tenon/bake/test_still_simulation.h"
@@ -44,8 +43,8 @@ bool is_sound(const tenon::bake::Commands& commands) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const tenon::scene::PhysicsScene scene = driven_scene();
   tenon::bake::StillSimulation simulation({1, 2});
-  const auto commands = tenon::bake::commands_from_csv({reinterpret_cast<const char*>(data), size},
-                                                       scene, simulation);
+  const auto commands = tenon::bake::read_commands(
+      tenon::bytes::FileBytes::own({reinterpret_cast<const char*>(data), size}), scene, simulation);
   if (!commands) {
     return 0;
   }

@@ -4,11 +4,12 @@
 
 #include <cstdint>
 #include <map>
-#include <string_view>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "tenon/base/result.h"
+#include "tenon/bytes/file_bytes.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/scene/physics_scene.h"
 
@@ -35,13 +36,11 @@ struct Commands {
   std::vector<double> values;  ///< SI (row_count x column_count), row-major; NaN: as before
 };
 
-/// Reads a table with commas: a header "time" and names such as "/hand/joint.target",
-/// ".velocityTarget" and ".effort", with an axis or a number behind where a joint has several; then
-/// rows in ascending time [s]. Lengths are in units of the stage, angles in degrees, efforts in N
-/// and N m; an empty cell leaves what was there. Errors, with line and column (rule sim.commands):
-/// NotFound for a name that the scene has not, Parse, Limit beyond limits::kCommandValues.
-Result<Commands> commands_from_csv(std::string_view text, const scene::PhysicsScene& scene,
-                                   const engines::Simulation& simulation);
+/// Of a table with commas (commands_from_csv.h) or an archive of NumPy (commands_from_npz.h), told
+/// by its first bytes.
+Result<Commands> read_commands(std::shared_ptr<const bytes::FileBytes> file,
+                               const scene::PhysicsScene& scene,
+                               const engines::Simulation& simulation);
 
 /// Gives commands to a simulation as its time goes on. All that it is made of must outlive it.
 class CommandPlayer {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/bake/commands_from_csv.h"
 #include "tenon/bake/run_simulation.h"
 #include "tenon/bake/test_still_simulation.h"
 #include "tenon/math/angle.h"

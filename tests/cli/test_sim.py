@@ -16,6 +16,11 @@ import sys
 import tempfile
 import unittest
 
+try:
+    import numpy
+except ImportError:
+    numpy = None
+
 ROOT, TENON = pathlib.Path(sys.argv[1]).absolute(), str(pathlib.Path(sys.argv[2]).absolute())
 HAND = ROOT / "examples/inspire_hand/inspire_hand.usda"
 JOINT = "/inspire_hand/Physics/right_index_1_joint"
@@ -189,6 +194,24 @@ class Commands(Sim):
                 self.refused(["c.csv", *expected, "sim.commands"], HAND, "--commands", path)
         self.refused(["none.csv"], HAND, "--commands", "none.csv")
         self.refused(["usage"], HAND, "--commands", "-")
+
+    def test_of_numpy_are_those_of_a_table(self):
+        if numpy is None:
+            self.skipTest("numpy is not installed: make oracle")
+        rows = "0,30,\n0.2,,0.01\n0.4,10,0\n"
+        table = self.write("c.csv", f"time,{JOINT}.target,{JOINT}.effort\n{rows}")
+        arrays = {"time": numpy.array([0, 0.2, 0.4]),
+                  "columns": numpy.array([f"{JOINT}.target", f"{JOINT}.effort"]),
+                  "values": numpy.array([[30, math.nan], [math.nan, 0.01], [10, 0]])}
+        numpy.savez(self.folder / "c.npz", **arrays)
+        numpy.savez_compressed(self.folder / "packed.npz", **arrays)
+        self.ok(HAND, "--commands", table, "--duration", 0.6, "-o", "a.csv")
+        self.ok(HAND, "--commands", "c.npz", "--duration", 0.6, "-o", "b.csv")
+        self.assertEqual(self.rows("a.csv"), self.rows("b.csv"))
+        self.refused(["packed.npz", "compressed", "savez"], HAND, "--commands", "packed.npz")
+        damaged = (self.folder / "c.npz").read_bytes()[:-30]
+        (self.folder / "short.npz").write_bytes(damaged)
+        self.refused(["short.npz"], HAND, "--commands", "short.npz")
 
     def test_files_that_are_too_long_are_refused(self):
         with open(self.folder / "long.csv", "wb") as file:

@@ -161,7 +161,7 @@ Result<void> read_commands(const SimulateAssetOptions& options, SimulatedAsset& 
     return {};
   }
   TENON_TRY(const auto file, read_whole(options.commands, options, limits::kCommandBytes));
-  auto commands = bake::commands_from_csv(file->text(), *asset.scene, *asset.simulation);
+  auto commands = bake::read_commands(file, *asset.scene, *asset.simulation);
   if (!commands) {
     return std::move(commands).error().in_file(options.commands);
   }
