@@ -10,8 +10,6 @@
 
 #include <cmath>
 
-#include "tenon/robot/robot_model.h"
-
 namespace tenon::convert {
 
 using layer::Value;

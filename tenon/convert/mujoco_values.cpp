@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/convert/mujoco_values.h"
 
-#include "tenon/robot/robot_model.h"
-
 namespace tenon::convert {
 
 using layer::Value;

@@ -9,6 +9,7 @@
 
 #include "tenon/convert/layer_builder.h"
 #include "tenon/robot/mujoco_parts.h"
+#include "tenon/robot/robot_model.h"
 
 /// Internal to this folder.
 namespace tenon::convert {

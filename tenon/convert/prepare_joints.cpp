@@ -3,7 +3,6 @@
 #include "tenon/convert/prepare_joints.h"
 
 #include "tenon/base/file_finding.h"
-#include "tenon/robot/robot_model.h"
 
 namespace tenon::convert {
 namespace {

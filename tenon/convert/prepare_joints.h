@@ -4,6 +4,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/convert/convert_robot.h"
+#include "tenon/robot/robot_model.h"
 
 /// Internal to this folder.
 namespace tenon::convert {

@@ -14,22 +14,22 @@
 namespace tenon::layer {
 namespace {
 
-constexpr std::uint8_t L = 1;
-constexpr std::uint8_t P = 2;
-constexpr std::uint8_t A = 4;
-constexpr std::uint8_t R = 8;
+constexpr std::uint8_t kLayer = 1;
+constexpr std::uint8_t kPrim = 2;
+constexpr std::uint8_t kAttribute = 4;
+constexpr std::uint8_t kRelationship = 8;
 
 std::uint8_t home_of(SpecKind kind) {
   switch (kind) {
     case SpecKind::PseudoRoot:
-      return L;
+      return kLayer;
     case SpecKind::Prim:
     case SpecKind::Variant:
-      return P;
+      return kPrim;
     case SpecKind::Attribute:
-      return A;
+      return kAttribute;
     case SpecKind::Relationship:
-      return R;
+      return kRelationship;
     default:
       return 0;
   }
@@ -51,17 +51,18 @@ struct FieldTable {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       by_name.emplace(rows[i].name, i);
     }
-    add_structural(L | P | A | R, {fields::comment});
-    add_structural(L | P, {fields::primChildren, fields::primOrder});
-    add_structural(L, {fields::layerRelocates, fields::subLayers, fields::subLayerOffsets});
+    add_structural(kLayer | kPrim | kAttribute | kRelationship, {fields::comment});
+    add_structural(kLayer | kPrim, {fields::primChildren, fields::primOrder});
+    add_structural(kLayer, {fields::layerRelocates, fields::subLayers, fields::subLayerOffsets});
     add_structural(
-        P, {fields::inheritPaths, fields::payload, fields::properties, fields::propertyOrder,
-            fields::references, fields::relocates, fields::specializes, fields::specifier,
-            fields::variantSelection, fields::variantSetChildren, fields::variantSetNames});
-    add_structural(A | R, {fields::custom, fields::default_value, fields::variability});
-    add_structural(A, {fields::connectionChildren, fields::connectionPaths, fields::spline,
-                       fields::timeSamples, fields::typeName});
-    add_structural(R, {fields::targetChildren, fields::targetPaths});
+        kPrim, {fields::inheritPaths, fields::payload, fields::properties, fields::propertyOrder,
+                fields::references, fields::relocates, fields::specializes, fields::specifier,
+                fields::variantSelection, fields::variantSetChildren, fields::variantSetNames});
+    add_structural(kAttribute | kRelationship,
+                   {fields::custom, fields::default_value, fields::variability});
+    add_structural(kAttribute, {fields::connectionChildren, fields::connectionPaths, fields::spline,
+                                fields::timeSamples, fields::typeName});
+    add_structural(kRelationship, {fields::targetChildren, fields::targetPaths});
   }
 
   void add_structural(std::uint8_t homes, std::initializer_list<Token> names) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "tenon/engines/mujoco/build/option_fields.h"
-#include "tenon/robot/robot_model.h"
 
 namespace tenon::mjcf {
 

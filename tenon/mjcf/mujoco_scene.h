@@ -4,6 +4,7 @@
 
 #include "tenon/mjcf/mjcf_source.h"
 #include "tenon/robot/mujoco_parts.h"
+#include "tenon/robot/robot_model.h"
 
 /// Internal to this folder.
 namespace tenon::mjcf {
