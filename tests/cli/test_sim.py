@@ -219,6 +219,14 @@ class Commands(Sim):
         self.refused(["long.csv", "file.too-large"], HAND, "--commands", "long.csv")
 
 
+class Gains(Sim):
+    def test_below_zero_are_refused(self):
+        drive = f"{JOINT}.drive:angular:physics"
+        for gain in ("stiffness", "damping"):
+            self.refused(["drive.negative-gain", f"{gain} is -1", "feeds energy in"],
+                         HAND, "--set", f"{drive}:{gain}=-1", "--duration", 0.1)
+
+
 class States(Sim):
     def test_a_run_that_is_continued_in_another_process_is_the_same_to_the_byte(self):
         path = self.write("c.csv", f"time,{JOINT}.target\n0,0\n0.4,30\n0.75,10\n")

@@ -103,6 +103,25 @@ void tell_next(const SimulateAssetOptions& options, const std::string& what) {
   }
 }
 
+/// A drive that pushes away from its target is nothing to simulate: the first finding that says so
+/// becomes the error, the others stay.
+Result<void> check_gains(Diagnostics& diagnostics) {
+  std::optional<Diagnostic> fault;
+  Diagnostics others;
+  for (const Diagnostic& finding : diagnostics) {
+    if (!fault && finding.rule == "drive.negative-gain") {
+      fault = finding;
+    } else {
+      others.add(finding);
+    }
+  }
+  if (!fault) {
+    return {};
+  }
+  diagnostics = std::move(others);
+  return Error(ErrorCode::Invalid, *std::move(fault));
+}
+
 Result<SimulatedAsset> read_scene(const std::string& path, const SimulateAssetOptions& options,
                                   Diagnostics& diagnostics) {
   SimulatedAsset read;
@@ -111,6 +130,7 @@ Result<SimulatedAsset> read_scene(const std::string& path, const SimulateAssetOp
   read.stage = std::make_unique<stage::Stage>(std::move(stage));
   read.scene = std::make_unique<scene::PhysicsScene>(
       physics::read_physics(*read.stage, read_options(options.readings), diagnostics));
+  TENON_CHECK(check_gains(diagnostics));
   return read;
 }
 
