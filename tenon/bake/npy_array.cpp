@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "tenon/base/text/text_number.h"
+#include "tenon/base/text/unicode.h"
 
 namespace tenon::bake {
 namespace {
@@ -92,19 +93,6 @@ T loaded(const char* at) {
   T value;
   std::memcpy(&value, at, sizeof(T));
   return value;
-}
-
-void append_utf8(std::uint32_t code, std::string& text) {
-  if (code < 0x80) {
-    text += static_cast<char>(code);
-    return;
-  }
-  const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
-  constexpr unsigned char kFirst[] = {0, 0xC0, 0xE0, 0xF0};
-  text += static_cast<char>(kFirst[more] | (code >> (6U * static_cast<unsigned>(more))));
-  for (int k = more - 1; k >= 0; --k) {
-    text += static_cast<char>(0x80U | ((code >> (6U * static_cast<unsigned>(k))) & 0x3FU));
-  }
 }
 
 }  // namespace
@@ -191,7 +179,7 @@ std::string NpyArray::text(std::size_t i) const {
     if (code == 0 || code > 0x10FFFF) {
       break;
     }
-    append_utf8(code, text);
+    unicode::append(code, text);
   }
   return text;
 }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "tenon/base/text/unicode.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/read_record.h"
 
@@ -39,20 +40,6 @@ std::optional<std::uint32_t> hex4(std::string_view text) {
     value = value * 16 + static_cast<std::uint32_t>(digit);
   }
   return value;
-}
-
-/// Of the basic plane; halves of pairs come out as no text, and so name no file.
-void append_utf8(std::string& text, std::uint32_t code) {
-  if (code < 0x80) {
-    text += static_cast<char>(code);
-  } else if (code < 0x800) {
-    text += static_cast<char>(0xc0u | (code >> 6));
-    text += static_cast<char>(0x80u | (code & 0x3fu));
-  } else {
-    text += static_cast<char>(0xe0u | (code >> 12));
-    text += static_cast<char>(0x80u | ((code >> 6) & 0x3fu));
-    text += static_cast<char>(0x80u | (code & 0x3fu));
-  }
 }
 
 class Strings {
@@ -94,7 +81,7 @@ class Strings {
     const char c = text_[at_];
     const auto code = c == 'u' ? hex4(text_.substr(at_ + 1)) : std::nullopt;
     if (code) {
-      append_utf8(value, *code);
+      unicode::append(*code, value);  // half of a pair comes out as no text, and names no file
       at_ += 4;
       return;
     }

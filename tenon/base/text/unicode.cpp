@@ -64,6 +64,20 @@ Decoded decode(std::string_view text) {
   return {code_point, length};
 }
 
+void append(char32_t code_point, std::string& text) {
+  constexpr unsigned kFollowingBits = 6;
+  const unsigned following = code_point < 0x80      ? 0
+                             : code_point < 0x800   ? 1
+                             : code_point < 0x10000 ? 2
+                                                    : 3;
+  constexpr std::uint32_t kLeads[] = {0, 0xC0, 0xE0, 0xF0};
+  const std::uint32_t bits = code_point;
+  text += static_cast<char>(kLeads[following] | (bits >> (kFollowingBits * following)));
+  for (unsigned k = following; k > 0; --k) {
+    text += static_cast<char>(0x80U | ((bits >> (kFollowingBits * (k - 1))) & 0x3FU));
+  }
+}
+
 bool is_valid(std::string_view text) {
   while (!text.empty()) {
     const Decoded decoded = decode(text);

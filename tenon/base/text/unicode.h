@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 /// UTF-8 and the identifier classes of Unicode (XID), which USD uses for names.
@@ -15,6 +16,8 @@ struct Decoded {
 
 /// The code point at the head of `text`.
 Decoded decode(std::string_view text);
+/// Appends a code point, at most 0x10FFFF; a surrogate comes out as text that is not well-formed.
+void append(char32_t code_point, std::string& text);
 /// True when all of `text` is well-formed UTF-8.
 bool is_valid(std::string_view text);
 /// True when it has no control characters either: what an asset path in a text layer may hold.
