@@ -171,6 +171,10 @@ TEST_F(AssetAnswers, ARunIsAValue) {
   options.duration = 0.1;
   std::vector<std::string> told;
   options.listener.next_part = [&](const std::string& part) { told.push_back(part); };
+  // What was found in another asset says nothing of this one.
+  Diagnostic of_another;
+  of_another.rule = "drive.negative-gain";
+  diagnostics_.add(of_another);
   const auto run = simulate_asset(box_, options, diagnostics_);
   ASSERT_TRUE(run) << run.error().message();
   EXPECT_EQ(told.back(), "simulating");

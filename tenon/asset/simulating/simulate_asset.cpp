@@ -103,23 +103,18 @@ void tell_next(const SimulateAssetOptions& options, const std::string& what) {
   }
 }
 
-/// A drive that pushes away from its target is nothing to simulate: the first finding that says so
-/// becomes the error, the others stay.
-Result<void> check_gains(Diagnostics& diagnostics) {
-  std::optional<Diagnostic> fault;
-  Diagnostics others;
-  for (const Diagnostic& finding : diagnostics) {
-    if (!fault && finding.rule == "drive.negative-gain") {
-      fault = finding;
+/// Hands findings on. A drive that pushes away from its target is nothing to simulate: the first
+/// finding that says so is the error instead.
+Result<void> hand_on(const Diagnostics& found, Diagnostics& diagnostics) {
+  Result<void> all_well;
+  for (const Diagnostic& finding : found) {
+    if (all_well && finding.rule == "drive.negative-gain") {
+      all_well = Error(ErrorCode::Invalid, finding);
     } else {
-      others.add(finding);
+      diagnostics.add(finding);
     }
   }
-  if (!fault) {
-    return {};
-  }
-  diagnostics = std::move(others);
-  return Error(ErrorCode::Invalid, *std::move(fault));
+  return all_well;
 }
 
 Result<SimulatedAsset> read_scene(const std::string& path, const SimulateAssetOptions& options,
@@ -128,9 +123,10 @@ Result<SimulatedAsset> read_scene(const std::string& path, const SimulateAssetOp
   const OpenOptions open = with_readings(options.open, options.readings);
   TENON_TRY(stage::Stage stage, open_stage(path, open, diagnostics));
   read.stage = std::make_unique<stage::Stage>(std::move(stage));
+  Diagnostics found;
   read.scene = std::make_unique<scene::PhysicsScene>(
-      physics::read_physics(*read.stage, read_options(options.readings), diagnostics));
-  TENON_CHECK(check_gains(diagnostics));
+      physics::read_physics(*read.stage, read_options(options.readings), found));
+  TENON_CHECK(hand_on(found, diagnostics));
   return read;
 }
 
