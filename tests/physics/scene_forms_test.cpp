@@ -44,10 +44,11 @@ std::vector<Case> all_cases() {
       }
     }
   }
-  for (const auto& entry :
-       fs::directory_iterator(fs::path(TENON_SOURCE_DIR) / "tests/physics/scenes")) {
-    if (entry.path().extension() == ".usda") {
-      cases.push_back({entry.path().string(), ""});
+  for (const char* folder : {"tests/physics/scenes", "examples/scenes"}) {
+    for (const auto& entry : fs::directory_iterator(fs::path(TENON_SOURCE_DIR) / folder)) {
+      if (entry.path().extension() == ".usda") {
+        cases.push_back({entry.path().string(), ""});
+      }
     }
   }
   for (const char* variant : {"physics", "physx", "mujoco"}) {

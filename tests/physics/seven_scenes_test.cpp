@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The seven published UsdPhysics examples, file to MuJoCo; centimetres, kilograms, g = 981 cm/s^2.
-// The files are not part of this repository: TENON_SHARED_DIR, or a folder `shared` beside it.
+// The seven examples of the UsdPhysics proposal, file to MuJoCo; centimetres, kilograms, g = 981
+// cm/s^2: as examples/scenes has them, and as published where these are, in TENON_SHARED_DIR or a
+// folder `shared` beside this one.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <utility>
 
 #include "tests/physics/scene_run.h"
 
@@ -16,20 +18,33 @@ namespace {
 constexpr double kG = 981;           // [cm/s^2]
 constexpr double kEnd = 100 / 24.0;  // [s]
 
-std::string published(const std::string& name) {
-  const char* shared = std::getenv("TENON_SHARED_DIR");
-  const std::string folder =
-      shared != nullptr ? shared : std::string(TENON_SOURCE_DIR) + "/../shared";
-  return folder + "/scenes/" + name;
-}
+enum class Source { Examples, Published };
 
-#define SKIP_WITHOUT(path)                                           \
-  if (!std::filesystem::exists(path)) {                              \
-    GTEST_SKIP() << "not here: " << (path) << " (TENON_SHARED_DIR)"; \
+class SevenScenes : public testing::TestWithParam<Source> {
+ protected:
+  /// The file of the scene: `name` in examples/scenes, `published` in the shared folder.
+  static std::string scene_file(const std::string& name, const std::string& published) {
+    const std::string here = TENON_SOURCE_DIR;
+    if (GetParam() == Source::Examples) {
+      return here + "/examples/scenes/" + name + ".usda";
+    }
+    const char* shared = std::getenv("TENON_SHARED_DIR");
+    return (shared != nullptr ? shared : here + "/../shared") + "/scenes/" + published + ".usda";
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(, SevenScenes, testing::Values(Source::Examples, Source::Published),
+                         [](const testing::TestParamInfo<Source>& info) {
+                           return info.param == Source::Examples ? "Examples" : "Published";
+                         });
+
+#define SKIP_WITHOUT(path)                                                 \
+  if (GetParam() == Source::Published && !std::filesystem::exists(path)) { \
+    GTEST_SKIP() << "not here: " << (path) << " (TENON_SHARED_DIR)";       \
   }
 
-TEST(SevenScenes, BoxOnBox) {
-  const std::string path = published("01_box_on_box_fixed.usda");
+TEST_P(SevenScenes, BoxOnBox) {
+  const std::string path = scene_file("box_on_box", "01_box_on_box_fixed");
   SKIP_WITHOUT(path);
   SceneRun run(path);
   ASSERT_TRUE(run.ready());
@@ -59,8 +74,8 @@ TEST(SevenScenes, BoxOnBox) {
   EXPECT_NEAR(run.position(box)[0], 1.97, 0.05);
 }
 
-TEST(SevenScenes, BoxOnQuad) {
-  const std::string path = published("02_box_on_quad_fixed.usda");
+TEST_P(SevenScenes, BoxOnQuad) {
+  const std::string path = scene_file("box_on_quad", "02_box_on_quad_fixed");
   SKIP_WITHOUT(path);
   SceneRun run(path);
   ASSERT_TRUE(run.ready());
@@ -90,8 +105,8 @@ TEST(SevenScenes, BoxOnQuad) {
   EXPECT_TRUE(run.mentions("/World/Ground", "physics:approximation"));
 }
 
-TEST(SevenScenes, SpheresWithMaterials) {
-  const std::string path = published("03_spheres_with_materials_fixed.usda");
+TEST_P(SevenScenes, SpheresWithMaterials) {
+  const std::string path = scene_file("spheres_with_materials", "03_spheres_with_materials_fixed");
   SKIP_WITHOUT(path);
   SceneRun run(path);
   ASSERT_TRUE(run.ready());
@@ -116,9 +131,12 @@ TEST(SevenScenes, SpheresWithMaterials) {
   EXPECT_TRUE(run.mentions("/World/Looks/BouncyMaterial", "physics:restitution"));
 }
 
-TEST(SevenScenes, GroupAndPairFiltering) {
-  for (const char* name : {"04_group_filtering_fixed.usda", "05_pair_filtering_fixed.usda"}) {
-    const std::string path = published(name);
+TEST_P(SevenScenes, GroupAndPairFiltering) {
+  const std::pair<const char*, const char*> scenes[] = {
+      {"group_filtering", "04_group_filtering_fixed"},
+      {"pair_filtering", "05_pair_filtering_fixed"}};
+  for (const auto& [name, published] : scenes) {
+    const std::string path = scene_file(name, published);
     SKIP_WITHOUT(path);
     SceneRun run(path);
     ASSERT_TRUE(run.ready());
@@ -132,8 +150,8 @@ TEST(SevenScenes, GroupAndPairFiltering) {
   }
 }
 
-TEST(SevenScenes, DrivenJoint) {
-  const std::string path = published("06_joint_fixed.usda");
+TEST_P(SevenScenes, DrivenJoint) {
+  const std::string path = scene_file("joint", "06_joint_fixed");
   SKIP_WITHOUT(path);
   SceneRun run(path);
   ASSERT_TRUE(run.ready());
@@ -158,8 +176,8 @@ double tether_length(const SceneRun& run) {
   return length(end - Vec3d{{0, 60, 1000}});
 }
 
-TEST(SevenScenes, DistanceJointFeasible) {
-  const std::string path = published("07_distance_joint_feasible.usda");
+TEST_P(SevenScenes, DistanceJointFeasible) {
+  const std::string path = scene_file("distance_joint", "07_distance_joint_feasible");
   SKIP_WITHOUT(path);
   SceneRun run(path);
   ASSERT_TRUE(run.ready());
@@ -177,8 +195,8 @@ TEST(SevenScenes, DistanceJointFeasible) {
   }
 }
 
-TEST(SevenScenes, DistanceJointInfeasibleAtTheStart) {
-  const std::string path = published("07_distance_joint_fixed.usda");
+TEST_P(SevenScenes, DistanceJointInfeasibleAtTheStart) {
+  const std::string path = scene_file("distance_joint_too_close", "07_distance_joint_fixed");
   SKIP_WITHOUT(path);
   SceneRun run(path);
   ASSERT_TRUE(run.ready());
