@@ -15,7 +15,7 @@ namespace {
 int twice(int number) { return 2 * number; }
 
 TEST(Function, CallsWhatItWasMadeOf) {
-  const int added = 3;
+  int added = 3;
   const Function<int(int)> lambda = [added](int number) { return number + added; };
   EXPECT_EQ(lambda(4), 7);
   const Function<int(int)> function = twice;

@@ -158,7 +158,7 @@ void add_mimic(SceneSource& source, const scene::Joint& described, const scene::
     source.left_out(described.path, "the joint follows another by a law that is not linear");
     return;
   }
-  joint.mimic = robot::Mimic{*leader, mimic.multiplier, mimic.offset, {}, 0};
+  joint.mimic = robot::Mimic{*leader, mimic.multiplier, mimic.offset, {}, {}};
   if (mimic.natural_frequency != 0) {
     source.left_out(described.path, "the joint follows another by a spring");
   }

@@ -81,11 +81,11 @@ struct ValueWriter {
   }
   template <class T, std::size_t N>
   void write(const Vec<T, N>& x) {
-    json.array(x.v, [this](const auto& item) { write(item); });
+    json.array(x.v, [this](const auto& item) { this->write(item); });
   }
   template <class T>
   void write(const Quat<T>& x) {
-    json.array(std::array{x.w, x.x, x.y, x.z}, [this](const auto& item) { write(item); });
+    json.array(std::array{x.w, x.x, x.y, x.z}, [this](const auto& item) { this->write(item); });
   }
   template <std::size_t N>
   void write(const Matrix<N>& x) {
@@ -195,7 +195,7 @@ struct ValueWriter {
   template <class T>
   void write_array(const layer::Array<T>& array) {
     if (array.size() <= style.full_arrays) {
-      json.array(array, [this](const auto& item) { write_element<T>(item); });
+      json.array(array, [this](const auto& item) { this->write_element<T>(item); });
       return;
     }
     json.begin_object();
