@@ -11,6 +11,7 @@
 #include "tenon/base/function.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/colliders/mesh_cache.h"
+#include "tenon/physics/colliders/shared_meshes.h"
 #include "tenon/physics/physics_tokens.h"
 #include "tenon/physics/provenance.h"
 #include "tenon/physics/readings.h"
@@ -44,6 +45,7 @@ struct ReadState {
   const Function<std::optional<SolidIntegrals>(const stage::Prim&)>* integrals = nullptr;
   Provenance* provenance = nullptr;  ///< filled where not null
   MeshCache* mesh_cache = nullptr;
+  SharedMeshes shared_meshes{};
   Walk walk{};
   PhysicsScene scene{};
 

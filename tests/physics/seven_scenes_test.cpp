@@ -34,8 +34,8 @@ class SevenScenes : public testing::TestWithParam<Source> {
 };
 
 INSTANTIATE_TEST_SUITE_P(, SevenScenes, testing::Values(Source::Examples, Source::Published),
-                         [](const testing::TestParamInfo<Source>& info) {
-                           return info.param == Source::Examples ? "Examples" : "Published";
+                         [](const testing::TestParamInfo<Source>& source) {
+                           return source.param == Source::Examples ? "Examples" : "Published";
                          });
 
 #define SKIP_WITHOUT(path)                                                 \

@@ -204,6 +204,13 @@ class BodyMassComputation {
     return found.roles.has(Api::Mass) ? found.mass_above : found.mass;
   }
 
+  SharedMeshes::Solid solid_of(const Shape& shape) {
+    if (shape.kind == ShapeKind::Mesh || shape.kind == ShapeKind::ConvexHull) {
+      return state_.shared_meshes.solid(shape, state_.scene.meshes);
+    }
+    return {shape_integrals(shape, state_.scene.meshes)};
+  }
+
   MassProperties collider_mass_properties(Index i) {
     const Collider& collider = state_.scene.colliders[i];
     const PhysicsPrim& found = state_.prim_of_collider(i);
@@ -216,18 +223,16 @@ class BodyMassComputation {
       authored_.emplace(i, authored);
     }
     const auto rounder = state_.integrals_of_collider.find(i);
-    bool used_hull = false;
-    const SolidIntegrals solid =
-        rounder != state_.integrals_of_collider.end()
-            ? rounder->second
-            : shape_integrals(collider.shape, state_.scene.meshes, &used_hull);
-    if (used_hull) {
+    const SharedMeshes::Solid solid = rounder != state_.integrals_of_collider.end()
+                                          ? SharedMeshes::Solid{rounder->second}
+                                          : solid_of(collider.shape);
+    if (solid.used_hull) {
       // M-9
       state_.report(found.prim, Severity::Warning, "mass.open-mesh",
                     "the mesh is not closed: its mass is that of its convex hull",
                     "close the mesh, or author physics:mass and physics:diagonalInertia");
     }
-    return collider_mass(placed(solid, collider.pose), authored,
+    return collider_mass(placed(solid.integrals, collider.pose), authored,
                          density_of(collider, found, authored));
   }
 
@@ -327,7 +332,7 @@ class BodyMassComputation {
     const auto rounder = state_.integrals_of_collider.find(i);
     provenance.volume = rounder != state_.integrals_of_collider.end()
                             ? rounder->second.volume
-                            : shape_integrals(collider.shape, state_.scene.meshes, nullptr).volume;
+                            : solid_of(collider.shape).integrals.volume;
     if (!collider.enabled) {
       return provenance;
     }

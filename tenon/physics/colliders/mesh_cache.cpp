@@ -28,10 +28,13 @@ bool same_turn(const Quatd& a, const Quatd& b) {
 
 }  // namespace
 
-bool MeshSource::is_same(const MeshSource& other) const {
+bool MeshSource::same_arrays(const MeshSource& other) const {
   return points.body() == other.points.body() && counts.body() == other.counts.body() &&
-         indices.body() == other.indices.body() && holes.body() == other.holes.body() &&
-         flipped == other.flipped && same_bits(length, other.length) &&
+         indices.body() == other.indices.body() && holes.body() == other.holes.body();
+}
+
+bool MeshSource::is_same(const MeshSource& other) const {
+  return same_arrays(other) && flipped == other.flipped && same_bits(length, other.length) &&
          same_bits(offset.v, other.offset.v) && same_linear(linear, other.linear) &&
          same_turn(turn, other.turn);
 }

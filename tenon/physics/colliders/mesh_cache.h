@@ -28,7 +28,9 @@ struct MeshSource {
   double length = 1;
   bool flipped = false;  ///< faces inside out
 
-  /// The same arrays in memory under the same numbers, to the last bit.
+  /// The same arrays in memory.
+  bool same_arrays(const MeshSource& other) const;
+  /// The same arrays under the same numbers, to the last bit.
   bool is_same(const MeshSource& other) const;
 };
 

@@ -152,9 +152,8 @@ MeshSource read_source(const ReadState& state, const ShapeSource& source, const 
 }
 
 /// S-59: a mesh without faces, or with broken ones, cannot collide.
-std::optional<TriangleMesh> read_triangles(const ReadState& state, const ShapeSource& source,
-                                           const stage::Prim& prim, const Mat4d& world) {
-  const MeshSource made_from = read_source(state, source, prim, world);
+std::optional<TriangleMesh> read_triangles(const ReadState& state, const stage::Prim& prim,
+                                           const MeshSource& made_from) {
   if (state.mesh_cache != nullptr) {
     if (const TriangleMesh* known = state.mesh_cache->find(made_from)) {
       return *known;
@@ -207,11 +206,11 @@ void append(const TriangleMesh& part, TriangleMesh& mesh) {
   }
 }
 
-void add_submeshes(const ReadState& state, const ShapeSource& source, TriangleMesh& mesh) {
-  const std::vector<stage::Prim> parts = submeshes(source.found.prim);
+void add_submeshes(const ReadState& state, const ShapeSource& source,
+                   const std::vector<stage::Prim>& parts, TriangleMesh& mesh) {
   for (const stage::Prim& prim : parts) {
     const Mat4d world = state.walk.world_near(source.found, prim, state.values.start());
-    if (const auto part = read_triangles(state, source, prim, world)) {
+    if (const auto part = read_triangles(state, prim, read_source(state, source, prim, world))) {
       append(*part, mesh);
     }
   }
@@ -265,6 +264,11 @@ Approximation settle(const ReadState& state, const ShapeSource& source, Approxim
     return Approximation::ConvexHull;
   }
   return wanted;
+}
+
+bool all_finite(const TriangleMesh& mesh) {
+  return std::all_of(mesh.points.begin(), mesh.points.end(),
+                     [](const Vec3d& point) { return is_finite(point); });
 }
 
 void not_carried_out(ReadState& state, const ShapeSource& source, const char* why) {
@@ -332,43 +336,57 @@ std::vector<Index> decompose(ReadState& state, const ShapeSource& source,
 }  // namespace
 
 std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource& source) {
-  std::optional<TriangleMesh> mesh =
-      read_triangles(state, source, source.found.prim, source.found.world);
-  if (!mesh) {
-    return std::nullopt;
+  const stage::Prim& prim = source.found.prim;
+  const MeshSource made_from = read_source(state, source, prim, source.found.world);
+  const std::vector<stage::Prim> parts = submeshes(prim);
+  const std::optional<Index> shared =
+      parts.empty() ? state.shared_meshes.find(made_from) : std::nullopt;
+  TriangleMesh made;
+  if (!shared) {
+    std::optional<TriangleMesh> read = read_triangles(state, prim, made_from);
+    if (!read) {
+      return std::nullopt;
+    }
+    made = *std::move(read);
+    add_submeshes(state, source, parts, made);
   }
-  add_submeshes(state, source, *mesh);
+  const TriangleMesh& mesh = shared ? state.scene.meshes[*shared] : made;
   note_subdivision(state, source);
   const Approximation asked = approximation_of(state, source);
   const Approximation kind = settle(state, source, asked);
   ShapeReading reading;
-  const bool finite = std::all_of(mesh->points.begin(), mesh->points.end(),
-                                  [](const Vec3d& point) { return is_finite(point); });
-  if (!finite) {  // nothing can stand for it; who asked says so
+  if (!shared && !all_finite(mesh)) {  // nothing can stand for it; who asked says so
     reading.shape.kind = ShapeKind::Mesh;
-    reading.shape.mesh = add_mesh(state, *std::move(mesh));
+    reading.shape.mesh = add_mesh(state, std::move(made));
     return reading;
   }
   if (kind == Approximation::BoundingSphere || kind == Approximation::BoundingCube) {
-    reading = kind == Approximation::BoundingCube ? bounded_by_box(*mesh) : bounded_by_ball(*mesh);
+    reading = kind == Approximation::BoundingCube ? bounded_by_box(mesh) : bounded_by_ball(mesh);
     reading.approximation = asked;
     return reading;
   }
   reading.approximation = asked;
   const bool hull = kind == Approximation::ConvexHull || kind == Approximation::ConvexDecomposition;
   reading.shape.kind = hull ? ShapeKind::ConvexHull : ShapeKind::Mesh;
-  if (kind == Approximation::ConvexDecomposition) {
-    reading.shape.pieces = decompose(state, source, *mesh);
-  } else if (kind == Approximation::MeshSimplification) {
-    simplify(state, source, *mesh);
-  }
-  if (mesh->flat && hull) {
+  if (mesh.flat && hull) {
     // S-65
-    state.report(source.found.prim, Severity::Info, "collider.flat-hull",
+    state.report(prim, Severity::Info, "collider.flat-hull",
                  "the points lie in one plane: the hull is a flat polygon, solid from both sides",
                  "give the mesh a thickness, or use a Plane or a thin Cube");
   }
-  reading.shape.mesh = add_mesh(state, *std::move(mesh));
+  if (kind == Approximation::MeshSimplification) {
+    made = mesh;
+    simplify(state, source, made);
+    reading.shape.mesh = add_mesh(state, std::move(made));
+    return reading;
+  }
+  if (kind == Approximation::ConvexDecomposition) {
+    reading.shape.pieces = decompose(state, source, mesh);
+  }
+  reading.shape.mesh = shared ? *shared : add_mesh(state, std::move(made));
+  if (!shared && parts.empty()) {
+    state.shared_meshes.add(made_from, reading.shape.mesh);
+  }
   return reading;
 }
 

@@ -186,6 +186,7 @@ class MovingShapes {
                                     state_.scene.meshes[collider.shape.mesh].points);
     if (same) {
       state_.scene.meshes.resize(mesh_count);
+      state_.shared_meshes.forget_from(static_cast<Index>(mesh_count));
     } else {
       collider.shape = std::move(now);
     }
