@@ -17,8 +17,8 @@
 #include "tenon/formats/text/reader.h"
 #include "tenon/formats/text/write/writer.h"
 #include "tenon/layer/field_values.h"
+#include "tenon/stage/interpolate.h"
 #include "tenon/stage/values/evaluate_spline.h"
-#include "tenon/stage/values/interpolate.h"
 
 namespace {
 

@@ -9,6 +9,7 @@ import types
 import unittest
 
 import check_answers
+import check_classes
 import check_folders
 import check_limits
 import check_outputs
@@ -225,7 +226,6 @@ class Sizes(unittest.TestCase):
         self.assertEqual(self.run_on(61, excuse), [])
         self.assertEqual(len(self.run_on(60, excuse)), 1)
 
-
     def test_long_files_have_a_head(self):
         licence, body = "// a\n// b\n", "int x;\n" * 150
         self.assertTrue(check_sizes.lacks_head("tenon/base/a.cpp", licence + body))
@@ -235,6 +235,49 @@ class Sizes(unittest.TestCase):
                            ("tenon/base/a.h", licence + body), ("tests/a.cpp", licence + body),
                            ("tenon/base/a.cpp", licence + "int x;\n")]:
             self.assertFalse(check_sizes.lacks_head(path, text), path)
+
+
+class Classes(unittest.TestCase):
+    # What stands in the private part of a class, and how many member functions that are.
+    CASES = [
+        ("int f();", 1),
+        ("int f(); int g() const { return h(1); }", 2),
+        ("A(); explicit A(int a) : a_(a), b_{a} { f(); } ~A();", 3),
+        ("bool operator()(int a) const; A& operator=(A&&) = default; bool operator<(const A&);", 3),
+        ("template <class T>\nvoid f(const T& call);", 1),
+        ("template <class T>\n  requires(sizeof(T) > 1)\nvoid f(const T& call);", 1),
+        ("static Result<std::vector<int>> f(std::function<void(int)> call = [] { g(); });", 1),
+        ("[[nodiscard]] virtual auto f() -> int = 0;", 1),
+        ("std::function<void(int)> call_; std::vector<int> list_{f(1)}; int a_ = g(2);", 0),
+        ("int a_ = 0; std::array<int, 3> b_{}; const char* c_ = \"f();\"; char d_ = ';';", 0),
+        ("// int f();\n/* int g(); */\n#define H int h();\n", 0),
+        ("friend class B; friend int f(A a); using B::B; static_assert(f(1));", 0),
+        ("struct B { int f(); int a = 0; }; enum class C { One }; B b_;", 0),
+        ("public: int f(); private: int g(); protected: int h();", 1),
+    ]
+
+    def count(self, text):
+        return {name: count for name, _, count in check_classes.classes(text)}
+
+    def test_counts(self):
+        for text, wanted in self.CASES:
+            with self.subTest(text=text):
+                inside = f"class A final : public Base<int> {{\n {text}\n}};\n"
+                self.assertEqual(self.count(inside)["A"], wanted)
+
+    def test_what_is_public_does_not_count(self):
+        self.assertEqual(self.count("struct A {\n int f();\n};\n"), {"A": 0})
+        self.assertEqual(self.count("struct A {\n int f();\n private:\n int g();\n};\n"), {"A": 1})
+        self.assertEqual(self.count("enum class A { One };\nclass B;\n"), {})
+        self.assertEqual(self.count("struct A { class B { int f(); }; };\n"), {"A": 0, "B": 1})
+
+    def test_limit(self):
+        for count, faults in ((20, 0), (21, 1)):
+            text = "class A {\n" + "".join(f"  int f{i}();\n" for i in range(count)) + "};\n"
+            with self.subTest(count=count), tree({"tenon/base/a.h": text}) as root:
+                rows = check_classes.check(root)
+                self.assertEqual(rows, [(count, "tenon/base/a.h", 1, "A")])
+                self.assertEqual(len(check_classes.over_the_limit(rows)), faults)
 
 
 class Snippets(unittest.TestCase):

@@ -15,21 +15,14 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(ROOT, "tests/release"))
+import installed
+
 # Of doxygen itself, at a specialization of std::hash for a type of tenon.
 OWN_FAULT = re.compile(r"Internal inconsistency: scope for class std::hash<")
 OUTPUT = os.path.join(ROOT, "build/docs")
-
-
-def installed_headers(build, folder):
-    """Puts the headers below `folder`; -> the folder that holds them."""
-    if not os.path.exists(os.path.join(build, "cmake_install.cmake")):
-        sys.exit(f"make_reference: {build} is not configured: run `make build`")
-    subprocess.run(["cmake", "--install", build, "--prefix", folder], check=True,
-                   stdout=subprocess.DEVNULL)
-    return os.path.join(folder, "include")
 
 
 def main():
@@ -37,8 +30,10 @@ def main():
     if not shutil.which("doxygen"):
         print("make_reference: doxygen is not installed: apt-get install doxygen")
         return 77
-    with tempfile.TemporaryDirectory(prefix="tenon_reference_") as folder:
-        headers = installed_headers(build, folder)
+    if not os.path.exists(os.path.join(build, "cmake_install.cmake")):
+        sys.exit(f"make_reference: {build} is not configured: run `make build`")
+    with installed.install(build) as folder:
+        headers = os.path.join(folder, "include")
         guide = os.path.join(ROOT, "docs/cpp")
         with open(os.path.join(guide, "Doxyfile"), encoding="utf-8") as file:
             settings = file.read()

@@ -110,6 +110,29 @@ std::optional<Stage> after(Stage stage, Token op) {
   return std::nullopt;
 }
 
+/// What remains of `local` = scale * rotation * translation without the scale; empty where that is
+/// not a rotation.
+std::optional<Mat3d> rotation_without(const Vec3d& scale, const Mat4d& local) {
+  Mat3d rigid = upper_left(local);
+  for (std::size_t row = 0; row < 3; ++row) {
+    if (!(std::fabs(scale[row]) > 0)) {
+      return std::nullopt;
+    }
+    for (double& number : rigid[row]) {
+      number /= scale[row];
+    }
+  }
+  const Mat3d product = rigid * transpose(rigid);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (std::fabs(product[i][j] - (i == j ? 1 : 0)) > 1e-6) {
+        return std::nullopt;
+      }
+    }
+  }
+  return determinant(rigid) < 0 ? std::nullopt : std::optional(rigid);
+}
+
 }  // namespace
 
 OpStack OpStack::of(const stage::Prim& prim, double start_code) {
@@ -167,34 +190,17 @@ bool OpStack::add(double code, const Mat4d& local) {
     matrices_.push_back(local);
     return true;
   }
-  // local = scale * rotation * translation; what remains without the scale must be rigid.
-  Mat3d rigid = upper_left(local);
-  for (std::size_t row = 0; row < 3; ++row) {
-    if (!(std::fabs(scale_[row]) > 0)) {
-      return false;
-    }
-    for (double& number : rigid[row]) {
-      number /= scale_[row];
-    }
-  }
-  const Mat3d product = rigid * transpose(rigid);
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      if (std::fabs(product[i][j] - (i == j ? 1 : 0)) > 1e-6) {
-        return false;
-      }
-    }
-  }
-  if (determinant(rigid) < 0) {
+  const std::optional<Mat3d> rigid = rotation_without(scale_, local);
+  if (!rigid) {
     return false;
   }
-  Quatd q = rotation_of(rigid);
+  Quatd q = rotation_of(*rigid);
   if (!orientations_.empty() && dot(orientations_.back(), q) < 0) {
     q = {-q.x, -q.y, -q.z, -q.w};
   }
   orientations_.push_back(q);
   if (!rotate_.empty()) {
-    if (const auto angles = euler_degrees(rigid, rotate_, angles_.back())) {
+    if (const auto angles = euler_degrees(*rigid, rotate_, angles_.back())) {
       angles_.push_back(*angles);
     } else {
       rotate_ = {};

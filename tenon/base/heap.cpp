@@ -24,12 +24,14 @@ constexpr std::size_t kLargestOnHeap = 32 * kMegabyte;
 
 std::atomic<bool> is_kept = false;
 
-void use_huge_pages(std::uintptr_t begin, std::uintptr_t end) {
-  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
-  begin = (begin / page + 1) * page;
-  end = end / page * page;
-  if (begin < end) {
-    ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+std::uintptr_t address_of(const void* place) { return reinterpret_cast<std::uintptr_t>(place); }
+
+// Of the pages that lie in the block as a whole.
+void use_huge_pages(char* block, std::size_t size) {
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const std::size_t in_front = page - address_of(block) % page;
+  if (block != nullptr && in_front + page <= size) {
+    ::madvise(block + in_front, (size - in_front) / page * page, MADV_HUGEPAGE);
   }
 }
 
@@ -40,12 +42,11 @@ void keep_heap_in_huge_pages() {
   ::mallopt(M_MMAP_THRESHOLD, kLargestOnHeap);
   ::mallopt(M_TOP_PAD, static_cast<int>(kRoom));
   void* const first = std::malloc(kMegabyte);  // more than is left: the heap grows
-  const auto begin = reinterpret_cast<std::uintptr_t>(first);
-  std::free(first);
-  const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0));
-  if (begin < end && end - begin > kRoom - kMegabyte && end - begin < 2 * kRoom) {
-    use_huge_pages(begin, end);
+  const std::size_t room = address_of(::sbrk(0)) - address_of(first);
+  if (room > kRoom - kMegabyte && room < 2 * kRoom) {
+    use_huge_pages(static_cast<char*>(first), room);
   }
+  std::free(first);
   is_kept = true;
 }
 
@@ -53,9 +54,8 @@ void prepare_thread_heap() {
   if (is_kept) {
     constexpr std::size_t kMax = kLargestOnHeap - 2 * kMegabyte;
     void* const first = std::malloc(kMax);
-    const auto begin = reinterpret_cast<std::uintptr_t>(first);
+    use_huge_pages(static_cast<char*>(first), kMax);
     std::free(first);
-    use_huge_pages(begin, begin + kMax);
   }
 }
 #else

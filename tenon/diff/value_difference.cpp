@@ -9,10 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "tenon/layer/field_values.h"
+#include "tenon/math/functions.h"
 
 namespace tenon::diff {
 namespace {
@@ -22,8 +22,6 @@ using layer::AssetPath;
 using layer::Duration;
 using layer::PathExpression;
 using layer::TimeCode;
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 template <class T>
 struct Numbers {  // of what has none
@@ -77,14 +75,14 @@ constexpr bool kExact = Numbers<T>::kCount == 0 || (std::is_integral_v<T> && siz
 template <class T>
 double difference_of(const T& a, const T& b, double tolerance) {
   if constexpr (kExact<T>) {
-    return a == b ? 0 : kInfinite;
+    return a == b ? 0 : kInfinity;
   } else {
     double largest = 0;
     for (std::size_t i = 0; i < Numbers<T>::kCount; ++i) {
       const double x = Numbers<T>::at(a, i);
       const double y = Numbers<T>::at(b, i);
       if (!near(x, y, tolerance)) {
-        largest = std::max(largest, std::isfinite(x - y) ? std::abs(x - y) : kInfinite);
+        largest = std::max(largest, std::isfinite(x - y) ? std::abs(x - y) : kInfinity);
       }
     }
     return largest;
@@ -122,7 +120,7 @@ ValueDifference compare_arrays(const layer::Value& a, const layer::Value& b, dou
     count(result, i, difference_of<layer::ArrayElement<T>>((*x)[i], (*y)[i], tolerance));
   }
   for (std::size_t i = common; i < result.elements; ++i) {
-    count(result, i, kInfinite);
+    count(result, i, kInfinity);
   }
   result.equal = result.different == 0;
   return result;
@@ -143,7 +141,7 @@ ValueDifference compare_values(const layer::Value& a, const layer::Value& b, dou
   result.elements = 1;
   if (a.type() != b.type() || a.is_array() != b.is_array()) {
     result.different = 1;
-    result.largest = kInfinite;
+    result.largest = kInfinity;
     return result;
   }
   switch (a.type()) {

@@ -34,6 +34,20 @@ Error hidden(Path prim) {
       .with_fix("activate the prims above it, or choose another edit target");
 }
 
+Result<void> check_comes_over_no_arc(const FoundPrim& found, Path prim) {
+  for (const compose::Node& node : found.index->nodes) {
+    if (node.due_to_ancestor && node.has_specs && node.can_contribute()) {
+      return Error(ErrorCode::Invalid,
+                   "<" + prim.str() + "> comes over an arc of a prim above it, with <" +
+                       node.path.str() + "> of " + node.layer_stack->identifier())
+          .with_prim(prim.str())
+          .with_rule("edit.bad-move")
+          .with_fix("author a relocate, or move the prim where the arc leads");
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<FoundPrim> StageEditor::find_prim(Path prim) {
@@ -169,16 +183,7 @@ Result<void> StageEditor::remove_prim(Path prim) {
 Result<void> StageEditor::move_prim(Path from, Path to) {
   TENON_TRY(const FoundPrim found, find_prim(from));
   TENON_CHECK(check_prim_path(to));
-  for (const compose::Node& node : found.index->nodes) {
-    if (node.due_to_ancestor && node.has_specs && node.can_contribute()) {
-      return Error(ErrorCode::Invalid,
-                   "<" + from.str() + "> comes over an arc of a prim above it, with <" +
-                       node.path.str() + "> of " + node.layer_stack->identifier())
-          .with_prim(from.str())
-          .with_rule("edit.bad-move")
-          .with_fix("author a relocate, or move the prim where the arc leads");
-    }
-  }
+  TENON_CHECK(check_comes_over_no_arc(found, from));
   if (view().prim(to) || !view().prim(to.parent())) {
     return Error(ErrorCode::Invalid, view().prim(to) ? "<" + to.str() + "> is there already"
                                                      : "there is no <" + to.parent().str() + ">")

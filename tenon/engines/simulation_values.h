@@ -26,11 +26,7 @@ struct JointState {
 };
 
 /// Something that the engine cannot express; the simulation went on without it.
-struct NotMapped {
-  Path prim;
-  std::string property;
-  std::string why;
-};
+using NotMapped = scene::NotRead;
 
 /// Something that changed for good while the simulation ran.
 struct Event {

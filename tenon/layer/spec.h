@@ -134,8 +134,10 @@ class Spec {
   }
   template <class T>
   T get_or(Token name, T fallback) const {
-    const T* value = get<T>(name);
-    return value == nullptr ? fallback : *value;
+    if (const T* value = get<T>(name)) {
+      return *value;
+    }
+    return fallback;
   }
 
   void set(Token name, Value value) {

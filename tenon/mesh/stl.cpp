@@ -77,6 +77,23 @@ Result<MeshScene> read_binary(std::string_view bytes, const std::string& path) {
   return scene_of(welder, std::move(corners));
 }
 
+// The three numbers behind `vertex`, of facet number `facet`.
+Result<Vec3f> read_vertex(TextScanner& scanner, std::size_t facet, const std::string& path) {
+  Vec3f point;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::optional<float> number = number_of<float>(scanner.word());
+    if (!number) {
+      return fault(ErrorCode::Parse, "mesh.stl", path, "a vertex needs three numbers")
+          .at(scanner.line(), 0);
+    }
+    point[i] = *number;
+  }
+  if (!is_finite(point)) {
+    return not_finite(path, facet, 0).at(scanner.line(), 0);
+  }
+  return point;
+}
+
 Result<MeshScene> read_text(std::string_view text, const std::string& path) {
   TextScanner scanner(text);
   PointWelder welder(0);
@@ -85,18 +102,7 @@ Result<MeshScene> read_text(std::string_view text, const std::string& path) {
   while (scanner.next_line()) {
     const std::string_view word = scanner.word();
     if (word == "vertex") {
-      Vec3f point;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::optional<float> number = number_of<float>(scanner.word());
-        if (!number) {
-          return fault(ErrorCode::Parse, "mesh.stl", path, "a vertex needs three numbers")
-              .at(scanner.line(), 0);
-        }
-        point[i] = *number;
-      }
-      if (!is_finite(point)) {
-        return not_finite(path, corners.size() / 3 + 1, 0).at(scanner.line(), 0);
-      }
+      TENON_TRY(const Vec3f point, read_vertex(scanner, corners.size() / 3 + 1, path));
       if (corners.size() >= limits::kMeshCorners) {
         return fault(ErrorCode::Limit, "mesh.stl", path, "more corners than a mesh may have")
             .at(scanner.line(), 0);

@@ -175,6 +175,35 @@ Result<bool> compiles(mjSpec& spec) {
   return model != nullptr;
 }
 
+void take_out(mjSpec& spec, mjsActuator*& made) {
+  mjs_delete(&spec, made->element);
+  made = nullptr;
+}
+
+// After a refusal: `added` once more, one by one, without those that MuJoCo refuses.
+Result<void> add_one_by_one(const std::vector<MujocoActuator>& actuators,
+                            const std::vector<std::size_t>& added, ActuatorWriter& writer,
+                            mjSpec& spec, std::vector<mjsActuator*>& made,
+                            Diagnostics& diagnostics) {
+  for (const std::size_t i : added) {
+    take_out(spec, made[i]);
+  }
+  for (const std::size_t i : added) {
+    if (!writer.add(actuators[i], made[i]).empty()) {
+      continue;
+    }
+    TENON_TRY(const bool fits, compiles(spec));
+    if (!fits) {
+      std::string words = mjs_getError(&spec);
+      std::replace(words.begin(), words.end(), '\n', ' ');
+      report_left_out(diagnostics, actuators[i].path, "", "MuJoCo refuses the actuator: " + words);
+      take_out(spec, made[i]);
+    }
+  }
+  TENON_CHECK(compiles(spec));
+  return {};
+}
+
 }  // namespace
 
 void report_left_out(Diagnostics& diagnostics, const Path& prim, const char* property,
@@ -208,27 +237,9 @@ Result<std::vector<mjsActuator*>> write_actuators(const scene::PhysicsScene& sce
     added.push_back(i);
   }
   TENON_TRY(const bool all, added.empty() ? Result<bool>(true) : compiles(spec));
-  if (all) {
-    return made;
+  if (!all) {
+    TENON_CHECK(add_one_by_one(actuators, added, writer, spec, made, diagnostics));
   }
-  for (const std::size_t i : added) {
-    mjs_delete(&spec, made[i]->element);
-    made[i] = nullptr;
-  }
-  for (const std::size_t i : added) {
-    if (!writer.add(actuators[i], made[i]).empty()) {
-      continue;
-    }
-    TENON_TRY(const bool fits, compiles(spec));
-    if (!fits) {
-      std::string words = mjs_getError(&spec);
-      std::replace(words.begin(), words.end(), '\n', ' ');
-      report_left_out(diagnostics, actuators[i].path, "", "MuJoCo refuses the actuator: " + words);
-      mjs_delete(&spec, made[i]->element);
-      made[i] = nullptr;
-    }
-  }
-  TENON_CHECK(compiles(spec));
   return made;
 }
 

@@ -53,6 +53,58 @@ void renumber(const std::vector<Index>& number, MujocoParts& parts) {
   }
 }
 
+// What is fixed to a link becomes part of it.
+void add_part(const Link& part, const Pose& pose, Link& whole) {
+  if (part.inertial) {
+    const Inertial moved = placed(*part.inertial, pose);
+    whole.inertial = whole.inertial ? sum_inertials(*whole.inertial, moved) : moved;
+  }
+  take_shapes(part.visuals, pose, whole.visuals);
+  take_shapes(part.colliders, pose, whole.colliders);
+  take_shapes(part.sites, pose, whole.sites);
+}
+
+// Gives the result the links that stay, with their parts; where each link of the model is then.
+std::vector<Host> merge_links(const RobotModel& model, const KinematicTree& tree,
+                              RobotModel& result) {
+  std::vector<Host> hosts(model.links.size());
+  for (const Index link : tree.order) {
+    const std::optional<Index> above = tree.joint_to_parent[link];
+    if (!above || model.joints[*above].kind != JointKind::Fixed) {
+      hosts[link].link = static_cast<Index>(result.links.size());
+      result.links.push_back(model.links[link]);
+      continue;
+    }
+    const Joint& joint = model.joints[*above];
+    const Host& parent = hosts[joint.parent];
+    hosts[link] = {parent.link, parent.pose * joint.origin};
+    add_part(model.links[link], hosts[link].pose, result.links[parent.link]);
+  }
+  return hosts;
+}
+
+// Gives the result the joints that move, between the links that stay; the new number of each.
+std::vector<Index> keep_moving_joints(const RobotModel& model, const std::vector<Host>& hosts,
+                                      RobotModel& result) {
+  std::vector<Index> number(model.joints.size(), 0);
+  for (Index i = 0; i < model.joints.size(); ++i) {
+    if (model.joints[i].kind != JointKind::Fixed) {
+      Joint joint = model.joints[i];
+      joint.origin = hosts[joint.parent].pose * joint.origin;
+      joint.parent = hosts[joint.parent].link;
+      joint.child = hosts[joint.child].link;
+      number[i] = static_cast<Index>(result.joints.size());
+      result.joints.push_back(std::move(joint));
+    }
+  }
+  for (Joint& joint : result.joints) {
+    if (joint.mimic) {
+      joint.mimic->leader = number[joint.mimic->leader];
+    }
+  }
+  return number;
+}
+
 }  // namespace
 
 Inertial placed(const Inertial& inertial, const Pose& pose) {
@@ -81,48 +133,12 @@ RobotModel merge_fixed(const RobotModel& model, const KinematicTree& tree) {
   RobotModel result = model;
   result.links.clear();
   result.joints.clear();
-  std::vector<Host> hosts(model.links.size());
-  for (const Index link : tree.order) {
-    const std::optional<Index> above = tree.joint_to_parent[link];
-    if (!above || model.joints[*above].kind != JointKind::Fixed) {
-      hosts[link].link = static_cast<Index>(result.links.size());
-      result.links.push_back(model.links[link]);
-      continue;
-    }
-    const Joint& joint = model.joints[*above];
-    const Host& parent = hosts[joint.parent];
-    hosts[link] = {parent.link, parent.pose * joint.origin};
-    const Link& part = model.links[link];
-    Link& whole = result.links[parent.link];
-    if (part.inertial) {
-      const Inertial moved = placed(*part.inertial, hosts[link].pose);
-      whole.inertial = whole.inertial ? sum_inertials(*whole.inertial, moved) : moved;
-    }
-    take_shapes(part.visuals, hosts[link].pose, whole.visuals);
-    take_shapes(part.colliders, hosts[link].pose, whole.colliders);
-    take_shapes(part.sites, hosts[link].pose, whole.sites);
-  }
+  const std::vector<Host> hosts = merge_links(model, tree, result);
   for (std::array<Index, 2>& pair : result.excluded_pairs) {
     pair = {hosts[pair[0]].link, hosts[pair[1]].link};
   }
   move_loops(hosts, result);
-  std::vector<Index> number(model.joints.size(), 0);
-  for (Index i = 0; i < model.joints.size(); ++i) {
-    if (model.joints[i].kind != JointKind::Fixed) {
-      Joint joint = model.joints[i];
-      joint.origin = hosts[joint.parent].pose * joint.origin;
-      joint.parent = hosts[joint.parent].link;
-      joint.child = hosts[joint.child].link;
-      number[i] = static_cast<Index>(result.joints.size());
-      result.joints.push_back(std::move(joint));
-    }
-  }
-  for (Joint& joint : result.joints) {
-    if (joint.mimic) {
-      joint.mimic->leader = number[joint.mimic->leader];
-    }
-  }
-  renumber(number, result.mujoco);
+  renumber(keep_moving_joints(model, hosts, result), result.mujoco);
   return result;
 }
 

@@ -42,14 +42,6 @@ const schema::PropertyDefinition* Attribute::definition() const {
 
 bool Attribute::is_defined() const { return definition() != nullptr || is_authored(); }
 
-bool Attribute::is_authored() const {
-  return prim_ != nullptr && is_authored_as(*prim_, name_, layer::SpecKind::Attribute);
-}
-
-Path Attribute::path() const {
-  return prim_ == nullptr ? Path() : property_path(*prim_, proxy_path_, name_);
-}
-
 Token Attribute::type_name() const {
   if (prim_ == nullptr) {
     return {};
@@ -165,11 +157,6 @@ bool Attribute::has_authored_connections() const {
   return prim_ != nullptr && has_field(*prim_, name_, fields::connectionPaths);
 }
 
-std::vector<Path> Attribute::connections() const {
-  return prim_ == nullptr ? std::vector<Path>()
-                          : composed_targets(*stage_, *prim_, proxy_path_, name_);
-}
-
 Value Attribute::metadata(Token field) const {
   if (prim_ == nullptr) {
     return {};
@@ -190,34 +177,6 @@ Value Attribute::metadata(Token field) const {
     return declared->allowed_tokens;
   }
   return authored;
-}
-
-std::map<std::string, Value> Attribute::all_authored_metadata() const {
-  return prim_ == nullptr ? std::map<std::string, Value>()
-                          : compose_metadata(*stage_, *prim_, property_opinions(*prim_, name_));
-}
-
-std::vector<SpecSite> Attribute::spec_stack() const {
-  return prim_ == nullptr ? std::vector<SpecSite>() : property_sites(*prim_, name_);
-}
-
-Diagnostic Attribute::located(Severity severity, std::string rule, std::string message,
-                              StatementPart part) const {
-  Diagnostic diagnostic;
-  diagnostic.severity = severity;
-  diagnostic.rule = std::move(rule);
-  diagnostic.message = std::move(message);
-  diagnostic.part = std::move(part);
-  return located_property(prim_, path(), name_, std::move(diagnostic));
-}
-
-Diagnostic Attribute::located_target(Severity severity, std::string rule, std::string message,
-                                     Path target) const {
-  Diagnostic diagnostic = located(severity, std::move(rule), std::move(message));
-  if (prim_ != nullptr) {
-    place_target(*stage_, *prim_, path(), target, diagnostic);
-  }
-  return diagnostic;
 }
 
 }  // namespace tenon::stage

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "tenon/base/diagnostics.h"
 #include "tenon/base/path.h"
 #include "tenon/layer/layer.h"
-#include "tenon/stage/spec_site.h"
+#include "tenon/stage/property.h"
 #include "tenon/stage/time.h"
 
 namespace tenon::schema {
@@ -19,23 +16,18 @@ struct PropertyDefinition;
 
 namespace tenon::stage {
 
-class Prim;
-struct PrimData;
-struct StageData;
 struct ValueTrace;
 
 enum class ValueSource : unsigned char { None, Fallback, Default, TimeSamples, ValueClips, Spline };
 
 /// An attribute of a composed prim; a small handle by value.
-class Attribute {
+class Attribute : public Property {
  public:
   Attribute() = default;
 
   /// Authored somewhere, or built into the prim's type or applied schemas.
   bool is_defined() const;
-  bool is_authored() const;
-  Path path() const;
-  Token name() const { return name_; }
+  bool is_authored() const { return is_authored_as(layer::SpecKind::Attribute); }
   Token type_name() const;
   layer::Variability variability() const;
   bool is_custom() const;
@@ -70,29 +62,14 @@ class Attribute {
   std::optional<layer::Spline> spline() const;
 
   bool has_authored_connections() const;
-  std::vector<Path> connections() const;
+  std::vector<Path> connections() const { return composed_targets(); }
 
   layer::Value metadata(Token field) const;
-  std::map<std::string, layer::Value> all_authored_metadata() const;
-
-  /// Layer, spec path and spec of every opinion, strongest first.
-  std::vector<SpecSite> spec_stack() const;
-  /// A diagnostic with the place of the strongest opinion (of the prim's when none is authored).
-  Diagnostic located(Severity severity, std::string rule, std::string message,
-                     StatementPart part = {}) const;
-  /// The same with the place of one of its connections, given in the stage's namespace.
-  Diagnostic located_target(Severity severity, std::string rule, std::string message,
-                            Path target) const;
 
  private:
   friend class Prim;
   Attribute(const StageData* stage, const PrimData* prim, Path proxy_path, Token name)
-      : stage_(stage), prim_(prim), proxy_path_(proxy_path), name_(name) {}
-
-  const StageData* stage_ = nullptr;
-  const PrimData* prim_ = nullptr;
-  Path proxy_path_;  // of the prim; empty unless it is an instance proxy
-  Token name_;
+      : Property(stage, prim, proxy_path, name) {}
 };
 
 }  // namespace tenon::stage

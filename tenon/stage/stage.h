@@ -16,9 +16,9 @@
 #include "tenon/base/result.h"
 #include "tenon/compose/cache/index_cache.h"
 #include "tenon/layer/layer.h"
+#include "tenon/stage/interpolate.h"
 #include "tenon/stage/prim.h"
 #include "tenon/stage/time.h"
-#include "tenon/stage/values/interpolate.h"
 
 namespace tenon::stage {
 

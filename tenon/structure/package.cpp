@@ -9,7 +9,7 @@
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/structure/layout.h"
-#include "tenon/structure/make/shared_arrays.h"
+#include "tenon/structure/shared_arrays.h"
 #include "tenon/structure/written_note.h"
 
 namespace tenon::structure {

@@ -20,7 +20,7 @@
 #include "tenon/formats/open_layer.h"
 #include "tenon/layer/dictionary.h"
 #include "tenon/layer/fields.h"
-#include "tenon/structure/proof/digest_text.h"
+#include "tenon/structure/digest_text.h"
 #include "tenon/structure/xml_note.h"
 
 namespace tenon::structure {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/structure/xml_note.h"
 
-#include "tenon/structure/proof/digest_text.h"
+#include "tenon/structure/digest_text.h"
 
 namespace tenon::structure {
 namespace {

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""The installed release program, for the tests of this folder: made from build/release, which
-`make test` builds beside its own."""
+"""The installed release program, for the tests of this folder and for tools/make_reference.py: made
+from build/release, which `make test` builds beside its own."""
 
 import os
 import subprocess

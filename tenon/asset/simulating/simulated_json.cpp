@@ -39,12 +39,13 @@ Json joints_json(const SimulatedAsset& s) {
 
 Json not_mapped_json(const SimulatedAsset& s) {
   Json items = Json::array();
-  for (const scene::NotRead& item : s.scene->not_read) {
-    items.push_back({{"prim", item.prim.str()}, {"property", item.property}, {"why", item.why}});
-  }
-  for (const engines::NotMapped& item : s.simulation->not_mapped()) {
-    items.push_back({{"prim", item.prim.str()}, {"property", item.property}, {"why", item.why}});
-  }
+  const auto add = [&](const std::vector<scene::NotRead>& list) {
+    for (const scene::NotRead& item : list) {
+      items.push_back({{"prim", item.prim.str()}, {"property", item.property}, {"why", item.why}});
+    }
+  };
+  add(s.scene->not_read);
+  add(s.simulation->not_mapped());
   return items;
 }
 

@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "tenon/engines/mujoco/build/build.h"
-#include "tenon/engines/mujoco/build/surfaces.h"
 #include "tenon/engines/mujoco/contact_filter.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/mujoco/run/advance.h"
 #include "tenon/engines/mujoco/run/carry_over.h"
 #include "tenon/engines/mujoco/run/control.h"
 #include "tenon/engines/mujoco/run/read_state.h"
@@ -132,9 +132,9 @@ Result<void> MujocoSimulation::step() {
   stale_ = true;
   {
     const FilterScope filter(model_.filter);
-    TENON_CHECK(guarded([this] { advance(); }));
+    TENON_CHECK(guarded([this] { advance(model_); }));
   }
-  TENON_CHECK(check());
+  TENON_CHECK(check_step(model_));
   if (outputs_) {
     TENON_CHECK(outputs_->end(*scene_, steering_, model_));
   }
@@ -211,82 +211,6 @@ void MujocoSimulation::note_broken(const Restart& restart) {
     events_.push_back({restart.time, scene_->joints[part.joint].path, what});
     timeline_->break_joint(part.joint);
   }
-}
-
-// Pair averages of friction are written between the making of contacts and that of constraints;
-// without them this is one mj_step.
-void MujocoSimulation::advance() {
-  const mjModel* m = model_.model.get();
-  mjData* d = model_.data.get();
-  if (model_.surfaces.kinds.size() <= 1) {
-    mj_step(m, d);
-  } else if ((m->opt.enableflags & mjENBL_SLEEP) != 0) {
-    advance_sleepers();
-  } else {  // mj_step1 by its parts, of which a model without sensors has these
-    mj_checkPos(m, d);
-    mj_checkVel(m, d);
-    mj_fwdKinematics(m, d);
-    mj_makeM(m, d);
-    mj_factorM(m, d);
-    mj_collision(m, d);
-    apply_surfaces(model_.surfaces, d);
-    mj_makeConstraint(m, d);
-    mj_island(m, d);
-    mj_transmission(m, d);
-    mj_projectConstraint(m, d);
-    mj_fwdVelocity(m, d);
-    mj_step2(m, d);
-  }
-}
-
-// What wakes and falls asleep is decided inside mj_step1: constraints are made again after it.
-void MujocoSimulation::advance_sleepers() {
-  const mjModel* m = model_.model.get();
-  mjData* d = model_.data.get();
-  mj_step1(m, d);
-  if (apply_surfaces(model_.surfaces, d)) {
-    mj_makeConstraint(m, d);
-    mj_island(m, d);
-    mj_projectConstraint(m, d);
-    mj_referenceConstraint(m, d);
-  }
-  mj_step2(m, d);
-}
-
-Result<void> MujocoSimulation::check() const {
-  const mjData& d = *model_.data;
-  for (const int warning : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
-    if (d.warning[warning].number > 0) {
-      return unstable(warning);
-    }
-  }
-  if (d.warning[mjWARN_CONTACTFULL].number > 0 || d.warning[mjWARN_CNSTRFULL].number > 0) {
-    return Error(ErrorCode::Limit, "MuJoCo has no room for the " + std::to_string(d.ncon) +
-                                       " contacts at " + std::to_string(d.time) + " s")
-        .with_rule("mujoco.contacts-full");
-  }
-  return {};
-}
-
-Error MujocoSimulation::unstable(int warning) const {
-  const mjModel& m = *model_.model;
-  const mjData& d = *model_.data;
-  int dof = d.warning[warning].lastinfo;
-  int body = 0;
-  if (warning == mjWARN_BADQPOS) {
-    for (int j = 0; j < m.njnt && m.jnt_qposadr[j] <= dof; ++j) {
-      body = m.jnt_bodyid[j];
-    }
-  } else if (dof >= 0 && dof < m.nv) {
-    body = m.dof_bodyid[dof];
-  }
-  const char* name = mj_id2name(&m, mjOBJ_BODY, body);
-  char text[160];
-  std::snprintf(text, sizeof(text), "the simulation became unstable at %.6g s", d.time);
-  return Error(ErrorCode::Unstable, text)
-      .with_rule("mujoco.unstable")
-      .with_prim(name == nullptr ? "" : name)
-      .with_fix("use a smaller time step, softer drives, or more armature");
 }
 
 void MujocoSimulation::bring_up_to_date() const {

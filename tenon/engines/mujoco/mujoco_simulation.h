@@ -107,10 +107,6 @@ class MujocoSimulation final : public Simulation {
   template <class Call>
   Result<void> change(const Call& call);
   void note_broken(const Restart& restart);
-  void advance();
-  void advance_sleepers();
-  Result<void> check() const;
-  Error unstable(int warning) const;
   void bring_up_to_date() const;
   StateOwner owner() const;
 

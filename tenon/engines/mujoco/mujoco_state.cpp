@@ -12,6 +12,7 @@
 #include "tenon/base/wire.h"
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/mujoco_simulation.h"
+#include "tenon/engines/mujoco/run/advance.h"
 #include "tenon/engines/mujoco/run/carry_over.h"
 #include "tenon/scene/fields/wire_form.h"
 
@@ -109,7 +110,7 @@ Result<void> MujocoSimulation::restore_state(std::string_view bytes) {
   if (fresh->inputs_.has_acceleration_drives()) {
     write_factor(run->factor, *fresh->model_.model, *fresh->model_.data);
   }
-  TENON_CHECK(fresh->check());
+  TENON_CHECK(check_step(fresh->model_));
   if (fresh->outputs_) {
     fresh->outputs_->work = run->work;
     TENON_CHECK(fresh->outputs_->at_rest(*fresh->scene_, fresh->model_));

@@ -3,7 +3,6 @@
 #include "tenon/formats/crate/writer.h"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +11,7 @@
 #include "tenon/formats/crate/reader.h"
 #include "tenon/formats/crate/sample_layer.h"
 #include "tenon/layer/fields.h"
+#include "tenon/math/functions.h"
 
 namespace tenon::formats {
 namespace {
@@ -60,7 +60,6 @@ TEST(CrateWriter, GivesBackEveryTypeOfValue) {
 }
 
 TEST(CrateWriter, KeepsNegativeZeroInfinityAndNan) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double number : {-0.0, kInfinity, -kInfinity, 1e300, 1e-300, 0.1}) {
     const auto back = read_back(*write_crate(layer_with(number)));
     const auto* value = back->find(Path::from("/A"))->get<double>("field");

@@ -4,11 +4,11 @@
 #include <unordered_map>
 
 #include "tenon/base/limits/limits.h"
+#include "tenon/base/text/quoted_text.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/value_reader.h"
 #include "tenon/formats/text/words.h"
-#include "tenon/formats/text/write/value_text.h"
 #include "tenon/layer/expressions/path_expression.h"
 #include "tenon/layer/field_values.h"
 

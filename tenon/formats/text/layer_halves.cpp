@@ -15,6 +15,30 @@ void append(std::vector<Token>& names, const std::vector<Token>& more) {
   names.insert(names.end(), more.begin(), more.end());
 }
 
+bool are_new(const layer::Layer& layer, Path parent, const std::vector<Token>& children,
+             const std::vector<Token>& properties) {
+  return std::none_of(children.begin(), children.end(),
+                      [&](Token name) { return layer.has(parent.child(name)); }) &&
+         std::none_of(properties.begin(), properties.end(),
+                      [&](Token name) { return layer.has(parent.property(name)); });
+}
+
+// What `rest` says about `path` is nothing but names of children and properties, new ones.
+bool only_adds(const layer::Layer& layer, const layer::Layer& rest, Path path) {
+  const layer::Spec* const found = rest.find(path);
+  if (found == nullptr) {
+    return false;
+  }
+  const layer::Spec& more = *found;
+  const auto is_plain = [](const layer::Field& field) {
+    return field.name == fields::primChildren || field.name == fields::properties;
+  };
+  const auto items = more.fields();
+  return std::all_of(items.begin(), items.end(), is_plain) &&
+         are_new(layer, path, layer::Layer::children(more, fields::primChildren),
+                 layer::Layer::children(more, fields::properties));
+}
+
 }  // namespace
 
 void LayerReader::read_from(std::size_t offset, const std::atomic<bool>& wanted) {
@@ -39,7 +63,7 @@ bool LayerReader::take_rest(LayerReader& rest) {
   }
   state_.layer.take_missing(std::move(rest.state_.layer));
   while (blocks_.size() > 1) {
-    store_children(blocks_.back());
+    store_children(state_, blocks_.back());
     blocks_.pop_back();
   }
   return true;
@@ -49,7 +73,7 @@ bool LayerReader::enter_prims(const std::vector<std::size_t>& offsets) {
   for (const std::size_t offset : offsets) {
     cursor_.seek(offset);
     PrimHead head;
-    if (!read_prim_head(cursor_.peek_identifier(), head)) {
+    if (!read_prim_head(cursor_, cursor_.peek_identifier(), head)) {
       return false;
     }
     const Path path = top().path.child(Token(head.name));
@@ -72,32 +96,10 @@ bool LayerReader::continues_here(const LayerReader& rest) const {
          std::equal(blocks_.begin() + 1, blocks_.end(), rest.around_.begin(), rest.around_.end(),
                     same) &&
          std::all_of(blocks_.begin(), blocks_.end(),
-                     [&](const Block& block) { return only_adds(rest, block.path); }) &&
-         are_new(blocks_.front().path, rest.blocks_.front().children, {});
-}
-
-bool LayerReader::only_adds(const LayerReader& rest, Path path) const {
-  const layer::Spec* const found = rest.state_.layer.find(path);
-  if (found == nullptr) {
-    return false;
-  }
-  const layer::Spec& more = *found;
-  const auto is_plain = [](const layer::Field& field) {
-    return field.name == fields::primChildren || field.name == fields::properties;
-  };
-  const auto items = more.fields();
-  return std::all_of(items.begin(), items.end(), is_plain) &&
-         are_new(path, layer::Layer::children(more, fields::primChildren),
-                 layer::Layer::children(more, fields::properties));
-}
-
-bool LayerReader::are_new(Path parent, const std::vector<Token>& children,
-                          const std::vector<Token>& properties) const {
-  const layer::Layer& layer = state_.layer;
-  return std::none_of(children.begin(), children.end(),
-                      [&](Token name) { return layer.has(parent.child(name)); }) &&
-         std::none_of(properties.begin(), properties.end(),
-                      [&](Token name) { return layer.has(parent.property(name)); });
+                     [&](const Block& block) {
+                       return only_adds(state_.layer, rest.state_.layer, block.path);
+                     }) &&
+         are_new(state_.layer, blocks_.front().path, rest.blocks_.front().children, {});
 }
 
 }  // namespace tenon::formats::text

@@ -10,7 +10,6 @@
 #include "tenon/formats/text/layer_reader.h"
 
 #include "tenon/base/limits/limits.h"
-#include "tenon/base/text/unicode.h"
 #include "tenon/formats/text/header.h"
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/metadata_reader.h"
@@ -24,9 +23,98 @@ using layer::SpecKind;
 using layer::Value;
 namespace fields = layer::fields;
 
-std::string block_name(const Block& block) {
-  return block.kind == Block::Kind::Prim ? "<" + block.path.str() + ">"
-                                         : "the variant (set) <" + block.path.str() + ">";
+void note_header(LayerState& state) {
+  if (state.sources != nullptr) {
+    std::size_t end = state.cursor.offset();
+    while (end > 0 &&
+           (state.cursor.text()[end - 1] == '\n' || state.cursor.text()[end - 1] == '\r')) {
+      --end;
+    }
+    state.sources->header_end = end;
+  }
+}
+
+void note_open(LayerState& state, Path path, SourceBlock block) {
+  if (state.sources != nullptr) {
+    block.body.begin = state.cursor.offset() - 1;
+    state.sources->blocks.insert_or_assign(path, block);
+  }
+}
+
+void note_close(LayerState& state, Path path) {
+  if (state.sources != nullptr) {
+    SourceBlock& block = state.sources->blocks[path];
+    block.body.end = block.range.end = state.cursor.offset();
+  }
+}
+
+// Where the default prim was closed, when another prim was closed after it.
+std::string default_prim_note(const LastClosed& closed, Token default_prim) {
+  return closed.default_line == 0 || closed.default_line == closed.line
+             ? std::string()
+             : ", and another closed </" + default_prim.str() + "> at line " +
+                   std::to_string(closed.default_line);
+}
+
+// Something that is no prim between the prims of the layer: often a '}' stands too early.
+bool fail_layer_statement(Cursor& cursor, const LastClosed& closed, Token default_prim) {
+  constexpr std::string_view kExpected =
+      "def, over, class, reorder rootPrims or the end of the file";
+  if (closed.name.empty()) {
+    return cursor.fail_expected(kExpected);
+  }
+  const std::string line = std::to_string(closed.line);
+  const char c = cursor.peek();
+  std::string fix = "remove this '" + std::string(1, c) + "', or the '}' at line " + line;
+  if (c == '{') {
+    fix = "write `def \"Name\"` before '{', or remove the '}' at line " + line;
+  } else if (c != '}' && c != ')' && c != ']') {
+    fix = "if this belongs to " + closed.name + ", remove the '}' at line " + line;
+  }
+  return cursor.fail_at(cursor.offset(), ErrorCode::Parse, "text.syntax",
+                        "expected " + std::string(kExpected) + ", found " + cursor.found() +
+                            "; an earlier '}' closed " + closed.name + " at line " + line +
+                            default_prim_note(closed, default_prim),
+                        fix);
+}
+
+bool fail_contents_statement(Cursor& cursor, const Block& block) {
+  const std::string opened = std::to_string(cursor.place_of(block.start).line);
+  std::string fix;
+  if (cursor.at_end()) {
+    fix = "add '}' for " + block_name(block) + ", opened at line " + opened;
+  } else if (cursor.peek() == ')' || cursor.peek() == ']') {
+    fix = "remove it; " + block_name(block) + " was opened at line " + opened;
+  }
+  return cursor.fail_expected(
+      "a property, def, over, class, variantSet, reorder, or the '}' of " + block_name(block), fix);
+}
+
+bool read_order(LayerState& state, Path path, Token field, std::size_t start) {
+  Cursor& cursor = state.cursor;
+  cursor.skip_inline();
+  if (!cursor.expect('=', "before the names")) {
+    return false;
+  }
+  cursor.skip_inline();
+  std::vector<std::string> names;
+  if (!read_name_list(cursor, names)) {
+    return false;
+  }
+  state.layer.create(path, SpecKind::Prim)
+      .set(field, Value(std::vector<Token>(names.begin(), names.end())));
+  if (state.sources != nullptr) {
+    state.sources->orders[path].push_back({start, cursor.offset()});
+  }
+  return true;
+}
+
+bool end_statement(Cursor& cursor, const Block& block, std::string_view where) {
+  cursor.skip_single_line();
+  const bool at_layer = block.kind == Block::Kind::Layer && cursor.at_end();
+  return at_layer || cursor.accept_statement_end() || cursor.failed() == true
+             ? !cursor.failed()
+             : cursor.fail_expected("the end of the line or ';' " + std::string(where));
 }
 
 }  // namespace
@@ -40,7 +128,12 @@ LayerReader::LayerReader(std::string_view text, std::string identifier, Diagnost
 
 bool LayerReader::read_from_front(std::size_t stop) {
   stop_ = stop;
-  return read_header(state_) && note_header() && read_layer_metadata() && read_statements();
+  if (!read_header(state_)) {
+    return false;
+  }
+  note_header(state_);
+  return read_block_metadata(state_, Path::absolute_root(), SpecKind::PseudoRoot) &&
+         read_statements();
 }
 
 bool LayerReader::read_statements() {
@@ -84,41 +177,8 @@ Result<layer::Layer> LayerReader::finish() {
     }
     return std::move(state_.faults.front()).with_further(std::move(further));
   }
-  store_children(blocks_.front());
+  store_children(state_, blocks_.front());
   return std::move(state_.layer);
-}
-
-bool LayerReader::note_header() {
-  if (state_.sources != nullptr) {
-    std::size_t end = cursor_.offset();
-    while (end > 0 && (cursor_.text()[end - 1] == '\n' || cursor_.text()[end - 1] == '\r')) {
-      --end;
-    }
-    state_.sources->header_end = end;
-  }
-  return true;
-}
-
-void LayerReader::note_open(Path path, SourceBlock block) {
-  if (state_.sources != nullptr) {
-    block.body.begin = cursor_.offset() - 1;
-    state_.sources->blocks.insert_or_assign(path, block);
-  }
-}
-
-void LayerReader::note_close(Path path) {
-  if (state_.sources != nullptr) {
-    SourceBlock& block = state_.sources->blocks[path];
-    block.body.end = block.range.end = cursor_.offset();
-  }
-}
-
-bool LayerReader::read_layer_metadata() {
-  cursor_.skip_multi_line();
-  if (!cursor_.failed() && cursor_.accept('(')) {
-    return read_metadata(state_, Path::absolute_root(), SpecKind::PseudoRoot);
-  }
-  return !cursor_.failed();
 }
 
 bool LayerReader::read_step() {
@@ -152,42 +212,15 @@ bool LayerReader::read_layer_statement() {
     return open_prim(word);
   }
   if (word != "reorder") {
-    return fail_layer_statement();
+    return fail_layer_statement(cursor_, last_closed_, state_.layer.default_prim());
   }
   const std::size_t start = cursor_.offset();
   cursor_.advance(word.size());
   if (!cursor_.accept_separator() || !cursor_.accept_word("rootPrims")) {
     return cursor_.fail_expected("`rootPrims`");
   }
-  return read_order(fields::primOrder, start) && end_statement("after reorder rootPrims");
-}
-
-bool LayerReader::fail_layer_statement() {
-  constexpr std::string_view kExpected =
-      "def, over, class, reorder rootPrims or the end of the file";
-  if (last_closed_.empty()) {
-    return cursor_.fail_expected(kExpected);
-  }
-  const std::string line = std::to_string(last_closed_line_);
-  const char c = cursor_.peek();
-  std::string fix = "remove this '" + std::string(1, c) + "', or the '}' at line " + line;
-  if (c == '{') {
-    fix = "write `def \"Name\"` before '{', or remove the '}' at line " + line;
-  } else if (c != '}' && c != ')' && c != ']') {
-    fix = "if this belongs to " + last_closed_ + ", remove the '}' at line " + line;
-  }
-  return cursor_.fail_at(cursor_.offset(), ErrorCode::Parse, "text.syntax",
-                         "expected " + std::string(kExpected) + ", found " + cursor_.found() +
-                             "; an earlier '}' closed " + last_closed_ + " at line " + line +
-                             default_prim_note(),
-                         fix);
-}
-
-std::string LayerReader::default_prim_note() const {
-  return default_closed_line_ == 0 || default_closed_line_ == last_closed_line_
-             ? std::string()
-             : ", and another closed </" + state_.layer.default_prim().str() + "> at line " +
-                   std::to_string(default_closed_line_);
+  return read_order(state_, top().path, fields::primOrder, start) &&
+         end_statement(cursor_, top(), "after reorder rootPrims");
 }
 
 bool LayerReader::read_contents_statement() {
@@ -199,61 +232,25 @@ bool LayerReader::read_contents_statement() {
     return open_variant_set();
   }
   if (word.empty()) {
-    return fail_contents_statement();
+    return fail_contents_statement(cursor_, top());
   }
   if (word == "reorder") {
     const std::size_t start = cursor_.offset();
     cursor_.advance(word.size());
     if (cursor_.accept_separator()) {
       if (cursor_.accept_word("nameChildren")) {
-        return read_order(fields::primOrder, start) && end_statement("after reorder nameChildren");
+        return read_order(state_, top().path, fields::primOrder, start) &&
+               end_statement(cursor_, top(), "after reorder nameChildren");
       }
       if (cursor_.accept_word("properties")) {
-        return read_order(fields::propertyOrder, start) &&
-               end_statement("after reorder properties");
+        return read_order(state_, top().path, fields::propertyOrder, start) &&
+               end_statement(cursor_, top(), "after reorder properties");
       }
     }
     cursor_.seek(start);
   }
-  return read_property(state_, top().path, top().properties) && end_statement("after a property");
-}
-
-bool LayerReader::fail_contents_statement() {
-  const std::string opened = std::to_string(cursor_.place_of(top().start).line);
-  std::string fix;
-  if (cursor_.at_end()) {
-    fix = "add '}' for " + block_name(top()) + ", opened at line " + opened;
-  } else if (cursor_.peek() == ')' || cursor_.peek() == ']') {
-    fix = "remove it; " + block_name(top()) + " was opened at line " + opened;
-  }
-  return cursor_.fail_expected(
-      "a property, def, over, class, variantSet, reorder, or the '}' of " + block_name(top()), fix);
-}
-
-bool LayerReader::read_order(Token field, std::size_t start) {
-  cursor_.skip_inline();
-  if (!cursor_.expect('=', "before the names")) {
-    return false;
-  }
-  cursor_.skip_inline();
-  std::vector<std::string> names;
-  if (!read_name_list(cursor_, names)) {
-    return false;
-  }
-  state_.layer.create(top().path, SpecKind::Prim)
-      .set(field, Value(std::vector<Token>(names.begin(), names.end())));
-  if (state_.sources != nullptr) {
-    state_.sources->orders[top().path].push_back({start, cursor_.offset()});
-  }
-  return true;
-}
-
-bool LayerReader::end_statement(std::string_view where) {
-  cursor_.skip_single_line();
-  const bool at_layer = top().kind == Block::Kind::Layer && cursor_.at_end();
-  return at_layer || cursor_.accept_statement_end() || cursor_.failed() == true
-             ? !cursor_.failed()
-             : cursor_.fail_expected("the end of the line or ';' " + std::string(where));
+  return read_property(state_, top().path, top().properties) &&
+         end_statement(cursor_, top(), "after a property");
 }
 
 bool LayerReader::push(Block block) {
@@ -267,29 +264,10 @@ bool LayerReader::push(Block block) {
   return true;
 }
 
-bool LayerReader::read_prim_head(std::string_view specifier_word, PrimHead& head) {
-  cursor_.advance(specifier_word.size());
-  if (!cursor_.accept_separator()) {
-    return cursor_.fail_expected("a blank after `" + std::string(specifier_word) + "`");
-  }
-  if (!at_string(cursor_) && !read_prim_type(head.type_name)) {
-    return false;
-  }
-  head.name_start = cursor_.offset();
-  if (!at_string(cursor_)) {
-    return cursor_.fail_expected("the name of the prim in quotes");
-  }
-  if (!read_string(cursor_, head.name) || !check_prim_name(head.name, head.name_start)) {
-    return false;
-  }
-  head.name_end = cursor_.offset();
-  return true;
-}
-
 bool LayerReader::open_prim(std::string_view specifier_word) {
   const std::size_t start = cursor_.offset();
   PrimHead head;
-  if (!read_prim_head(specifier_word, head)) {
+  if (!read_prim_head(cursor_, specifier_word, head)) {
     return false;
   }
   const Path path = top().path.child(Token(head.name));
@@ -308,57 +286,11 @@ bool LayerReader::open_prim(std::string_view specifier_word) {
   if (!head.type_name.empty()) {
     spec.append(fields::typeName, Value(Token(head.type_name)));
   }
-  if (!read_block_metadata(path, SpecKind::Prim) || !open_brace(path, start)) {
+  if (!read_block_metadata(state_, path, SpecKind::Prim) || !open_brace(cursor_, path, start)) {
     return false;
   }
-  note_open(path, {{start, 0}, head.name_start, head.name_end, {}});
+  note_open(state_, path, {{start, 0}, head.name_start, head.name_end, {}});
   return push({Block::Kind::Prim, path, start});
-}
-
-bool LayerReader::read_prim_type(std::string& type_name) {
-  while (true) {
-    std::string_view word;
-    if (!read_name(cursor_, "the type of the prim or its name in quotes", word)) {
-      return false;
-    }
-    type_name += word;
-    const std::size_t after = cursor_.offset();
-    cursor_.skip_inline();
-    if (!cursor_.accept('.')) {
-      cursor_.seek(after);
-      return cursor_.accept_separator() ||
-             cursor_.fail_expected("a blank and the name of the prim in quotes");
-    }
-    cursor_.skip_inline();
-    type_name += '.';
-  }
-}
-
-bool LayerReader::check_prim_name(std::string_view name, std::size_t offset) {
-  return is_identifier(name) || cursor_.fail_at(offset, ErrorCode::Parse, "text.name",
-                                                "\"" + std::string(name) + "\" cannot name a prim",
-                                                "use letters, digits and '_', no digit in front");
-}
-
-bool LayerReader::read_block_metadata(Path path, SpecKind kind) {
-  cursor_.skip_multi_line();
-  if (!cursor_.failed() && cursor_.accept('(')) {
-    if (!read_metadata(state_, path, kind)) {
-      return false;
-    }
-    cursor_.skip_multi_line();
-  }
-  return !cursor_.failed();
-}
-
-bool LayerReader::open_brace(Path path, std::size_t start) {
-  if (cursor_.accept('{')) {
-    return true;
-  }
-  const std::string line = std::to_string(cursor_.place_of(start).line);
-  return cursor_.fail_expected(
-      "'{' before the contents of <" + path.str() + ">, declared at line " + line,
-      "add '{' and '}' for <" + path.str() + ">");
 }
 
 bool LayerReader::open_variant_set() {
@@ -368,7 +300,7 @@ bool LayerReader::open_variant_set() {
   if (!cursor_.accept_separator() || !at_string(cursor_)) {
     return cursor_.fail_expected("the name of the variant set in quotes");
   }
-  if (!read_string(cursor_, name) || !check_variant_name(name, start)) {
+  if (!read_variant_name(cursor_, start, name)) {
     return false;
   }
   cursor_.skip_inline();
@@ -386,28 +318,11 @@ bool LayerReader::open_variant_set() {
     }
     sets.emplace_back(name);
   }
-  if (!open_brace(path, start) || !check_first_variant()) {
+  if (!open_brace(cursor_, path, start) || !check_first_variant(cursor_)) {
     return false;
   }
-  note_open(path, {{start, 0}, start, start, {}});
+  note_open(state_, path, {{start, 0}, start, start, {}});
   return push({Block::Kind::VariantSet, path, start});
-}
-
-bool LayerReader::check_first_variant() {
-  const std::size_t inside = cursor_.offset();
-  cursor_.skip_multi_line();
-  if (cursor_.peek() == '}' && cursor_.offset() != inside) {
-    return cursor_.fail_expected("a variant such as \"name\" { }");
-  }
-  cursor_.seek(inside);
-  return true;
-}
-
-bool LayerReader::check_variant_name(std::string_view name, std::size_t offset) {
-  return is_variant_name(name) ||
-         cursor_.fail_at(offset, ErrorCode::Parse, "text.name",
-                         "\"" + std::string(name) + "\" cannot name a variant or variant set",
-                         "use letters, digits, '_', '-' and '|'");
 }
 
 bool LayerReader::open_variant() {
@@ -419,7 +334,7 @@ bool LayerReader::open_variant() {
         "set opened at line " +
         std::to_string(cursor_.place_of(top().start).line));
   }
-  if (!read_string(cursor_, name) || !check_variant_name(name, start)) {
+  if (!read_variant_name(cursor_, start, name)) {
     return false;
   }
   const std::size_t name_end = cursor_.offset();
@@ -437,31 +352,11 @@ bool LayerReader::open_variant() {
   Block block{Block::Kind::Variant, path, start};
   block.children = layer::Layer::children(spec, fields::primChildren);
   block.properties = layer::Layer::children(spec, fields::properties);
-  if (!read_block_metadata(path, SpecKind::Variant) || !open_brace(path, start)) {
+  if (!read_block_metadata(state_, path, SpecKind::Variant) || !open_brace(cursor_, path, start)) {
     return false;
   }
-  note_open(path, {{start, 0}, start, name_end, {}});
+  note_open(state_, path, {{start, 0}, start, name_end, {}});
   return push(std::move(block));
-}
-
-void LayerReader::store_children(Block& block) {
-  layer::Spec& spec = state_.layer.create(block.path, SpecKind::Prim);
-  if (block.kind == Block::Kind::VariantSet) {
-    spec.set(fields::variantChildren, Value(std::move(block.children)));
-    return;
-  }
-  if (!block.children.empty()) {
-    spec.set(fields::primChildren, Value(std::move(block.children)));
-  }
-  if (!block.properties.empty()) {
-    spec.set(fields::properties, Value(std::move(block.properties)));
-  }
-  if (!block.variant_sets.empty()) {
-    spec.set(fields::variantSetChildren, Value(std::move(block.variant_sets)));
-  }
-  if (block.kind == Block::Kind::Prim) {
-    state_.share_fields(spec.get_or(fields::typeName, Token()), spec);
-  }
 }
 
 bool LayerReader::close_block() {
@@ -469,13 +364,13 @@ bool LayerReader::close_block() {
   Block block = std::move(top());
   blocks_.pop_back();
   state_.open_block = top().path;
-  note_close(block.path);
-  store_children(block);
+  note_close(state_, block.path);
+  store_children(state_, block);
   if (top().kind == Block::Kind::Layer) {
-    last_closed_ = block_name(block);
-    last_closed_line_ = cursor_.place_of(brace).line;
+    last_closed_.name = block_name(block);
+    last_closed_.line = cursor_.place_of(brace).line;
     if (block.path.name() == state_.layer.default_prim()) {
-      default_closed_line_ = last_closed_line_;
+      last_closed_.default_line = last_closed_.line;
     }
   }
   if (block.kind == Block::Kind::Variant) {

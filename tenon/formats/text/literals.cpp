@@ -10,10 +10,10 @@
 
 #include <array>
 #include <charconv>
-#include <limits>
 
 #include "tenon/base/number_from_text.h"
 #include "tenon/base/text/quoted_text.h"
+#include "tenon/math/functions.h"
 
 namespace tenon::formats::text {
 namespace {
@@ -91,7 +91,7 @@ double value_of(const Digits& digits, const char* start, const char* end) {
   const auto result = number_from_text(start, end, value);
   if (result.ec == std::errc::result_out_of_range) {
     const bool large = digits.count + exponent > 0;
-    value = large ? std::numeric_limits<double>::infinity() : 0.0;
+    value = large ? kInfinity : 0.0;
     return digits.negative ? -value : value;
   }
   return value;
@@ -128,13 +128,12 @@ bool read_word_number(Cursor& cursor, Number& number) {
   if (negative) {
     cursor.advance();
   }
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (cursor.accept_word("inf")) {
     number.double_value = negative ? -kInfinity : kInfinity;
     return true;
   }
   if (!negative && cursor.accept_word("nan")) {
-    number.double_value = std::numeric_limits<double>::quiet_NaN();
+    number.double_value = kNotANumber;
     return true;
   }
   return cursor.fail_expected("a number");
@@ -375,6 +374,19 @@ bool read_path(Cursor& cursor, Path& path) {
   }
   cursor.advance(close + 1);
   return true;
+}
+
+std::string asset_path_text(std::string_view path) {
+  if (path.find('@') == std::string_view::npos) {
+    return '@' + std::string(path) + '@';
+  }
+  std::string out = "@@@";
+  for (std::size_t at = 0; at < path.size();) {
+    const bool delimiter = path.substr(at, 3) == "@@@";
+    out += delimiter ? "\\@@@" : std::string(1, path[at]);
+    at += delimiter ? 3 : 1;
+  }
+  return out + "@@@";
 }
 
 }  // namespace tenon::formats::text

@@ -42,6 +42,8 @@ bool read_string(Cursor& cursor, std::string& value);
 
 /// @..@ or @@@..@@@.
 bool read_asset_path(Cursor& cursor, std::string& value);
+/// `@path@`, or `@@@path@@@` when the path holds an '@'.
+std::string asset_path_text(std::string_view path);
 
 /// <..>; the path is empty for <>.
 bool read_path(Cursor& cursor, Path& path);

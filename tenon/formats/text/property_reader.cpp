@@ -41,7 +41,187 @@ Token type_name_of(const WrittenType& written) {
   return Token(written.is_array ? std::string(written.name) + "[]" : std::string(written.name));
 }
 
-/// One statement: its words in front, then what follows the name.
+bool separator(Cursor& cursor) {
+  return cursor.accept_separator() || cursor.fail_expected("a blank between two words");
+}
+
+// Takes `c` with blanks around it.
+bool accept_between_blanks(Cursor& cursor, char c) {
+  const std::size_t before = cursor.offset();
+  cursor.skip_inline();
+  if (cursor.accept(c)) {
+    cursor.skip_inline();
+    return true;
+  }
+  cursor.seek(before);
+  return false;
+}
+
+bool read_optional_metadata(LayerState& state, Path path, SpecKind kind) {
+  Cursor& cursor = state.cursor;
+  const std::size_t before = cursor.offset();
+  cursor.skip_inline();
+  if (cursor.accept('(')) {
+    return read_metadata(state, path, kind);
+  }
+  cursor.seek(before);
+  return true;
+}
+
+// Values
+
+// The type of an attribute as its statement gives it.
+struct OwnType {
+  const layer::TypeName* type = nullptr;  // null: unknown
+  bool is_array = false;
+};
+
+// A value of the attribute's type; the source text where the type is unknown. A path is taken
+// for any type, as some layers give a connection in that way.
+bool read_own_value(Cursor& cursor, const OwnType& own, Value& value) {
+  if (cursor.peek() == '<') {
+    Path path;
+    const bool ok = read_path(cursor, path);
+    value = Value(std::vector<Path>{path});
+    return ok;
+  }
+  if (at_array_edit(cursor)) {
+    return own.type == nullptr || !own.is_array
+               ? cursor.fail_expected("a value of the attribute's type, which is not a known array")
+               : read_array_edit(cursor, own.type->type, value);
+  }
+  if (own.type != nullptr) {
+    return read_value(cursor, own.type->type, own.is_array, value);
+  }
+  std::string text;
+  if (!read_source_text(cursor, text)) {
+    return false;
+  }
+  value = Value(layer::UnregisteredValue{Value(std::move(text))});
+  return true;
+}
+
+// Path expressions are kept in canonical form; those of defaults with absolute paths, but for
+// elements that an edit gives.
+void settle_expressions(LayerState& state, Value& value, std::size_t start, Path anchor) {
+  if (const auto* edit = value.get<layer::ArrayEdit>()) {
+    layer::ArrayEdit settled = *edit;
+    settle_expressions(state, settled.literals, start, {});
+    value = Value(std::move(settled));
+  }
+  if (value.type() == ValueType::PathExpression && !layer::make_canonical(value, anchor)) {
+    state.warn(start, "value.path-expression",
+               "this is not a path expression; it is read as an empty one", "");
+  }
+}
+
+// Puts the samples in order; of equal times the last one counts.
+void sort_samples(layer::TimeSamples& samples) {
+  std::vector<std::size_t> order(samples.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    order[i] = i;
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return samples.times[a] < samples.times[b];
+  });
+  layer::TimeSamples sorted;
+  for (const std::size_t i : order) {
+    if (!sorted.empty() && sorted.times.back() == samples.times[i]) {
+      sorted.values.back() = std::move(samples.values[i]);
+      continue;
+    }
+    sorted.times.push_back(samples.times[i]);
+    sorted.values.push_back(std::move(samples.values[i]));
+  }
+  samples = std::move(sorted);
+}
+
+bool read_time_sample(LayerState& state, const OwnType& own, Path path, layer::TimeSamples& samples,
+                      bool& ascending) {
+  Cursor& cursor = state.cursor;
+  const std::size_t start = cursor.offset();
+  double time = 0;
+  if (!at_number(cursor)) {
+    return cursor.fail_expected("the time of a sample or '}'");
+  }
+  if (!read_double(cursor, time)) {
+    return false;
+  }
+  if (std::isnan(time)) {
+    return cursor.fail_at(start, ErrorCode::Parse, "text.value", "nan is not a time");
+  }
+  cursor.skip_inline();
+  if (!cursor.expect(':', "after the time of a sample")) {
+    return false;
+  }
+  cursor.skip_inline();
+  Value value;
+  const std::size_t value_start = cursor.offset();
+  if (cursor.accept_word("None")) {
+    value = layer::ValueBlock{};
+  } else if (!read_own_value(cursor, own, value)) {
+    return false;
+  }
+  if (state.sources != nullptr) {
+    const std::size_t end = cursor.offset();
+    state.sources->samples[path].push_back({time, {start, end}, {value_start, end}});
+  }
+  settle_expressions(state, value, value_start, {});
+  ascending = ascending && (samples.empty() || samples.times.back() < time);
+  samples.times.push_back(time);
+  samples.values.push_back(std::move(value));
+  return true;
+}
+
+// `{ time: value, ... }` of the attribute at `path`.
+bool read_time_samples(LayerState& state, const OwnType& own, Path path, Value& result) {
+  Cursor& cursor = state.cursor;
+  if (!cursor.expect('{', "before the time samples")) {
+    return false;
+  }
+  layer::TimeSamples& samples = state.samples_buffer;
+  samples.times.clear();
+  samples.values.clear();
+  bool ascending = true;
+  cursor.skip_multi_line();
+  const bool ok = cursor.accept('}') || read_items(cursor, '}', "of the time samples", [&] {
+                    return read_time_sample(state, own, path, samples, ascending);
+                  });
+  if (!ok) {
+    return false;
+  }
+  if (!ascending) {
+    sort_samples(samples);
+  }
+  result = Value(layer::TimeSamples(samples));
+  return true;
+}
+
+// Targets
+
+// Where one of the items of the list at `start` stands.
+std::size_t item_at(const Cursor& cursor, std::size_t start, const Path& item,
+                    const std::vector<Path>& items) {
+  return offset_of_item(cursor.text(), start, static_cast<std::size_t>(&item - items.data()));
+}
+
+bool fail_target(Cursor& cursor, std::size_t start, Path path, std::string_view what) {
+  return cursor.fail_at(start, ErrorCode::Parse, "text.target",
+                        "<" + path.str() + "> cannot be a target: " + std::string(what) +
+                            " and have no variant selections");
+}
+
+// `rel name [<path>]` of old layers declares a target without listing it: it has no effect.
+bool read_unlisted_target(Cursor& cursor) {
+  Path path;
+  if (!read_path(cursor, path)) {
+    return false;
+  }
+  cursor.skip_inline();
+  return cursor.expect(']', "after the target");
+}
+
+// One statement: its words in front, then what follows the name.
 class PropertyReader {
  public:
   PropertyReader(LayerState& state, Path owner, std::vector<Token>& properties)
@@ -60,32 +240,28 @@ class PropertyReader {
   bool read_statement() {
     start_ = cursor_.offset();
     edit_ = accept_list_edit(cursor_);
-    if (edit_ != ListEdit::Explicit && !separator()) {
+    if (edit_ != ListEdit::Explicit && !separator(cursor_)) {
       return false;
     }
     is_custom_ = cursor_.accept_word("custom");
-    if (is_custom_ && !separator()) {
+    if (is_custom_ && !separator(cursor_)) {
       return false;
     }
     is_varying_ = cursor_.accept_word("varying");
-    if (is_varying_ && !separator()) {
+    if (is_varying_ && !separator(cursor_)) {
       return false;
     }
     if (cursor_.accept_word("rel")) {
-      return separator() && read_relationship();
+      return separator(cursor_) && read_relationship();
     }
     if (is_varying_) {
       return cursor_.fail_expected("`rel`", "attributes vary by default: remove `varying`");
     }
     is_uniform_ = cursor_.accept_word("uniform") || cursor_.accept_word("config");
-    if (is_uniform_ && !separator()) {
+    if (is_uniform_ && !separator(cursor_)) {
       return false;
     }
     return read_attribute();
-  }
-
-  bool separator() {
-    return cursor_.accept_separator() || cursor_.fail_expected("a blank between two words");
   }
 
   bool read_property_name() {
@@ -99,60 +275,26 @@ class PropertyReader {
     return true;
   }
 
-  /// Takes the '.' of `name.timeSamples`, with blanks around it.
-  bool accept_dot() {
-    const std::size_t before = cursor_.offset();
-    cursor_.skip_inline();
-    if (cursor_.accept('.')) {
-      cursor_.skip_inline();
-      return true;
-    }
-    cursor_.seek(before);
-    return false;
-  }
-
-  bool accept_equals() {
-    const std::size_t before = cursor_.offset();
-    cursor_.skip_inline();
-    if (cursor_.accept('=')) {
-      cursor_.skip_inline();
-      return true;
-    }
-    cursor_.seek(before);
-    return false;
-  }
-
-  bool read_optional_metadata(SpecKind kind) {
-    const std::size_t before = cursor_.offset();
-    cursor_.skip_inline();
-    if (cursor_.accept('(')) {
-      return read_metadata(state_, path_, kind);
-    }
-    cursor_.seek(before);
-    return true;
-  }
-
   // Attributes
 
   bool read_attribute() {
     WrittenType written;
-    if (!read_type(cursor_, written) || !separator() || !read_property_name()) {
+    if (!read_type(cursor_, written) || !separator(cursor_) || !read_property_name()) {
       return false;
     }
-    type_ = written.type;
-    is_array_ = written.is_array;
+    own_ = {written.type, written.is_array};
     if (!make_attribute(type_name_of(written))) {
       return false;
     }
-    if (accept_dot()) {
+    if (accept_between_blanks(cursor_, '.')) {
       return read_attribute_part();
     }
     if (edit_ != ListEdit::Explicit) {
       return cursor_.fail_expected("`.connect` after a list edit",
                                    "remove the word in front of the attribute");
     }
-    const bool ok =
-        (!accept_equals() || read_default()) && read_optional_metadata(SpecKind::Attribute);
+    const bool ok = (!accept_between_blanks(cursor_, '=') || read_default()) &&
+                    read_optional_metadata(state_, path_, SpecKind::Attribute);
     if (ok) {
       state_.share_fields(path_.name(), *spec_);
     }
@@ -210,11 +352,12 @@ class PropertyReader {
       return read_assignment(cursor_) && read_connections();
     }
     if (plain && cursor_.accept_word("timeSamples")) {
-      return read_assignment(cursor_) && read_time_samples();
+      return read_assignment(cursor_) && read_samples();
     }
     if (plain && cursor_.accept_word("spline")) {
       Value value;
-      const ValueType type = type_ == nullptr || is_array_ ? ValueType::None : type_->type;
+      const ValueType type =
+          own_.type == nullptr || own_.is_array ? ValueType::None : own_.type->type;
       return read_assignment(cursor_) && read_spline(cursor_, type, value) &&
              set(fields::spline, std::move(value));
     }
@@ -226,46 +369,6 @@ class PropertyReader {
     return true;
   }
 
-  /// A value of the attribute's type; the source text where the type is unknown. A path is taken
-  /// for any type, as some layers give a connection in that way.
-  bool read_own_value(Value& value) {
-    if (cursor_.peek() == '<') {
-      Path path;
-      const bool ok = read_path(cursor_, path);
-      value = Value(std::vector<Path>{path});
-      return ok;
-    }
-    if (at_array_edit(cursor_)) {
-      return type_ == nullptr || !is_array_
-                 ? cursor_.fail_expected(
-                       "a value of the attribute's type, which is not a known array")
-                 : read_array_edit(cursor_, type_->type, value);
-    }
-    if (type_ != nullptr) {
-      return read_value(cursor_, type_->type, is_array_, value);
-    }
-    std::string text;
-    if (!read_source_text(cursor_, text)) {
-      return false;
-    }
-    value = Value(layer::UnregisteredValue{Value(std::move(text))});
-    return true;
-  }
-
-  /// Path expressions are kept in canonical form; those of defaults with absolute paths, but for
-  /// elements that an edit gives.
-  void settle_expressions(Value& value, std::size_t start, Path anchor) {
-    if (const auto* edit = value.get<layer::ArrayEdit>()) {
-      layer::ArrayEdit settled = *edit;
-      settle_expressions(settled.literals, start, {});
-      value = Value(std::move(settled));
-    }
-    if (value.type() == ValueType::PathExpression && !layer::make_canonical(value, anchor)) {
-      state_.warn(start, "value.path-expression",
-                  "this is not a path expression; it is read as an empty one", "");
-    }
-  }
-
   bool read_default() {
     Value value;
     statement_.value.begin = cursor_.offset();
@@ -273,89 +376,21 @@ class PropertyReader {
       value = layer::ValueBlock{};
     } else if (cursor_.accept_word("AnimationBlock")) {
       value = layer::AnimationBlock{};
-    } else if (!read_own_value(value)) {
+    } else if (!read_own_value(cursor_, own_, value)) {
       return false;
     }
     statement_.value.end = cursor_.offset();
-    settle_expressions(value, statement_.value.begin, owner_.strip_variants().prim());
+    settle_expressions(state_, value, statement_.value.begin, owner_.strip_variants().prim());
     return set(fields::default_value, std::move(value));
   }
 
-  bool read_time_samples() {
+  bool read_samples() {
+    Value samples;
     statement_.part = PropertyPart::Samples;
     statement_.value.begin = cursor_.offset();
-    if (!cursor_.expect('{', "before the time samples")) {
-      return false;
-    }
-    layer::TimeSamples& samples = state_.samples_buffer;
-    samples.times.clear();
-    samples.values.clear();
-    bool ascending = true;
-    cursor_.skip_multi_line();
-    const bool ok = cursor_.accept('}') || read_items(cursor_, '}', "of the time samples", [&] {
-                      return read_time_sample(samples, ascending);
-                    });
+    const bool ok = read_time_samples(state_, own_, path_, samples);
     statement_.value.end = cursor_.offset();
-    if (ok && !ascending) {
-      sort_samples(samples);
-    }
-    return ok && set(fields::timeSamples, Value(layer::TimeSamples(samples)));
-  }
-
-  bool read_time_sample(layer::TimeSamples& samples, bool& ascending) {
-    const std::size_t start = cursor_.offset();
-    double time = 0;
-    if (!at_number(cursor_)) {
-      return cursor_.fail_expected("the time of a sample or '}'");
-    }
-    if (!read_double(cursor_, time)) {
-      return false;
-    }
-    if (std::isnan(time)) {
-      return cursor_.fail_at(start, ErrorCode::Parse, "text.value", "nan is not a time");
-    }
-    cursor_.skip_inline();
-    if (!cursor_.expect(':', "after the time of a sample")) {
-      return false;
-    }
-    cursor_.skip_inline();
-    Value value;
-    const std::size_t value_start = cursor_.offset();
-    if (cursor_.accept_word("None")) {
-      value = layer::ValueBlock{};
-    } else if (!read_own_value(value)) {
-      return false;
-    }
-    if (state_.sources != nullptr) {
-      const std::size_t end = cursor_.offset();
-      state_.sources->samples[path_].push_back({time, {start, end}, {value_start, end}});
-    }
-    settle_expressions(value, value_start, {});
-    ascending = ascending && (samples.empty() || samples.times.back() < time);
-    samples.times.push_back(time);
-    samples.values.push_back(std::move(value));
-    return true;
-  }
-
-  /// Puts the samples in order; of equal times the last one counts.
-  static void sort_samples(layer::TimeSamples& samples) {
-    std::vector<std::size_t> order(samples.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      order[i] = i;
-    }
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return samples.times[a] < samples.times[b];
-    });
-    layer::TimeSamples sorted;
-    for (const std::size_t i : order) {
-      if (!sorted.empty() && sorted.times.back() == samples.times[i]) {
-        sorted.values.back() = std::move(samples.values[i]);
-        continue;
-      }
-      sorted.times.push_back(samples.times[i]);
-      sorted.values.push_back(std::move(samples.values[i]));
-    }
-    samples = std::move(sorted);
+    return ok && set(fields::timeSamples, std::move(samples));
   }
 
   bool read_connections() {
@@ -368,7 +403,7 @@ class PropertyReader {
       // Unlike with relationships a variant that only the prim around names is left out.
       const Path absolute = target_of(path, owner_).strip_variants();
       if (path.has_variants() || !is_target(absolute)) {
-        return fail_target(item_at(start, path, paths), path,
+        return fail_target(cursor_, item_at(cursor_, start, path, paths), path,
                            "connections lead to prims or properties");
       }
       path = absolute;
@@ -380,17 +415,6 @@ class PropertyReader {
     return true;
   }
 
-  /// Where one of the items of the list at `start` stands.
-  std::size_t item_at(std::size_t start, const Path& item, const std::vector<Path>& items) const {
-    return offset_of_item(cursor_.text(), start, static_cast<std::size_t>(&item - items.data()));
-  }
-
-  bool fail_target(std::size_t start, Path path, std::string_view what) {
-    return cursor_.fail_at(start, ErrorCode::Parse, "text.target",
-                           "<" + path.str() + "> cannot be a target: " + std::string(what) +
-                               " and have no variant selections");
-  }
-
   // Relationships
 
   bool read_relationship() {
@@ -398,19 +422,16 @@ class PropertyReader {
       return false;
     }
     if (edit_ == ListEdit::Explicit) {
-      if (accept_dot()) {
+      if (accept_between_blanks(cursor_, '.')) {
         statement_.part = PropertyPart::Other;
         return read_relationship_default();
       }
-      const std::size_t before = cursor_.offset();
-      cursor_.skip_inline();
-      if (cursor_.accept('[')) {
+      if (accept_between_blanks(cursor_, '[')) {
         statement_.part = PropertyPart::Other;
-        return read_unlisted_target();
+        return read_unlisted_target(cursor_);
       }
-      cursor_.seek(before);
     }
-    if (accept_equals()) {
+    if (accept_between_blanks(cursor_, '=')) {
       statement_.value.begin = cursor_.offset();
       if (!read_targets()) {
         return false;
@@ -420,7 +441,8 @@ class PropertyReader {
     if (edit_ != ListEdit::Explicit) {
       statement_.part = PropertyPart::Other;
     }
-    return edit_ != ListEdit::Explicit || read_optional_metadata(SpecKind::Relationship);
+    return edit_ != ListEdit::Explicit ||
+           read_optional_metadata(state_, path_, SpecKind::Relationship);
   }
 
   bool make_relationship() {
@@ -446,7 +468,7 @@ class PropertyReader {
       const Path absolute = target_of(path, owner_);
       const bool fits = is_target(absolute) || absolute.kind() == PathKind::Mapper;
       if (absolute.has_variants() || !fits) {
-        return fail_target(item_at(start, path, paths), path,
+        return fail_target(cursor_, item_at(cursor_, start, path, paths), path,
                            "relationships lead to prims or properties");
       }
       path = absolute;
@@ -467,17 +489,6 @@ class PropertyReader {
            set(fields::default_value, Value(std::vector<Path>{path}));
   }
 
-  /// `rel name [<path>]` of old layers declares a target without listing it: it has no effect.
-  bool read_unlisted_target() {
-    Path path;
-    cursor_.skip_inline();
-    if (!read_path(cursor_, path)) {
-      return false;
-    }
-    cursor_.skip_inline();
-    return cursor_.expect(']', "after the target");
-  }
-
   LayerState& state_;
   Cursor& cursor_;
   Path owner_;
@@ -488,8 +499,7 @@ class PropertyReader {
   bool is_custom_ = false;
   bool is_varying_ = false;
   bool is_uniform_ = false;
-  bool is_array_ = false;
-  const layer::TypeName* type_ = nullptr;
+  OwnType own_;
   Path path_;
   layer::Spec* spec_ = nullptr;
 };

@@ -10,6 +10,7 @@
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/plain_elements.h"
 #include "tenon/layer/field_values.h"
+#include "tenon/math/functions.h"
 
 namespace tenon::formats::text {
 namespace {
@@ -32,7 +33,6 @@ bool read_component(Cursor& cursor, double& value) {
     if (!read_string(cursor, word)) {
       return false;
     }
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     if (word == "inf" || word == "-inf" || word == "nan") {
       value = word == "inf" ? kInfinity : word == "nan" ? std::nan("") : -kInfinity;
       return true;

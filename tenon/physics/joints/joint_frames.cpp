@@ -45,6 +45,20 @@ stage::Prim find_target(const ReadState& state, const PhysicsPrim& from, Token n
   return prim;
 }
 
+/// The offset of a side, in the prim that it is attached to, as a pose in its body or the world.
+Pose frame_in_body(const ReadState& state, const Attachment& attached, const PhysicsPrim* target,
+                   const Vec3d& position, const Quatd& rotation) {
+  if (state.readings.sheared_offsets == ShearedOffsets::Factored && target != nullptr &&
+      target->is_body) {
+    // As OpenUSD: scaled along the body's own axes (S-84).
+    const Vec3d scale = factor(attached.world).scale * state.units.length;
+    return {{{position[0] * scale[0], position[1] * scale[1], position[2] * scale[2]}}, rotation};
+  }
+  const Pose world{transform_point(position, attached.world) * state.units.length,
+                   world_pose(attached.world, state.units).orientation * rotation};
+  return attached.body ? inverse(state.scene.bodies[*attached.body].pose) * world : world;
+}
+
 }  // namespace
 
 Attachment find_attachment(const ReadState& state, const PhysicsPrim& from,
@@ -105,18 +119,7 @@ std::optional<JointSide> read_joint_side(const ReadState& state, const PhysicsPr
   const Attachment attached = find_attachment(state, found, prim);
   result.target = state.walk.near(found, targets.front());
   result.body = attached.body;
-  const PhysicsPrim* itself = state.walk.find(result.target);
-  if (state.readings.sheared_offsets == ShearedOffsets::Factored && itself != nullptr &&
-      itself->is_body) {
-    // As OpenUSD: scaled along the body's own axes (S-84).
-    const Vec3d scale = factor(attached.world).scale * state.units.length;
-    result.frame = {{{position[0] * scale[0], position[1] * scale[1], position[2] * scale[2]}},
-                    rotation};
-    return result;
-  }
-  const Pose world{transform_point(position, attached.world) * state.units.length,
-                   world_pose(attached.world, state.units).orientation * rotation};
-  result.frame = result.body ? inverse(state.scene.bodies[*result.body].pose) * world : world;
+  result.frame = frame_in_body(state, attached, state.walk.find(result.target), position, rotation);
   return result;
 }
 

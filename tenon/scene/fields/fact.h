@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tenon/base/wire.h"
+#include "tenon/math/functions.h"
 #include "tenon/math/matrix.h"
 #include "tenon/math/transform.h"
 #include "tenon/math/vector.h"
@@ -26,7 +27,7 @@ struct Nearness {
   double smallest_size = 1;
 };
 
-inline constexpr double kNoMeasure = std::numeric_limits<double>::infinity();
+inline constexpr double kNoMeasure = kInfinity;
 
 /// 0 where two numbers are near each other, else their difference; kNoMeasure where there is none.
 inline double distance(double a, double b, const Nearness& near) {

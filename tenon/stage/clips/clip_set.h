@@ -14,7 +14,7 @@
 #include "tenon/compose/layer_opener.h"
 #include "tenon/stage/clips/clip_definition.h"
 #include "tenon/stage/clips/clip_times.h"
-#include "tenon/stage/values/interpolate.h"
+#include "tenon/stage/interpolate.h"
 
 /// Values that lie in other layers, one layer at a time. Internal to tenon/stage.
 namespace tenon::stage {

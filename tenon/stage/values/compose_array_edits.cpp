@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "tenon/stage/values/interpolate.h"
+#include "tenon/stage/interpolate.h"
 
 namespace tenon::stage {
 namespace {

@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <optional>
 
 #include "tenon/layer/time/spline_rules.h"
+#include "tenon/math/functions.h"
 #include "tenon/stage/values/spline_knots.h"
 
 namespace tenon::stage {
@@ -57,7 +57,7 @@ double cubic_zero(double b, double c, double d) {
   const double radius = std::sqrt(-p * p * p);
   const double angle = std::acos(std::clamp(-q / radius, -1.0, 1.0));
   double zero = 0;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = kInfinity;
   for (int i = 0; i < 3; ++i) {
     const double turned = (angle + 2 * i * std::numbers::pi) / 3;
     const double candidate = 2 * std::cbrt(radius) * std::cos(turned) - b / 3;

@@ -5,10 +5,10 @@
 // weaker samples and splines and lets weaker defaults through. The steps are in value_search.h.
 #include "tenon/stage/values/resolve_value.h"
 
+#include "tenon/stage/interpolate.h"
 #include "tenon/stage/values/compose_array_edits.h"
 #include "tenon/stage/values/compose_expression.h"
 #include "tenon/stage/values/evaluate_spline.h"
-#include "tenon/stage/values/interpolate.h"
 #include "tenon/stage/values/value_search.h"
 
 namespace tenon::stage {

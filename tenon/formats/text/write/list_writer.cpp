@@ -9,6 +9,7 @@
 #include "tenon/formats/text/write/list_writer.h"
 
 #include "tenon/base/text/text_number.h"
+#include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/write/dictionary_writer.h"
 #include "tenon/formats/text/write/value_text.h"
 

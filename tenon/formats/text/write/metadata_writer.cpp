@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/write/dictionary_writer.h"
 #include "tenon/formats/text/write/list_writer.h"
 #include "tenon/formats/text/write/value_text.h"

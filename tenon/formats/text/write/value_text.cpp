@@ -18,6 +18,7 @@
 #include "tenon/base/text/unicode.h"
 #include "tenon/formats/text/array_edit_reader.h"
 #include "tenon/formats/text/cursor.h"
+#include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/value_reader.h"
 #include "tenon/formats/text/write/dictionary_writer.h"
 #include "tenon/layer/field_values.h"
@@ -220,19 +221,6 @@ void append_quoted(std::string& out, std::string_view text) {
   } else {
     out += quoted_text(text);
   }
-}
-
-std::string asset_path_text(std::string_view path) {
-  if (path.find('@') == std::string_view::npos) {
-    return '@' + std::string(path) + '@';
-  }
-  std::string out = "@@@";
-  for (std::size_t at = 0; at < path.size();) {
-    const bool delimiter = path.substr(at, 3) == "@@@";
-    out += delimiter ? "\\@@@" : std::string(1, path[at]);
-    at += delimiter ? 3 : 1;
-  }
-  return out + "@@@";
 }
 
 void append_value_text(std::string& out, const Value& value) {

@@ -23,8 +23,6 @@ namespace text {
 
 /// `quoted_text(text)` at the end of `out`.
 void append_quoted(std::string& out, std::string_view text);
-/// `@path@`, or `@@@path@@@` when the path holds an '@'.
-std::string asset_path_text(std::string_view path);
 /// Appends what `value_text` gives.
 void append_value_text(std::string& out, const layer::Value& value);
 /// The minor version that a text layer with the value has. For edits of arrays OpenUSD 26.11 raises

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/structure/make/shared_arrays.h"
+#include "tenon/structure/shared_arrays.h"
 
 #include <cstring>
 

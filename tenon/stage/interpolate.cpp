@@ -6,7 +6,7 @@
 // sphere, and straight where they are so close that the sine would lose its digits. The samples
 // around a time are found in the layer's time, the fraction between them in stage time, so that the
 // stage time of a sample gives that sample exactly.
-#include "tenon/stage/values/interpolate.h"
+#include "tenon/stage/interpolate.h"
 
 #include <cmath>
 #include <type_traits>
