@@ -19,7 +19,11 @@ using CheckFunction = void(const Subject& subject, Reporter& report);
 using FixFunction = std::optional<Fix>(const Subject& subject, const Diagnostic& diagnostic);
 
 /// Whether a finding counts where only some Physics variants give it.
-enum class Holds : unsigned char { InAnyVariant, InAllVariants };
+enum class Holds : unsigned char {
+  InAnyVariant,
+  InAllVariants,
+  WhereNoVariantUsesIt,  ///< unless another variant applies what the property needs
+};
 
 /// One rule of the table (rules.def). Its page is docs/rules/<id>.md.
 struct Rule {

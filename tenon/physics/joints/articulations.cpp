@@ -231,8 +231,9 @@ class ArticulationReader {
                       "author excludeFromArticulation to say so");
       } else if (!joint(i).exclude_from_articulation) {
         // S-111
-        state_.report(prim, Severity::Info, "articulation.loop",
-                      "the joint closes a loop of the articulation; it is kept as a constraint",
+        state_.report(prim, Severity::Warning, "articulation.loop",
+                      "the joint closes a loop of the articulation; it is kept as a constraint, "
+                      "PhysX leaves it out",
                       "author excludeFromArticulation on the joint that is to close the loop");
       }
     }
