@@ -86,6 +86,13 @@ bool Selection::takes(std::string_view rule) const {
   return (only.empty() || names(only, rule)) && !names(skip, rule);
 }
 
+bool Selection::runs(const Rule& rule) const {
+  return rule.check != nullptr && takes(rule.id) &&
+         (rule.engines.empty() ||
+          std::any_of(engines.begin(), engines.end(),
+                      [&](const std::string& engine) { return rule.is_about(engine); }));
+}
+
 std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Diagnostic>& opening,
                                  const Selection& selection, const physics::ReadOptions& reading) {
   Diagnostics read;
@@ -96,7 +103,7 @@ std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Di
   found.insert(found.end(), read.begin(), read.end());
   const Subject subject = make_subject(stage, scene, found);
   for (const Rule& rule : rules()) {
-    if (rule.check != nullptr && selection.takes(rule.id)) {
+    if (selection.runs(rule)) {
       Reporter report(rule, found);
       rule.check(subject, report);
     }

@@ -16,7 +16,10 @@ namespace tenon::check {
 struct Selection {
   std::vector<std::string> only;  ///< empty: all
   std::vector<std::string> skip;
+  std::vector<std::string> engines{};  ///< rules of portability run for these alone
 
+  /// The rule runs: it is about no engine in particular, or about one of `engines`.
+  bool runs(const Rule& rule) const;
   bool takes(std::string_view rule) const;
 };
 

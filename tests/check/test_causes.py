@@ -103,6 +103,35 @@ def Xform "World" {apis}
         self.assertEqual([d["rule"] for d in findings], ["attribute.unknown"])
         self.assertIn("PhysicsSphericalJoint", findings[0]["message"])
 
+    def portability(self, *options):
+        return {(d["rule"], *d["engines"]) for d in self.check(*options) if d["engines"]}
+
+    def test_what_engines_do_otherwise_is_told_for_those_that_are_asked_for(self):
+        self.write(box("A", "(0, 0, 1)", "vector3f physics:angularVelocity = (0, 0, 573)")
+                   + box("B", "(1, 0, 1)"))
+        damping = "portability.angular-damping", "isaac", "physx"
+        friction = "portability.unbound-friction", "mujoco", "newton"
+        self.assertEqual(self.portability(), set())
+        self.assertEqual(self.portability("--for", "physx"), {damping})
+        self.assertEqual(self.portability("--for", "isaac"), {damping})
+        self.assertEqual(self.portability("--for", "newton"), {friction})
+        self.assertEqual(self.portability("--for", "mujoco,physx"), {damping, friction})
+        self.assertEqual(self.portability("--for", "physx", "--skip", "portability"), set())
+        done = subprocess.run([TENON, "check", self.path, "--for", "jolt"], check=False,
+                              capture_output=True)
+        self.assertEqual(done.returncode, 2)
+
+    def test_the_size_of_the_effect_is_named(self):
+        drive = ('"PhysicsDriveAPI:angular"', "uniform token drive:angular:physics:type = "
+                 '"acceleration"\n        float drive:angular:physics:stiffness = 2')
+        text = hinge("J", *drive).replace("rel physics:body0 = </World/A>", "")
+        self.write(box("B", "(1, 0, 1)") + text.replace('(0.5, 0, 0)', "(0, 0, 1)")
+                   .replace("(-0.5, 0, 0)", '(-1, 0, 0)\n        uniform token physics:axis = "Y"'))
+        found = [d for d in self.check("--for", "physx") if d["engines"]]
+        self.assertEqual([d["rule"] for d in found], ["portability.acceleration-drive"])
+        # I = m a^2 / 6 of a cube, m d^2 beside it: (0.2^2 / 6 + 1) / (0.2^2 / 6) = 151.
+        self.assertIn("151 times weaker", found[0]["message"])
+
     def fixes(self):
         return {d["rule"] for d in self.check() if d["autofix"]}
 
