@@ -58,6 +58,20 @@ std::string dof_text(const Json& row) {
   return line + "\n";
 }
 
+/// "the axis X tilts toward Y by at most 20 deg, toward Z freely".
+std::string cones_text(const Json& cones) {
+  std::string line = "    the axis " + cones["axis"].get<std::string>() + " tilts";
+  const char* joint = " toward ";
+  for (const Json& side : cones["toward"]) {
+    line +=
+        joint + side["axis"].get<std::string>() +
+        (side["limit"].is_null() ? " freely" : " by at most " + bound_text(side["limit"], true)) +
+        " (" + side["property"].get<std::string>() + ")";
+    joint = ", toward ";
+  }
+  return line + " [S-96]\n";
+}
+
 std::string breaking_text(const Json& force, const Json& torque) {
   if (force.is_null() && torque.is_null()) {
     return "never breaks";
@@ -79,6 +93,7 @@ std::string joint_text(const Json& joint) {
   for (const Json& row : joint["dofs"]) {
     text_of += dof_text(row);
   }
+  text_of += joint["cones"].is_null() ? "" : cones_text(joint["cones"]);
   text_of += joint["collisionEnabled"].get<bool>()
                  ? "    the jointed sides may touch [S-92]\n"
                  : "    the jointed sides do not touch, where both are named [S-92]\n";

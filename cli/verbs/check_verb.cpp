@@ -239,6 +239,7 @@ constexpr const char* kCheckFooter =
     "  tenon check assets/ --strict --baseline known.json\n"
     "  tenon check hand.usda --fix --dry-run\n"
     "  tenon check hand.usda --profile isaac-3.0\n"
+    "  tenon check hand.usda --for physx,newton\n"
     "  tenon check hand.usda --skip collider.overlap-at-start,units --sarif hand.sarif\n"
     "  tenon check --explain mass.inertia-triangle";
 
@@ -255,6 +256,10 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_flag("--dry-run", options->dry_run, "With --fix: print the difference, write nothing");
   verb.add_flag("--strict", options->strict, "Warnings count as errors for the exit code");
   add_readings(verb, options->readings);
+  verb.add_option("--for", options->rules.engines,
+                  "What these engines do otherwise on the asset: rules of the family portability")
+      .split_at_commas()
+      .one_of(check::known_engines());
   verb.add_option("--profile", options->profile,
                   "Hold the files to this structure of assets as well")
       .one_of({"isaac-3.0"});

@@ -46,8 +46,9 @@ Json explain_pair(const Explained& explained, const stage::Prim& a, const stage:
 
 /// The part of `explain_prim` that is about a joint: sides with their frames in the body and in the
 /// world {"position" (3) [m], "orientation" (4), real part first}, how far apart these are at the
-/// start [m, rad], degrees of freedom with limits and drives (SI, radians; null: unlimited), and
-/// what becomes of it in trees of joints. `joint` is an index into the scene's joints.
+/// start [m, rad], degrees of freedom with limits and drives (SI, radians; null: unlimited), the
+/// cones of a spherical joint, and what becomes of it in trees of joints. `joint` is an index into
+/// the scene's joints.
 Json joint_json(const Explained& explained, scene::Index joint);
 
 }  // namespace tenon::answers

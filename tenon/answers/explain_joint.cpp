@@ -78,6 +78,23 @@ Json dofs_json(const Joint& joint) {
   return rows;
 }
 
+/// Of a spherical joint, how far its axis may tilt toward each of the other two axes (S-96).
+Json cones_json(const Joint& joint) {
+  if (joint.kind != scene::JointKind::Spherical) {
+    return nullptr;
+  }
+  constexpr const char* kAxes[] = {"X", "Y", "Z"};
+  const auto axis = static_cast<std::size_t>(joint.axis);
+  return {{"axis", kAxes[axis]},
+          {"toward",
+           {{{"axis", kAxes[(axis + 1) % 3]},
+             {"property", "physics:coneAngle0Limit"},
+             {"limit", finite_or_null(joint.cone_angle0)}},
+            {{"axis", kAxes[(axis + 2) % 3]},
+             {"property", "physics:coneAngle1Limit"},
+             {"limit", finite_or_null(joint.cone_angle1)}}}}};
+}
+
 bool contains(const std::vector<scene::Index>& list, scene::Index index) {
   return std::find(list.begin(), list.end(), index) != list.end();
 }
@@ -96,7 +113,8 @@ Json joint_json(const Explained& explained, scene::Index index) {
               {"start",
                {{"distance", length(relative.position)},
                 {"angle", length(rotation_vector(normalized(relative.orientation)))}}},
-              {"dofs", dofs_json(joint)}};
+              {"dofs", dofs_json(joint)},
+              {"cones", cones_json(joint)}};
   row["collisionEnabled"] = joint.collision_enabled;
   row["breakForce"] = finite_or_null(joint.break_force);
   row["breakTorque"] = finite_or_null(joint.break_torque);

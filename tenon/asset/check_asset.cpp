@@ -60,6 +60,7 @@ Result<Run> run_once(const std::string& path, const CheckOptions& options,
   if (std::find(sets.begin(), sets.end(), kPhysics) != sets.end()) {
     run.variants = prim.variant_names(kPhysics);
     run.selection = prim.variant_selection(kPhysics);
+    run.found.used = check::used_properties(stage);
   }
   run.found.variant = variant.empty() ? run.selection : variant;
   run.found.findings =

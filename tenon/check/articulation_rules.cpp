@@ -29,7 +29,7 @@ void check_kinematic_link(const Subject& subject, Reporter& report) {
   for (const scene::Articulation& articulation : subject.scene.articulations) {
     for (const scene::Index link : articulation.links) {
       const scene::Body& body = subject.scene.bodies[link];
-      if (body.kinematic) {
+      if (body.kinematic && !subject.has_finding("body.not-finite", body.path.str())) {
         report.at(
             subject.stage.prim(body.path), "physics:kinematicEnabled",
             "the link of <" + articulation.path.str() +

@@ -17,6 +17,8 @@
 #include "tenon/check/rule.h"
 #include "tenon/check/subject.h"
 #include "tenon/layer/finding_place.h"
+#include "tenon/physics/stray_properties.h"
+#include "tenon/schema/registry.h"
 #include "tenon/stage/property_errors.h"
 
 namespace tenon::check {
@@ -84,6 +86,13 @@ bool Selection::takes(std::string_view rule) const {
   return (only.empty() || names(only, rule)) && !names(skip, rule);
 }
 
+bool Selection::runs(const Rule& rule) const {
+  return rule.check != nullptr && takes(rule.id) &&
+         (rule.engines.empty() ||
+          std::any_of(engines.begin(), engines.end(),
+                      [&](const std::string& engine) { return rule.is_about(engine); }));
+}
+
 std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Diagnostic>& opening,
                                  const Selection& selection, const physics::ReadOptions& reading) {
   Diagnostics read;
@@ -94,7 +103,7 @@ std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Di
   found.insert(found.end(), read.begin(), read.end());
   const Subject subject = make_subject(stage, scene, found);
   for (const Rule& rule : rules()) {
-    if (rule.check != nullptr && selection.takes(rule.id)) {
+    if (selection.runs(rule)) {
       Reporter report(rule, found);
       rule.check(subject, report);
     }
@@ -121,6 +130,18 @@ std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Di
   return findings;
 }
 
+std::unordered_set<std::string> used_properties(const stage::Stage& stage) {
+  std::unordered_set<std::string> used;
+  for (const stage::Prim& prim : counted_prims(stage)) {
+    for (const Token name : prim.authored_property_names()) {
+      if (prim.definition()->find(name) != nullptr && !physics::physics_apis_of(name).empty()) {
+        used.insert(prim.path().str() + ' ' + name.str());
+      }
+    }
+  }
+  return used;
+}
+
 std::vector<Finding> merge_variants(std::vector<VariantFindings> runs) {
   using Key = decltype(prim_key(std::declval<Diagnostic>()));
   std::map<Key, std::size_t> place;
@@ -138,9 +159,15 @@ std::vector<Finding> merge_variants(std::vector<VariantFindings> runs) {
       }
     }
   }
+  const auto is_used = [&](const Finding& finding) {
+    const std::string key = finding.diagnostic.prim + ' ' + finding.diagnostic.property;
+    return std::any_of(runs.begin(), runs.end(),
+                       [&](const VariantFindings& run) { return run.used.contains(key); });
+  };
   std::erase_if(merged, [&](const Finding& finding) {
-    return finding.rule != nullptr && finding.rule->holds == Holds::InAllVariants &&
-           finding.variants.size() < runs.size();
+    const Holds holds = finding.rule == nullptr ? Holds::InAnyVariant : finding.rule->holds;
+    return (holds == Holds::InAllVariants && finding.variants.size() < runs.size()) ||
+           (holds == Holds::WhereNoVariantUsesIt && is_used(finding));
   });
   for (Finding& finding : merged) {
     if (finding.variants.size() == runs.size()) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "tenon/check/finding.h"
@@ -15,7 +16,10 @@ namespace tenon::check {
 struct Selection {
   std::vector<std::string> only;  ///< empty: all
   std::vector<std::string> skip;
+  std::vector<std::string> engines{};  ///< rules of portability run for these alone
 
+  /// The rule runs: it is about no engine in particular, or about one of `engines`.
+  bool runs(const Rule& rule) const;
   bool takes(std::string_view rule) const;
 };
 
@@ -26,10 +30,14 @@ std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Di
                                  const Selection& selection,
                                  const physics::ReadOptions& reading = {});
 
+/// "prim property" of what applied APIs of physics declare and the asset authors.
+std::unordered_set<std::string> used_properties(const stage::Stage& stage);
+
 /// Findings of one asset under one variant of its set "Physics".
 struct VariantFindings {
   std::string variant;
   std::vector<Finding> findings;
+  std::unordered_set<std::string> used{};  ///< used_properties
 };
 
 /// One list out of those of all variants: each finding once, with the variants under which it

@@ -68,6 +68,13 @@ TEST(MergeVariants, NamesNoVariantsWhereAllAgreeAndDropsWhatMustHoldInAll) {
   EXPECT_TRUE(merged[0].variants.empty());
 }
 
+TEST(MergeVariants, APropertyThatAnotherVariantUsesIsNotStray) {
+  Finding stray = finding("attribute.api-missing", "x", "/P");
+  stray.diagnostic.property = "physics:mass";
+  EXPECT_EQ(merge_variants({{"a", {stray}}, {"b", {}}}).size(), 1u);
+  EXPECT_TRUE(merge_variants({{"a", {stray}}, {"b", {}, {"/P physics:mass"}}}).empty());
+}
+
 TEST(NearestName, FindsSlipsOfThePen) {
   const std::vector<std::string_view> names{"physics:mass", "physics:density", "Xform"};
   EXPECT_EQ(nearest_name("physics:mas", names), "physics:mass");

@@ -14,6 +14,7 @@
 
 #include "tenon/base/text/text_number.h"
 #include "tenon/check/subject.h"
+#include "tenon/check/unit_signs.h"
 #include "tenon/edit/list_edit.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
@@ -125,10 +126,19 @@ std::optional<Fix> fix_metadata(const Subject& subject, const Diagnostic& diagno
   const Path path = Path::absolute_root();
   const SpecSite site{&root, path, root.find(path)};
   if (diagnostic.rule == "stage.meters-per-unit-missing") {
+    if (!may_be_centimetres(subject)) {
+      return std::nullopt;
+    }
     return set_field("author metersPerUnit = 0.01", site, fields::metersPerUnit, Value(0.01));
   }
   if (diagnostic.rule == "stage.kilograms-per-unit-missing") {
+    if (!may_be_kilograms(subject)) {
+      return std::nullopt;
+    }
     return set_field("author kilogramsPerUnit = 1", site, fields::kilogramsPerUnit, Value(1.0));
+  }
+  if (!may_have_y_up(subject)) {
+    return std::nullopt;
   }
   return set_field("author upAxis = \"Y\"", site, fields::upAxis, Value(Token("Y")));
 }

@@ -33,6 +33,11 @@ stage::Prim prim_of(const Subject& subject, const Joint& joint) {
   return subject.stage.prim(joint.path);
 }
 
+/// A body that stands still because its transform is not made of numbers.
+bool is_without_place(const Subject& subject, const std::optional<Index>& body) {
+  return body && subject.has_finding("body.not-finite", subject.scene.bodies[*body].path.str());
+}
+
 /// Authored limits in the file's own numbers.
 struct AuthoredLimits {
   double lower = -INFINITY;
@@ -184,7 +189,9 @@ void check_joint_moves_something(const Subject& subject, Reporter& report) {
     return body && !subject.scene.bodies[*body].kinematic;
   };
   for (const Joint& joint : subject.scene.joints) {
-    if (joint.enabled && !is_dynamic(joint.body0) && !is_dynamic(joint.body1)) {
+    const bool judged =
+        is_without_place(subject, joint.body0) || is_without_place(subject, joint.body1);
+    if (joint.enabled && !judged && !is_dynamic(joint.body0) && !is_dynamic(joint.body1)) {
       report.at(prim_of(subject, joint), "neither side of the joint moves freely: it has no effect",
                 "make one of its bodies dynamic, or remove the joint");
     }
@@ -249,11 +256,17 @@ void check_articulation_missing(const Subject& subject, Reporter& report) {
   for (const scene::Articulation& articulation : scene.articulations) {
     taken.insert(articulation.links.begin(), articulation.links.end());
   }
+  for (Index i = 0; i < scene.bodies.size(); ++i) {
+    if (is_without_place(subject, i)) {
+      taken.insert(i);  // the root that it may be has no articulation for that reason
+    }
+  }
   std::map<Index, std::vector<Index>> driven;  // island -> its driven joints
   for (Index i = 0; i < scene.joints.size(); ++i) {
     const Joint& joint = scene.joints[i];
     const std::optional<Index> body = joint.body1 ? joint.body1 : joint.body0;
-    if (joint.enabled && !joint.drives.empty() && body && !taken.contains(*body)) {
+    const bool known = !body || taken.contains(*body) || taken.contains(forest.bodies[*body].root);
+    if (joint.enabled && !joint.drives.empty() && !known) {
       driven[forest.bodies[*body].island].push_back(i);
     }
   }

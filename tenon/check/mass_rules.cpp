@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/check/extents.h"
 #include "tenon/check/subject.h"
-#include "tenon/scene/shapes/shape_mass.h"
 
 namespace tenon::check {
 namespace {
@@ -14,69 +14,15 @@ namespace {
 using scene::Body;
 using scene::Index;
 
-constexpr double kTinyMass = 1e-5;     ///< [kg]: ten milligrams
-constexpr double kHeaviest = 30000;    ///< [kg/m^3]: osmium has 22590
-constexpr double kLightest = 0.5;      ///< [kg/m^3]: air has 1.2
-constexpr double kFarCenter = 10;      ///< in half diagonals of the colliders
-constexpr double kLargeInertia = 10;   ///< in m r^2 of the colliders
-constexpr double kLargestRatio = 1e4;  ///< of jointed masses
-constexpr double kUnitLength = 1e-3;   ///< that a rotation may be off from length 1
+constexpr double kTinyMass = 1e-5;      ///< [kg]: ten milligrams
+constexpr double kFarCenter = 10;       ///< in half diagonals of the colliders
+constexpr double kLargeInertia = 10;    ///< in m r^2 of the colliders
+constexpr double kSmallInertia = 1e-4;  ///< in m r^2 of the colliders
+constexpr double kSmallReach = 0.01;    ///< [m] of bodies without colliders
+constexpr double kLargestRatio = 1e4;   ///< of jointed masses
+constexpr double kUnitLength = 1e-3;    ///< that a rotation may be off from length 1
 
 const Token kMass("physics:mass");
-
-/// Volume of the enabled colliders and a box around them in the body's frame [m].
-struct Extent {
-  double volume = 0;
-  Vec3d low{{INFINITY, INFINITY, INFINITY}};
-  Vec3d high{{-INFINITY, -INFINITY, -INFINITY}};
-
-  bool empty() const { return !(low[0] <= high[0]); }
-  Vec3d middle() const { return (low + high) * 0.5; }
-  double half_diagonal() const { return length(high - low) / 2; }
-};
-
-/// The radius of a ball around the shape's origin that holds it; planes have none.
-double reach_of(const scene::PhysicsScene& scene, const scene::Shape& shape) {
-  using scene::ShapeKind;
-  switch (shape.kind) {
-    case ShapeKind::Box:
-    case ShapeKind::Ellipsoid:
-      return length(shape.half_extents);
-    case ShapeKind::ConvexHull:
-    case ShapeKind::Mesh: {
-      double reach = 0;
-      for (const Vec3d& p : scene.meshes[shape.mesh].points) {
-        reach = std::fmax(reach, length(p));
-      }
-      return reach;
-    }
-    case ShapeKind::Spheres: {
-      double reach = 0;
-      for (std::size_t i = 0; i < shape.sphere_centers.size(); ++i) {
-        reach = std::fmax(reach, length(shape.sphere_centers[i]) + shape.sphere_radii[i]);
-      }
-      return reach;
-    }
-    case ShapeKind::Plane:
-      return 0;
-    default:
-      return std::hypot(shape.radius, shape.half_height) + shape.radius;
-  }
-}
-
-Extent extent_of(const Subject& subject, Index body) {
-  Extent extent;
-  for (const Index i : subject.colliders_of_body[body]) {
-    const scene::Collider& collider = subject.scene.colliders[i];
-    extent.volume += scene::shape_integrals(collider.shape, subject.scene.meshes).volume;
-    const double reach = reach_of(subject.scene, collider.shape);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      extent.low[axis] = std::fmin(extent.low[axis], collider.pose.position[axis] - reach);
-      extent.high[axis] = std::fmax(extent.high[axis], collider.pose.position[axis] + reach);
-    }
-  }
-  return extent;
-}
 
 template <class Visit>
 void each_dynamic_body(const Subject& subject, Visit visit) {
@@ -88,6 +34,18 @@ void each_dynamic_body(const Subject& subject, Visit visit) {
 }
 
 stage::Prim prim_of(const Subject& subject, Path path) { return subject.stage.prim(path); }
+
+std::size_t disabled_colliders(const Subject& subject, Index body) {
+  const auto& all = subject.scene.colliders;
+  return static_cast<std::size_t>(std::count_if(
+      all.begin(), all.end(),
+      [&](const scene::Collider& collider) { return collider.body == body && !collider.enabled; }));
+}
+
+bool authors_inertia(const stage::Prim& prim) {
+  return prim.attribute("physics:diagonalInertia").has_authored_value() ||
+         prim.attribute("newton:inertia").has_authored_value();
+}
 
 }  // namespace
 
@@ -108,7 +66,8 @@ void check_negative_mass(const Subject& subject, Reporter& report) {
 // S-42
 void check_default_mass(const Subject& subject, Reporter& report) {
   each_dynamic_body(subject, [&](Index i, const Body& body) {
-    if (body.mass_source == scene::MassSource::Default && subject.colliders_of_body[i].empty()) {
+    const bool none = subject.colliders_of_body[i].empty() && disabled_colliders(subject, i) == 0;
+    if (body.mass_source == scene::MassSource::Default && none) {
       report.at(prim_of(subject, body.path),
                 "the body has neither mass nor colliders; it weighs 1 kg like a ball of 0.1 m",
                 "apply PhysicsMassAPI and author physics:mass, or add colliders");
@@ -119,8 +78,12 @@ void check_default_mass(const Subject& subject, Reporter& report) {
 void check_body_without_collider(const Subject& subject, Reporter& report) {
   each_dynamic_body(subject, [&](Index i, const Body& body) {
     if (body.mass_source != scene::MassSource::Default && subject.colliders_of_body[i].empty()) {
-      report.at(prim_of(subject, body.path), "the body has no enabled collider: it touches nothing",
-                "apply PhysicsCollisionAPI to a shape below it");
+      const std::size_t off = disabled_colliders(subject, i);
+      report.at(prim_of(subject, body.path),
+                off == 0 ? "the body has no collider: it touches nothing"
+                         : "all colliders of the body are disabled: it touches nothing",
+                off == 0 ? "apply PhysicsCollisionAPI to a shape below it"
+                         : "enable a collider with physics:collisionEnabled");
     }
   });
 }
@@ -137,17 +100,14 @@ void check_tiny_mass(const Subject& subject, Reporter& report) {
 
 void check_density(const Subject& subject, Reporter& report) {
   each_dynamic_body(subject, [&](Index i, const Body& body) {
-    const double volume = extent_of(subject, i).volume;
-    if (!(volume > 0) || body.mass_source == scene::MassSource::Default) {
-      return;
-    }
-    const double density = body.mass / volume;
-    if (density > kHeaviest || density < kLightest) {
-      report.at(prim_of(subject, body.path), kMass,
-                digits(body.mass) + " kg in colliders of " + digits(volume) + " m^3 are " +
-                    digits(density) + " kg/m^3: " +
-                    (density > kHeaviest ? "denser than any matter" : "lighter than air"),
-                "check the units of mass and length, and the colliders");
+    const std::optional<double> density = mean_density(subject, i);
+    if (density && (is_heavier_than_matter(*density) || is_lighter_than_air(*density))) {
+      report.at(
+          prim_of(subject, body.path), kMass,
+          digits(body.mass) + " kg in colliders of " + digits(extent_of(subject, i).volume) +
+              " m^3 are " + digits(*density) + " kg/m^3: " +
+              (is_heavier_than_matter(*density) ? "denser than any matter" : "lighter than air"),
+          "check the units of mass and length, and the colliders");
     }
   });
 }
@@ -183,6 +143,29 @@ void check_large_inertia(const Subject& subject, Reporter& report) {
                 "a moment of inertia of " + digits(moment) + " kg m^2 is more than " +
                     digits(body.mass) + " kg within " + digits(reach) + " m can have",
                 "check the unit of physics:diagonalInertia, or remove it to have it computed");
+    }
+  });
+}
+
+// I = m r^2 for a mass at the distance r: this one would lie within a hundredth of the colliders.
+void check_small_inertia(const Subject& subject, Reporter& report) {
+  each_dynamic_body(subject, [&](Index i, const Body& body) {
+    const stage::Prim prim = prim_of(subject, body.path);
+    if (!authors_inertia(prim)) {
+      return;
+    }
+    const Extent extent = extent_of(subject, i);
+    const double reach = extent.empty() ? kSmallReach : extent.half_diagonal();
+    const double moment = principal_inertia(body.inertia).moments[2];
+    if (moment < kSmallInertia * body.mass * reach * reach) {
+      report.at(
+          prim, "physics:diagonalInertia",
+          "moments of inertia of at most " + digits(moment) + " kg m^2 are those of " +
+              digits(body.mass) + " kg within " + digits(std::sqrt(moment / body.mass)) +
+              " m of the centre" +
+              (extent.empty() ? std::string() : ", the colliders reach " + digits(reach) + " m") +
+              ": the body spins up at a touch",
+          "check the unit of physics:diagonalInertia, or remove it to have it computed");
     }
   });
 }

@@ -19,7 +19,11 @@ using CheckFunction = void(const Subject& subject, Reporter& report);
 using FixFunction = std::optional<Fix>(const Subject& subject, const Diagnostic& diagnostic);
 
 /// Whether a finding counts where only some Physics variants give it.
-enum class Holds : unsigned char { InAnyVariant, InAllVariants };
+enum class Holds : unsigned char {
+  InAnyVariant,
+  InAllVariants,
+  WhereNoVariantUsesIt,  ///< unless another variant applies what the property needs
+};
 
 /// One rule of the table (rules.def). Its page is docs/rules/<id>.md.
 struct Rule {
@@ -29,7 +33,15 @@ struct Rule {
   CheckFunction* check = nullptr;  ///< null: found while the asset is opened or its physics read
   FixFunction* fix = nullptr;      ///< null: no safe fix is known
   Holds holds = Holds::InAnyVariant;
+  /// Engines that the rule is about, separated by blanks: it runs where one of them is asked for.
+  /// Empty: it always runs.
+  std::string_view engines{};
+
+  bool is_about(std::string_view engine) const;
 };
+
+/// Engines that rules of portability know: "isaac", "mujoco", "newton", "physx".
+const std::vector<std::string>& known_engines();
 
 /// All rules, sorted by id.
 const std::vector<Rule>& rules();

@@ -9,7 +9,9 @@ namespace tenon::check {
 
 #define TENON_RULE(id, severity, numbers, check, fix) CheckFunction check;
 #define TENON_RULE_IN_ALL(id, severity, numbers, check, fix) CheckFunction check;
+#define TENON_PORTABILITY(id, engines, numbers, check) CheckFunction check;
 #define TENON_FOUND(id, severity, numbers, fix)
+#define TENON_FOUND_UNUSED(id, severity, numbers, fix)
 #define TENON_FORMER_ID(former, id)
 #include "tenon/check/rules.def"
 
@@ -18,11 +20,15 @@ namespace {
 std::vector<Rule> sorted_rules() {
   std::vector<Rule> table{
 #define TENON_RULE(id, severity, numbers, check, fix) \
-  {id, Severity::severity, numbers, check, fix, Holds::InAnyVariant},
+  {id, Severity::severity, numbers, check, fix, Holds::InAnyVariant, {}},
 #define TENON_RULE_IN_ALL(id, severity, numbers, check, fix) \
-  {id, Severity::severity, numbers, check, fix, Holds::InAllVariants},
+  {id, Severity::severity, numbers, check, fix, Holds::InAllVariants, {}},
+#define TENON_PORTABILITY(id, engines, numbers, check) \
+  {id, Severity::Warning, numbers, check, nullptr, Holds::InAnyVariant, engines},
 #define TENON_FOUND(id, severity, numbers, fix) \
-  {id, Severity::severity, numbers, nullptr, fix, Holds::InAnyVariant},
+  {id, Severity::severity, numbers, nullptr, fix, Holds::InAnyVariant, {}},
+#define TENON_FOUND_UNUSED(id, severity, numbers, fix) \
+  {id, Severity::severity, numbers, nullptr, fix, Holds::WhereNoVariantUsesIt, {}},
 #define TENON_FORMER_ID(former, id)
 #include "tenon/check/rules.def"
   };
@@ -33,7 +39,9 @@ std::vector<Rule> sorted_rules() {
 constexpr std::pair<std::string_view, std::string_view> kFormerIds[] = {
 #define TENON_RULE(id, severity, numbers, check, fix)
 #define TENON_RULE_IN_ALL(id, severity, numbers, check, fix)
+#define TENON_PORTABILITY(id, engines, numbers, check)
 #define TENON_FOUND(id, severity, numbers, fix)
+#define TENON_FOUND_UNUSED(id, severity, numbers, fix)
 #define TENON_FORMER_ID(former, id) {former, id},
 #include "tenon/check/rules.def"
 };
@@ -50,6 +58,16 @@ std::string_view exact_page(std::string_view id) {
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> table = sorted_rules();
   return table;
+}
+
+bool Rule::is_about(std::string_view engine) const {
+  return (" " + std::string(engines) + " ").find(" " + std::string(engine) + " ") !=
+         std::string::npos;
+}
+
+const std::vector<std::string>& known_engines() {
+  static const std::vector<std::string> names{"isaac", "mujoco", "newton", "physx"};
+  return names;
 }
 
 std::string_view current_id(std::string_view id) {
@@ -97,6 +115,7 @@ std::string title_of(std::string_view page) {
 std::string facts_of(const Rule& rule) {
   std::string text(severity_name(rule.severity));
   text += rule.numbers.empty() ? "" : "; " + std::string(rule.numbers);
+  text += rule.engines.empty() ? "" : "; `--for` " + std::string(rule.engines);
   text += rule.fix == nullptr ? "" : "; `--fix` corrects it";
   return text;
 }

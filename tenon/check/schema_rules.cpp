@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <unordered_set>
 
 #include "tenon/base/text/nearest_name.h"
 #include "tenon/check/subject.h"
 #include "tenon/physics/attribute_values.h"
+#include "tenon/physics/stray_properties.h"
+#include "tenon/schema/declaring_apis.h"
 #include "tenon/schema/registry.h"
 
 namespace tenon::check {
@@ -60,18 +61,20 @@ bool is_custom(const stage::Prim& prim, Token name) {
                                     : prim.attribute(name).is_custom();
 }
 
-/// A property of another API of physics: attribute.api-missing is about those.
-bool is_known_elsewhere(Token name) {
-  static const std::unordered_set<Token> names = [] {
-    std::unordered_set<Token> all;
-    for (const schema::Schema* schema : schema::Registry::instance().schemas()) {
-      for (const schema::PropertyDefinition& property : schema->properties) {
-        all.insert(property.name);
-      }
-    }
-    return all;
-  }();
-  return names.contains(name);
+/// "PhysicsPrismaticJoint and PhysicsRevoluteJoint", of types of physics that declare the name.
+std::string declaring_types_text(Token name) {
+  std::string text;
+  for (const Token type : schema::declaring_types(name)) {
+    const bool physics =
+        type.view().starts_with("Physics") || schema::Registry::instance().is_vendor(type);
+    text += physics ? (text.empty() ? "" : " and ") + type.str() : "";
+  }
+  return text;
+}
+
+/// Unknown types have a finding of their own.
+bool is_known_type(const stage::Prim& prim) {
+  return prim.type_name().empty() || prim.definition()->schema() != nullptr;
 }
 
 /// Among the names that the prim's applied instances declare: those of "drive:angular".
@@ -142,8 +145,18 @@ void check_unknown_attribute(const Subject& subject, Reporter& report) {
   for (const stage::Prim& prim : subject.prims) {
     for (const Token name : prim.authored_property_names()) {
       if (!is_physics_name(name.view()) || prim.definition()->find(name) != nullptr ||
-          is_custom(prim, name) || is_known_elsewhere(name) ||
+          is_custom(prim, name) || !physics::physics_apis_of(name).empty() ||
           subject.is_reported(prim.path().str(), name.str())) {
+        continue;  // attribute.api-missing is about those of APIs
+      }
+      if (const std::string types = declaring_types_text(name); !types.empty()) {
+        if (is_known_type(prim)) {
+          report.at(prim, name,
+                    name.str() + " is a property of " + types +
+                        ", which the prim is not; it is "
+                        "ignored",
+                    "remove it, or give the prim the type that declares it");
+        }
         continue;
       }
       std::string_view nearest = nearest_names.find(name);

@@ -21,8 +21,10 @@ bool counts(const stage::Prim& prim) {
   return prim.is_active() && prim.is_loaded() && prim.is_defined() && !prim.is_abstract();
 }
 
-/// Instances of one prototype are walked into once: their number may be large.
-std::vector<stage::Prim> walk(const stage::Stage& stage) {
+}  // namespace
+
+// Instances of one prototype are walked into once: their number may be large.
+std::vector<stage::Prim> counted_prims(const stage::Stage& stage) {
   std::vector<stage::Prim> found;
   std::vector<stage::Prim> pending{stage.pseudo_root()};
   std::set<Path> prototypes;
@@ -44,11 +46,9 @@ std::vector<stage::Prim> walk(const stage::Stage& stage) {
   return found;
 }
 
-}  // namespace
-
 Subject make_subject(const stage::Stage& stage, const scene::PhysicsScene& scene,
                      const std::vector<Diagnostic>& earlier) {
-  Subject subject{stage, scene, walk(stage), {}, {}};
+  Subject subject{stage, scene, counted_prims(stage), {}, {}};
   for (const Diagnostic& diagnostic : earlier) {
     subject.earlier.insert(diagnostic.prim + ' ' + diagnostic.property);
     subject.earlier.insert(diagnostic.prim + ' ' + diagnostic.rule);

@@ -14,13 +14,15 @@
 
 namespace tenon::check {
 
+/// Active, loaded, defined, non-abstract prims in traversal order; what instances share stands here
+/// once, as seen from the first of them.
+std::vector<stage::Prim> counted_prims(const stage::Stage& stage);
+
 /// What the rules look at: a composed stage and the physics that was read from it.
 struct Subject {
   const stage::Stage& stage;
   const scene::PhysicsScene& scene;
-  /// Active, loaded, defined, non-abstract prims in traversal order; what instances share stands
-  /// here once, as seen from the first of them.
-  std::vector<stage::Prim> prims;
+  std::vector<stage::Prim> prims;                            ///< counted_prims
   std::vector<std::vector<scene::Index>> colliders_of_body;  ///< enabled ones; (body_count)
   /// "prim property" and "prim rule" of what was found before the rules run: while opening,
   /// composing and reading the physics.

@@ -59,7 +59,8 @@ struct PairProvenance {
   Index a = 0;  ///< colliders, a < b
   Index b = 0;
   PairRule rule = PairRule::FilteredPair;
-  Path prim;  ///< that says so
+  Path prim;         ///< that says so
+  Token property{};  ///< of that prim; empty: what the rule reads there
 };
 
 struct Provenance {

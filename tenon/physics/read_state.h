@@ -80,6 +80,8 @@ struct ReadState {
   const PhysicsPrim& prim_of_body(Index body) const { return walk.prims[body_prims[body]]; }
   const PhysicsPrim& prim_of_collider(Index i) const { return walk.prims[collider_prims[i]]; }
   const PhysicsPrim& prim_of_joint(Index i) const { return walk.prims[joint_prims[i]]; }
+  /// The transform of the body's prim is made of finite numbers.
+  bool has_place(Index body) const;
   bool is_dynamic(Index body) const { return !scene.bodies[body].kinematic; }
 
   void report(const stage::Prim& prim, Severity severity, const char* rule, std::string message,
@@ -118,6 +120,9 @@ std::vector<std::uint32_t> sorted_prims(const Walk& walk, Wanted wanted) {
 /// One collider as it is at the time of `state.values`, without its material.
 std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found,
                                       std::optional<SolidIntegrals>& integrals);
+/// The attribute of an articulation root that says whether its links touch each other; empty where
+/// none is authored (S-115).
+Token self_collision_property(const ReadState& state, const PhysicsPrim& root);
 /// Mass, centre and inertia of one body from the colliders that it has in the scene.
 void compute_body_mass(ReadState& state, Index body);
 

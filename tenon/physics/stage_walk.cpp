@@ -94,9 +94,7 @@ class Walker {
       state.world = resets ? local.matrix : local.matrix * state.world;
     }
     state.resets_below_body = state.resets_below_body || resets;
-    if (!is_joint(roles.kind)) {
-      report_stray_properties(values_, prim, roles);
-    }
+    stray_.report_on(values_, prim, roles);
     if (roles.vendor) {
       walk_.vendor_prims.push_back(prim);
     }
@@ -348,6 +346,7 @@ class Walker {
   std::optional<stage::Time> switches_at_;
   Walk& walk_;
   RoleFinder finder_;
+  StrayProperties stray_;
   std::vector<Pending> pending_;
   std::unordered_map<Path, bool> physics_below_;
   std::unordered_map<Path, std::size_t> instancer_index_;

@@ -1,36 +1,27 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The tables of schemas say which API a property belongs to. A property that neither the type of
+// its prim nor an applied API declares, and that some API of physics does, is ignored, whoever
+// reads the file. Most names are declared, or lie outside of the namespaces of physics, so the
+// tables are asked for few of them.
 #include "tenon/physics/stray_properties.h"
 
-#include <vector>
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "tenon/schema/declaring_apis.h"
+#include "tenon/schema/registry.h"
 
 namespace tenon::physics {
 namespace {
 
-/// Properties that count only where their API is applied.
-struct ApiProperties {
-  Api api;
-  const char* api_name;
-  std::vector<Token> names;
-};
-
-const std::vector<ApiProperties>& api_properties() {
-  static const std::vector<ApiProperties> list{
-      {Api::RigidBody,
-       "PhysicsRigidBodyAPI",
-       {"physics:rigidBodyEnabled", "physics:kinematicEnabled", "physics:velocity",
-        "physics:angularVelocity", "physics:startsAsleep"}},
-      {Api::Mass,
-       "PhysicsMassAPI",
-       {"physics:mass", "physics:centerOfMass", "physics:diagonalInertia",
-        "physics:principalAxes"}},
-      {Api::Collision, "PhysicsCollisionAPI", {"physics:collisionEnabled"}},
-      {Api::FilteredPairs, "PhysicsFilteredPairsAPI", {"physics:filteredPairs"}},
-      {Api::Material,
-       "PhysicsMaterialAPI",
-       {"physics:dynamicFriction", "physics:staticFriction", "physics:restitution"}}};
-  return list;
-}
+/// What names of properties begin with that APIs of physics declare.
+constexpr std::array<std::string_view, 10> kPhysicsBeginnings{
+    "deformablePose:", "drive:",       "isaac:",   "limit:", "mjc:",
+    "newton:",         "omniphysics:", "physics:", "physx",  "state:"};
 
 /// Names without the prefix that the schema wants.
 const std::vector<Token>& unprefixed(const Roles& roles) {
@@ -41,33 +32,94 @@ const std::vector<Token>& unprefixed(const Roles& roles) {
   return roles.has(Api::Material) ? material : roles.has(Api::RigidBody) ? body : none;
 }
 
-void report_ignored(const AttributeValues& values, const stage::Prim& prim,
-                    const ApiProperties& row) {
-  std::string names;
-  Token first;
-  for (const Token name : row.names) {
-    if (prim.has_property(name)) {
-      first = first.empty() ? name : first;
-      names += (names.empty() ? "" : ", ") + name.str();
-    }
+/// The word in the names of APIs that are made for such prims.
+std::string_view word_of(const stage::Prim& prim, const Roles& roles) {
+  if (is_joint(roles.kind)) {
+    return "Joint";
   }
-  if (!first.empty()) {
-    values.report(prim, first, Severity::Warning, "attribute.api-missing",
-                  names + (names.find(',') == std::string::npos ? " is" : " are") +
-                      " ignored: " + row.api_name + " is not applied",
-                  std::string("apply ") + row.api_name);
+  return prim.is_a("Material") ? "Material" : roles.kind >= PrimKind::Cube ? "Collision" : "Body";
+}
+
+/// How well an API fits a prim of that kind: several declare some names.
+int fit_of(Token api, std::string_view word) {
+  const std::string_view name = api.view();
+  if (name.find(word) != std::string_view::npos) {
+    return 2;
   }
+  const auto is_of_others = [&](std::string_view other) {
+    return name.find(other) != std::string_view::npos;
+  };
+  return is_of_others("Joint") || is_of_others("Material") || is_of_others("Collision") ? 0 : 1;
+}
+
+/// Something is said there: a value, at some time, or a target.
+bool is_said(const stage::Prim& prim, Token name) {
+  return prim.is_relationship(name) ? !prim.relationship(name).targets().empty()
+                                    : prim.attribute(name).has_authored_value();
+}
+
+/// The approximation of a mesh has a rule of its own (S-62).
+bool has_its_own_rule(Token name, const Roles& roles) {
+  return name == physics_tokens().approximation && roles.has(Api::Collision) &&
+         roles.kind == PrimKind::Mesh;
 }
 
 }  // namespace
 
-void report_stray_properties(const AttributeValues& values, const stage::Prim& prim,
-                             const Roles& roles) {
-  for (const ApiProperties& row : api_properties()) {
-    if (!roles.has(row.api)) {
-      report_ignored(values, prim, row);
+std::vector<Token> physics_apis_of(Token name) {
+  const bool physics =
+      std::any_of(kPhysicsBeginnings.begin(), kPhysicsBeginnings.end(),
+                  [&](std::string_view begins) { return name.view().starts_with(begins); });
+  std::vector<Token> apis = physics ? schema::declaring_apis(name) : std::vector<Token>();
+  std::erase_if(apis, [](Token api) {
+    return !api.view().starts_with("Physics") &&
+           !schema::Registry::instance().is_vendor(schema::split_api_name(api).first);
+  });
+  return apis;
+}
+
+const std::vector<Token>& StrayProperties::apis_of(Token name) {
+  const auto known = apis_.find(name);
+  return known != apis_.end() ? known->second
+                              : apis_.emplace(name, physics_apis_of(name)).first->second;
+}
+
+// S-2
+void StrayProperties::report_ignored(const AttributeValues& values, const stage::Prim& prim,
+                                     const Roles& roles) {
+  std::vector<std::pair<Token, std::vector<Token>>> ignored;  // API, names
+  for (const Token name : prim.authored_property_names()) {
+    if (prim.definition()->find(name) != nullptr) {
+      continue;
     }
+    const std::vector<Token>& apis = apis_of(name);
+    if (apis.empty() || has_its_own_rule(name, roles) || !is_said(prim, name)) {
+      continue;
+    }
+    const std::string_view word = word_of(prim, roles);
+    const Token api = *std::max_element(apis.begin(), apis.end(), [&](Token a, Token b) {
+      return fit_of(a, word) < fit_of(b, word);
+    });
+    auto row = std::find_if(ignored.begin(), ignored.end(),
+                            [&](const auto& known) { return known.first == api; });
+    row = row == ignored.end() ? ignored.insert(row, {api, {}}) : row;
+    row->second.push_back(name);
   }
+  for (const auto& [api, names] : ignored) {
+    std::string list;
+    for (const Token name : names) {
+      list += (list.empty() ? "" : ", ") + name.str();
+    }
+    values.report(
+        prim, names.front(), Severity::Warning, "attribute.api-missing",
+        list + (names.size() == 1 ? " is" : " are") + " ignored: " + api.str() + " is not applied",
+        "apply " + api.str());
+  }
+}
+
+void StrayProperties::report_on(const AttributeValues& values, const stage::Prim& prim,
+                                const Roles& roles) {
+  report_ignored(values, prim, roles);
   for (const Token name : unprefixed(roles)) {
     if (prim.has_property(name)) {
       values.report(prim, name, Severity::Warning, "attribute.unprefixed",

@@ -2,14 +2,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <unordered_map>
+#include <vector>
+
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/prim_roles.h"
 
 namespace tenon::physics {
 
-/// Reports what looks like physics on a prim and is none: properties whose API is not applied
-/// (S-2), old and unprefixed names, types of older texts.
-void report_stray_properties(const AttributeValues& values, const stage::Prim& prim,
-                             const Roles& roles);
+/// Finds what looks like physics on prims and is none: properties whose API is not applied (S-2),
+/// old and unprefixed names, types of older texts. Remembers which APIs declare a name.
+class StrayProperties {
+ public:
+  void report_on(const AttributeValues& values, const stage::Prim& prim, const Roles& roles);
+
+ private:
+  const std::vector<Token>& apis_of(Token name);
+  void report_ignored(const AttributeValues& values, const stage::Prim& prim, const Roles& roles);
+
+  std::unordered_map<Token, std::vector<Token>> apis_;
+};
+
+/// API schemas of UsdPhysics and of vendors that declare a property of that name, with the instance
+/// that the name speaks of; empty for other names.
+std::vector<Token> physics_apis_of(Token name);
 
 }  // namespace tenon::physics

@@ -53,6 +53,7 @@ def kinds():
 
 def facts(rule):
     text = rule["severity"] + (f"; {rule['numbers']}" if rule["numbers"] else "")
+    text += f"; `--for` {' '.join(rule['engines'])}" if rule["engines"] else ""
     return text + ("; `--fix` corrects it" if rule["autofix"] else "")
 
 

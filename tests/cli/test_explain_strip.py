@@ -8,6 +8,7 @@ an asset changes.
 """
 
 import json
+import math
 import pathlib
 import shutil
 import subprocess
@@ -214,6 +215,73 @@ class Explain(Base):
         self.assertEqual(free, ["rotZ"])
         self.assertIsNone(joint["side0"]["body"])
         self.assertEqual(joint["side1"]["body"], "/World/Bar")
+
+    def scene(self, text):
+        path = self.folder / "scene.usda"
+        path.write_text("#usda 1.0\n(\n    metersPerUnit = 1\n)\n" + text)
+        return path
+
+    def test_a_spherical_joint_shows_both_cones(self):
+        path = self.scene("""def Cube "B" (apiSchemas = ["PhysicsRigidBodyAPI"])
+{
+}
+def PhysicsSphericalJoint "J"
+{
+    rel physics:body1 = </B>
+    uniform token physics:axis = "Y"
+    float physics:coneAngle0Limit = 20
+}
+""")
+        cones = self.json("explain", path, "/J")["joint"]["cones"]
+        self.assertEqual(cones["axis"], "Y")
+        self.assertEqual([(side["axis"], side["property"]) for side in cones["toward"]],
+                         [("Z", "physics:coneAngle0Limit"), ("X", "physics:coneAngle1Limit")])
+        self.assertAlmostEqual(cones["toward"][0]["limit"], math.radians(20))
+        self.assertIsNone(cones["toward"][1]["limit"])
+        text = tenon("explain", path, "/J").stdout
+        self.assertIn("the axis Y tilts toward Z by at most 20 deg", text)
+
+    def test_mass_of_a_group_is_named_by_its_colliders(self):
+        path = self.scene("""def Xform "B" (apiSchemas = ["PhysicsRigidBodyAPI"])
+{
+    def Xform "G" (apiSchemas = ["PhysicsMassAPI"])
+    {
+        float physics:mass = 6
+        def Cube "C" (apiSchemas = ["PhysicsCollisionAPI"])
+        {
+        }
+    }
+}
+""")
+        mass = self.json("explain", path, "/B")["body"]["massProvenance"]
+        first = mass["colliders"][0]["candidates"][0]
+        self.assertEqual((first["prim"], first["property"], first["used"]),
+                         ("/B/G", "physics:mass", True))
+
+    def test_self_collision_names_the_layer_that_says_so(self):
+        path = self.scene("""def Xform "R" (
+    apiSchemas = ["PhysicsArticulationRootAPI", "PhysxArticulationAPI"]
+)
+{
+    bool physxArticulation:enabledSelfCollisions = 0
+    def Cube "A" (apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"])
+    {
+    }
+    def Cube "B" (apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"])
+    {
+    }
+    def PhysicsRevoluteJoint "J"
+    {
+        rel physics:body0 = </R/A>
+        rel physics:body1 = </R/B>
+        bool physics:collisionEnabled = 1
+    }
+}
+""")
+        reasons = self.json("explain", path, "/R/A", "/R/B")["pairs"][0]["reasons"]
+        own = [reason for reason in reasons if reason["rule"] == "S-115"]
+        self.assertEqual(own[0]["property"], "physxArticulation:enabledSelfCollisions")
+        self.assertEqual(own[0]["opinions"][0]["line"], 9)
 
     def test_binding_says_where_it_comes_from(self):
         collider = self.json("explain", self.layered(), "/World/Box")["collider"]

@@ -12,12 +12,24 @@ namespace {
 
 using answers::Json;
 
+/// The engines that a rule of portability is about; null for other rules.
+Json engines_json(const check::Rule& rule) {
+  Json names = Json::array();
+  for (const std::string& engine : check::known_engines()) {
+    if (rule.is_about(engine)) {
+      names.push_back(engine);
+    }
+  }
+  return names.empty() ? Json(nullptr) : names;
+}
+
 Json finding_json(const ReportedFinding& reported) {
   const check::Finding& finding = reported.finding;
   Json item = answers::diagnostic_json(finding.diagnostic);
   item["variants"] = finding.variants.empty() ? Json(nullptr) : Json(finding.variants);
   const bool numbered = finding.rule != nullptr && !finding.rule->numbers.empty();
   item["numbers"] = numbered ? Json(finding.rule->numbers) : Json(nullptr);
+  item["engines"] = finding.rule == nullptr ? Json(nullptr) : engines_json(*finding.rule);
   item["autofix"] = finding.fix ? Json(finding.fix->what) : Json(nullptr);
   item["suppressed"] = reported.suppressed;
   return item;
@@ -67,6 +79,7 @@ Json rules_json() {
                     {"severity", severity_name(rule.severity)},
                     {"numbers", rule.numbers},
                     {"autofix", rule.fix != nullptr},
+                    {"engines", engines_json(rule)},
                     {"title", check::title_of(check::page_of(rule.id))}});
   }
   return {{"rules", std::move(list)}};

@@ -211,6 +211,10 @@ void report_nesting(const ReadState& state) {
 
 }  // namespace
 
+bool ReadState::has_place(Index body) const {
+  return is_finite(world_pose(prim_of_body(body).world, units));
+}
+
 void read_bodies(ReadState& state) {
   state.body_prims = sorted_prims(state.walk, [](const PhysicsPrim& p) { return p.is_body; });
   state.body_of_prim.assign(state.walk.prims.size(), kNone);

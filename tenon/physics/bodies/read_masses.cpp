@@ -139,11 +139,7 @@ class BodyMassComputation {
     if (!(own_.mass && own_.center && own_.inertia)) {
       sum = sum_of(colliders);
       if (!(sum.mass > 0) && !colliders.empty() && !(own_.mass && own_.inertia)) {
-        // M-9, M-11
-        state_.report(found_.prim, Severity::Warning, "mass.no-volume",
-                      "no collider of the body has a volume; a ball of 0.1 m gives what is not "
-                      "authored",
-                      "author physics:mass and physics:diagonalInertia");
+        report_no_volume(colliders);
       }
     }
     report_shift(sum);
@@ -192,6 +188,21 @@ class BodyMassComputation {
                     "inertia grow by the parallel-axis term, as in OpenUSD, or stay as in Newton",
                     "author physics:diagonalInertia with it");
     }
+  }
+
+  // M-9, M-11, S-43
+  void report_no_volume(const std::vector<Index>& colliders) const {
+    const bool off = std::none_of(colliders.begin(), colliders.end(),
+                                  [&](Index i) { return state_.scene.colliders[i].enabled; });
+    state_.report(found_.prim, Severity::Warning, "mass.no-volume",
+                  !off                    ? "no collider of the body has a volume; a ball of 0.1 m "
+                                            "gives what is not authored"
+                  : colliders.size() == 1 ? "the only collider of the body is disabled and weighs "
+                                            "nothing; a ball of 0.1 m gives what is not authored"
+                                          : "all colliders of the body are disabled and weigh "
+                                            "nothing; a ball of 0.1 m gives what is not authored",
+                  off ? "enable a collider, or author physics:mass and physics:diagonalInertia"
+                      : "author physics:mass and physics:diagonalInertia");
   }
 
   bool inherits() const { return state_.readings.mass_inheritance == MassInheritance::Subtree; }
@@ -322,6 +333,19 @@ class BodyMassComputation {
     }
   }
 
+  /// Prims between a collider and its body whose mass is that of what lies below; the one that has
+  /// the last word first.
+  std::vector<std::uint32_t> mass_groups_of(Index i) {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t at = group_of(i); at != kNone; at = state_.walk.prims[at].mass_above) {
+      if (&state_.walk.prims[at] != &found_ && group(at).mass) {
+        found.push_back(at);
+      }
+    }
+    std::reverse(found.begin(), found.end());
+    return found;
+  }
+
   /// What one collider gives, and what else could have given its mass.
   ColliderMass provenance_of(Index i) {
     const Collider& collider = state_.scene.colliders[i];
@@ -344,10 +368,18 @@ class BodyMassComputation {
                                        used ? "overruled by the opinion above" : why});
       used = true;
     };
-    if (authored.mass) {
-      add(MassQuantity::Mass, found.path, state_.tokens.mass, mass_text(*authored.mass), "S-39",
-          "its own mass overrules every density");
+    const auto add_own = [&] {
+      if (authored.mass) {
+        add(MassQuantity::Mass, found.path, state_.tokens.mass, mass_text(*authored.mass), "S-39",
+            "its own mass overrules every density");
+      }
+    };
+    for (const std::uint32_t prim : mass_groups_of(i)) {
+      add(MassQuantity::Mass, state_.walk.prims[prim].path, state_.tokens.mass,
+          mass_text(*group(prim).mass), "S-40",
+          "that of all colliders below it, shared out by what they would weigh");
     }
+    add_own();
     const auto list = [&](const std::optional<double>& given, Path prim, const char* rule) {
       if (given) {
         add(MassQuantity::Density, prim, state_.tokens.density, density_text(*given), rule,

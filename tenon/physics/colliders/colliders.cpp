@@ -137,7 +137,12 @@ bool is_finite_shape(const ReadState& state, const Shape& shape) {
   return usable;
 }
 
+/// Of a collider whose body has no place that is said already.
 void report_not_finite(const ReadState& state, const PhysicsPrim& found) {
+  if (found.body != kNone &&
+      !is_finite(world_pose(state.walk.prims[found.body].world, state.units))) {
+    return;
+  }
   state.report(found.prim, Severity::Error, "collider.not-finite",
                "the shape's sizes or its place are not finite numbers; it does not collide",
                "author finite sizes, points and transforms");

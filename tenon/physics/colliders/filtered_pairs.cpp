@@ -72,9 +72,10 @@ class PairFilter {
   }
 
   /// Who says what is added next, for the provenance.
-  void speaks(PairRule rule, Path prim) {
+  void speaks(PairRule rule, Path prim, Token property = {}) {
     rule_ = rule;
     prim_ = prim;
+    property_ = property;
   }
 
   /// Pairs of different bodies; two static colliders never touch anyway.
@@ -83,7 +84,8 @@ class PairFilter {
     if (a != b && colliders[a].body != colliders[b].body) {
       pairs_.emplace_back(std::min(a, b), std::max(a, b));
       if (state_.provenance != nullptr) {
-        state_.provenance->pairs.push_back({std::min(a, b), std::max(a, b), rule_, prim_});
+        state_.provenance->pairs.push_back(
+            {std::min(a, b), std::max(a, b), rule_, prim_, property_});
       }
     }
   }
@@ -207,7 +209,8 @@ class PairFilter {
     for (const Index link : articulation.links) {
       append(link, all);
     }
-    speaks(PairRule::Articulation, articulation.path);
+    const PhysicsPrim& root = state_.walk.prims[state_.walk.index_of.at(articulation.path)];
+    speaks(PairRule::Articulation, articulation.path, self_collision_property(state_, root));
     add_all(all, all);
   }
 
@@ -215,6 +218,7 @@ class PairFilter {
   std::vector<std::pair<Index, Index>>& pairs_;
   PairRule rule_ = PairRule::FilteredPair;
   Path prim_;
+  Token property_;
 };
 
 }  // namespace

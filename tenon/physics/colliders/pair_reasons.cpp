@@ -124,7 +124,7 @@ class Reasons {
           break;
         case PairRule::Articulation:
           add("S-115", "links of the articulation " + name + ", whose self collision is off",
-              one.prim);
+              one.prim, one.property);
           break;
       }
     }

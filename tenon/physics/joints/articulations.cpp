@@ -166,17 +166,14 @@ class ArticulationReader {
   }
 
   bool self_collision(const PhysicsPrim& found) const {
-    std::optional<bool> authored;
-    if (found.roles.has(Api::NewtonArticulationRoot)) {
-      authored = state_.values.authored_flag(found.prim, state_.tokens.newton_self_collision);
-    }
-    if (!authored && found.roles.has(Api::PhysxArticulation)) {
-      authored = state_.values.authored_flag(found.prim, state_.tokens.physx_self_collision);
-    }
-    return authored.value_or(true);  // S-115
+    const Token name = self_collision_property(state_, found);
+    return name.empty() || state_.values.authored_flag(found.prim, name).value_or(true);  // S-115
   }
 
   bool take(const PhysicsPrim& found, const std::vector<Index>& component, Index root) {
+    if (!state_.has_place(root)) {
+      return false;
+    }
     if (state_.scene.bodies[root].kinematic) {
       // S-113
       drop(found, "articulation.root-kinematic", "the root of the articulation is kinematic",
@@ -231,8 +228,9 @@ class ArticulationReader {
                       "author excludeFromArticulation to say so");
       } else if (!joint(i).exclude_from_articulation) {
         // S-111
-        state_.report(prim, Severity::Info, "articulation.loop",
-                      "the joint closes a loop of the articulation; it is kept as a constraint",
+        state_.report(prim, Severity::Warning, "articulation.loop",
+                      "the joint closes a loop of the articulation; it is kept as a constraint, "
+                      "PhysX leaves it out",
                       "author excludeFromArticulation on the joint that is to close the loop");
       }
     }
@@ -245,6 +243,17 @@ class ArticulationReader {
 };
 
 }  // namespace
+
+Token self_collision_property(const ReadState& state, const PhysicsPrim& root) {
+  for (const auto& [api, name] :
+       {std::pair(Api::NewtonArticulationRoot, state.tokens.newton_self_collision),
+        std::pair(Api::PhysxArticulation, state.tokens.physx_self_collision)}) {
+    if (root.roles.has(api) && state.values.authored_flag(root.prim, name)) {
+      return name;
+    }
+  }
+  return {};
+}
 
 void read_articulations(ReadState& state) {
   const auto prims = sorted_prims(

@@ -88,7 +88,10 @@ void check_limits(const ReadState& state, const stage::Prim& prim, const Joint& 
 }  // namespace
 
 void check_joint_start(const ReadState& state, const stage::Prim& prim, const Joint& joint) {
-  if (!joint.enabled) {
+  const auto is_lost = [&](const std::optional<Index>& body) {
+    return body && !state.has_place(*body);
+  };
+  if (!joint.enabled || is_lost(joint.body0) || is_lost(joint.body1)) {
     return;
   }
   const Pose relative = inverse(in_world(state, joint.body0, joint.frame0)) *

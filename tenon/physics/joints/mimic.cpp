@@ -79,6 +79,16 @@ class MimicReader {
     return state_.values.authored_number(found_.prim, name).value_or(fallback);
   }
 
+  /// What a relationship names is the joint's own coordinate.
+  std::nullopt_t follows_itself(const std::string& name, Path target) const {
+    state_.values.report_target(found_.prim, Token(name), target, Severity::Error, "mimic.cycle",
+                                name +
+                                    " names the joint itself: it would follow itself; it "
+                                    "follows none",
+                                "name the joint that leads");
+    return std::nullopt;
+  }
+
   /// The coordinate of the joint that a relationship names, with `rotation` the one that PhysX's
   /// mimics name; nullopt with a diagnostic when it is none that `dof` can follow.
   std::optional<Coordinate> leader(const std::string& name, Dof dof,
@@ -92,7 +102,10 @@ class MimicReader {
           found == state_.walk.index_of.end() ? kNone : state_.joint_of_prim[found->second];
       const std::optional<Dof> leads =
           joint == kNone ? std::nullopt : leading_dof(state_.scene.joints[joint], rotation);
-      if (leads && !(joint == index_ && *leads == dof)) {
+      if (leads && joint == index_ && *leads == dof) {
+        return follows_itself(name, targets.front());
+      }
+      if (leads) {
         return Coordinate{joint, *leads};
       }
       if (joint != kNone && rotation && state_.scene.joints[joint].kind == JointKind::D6) {

@@ -109,6 +109,19 @@ TEST(MimicReading, RotationsThatFollowEachOtherLoseOneOfThem) {
   EXPECT_EQ(scene.joints[1].mimics[0].dof, Dof::RotY);
 }
 
+TEST(MimicReading, AMimicOfItselfIsACycle) {
+  for (const std::string api : {"NewtonMimicAPI", "PhysxMimicJointAPI:rotX"}) {
+    Diagnostics diagnostics;
+    const PhysicsScene scene = two_joints(
+        "PhysicsRevoluteJoint", "\"" + api + "\"",
+        api == "NewtonMimicAPI" ? "    rel newton:mimicJoint = </W>\n" : law("rotX", "</W>", "1"),
+        diagnostics);
+    EXPECT_TRUE(has_rule(diagnostics, "mimic.cycle")) << api;
+    EXPECT_FALSE(has_rule(diagnostics, "mimic.leader-missing")) << api;
+    EXPECT_TRUE(scene.joints[1].mimics.empty());
+  }
+}
+
 TEST(MimicReading, AJointOfOneAxisFollowsOnce) {
   Diagnostics diagnostics;
   const PhysicsScene scene =

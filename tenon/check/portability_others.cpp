@@ -1,0 +1,307 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What Newton and MuJoCo's USD reader do otherwise. Each rule is about what they read from a file,
+// not about how they solve it; the pages say with which releases it was seen. A rule speaks only
+// where the outcome differs on the asset at hand.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "tenon/check/extents.h"
+#include "tenon/check/subject.h"
+#include "tenon/scene/joint_forest.h"
+#include "tenon/scene/joint_freedom.h"
+
+namespace tenon::check {
+namespace {
+
+using scene::Body;
+using scene::Dof;
+using scene::Index;
+using scene::Joint;
+using scene::JointKind;
+
+constexpr double kPlainDensity = 1000;  ///< [kg/m^3]
+constexpr double kSameMass = 0.01;      ///< relative
+constexpr double kSameGravity = 1e-6;   ///< [m/s^2]
+
+stage::Prim prim_of_joint(const Subject& subject, const Joint& joint) {
+  return subject.stage.prim(joint.path);
+}
+
+template <class Visit>
+void each_enabled_joint(const Subject& subject, Visit visit) {
+  for (const Joint& joint : subject.scene.joints) {
+    if (joint.enabled) {
+      visit(joint);
+    }
+  }
+}
+
+/// Free degrees of freedom that no limit names.
+std::size_t unnamed_dofs(const Joint& joint) {
+  std::size_t count = 0;
+  for (const Dof dof : {Dof::TransX, Dof::TransY, Dof::TransZ, Dof::RotX, Dof::RotY, Dof::RotZ}) {
+    const bool named = std::any_of(joint.limits.begin(), joint.limits.end(),
+                                   [&](const scene::Limit& limit) { return limit.dof == dof; });
+    count += named || scene::is_locked(joint, dof) ? 0 : 1;
+  }
+  return count;
+}
+
+bool drives_something(const scene::Drive& drive) {
+  return drive.stiffness != 0 || drive.damping != 0;
+}
+
+/// A joint that closes a loop of an articulation.
+bool closes_loop(const scene::PhysicsScene& scene, Path joint) {
+  return std::any_of(scene.articulations.begin(), scene.articulations.end(),
+                     [&](const scene::Articulation& articulation) {
+                       return std::any_of(articulation.loop_joints.begin(),
+                                          articulation.loop_joints.end(),
+                                          [&](Index i) { return scene.joints[i].path == joint; });
+                     });
+}
+
+}  // namespace
+
+void check_newton_loose_joint(const Subject& subject, Reporter& report) {
+  each_enabled_joint(subject, [&](const Joint& joint) {
+    const bool between = joint.body0 && joint.body1;
+    if (between && !joint.articulation && !closes_loop(subject.scene, joint.path)) {
+      report.at(prim_of_joint(subject, joint),
+                "the joint belongs to no articulation: Newton builds no model of the file",
+                "apply PhysicsArticulationRootAPI to the prim above the jointed bodies");
+    }
+  });
+}
+
+// S-95
+void check_newton_d6(const Subject& subject, Reporter& report) {
+  each_enabled_joint(subject, [&](const Joint& joint) {
+    const std::size_t lost = joint.kind == JointKind::D6 ? unnamed_dofs(joint) : 0;
+    if (lost > 0) {
+      report.at(prim_of_joint(subject, joint),
+                "Newton locks the axes of a PhysicsJoint that have no limit: " +
+                    std::to_string(lost) + " degrees of freedom are lost there",
+                "apply PhysicsLimitAPI with open limits to the axes that are free");
+    }
+  });
+}
+
+// S-96
+void check_newton_cones(const Subject& subject, Reporter& report) {
+  each_enabled_joint(subject, [&](const Joint& joint) {
+    const double cone = std::fmin(joint.cone_angle0, joint.cone_angle1);
+    if (joint.kind == JointKind::Spherical && std::isfinite(cone)) {
+      report.at(prim_of_joint(subject, joint), "physics:coneAngle0Limit",
+                "Newton ignores the cone: the joint tilts beyond " +
+                    digits(cone * kDegreesPerRadian) + " degrees there",
+                "use a PhysicsJoint with a limit for each rotation");
+    }
+  });
+}
+
+void check_newton_mimic_chain(const Subject& subject, Reporter& report) {
+  each_enabled_joint(subject, [&](const Joint& joint) {
+    for (const scene::Mimic& mimic : joint.mimics) {
+      const Joint& leader = subject.scene.joints[mimic.leader];
+      if (!leader.mimics.empty()) {
+        report.at(prim_of_joint(subject, joint),
+                  "Newton stops at mimics in a chain: the leader <" + leader.path.str() +
+                      "> follows another joint",
+                  "let the joint follow the first leader, with the factors multiplied");
+      }
+    }
+  });
+}
+
+void check_newton_gravities(const Subject& subject, Reporter& report) {
+  const auto& scenes = subject.scene.scenes;
+  for (std::size_t i = 1; i < scenes.size(); ++i) {
+    if (length(scenes[i].gravity - scenes[0].gravity) > kSameGravity) {
+      report.at(subject.stage.prim(scenes[i].path),
+                "Newton pulls all bodies by the gravity of <" + scenes[0].path.str() + ">, " +
+                    digits(length(scenes[0].gravity)) + " m/s^2, not by the " +
+                    digits(length(scenes[i].gravity)) + " of this scene",
+                "put the scenes into files of their own");
+    }
+  }
+}
+
+// S-7, S-8
+void check_unit_readers(const Subject& subject, Reporter& report) {
+  const double length = subject.scene.meters_per_unit;
+  const double mass = subject.scene.kilograms_per_unit;
+  if (subject.scene.bodies.empty() ||
+      (std::fabs(length - 1) < 1e-6 && std::fabs(mass - 1) < 1e-6)) {
+    return;
+  }
+  report.at_root(subject.stage,
+                 "Newton and MuJoCo's reader take lengths as metres and masses as kilograms: with "
+                 "metersPerUnit " +
+                     digits(length) + " and kilogramsPerUnit " + digits(mass) + " all is " +
+                     digits(1 / length) +
+                     " times as large, and what weighs by its "
+                     "density " +
+                     digits(1 / (length * length * length)) + " times as heavy",
+                 "author the asset in metres and kilograms");
+}
+
+// S-104
+void check_newton_drive_type(const Subject& subject, Reporter& report) {
+  each_enabled_joint(subject, [&](const Joint& joint) {
+    for (const scene::Drive& drive : joint.drives) {
+      if (drive.acceleration && drives_something(drive)) {
+        report.at(subject.stage.prim(drive.source),
+                  "Newton reads the acceleration drive as one of force: it does not scale with the "
+                  "mass that it moves",
+                  "author the gains of a force drive");
+      }
+    }
+  });
+}
+
+void check_newton_direction(const Subject& subject, Reporter& report) {
+  const scene::JointForest forest = scene::joint_forest(subject.scene);
+  for (const scene::ForestBody& body : forest.bodies) {
+    const Joint* joint = body.joint ? &subject.scene.joints[*body.joint] : nullptr;
+    if (joint != nullptr && body.reversed && joint->articulation) {
+      report.at(prim_of_joint(subject, *joint),
+                "the joint leads from the leaf to the root: Newton, whose joints lead from body0 "
+                "as parent to body1, does not take it as it is",
+                "exchange physics:body0 and physics:body1 with their frames");
+    }
+  }
+}
+
+// S-71
+void check_unbound_friction(const Subject& subject, Reporter& report) {
+  std::size_t count = 0;
+  const scene::Collider* first = nullptr;
+  bool moves = false;
+  for (const scene::Collider& collider : subject.scene.colliders) {
+    if (collider.enabled) {
+      moves = moves || (collider.body && !subject.scene.bodies[*collider.body].kinematic);
+      count += collider.material ? 0 : 1;
+      first = first == nullptr && !collider.material ? &collider : first;
+    }
+  }
+  if (moves && first != nullptr && subject.scene.colliders.size() > 1) {
+    report.at(subject.stage.prim(first->path),
+              std::to_string(count) + (count == 1 ? " collider has" : " colliders have") +
+                  " no physics material: Newton and MuJoCo's reader give them a friction of 1, "
+                  "here it is " +
+                  digits(subject.scene.unbound.dynamic_friction),
+              "bind a material with PhysicsMaterialAPI");
+  }
+}
+
+void check_mujoco_drives(const Subject& subject, Reporter& report) {
+  each_enabled_joint(subject, [&](const Joint& joint) {
+    for (const scene::Drive& drive : joint.drives) {
+      if (drive.source == joint.path && drives_something(drive)) {
+        report.at(prim_of_joint(subject, joint),
+                  "MuJoCo's reader ignores PhysicsDriveAPI: the joint has no motor there",
+                  "add an MjcActuator for the joint");
+      }
+    }
+  });
+}
+
+void check_mujoco_joint_kind(const Subject& subject, Reporter& report) {
+  each_enabled_joint(subject, [&](const Joint& joint) {
+    const bool known = joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic ||
+                       joint.kind == JointKind::Fixed;
+    if (!known) {
+      report.at(prim_of_joint(subject, joint),
+                "MuJoCo's reader knows revolute, prismatic and fixed joints: this " +
+                    std::string(scene::joint_kind_name(joint.kind)) +
+                    " one holds its bodies otherwise there, or not at all",
+                "build the joint of revolute and prismatic ones");
+    }
+  });
+}
+
+// S-77
+void check_mujoco_groups(const Subject& subject, Reporter& report) {
+  const scene::CollisionFilter& filter = subject.scene.filter;
+  const std::size_t count = filter.group_paths.size();
+  for (std::size_t g = 0; g < count; ++g) {
+    bool off = filter.ungrouped_off[g] != 0;
+    for (std::size_t h = 0; h < count; ++h) {
+      off = off || filter.group_pair_off[g * count + h] != 0;
+    }
+    if (off) {
+      report.at(subject.stage.prim(filter.group_paths[g]),
+                "MuJoCo's reader ignores collision groups: what this one keeps apart touches there",
+                "filter pairs of bodies with PhysicsFilteredPairsAPI");
+    }
+  }
+}
+
+void check_mujoco_mass(const Subject& subject, Reporter& report) {
+  for (Index i = 0; i < subject.scene.bodies.size(); ++i) {
+    const Body& body = subject.scene.bodies[i];
+    const stage::Prim prim = subject.stage.prim(body.path);
+    const double other = kPlainDensity * extent_of(subject, i).volume;
+    const bool inertia = prim && (prim.attribute("physics:diagonalInertia").has_authored_value() ||
+                                  prim.attribute("newton:inertia").has_authored_value());
+    if (!body.kinematic && prim && prim.has_api("PhysicsMassAPI") &&
+        !prim.has_api("PhysicsCollisionAPI") && !inertia &&
+        authored_number(prim, "physics:mass").value_or(0) > 0 && other > 0 &&
+        std::fabs(other / body.mass - 1) > kSameMass) {
+      report.at(prim, "physics:mass",
+                "MuJoCo's reader ignores a mass without moments of inertia: the body weighs " +
+                    digits(other) + " kg there, " + digits(body.mass) + " kg here",
+                "author physics:diagonalInertia with physics:mass");
+    }
+  }
+}
+
+// S-65
+void check_mujoco_flat_mesh(const Subject& subject, Reporter& report) {
+  for (const scene::Collider& collider : subject.scene.colliders) {
+    const bool mesh = collider.shape.kind == scene::ShapeKind::ConvexHull ||
+                      collider.shape.kind == scene::ShapeKind::Mesh;
+    if (collider.enabled && mesh && subject.scene.meshes[collider.shape.mesh].flat) {
+      report.at(subject.stage.prim(collider.path),
+                "all points of the mesh lie in one plane: MuJoCo's reader loads no such file",
+                "use a thin box, or a Plane");
+    }
+  }
+}
+
+void check_mujoco_root(const Subject& subject, Reporter& report) {
+  for (const scene::Articulation& articulation : subject.scene.articulations) {
+    const bool body =
+        std::any_of(subject.scene.bodies.begin(), subject.scene.bodies.end(),
+                    [&](const Body& found) { return found.path == articulation.path; });
+    if (articulation.fixed_base && !body) {
+      report.at(subject.stage.prim(articulation.path),
+                "MuJoCo's reader makes a free body without mass of an articulation root that is no "
+                "link, and loads no such file",
+                "apply PhysicsArticulationRootAPI to the root link");
+    }
+  }
+}
+
+// S-75
+void check_mujoco_plane(const Subject& subject, Reporter& report) {
+  for (const scene::Collider& collider : subject.scene.colliders) {
+    const stage::Prim prim = subject.stage.prim(collider.path);
+    const auto axis = collider.shape.kind == scene::ShapeKind::Plane && prim
+                          ? prim.attribute("axis").get_as<Token>()
+                          : std::nullopt;
+    if (collider.enabled && axis && *axis != "Z") {
+      report.at(
+          prim, "axis",
+          "MuJoCo's reader takes every plane as one across Z; this one lies across " + axis->str(),
+          "rotate a plane whose axis is Z");
+    }
+  }
+}
+
+}  // namespace tenon::check

@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""One fault gives the finding that names it and no other; fixes write nothing that is likely wrong.
+
+    test_causes.py TENON
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TENON = sys.argv[1]
+UNITS = 'metersPerUnit = 1\n    kilogramsPerUnit = 1\n    upAxis = "Z"'
+BOX = """    def Cube "{name}" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"{more}])
+    {{
+        double size = 0.2
+        double3 xformOp:translate = {at}
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        {extra}
+    }}
+"""
+
+
+def box(name, at, extra="", more=()):
+    return BOX.format(name=name, at=at, extra=extra, more="".join(f', "{api}"' for api in more))
+
+
+def hinge(name, apis, text):
+    return f"""    def PhysicsRevoluteJoint "{name}" (prepend apiSchemas = [{apis}])
+    {{
+        rel physics:body0 = </World/A>
+        rel physics:body1 = </World/B>
+        point3f physics:localPos0 = (0.5, 0, 0)
+        point3f physics:localPos1 = (-0.5, 0, 0)
+        {text}
+    }}
+"""
+
+
+class Causes(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name) / "scene.usda"
+
+    def write(self, text, units=UNITS, scene="", apis=""):
+        self.path.write_text(f"""#usda 1.0
+(
+    defaultPrim = "World"
+    {units}
+)
+def Xform "World" {apis}
+{{
+    def PhysicsScene "Scene"
+    {{
+        {scene}
+    }}
+{text}}}
+""")
+
+    def check(self, *options):
+        done = subprocess.run([TENON, "check", self.path, "--json", *options], check=False,
+                              capture_output=True, text=True)
+        return json.loads(done.stdout)["diagnostics"]
+
+    def found(self, severities=("error", "warning")):
+        return [d["rule"] for d in self.check() if d["severity"] in severities]
+
+    def test_a_transform_that_is_no_number_gives_one_finding(self):
+        drive = '"PhysicsDriveAPI:angular"', "float drive:angular:physics:damping = 1"
+        self.write(box("A", "(0, 0, nan)") + box("B", "(1, 0, 1)") + hinge("J", *drive),
+                   apis='(prepend apiSchemas = ["PhysicsArticulationRootAPI"])')
+        self.assertEqual(self.found(), ["body.not-finite"])
+        self.write("""    def Xform "A" (prepend apiSchemas = ["PhysicsRigidBodyAPI"])
+    {
+        double3 xformOp:translate = (nan, 0, 1)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        def Sphere "Ball" (prepend apiSchemas = ["PhysicsCollisionAPI"])
+        {
+        }
+    }
+""")
+        self.assertEqual(self.found(), ["body.not-finite"])
+
+    def test_a_body_whose_only_collider_is_off_is_told_so(self):
+        self.write(box("A", "(0, 0, 1)", "bool physics:collisionEnabled = 0"))
+        findings = self.check()
+        self.assertEqual([d["rule"] for d in findings], ["mass.no-volume"])
+        self.assertIn("the only collider of the body is disabled", findings[0]["message"])
+
+    def test_a_mimic_of_itself_is_a_cycle(self):
+        mimic = '"NewtonMimicAPI"', "rel newton:mimicJoint = </World/J>"
+        self.write(box("A", "(0, 0, 1)") + box("B", "(1, 0, 1)") + hinge("J", *mimic))
+        self.assertEqual(self.found(), ["mimic.cycle"])
+
+    def test_a_property_of_another_type_is_told(self):
+        self.write(box("A", "(0, 0, 1)", "float physics:coneAngle0Limit = 3"))
+        findings = self.check()
+        self.assertEqual([d["rule"] for d in findings], ["attribute.unknown"])
+        self.assertIn("PhysicsSphericalJoint", findings[0]["message"])
+
+    def portability(self, *options):
+        return {(d["rule"], *d["engines"]) for d in self.check(*options) if d["engines"]}
+
+    def test_what_engines_do_otherwise_is_told_for_those_that_are_asked_for(self):
+        self.write(box("A", "(0, 0, 1)", "vector3f physics:angularVelocity = (0, 0, 573)")
+                   + box("B", "(1, 0, 1)"))
+        damping = "portability.angular-damping", "isaac", "physx"
+        friction = "portability.unbound-friction", "mujoco", "newton"
+        self.assertEqual(self.portability(), set())
+        self.assertEqual(self.portability("--for", "physx"), {damping})
+        self.assertEqual(self.portability("--for", "isaac"), {damping})
+        self.assertEqual(self.portability("--for", "newton"), {friction})
+        self.assertEqual(self.portability("--for", "mujoco,physx"), {damping, friction})
+        self.assertEqual(self.portability("--for", "physx", "--skip", "portability"), set())
+        done = subprocess.run([TENON, "check", self.path, "--for", "jolt"], check=False,
+                              capture_output=True)
+        self.assertEqual(done.returncode, 2)
+
+    def test_the_size_of_the_effect_is_named(self):
+        drive = ('"PhysicsDriveAPI:angular"', "uniform token drive:angular:physics:type = "
+                 '"acceleration"\n        float drive:angular:physics:stiffness = 2')
+        text = hinge("J", *drive).replace("rel physics:body0 = </World/A>", "")
+        self.write(box("B", "(1, 0, 1)") + text.replace('(0.5, 0, 0)', "(0, 0, 1)")
+                   .replace("(-0.5, 0, 0)", '(-1, 0, 0)\n        uniform token physics:axis = "Y"'))
+        found = [d for d in self.check("--for", "physx") if d["engines"]]
+        self.assertEqual([d["rule"] for d in found], ["portability.acceleration-drive"])
+        # I = m a^2 / 6 of a cube, m d^2 beside it: (0.2^2 / 6 + 1) / (0.2^2 / 6) = 151.
+        self.assertIn("151 times weaker", found[0]["message"])
+
+    def fixes(self):
+        return {d["rule"] for d in self.check() if d["autofix"]}
+
+    def test_units_that_are_likely_wrong_are_not_written_down(self):
+        mass = "float physics:mass = 8", ["PhysicsMassAPI"]
+        self.write(box("A", "(0, 0, 1)", *mass), units="")
+        self.assertEqual(self.fixes(), {"stage.up-axis-missing"})
+        self.write(box("A", "(0, 0, 1)"), units="", scene="vector3f physics:gravityDirection = "
+                                                          "(0, 0, -1)")
+        self.assertEqual(self.fixes(), {"stage.kilograms-per-unit-missing"})
+        large = box("A", "(0, 0, 1)").replace("size = 0.2", "size = 20")
+        self.write(large, units="")
+        self.assertEqual(len(self.fixes()), 3)
+        self.write(large, units="", scene="float physics:gravityMagnitude = 9.81")
+        self.assertNotIn("stage.meters-per-unit-missing", self.fixes())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
