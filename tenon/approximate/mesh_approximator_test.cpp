@@ -67,7 +67,7 @@ class PieceFiles : public testing::Test {
 
 TEST_F(PieceFiles, AnLFallsIntoPiecesOfItsVolume) {
   const scene::MeshTools tools = mesh_tools({folder_.string()});
-  const auto pieces = tools.decompose(l_prism(), 32, 64);
+  const auto pieces = tools.decompose(l_prism(), {32, 64});
   if (!pieces) {
     GTEST_SKIP() << decomposition_library().how_to_get;
   }
@@ -87,7 +87,7 @@ TEST_F(PieceFiles, KeptPiecesAreTakenInsteadOfNewOnes) {
   const std::vector<TriangleMesh> made_up{l_prism(), l_prism(), l_prism()};
   PieceCache(folder_.string()).keep(piece_key(l_prism(), 5, 64), made_up);
   const scene::MeshTools tools = mesh_tools({folder_.string()});
-  const auto pieces = tools.decompose(l_prism(), 5, 64);
+  const auto pieces = tools.decompose(l_prism(), {5, 64});
   if (!pieces) {
     GTEST_SKIP() << decomposition_library().how_to_get;
   }

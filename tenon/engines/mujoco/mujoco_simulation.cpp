@@ -95,13 +95,15 @@ MujocoSimulation::MujocoSimulation(std::shared_ptr<const Start> start,
     : start_(std::move(start)),
       timeline_(std::move(timeline)),
       scene_(timeline_ == nullptr ? start_->scene : &timeline_->scene()),
-      model_(std::move(model)) {
+      model_(std::move(model)),
+      triggers_(*scene_) {
   connect();
 }
 
 // What the simulation remembers about the model that it steps.
 void MujocoSimulation::connect() {
   inputs_ = StepInputs(*scene_, model_);
+  caps_ = VelocityCaps(*scene_, model_);
   if (timeline_ != nullptr) {
     bounds_ = MovingBounds(*scene_, model_);
     breaking_ = Breaking(*scene_, model_);
@@ -135,10 +137,17 @@ Result<void> MujocoSimulation::step() {
     TENON_CHECK(guarded([this] { advance(); }));
   }
   TENON_CHECK(check());
+  if (!caps_.empty()) {
+    caps_.apply(model_);
+  }
   if (outputs_) {
     TENON_CHECK(outputs_->end(*scene_, steering_, model_));
   }
   inputs_.after_step(model_);
+  if (!triggers_.empty()) {
+    bring_up_to_date();
+    triggers_.update(*scene_, model_, &events_);
+  }
   return breaking_.empty() ? Result<void>() : break_joints();
 }
 
@@ -218,7 +227,7 @@ void MujocoSimulation::note_broken(const Restart& restart) {
 void MujocoSimulation::advance() {
   const mjModel* m = model_.model.get();
   mjData* d = model_.data.get();
-  if (model_.surfaces.kinds.size() <= 1) {
+  if (!model_.surfaces.by_contact) {
     mj_step(m, d);
   } else if ((m->opt.enableflags & mjENBL_SLEEP) != 0) {
     advance_sleepers();
@@ -229,7 +238,7 @@ void MujocoSimulation::advance() {
     mj_makeM(m, d);
     mj_factorM(m, d);
     mj_collision(m, d);
-    apply_surfaces(model_.surfaces, d);
+    apply_surfaces(model_.surfaces, m, d);
     mj_makeConstraint(m, d);
     mj_island(m, d);
     mj_transmission(m, d);
@@ -244,7 +253,7 @@ void MujocoSimulation::advance_sleepers() {
   const mjModel* m = model_.model.get();
   mjData* d = model_.data.get();
   mj_step1(m, d);
-  if (apply_surfaces(model_.surfaces, d)) {
+  if (apply_surfaces(model_.surfaces, m, d)) {
     mj_makeConstraint(m, d);
     mj_island(m, d);
     mj_projectConstraint(m, d);

@@ -10,11 +10,22 @@
 namespace tenon::physics {
 namespace {
 
+/// PhysX turns what all groups of a scene say around.
+bool scenes_invert(const ReadState& state) {
+  return std::any_of(
+      state.walk.prims.begin(), state.walk.prims.end(), [&](const PhysicsPrim& found) {
+        return found.roles.kind == PrimKind::Scene && found.roles.has(Api::PhysxScene) &&
+               state.values.authored_flag(found.prim, "physxScene:invertCollisionGroupFilter")
+                   .value_or(false);
+      });
+}
+
 AuthoredGroup read_group(const ReadState& state, const PhysicsPrim& found,
                          const std::vector<Path>& paths) {
   AuthoredGroup group;
   const AttributeValues& values = state.values;
-  group.inverted = values.authored_flag(found.prim, state.tokens.invert_groups).value_or(false);
+  group.inverted = values.authored_flag(found.prim, state.tokens.invert_groups).value_or(false) !=
+      scenes_invert(state);
   group.merge =
       values.get<std::string>(found.prim, state.tokens.merge_group).value_or(std::string());
   for (const Path& target : found.prim.relationship(state.tokens.filtered_groups).targets()) {
