@@ -132,8 +132,9 @@ std::vector<scene::TriangleMesh> coacd_pieces(const scene::TriangleMesh& mesh,
   const CoacdMesh raw{points.data(), mesh.points.size(), corners.data(), mesh.triangles.size()};
   try {
     // The library's own defaults, but for what is asked and the removal of corners beyond it.
-    const CoacdMeshes found = library().run(&raw, how.concavity, how.most, 0, 50, 2000, 20, 150, 3,
-                                            false, true, true, how.vertices, false, 0.01, 0, 0, false);
+    const CoacdMeshes found =
+        library().run(&raw, how.concavity, how.most, 0, 50, 2000, 20, 150, 3, false, true, true,
+                      how.vertices, false, 0.01, 0, 0, false);
     std::vector<scene::TriangleMesh> pieces = pieces_of(found);
     library().free(found);
     return pieces;

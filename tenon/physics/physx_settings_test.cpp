@@ -21,8 +21,7 @@ PhysicsScene read(const std::string& text, const Readings& readings = {}) {
   return read_physics(stage, options, findings);
 }
 
-std::string body(const std::string& apis, const std::string& lines,
-                 const std::string& name = "B") {
+std::string body(const std::string& apis, const std::string& lines, const std::string& name = "B") {
   return "def Xform \"" + name + "\" (apiSchemas = [\"PhysicsRigidBodyAPI\", \"PhysicsMassAPI\"" +
          apis + "]) {\n float physics:mass = 2\n point3f physics:centerOfMass = (0, 50, 0)\n" +
          lines + "\n}\n";
@@ -88,9 +87,9 @@ TEST(PhysxSettings, WhatPhysxDoesUnaskedIsAnOption) {
   const Body told = read(body("", ""), physx).bodies[0];
   EXPECT_EQ(told.angular_damping, 0.05);
   EXPECT_EQ(told.settings.max_angular_velocity, 100);
-  const Body own = read(body(", \"PhysxRigidBodyAPI\"", "float physxRigidBody:angularDamping = 0"),
-                        physx)
-                       .bodies[0];
+  const Body own =
+      read(body(", \"PhysxRigidBodyAPI\"", "float physxRigidBody:angularDamping = 0"), physx)
+          .bodies[0];
   EXPECT_EQ(own.angular_damping, 0);
 }
 
@@ -162,8 +161,10 @@ TEST(PhysxSettings, GearsAndRacksCoupleTwoJoints) {
   const PhysicsScene scene = read(
       body("", "", "B") + body("", "", "C") + body("", "", "D") +
       joint("PhysicsRevoluteJoint", "H0", "", "", "B") +
-      joint("PhysicsRevoluteJoint", "H1", "", "quatf physics:localRot1 = (0.9961947, -0.08715574, "
-            "0, 0)", "C") +
+      joint("PhysicsRevoluteJoint", "H1", "",
+            "quatf physics:localRot1 = (0.9961947, -0.08715574, "
+            "0, 0)",
+            "C") +
       joint("PhysicsPrismaticJoint", "S", "", "", "D") +
       "def PhysxPhysicsGearJoint \"Gear\" {\n rel physics:hinge0 = </H0>\n rel physics:hinge1 = "
       "</H1>\n float physics:gearRatio = 3\n}\n"

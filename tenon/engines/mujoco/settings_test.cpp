@@ -25,8 +25,8 @@ TEST(Forces, AConstantForceAcceleratesTheCentreOfMass) {
   scene.bodies[body].settings.forces = {force({{3, 0, 0}}, {}, {})};
   auto sim = simulation(scene);
   run(*sim, 1);
-  EXPECT_NEAR(sim->body_state(body).linear_velocity[0], 1.5, 1e-9);      // F t / m
-  EXPECT_NEAR(sim->body_state(body).pose.position[0], 0.75, 2e-3);       // F t^2 / 2 m
+  EXPECT_NEAR(sim->body_state(body).linear_velocity[0], 1.5, 1e-9);  // F t / m
+  EXPECT_NEAR(sim->body_state(body).pose.position[0], 0.75, 2e-3);   // F t^2 / 2 m
   EXPECT_NEAR(sim->body_state(body).angular_velocity[2], 0, 1e-12);
 }
 
@@ -180,7 +180,8 @@ TEST(SurfaceVelocity, CarriesWhatLiesOnIt) {
   scene.bodies[belt].kinematic = true;
   scene.bodies[belt].pose.orientation = rotation_about({{0, 0, 1}}, M_PI / 2);
   const auto surface = scene.add_collider("Surface", belt, box({{5, 5, 0.1}}));
-  scene.colliders[surface].settings.surface_velocity = scene::SurfaceVelocity{{{0, -1, 0}}, {}, true};
+  scene.colliders[surface].settings.surface_velocity =
+      scene::SurfaceVelocity{{{0, -1, 0}}, {}, true};
   const auto body = scene.add_body("Body", {{0, 0, 0.3}});
   scene.add_collider("Box", body, box({{0.2, 0.2, 0.2}}));
   auto sim = simulation(scene);
@@ -193,8 +194,7 @@ TEST(SurfaceVelocity, ATurnTableTurnsAboutTheOriginOfTheBody) {
   TestScene scene;
   const auto table = scene.add_body("Table", {});
   scene.bodies[table].kinematic = true;
-  const auto surface =
-      scene.add_collider("Surface", table, box({{1, 1, 0.1}}), Pose{{{1, 0, 0}}});
+  const auto surface = scene.add_collider("Surface", table, box({{1, 1, 0.1}}), Pose{{{1, 0, 0}}});
   scene.colliders[surface].settings.surface_velocity =
       scene::SurfaceVelocity{{}, {{0, 0, 0.1}}, true};
   const auto body = scene.add_body("Body", {{1, 0, 0.3}});

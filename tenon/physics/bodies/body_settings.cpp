@@ -127,8 +127,8 @@ void read_body_settings(ReadState& state) {
       take_physx_defaults(state, i);
     }
   }
-  for (const std::uint32_t i :
-       sorted_prims(state.walk, [](const PhysicsPrim& p) { return p.roles.has(Api::PhysxForce); })) {
+  for (const std::uint32_t i : sorted_prims(
+           state.walk, [](const PhysicsPrim& p) { return p.roles.has(Api::PhysxForce); })) {
     read_force(state, state.walk.prims[i]);
   }
 }

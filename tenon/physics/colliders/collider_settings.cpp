@@ -69,8 +69,7 @@ Compliance read_compliance(const ReadState& state, const PhysicsPrim& found) {
       state.values.authored_flag(found.prim, "physxMaterial:compliantContactAccelerationSpring")
           .value_or(false);
   const double mass = result.acceleration ? 1 : state.units.mass;
-  result.stiffness =
-      not_negative(state, found, "physxMaterial:compliantContactStiffness") * mass;
+  result.stiffness = not_negative(state, found, "physxMaterial:compliantContactStiffness") * mass;
   result.damping = not_negative(state, found, "physxMaterial:compliantContactDamping") * mass;
   return result;
 }

@@ -27,9 +27,9 @@ class GearReader {
     const bool rack = found_.roles.kind == PrimKind::RackJoint;
     const std::optional<Index> first =
         joint_named(rack ? "physics:hinge" : "physics:hinge0", JointKind::Revolute);
-    const std::optional<Index> second = joint_named(rack ? "physics:prismatic" : "physics:hinge1",
-                                                    rack ? JointKind::Prismatic
-                                                         : JointKind::Revolute);
+    const std::optional<Index> second =
+        joint_named(rack ? "physics:prismatic" : "physics:hinge1",
+                    rack ? JointKind::Prismatic : JointKind::Revolute);
     if (!first || !second || *first == *second) {
       return;
     }
@@ -59,14 +59,12 @@ class GearReader {
         return joint;
       }
     }
-    const std::string wanted =
-        kind == JointKind::Revolute ? "revolute joint" : "prismatic joint";
-    state_.values.report_target(found_.prim, Token(name),
-                                targets.empty() ? Path() : targets.front(), Severity::Error,
-                                "gear.joint-missing",
-                                std::string(name) + " names no " + wanted +
-                                    "; the joints are not coupled",
-                                "name a " + wanted);
+    const std::string wanted = kind == JointKind::Revolute ? "revolute joint" : "prismatic joint";
+    state_.values.report_target(
+        found_.prim, Token(name), targets.empty() ? Path() : targets.front(), Severity::Error,
+        "gear.joint-missing",
+        std::string(name) + " names no " + wanted + "; the joints are not coupled",
+        "name a " + wanted);
     return std::nullopt;
   }
 

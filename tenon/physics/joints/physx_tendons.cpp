@@ -105,8 +105,8 @@ class PhysxTendons {
 
   /// The gearing of a joint that is a coordinate of the tendon.
   std::optional<double> gearing(std::uint32_t i, Token name) const {
-    const auto list = state_.values.get<layer::Array<float>>(prim(i).prim,
-                                                            Token(prefix(name) + "gearing"));
+    const auto list =
+        state_.values.get<layer::Array<float>>(prim(i).prim, Token(prefix(name) + "gearing"));
     return list && !list->empty() ? static_cast<double>((*list)[0]) : 1;
   }
 
@@ -136,8 +136,7 @@ class PhysxTendons {
         continue;
       }
       const std::uint32_t joint = state_.joint_of_prim[i];
-      const JointKind kind =
-          joint == kNone ? JointKind::Fixed : state_.scene.joints[joint].kind;
+      const JointKind kind = joint == kNone ? JointKind::Fixed : state_.scene.joints[joint].kind;
       if (kind != JointKind::Revolute && kind != JointKind::Prismatic) {
         state_.not_read(prim(i).prim, prefix(name) + "gearing",
                         "only revolute and prismatic joints are part of a tendon");
@@ -177,13 +176,11 @@ class PhysxTendons {
     const stage::Prim& at = prim(stop.prim).prim;
     const std::vector<Path> links =
         at.relationship(Token(prefix(stop.name) + "parentLink")).targets();
-    const auto name =
-        state_.values.get<Token>(at, Token(prefix(stop.name) + "parentAttachment"));
+    const auto name = state_.values.get<Token>(at, Token(prefix(stop.name) + "parentAttachment"));
     if (links.empty() || !name) {
       return std::nullopt;
     }
-    const auto found =
-        state_.walk.index_of.find(state_.walk.near(prim(stop.prim), links.front()));
+    const auto found = state_.walk.index_of.find(state_.walk.near(prim(stop.prim), links.front()));
     return found == state_.walk.index_of.end() ? std::nullopt
                                                : std::optional(Stop{found->second, *name});
   }

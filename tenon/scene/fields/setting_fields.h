@@ -124,7 +124,7 @@ struct Table<Compliance> {
 
 template <>
 struct Table<LimitSpring> {
-  static constexpr std::string_view kWord = "limit";
+  static constexpr std::string_view kWord = "limit spring";
   static constexpr std::tuple kFields{
       field<&LimitSpring::dof>(
           {.name = "dof", .meaning = "degree of freedom", .role = Role::Identity}),

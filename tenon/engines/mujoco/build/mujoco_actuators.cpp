@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Actuators of MuJoCo's schema that are no drives of joints: on tendons, sites, cranks and balls, or
-// with dynamics of their own. Their controls are 0 until something sets them.
+// Actuators of MuJoCo's schema that are no drives of joints: on tendons, sites, cranks and balls,
+// or with dynamics of their own. Their controls are 0 until something sets them.
 #include <string>
 
 #include "tenon/engines/mujoco/build/actuator_words.h"
@@ -20,8 +20,7 @@ class ActuatorPass {
 
   void add(const MujocoActuator& from) {
     const std::string why = from.fault.empty() ? transmission(from) : from.fault;
-    mjsActuator* made =
-        why.empty() ? mjs_addActuator(build_.spec.get(), nullptr) : nullptr;
+    mjsActuator* made = why.empty() ? mjs_addActuator(build_.spec.get(), nullptr) : nullptr;
     if (made == nullptr || !set_actuator_kinds(from, *made)) {
       build_.report(from.path, "mjc:target",
                     (why.empty() ? "MuJoCo has no such gain, bias or dynamics" : why) +

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A constraint of MuJoCo exerts f with A f + R f = aref - a_free, where R = (1 - d) / d W, W is the
-// inverse inertia that MuJoCo has noted for it, d the impedance, and aref = -B v - K d r at depth r.
-// In direct form solref = {-K d^2, -B d}. At rest R f = aref, so that
+// inverse inertia that MuJoCo has noted for it, d the impedance, and aref = -B v - K d r at depth
+// r. In direct form solref = {-K d^2, -B d}. At rest R f = aref, so that
 //   f = K d^2 r / ((1 - d) W): stiffness k of f = k r needs solref[0] = -k W (1 - d), and damping c
 //   likewise solref[1] = -c W (1 - d), exactly.
-// In motion the inertia before the constraint looks greater by A / R, about d. So d is small, and is
-// raised only where the spring is too stiff for the time step: MuJoCo's step is explicit in r and v.
+// In motion the inertia before the constraint looks greater by A / R, about d. So d is small, and
+// is raised only where the spring is too stiff for the time step: MuJoCo's step is explicit in r
+// and v.
 #include <algorithm>
 
 #include "tenon/engines/mujoco/build/build.h"

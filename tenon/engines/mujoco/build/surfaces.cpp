@@ -205,8 +205,7 @@ void make_soft(const SurfaceKind& a, const SurfaceKind& b, double time_step, con
     weight = model.body_invweight0[2 * model.geom_bodyid[contact.geom[0]]] +
              model.body_invweight0[2 * model.geom_bodyid[contact.geom[1]]];
   }
-  const SpringReference spring =
-      spring_reference(stiffness * weight, damping * weight, time_step);
+  const SpringReference spring = spring_reference(stiffness * weight, damping * weight, time_step);
   contact.solref[0] = -spring.stiffness;
   contact.solref[1] = -spring.damping;
   contact.solimp[0] = spring.impedance;
@@ -218,8 +217,8 @@ void make_soft(const SurfaceKind& a, const SurfaceKind& b, double time_step, con
 
 void resist_turning(const SurfaceKind& a, const SurfaceKind& b, mjContact& contact) {
   const double ball = std::max(a.patch, b.patch);
-  const double radius = std::max({a.min_patch, b.min_patch,
-                                  std::sqrt(2 * ball * std::max(0.0, -contact.dist))});
+  const double radius =
+      std::max({a.min_patch, b.min_patch, std::sqrt(2 * ball * std::max(0.0, -contact.dist))});
   contact.friction[2] = std::max(contact.friction[0] * radius, mjMINMU);
 }
 

@@ -99,8 +99,8 @@ void StepInputs::collect_pushed_bodies(const scene::PhysicsScene& scene, const M
     if (base == BodyBase::Jointed || body.settings.locked_rotation != 0) {
       pushed.angular = body.angular_damping;
     }
-    const bool pushes = pushed.linear > 0 || pushed.angular > 0 ||
-                        !body.settings.forces.empty() || !body.settings.gyroscopic;
+    const bool pushes = pushed.linear > 0 || pushed.angular > 0 || !body.settings.forces.empty() ||
+                        !body.settings.gyroscopic;
     if (pushes && !body.kinematic && (base == BodyBase::Jointed || base == BodyBase::Free)) {
       pushed_bodies_.push_back(std::move(pushed));
     }

@@ -46,8 +46,7 @@ Triggers::Triggers(const scene::PhysicsScene& scene) {
     }
     for (scene::Index j = 0; j < scene.colliders.size(); ++j) {
       const scene::Collider& other = scene.colliders[j];
-      if (!other.settings.trigger &&
-          (moves(scene, scene.colliders[i]) || other.body.has_value()) &&
+      if (!other.settings.trigger && (moves(scene, scene.colliders[i]) || other.body.has_value()) &&
           scene.may_meet(i, j)) {
         pairs_.push_back({i, j});
       }
@@ -60,9 +59,9 @@ void Triggers::update(const scene::PhysicsScene& scene, const Model& model,
   for (Pair& pair : pairs_) {
     const bool inside = overlap(model, pair.trigger, pair.other);
     if (inside != pair.inside && events != nullptr) {
-      events->push_back({model.data->time, scene.colliders[pair.trigger].path,
-                         (inside ? "entered by <" : "left by <") +
-                             scene.colliders[pair.other].path.str() + ">"});
+      events->push_back(
+          {model.data->time, scene.colliders[pair.trigger].path,
+           (inside ? "entered by <" : "left by <") + scene.colliders[pair.other].path.str() + ">"});
     }
     pair.inside = inside;
   }

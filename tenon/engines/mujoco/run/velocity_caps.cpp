@@ -23,8 +23,8 @@ void cut(double* velocity, double limit) {
 VelocityCaps::VelocityCaps(const scene::PhysicsScene& scene, const Model& model) {
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const JointMap& map = model.joints[j];
-    if (scene.joints[j].velocity_limit < scene::kUnlimited && map.in_tree &&
-        map.dof.size() == 1 && map.ball_dof < 0) {
+    if (scene.joints[j].velocity_limit < scene::kUnlimited && map.in_tree && map.dof.size() == 1 &&
+        map.ball_dof < 0) {
       dofs_.push_back({map.dof[0], scene.joints[j].velocity_limit});
     }
   }
@@ -33,8 +33,8 @@ VelocityCaps::VelocityCaps(const scene::PhysicsScene& scene, const Model& model)
     const bool capped = settings.max_linear_velocity < scene::kUnlimited ||
                         settings.max_angular_velocity < scene::kUnlimited;
     if (capped && model.plan.bases[b] == BodyBase::Free) {
-      bodies_.push_back({model.bodies[b].free_dof, settings.max_linear_velocity,
-                         settings.max_angular_velocity});
+      bodies_.push_back(
+          {model.bodies[b].free_dof, settings.max_linear_velocity, settings.max_angular_velocity});
     }
   }
   if (!dofs_.empty()) {
