@@ -85,10 +85,11 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// Lines of `text` without the one that authors `name` on the prim of '@'; that line, or nothing.
+/// Lines of `text` without the one that authors `name` on the prim of the mark; that line, or
+/// nothing.
 std::pair<std::string, std::string> without(const std::string& text, const std::string& name) {
   std::pair<std::string, std::string> result;
-  const std::size_t marker = text.find('@');
+  const std::size_t marker = text.find(kPropertyMark);
   const std::size_t first = text.rfind('{', marker);
   const std::size_t last = text.find('}', marker);
   std::size_t at = 0;
@@ -102,50 +103,56 @@ std::pair<std::string, std::string> without(const std::string& text, const std::
   return result;
 }
 
+/// Values of a type of which one gives most properties a meaning.
+const std::vector<std::string>& values_of(const std::string& type) {
+  static const std::vector<std::string> whole{"4", "1", "200", "0"};
+  static const std::vector<std::string> three{"(0.3, 0.4, 0.5)"};
+  static const std::vector<std::string> real{"0.3", "3", "40", "-1", "0.001"};
+  static const std::vector<std::string> list{"[0.3]", "[0.3, 0.4]", "[0.8, 0.9, 0.01, 0.4, 2]",
+                                             "[0.1, 0.3, 0.4, 0.5, 0.6, 0.7]"};
+  static const std::map<std::string, std::vector<std::string>> values{{"bool", {"0", "1"}},
+                                                                      {"int", whole},
+                                                                      {"uint", whole},
+                                                                      {"uchar", whole},
+                                                                      {"uint64", whole},
+                                                                      {"vector3f", three},
+                                                                      {"point3f", three},
+                                                                      {"float3", three},
+                                                                      {"double3", three},
+                                                                      {"float", real},
+                                                                      {"double", real},
+                                                                      {"float[]", list},
+                                                                      {"double[]", list},
+                                                                      {"int[]", {"[1]"}},
+                                                                      {"uint[]", {"[1]"}},
+                                                                      {"string", {"\"word\""}},
+                                                                      {"token[]", {"[\"word\"]"}}};
+  static const std::vector<std::string> none;
+  const auto found = values.find(type);
+  return found == values.end() ? none : found->second;
+}
+
 /// Lines that could give the property a meaning.
 std::vector<std::string> candidates(const schema::PropertyDefinition& property,
                                     const std::string& name) {
+  if (property.is_relationship) {
+    return {"rel " + name + " = </B>"};
+  }
   const std::string type = property.type_name.str();
   const std::string start =
       (property.variability == layer::Variability::Uniform ? "uniform " : "") + type + " " + name +
       " = ";
-  std::vector<std::string> values;
-  if (property.is_relationship) {
-    return {"rel " + name + " = </B>"};
+  std::vector<std::string> lines;
+  for (const std::string& value : values_of(type)) {
+    lines.push_back(start + value);
   }
-  if (type == "bool") {
-    values = {"0", "1"};
-  } else if (type == "token") {
+  if (type == "token") {
     for (const Token token : property.allowed_tokens) {
-      values.push_back("\"" + token.str() + "\"");
+      lines.push_back(start + "\"" + token.str() + "\"");
     }
-    values.emplace_back("\"auto\"");
-  } else if (type == "string") {
-    values = {"\"word\""};
-  } else if (type == "int" || type == "uint" || type == "uchar" || type == "uint64") {
-    values = {"4", "1", "200", "0"};
-  } else if (type.ends_with("3f") || type.ends_with("3d") || type == "float3" ||
-             type == "double3") {
-    values = {"(0.3, 0.4, 0.5)"};
-  } else if (type == "quatf") {
-    values = {"(0.8, 0.6, 0, 0)"};
-  } else if (type == "float2" || type == "double2") {
-    values = {"(0.3, 0.4)"};
-  } else if (type == "float4" || type == "double4" || type == "color4f") {
-    values = {"(0.3, 0.4, 0.5, 1)"};
-  } else if (type == "float" || type == "double") {
-    values = {"0.3", "3", "40", "-1", "0.001"};
-  } else if (type == "float[]" || type == "double[]") {
-    values = {"[0.3]", "[0.3, 0.4]", "[0.1, 0.3, 0.4, 0.5, 0.6, 0.7]", "[0.8, 0.9, 0.01, 0.4, 2]"};
-  } else if (type == "int[]" || type == "uint[]") {
-    values = {"[1]"};
-  } else if (type == "token[]" || type == "string[]") {
-    values = {"[\"word\"]"};
+    lines.push_back(start + "\"auto\"");
   }
-  for (std::string& value : values) {
-    value = start + value;
-  }
-  return values;
+  return lines;
 }
 
 /// What a property does.
@@ -185,9 +192,9 @@ void look(const SettingScene& scene, const schema::PropertyDefinition& property,
   if (!own.empty()) {
     lines.insert(lines.begin(), own);
   }
-  const std::string base = replaced(text, "@", "");
+  const std::string base = replaced(text, kPropertyMark, "");
   for (const std::string& line : lines) {
-    const Reading with = read(replaced(text, "@", line));
+    const Reading with = read(replaced(text, kPropertyMark, line));
     effect.named = effect.named || with.named.contains(name);
     if (scene::same_fields(known.reading(base).scene, with.scene)) {
       continue;
