@@ -116,8 +116,8 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:CoACD_run"; 
 
 bool coacd_is_there() { return library().run != nullptr && library().free != nullptr; }
 
-std::vector<scene::TriangleMesh> coacd_pieces(const scene::TriangleMesh& mesh, int most,
-                                              int vertices) {
+std::vector<scene::TriangleMesh> coacd_pieces(const scene::TriangleMesh& mesh,
+                                              const scene::Decomposition& how) {
   if (!coacd_is_there()) {
     return {};
   }
@@ -131,9 +131,10 @@ std::vector<scene::TriangleMesh> coacd_pieces(const scene::TriangleMesh& mesh, i
   }
   const CoacdMesh raw{points.data(), mesh.points.size(), corners.data(), mesh.triangles.size()};
   try {
-    // The library's own defaults, but for the two limits and the removal of corners beyond them.
-    const CoacdMeshes found = library().run(&raw, 0.05, most, 0, 50, 2000, 20, 150, 3, false, true,
-                                            true, vertices, false, 0.01, 0, 0, false);
+    // The library's own defaults, but for what is asked and the removal of corners beyond it.
+    const CoacdMeshes found =
+        library().run(&raw, how.concavity, how.most, 0, 50, 2000, 20, 150, 3, false, true, true,
+                      how.vertices, false, 0.01, 0, 0, false);
     std::vector<scene::TriangleMesh> pieces = pieces_of(found);
     library().free(found);
     return pieces;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tenon/scene/physics_scene.h"
+#include "tenon/scene/shapes/mesh_tools.h"
 
 namespace tenon::approximate {
 
@@ -16,7 +17,7 @@ bool coacd_is_there();
 /// Convex pieces of a closed mesh (Wei et al., Approximate Convex Decomposition for 3D Meshes with
 /// Collision-Aware Concavity and Tree Search, 2022), in the same order every time; empty when the
 /// library fails or is not there.
-std::vector<scene::TriangleMesh> coacd_pieces(const scene::TriangleMesh& mesh, int most,
-                                              int vertices);
+std::vector<scene::TriangleMesh> coacd_pieces(const scene::TriangleMesh& mesh,
+                                              const scene::Decomposition& how);
 
 }  // namespace tenon::approximate

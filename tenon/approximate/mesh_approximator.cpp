@@ -22,8 +22,8 @@ struct Decomposer {
   PieceCache cache;
   std::map<std::string, Pieces> known{};
 
-  Pieces pieces(const scene::TriangleMesh& mesh, int most, int vertices) {
-    const std::string key = piece_key(mesh, most, vertices);
+  Pieces pieces(const scene::TriangleMesh& mesh, const scene::Decomposition& how) {
+    const std::string key = piece_key(mesh, how);
     const auto [at, is_new] = known.try_emplace(key);
     if (!is_new) {
       return at->second;
@@ -32,7 +32,7 @@ struct Decomposer {
       at->second = *std::move(kept);
       return at->second;
     }
-    at->second = coacd_pieces(mesh, most, vertices);
+    at->second = coacd_pieces(mesh, how);
     if (!at->second.empty()) {
       cache.keep(key, at->second);
     }
@@ -68,12 +68,12 @@ scene::MeshTools mesh_tools(const ApproximateOptions& options) {
   // The library is loaded by the first mesh that asks: that costs more than most assets do.
   const auto decomposer =
       std::make_shared<Decomposer>(Decomposer{PieceCache(options.cache_folder)});
-  tools.decompose = [decomposer](const scene::TriangleMesh& mesh, int most,
-                                 int vertices) -> std::optional<Pieces> {
+  tools.decompose = [decomposer](const scene::TriangleMesh& mesh,
+                                 const scene::Decomposition& how) -> std::optional<Pieces> {
     if (!coacd_is_there()) {
       return std::nullopt;
     }
-    return decomposer->pieces(mesh, most, vertices);
+    return decomposer->pieces(mesh, how);
   };
   return tools;
 }

@@ -67,7 +67,7 @@ class PieceFiles : public testing::Test {
 
 TEST_F(PieceFiles, AnLFallsIntoPiecesOfItsVolume) {
   const scene::MeshTools tools = mesh_tools({folder_.string()});
-  const auto pieces = tools.decompose(l_prism(), 32, 64);
+  const auto pieces = tools.decompose(l_prism(), {32, 64});
   if (!pieces) {
     GTEST_SKIP() << decomposition_library().how_to_get;
   }
@@ -77,7 +77,7 @@ TEST_F(PieceFiles, AnLFallsIntoPiecesOfItsVolume) {
     sum += volume(piece);
   }
   EXPECT_NEAR(sum, 3, 0.03);
-  const auto kept = PieceCache(folder_.string()).find(piece_key(l_prism(), 32, 64));
+  const auto kept = PieceCache(folder_.string()).find(piece_key(l_prism(), {32, 64}));
   ASSERT_TRUE(kept.has_value());
   ASSERT_EQ(kept->size(), pieces->size());
   EXPECT_EQ(kept->front().points, pieces->front().points);
@@ -85,9 +85,9 @@ TEST_F(PieceFiles, AnLFallsIntoPiecesOfItsVolume) {
 
 TEST_F(PieceFiles, KeptPiecesAreTakenInsteadOfNewOnes) {
   const std::vector<TriangleMesh> made_up{l_prism(), l_prism(), l_prism()};
-  PieceCache(folder_.string()).keep(piece_key(l_prism(), 5, 64), made_up);
+  PieceCache(folder_.string()).keep(piece_key(l_prism(), {5, 64}), made_up);
   const scene::MeshTools tools = mesh_tools({folder_.string()});
-  const auto pieces = tools.decompose(l_prism(), 5, 64);
+  const auto pieces = tools.decompose(l_prism(), {5, 64});
   if (!pieces) {
     GTEST_SKIP() << decomposition_library().how_to_get;
   }
@@ -96,16 +96,16 @@ TEST_F(PieceFiles, KeptPiecesAreTakenInsteadOfNewOnes) {
 
 TEST_F(PieceFiles, OnlyTheSameMeshFindsThem) {
   const PieceCache cache(folder_.string());
-  cache.keep(piece_key(l_prism(), 32, 64), {l_prism()});
-  EXPECT_TRUE(cache.find(piece_key(l_prism(), 32, 64)).has_value());
-  EXPECT_FALSE(cache.find(piece_key(l_prism(), 31, 64)).has_value());
+  cache.keep(piece_key(l_prism(), {32, 64}), {l_prism()});
+  EXPECT_TRUE(cache.find(piece_key(l_prism(), {32, 64})).has_value());
+  EXPECT_FALSE(cache.find(piece_key(l_prism(), {31, 64})).has_value());
   TriangleMesh other = l_prism();
   other.points[3][0] = std::nextafter(1.0, 2.0);
-  EXPECT_FALSE(cache.find(piece_key(other, 32, 64)).has_value());
+  EXPECT_FALSE(cache.find(piece_key(other, {32, 64})).has_value());
 }
 
 TEST_F(PieceFiles, DamagedFilesAreAsGoodAsNone) {
-  const std::string key = piece_key(l_prism(), 32, 64);
+  const std::string key = piece_key(l_prism(), {32, 64});
   const PieceCache cache(folder_.string());
   cache.keep(key, {l_prism()});
   const auto size = static_cast<std::size_t>(std::filesystem::file_size(only_file()));

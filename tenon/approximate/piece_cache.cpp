@@ -93,11 +93,12 @@ std::string name_of(const std::string& key) {
 
 }  // namespace
 
-std::string piece_key(const scene::TriangleMesh& mesh, int most, int vertices) {
+std::string piece_key(const scene::TriangleMesh& mesh, const scene::Decomposition& how) {
   static_assert(std::endian::native == std::endian::little);
   std::string key = kMethod;
-  put<std::int32_t>(most, key);
-  put<std::int32_t>(vertices, key);
+  put<std::int32_t>(how.most, key);
+  put<std::int32_t>(how.vertices, key);
+  put<double>(how.concavity, key);
   put_mesh(mesh, key);
   return key;
 }

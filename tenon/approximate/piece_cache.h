@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tenon/scene/physics_scene.h"
+#include "tenon/scene/shapes/mesh_tools.h"
 
 namespace tenon::approximate {
 
@@ -26,6 +27,6 @@ class PieceCache {
 };
 
 /// The bytes that tell meshes apart: the options of the decomposition, then points and triangles.
-std::string piece_key(const scene::TriangleMesh& mesh, int most, int vertices);
+std::string piece_key(const scene::TriangleMesh& mesh, const scene::Decomposition& how);
 
 }  // namespace tenon::approximate

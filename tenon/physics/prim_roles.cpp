@@ -27,6 +27,8 @@ constexpr KindOfType kKinds[] = {
     {"PhysicsSphericalJoint", PrimKind::SphericalJoint},
     {"PhysicsFixedJoint", PrimKind::FixedJoint},
     {"PhysicsDistanceJoint", PrimKind::DistanceJoint},
+    {"PhysxPhysicsGearJoint", PrimKind::GearJoint},
+    {"PhysxPhysicsRackAndPinionJoint", PrimKind::RackJoint},
     {"PhysicsJoint", PrimKind::D6Joint},
     {"Cube", PrimKind::Cube},
     {"Sphere", PrimKind::Sphere},

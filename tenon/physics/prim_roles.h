@@ -46,6 +46,8 @@ enum class PrimKind : std::uint8_t {
   PointInstancer,
   Actuator,
   Tendon,
+  GearJoint,  ///< of PhysX: couples two hinges
+  RackJoint,  ///< of PhysX: couples a hinge and a slide
 };
 
 inline bool is_joint(PrimKind kind) {

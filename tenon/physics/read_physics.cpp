@@ -62,12 +62,17 @@ void append_once(const Diagnostics& found, Diagnostics& diagnostics) {
 
 PhysicsScene read_walked(ReadState& state) {
   read_bodies_with_mass(state);
+  read_body_settings(state);
   read_joints(state);
   read_drives(state);
   read_actuators(state);
   read_tendons(state);
+  read_physx_tendons(state);
+  read_mujoco_actuators(state);
   read_joint_settings(state);
+  read_limit_springs(state);
   read_mimics(state);
+  read_gears(state);
   read_articulations(state);
   read_collision_groups(state);
   read_filtered_pairs(state);

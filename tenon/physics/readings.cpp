@@ -43,6 +43,10 @@ const Row kRows[] = {
      {"per-degree", "literal"},
      "gains of angular acceleration drives: PhysX takes them per degree (S-104)",
      assign<&Readings::angular_acceleration>},
+    {"body-defaults",
+     {"none", "physx"},
+     "bodies that say nothing: PhysX damps their turning by 0.05/s and cuts it at 100 rad/s (S-28)",
+     assign<&Readings::body_defaults>},
     {"center-shift",
      {"parallel-axis", "keep"},
      "an authored centre of mass alone: OpenUSD and PhysX add the parallel-axis term, Newton "

@@ -48,6 +48,45 @@ VendorUse use_of_vendor_attribute(std::string_view name) {
   return row == nullptr ? VendorUse::NotRead : row->use;
 }
 
+namespace {
+
+/// Properties that are read where `unless` is applied, and not of `schema` alone.
+struct UnreadRow {
+  const char* schema;
+  const char* property;  ///< empty: all that it declares
+  const char* unless;
+};
+constexpr UnreadRow kUnread[] = {
+    {"MjcEqualityAPI", "", "MjcEqualityJointAPI"},
+    {"MjcJointAPI", "mjc:actuatorfrclimited", ""},
+    {"MjcJointAPI", "mjc:actuatorfrcrange:max", ""},
+    {"MjcJointAPI", "mjc:actuatorfrcrange:min", ""},
+    {"MjcJointAPI", "mjc:margin", "MjcCollisionAPI"},
+    {"NewtonDCMotorClampingAPI", "", "NewtonJointAPI"},
+};
+
+bool declares(Token schema, Token property) {
+  const schema::Schema* found = schema::Registry::instance().find(schema);
+  return found != nullptr && std::any_of(found->properties.begin(), found->properties.end(),
+                                         [&](const auto& p) { return p.name == property; });
+}
+
+}  // namespace
+
+VendorUse use_of_vendor_attribute(const stage::Prim& prim, Token name) {
+  const VendorUse use = use_of_vendor_attribute(name.view());
+  if (use != VendorUse::Read) {
+    return use;
+  }
+  for (const UnreadRow& row : kUnread) {
+    const bool named = *row.property == '\0' ? declares(row.schema, name) : name == row.property;
+    if (named && prim.has_api(row.schema) && (*row.unless == '\0' || !prim.has_api(row.unless))) {
+      return VendorUse::NotRead;
+    }
+  }
+  return use;
+}
+
 bool is_vendor_attribute(const stage::Prim& prim, Token name) {
   const std::string_view text = name.view();
   if (text.starts_with("physx") || text.starts_with("newton:") || text.starts_with("mjc:")) {

@@ -18,6 +18,10 @@ enum class VendorUse : unsigned char {
 /// `name` with its instance: "physxMimicJoint:rotX:gearing".
 VendorUse use_of_vendor_attribute(std::string_view name);
 
+/// The same of a property of a prim: of schemas that nothing is read of it is not read, whatever
+/// others call so.
+VendorUse use_of_vendor_attribute(const stage::Prim& prim, Token name);
+
 /// A property that only schemas of vendors declare, or whose name begins like theirs.
 bool is_vendor_attribute(const stage::Prim& prim, Token name);
 

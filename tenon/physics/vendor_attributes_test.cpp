@@ -67,7 +67,7 @@ TEST(VendorAttributes, RowsMayStandForInstancesAndFamilies) {
   EXPECT_EQ(use_of_vendor_attribute("physxMimicJoint:rotX:other"), VendorUse::NotRead);
   EXPECT_EQ(use_of_vendor_attribute("mjc:option:iterations"), VendorUse::Read);
   EXPECT_EQ(use_of_vendor_attribute("isaac:physics:robotLinks"), VendorUse::Harmless);
-  EXPECT_EQ(use_of_vendor_attribute("physxForce:force"), VendorUse::NotRead);
+  EXPECT_EQ(use_of_vendor_attribute("physxVehicle:drive"), VendorUse::NotRead);
   EXPECT_EQ(use_of_vendor_attribute(""), VendorUse::NotRead);
 }
 

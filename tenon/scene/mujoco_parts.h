@@ -66,8 +66,8 @@ struct TendonWrap {
   double divisor = 1;              ///< of Pulley: of the length of what follows
 };
 
-/// A tendon (MjcTendon): its length is the sum of coefficient and coordinate of joints, or that of
-/// a path. Numbers are for metres, or for radians where all joints turn.
+/// A tendon (MjcTendon, or of PhysX): its length is the sum of coefficient and coordinate of
+/// joints, or that of a path. Numbers are for metres, or for radians where all joints turn.
 struct Tendon {
   Path path;
   std::vector<std::uint32_t> joints;  ///< into PhysicsScene::joints
@@ -79,7 +79,48 @@ struct Tendon {
   double armature = 0;
   std::array<double, 2> spring_length{-1, -1};  ///< no force between the two; -1: as it stands
   std::optional<std::array<double, 2>> range;
+  double limit_stiffness = 0;           ///< of the range as a spring; 0: hard
   std::vector<MujocoSetting> settings;  ///< others: limits of force, solver
+};
+
+/// A MjcActuator. It pushes with gear * (gain * input + bias), where gain and bias may depend on
+/// gear * length of what it acts on, and the input is its control or its activation. SI and
+/// radians; what controls are measured in is the actuator's own.
+struct MujocoActuator {
+  enum class Target : std::uint8_t {
+    None,   ///< see `fault`
+    Joint,  ///< of one axis, or a ball
+    Tendon,
+    Site,
+    Crank,  ///< a slider crank
+  };
+
+  Path path;
+  Target kind = Target::None;
+  std::uint32_t target = 0;  ///< of Joint, Tendon: into those lists of PhysicsScene
+  std::optional<std::uint32_t>
+      drive;                    ///< of Joint: the actuator is this one of Joint::drives already
+  TendonWrap::Attachment site;  ///< of Site; the pin of Crank
+  std::optional<TendonWrap::Attachment>
+      other_site;           ///< what Site is seen from; the slider of Crank
+  double crank_length = 0;  ///< [m]
+  bool in_parent = false;   ///< gear of a ball counts in the parent's frame
+  std::string gain_type;    ///< the schema's tokens
+  std::string bias_type;
+  std::string dyn_type;
+  std::array<double, 10> gain{};
+  std::array<double, 10> bias{};
+  std::array<double, 10> dynamics{};
+  std::array<double, 6> gear{1};
+  std::optional<std::array<double, 2>> control_range;
+  std::optional<std::array<double, 2>> force_range;  ///< [N m or N]
+  std::optional<std::array<double, 2>> activation_range;
+  std::array<double, 2> length_range{};  ///< both 0: to be found
+  double inherit_range = 0;              ///< of the target's range: where controls may be; 0: none
+  int activation_count = -1;             ///< -1: as `dyn_type` has it
+  bool acts_early = false;               ///< on the activation after a step, not before
+  int group = 0;
+  std::string fault;  ///< why it acts on nothing; empty: it does
 };
 
 }  // namespace tenon::scene

@@ -189,6 +189,14 @@ void PhysicsScene::update_joint_pairs() {
 }
 
 bool PhysicsScene::may_collide(Index collider_a, Index collider_b) const {
+  const auto exerts = [this](const Collider& c) {
+    return !c.settings.trigger && (!c.body || bodies[*c.body].settings.solves_contacts);
+  };
+  return exerts(colliders[collider_a]) && exerts(colliders[collider_b]) &&
+         may_meet(collider_a, collider_b);
+}
+
+bool PhysicsScene::may_meet(Index collider_a, Index collider_b) const {
   const Index low = std::min(collider_a, collider_b);
   const Index high = std::max(collider_a, collider_b);
   return could_touch(colliders[low], colliders[high]) && groups_allow(filter, low, high) &&

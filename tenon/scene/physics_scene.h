@@ -14,6 +14,7 @@
 #include "tenon/math/transform.h"
 #include "tenon/math/vector.h"
 #include "tenon/scene/mujoco_parts.h"
+#include "tenon/scene/object_settings.h"
 #include "tenon/scene/vendor_parts.h"
 
 /// The neutral description of a physics scene: what every engine receives. Plain structs; metres,
@@ -64,6 +65,7 @@ struct Body {
   double linear_damping = 0;   ///< [1/s]
   double angular_damping = 0;  ///< [1/s]
   double gravity_scale = 1;
+  BodySettings settings{};
   std::optional<InstanceSource> instance;
 };
 
@@ -115,6 +117,8 @@ enum class Approximation : std::uint8_t {
   MeshSimplification,
   BoundingSphere,
   BoundingCube,
+  Sdf,         ///< PhysX: a field of distances to the surface
+  SphereFill,  ///< PhysX: spheres inside
 };
 
 /// The schema's token.
@@ -140,6 +144,7 @@ struct Collider {
   std::optional<double> contact_offset;  ///< distance at which contacts begin to be made [m]
   std::optional<double> rest_offset;     ///< [m]
   std::optional<int> max_hull_vertices;
+  ColliderSettings settings{};
   ColliderParts parts;
 };
 
@@ -152,6 +157,14 @@ double combine(double a, CombineMode mode_a, double b, CombineMode mode_b);
 /// "average", "min", "multiply" or "max".
 std::string_view combine_name(CombineMode mode);
 
+/// Contacts that give way like springs.
+struct Compliance {
+  double stiffness = 0;       ///< [N/m]; with `acceleration` [1/s^2]
+  double damping = 0;         ///< [N s/m]; with `acceleration` [1/s]
+  bool acceleration = false;  ///< per unit of the effective mass of the contact
+  CombineMode damping_combine = CombineMode::Average;
+};
+
 struct Material {
   Path path;
   double static_friction = 0;
@@ -162,6 +175,7 @@ struct Material {
   std::optional<double> rolling_friction{};    ///< [m]
   CombineMode friction_combine = CombineMode::Average;
   CombineMode restitution_combine = CombineMode::Average;
+  Compliance compliance{};  ///< stiffness 0: hard
 };
 
 enum class JointKind : std::uint8_t { Revolute, Prismatic, Spherical, Fixed, Distance, D6 };
@@ -185,6 +199,16 @@ struct Limit {
   bool locked() const { return lower > upper; }
 };
 
+/// How the bounds of one degree of freedom give way: without stiffness they are hard and rebound,
+/// else they are a spring beyond them. [N m/rad or N/m], [N m s/rad or N s/m]
+struct LimitSpring {
+  Dof dof = Dof::RotX;
+  double stiffness = 0;
+  double damping = 0;
+  double restitution = 0;       ///< of hard bounds: speed after to speed before
+  double bounce_threshold = 0;  ///< slower impacts do not rebound [rad/s or m/s]
+};
+
 /// force = stiffness (target_position - q) + damping (target_velocity - v), clamped to +-max_force
 /// (S-102). [N, m] or [N m, rad]; with `acceleration` the gains are per unit of effective inertia.
 struct Drive {
@@ -196,6 +220,7 @@ struct Drive {
   double max_force = kUnlimited;
   double target_position = 0;
   double target_velocity = 0;
+  DriveEnvelope envelope{};
 };
 
 /// One degree of freedom of a joint follows one of another: q = offset + multiplier * leader
@@ -228,8 +253,9 @@ struct Joint {
   double upper = kUnlimited;   ///< max distance of Distance
   double cone_angle0 =
       kUnlimited;  ///< spherical: tilt of the axis toward the next axis [rad] (S-96)
-  double cone_angle1 = kUnlimited;  ///< toward the one after
-  std::vector<Limit> limits;        ///< of D6 joints, and LimitAPI on others (S-100)
+  double cone_angle1 = kUnlimited;           ///< toward the one after
+  std::vector<Limit> limits;                 ///< of D6 joints, and LimitAPI on others (S-100)
+  std::vector<LimitSpring> limit_springs{};  ///< by degree of freedom, at most one of each
   std::vector<Drive> drives;
   std::vector<Mimic> mimics;  ///< by degree of freedom, at most one of each
   bool enabled = true;
@@ -431,6 +457,8 @@ struct PhysicsScene {
   std::vector<Joint> joints;
   std::vector<Articulation> articulations;
   std::vector<Tendon> tendons;
+  /// Actuators of MuJoCo that are no drives of joints.
+  std::vector<MujocoActuator> actuators;
   CollisionFilter filter;
   std::vector<ScalarTrack> scalar_tracks;
   std::vector<PoseTrack> pose_tracks;
@@ -452,8 +480,10 @@ struct PhysicsScene {
   /// Brings filter.pairs_off up to date with what the joints are now (enabled, collision_enabled).
   void update_joint_pairs();
   /// Contacts between two colliders are possible: different bodies, enabled, same scene, not
-  /// filtered.
+  /// filtered, no triggers.
   bool may_collide(Index collider_a, Index collider_b) const;
+  /// The same, also of triggers and of bodies whose contacts exert nothing.
+  bool may_meet(Index collider_a, Index collider_b) const;
   /// All filtered collider pairs (groups expanded), sorted; for reports.
   std::vector<std::pair<Index, Index>> disabled_pairs() const;
 };

@@ -92,11 +92,19 @@ struct SurfaceKind {
   double restitution = 0;
   scene::CombineMode friction_combine = scene::CombineMode::Average;
   scene::CombineMode restitution_combine = scene::CombineMode::Average;
+  double stiffness = 0;  ///< of contacts that give way; 0: hard
+  double damping = 0;
+  bool by_mass = false;  ///< stiffness and damping are by unit of effective mass
+  scene::CombineMode damping_combine = scene::CombineMode::Average;
+  double patch = 0;      ///< radius of the ball whose patch resists turning [m]
+  double min_patch = 0;  ///< least radius of the patch [m]
+  bool is_special() const { return stiffness > 0 || patch > 0 || min_patch > 0; }
   auto operator<=>(const SurfaceKind&) const = default;
 };
 
 /// The surface of each geom; those of pairs are combined when they meet (S-72).
 struct Surfaces {
+  bool by_contact = false;  ///< numbers are written into made contacts
   std::vector<SurfaceKind> kinds;
   std::vector<int> geom_surface;  ///< (geom_count) into kinds; -1: made contacts are left alone
   /// The same per collider and geom of it, until ids of geoms are known.

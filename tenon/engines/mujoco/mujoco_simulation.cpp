@@ -95,13 +95,15 @@ MujocoSimulation::MujocoSimulation(std::shared_ptr<const Start> start,
     : start_(std::move(start)),
       timeline_(std::move(timeline)),
       scene_(timeline_ == nullptr ? start_->scene : &timeline_->scene()),
-      model_(std::move(model)) {
+      model_(std::move(model)),
+      triggers_(*scene_) {
   connect();
 }
 
 // What the simulation remembers about the model that it steps.
 void MujocoSimulation::connect() {
   inputs_ = StepInputs(*scene_, model_);
+  caps_ = VelocityCaps(*scene_, model_);
   if (timeline_ != nullptr) {
     bounds_ = MovingBounds(*scene_, model_);
     breaking_ = Breaking(*scene_, model_);
@@ -135,10 +137,17 @@ Result<void> MujocoSimulation::step() {
     TENON_CHECK(guarded([this] { advance(model_); }));
   }
   TENON_CHECK(check_step(model_));
+  if (!caps_.empty()) {
+    caps_.apply(model_);
+  }
   if (outputs_) {
     TENON_CHECK(outputs_->end(*scene_, steering_, model_));
   }
   inputs_.after_step(model_);
+  if (!triggers_.empty()) {
+    bring_up_to_date();
+    triggers_.update(*scene_, model_, &events_);
+  }
   return breaking_.empty() ? Result<void>() : break_joints();
 }
 

@@ -14,6 +14,8 @@
 #include "tenon/engines/mujoco/run/saved_run.h"
 #include "tenon/engines/mujoco/run/step_inputs.h"
 #include "tenon/engines/mujoco/run/step_outputs.h"
+#include "tenon/engines/mujoco/run/triggers.h"
+#include "tenon/engines/mujoco/run/velocity_caps.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/engines/steering.h"
 #include "tenon/scene/timeline/timeline.h"
@@ -121,6 +123,8 @@ class MujocoSimulation final : public Simulation {
   StepInputs inputs_;
   MovingBounds bounds_;
   Breaking breaking_;
+  VelocityCaps caps_;
+  Triggers triggers_;
   std::optional<StepOutputs> outputs_;
   mutable bool stale_ = true;
 };

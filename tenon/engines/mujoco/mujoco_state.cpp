@@ -116,6 +116,10 @@ Result<void> MujocoSimulation::restore_state(std::string_view bytes) {
     TENON_CHECK(fresh->outputs_->at_rest(*fresh->scene_, fresh->model_));
   }
   fresh->stale_ = true;
+  if (!fresh->triggers_.empty()) {  // what is inside is no news
+    fresh->bring_up_to_date();
+    fresh->triggers_.update(*fresh->scene_, fresh->model_, nullptr);
+  }
   *this = std::move(*fresh);
   return {};
 }

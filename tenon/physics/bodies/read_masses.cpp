@@ -18,6 +18,9 @@
 namespace tenon::physics {
 namespace {
 
+/// What has a share in the mass: PhysX leaves out triggers, which are no matter.
+bool counts(const Collider& collider) { return collider.enabled && !collider.settings.trigger; }
+
 /// A positive finite number, or nothing (S-41).
 std::optional<double> positive_number(const ReadState& state, const stage::Prim& prim, Token name) {
   const std::optional<double> value = state.values.number(prim, name);
@@ -158,14 +161,14 @@ class BodyMassComputation {
   MassProperties sum_of(const std::vector<Index>& colliders) {
     std::vector<Weighed> parts;
     for (const Index i : colliders) {
-      if (state_.scene.colliders[i].enabled) {  // S-43, S-50
+      if (counts(state_.scene.colliders[i])) {  // S-43, S-50
         parts.push_back({collider_mass_properties(i), group_of(i)});
       }
     }
     apply_group_masses(parts);
     if (state_.provenance != nullptr) {
       for (std::size_t i = 0, part = 0; i < colliders.size(); ++i) {
-        if (state_.scene.colliders[colliders[i]].enabled) {
+        if (counts(state_.scene.colliders[colliders[i]])) {
           parts_.emplace(colliders[i], parts[part++].properties);
         }
       }
@@ -352,12 +355,12 @@ class BodyMassComputation {
     const PhysicsPrim& found = state_.prim_of_collider(i);
     ColliderMass provenance;
     provenance.collider = i;
-    provenance.counted = collider.enabled;
+    provenance.counted = counts(collider);
     const auto rounder = state_.integrals_of_collider.find(i);
     provenance.volume = rounder != state_.integrals_of_collider.end()
                             ? rounder->second.volume
                             : solid_of(collider.shape).integrals.volume;
-    if (!collider.enabled) {
+    if (!counts(collider)) {
       return provenance;
     }
     const AuthoredMass& authored = authored_[i];

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/physics/colliders/collider_settings.h"
 #include "tenon/physics/colliders/shapes.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/scenes.h"
@@ -207,6 +208,7 @@ std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found
   collider.approximation = reading->approximation;
   integrals = reading->integrals;
   read_contact_settings(state, found, collider);
+  collider.settings = read_collider_settings(state, found, collider);
   return collider;
 }
 

@@ -10,6 +10,26 @@
 namespace tenon::physics {
 namespace {
 
+/// PhysX turns the pairs of all groups around: those that are named touch, no others do.
+bool scenes_invert(const ReadState& state, const Walk& walk) {
+  return std::any_of(walk.prims.begin(), walk.prims.end(), [&](const PhysicsPrim& found) {
+    return found.roles.kind == PrimKind::Scene && found.roles.has(Api::PhysxScene) &&
+           state.values.authored_flag(found.prim, "physxScene:invertCollisionGroupFilter")
+               .value_or(false);
+  });
+}
+
+GroupTable table_of(const ReadState& state, const Walk& walk,
+                    const std::vector<AuthoredGroup>& groups) {
+  GroupTable table = group_table(groups, state.readings.ungrouped);
+  if (scenes_invert(state, walk)) {
+    for (char& off : table.pair_off) {
+      off = off == 0 ? 1 : 0;
+    }
+  }
+  return table;
+}
+
 AuthoredGroup read_group(const ReadState& state, const PhysicsPrim& found,
                          const std::vector<Path>& paths) {
   AuthoredGroup group;
@@ -49,7 +69,7 @@ void read_group_states(ReadState& state, const std::vector<std::uint32_t>& prims
     for (const std::uint32_t i : prims) {
       groups.push_back(read_group(later, state.walk.prims[i], state.scene.filter.group_paths));
     }
-    GroupTable table = group_table(groups, state.readings.ungrouped);
+    GroupTable table = table_of(later, state.walk, groups);
     state.scene.group_states.push_back(
         {state.seconds(code), std::move(table.pair_off), std::move(table.ungrouped_off)});
   }
@@ -108,7 +128,7 @@ void read_collision_groups(ReadState& state) {
     groups.push_back(read_group(state, state.walk.prims[i], filter.group_paths));
     find_members(state, state.walk.prims[i], index);
   }
-  GroupTable table = group_table(groups, state.readings.ungrouped);
+  GroupTable table = table_of(state, state.walk, groups);
   filter.group_pair_off = std::move(table.pair_off);
   filter.ungrouped_off = std::move(table.ungrouped_off);
   report_ungrouped(state, prims, groups);

@@ -33,6 +33,11 @@ class PairFilter {
         add_joint(joint);
       }
     }
+    for (const PhysicsPrim& found : state_.walk.prims) {
+      if (found.roles.kind == PrimKind::GearJoint || found.roles.kind == PrimKind::RackJoint) {
+        add_gear(found);
+      }
+    }
     for (const Articulation& articulation : state_.scene.articulations) {
       if (!articulation.self_collision) {
         add_links(articulation);
@@ -202,6 +207,26 @@ class PairFilter {
     speaks(PairRule::Joint, joint.path);
     add_all(side(joint.body0, joint.target0, joint.target1),
             side(joint.body1, joint.target1, joint.target0));
+  }
+
+  /// A gear is a joint of its two bodies in this alone (gears.cpp).
+  void add_gear(const PhysicsPrim& found) {
+    if (!state_.values.flag(found.prim, state_.tokens.joint_enabled, true) ||
+        state_.values.flag(found.prim, state_.tokens.collision_enabled, false)) {
+      return;
+    }
+    Colliders sides[2];
+    for (int side = 0; side < 2; ++side) {
+      const Token name = side == 0 ? state_.tokens.body0 : state_.tokens.body1;
+      for (const Path& target : found.prim.relationship(name).targets()) {
+        const auto at = state_.walk.index_of.find(state_.walk.near(found, target));
+        if (at != state_.walk.index_of.end() && state_.walk.prims[at->second].is_body) {
+          append(state_.body_of_prim[at->second], sides[side]);
+        }
+      }
+    }
+    speaks(PairRule::Joint, found.path);
+    add_all(sides[0], sides[1]);
   }
 
   void add_links(const Articulation& articulation) {

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "tenon/base/text/text_number.h"
+#include "tenon/physics/colliders/collider_settings.h"
 #include "tenon/physics/colliders/shapes.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/stage/collections/material_binding.h"
@@ -86,6 +87,9 @@ Material read_material(const ReadState& state, const PhysicsPrim& found) {
   read_spin_friction(state, found, material);
   material.friction_combine = combine_mode(state, found, state.tokens.physx_friction_combine);
   material.restitution_combine = combine_mode(state, found, state.tokens.physx_restitution_combine);
+  material.compliance = read_compliance(state, found);
+  material.compliance.damping_combine =
+      combine_mode(state, found, "physxMaterial:dampingCombineMode");
   // S-73
   if (material.dynamic_friction > material.static_friction) {
     state.report(

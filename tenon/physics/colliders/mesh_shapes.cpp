@@ -39,7 +39,7 @@ Approximation approximation_of(const ReadState& state, const ShapeSource& source
     return Approximation::None;
   }
   const Token token = state.values.get<Token>(found.prim, name).value_or(Token("none"));
-  for (int i = 0; i <= static_cast<int>(Approximation::BoundingCube); ++i) {
+  for (int i = 0; i <= static_cast<int>(Approximation::SphereFill); ++i) {
     if (token == approximation_name(static_cast<Approximation>(i))) {
       return static_cast<Approximation>(i);
     }
@@ -255,7 +255,14 @@ ShapeReading bounded_by_ball(const TriangleMesh& mesh) {
 }
 
 /// What replaces triangles on bodies that move, said aloud (S-64).
-Approximation settle(const ReadState& state, const ShapeSource& source, Approximation wanted) {
+Approximation settle(ReadState& state, const ShapeSource& source, Approximation wanted) {
+  if (wanted == Approximation::Sdf || wanted == Approximation::SphereFill) {
+    const char* const instead =
+        source.dynamic ? "PhysX's own; the pieces of the convex decomposition collide instead"
+                       : "PhysX's own; the mesh itself collides instead";
+    state.not_read(source.found.prim, "physics:approximation", instead);
+    return source.dynamic ? Approximation::ConvexDecomposition : Approximation::None;
+  }
   if (source.dynamic &&
       (wanted == Approximation::None || wanted == Approximation::MeshSimplification)) {
     state.report(source.found.prim, Severity::Warning, "collider.dynamic-mesh",
@@ -296,6 +303,15 @@ int most_of(const ReadState& state, const ShapeSource& source, const char* name,
   return most >= 1 && most <= 2048 ? static_cast<int>(most) : fallback;
 }
 
+/// PhysX's error in per cent of the volume; its default of 10 is the library's own.
+double concavity_of(const ReadState& state, const ShapeSource& source) {
+  const double error =
+      state.values
+          .authored_number(source.found.prim, "physxConvexDecompositionCollision:errorPercentage")
+          .value_or(10);
+  return std::clamp(error, 0.2, 100.0) / 200;  // the library takes 0.001 to 0.5 here
+}
+
 /// S-62: convex pieces of a mesh, into the scene; none when it is left whole, said why.
 std::vector<Index> decompose(ReadState& state, const ShapeSource& source,
                              const TriangleMesh& mesh) {
@@ -313,8 +329,9 @@ std::vector<Index> decompose(ReadState& state, const ShapeSource& source,
   } else {
     const std::string space = "physxConvexDecompositionCollision:";
     pieces = state.mesh_tools->decompose(
-        mesh, most_of(state, source, (space + "maxConvexHulls").c_str(), 32),
-        std::max(4, most_of(state, source, (space + "hullVertexLimit").c_str(), 64)));
+        mesh, {most_of(state, source, (space + "maxConvexHulls").c_str(), 32),
+               std::max(4, most_of(state, source, (space + "hullVertexLimit").c_str(), 64)),
+               concavity_of(state, source)});
     if (!pieces) {
       fault = left_out;
     } else if (pieces->empty()) {

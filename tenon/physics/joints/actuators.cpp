@@ -56,19 +56,13 @@ class ActuatorReader {
     const Joint& driven = state_.scene.joints[*joint];
     const bool one_axis = driven.kind == JointKind::Revolute || driven.kind == JointKind::Prismatic;
     if (!one_axis) {
-      state_.not_read(found.prim, "mjc:target",
-                      "only actuators of revolute and prismatic joints are read");
-      return;
+      return;  // no drive: one of MuJoCo's own (read_mujoco_actuators)
     }
     const Token gain_type = token(found.prim, tokens_.gain_type, "fixed");
     const Token bias_type = token(found.prim, tokens_.bias_type, "none");
     const Token dyn_type = token(found.prim, tokens_.dyn_type, "none");
     if (!(gain_type == "fixed") || !(bias_type == "affine") || !(dyn_type == "none")) {
-      const bool motor = gain_type == "fixed" && bias_type == "none" && dyn_type == "none";
-      state_.not_read(found.prim, motor ? "mjc:biasType" : "mjc:gainType",
-                      motor ? "a plain motor: its force is its control, which is 0 on a stage"
-                            : "only fixed gain with affine bias and no activation is read");
-      return;
+      return;  // likewise
     }
     add(found.prim, *joint);
   }
@@ -92,9 +86,7 @@ class ActuatorReader {
       }
     }
     if (targets.size() == 1 && is_other_target(prim.prim_at(targets.front()))) {
-      state_.not_read(prim, "mjc:target",
-                      "only actuators of joints are read, not of tendons and sites");
-      return std::nullopt;
+      return std::nullopt;  // likewise
     }
     state_.values.report_target(prim, tokens_.target, targets.empty() ? Path() : targets.front(),
                                 Severity::Error, "actuator.target-missing",

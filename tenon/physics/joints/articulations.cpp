@@ -48,6 +48,11 @@ class ArticulationReader {
            "remove the inner PhysicsArticulationRootAPI");
       return;
     }
+    if (found.roles.has(Api::PhysxArticulation) &&
+        !state_.values.authored_flag(found.prim, "physxArticulation:articulationEnabled")
+             .value_or(true)) {
+      return;  // as PhysX: its bodies and joints are simulated without one
+    }
     if (is_joint(found.roles.kind)) {
       read_on_joint(found, prim_index);
     } else if (found.roles.has(Api::RigidBody)) {

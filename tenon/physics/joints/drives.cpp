@@ -76,6 +76,27 @@ double read_gain(const ReadState& state, const stage::Prim& prim, Token name) {
   return gain;
 }
 
+/// What PhysX says a motor can do at a speed; about an axis per degree.
+DriveEnvelope read_envelope(const ReadState& state, const PhysicsPrim& found, Token instance,
+                            Dof dof) {
+  DriveEnvelope envelope;
+  if (!found.roles.has(Api::PhysxDriveEnvelope)) {
+    return envelope;
+  }
+  const std::string prefix = "physxDrivePerformanceEnvelope:" + instance.str() + ":";
+  const auto number = [&](const char* name, double fallback) {
+    const double value =
+        state.values.authored_number(found.prim, Token(prefix + name)).value_or(fallback);
+    return value >= 0 ? value : fallback;
+  };
+  const double velocity = is_angular(dof) ? kRadians : state.units.length;
+  const double force = is_angular(dof) ? state.units.torque() : state.units.force();
+  envelope.max_velocity = number("maxActuatorVelocity", kUnlimited) * velocity;
+  envelope.speed_effort_gradient = number("speedEffortGradient", 0) * velocity / force;
+  envelope.velocity_resistance = number("velocityDependentResistance", 0) * force / velocity;
+  return envelope;
+}
+
 void check_effect(const ReadState& state, const stage::Prim& prim, const Joint& joint,
                   const Drive& drive, Token instance) {
   const StatementPart api = api_part("PhysicsDriveAPI:" + instance.str());
@@ -156,6 +177,7 @@ void read_drives(ReadState& state) {
     for (const Token& instance : found.prim.api_instances("PhysicsDriveAPI")) {
       std::optional<Drive> drive = read_drive(state, found.prim, joint, instance);
       if (drive) {
+        drive->envelope = read_envelope(state, found, instance, drive->dof);
         state.drive_instances.push_back({i, static_cast<Index>(joint.drives.size()), instance});
         joint.drives.push_back(*std::move(drive));
       }

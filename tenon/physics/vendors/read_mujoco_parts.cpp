@@ -13,6 +13,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "tenon/physics/read_state.h"
 #include "tenon/physics/vendors/mujoco_settings.h"
 #include "tenon/physics/world_pose.h"
 #include "tenon/stage/transform_at.h"
@@ -252,6 +253,23 @@ MujocoKeyframe read_keyframe(const stage::Prim& prim) {
 }
 
 }  // namespace
+
+void read_mujoco_actuators(ReadState& state) {
+  const auto prims = sorted_prims(
+      state.walk, [](const PhysicsPrim& p) { return p.roles.kind == PrimKind::Actuator; });
+  if (prims.empty()) {
+    return;
+  }
+  const ActuatorList list(state.stage, state.scene);
+  for (const std::uint32_t i : prims) {
+    MujocoActuator actuator = list.read(state.walk.prims[i].prim);
+    if (actuator.kind == Target::None) {
+      state.not_read(state.walk.prims[i].prim, "mjc:target", actuator.fault);
+    } else if (!actuator.drive) {
+      state.scene.actuators.push_back(std::move(actuator));
+    }
+  }
+}
 
 MujocoParts read_mujoco_parts(const stage::Stage& stage, const PhysicsScene& scene) {
   const ActuatorList list(stage, scene);

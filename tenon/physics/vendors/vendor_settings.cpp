@@ -17,7 +17,7 @@ namespace {
 void note_vendor_settings(ReadState& state, const stage::Prim& prim) {
   for (const Token& name : prim.authored_property_names()) {
     if (is_vendor_attribute(prim, name) &&
-        use_of_vendor_attribute(name.view()) == VendorUse::NotRead) {
+        use_of_vendor_attribute(prim, name) == VendorUse::NotRead) {
       state.not_read(prim, name.str(), "a setting of one engine without a neutral meaning");
     }
   }

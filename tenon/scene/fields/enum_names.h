@@ -33,9 +33,9 @@ struct EnumNames<Axis> {
 };
 template <>
 struct EnumNames<Approximation> {
-  static constexpr std::array<std::string_view, 6> kNames{
-      "none",           "convexHull",  "convexDecomposition", "meshSimplification",
-      "boundingSphere", "boundingCube"};
+  static constexpr std::array<std::string_view, 8> kNames{
+      "none",         "convexHull", "convexDecomposition", "meshSimplification", "boundingSphere",
+      "boundingCube", "sdf",        "sphereFill"};
 };
 template <>
 struct EnumNames<CombineMode> {
@@ -64,6 +64,12 @@ struct EnumNames<Switch> {
 template <>
 struct EnumNames<TendonWrap::Kind> {
   static constexpr std::array<std::string_view, 4> kNames{"site", "sphere", "cylinder", "pulley"};
+};
+
+template <>
+struct EnumNames<MujocoActuator::Target> {
+  static constexpr std::array<std::string_view, 5> kNames{"none", "joint", "tendon", "site",
+                                                          "crank"};
 };
 
 template <class Enum>

@@ -91,6 +91,7 @@ bool is_angular_in(const Owner&, bool outer) {
 }
 inline bool is_angular_in(const Drive& drive, bool) { return is_angular(drive.dof); }
 inline bool is_angular_in(const Limit& limit, bool) { return is_angular(limit.dof); }
+inline bool is_angular_in(const LimitSpring& spring, bool) { return is_angular(spring.dof); }
 inline bool is_angular_in(const Mimic& mimic, bool) { return is_angular(mimic.dof); }
 inline bool is_angular_in(const Joint& joint, bool) {
   return joint.kind != JointKind::Prismatic && joint.kind != JointKind::Distance;

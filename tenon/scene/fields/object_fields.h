@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "tenon/scene/fields/field.h"
+#include "tenon/scene/fields/setting_fields.h"
 #include "tenon/scene/physics_scene.h"
 
 /// The tables of what a scene consists of: scenes, bodies, colliders, materials, joints,
@@ -119,6 +120,7 @@ struct Table<Body> {
                                      .meaning = "of the angular velocity",
                                      .unit = Unit::PerSecond}),
       field<&Body::gravity_scale>({.name = "gravityScale", .meaning = "times gravity"}),
+      field<&Body::settings>(kSettingsField),
       field<&Body::instance>({.name = "instance",
                               .meaning = "the instance of a point instancer that it comes from",
                               .presence = Presence::WhenSet,
@@ -258,6 +260,7 @@ struct Table<Collider> {
                                            .meaning = "of the convex hull",
                                            .presence = Presence::WhenSet,
                                            .words = "max vertices of the hull"}),
+      field<&Collider::settings>(kSettingsField),
       field<&Collider::parts>(kPartsField),
   };
 };
@@ -288,6 +291,9 @@ struct Table<Material> {
           {.name = "frictionCombine", .meaning = "how two coefficients become that of a pair"}),
       field<&Material::restitution_combine>(
           {.name = "restitutionCombine", .meaning = "how two coefficients become that of a pair"}),
+      field<&Material::compliance>({.name = "compliance",
+                                    .meaning = "of contacts that give way like springs",
+                                    .presence = Presence::WhenSet}),
   };
 };
 
@@ -331,6 +337,7 @@ struct Table<Drive> {
           {.name = "targetPosition", .meaning = "of the coordinate", .unit = Unit::Position}),
       field<&Drive::target_velocity>(
           {.name = "targetVelocity", .meaning = "of the coordinate", .unit = Unit::Velocity}),
+      field<&Drive::envelope>(kSettingsField),
   };
 };
 
@@ -462,6 +469,9 @@ struct Table<Joint> {
       field<&Joint::drives>(
           {.name = "drives", .meaning = "effort = stiffness (target - q) + damping (target - v)"}),
       field<&Joint::limits>({.name = "limits", .meaning = "of single degrees of freedom"}),
+      field<&Joint::limit_springs>({.name = "limitSprings",
+                                    .meaning = "how bounds give way or rebound",
+                                    .presence = Presence::WhenSet}),
       field<&Joint::mimics>(
           {.name = "mimics", .meaning = "q = offset + multiplier * leader + higher powers"}),
       field<&Joint::enabled>({.name = "enabled", .meaning = "false: it holds nothing"}),

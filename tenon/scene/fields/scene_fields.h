@@ -41,6 +41,11 @@ struct Table<PhysicsScene> {
       field<&PhysicsScene::joints>({.name = "joints", .meaning = "by path"}),
       field<&PhysicsScene::articulations>({.name = "articulations", .meaning = "by path"}),
       field<&PhysicsScene::tendons>({.name = "tendons", .meaning = "by path"}),
+      field<&PhysicsScene::actuators>({.name = "mujocoActuators",
+                                       .meaning = "of MuJoCo, that are no drives of joints",
+                                       .presence = Presence::WhenSet,
+                                       .of_vendor = true,
+                                       .words = "actuators of MuJoCo"}),
       field<&PhysicsScene::filter>({.name = "filter", .meaning = "which colliders may touch"}),
       field<&PhysicsScene::scalar_tracks>(
           {.name = "driveTracks", .meaning = "numbers of drives that follow samples"}),

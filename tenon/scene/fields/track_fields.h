@@ -64,7 +64,54 @@ struct Table<Tendon> {
       field<&Tendon::spring_length>(
           {.name = "springLength", .meaning = "no force between the two; -1: as it stands"}),
       field<&Tendon::range>({.name = "range", .meaning = "of its length; null: any"}),
+      field<&Tendon::limit_stiffness>({.name = "limitStiffness",
+                                       .meaning = "of the range as a spring; 0: hard",
+                                       .presence = Presence::WhenSet}),
       field<&Tendon::settings>({.name = "settings", .meaning = "others, for MuJoCo"}),
+  };
+};
+
+template <>
+struct Table<MujocoActuator> {
+  static constexpr std::string_view kWord = "actuator";
+  static constexpr std::tuple kFields{
+      field<&MujocoActuator::path>({.name = "path", .meaning = "the prim", .role = Role::Identity}),
+      field<&MujocoActuator::kind>({.name = "on", .meaning = "what it acts on"}),
+      field<&MujocoActuator::target>(
+          {.name = "target", .meaning = "into joints or tendons, where it acts on one"}),
+      field<&MujocoActuator::drive>(
+          {.name = "drive", .meaning = "into the joint's drives; null: it is none of them"}),
+      field<&MujocoActuator::site>({.name = "site", .meaning = "the point, or the pin of a crank"}),
+      field<&MujocoActuator::other_site>(
+          {.name = "otherSite", .meaning = "what the point is seen from; the slider of a crank"}),
+      field<&MujocoActuator::crank_length>(
+          {.name = "crankLength", .meaning = "of the rod", .unit = Unit::Meter}),
+      field<&MujocoActuator::in_parent>(
+          {.name = "inParent", .meaning = "the gear of a ball counts in the parent's frame"}),
+      field<&MujocoActuator::gain_type>({.name = "gainType", .meaning = "mjc:gainType"}),
+      field<&MujocoActuator::bias_type>({.name = "biasType", .meaning = "mjc:biasType"}),
+      field<&MujocoActuator::dyn_type>({.name = "dynType", .meaning = "mjc:dynType"}),
+      field<&MujocoActuator::gain>({.name = "gain", .meaning = "mjc:gainPrm in SI"}),
+      field<&MujocoActuator::bias>({.name = "bias", .meaning = "mjc:biasPrm in SI"}),
+      field<&MujocoActuator::dynamics>({.name = "dynamics", .meaning = "mjc:dynPrm"}),
+      field<&MujocoActuator::gear>({.name = "gear", .meaning = "mjc:gear"}),
+      field<&MujocoActuator::control_range>(
+          {.name = "controlRange", .meaning = "null: any control"}),
+      field<&MujocoActuator::force_range>({.name = "forceRange", .meaning = "null: any force"}),
+      field<&MujocoActuator::activation_range>(
+          {.name = "activationRange", .meaning = "null: any activation"}),
+      field<&MujocoActuator::length_range>(
+          {.name = "lengthRange", .meaning = "both 0: to be found"}),
+      field<&MujocoActuator::inherit_range>(
+          {.name = "inheritRange", .meaning = "of the target's range; 0: none"}),
+      field<&MujocoActuator::activation_count>(
+          {.name = "activationCount", .meaning = "-1: as dynType has it"}),
+      field<&MujocoActuator::acts_early>(
+          {.name = "actsEarly", .meaning = "on the activation after a step"}),
+      field<&MujocoActuator::group>({.name = "group", .meaning = "mjc:group"}),
+      field<&MujocoActuator::fault>({.name = "fault",
+                                     .meaning = "why it acts on nothing; empty: it does",
+                                     .role = Role::Provenance}),
   };
 };
 

@@ -65,13 +65,29 @@ void add_free_joint(mjsBody* body, const std::string& name) {
   mjs_setName(joint->element, name.c_str());
 }
 
+/// A locked axis is one of the world: the frame of such a body has the world's axes at the start,
+/// and turns about the one that is left alone, if any.
+void report_locks(Build& build, const scene::Body& body) {
+  const int locked = body.settings.locked_rotation;
+  if (locked == 1 || locked == 2 || locked == 4) {
+    build.report(body.path, "lockedRotation",
+                 "one locked axis turns with the body here; two or three are the world's");
+  }
+}
+
 void add_free_body(Build& build, scene::Index index) {
   const scene::Body& body = build.scene.bodies[index];
   Inertial inertial = inertial_of(build, body);
   build.engine_frames[index] = inertial.frame;
+  Quatd principal = kIdentityRotation;  // in the frame of the MuJoCo body
+  if (body.settings.locked_rotation != 0) {
+    report_locks(build, body);
+    build.engine_frames[index].orientation = conjugate(body.pose.orientation);
+    principal = body.pose.orientation * inertial.frame.orientation;
+  }
   mjsBody* target = mjs_addBody(mjs_findBody(build.spec.get(), "world"), nullptr);
-  place(target, body.path.str(), body.pose * inertial.frame);
-  inertial.frame = {};
+  place(target, body.path.str(), body.pose * build.engine_frames[index]);
+  inertial.frame = {{}, principal};
   set_inertial(target, inertial);
   add_free_joint(target, body.path.str() + ".free");
   build.bodies[index] = target;

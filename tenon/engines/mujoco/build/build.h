@@ -24,6 +24,14 @@ struct AuxiliaryBody {
   scene::Index joint = 0;
 };
 
+/// A bound of a joint or tendon that gives way as a spring beyond it.
+struct SoftBound {
+  mjsElement* element = nullptr;
+  bool is_tendon = false;
+  double stiffness = 0;
+  double damping = 0;
+};
+
 /// What the passes share until the model is compiled.
 struct Build {
   Build(const scene::PhysicsScene& source, Diagnostics& findings)
@@ -46,6 +54,7 @@ struct Build {
   std::vector<mjsJoint*> balls;                      ///< (joint_count), nullptr where there is none
   std::vector<std::vector<mjsActuator*>> actuators;  ///< (joint_count), one per drive or nullptr
   std::vector<AuxiliaryBody> auxiliary_bodies;
+  std::vector<SoftBound> soft_bounds;
   std::vector<NotMapped> not_mapped;
   std::set<Path> refused;  ///< colliders that are left out, joints that get no limits
   double driven_mass = 0;  ///< of bodies that follow a pose track [kg]
@@ -69,6 +78,8 @@ void add_tendons(Build& build);
 Result<void> add_geoms(Build& build);
 /// Drives.
 void add_actuators(Build& build);
+/// Actuators of MuJoCo that are no drives. After add_tendons.
+void add_mujoco_actuators(Build& build);
 /// Body pairs that never touch and classes of the others. After add_geoms.
 ContactFilter add_filters(Build& build);
 /// What no pass maps: break forces, velocity limits and the like.
@@ -110,6 +121,18 @@ Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOpti
 
 /// Makes a limit or an equality as hard as the time step allows.
 void make_hard(double time_step, mjtNum* solref, mjtNum* solimp);
+/// MuJoCo's numbers of a constraint that is a spring-damper; see softness.cpp.
+struct SpringReference {
+  double stiffness = 0;  ///< -solref[0]
+  double damping = 0;    ///< -solref[1]
+  double impedance = 0;  ///< solimp[0] and [1]
+};
+/// `stiffness` [1/s^2] and `damping` [1/s] by unit of mass.
+SpringReference spring_reference(double stiffness, double damping, double time_step);
+/// Gives the bounds that are springs their numbers, once the inertias before them are known.
+void soften_bounds(const Build& build, mjModel& model);
+/// The spring of a degree of freedom of a joint; nullptr where there is none.
+const scene::LimitSpring* limit_spring(const scene::Joint& joint, scene::Dof dof);
 /// How far from the anchor the two points of a loop hinge stand: the size of what hangs on it [m].
 double hinge_arm(const scene::PhysicsScene& scene, const scene::Joint& joint);
 /// Joints that carry `dofs` between MuJoCo body `child` and its parent; see joints.cpp.

@@ -79,6 +79,11 @@ Path refused_part(const scene::PhysicsScene& scene, const std::string& words) {
       return joint.path;
     }
   }
+  for (const scene::MujocoActuator& actuator : scene.actuators) {
+    if (names(actuator.path)) {
+      return actuator.path;
+    }
+  }
   return {};
 }
 
@@ -100,6 +105,7 @@ Result<Model> build_once(Build& build, Begin begin) {
   add_actuators(build);
   TENON_CHECK(add_geoms(build));
   add_tendons(build);
+  add_mujoco_actuators(build);
   ContactFilter filter = add_filters(build);
   Surfaces surfaces = add_surfaces(build);
   report_unmapped(build);

@@ -121,6 +121,43 @@ bool restore_inertias(const Build& build, Model& result) {
   return changed;
 }
 
+constexpr double kLockedInertia = 1e9;  // of a locked axis, to that of the body
+
+// Locked axes of a free body have so much inertia that nothing moves them, and no velocity.
+void lock_axes(const Build& build, Model& result) {
+  mjModel& m = *result.model;
+  for (std::size_t b = 0; b < result.bodies.size(); ++b) {
+    const scene::BodySettings& settings = build.scene.bodies[b].settings;
+    const BodyMap& map = result.bodies[b];
+    if ((settings.locked_translation | settings.locked_rotation) == 0) {
+      continue;
+    }
+    if (result.plan.bases[b] != BodyBase::Free) {
+      if (result.plan.bases[b] == BodyBase::Jointed) {
+        result.not_mapped.push_back({build.scene.bodies[b].path, "lockedTranslation",
+                                     "a body on a joint moves as the joint lets it"});
+      }
+      continue;
+    }
+    const double* inertia = m.body_inertia + std::ptrdiff_t{3} * map.id;
+    const double moment = std::max({inertia[0], inertia[1], inertia[2]});
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((settings.locked_translation >> axis & 1) != 0) {
+        m.dof_armature[map.free_dof + axis] = kLockedInertia * map.mass;
+      }
+      if ((settings.locked_rotation >> axis & 1) != 0) {
+        m.dof_armature[map.free_dof + 3 + axis] = kLockedInertia * moment;
+      }
+    }
+  }
+}
+
+bool locks_axes(const Build& build) {
+  return std::any_of(build.scene.bodies.begin(), build.scene.bodies.end(), [](const auto& body) {
+    return (body.settings.locked_translation | body.settings.locked_rotation) != 0;
+  });
+}
+
 // Damping [1/s] of a free body's translation and rotation, exact in its principal frame.
 void set_free_damping(const Build& build, Model& result) {
   mjModel& m = *result.model;
@@ -129,7 +166,9 @@ void set_free_damping(const Build& build, Model& result) {
     const scene::Body& body = build.scene.bodies[b];
     for (int i = 0; map.free_dof >= 0 && !body.kinematic && i < 3; ++i) {
       m.dof_damping[map.free_dof + i] = map.mass * body.linear_damping;
-      m.dof_damping[map.free_dof + 3 + i] = m.body_inertia[3 * map.id + i] * body.angular_damping;
+      if (body.settings.locked_rotation == 0) {  // else as of bodies on joints (StepInputs)
+        m.dof_damping[map.free_dof + 3 + i] = m.body_inertia[3 * map.id + i] * body.angular_damping;
+      }
     }
   }
 }
@@ -143,6 +182,12 @@ void set_mean_inertia(const Build& build, Model& result) {
     if (build.plan.bases[b] == BodyBase::Driven) {
       any = true;
       std::fill_n(driven.begin() + result.bodies[b].free_dof, 6, 1);
+    }
+    for (int i = 0; i < 6 && result.bodies[b].free_dof >= 0; ++i) {
+      if (m.dof_armature[result.bodies[b].free_dof + i] > 0) {  // a locked axis
+        any = true;
+        driven[static_cast<std::size_t>(result.bodies[b].free_dof + i)] = 1;
+      }
     }
   }
   double sum = 0;
@@ -227,7 +272,10 @@ Result<Model> compile(Build& build) {
   map_joints(build, result);
   map_drives(build, result);
   map_colliders(build, result);
-  const bool changed = restore_inertias(build, result);
+  result.plan = build.plan;
+  result.not_mapped = build.not_mapped;
+  const bool changed = restore_inertias(build, result) || locks_axes(build);
+  lock_axes(build, result);
   mjData* data = nullptr;
   TENON_CHECK(guarded([&] {
     data = mj_makeData(model);
@@ -242,9 +290,8 @@ Result<Model> compile(Build& build) {
   set_free_damping(build, result);
   set_mean_inertia(build, result);
   stiffen_auxiliary_welds(build, result);
+  soften_bounds(build, *model);
   choose_integrator(build, result);
-  result.plan = build.plan;
-  result.not_mapped = build.not_mapped;
   return result;
 }
 

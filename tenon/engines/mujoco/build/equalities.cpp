@@ -147,6 +147,21 @@ void soften(mjsTendon* tendon, double violation) {
       std::max(tendon->solref_limit[0], violation / (std::exp(1.0) * kRecoverySpeed));
 }
 
+// Springs beyond the bounds instead of hard ones.
+void add_distance_springs(Build& build, const scene::Limit& limit, const scene::LimitSpring& spring,
+                          const std::string& name, const std::array<std::string, 2>& sites) {
+  const auto add = [&](const char* suffix, double lower, double upper) {
+    mjsTendon* tendon = add_tendon(build, name + suffix, sites[0], sites[1], lower, upper);
+    build.soft_bounds.push_back({tendon->element, true, spring.stiffness, spring.damping});
+  };
+  if (limit.upper < kUnlimited) {
+    add(".max", 0, limit.upper);
+  }
+  if (limit.lower > -kUnlimited) {
+    add(".min", limit.lower, 1e10);
+  }
+}
+
 void add_distance(Build& build, const Joint& joint) {
   const scene::Limit limit = distance_limit(joint);
   if (limit.lower == -kUnlimited && limit.upper == kUnlimited) {
@@ -159,6 +174,10 @@ void add_distance(Build& build, const Joint& joint) {
   const auto world = [&](const std::optional<scene::Index>& body, const Pose& frame) {
     return body.has_value() ? (build.scene.bodies[*body].pose * frame).position : frame.position;
   };
+  if (const scene::LimitSpring* spring = limit_spring(joint, scene::Dof::Distance)) {
+    add_distance_springs(build, limit, *spring, name, {site0, site1});
+    return;
+  }
   const double start = length(world(joint.body1, joint.frame1) - world(joint.body0, joint.frame0));
   if (limit.upper < kUnlimited) {
     soften(add_tendon(build, name + ".max", site0, site1, 0, limit.upper), start - limit.upper);

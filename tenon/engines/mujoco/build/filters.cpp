@@ -24,6 +24,7 @@ struct ClassKey {
   bool moves = false;
   Index scene = 0;
   std::vector<Index> groups;
+  bool exerts = true;  // no trigger, and its body solves contacts
   auto operator<=>(const ClassKey&) const = default;
 };
 
@@ -33,10 +34,13 @@ bool moves(const scene::PhysicsScene& scene, const scene::Collider& collider) {
 
 ClassKey key_of(const scene::PhysicsScene& scene, std::size_t collider) {
   const scene::Collider& c = scene.colliders[collider];
-  ClassKey key{moves(scene, c), c.body.has_value() ? scene.bodies[*c.body].scene : c.scene, {}};
+  ClassKey key{
+      moves(scene, c), c.body.has_value() ? scene.bodies[*c.body].scene : c.scene, {}, true};
   if (collider < scene.filter.groups_of_collider.size()) {
     key.groups = scene.filter.groups_of_collider[collider];
   }
+  key.exerts = !c.settings.trigger &&
+               (!c.body.has_value() || scene.bodies[*c.body].settings.solves_contacts);
   return key;
 }
 
@@ -59,7 +63,8 @@ bool groups_off(const scene::CollisionFilter& filter, const std::vector<Index>& 
 }
 
 bool classes_off(const scene::CollisionFilter& filter, const ClassKey& a, const ClassKey& b) {
-  return (!a.moves && !b.moves) || a.scene != b.scene || groups_off(filter, a.groups, b.groups);
+  return (!a.moves && !b.moves) || !a.exerts || !b.exerts || a.scene != b.scene ||
+         groups_off(filter, a.groups, b.groups);
 }
 
 struct Classes {

@@ -152,6 +152,7 @@ class ColliderPass {
         geom->margin = *collider_.rest_offset;
       }
       set_contact(*geom, collider_.parts.mujoco);
+      set_surface(*geom);
       if (collider_.contact_offset.has_value()) {
         geom->gap = std::max(0.0, *collider_.contact_offset - geom->margin);
       }
@@ -159,6 +160,34 @@ class ColliderPass {
   }
 
  private:
+  /// MuJoCo counts both velocities in the geom's own frame.
+  void set_surface(mjsGeom& geom) {
+    const scene::ColliderSettings& settings = collider_.settings;
+    if (settings.torsional_patch > 0 || settings.min_torsional_patch > 0) {
+      geom.condim = std::max(geom.condim, 4);
+    }
+    if (!settings.surface_velocity || !collider_.body) {
+      return;
+    }
+    const scene::SurfaceVelocity& surface = *settings.surface_velocity;
+    const Pose& frame = build_.engine_frames[*collider_.body];
+    const Pose in_body = frame * Pose{read_vector(geom.pos), read_quaternion(geom.quat)};
+    Vec3d linear = surface.linear;
+    Vec3d angular = surface.angular;
+    if (!surface.body_axes) {
+      const Quatd world = build_.scene.bodies[*collider_.body].pose.orientation;
+      linear = rotate(conjugate(world), linear);
+      angular = rotate(conjugate(world), angular);
+      if (!is_static_) {
+        build_.report(collider_.path, "surfaceVelocity",
+                      "MuJoCo lets it turn with the body; it is that of the start");
+      }
+    }
+    linear += cross(angular, in_body.position);
+    write_vector(geom.surfacevel, rotate(conjugate(in_body.orientation), linear));
+    write_vector(geom.surfacevel + 3, rotate(conjugate(in_body.orientation), angular));
+  }
+
   void find_place() {
     if (collider_.body.has_value()) {
       body_ = build_.bodies[*collider_.body];

@@ -153,12 +153,24 @@ bool moves_at_start(const scene::Body& body) {
   return body.linear_velocity != Vec3d{} || body.angular_velocity != Vec3d{};
 }
 
+void stop_locked_axes(const scene::Body& body, const BodyMap& map, mjData* data) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if ((body.settings.locked_translation >> axis & 1) != 0) {
+      data->qvel[map.free_dof + axis] = 0;
+    }
+    if ((body.settings.locked_rotation >> axis & 1) != 0) {
+      data->qvel[map.free_dof + 3 + axis] = 0;
+    }
+  }
+}
+
 Result<void> set_velocities(const PhysicsScene& scene, Begin begin, Model& model) {
   for (const Index b : model.plan.forest.order) {
     const scene::Body& body = scene.bodies[b];
     const scene::ForestBody& link = model.plan.forest.bodies[b];
     if (model.plan.bases[b] == BodyBase::Free) {
       set_free_velocity(body, model.bodies[b], model.data.get());
+      stop_locked_axes(body, model.bodies[b], model.data.get());
     }
     if (!link.joint) {
       continue;

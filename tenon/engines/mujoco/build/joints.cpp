@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tenon/engines/mujoco/build/build.h"
+#include "tenon/engines/mujoco/build/surfaces.h"
 
 // MuJoCo applies the joints of one body in order, each axis carried by the ones before: exactly the
 // chain of JointDofs. When the MuJoCo child is body0, the chain runs backwards with turned axes,
@@ -27,6 +28,22 @@ void set_limit(mjsJoint* joint, const FreeDof& dof, const scene::MujocoSoftness&
   make_hard(time_step, joint->solref_limit, joint->solimp_limit);
   std::copy(softness.solref_limit.begin(), softness.solref_limit.end(), joint->solref_limit);
   std::copy(softness.solimp_limit.begin(), softness.solimp_limit.end(), joint->solimp_limit);
+}
+
+void set_spring(Build& build, const scene::Joint& joint, const scene::LimitSpring& spring,
+                mjsJoint* target) {
+  if (spring.stiffness > 0) {
+    build.soft_bounds.push_back({target->element, false, spring.stiffness, spring.damping});
+    return;
+  }
+  const std::array<double, 2> solref = contact_solref(spring.restitution, build.time_step);
+  constexpr mjtNum kImpedance[mjNIMP] = {0.9, 0.95, 0.001, 0.5, 2};  // that of contacts
+  std::copy(solref.begin(), solref.end(), target->solref_limit);
+  std::copy(std::begin(kImpedance), std::end(kImpedance), target->solimp_limit);
+  if (spring.bounce_threshold > 0) {
+    build.report(joint.path, "physxLimit:bounceThreshold",
+                 "slow impacts on the bound rebound like fast ones");
+  }
 }
 
 void set_passive(mjsJoint* target, const scene::Joint& joint) {
@@ -78,6 +95,9 @@ void add_chain(Build& build, scene::Index index, mjsBody* child, const Pose& joi
     refused ? build.report(joint.path, "limit:" + std::string(dof_name(dof.dof)),
                            "MuJoCo refuses the limits; left out")
             : set_limit(target, dof, joint.parts.mujoco, build.time_step);
+    if (const scene::LimitSpring* spring = limit_spring(joint, dof.dof)) {
+      set_spring(build, joint, *spring, target);
+    }
     set_passive(target, joint);
     made[i] = target;
   }

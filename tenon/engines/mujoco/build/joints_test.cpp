@@ -262,10 +262,11 @@ TEST(Joints, D6WithoutLimitsHoldsNothing) {
 
 TEST(Joints, WhatMuJoCoCannotExpressIsReported) {
   TestScene scene = pendulum(0);
-  scene.joints[0].velocity_limit = 1;
   scene.joints[0].limits.push_back({Dof::TransX, -1, 1});
+  const auto ball = scene.add_body("Hung", {});
+  scene.add_joint("Ball", JointKind::Spherical, {}, ball).velocity_limit = 1;
   auto sim = simulation(scene);
-  EXPECT_TRUE(mentions(sim->not_mapped(), "/Pivot", "velocityLimit"));
+  EXPECT_TRUE(mentions(sim->not_mapped(), "/Ball", "velocityLimit"));
   EXPECT_TRUE(mentions(sim->not_mapped(), "/Pivot", "limit:transX"));
 }
 

@@ -18,8 +18,9 @@ constexpr double kFrictionToNormal =
     10;  // impratio: friction this much harder than normal, less creep
 
 void report_joint(Build& build, const scene::Joint& joint) {
-  if (joint.velocity_limit < scene::kUnlimited) {
-    build.report(joint.path, "velocityLimit", "MuJoCo has no bound on joint velocities");
+  if (joint.velocity_limit < scene::kUnlimited && !has_one_dof(joint)) {
+    build.report(joint.path, "velocityLimit",
+                 "only velocities of revolute and prismatic joints are cut");
   }
   const bool elliptic =
       joint.kind == scene::JointKind::Spherical && circular_cone(joint) == scene::kUnlimited &&

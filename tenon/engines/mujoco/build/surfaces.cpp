@@ -70,10 +70,20 @@ void set_friction(mjsGeom& geom, const scene::Material& material) {
   geom.friction[2] = material.rolling_friction.value_or(geom.friction[2]);
 }
 
-SurfaceKind kind_of(const scene::PhysicsScene& scene, const std::optional<scene::Index>& index) {
+SurfaceKind kind_of(const scene::PhysicsScene& scene, const std::optional<scene::Index>& index,
+                    const scene::ColliderSettings& settings) {
   const scene::Material& material = material_of(scene, index);
-  return {material.dynamic_friction, std::clamp(material.restitution, 0.0, 1.0),
-          material.friction_combine, material.restitution_combine};
+  const scene::Compliance& soft = material.compliance;
+  return {material.dynamic_friction,
+          std::clamp(material.restitution, 0.0, 1.0),
+          material.friction_combine,
+          material.restitution_combine,
+          soft.stiffness,
+          soft.damping,
+          soft.acceleration,
+          soft.damping_combine,
+          settings.torsional_patch,
+          settings.min_torsional_patch};
 }
 
 double friction_of(const SurfaceKind& a, const SurfaceKind& b) {
@@ -142,7 +152,7 @@ Surfaces add_surfaces(Build& build) {
   surfaces.of_collider.resize(build.geoms.size());
   for (std::size_t i = 0; i < build.geoms.size(); ++i) {
     for (const std::optional<scene::Index>& material : build.geom_materials[i]) {
-      const SurfaceKind kind = kind_of(build.scene, material);
+      const SurfaceKind kind = kind_of(build.scene, material, build.scene.colliders[i].settings);
       const auto [entry, is_new] = numbers.try_emplace(kind, static_cast<int>(numbers.size()));
       if (is_new) {
         surfaces.kinds.push_back(kind);
@@ -170,17 +180,57 @@ Surfaces add_surfaces(Build& build) {
       }
     }
   }
+  surfaces.by_contact = surfaces.kinds.size() > 1 ||
+                        std::any_of(surfaces.kinds.begin(), surfaces.kinds.end(),
+                                    [](const SurfaceKind& kind) { return kind.is_special(); });
   report_materials(build);
   return surfaces;
 }
 
-bool apply_surfaces(Surfaces& surfaces, mjData* data) {
+namespace {
+
+// A contact that gives way: PhysX takes the one that is soft, of two soft ones both by the mode.
+void make_soft(const SurfaceKind& a, const SurfaceKind& b, double time_step, const mjModel& model,
+               mjContact& contact) {
+  const SurfaceKind& soft = a.stiffness > 0 ? a : b;
+  double stiffness = soft.stiffness;
+  double damping = soft.damping;
+  if (a.stiffness > 0 && b.stiffness > 0) {
+    stiffness =
+        scene::combine(a.stiffness, a.restitution_combine, b.stiffness, b.restitution_combine);
+    damping = scene::combine(a.damping, a.damping_combine, b.damping, b.damping_combine);
+  }
+  double weight = 1;
+  if (!soft.by_mass) {
+    weight = model.body_invweight0[2 * model.geom_bodyid[contact.geom[0]]] +
+             model.body_invweight0[2 * model.geom_bodyid[contact.geom[1]]];
+  }
+  const SpringReference spring = spring_reference(stiffness * weight, damping * weight, time_step);
+  contact.solref[0] = -spring.stiffness;
+  contact.solref[1] = -spring.damping;
+  contact.solimp[0] = spring.impedance;
+  contact.solimp[1] = spring.impedance;
+  // Friction stays as firm as the time step allows.
+  contact.solreffriction[0] = 0;
+  contact.solreffriction[1] = -(1 - spring.impedance) / time_step;
+}
+
+void resist_turning(const SurfaceKind& a, const SurfaceKind& b, mjContact& contact) {
+  const double ball = std::max(a.patch, b.patch);
+  const double radius =
+      std::max({a.min_patch, b.min_patch, std::sqrt(2 * ball * std::max(0.0, -contact.dist))});
+  contact.friction[2] = std::max(contact.friction[0] * radius, mjMINMU);
+}
+
+}  // namespace
+
+bool apply_surfaces(Surfaces& surfaces, const mjModel* model, mjData* data) {
   bool changed = false;
   for (int i = 0; i < data->ncon; ++i) {
     mjContact& contact = data->contact[i];
     const int a = surfaces.geom_surface[static_cast<std::size_t>(contact.geom[0])];
     const int b = surfaces.geom_surface[static_cast<std::size_t>(contact.geom[1])];
-    if (a == b || a < 0 || b < 0) {
+    if (a < 0 || b < 0 || (a == b && !surfaces.kinds[static_cast<std::size_t>(a)].is_special())) {
       continue;
     }
     const SurfaceKind& kind_a = surfaces.kinds[static_cast<std::size_t>(a)];
@@ -192,6 +242,12 @@ bool apply_surfaces(Surfaces& surfaces, mjData* data) {
       const std::array<double, 2> solref = solref_of(surfaces, kind_a, kind_b);
       contact.solref[0] = solref[0];
       contact.solref[1] = solref[1];
+      if (kind_a.stiffness > 0 || kind_b.stiffness > 0) {
+        make_soft(kind_a, kind_b, surfaces.time_step, *model, contact);
+      }
+    }
+    if (kind_a.patch > 0 || kind_b.patch > 0 || kind_a.min_patch > 0 || kind_b.min_patch > 0) {
+      resist_turning(kind_a, kind_b, contact);
     }
     changed = true;
   }

@@ -19,6 +19,6 @@ Surfaces add_surfaces(Build& build);
 std::array<double, 2> contact_solref(double restitution, double time_step);
 
 /// Writes the values of pairs into the made contacts; true when any contact was changed.
-bool apply_surfaces(Surfaces& surfaces, mjData* data);
+bool apply_surfaces(Surfaces& surfaces, const mjModel* model, mjData* data);
 
 }  // namespace tenon::engines::mujoco

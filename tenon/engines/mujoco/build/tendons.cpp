@@ -43,6 +43,9 @@ class TendonPass {
     if (tendon.range) {
       std::copy(tendon.range->begin(), tendon.range->end(), result->range);
     }
+    if (tendon.range && tendon.limit_stiffness > 0) {
+      build_.soft_bounds.push_back({result->element, true, tendon.limit_stiffness, 0});
+    }
     for (const scene::MujocoSetting& setting : tendon.settings) {
       if (!apply(setting, *result)) {
         build_.report(tendon.path, "mjc:" + setting.name, "MuJoCo has no such setting or value");

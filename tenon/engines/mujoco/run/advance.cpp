@@ -16,7 +16,7 @@ void advance_sleepers(Model& model) {
   const mjModel* m = model.model.get();
   mjData* d = model.data.get();
   mj_step1(m, d);
-  if (apply_surfaces(model.surfaces, d)) {
+  if (apply_surfaces(model.surfaces, m, d)) {
     mj_makeConstraint(m, d);
     mj_island(m, d);
     mj_projectConstraint(m, d);
@@ -53,7 +53,7 @@ Error unstable(const Model& model, int warning) {
 void advance(Model& model) {
   const mjModel* m = model.model.get();
   mjData* d = model.data.get();
-  if (model.surfaces.kinds.size() <= 1) {
+  if (!model.surfaces.by_contact) {
     mj_step(m, d);
   } else if ((m->opt.enableflags & mjENBL_SLEEP) != 0) {
     advance_sleepers(model);
@@ -64,7 +64,7 @@ void advance(Model& model) {
     mj_makeM(m, d);
     mj_factorM(m, d);
     mj_collision(m, d);
-    apply_surfaces(model.surfaces, d);
+    apply_surfaces(model.surfaces, m, d);
     mj_makeConstraint(m, d);
     mj_island(m, d);
     mj_transmission(m, d);

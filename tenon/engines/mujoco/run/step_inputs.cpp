@@ -9,7 +9,11 @@
 #include "tenon/engines/mujoco/run/step_inputs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "tenon/engines/mujoco/run/body_forces.h"
 
 namespace tenon::engines::mujoco {
 
@@ -17,28 +21,29 @@ StepInputs::StepInputs(const scene::PhysicsScene& scene, Model& model)
     : unit_(static_cast<std::size_t>(model.model->nv), 0), response_(unit_) {
   collect_drives(scene, model);
   collect_tracks(scene, model);
-  collect_damped_bodies(scene, model);
+  collect_pushed_bodies(scene, model);
   start_driven_bodies(model);
 }
 
 bool StepInputs::empty() const {
   return tracked_drives_.empty() && driven_bodies_.empty() && moved_colliders_.empty() &&
-         damped_bodies_.empty() && acceleration_drives_.empty();
+         pushed_bodies_.empty() && acceleration_drives_.empty() && bounded_drives_.empty();
 }
 
 void StepInputs::before_step(Model& model) {
   follow_drive_tracks(model);
   scale_acceleration_drives(model);
   move_colliders(model);
-  damp_bodies(model);
+  bound_efforts(model);
+  push_bodies(model);
   push_driven_bodies(model);
 }
 
 void StepInputs::take_constant_forces(const Model& model) {
-  for (DampedBody& damped : damped_bodies_) {
-    damped.constant_force = read_vector(model.data->xfrc_applied + std::ptrdiff_t{6} * damped.id);
-    damped.constant_torque =
-        read_vector(model.data->xfrc_applied + std::ptrdiff_t{6} * damped.id + 3);
+  for (PushedBody& pushed : pushed_bodies_) {
+    const double* force = model.data->xfrc_applied + std::ptrdiff_t{6} * pushed.map.id;
+    pushed.constant_force = read_vector(force);
+    pushed.constant_torque = read_vector(force + 3);
   }
 }
 
@@ -48,6 +53,11 @@ void StepInputs::collect_drives(const scene::PhysicsScene& scene, const Model& m
     drives_.push_back(scene.joints[map.joint].drives[map.drive]);
     if (map.actuator >= 0 && drives_.back().acceleration) {
       acceleration_drives_.push_back(i);
+    }
+    const scene::DriveEnvelope& envelope = drives_.back().envelope;
+    if (map.actuator >= 0 &&
+        (envelope.max_velocity < scene::kUnlimited || envelope.velocity_resistance > 0)) {
+      bounded_drives_.push_back(i);
     }
   }
 }
@@ -78,17 +88,24 @@ void StepInputs::collect_tracks(const scene::PhysicsScene& scene, const Model& m
   }
 }
 
-void StepInputs::collect_damped_bodies(const scene::PhysicsScene& scene, const Model& model) {
+void StepInputs::collect_pushed_bodies(const scene::PhysicsScene& scene, const Model& model) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const scene::Body& body = scene.bodies[b];
-    const bool damped = body.linear_damping > 0 || body.angular_damping > 0;
-    if (damped && !body.kinematic && model.plan.bases[b] == BodyBase::Jointed) {
-      const BodyMap& map = model.bodies[b];
-      const double* force = model.data->xfrc_applied + std::ptrdiff_t{6} * map.id;
-      damped_bodies_.push_back({map.id, body.linear_damping, body.angular_damping,
-                                read_vector(force), read_vector(force + 3)});
+    const BodyBase base = model.plan.bases[b];
+    PushedBody pushed{&body, model.bodies[b], 0, 0, {}, {}};
+    if (base == BodyBase::Jointed) {
+      pushed.linear = body.linear_damping;
+    }
+    if (base == BodyBase::Jointed || body.settings.locked_rotation != 0) {
+      pushed.angular = body.angular_damping;
+    }
+    const bool pushes = pushed.linear > 0 || pushed.angular > 0 || !body.settings.forces.empty() ||
+                        !body.settings.gyroscopic;
+    if (pushes && !body.kinematic && (base == BodyBase::Jointed || base == BodyBase::Free)) {
+      pushed_bodies_.push_back(std::move(pushed));
     }
   }
+  take_constant_forces(model);
 }
 
 void StepInputs::follow_drive_tracks(Model& model) {
@@ -190,25 +207,56 @@ void StepInputs::move_colliders(Model& model) const {
   }
 }
 
-// F = -m c v and T = -I c w at the centre of mass; a rate above 1 / dt stops within one step.
-void StepInputs::damp_bodies(Model& model) const {
+// What a drive can exert at the speed that it has.
+void StepInputs::bound_efforts(Model& model) const {
+  if (bounded_drives_.empty()) {
+    return;
+  }
+  mjModel& m = own_model(model);
+  for (const std::size_t i : bounded_drives_) {
+    const scene::DriveEnvelope& envelope = drives_[i].envelope;
+    const DriveMap& map = model.drives[i];
+    const double speed = std::fabs(model.data->qvel[map.dof]);
+    double most = drives_[i].max_force - envelope.velocity_resistance * speed;
+    if (speed >= envelope.max_velocity) {
+      most = 0;
+    } else if (envelope.speed_effort_gradient > 0) {
+      most = std::min(most, (envelope.max_velocity - speed) / envelope.speed_effort_gradient);
+    }
+    most = std::max(most, 0.0);
+    m.actuator_forcelimited[map.actuator] = most < scene::kUnlimited ? 1 : 0;
+    m.actuator_forcerange[std::ptrdiff_t{2} * map.actuator] = -most;
+    m.actuator_forcerange[2 * map.actuator + 1] = most;
+  }
+}
+
+// F = -m c v and T = -I c w at the centre of mass; a rate above 1 / dt stops within one step. What
+// turns without gyroscopic torque gets that torque, w x I w, back.
+void StepInputs::push_bodies(Model& model) const {
   const mjModel* m = model.model.get();
   mjData* d = model.data.get();
   const double most = 1 / m->opt.timestep;
-  for (const DampedBody& damped : damped_bodies_) {
-    const int id = damped.id;
+  for (const PushedBody& pushed : pushed_bodies_) {
+    const int id = pushed.map.id;
     double velocity[6];
     mj_objectVelocity(m, d, mjOBJ_BODY, id, velocity, 1);
     const Quatd principal = read_quaternion(d->xiquat + std::ptrdiff_t{4} * id);
-    Vec3d force = read_vector(velocity + 3) * (-m->body_mass[id] * std::min(damped.linear, most));
+    const Vec3d spin = read_vector(velocity);
+    const Vec3d inertia = read_vector(m->body_inertia + std::ptrdiff_t{3} * id);
+    Vec3d force = read_vector(velocity + 3) * (-m->body_mass[id] * std::min(pushed.linear, most));
     Vec3d torque;
+    Vec3d momentum;
     for (std::size_t i = 0; i < 3; ++i) {
-      torque[i] = -m->body_inertia[3 * static_cast<std::size_t>(id) + i] * velocity[i] *
-                  std::min(damped.angular, most);
+      momentum[i] = inertia[i] * spin[i];
+      torque[i] = -momentum[i] * std::min(pushed.angular, most);
     }
-    force = rotate(principal, force) + damped.constant_force;
+    if (!pushed.body->settings.gyroscopic) {
+      torque += cross(spin, momentum);
+    }
+    const Wrench own = body_forces(*pushed.body, pushed.map, *d);
+    force = rotate(principal, force) + pushed.constant_force + own.force;
     write_vector(d->xfrc_applied + std::ptrdiff_t{6} * id, force);
-    torque = rotate(principal, torque) + damped.constant_torque;
+    torque = rotate(principal, torque) + pushed.constant_torque + own.torque;
     write_vector(d->xfrc_applied + std::ptrdiff_t{6} * id + 3, torque);
   }
 }

@@ -10,8 +10,9 @@
 namespace tenon::engines::mujoco {
 
 /// What is written into a model before every step: drives, bodies and colliders that follow the
-/// asset's time samples, and forces that MuJoCo does not know, which are acceleration drives and
-/// the damping of bodies on joints. Nothing in most scenes.
+/// asset's time samples, and forces that MuJoCo does not know, which are acceleration drives,
+/// drives whose maximum depends on the speed, the damping of bodies on joints and constant forces.
+/// Nothing in most scenes.
 class StepInputs {
  public:
   StepInputs() = default;
@@ -20,7 +21,7 @@ class StepInputs {
 
   bool empty() const;
   /// Velocities are asked for, so that derive_motion() must have run.
-  bool needs_motion() const { return !damped_bodies_.empty(); }
+  bool needs_motion() const { return !pushed_bodies_.empty(); }
   void before_step(Model& model);
   void after_step(Model& model) const;
   /// The constant forces of the model are other ones.
@@ -51,31 +52,35 @@ class StepInputs {
     const scene::PoseTrack* track = nullptr;
     int mocap = -1;
   };
-  struct DampedBody {
-    int id = 0;  ///< MuJoCo body
-    double linear = 0;
-    double angular = 0;
+  /// Damped, under constant forces, or without gyroscopic torque.
+  struct PushedBody {
+    const scene::Body* body = nullptr;
+    BodyMap map;
+    double linear = 0;   ///< damping [1/s]
+    double angular = 0;  ///< damping [1/s]
     Vec3d constant_force;
     Vec3d constant_torque;
   };
   void collect_drives(const scene::PhysicsScene& scene, const Model& model);
   void collect_tracks(const scene::PhysicsScene& scene, const Model& model);
-  void collect_damped_bodies(const scene::PhysicsScene& scene, const Model& model);
+  void collect_pushed_bodies(const scene::PhysicsScene& scene, const Model& model);
   void start_driven_bodies(Model& model);
   void follow_drive_tracks(Model& model);
   void write_gain(std::size_t drive, scene::Animated what, double value, Model& model);
   void overrule(std::size_t drive, scene::Animated what);
   void scale_acceleration_drives(Model& model);
   void move_colliders(Model& model) const;
-  void damp_bodies(Model& model) const;
+  void push_bodies(Model& model) const;
+  void bound_efforts(Model& model) const;
   void push_driven_bodies(Model& model);
 
   std::vector<TrackedDrive> tracked_drives_;
   std::vector<DrivenBody> driven_bodies_;
   std::vector<MovedCollider> moved_colliders_;
-  std::vector<DampedBody> damped_bodies_;
+  std::vector<PushedBody> pushed_bodies_;
   std::vector<scene::Drive> drives_;              ///< in force now, as Model::drives
   std::vector<std::size_t> acceleration_drives_;  ///< into Model::drives
+  std::vector<std::size_t> bounded_drives_;       ///< into Model::drives: those with an envelope
   std::vector<double> unit_;                      ///< scratch (dof_count)
   std::vector<double> response_;                  ///< scratch (dof_count)
 };

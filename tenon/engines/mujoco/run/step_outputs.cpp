@@ -15,6 +15,7 @@
 
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/mujoco/run/body_forces.h"
 #include "tenon/engines/mujoco/run/read_state.h"
 
 namespace tenon::engines::mujoco {
@@ -222,6 +223,9 @@ void StepOutputs::add_wrench_work(const PhysicsScene& scene, const Steering& ste
     if (found != steering.wrenches.end()) {
       set = found->second;
     }
+    const Wrench own = body_forces(body, model.bodies[b], d);
+    set.force += own.force;
+    set.torque += own.torque;
     const Vec3d other =
         read_vector(applied) - set.force - other_gravity(body, model.bodies[b].mass, gravity);
     const double dt = m.opt.timestep;
