@@ -10,7 +10,9 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/mujoco/run/breaking.h"
+#include "tenon/engines/mujoco/run/energy_watch.h"
 #include "tenon/engines/mujoco/run/moving_bounds.h"
+#include "tenon/engines/mujoco/run/passage_watch.h"
 #include "tenon/engines/mujoco/run/saved_run.h"
 #include "tenon/engines/mujoco/run/step_inputs.h"
 #include "tenon/engines/mujoco/run/step_outputs.h"
@@ -111,6 +113,7 @@ class MujocoSimulation final : public Simulation {
   void advance_sleepers();
   Result<void> check() const;
   Error unstable(int warning) const;
+  Result<void> watch();
   void bring_up_to_date() const;
   StateOwner owner() const;
 
@@ -125,6 +128,8 @@ class MujocoSimulation final : public Simulation {
   StepInputs inputs_;
   MovingBounds bounds_;
   Breaking breaking_;
+  EnergyWatch energy_watch_;
+  PassageWatch passages_;
   std::optional<StepOutputs> outputs_;
   mutable bool stale_ = true;
 };
