@@ -111,6 +111,32 @@ def Sphere "ball" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisio
 }
 """
 
+# A weight on a vertical drive; its mass triples within a second.
+SCALE = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+    timeCodesPerSecond = 24
+)
+def PhysicsScene "Scene"
+{
+    vector3f physics:gravityDirection = (0, 0, -1)
+    float physics:gravityMagnitude = 10
+}
+def Cube "weight" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])
+{
+    float physics:mass.timeSamples = { 0: 1, 24: 3 }
+}
+def PhysicsPrismaticJoint "rail" (prepend apiSchemas = ["PhysicsDriveAPI:linear"])
+{
+    uniform token physics:axis = "Z"
+    rel physics:body1 = </weight>
+    float drive:linear:physics:stiffness = 1000
+    float drive:linear:physics:damping = 100
+    float physics:breakForce.timeSamples = { 0: 1000, 24: 2000 }
+}
+"""
+
 
 def chain(links):
     """Free hinges across each other, in line and pulled sideways."""
@@ -495,6 +521,21 @@ class Watch(Sim):
         self.assertEqual([event["prim"] for event in answer["events"]], ["/ball"])
         slow = self.json(self.write("bullet.usda", BULLET), "--duration", 0.1, "--dt", 5e-5)
         self.assertNotIn("sim.passed-through", [d["rule"] for d in slow["diagnostics"]])
+
+
+class Samples(Sim):
+    def test_a_mass_that_grows_sags_more_and_what_is_not_followed_is_said(self):
+        scale = self.write("scale.usda", SCALE)
+        # m g / k
+        for end, mass in ((0.6, None), (3, 3)):
+            answer = self.json(scale, "--duration", end)
+            sag = -answer["joints"]["/rail"]["position"][0]
+            if mass:
+                self.assertAlmostEqual(sag, mass * 10 / 1000, delta=1e-4)
+            else:
+                self.assertTrue(0.012 < sag < 0.025, sag)
+            self.assertEqual([(item["prim"], item["property"]) for item in answer["notMapped"]],
+                             [("/rail", "physics:breakForce")])
 
 
 class Methods(Sim):
