@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Words of the command line become options of a run, whose names the parser has checked. An
+// interrupt is counted while steps are taken and stops the run, so that its outputs stay whole.
 #include "cli/simulate.h"
 
 #include <csignal>

@@ -153,7 +153,9 @@ def PhysicsScene "Scene"
 """
     for i in range(links):
         before = f"    rel physics:body0 = </link{i - 1}>\n" if i else ""
-        text += f"""def Cube "link{i}" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])
+        text += f"""def Cube "link{i}" (
+    prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"]
+)
 {{
     float physics:mass = 1
     float3 physics:diagonalInertia = (0.004, 0.004, 0.001)
