@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Words of the command line become options of a run, whose names the parser has checked. An
+// interrupt is counted while steps are taken and stops the run, so that its outputs stay whole.
 #include "cli/simulate.h"
 
 #include <csignal>
@@ -12,6 +15,9 @@
 
 namespace tenon::cli {
 namespace {
+
+constexpr auto kOwnIntegrator = engines::Integrator::Default;
+constexpr auto kOwnSolver = engines::ConstraintSolver::Default;
 
 volatile std::sig_atomic_t interrupt_count = 0;
 
@@ -38,6 +44,9 @@ Result<SimulateAssetOptions> simulation_options(const SimulateArguments& argumen
   options.duration = arguments.duration;
   options.time_step = arguments.time_step;
   options.frames_per_second = arguments.frames_per_second;
+  options.methods = {engines::integrator_named(arguments.integrator).value_or(kOwnIntegrator),
+                     engines::solver_named(arguments.solver).value_or(kOwnSolver),
+                     static_cast<int>(arguments.iterations)};
   options.outputs = bake::outputs_named(arguments.log);
   options.commands = arguments.commands;
   options.state_in = arguments.state_in;
@@ -60,6 +69,18 @@ void SimulateArguments::add_to(const Command& verb) {
   verb.add_option("--dt", time_step, {1e-9, 10, false, false, "s"},
                   "Time step; without it the asset's, else 0.002 s")
       .value_name("SECONDS");
+  verb.add_option("--integrator", integrator,
+                  "How steps are made; without it the asset's, else implicitfast (MuJoCo)")
+      .one_of(engines::integrator_names())
+      .value_name("NAME");
+  verb.add_option(
+          "--solver", solver,
+          "What finds the forces of contacts and limits; without it the asset's, else newton")
+      .one_of(engines::solver_names())
+      .value_name("NAME");
+  verb.add_option("--iterations", iterations, {1, 1e6, false, true, ""},
+                  "How often the solver tries, at most; without it the asset's, else 100")
+      .value_name("COUNT");
   verb.add_option("--fps", frames_per_second, {0, 1e5, true, false, "per second"},
                   "Frames of logs and baked layers");
   add_readings(verb, readings);

@@ -22,6 +22,9 @@ struct SimulateArguments {
   std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5
   double time_step = 0;            ///< [s]; 0: the asset's, else the engine's
   double frames_per_second = 60;
+  std::string integrator;        ///< --integrator; empty: the asset's, else the engine's
+  std::string solver;            ///< --solver
+  std::size_t iterations = 0;    ///< --iterations; 0: the asset's, else the engine's
   std::string commands;          ///< of sim: --commands
   std::string state_in;          ///< of sim: --state-in
   std::string until;             ///< of sim: "rest" or empty

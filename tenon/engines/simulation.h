@@ -32,8 +32,8 @@ class Simulation {  // all functions inline: who derives needs no type informati
   Simulation& operator=(const Simulation&) = delete;
   virtual ~Simulation() = default;
 
-  /// One time step; an Error with code Unstable when the state leaves the finite numbers or the
-  /// engine resets itself.
+  /// One time step; an Error with code Unstable when the state leaves the finite numbers, or when
+  /// the energy grew and no drive, contact, force or moved body has given it.
   virtual Result<void> step() = 0;
   virtual double time() const = 0;       ///< [s] since the start
   virtual double time_step() const = 0;  ///< [s]
@@ -45,7 +45,7 @@ class Simulation {  // all functions inline: who derives needs no type informati
   /// Degrees of freedom that the engine simulates.
   virtual std::size_t dof_count() const = 0;
   virtual const std::vector<NotMapped>& not_mapped() const = 0;
-  /// Joints that broke so far, in time order (S-93).
+  /// Joints that broke (S-93) and fast bodies that passed through others so far, in time order.
   virtual const std::vector<Event>& events() const = 0;
   /// The centre of mass of a body, world [m].
   virtual Vec3d center_of_mass(scene::Index body) const = 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tenon/base/path.h"
+#include "tenon/engines/methods.h"
 #include "tenon/math/vector.h"
 #include "tenon/scene/body_state.h"
 #include "tenon/scene/physics_scene.h"
@@ -28,11 +29,18 @@ struct JointState {
 /// Something that the engine cannot express; the simulation went on without it.
 using NotMapped = scene::NotRead;
 
-/// Something that changed for good while the simulation ran.
+enum class EventKind : std::uint8_t {
+  JointBroke,     ///< for good
+  PassedThrough,  ///< a body was on one side of a collider before a step, on the other after it
+};
+
+/// Something that happened once while the simulation ran.
 struct Event {
   double time = 0;  ///< [s]
   Path prim;
   std::string what;  ///< "broke under 120 N and 3 N m"
+  EventKind kind = EventKind::JointBroke;
+  Path other{};  ///< of PassedThrough: the collider
 };
 
 struct Energy {
@@ -84,6 +92,7 @@ struct SimulationOptions {
   double time_step = 0;  ///< [s]; 0: what the asset asks for, else the engine's default
   Outputs outputs{};     ///< what can be read beside states, energy and the number of contacts
   DriveTerms drives = DriveTerms::Engine;
+  Methods methods{};
 };
 
 /// What a drive is to reach.

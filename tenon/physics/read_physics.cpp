@@ -79,6 +79,7 @@ PhysicsScene read_walked(ReadState& state) {
   read_tracks(state);
   read_moving_shapes(state);
   read_nesting(state);
+  note_frozen_samples(state);
   note_what_is_not_read(state);
   return std::move(state.scene);
 }

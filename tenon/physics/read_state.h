@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "tenon/base/function.h"
@@ -63,6 +64,8 @@ struct ReadState {
   std::unordered_map<Index, SolidIntegrals> integrals_of_collider{};
   /// Drives of the drive API, in the order of joints.
   std::vector<DriveInstance> drive_instances{};
+  /// Attributes whose samples the description follows, or of which it is said that it does not.
+  std::unordered_set<std::string> followed{};
   /// Materials of the scene by prim path.
   std::unordered_map<Path, Index> material_of_path{};
 
@@ -82,6 +85,13 @@ struct ReadState {
   const PhysicsPrim& prim_of_joint(Index i) const { return walk.prims[joint_prims[i]]; }
   /// The transform of the body's prim is made of finite numbers.
   bool has_place(Index body) const;
+  /// Its samples have a place in the description.
+  void follow(const stage::Prim& prim, Token name) {
+    followed.insert(prim.path().str() + "." + name.str());
+  }
+  bool follows(const stage::Prim& prim, Token name) const {
+    return followed.contains(prim.path().str() + "." + name.str());
+  }
   bool is_dynamic(Index body) const { return !scene.bodies[body].kinematic; }
 
   void report(const stage::Prim& prim, Severity severity, const char* rule, std::string message,
@@ -151,5 +161,8 @@ void read_tracks(ReadState& state);
 void read_moving_shapes(ReadState& state);
 void read_nesting(ReadState& state);
 void note_what_is_not_read(ReadState& state);
+/// Lists attributes that vary over time and whose value at the start counts for good (S-116). After
+/// all passes that follow samples.
+void note_frozen_samples(ReadState& state);
 
 }  // namespace tenon::physics

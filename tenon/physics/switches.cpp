@@ -44,6 +44,7 @@ class SwitchReader {
     if (!attribute.is_animated()) {
       return;
     }
+    state_.follow(prim, name);
     SwitchTrack track{what, object, {}, {}};
     for (const double code : attribute.time_samples()) {
       track.times.push_back(state_.seconds(code));
@@ -69,12 +70,16 @@ class SwitchReader {
   }
 
   /// Times of samples of any of these attributes; none when they do not vary.
-  static std::vector<double> codes_of(const stage::Prim& prim, const std::vector<Token>& names) {
+  std::vector<double> codes_of(const stage::Prim& prim, const std::vector<Token>& names) {
     std::vector<stage::Attribute> animated;
     for (const Token name : names) {
       animated.push_back(prim.attribute(name));
+      if (animated.back().is_animated()) {
+        state_.follow(prim, name);
+      } else {
+        animated.pop_back();
+      }
     }
-    std::erase_if(animated, [](const stage::Attribute& at) { return !at.is_animated(); });
     return sample_codes(animated);
   }
 

@@ -90,6 +90,7 @@ class TrackReader {
     if (!attribute.is_animated()) {
       return;
     }
+    state_.follow(prim, name);
     ScalarTrack track;
     track.what = what;
     track.joint = drive.joint;

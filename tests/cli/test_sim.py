@@ -87,6 +87,91 @@ def PhysicsJoint "joint" (
        "".join(f"    float limit:{axis}:physics:low = 1\n    float limit:{axis}:physics:high = -1\n"
                for axis in ("transY", "transZ", "rotY", "rotZ")))
 
+# A ball that flies at a thin wall, 0.4 m a step.
+BULLET = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def PhysicsScene "Scene"
+{
+    float physics:gravityMagnitude = 0
+}
+def Cube "wall" (prepend apiSchemas = ["PhysicsCollisionAPI"])
+{
+    double size = 1
+    double3 xformOp:translate = (1, 0, 0)
+    double3 xformOp:scale = (0.01, 2, 2)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
+}
+def Sphere "ball" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"])
+{
+    double radius = 0.02
+    vector3f physics:velocity = (200, 0, 0)
+}
+"""
+
+# A weight on a vertical drive; its mass triples within a second.
+SCALE = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+    timeCodesPerSecond = 24
+)
+def PhysicsScene "Scene"
+{
+    vector3f physics:gravityDirection = (0, 0, -1)
+    float physics:gravityMagnitude = 10
+}
+def Cube "weight" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])
+{
+    float physics:mass.timeSamples = { 0: 1, 24: 3 }
+}
+def PhysicsPrismaticJoint "rail" (prepend apiSchemas = ["PhysicsDriveAPI:linear"])
+{
+    uniform token physics:axis = "Z"
+    rel physics:body1 = </weight>
+    float drive:linear:physics:stiffness = 1000
+    float drive:linear:physics:damping = 100
+    float physics:breakForce.timeSamples = { 0: 1000, 24: 2000 }
+}
+"""
+
+
+def chain(links):
+    """Free hinges across each other, in line and pulled sideways."""
+    text = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def PhysicsScene "Scene"
+{
+    vector3f physics:gravityDirection = (4, 3, -8)
+    float physics:gravityMagnitude = 9.4
+}
+"""
+    for i in range(links):
+        before = f"    rel physics:body0 = </link{i - 1}>\n" if i else ""
+        text += f"""def Cube "link{i}" (
+    prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"]
+)
+{{
+    float physics:mass = 1
+    float3 physics:diagonalInertia = (0.004, 0.004, 0.001)
+    double3 xformOp:translate = (0, 0, {0.1 + 0.2 * i})
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}}
+def PhysicsRevoluteJoint "hinge{i}"
+{{
+    uniform token physics:axis = "{"YX"[i % 2]}"
+{before}    rel physics:body1 = </link{i}>
+    point3f physics:localPos0 = (0, 0, {0.1 if i else 0})
+    point3f physics:localPos1 = (0, 0, -0.1)
+}}
+"""
+    return text
+
 
 class Sim(unittest.TestCase):
     def setUp(self):
@@ -416,6 +501,71 @@ class Logs(Sim):
         process = self.ok(self.box, "--duration", 0.1, "-o", "-", "--format", "jsonl", "--log",
                           "contacts")
         self.assertIn('"contacts":[', process.stdout)
+
+
+class Watch(Sim):
+    def test_energy_from_nothing_is_unstable_with_body_and_time(self):
+        process = self.sim(self.write("chain.usda", chain(6)), "--dt", 0.5, "--json")
+        self.assertEqual(process.returncode, 3, process.stderr)
+        answer = json.loads(process.stdout)
+        self.assertTrue(answer["unstable"])
+        self.assertAlmostEqual(answer["time"], answer["steps"] * answer["dt"])
+        found = [d for d in answer["diagnostics"] if d["rule"] == "mujoco.unstable"]
+        self.assertEqual(len(found), 1, answer["diagnostics"])
+        self.assertTrue(found[0]["prim"].startswith("/link"), found)
+        self.assertRegex(found[0]["message"], r"unstable at [0-9.]+ s")
+
+    def test_a_ball_that_passes_a_wall_is_told(self):
+        answer = self.json(self.write("bullet.usda", BULLET), "--duration", 0.1)
+        found = [d for d in answer["diagnostics"] if d["rule"] == "sim.passed-through"]
+        self.assertEqual([d["prim"] for d in found], ["/ball"])
+        self.assertIn("</wall>", found[0]["message"])
+        self.assertEqual([event["prim"] for event in answer["events"]], ["/ball"])
+        slow = self.json(self.write("bullet.usda", BULLET), "--duration", 0.1, "--dt", 5e-5)
+        self.assertNotIn("sim.passed-through", [d["rule"] for d in slow["diagnostics"]])
+
+
+class Samples(Sim):
+    def test_a_mass_that_grows_sags_more_and_what_is_not_followed_is_said(self):
+        scale = self.write("scale.usda", SCALE)
+        # m g / k
+        for end, mass in ((0.6, None), (3, 3)):
+            answer = self.json(scale, "--duration", end)
+            sag = -answer["joints"]["/rail"]["position"][0]
+            if mass:
+                self.assertAlmostEqual(sag, mass * 10 / 1000, delta=1e-4)
+            else:
+                self.assertTrue(0.012 < sag < 0.025, sag)
+            self.assertEqual([(item["prim"], item["property"]) for item in answer["notMapped"]],
+                             [("/rail", "physics:breakForce")])
+
+
+class Methods(Sim):
+    def test_that_are_none_are_refused_with_the_list(self):
+        self.refused(["euler, implicitfast, implicit, rk4"], self.box, "--integrator", "verlet")
+        self.refused(["newton, cg, pgs"], self.box, "--solver", "jacobi")
+        self.refused(["--iterations"], self.box, "--iterations", 0)
+
+    def test_each_makes_another_motion_of_the_same_fall(self):
+        ends = set()
+        for name in ("euler", "implicitfast", "implicit", "rk4"):
+            answer = self.json(self.high, "--duration", 0.2, "--integrator", name)
+            ends.add(answer["bodies"]["/box"]["position"][2])
+            # z = 60 - g t^2 / 2 cm; semi-implicit steps add g t dt / 2.
+            self.assertAlmostEqual(answer["bodies"]["/box"]["position"][2], 60 - 981 * 0.02,
+                                   delta=0.25)
+        self.assertEqual(len(ends), 2)  # rk4 is exact, the others agree in a fall
+
+    def test_fewer_iterations_leave_a_resting_box_less_well_held(self):
+        wanted = ("--duration", 0.3, "--solver", "pgs", "--iterations")
+        one = self.json(self.box, *wanted, 1)["bodies"]["/box"]["position"]
+        many = self.json(self.box, *wanted, 100)["bodies"]["/box"]["position"]
+        self.assertNotEqual(one, many)
+
+    def test_a_state_of_other_methods_is_refused(self):
+        self.ok(self.box, "--duration", 0.1, "--state-out", "s.state")
+        self.refused(["methods"], self.box, "--duration", 0.1, "--state-in", "s.state",
+                     "--integrator", "rk4")
 
 
 if __name__ == "__main__":

@@ -135,6 +135,7 @@ Result<void> build_model(const SimulateAssetOptions& options, SimulatedAsset& as
   engines::SimulationOptions simulation;
   simulation.time_step = options.time_step;
   simulation.outputs = options.outputs;
+  simulation.methods = options.methods;
   TENON_TRY(asset.simulation,
             make_simulation(options.engine, *asset.scene, simulation, diagnostics));
   asset.engine = options.engine;
@@ -201,9 +202,26 @@ bake::RunOptions run_options(const SimulateAssetOptions& options, const Simulate
   return run;
 }
 
+/// Small fast bodies that were before something at one step and behind it at the next.
+void report_passages(const SimulatedAsset& asset, Diagnostics& diagnostics) {
+  for (const engines::Event& event : asset.simulation->events()) {
+    if (event.kind != engines::EventKind::PassedThrough) {
+      continue;
+    }
+    Diagnostic finding;
+    finding.severity = Severity::Warning;
+    finding.rule = "sim.passed-through";
+    finding.prim = event.prim.str();
+    finding.message = "at " + shortest(event.time) + " s the body " + event.what;
+    finding.fix = "give a smaller --dt, so that it moves by less than its own size in a step";
+    diagnostics.add(std::move(finding));
+  }
+}
+
 void report_end(const SimulateAssetOptions& options, const SimulatedAsset& asset,
                 Diagnostics& diagnostics) {
   const bake::Run& run = asset.run;
+  report_passages(asset, diagnostics);
   if (run.failure) {
     diagnostics.add(run.failure->diagnostic());
   } else if (options.until_rest && !run.rest_since && !run.interrupted) {

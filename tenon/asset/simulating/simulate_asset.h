@@ -37,6 +37,7 @@ struct SimulateAssetOptions {
   std::string engine = "mujoco";
   std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5
   double time_step = 0;            ///< [s]; 0: the asset's, else the engine's
+  engines::Methods methods{};      ///< how steps are made
   double frames_per_second = 60;   ///< of the recording
   engines::Outputs outputs;        ///< what the recording has beside states
   std::string commands;            ///< a file of commands (bake/commands.h); empty: none

@@ -17,6 +17,17 @@ bool bits_off(const mjModel* m, int a, int b) {
          (m->geom_contype[b] & m->geom_conaffinity[a]) == 0;
 }
 
+bool filtered(const ContactFilter& filter, int a, int b) {
+  const auto class_a = static_cast<std::size_t>(filter.geom_class[static_cast<std::size_t>(a)]);
+  const auto class_b = static_cast<std::size_t>(filter.geom_class[static_cast<std::size_t>(b)]);
+  if (filter.class_off[class_a * filter.class_count + class_b] != 0) {
+    return true;
+  }
+  const std::uint64_t pair = (std::uint64_t{static_cast<std::uint32_t>(std::min(a, b))} << 32u) |
+                             static_cast<std::uint32_t>(std::max(a, b));
+  return std::binary_search(filter.pairs_off.begin(), filter.pairs_off.end(), pair);
+}
+
 // 1 discards the pair.
 int filter_pair(const mjModel* m, mjData* d, int a, int b) {
   if (current_filter == nullptr) {
@@ -25,15 +36,7 @@ int filter_pair(const mjModel* m, mjData* d, int a, int b) {
   if (bits_off(m, a, b)) {
     return 1;  // what only tendons go around
   }
-  const ContactFilter& filter = *current_filter;
-  const auto class_a = static_cast<std::size_t>(filter.geom_class[static_cast<std::size_t>(a)]);
-  const auto class_b = static_cast<std::size_t>(filter.geom_class[static_cast<std::size_t>(b)]);
-  if (filter.class_off[class_a * filter.class_count + class_b] != 0) {
-    return 1;
-  }
-  const std::uint64_t pair = (std::uint64_t{static_cast<std::uint32_t>(std::min(a, b))} << 32u) |
-                             static_cast<std::uint32_t>(std::max(a, b));
-  return std::binary_search(filter.pairs_off.begin(), filter.pairs_off.end(), pair) ? 1 : 0;
+  return filtered(*current_filter, a, b) ? 1 : 0;
 }
 
 void install() {
@@ -56,5 +59,18 @@ FilterScope::FilterScope(const ContactFilter& filter) : outer_(current_filter) {
 }
 
 FilterScope::~FilterScope() { current_filter = outer_; }
+
+bool may_touch(const Model& model, int a, int b) {
+  const mjModel* m = model.model.get();
+  if (bits_off(m, a, b) || (model.filter.needed && filtered(model.filter, a, b))) {
+    return false;
+  }
+  const int body_a = std::min(m->geom_bodyid[a], m->geom_bodyid[b]);
+  const int body_b = std::max(m->geom_bodyid[a], m->geom_bodyid[b]);
+  const int signature = (body_a << 16) + body_b;
+  const int* first = m->exclude_signature;
+  const int* end = first + m->nexclude;
+  return std::find(first, end, signature) == end;
+}
 
 }  // namespace tenon::engines::mujoco

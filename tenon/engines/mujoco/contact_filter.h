@@ -19,4 +19,7 @@ class FilterScope {
   const ContactFilter* outer_ = nullptr;
 };
 
+/// Whether two geoms would touch where they meet. Those of one body are not asked about.
+bool may_touch(const Model& model, int a, int b);
+
 }  // namespace tenon::engines::mujoco

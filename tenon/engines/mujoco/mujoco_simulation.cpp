@@ -104,6 +104,8 @@ MujocoSimulation::MujocoSimulation(std::shared_ptr<const Start> start,
 void MujocoSimulation::connect() {
   inputs_ = StepInputs(*scene_, model_);
   caps_ = VelocityCaps(*scene_, model_);
+  energy_watch_ = EnergyWatch(*scene_, model_);
+  passages_ = PassageWatch(*scene_, model_);
   if (timeline_ != nullptr) {
     bounds_ = MovingBounds(*scene_, model_);
     breaking_ = Breaking(*scene_, model_);
@@ -128,6 +130,7 @@ Result<void> MujocoSimulation::step() {
     write_efforts(*scene_, steering_, model_);
   }
   inputs_.before_step(model_);
+  energy_watch_.begin(model_);
   if (outputs_) {
     outputs_->begin(*scene_, model_);
   }
@@ -143,6 +146,7 @@ Result<void> MujocoSimulation::step() {
   if (outputs_) {
     TENON_CHECK(outputs_->end(*scene_, steering_, model_));
   }
+  TENON_CHECK(watch());
   inputs_.after_step(model_);
   if (!triggers_.empty()) {
     bring_up_to_date();
@@ -168,6 +172,7 @@ Result<void> MujocoSimulation::follow_changes() {
 
 Result<void> MujocoSimulation::write_gravities() {
   write_gravity(*scene_, steering_, model_);
+  energy_watch_.restart();
   inputs_.take_constant_forces(model_);
   return {};
 }
@@ -220,6 +225,32 @@ void MujocoSimulation::note_broken(const Restart& restart) {
     events_.push_back({restart.time, scene_->joints[part.joint].path, what});
     timeline_->break_joint(part.joint);
   }
+}
+
+// What was worked out is of the beginning of the step, coordinates and velocities of its end.
+Result<void> MujocoSimulation::watch() {
+  for (const PassageWatch::Passage& passage : passages_.look(model_)) {
+    const Path& other = scene_->colliders[passage.collider].path;
+    char how[64];
+    std::snprintf(how, sizeof how, " between two steps, in one of %.3g m", passage.step);
+    events_.push_back({time(), scene_->bodies[passage.body].path,
+                       "passed through <" + other.str() + ">" + how, EventKind::PassedThrough,
+                       other});
+  }
+  const std::optional<EnergyWatch::Growth> growth = energy_watch_.end(model_);
+  if (!growth) {
+    return {};
+  }
+  const char* name = mj_id2name(model_.model.get(), mjOBJ_BODY, growth->body);
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "the simulation became unstable at %.6g s: bodies move with %.4g J, and neither "
+                "drives nor contacts nor forces explain %.4g J that were gained",
+                time(), growth->energy, growth->unexplained);
+  return Error(ErrorCode::Unstable, text)
+      .with_rule("mujoco.unstable")
+      .with_prim(name == nullptr ? "" : name)
+      .with_fix("use a smaller time step, softer drives, or start within the limits of joints");
 }
 
 void MujocoSimulation::bring_up_to_date() const {

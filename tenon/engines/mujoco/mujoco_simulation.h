@@ -10,7 +10,9 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/mujoco/run/breaking.h"
+#include "tenon/engines/mujoco/run/energy_watch.h"
 #include "tenon/engines/mujoco/run/moving_bounds.h"
+#include "tenon/engines/mujoco/run/passage_watch.h"
 #include "tenon/engines/mujoco/run/saved_run.h"
 #include "tenon/engines/mujoco/run/step_inputs.h"
 #include "tenon/engines/mujoco/run/step_outputs.h"
@@ -109,6 +111,7 @@ class MujocoSimulation final : public Simulation {
   template <class Call>
   Result<void> change(const Call& call);
   void note_broken(const Restart& restart);
+  Result<void> watch();
   void bring_up_to_date() const;
   StateOwner owner() const;
 
@@ -125,6 +128,8 @@ class MujocoSimulation final : public Simulation {
   Breaking breaking_;
   VelocityCaps caps_;
   Triggers triggers_;
+  EnergyWatch energy_watch_;
+  PassageWatch passages_;
   std::optional<StepOutputs> outputs_;
   mutable bool stale_ = true;
 };

@@ -77,6 +77,7 @@ Result<void> MujocoSimulation::reset() {
 Result<std::string> MujocoSimulation::save_state() const {
   SavedRun run;
   run.drives = start_->options.drives;
+  run.methods = start_->options.methods;
   run.advanced_to = advanced_to_;
   run.history = history_;
   run.steering = steering_;
@@ -99,6 +100,10 @@ Result<void> MujocoSimulation::restore_state(std::string_view bytes) {
   }
   if (run->drives != start_->options.drives) {
     return Error(ErrorCode::Unsupported, "the saved state is of other SimulationOptions::drives")
+        .with_rule("simulation.state");
+  }
+  if (run->methods != start_->options.methods) {
+    return Error(ErrorCode::Unsupported, "the saved state is of other SimulationOptions::methods")
         .with_rule("simulation.state");
   }
   TENON_TRY(std::unique_ptr<MujocoSimulation> fresh, from_start(start_, nullptr));

@@ -91,6 +91,7 @@ Result<void> MujocoSimulation::set_parameter(const ParameterKey& key, double val
   TENON_CHECK(check_parameter(*scene_, key, value));
   return change([&]() -> Result<void> {
     TENON_CHECK(apply_parameter(key, value));
+    energy_watch_.restart();
     steering_.parameters[key] = value;
     return {};
   });
@@ -134,6 +135,7 @@ Result<void> MujocoSimulation::set_joint_state(Index joint, const JointState& st
   TENON_CHECK(check_joint_state(*scene_, joint, state, joint_state(joint).position.size()));
   return change([&] {
     stale_ = true;
+    energy_watch_.restart();
     return write_joint_state(*scene_, joint, state, model_);
   });
 }
@@ -142,6 +144,7 @@ Result<void> MujocoSimulation::set_body_state(Index body, const BodyState& state
   TENON_CHECK(check_body_state(*scene_, body, state));
   return change([&] {
     stale_ = true;
+    energy_watch_.restart();
     return write_body_state(*scene_, body, state, model_);
   });
 }

@@ -59,6 +59,7 @@ void read_group_states(ReadState& state, const std::vector<std::uint32_t>& prims
   for (const std::uint32_t i : prims) {
     for (const Token name : {state.tokens.invert_groups, state.tokens.merge_group}) {
       flags.push_back(state.walk.prims[i].prim.attribute(name));
+      state.follow(state.walk.prims[i].prim, name);
     }
   }
   const std::vector<double> codes = sample_codes(flags);

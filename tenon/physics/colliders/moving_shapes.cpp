@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Prims that move inside a body (S-37): its shapes, and with them its mass, are read again at
-// sample times as they are in the body then.
+// Prims that move or grow inside a body (S-37), and numbers of its mass that vary: its shapes and
+// its mass are read again at sample times as they are in the body then.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tenon/base/limits/physics_limits.h"
+#include "tenon/physics/frozen_samples.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/sample_codes.h"
 #include "tenon/stage/transform_at.h"
@@ -37,6 +38,15 @@ std::vector<double> own_samples(const stage::Prim& prim) {
   return codes;
 }
 
+/// What masses are read from, of a body, its colliders and the prims between.
+const std::vector<Token>& mass_names() {
+  static const std::vector<Token> names{
+      Token("physics:mass"),          Token("physics:density"),
+      Token("physics:centerOfMass"),  Token("physics:diagonalInertia"),
+      Token("physics:principalAxes"), Token("newton:inertia")};
+  return names;
+}
+
 bool same_shape(const Shape& a, const Shape& b) {
   return a.kind == b.kind && a.half_extents == b.half_extents && a.radius == b.radius &&
          a.half_height == b.half_height && a.axis == b.axis && a.sphere_radii == b.sphere_radii &&
@@ -62,17 +72,48 @@ class MovingShapes {
     track.body = body;
     std::vector<double> codes;
     for (const Index i : state_.colliders_of_body[body]) {
-      const std::vector<double> samples = samples_below(body, state_.prim_of_collider(i).prim);
+      const stage::Prim& prim = state_.prim_of_collider(i).prim;
+      std::vector<double> samples = samples_below(body, prim);
+      const std::vector<double> sizes = follow_names(prim, size_names());
+      samples.insert(samples.end(), sizes.begin(), sizes.end());
       if (samples.size() > 1) {
         track.colliders.push_back(i);
         codes.insert(codes.end(), samples.begin(), samples.end());
       }
+      add_mass_codes(body, prim, codes);
     }
-    if (track.colliders.empty()) {
+    add_mass_codes(body, state_.prim_of_body(body).prim, codes);
+    if (codes.size() < 2) {
       return;
     }
     read_samples(dense(ascending_codes(std::move(codes))), track);
     state_.scene.shapes_tracks.push_back(std::move(track));
+  }
+
+  /// Sample times of those that vary, which are followed from here on.
+  std::vector<double> follow_names(const stage::Prim& prim, const std::vector<Token>& names) {
+    std::vector<double> codes;
+    for (const Token name : names) {
+      const stage::Attribute attribute = prim.attribute(name);
+      if (attribute.is_animated()) {
+        state_.follow(prim, name);
+        const std::vector<double> samples = attribute.time_samples();
+        codes.insert(codes.end(), samples.begin(), samples.end());
+      }
+    }
+    return codes;
+  }
+
+  /// From a prim of the body up to the body's own.
+  void add_mass_codes(Index body, const stage::Prim& prim, std::vector<double>& codes) {
+    const Path top = state_.prim_of_body(body).path;
+    for (stage::Prim at = prim; at.is_valid(); at = at.parent()) {
+      const std::vector<double> own = follow_names(at, mass_names());
+      codes.insert(codes.end(), own.begin(), own.end());
+      if (at.path() == top) {
+        break;
+      }
+    }
   }
 
   /// Of the prims from a collider up to the body's, without that one.

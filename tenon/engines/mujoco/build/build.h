@@ -42,6 +42,7 @@ struct Build {
   SpecPtr spec;
   double time_step = 0.002;  ///< [s]
   DriveTerms drive_terms = DriveTerms::Engine;
+  Methods methods;
   TreePlan plan;
   std::vector<mjsBody*> bodies;              ///< (body_count)
   std::vector<Pose> engine_frames;           ///< X_BE (body_count)

@@ -143,6 +143,7 @@ Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const Simulati
     Build build(scene, findings);
     build.time_step = time_step;
     build.drive_terms = options.drives;
+    build.methods = options.methods;
     build.refused = refused;
     Result<Model> model = build_once(build, begin);
     if (model.has_value()) {

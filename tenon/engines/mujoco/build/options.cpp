@@ -67,6 +67,24 @@ void apply_settings(Build& build) {
 
 }  // namespace
 
+namespace {
+
+/// What the caller asks for counts before what the asset does.
+void apply_methods(const Methods& methods, mjOption& option) {
+  const auto set = [&](const char* name, std::string_view word) {
+    if (!word.empty()) {
+      apply_setting({name, {}, std::string(word)}, option);
+    }
+  };
+  set("option:integrator", integrator_name(methods.integrator));
+  set("option:solver", solver_name(methods.solver));
+  if (methods.iterations > 0) {
+    option.iterations = methods.iterations;
+  }
+}
+
+}  // namespace
+
 void add_options(Build& build) {
   mjSpec& spec = *build.spec;
   spec.compiler.degree = 0;
@@ -88,6 +106,7 @@ void add_options(Build& build) {
   option.cone = mjCONE_ELLIPTIC;
   option.impratio = kFrictionToNormal;
   apply_settings(build);
+  apply_methods(build.methods, option);
   option.disableflags |= mjDSBL_AUTORESET;  // an unstable step is an error, not a silent restart
 }
 

@@ -31,6 +31,7 @@ struct Restart {
 /// All that the future of a run depends on, beside the scene and the options.
 struct SavedRun {
   DriveTerms drives = DriveTerms::Engine;
+  Methods methods;
   double advanced_to = -1;
   std::vector<Restart> history;
   Steering steering;
