@@ -17,6 +17,7 @@
 #include "tenon/physics/attribute_values.h"
 #include "tenon/scene/joint_forest.h"
 #include "tenon/scene/joint_freedom.h"
+#include "tenon/scene/motion/fit_velocities.h"
 
 namespace tenon::check {
 namespace {
@@ -215,6 +216,27 @@ void check_velocity_limit(const Subject& subject, Reporter& report) {
       report.at(prim_of(subject, joint), "the velocity limit of the joint is 0: it cannot move",
                 "author a positive limit, or remove it");
     }
+  }
+}
+
+// What starts to move as the joints let it loses energy where the bodies' velocities say otherwise.
+void check_velocities_apart(const Subject& subject, Reporter& report) {
+  constexpr double kFirstStep = 0.002;  // [s] over which kinematic bodies show their speed
+  const scene::PhysicsScene& scene = subject.scene;
+  const std::vector<scene::BodyState> states = scene::states_at_start(scene, kFirstStep);
+  if (!scene::anything_moves(scene, states)) {
+    return;
+  }
+  const std::vector<scene::FreeRotations> rotations = scene::wanted_rotations(scene);
+  std::vector<scene::JointDofs> dofs;
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    dofs.push_back(scene::joint_dofs(scene.joints[j], rotations[j]));
+  }
+  const scene::FittedVelocities fitted = scene::fit_velocities(
+      scene, scene::joint_forest(scene), dofs, states, scene::LinkVelocities::OfJoints);
+  for (const scene::LostEnergy& loss : fitted.losses) {
+    report.at(prim_of(subject, scene.joints[loss.joint]), scene::words_of(loss),
+              "give the bodies velocities with which the joint's frames stay together");
   }
 }
 

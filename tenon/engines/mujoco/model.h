@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "tenon/engines/mujoco/build/joint_dofs.h"
 #include "tenon/engines/mujoco/build/tree_plan.h"
 #include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/math/transform.h"
+#include "tenon/scene/joint_dofs.h"
 #include "tenon/scene/physics_scene.h"
 
 /// A compiled MuJoCo model and what connects its numbers with those of the neutral scene.
@@ -59,11 +59,12 @@ struct BodyMap {
 
 /// Degrees of freedom of one joint in MuJoCo, in the order of JointDofs::free; a ball comes last.
 struct JointMap {
-  JointDofs dofs;
+  scene::JointDofs dofs;
   bool in_tree = false;  ///< coordinates are qpos entries; else they come from the poses
   bool reversed = false;
-  std::vector<int> qpos;  ///< (free dof count)
-  std::vector<int> dof;   ///< (free dof count)
+  bool auxiliary = false;  ///< they are of the auxiliary body of a loop
+  std::vector<int> qpos;   ///< (free dof count)
+  std::vector<int> dof;    ///< (free dof count)
   int ball_qpos = -1;
   int ball_dof = -1;
   Quatd child_frame = kIdentityRotation;  ///< joint frame in the MuJoCo child body

@@ -183,7 +183,7 @@ Result<void> MujocoSimulation::rebuild(Restart restart) {
     for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
       restart.states.push_back(body_state(static_cast<scene::Index>(b)));
     }
-    const std::vector<scene::MergedBody> joined = timeline_->restart(restart.states);
+    timeline_->restart(restart.states);
     TENON_TRY(Model next, model_in_the_middle(*scene_, start_->options, time_step()));
     carry_joints_over(model_, next);
     next.data->time = model_.data->time;
@@ -193,15 +193,7 @@ Result<void> MujocoSimulation::rebuild(Restart restart) {
     connect();
     TENON_CHECK(apply_steering());
     const FilterScope filter(model_.filter);
-    return guarded([&] {
-      mj_forward(model_.model.get(), model_.data.get());
-      for (const scene::MergedBody& part : joined) {
-        join_momentum(scene_->bodies[part.body], model_.bodies[part.body], model_);
-      }
-      if (!joined.empty()) {
-        mj_forward(model_.model.get(), model_.data.get());
-      }
-    });
+    return guarded([&] { mj_forward(model_.model.get(), model_.data.get()); });
   });
 }
 

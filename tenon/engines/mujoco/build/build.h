@@ -50,7 +50,7 @@ struct Build {
   /// Materials of these (collider_count), into PhysicsScene::materials.
   std::vector<std::vector<std::optional<scene::Index>>> geom_materials;
   std::vector<mjsBody*> static_bodies;               ///< (collider_count), nullptr for moving ones
-  std::vector<JointDofs> dofs;                       ///< (joint_count)
+  std::vector<scene::JointDofs> dofs;                ///< (joint_count)
   std::vector<std::vector<mjsJoint*>> joints;        ///< (joint_count), in the order of dofs.free
   std::vector<mjsJoint*> balls;                      ///< (joint_count), nullptr where there is none
   std::vector<std::vector<mjsActuator*>> actuators;  ///< (joint_count), one per drive or nullptr

@@ -92,7 +92,7 @@ Result<Model> build_once(Build& build, Begin begin) {
   TENON_CHECK(check_scene_size(scene));
   build.plan = plan_tree(scene);
   TENON_CHECK(check_sizes(build));
-  const std::vector<FreeRotations> rotations = wanted_rotations(scene);
+  const std::vector<scene::FreeRotations> rotations = wanted_rotations(scene);
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     build.dofs.push_back(joint_dofs(scene.joints[j], rotations[j]));
   }

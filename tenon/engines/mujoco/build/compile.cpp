@@ -51,6 +51,7 @@ void map_joints(const Build& build, Model& result) {
     map.dofs = build.dofs[j];
     map.in_tree =
         build.plan.joints[j] == JointRole::Tree || build.plan.joints[j] == JointRole::Auxiliary;
+    map.auxiliary = build.plan.joints[j] == JointRole::Auxiliary;
     for (const mjsJoint* joint : build.joints[j]) {
       const int id = mjs_getId(joint->element);
       map.qpos.push_back(m.jnt_qposadr[id]);

@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Coordinates are read off the relative poses of joint frames; what they cannot express is reported
-// (S-90), and an authored joint position replaces them. Velocities go from parents to children: a
-// body on a joint gets the joint velocities that come nearest, by least squares, to what its
-// parents do not give it already. A tiny diagonal keeps the normal equations solvable and
-// directions without effect at rest. mj_forward then derives the rest with the contact filter in
-// force.
-#include <array>
+// (S-90), and an authored joint position replaces them. Velocities are those that the joints make
+// of the bodies' own (fit_velocities), where the coordinates put the bodies. mj_forward then
+// derives the rest with the contact filter in force.
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -16,6 +13,7 @@
 #include "tenon/engines/mujoco/contact_filter.h"
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/steering.h"
+#include "tenon/scene/motion/fit_velocities.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -81,76 +79,33 @@ void set_positions(const PhysicsScene& scene, Model& model, Diagnostics& diagnos
   }
 }
 
-void set_free_velocity(const scene::Body& body, const BodyMap& map, mjData* data) {
-  write_vector(data->qvel + map.free_dof, body.linear_velocity);
-  const Quatd world = body.pose.orientation * map.engine_frame.orientation;
-  write_vector(data->qvel + map.free_dof + 3, rotate(conjugate(world), body.angular_velocity));
+void set_free_velocity(const scene::BodyState& state, const BodyMap& map, mjData* data) {
+  write_vector(data->qvel + map.free_dof, state.linear_velocity);
+  const Quatd world = state.pose.orientation * map.engine_frame.orientation;
+  write_vector(data->qvel + map.free_dof + 3, rotate(conjugate(world), state.angular_velocity));
 }
 
-// Velocities x of `count` degrees of freedom such that jacobian x is nearest to `wanted`, by normal
-// equations and Gauss elimination; 6 rows. Columns that add nothing stay at rest.
-std::vector<double> least_squares(const std::vector<std::array<double, 6>>& columns,
-                                  const std::array<double, 6>& wanted) {
-  const std::size_t n = columns.size();
-  std::vector<std::vector<double>> rows(n, std::vector<double>(n + 1, 0.0));
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < 6; ++k) {
-      for (std::size_t j = 0; j < n; ++j) {
-        rows[i][j] += columns[i][k] * columns[j][k];
-      }
-      rows[i][n] += columns[i][k] * wanted[k];
-    }
-    rows[i][i] += 1e-12;
+// A ball turns in MuJoCo as its child sees it.
+void set_ball_velocity(const scene::Joint& joint, const JointMap& map, const Vec3d& in_frame0,
+                       const scene::FittedVelocities& fitted, mjData* data) {
+  const Quatd frame0 = (joint.body0 ? fitted.bodies[*joint.body0].pose : Pose{}).orientation *
+                       joint.frame0.orientation;
+  const std::optional<Index>& child = map.reversed ? joint.body0 : joint.body1;
+  Quatd child_world = child ? fitted.bodies[*child].pose.orientation : kIdentityRotation;
+  if (map.auxiliary) {
+    child_world = child_world * joint.frame1.orientation;
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t r = 0; r < n; ++r) {
-      const double factor = r == i ? 0 : rows[r][i] / rows[i][i];
-      for (std::size_t c = 0; c <= n; ++c) {
-        rows[r][c] -= factor * rows[i][c];
-      }
-    }
-  }
-  std::vector<double> result;
-  for (std::size_t i = 0; i < n; ++i) {
-    result.push_back(rows[i][n] / rows[i][i]);
-  }
-  return result;
+  const Vec3d turn = rotate(frame0, map.reversed ? -in_frame0 : in_frame0);
+  write_vector(data->qvel + map.ball_dof, rotate(conjugate(child_world), turn));
 }
 
-// The joint velocities that give a body on a joint its authored velocity, as far as they can.
-Result<void> set_joint_velocity(const scene::Body& body, const BodyMap& map, Model& model) {
-  mjModel* m = model.model.get();
-  mjData* d = model.data.get();
-  const auto nv = static_cast<std::size_t>(m->nv);
-  std::vector<double> jacobian(6 * nv);
-  std::array<double, 6> now{};
-  TENON_CHECK(guarded([&] {
-    mj_kinematics(m, d);
-    mj_comPos(m, d);
-    mj_comVel(m, d);
-    mj_objectVelocity(m, d, mjOBJ_BODY, map.id, now.data(), 0);
-    mj_jacBodyCom(m, d, jacobian.data(), jacobian.data() + 3 * nv, map.id);
-  }));
-  const Vec3d& v = body.linear_velocity;
-  const Vec3d& w = body.angular_velocity;
-  const std::array<double, 6> wanted{v[0] - now[3], v[1] - now[4], v[2] - now[5],
-                                     w[0] - now[0], w[1] - now[1], w[2] - now[2]};
-  const int first = m->body_dofadr[map.id];
-  std::vector<std::array<double, 6>> columns(static_cast<std::size_t>(m->body_dofnum[map.id]));
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    for (std::size_t k = 0; k < 6; ++k) {
-      columns[i][k] = jacobian[k * nv + static_cast<std::size_t>(first) + i];
-    }
+void report_losses(const PhysicsScene& scene, const scene::FittedVelocities& fitted,
+                   Diagnostics& diagnostics) {
+  for (const scene::LostEnergy& loss : fitted.losses) {
+    diagnostics.add({Severity::Warning, "joint.velocities-apart", scene::words_of(loss), "", 0, 0,
+                     scene.joints[loss.joint].path.str(), "",
+                     "give the bodies velocities with which the joint's frames stay together"});
   }
-  const std::vector<double> velocities = least_squares(columns, wanted);
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    d->qvel[first + static_cast<int>(i)] = velocities[i];
-  }
-  return {};
-}
-
-bool moves_at_start(const scene::Body& body) {
-  return body.linear_velocity != Vec3d{} || body.angular_velocity != Vec3d{};
 }
 
 void stop_locked_axes(const scene::Body& body, const BodyMap& map, mjData* data) {
@@ -164,29 +119,61 @@ void stop_locked_axes(const scene::Body& body, const BodyMap& map, mjData* data)
   }
 }
 
-Result<void> set_velocities(const PhysicsScene& scene, Begin begin, Model& model) {
-  for (const Index b : model.plan.forest.order) {
-    const scene::Body& body = scene.bodies[b];
-    const scene::ForestBody& link = model.plan.forest.bodies[b];
+void write_velocities(const PhysicsScene& scene, const scene::FittedVelocities& fitted,
+                      Model& model) {
+  mjData* d = model.data.get();
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     if (model.plan.bases[b] == BodyBase::Free) {
-      set_free_velocity(body, model.bodies[b], model.data.get());
-      stop_locked_axes(body, model.bodies[b], model.data.get());
-    }
-    if (!link.joint) {
-      continue;
-    }
-    const scene::Joint& joint = scene.joints[*link.joint];
-    const JointMap& map = model.joints[*link.joint];
-    const bool is_link =
-        begin == Begin::Start && joint.articulation.has_value() && link.parent.has_value();  // S-32
-    const bool moving = moves_at_start(body) ||
-                        (link.parent.has_value() && moves_at_start(scene.bodies[*link.parent]));
-    if (joint.initial_velocity.has_value() && map.dof.size() == 1) {
-      model.data->qvel[map.dof[0]] = *joint.initial_velocity;
-    } else if (moving && !is_link) {
-      TENON_CHECK(set_joint_velocity(body, model.bodies[b], model));
+      set_free_velocity(fitted.bodies[b], model.bodies[b], d);
+      stop_locked_axes(scene.bodies[b], model.bodies[b], d);
     }
   }
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    const JointMap& map = model.joints[j];
+    const std::vector<double>& speeds = fitted.joints[j];
+    for (std::size_t i = 0; map.in_tree && i < map.dof.size(); ++i) {
+      d->qvel[map.dof[i]] = speeds[i];
+    }
+    if (map.in_tree && map.ball_dof >= 0) {
+      const Vec3d turn{
+          {speeds[map.dof.size()], speeds[map.dof.size() + 1], speeds[map.dof.size() + 2]}};
+      set_ball_velocity(scene.joints[j], map, turn, fitted, d);
+    }
+  }
+}
+
+// In the middle of a run every link has the velocity that it has, kinematic bodies too.
+Result<void> set_velocities(const PhysicsScene& scene, Begin begin, Model& model,
+                            Diagnostics& diagnostics) {
+  mjModel* m = model.model.get();
+  mjData* d = model.data.get();
+  std::vector<scene::BodyState> states = scene::states_at_start(scene, m->opt.timestep);
+  for (std::size_t b = 0; begin == Begin::Middle && b < states.size(); ++b) {
+    states[b].linear_velocity = scene.bodies[b].linear_velocity;
+    states[b].angular_velocity = scene.bodies[b].angular_velocity;
+  }
+  if (!scene::anything_moves(scene, states)) {
+    return {};
+  }
+  TENON_CHECK(guarded([&] { mj_kinematics(m, d); }));
+  std::vector<scene::JointDofs> dofs;
+  for (const JointMap& map : model.joints) {
+    dofs.push_back(map.dofs);
+  }
+  for (std::size_t b = 0; b < states.size(); ++b) {
+    const BodyMap& map = model.bodies[b];
+    if (model.plan.bases[b] != BodyBase::Jointed) {
+      continue;  // stands where the scene says
+    }
+    states[b].pose = Pose{read_vector(d->xpos + std::ptrdiff_t{3} * map.id),
+                          read_quaternion(d->xquat + std::ptrdiff_t{4} * map.id)} *
+                     inverse(map.engine_frame);
+  }
+  const scene::FittedVelocities fitted = scene::fit_velocities(
+      scene, model.plan.forest, dofs, states,
+      begin == Begin::Start ? scene::LinkVelocities::OfJoints : scene::LinkVelocities::Own);
+  report_losses(scene, fitted, diagnostics);
+  write_velocities(scene, fitted, model);
   return {};
 }
 
@@ -221,7 +208,7 @@ Vec3d other_gravity(const scene::Body& body, double mass, std::span<const Vec3d>
 Result<void> set_initial_state(const PhysicsScene& scene, Begin begin, Model& model,
                                Diagnostics& diagnostics) {
   set_positions(scene, model, diagnostics);
-  TENON_CHECK(set_velocities(scene, begin, model));
+  TENON_CHECK(set_velocities(scene, begin, model, diagnostics));
   set_controls(scene, model);
   set_other_gravities(scene, model);
   mjModel* m = model.model.get();

@@ -16,7 +16,7 @@ using scene::kUnlimited;
 
 constexpr double kOpenEnd = 1e10;  // MuJoCo's largest number; "no bound" of a one-sided limit
 
-void set_limit(mjsJoint* joint, const FreeDof& dof, const scene::MujocoSoftness& softness,
+void set_limit(mjsJoint* joint, const scene::FreeDof& dof, const scene::MujocoSoftness& softness,
                double time_step) {
   const bool limited = dof.lower > -kUnlimited || dof.upper < kUnlimited;
   joint->limited = limited ? mjLIMITED_TRUE : mjLIMITED_FALSE;
@@ -64,7 +64,7 @@ void set_passive(mjsJoint* target, const scene::Joint& joint) {
 void add_chain(Build& build, scene::Index index, mjsBody* child, const Pose& joint_in_child,
                bool reversed) {
   const scene::Joint& joint = build.scene.joints[index];
-  const JointDofs& dofs = build.dofs[index];
+  const scene::JointDofs& dofs = build.dofs[index];
   std::vector<mjsJoint*>& made = build.joints[index];
   made.assign(dofs.free.size(), nullptr);
   // Rotations turn about the origin of frame 1; seen from frame 0 that is the locked offset.
@@ -83,7 +83,7 @@ void add_chain(Build& build, scene::Index index, mjsBody* child, const Pose& joi
   }
   for (std::size_t n = 0; n < dofs.free.size(); ++n) {
     const std::size_t i = reversed ? dofs.free.size() - 1 - n : n;
-    const FreeDof& dof = dofs.free[i];
+    const scene::FreeDof& dof = dofs.free[i];
     mjsJoint* target = mjs_addJoint(child, nullptr);
     const std::string name = joint.path.str() + "." + std::string(dof_name(dof.dof));
     mjs_setName(target->element, name.c_str());
@@ -107,7 +107,7 @@ void add_chain(Build& build, scene::Index index, mjsBody* child, const Pose& joi
 }
 
 mjsJoint* scalar_joint(const Build& build, scene::Index joint, scene::Dof dof) {
-  const JointDofs& dofs = build.dofs[joint];
+  const scene::JointDofs& dofs = build.dofs[joint];
   for (std::size_t i = 0; i < build.joints[joint].size(); ++i) {
     if (dofs.free[i].dof == dof) {
       return build.joints[joint][i];

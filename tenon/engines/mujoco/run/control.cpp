@@ -49,7 +49,7 @@ void write_loop_efforts(const PhysicsScene& scene, Index index, std::span<const 
     push(model, joint.body0, -force, {}, frame0.position);
     return;
   }
-  const JointDofs& dofs = model.joints[index].dofs;
+  const scene::JointDofs& dofs = model.joints[index].dofs;
   Vec3d force;
   Vec3d torque;
   for (std::size_t i = 0; i < dofs.free.size(); ++i) {

@@ -14,7 +14,8 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-void set_range(mjModel& m, int joint, const FreeDof& dof, const scene::MujocoSoftness& softness) {
+void set_range(mjModel& m, int joint, const scene::FreeDof& dof,
+               const scene::MujocoSoftness& softness) {
   constexpr double kOpenEnd = 1e10;
   const bool limited = dof.lower > -scene::kUnlimited || dof.upper < scene::kUnlimited;
   if (limited && m.jnt_limited[joint] == 0) {
@@ -62,7 +63,7 @@ bool MovingBounds::write(const scene::PhysicsScene& scene, Model& model) const {
 bool MovingBounds::write(const scene::Joint& joint, const Bounded& bounded, Model& model) {
   mjModel& m = own_model(model);
   const JointMap& map = model.joints[bounded.joint];
-  const JointDofs dofs = joint_dofs(joint, map.dofs.rotations);
+  const scene::JointDofs dofs = joint_dofs(joint, map.dofs.rotations);
   if (!same_coordinates(dofs, map.dofs)) {
     return false;
   }

@@ -82,9 +82,9 @@ JointState loop_joint_state(const scene::PhysicsScene& scene, const Model& model
     const Vec3d apart = frame1.position - frame0.position;
     return {{length(apart)}, {dot(normalized(apart), side1.linear - anchor0.linear)}};
   }
-  const JointDofs& dofs = model.joints[joint].dofs;
+  const scene::JointDofs& dofs = model.joints[joint].dofs;
   state.position = coordinates_at(dofs, inverse(frame0) * frame1);
-  for (const FreeDof& dof : dofs.free) {
+  for (const scene::FreeDof& dof : dofs.free) {
     const Vec3d axis = rotate(frame0.orientation, dof.axis0);
     state.velocity.push_back(is_angular(dof.dof) ? dot(axis, angular) : dot(axis, linear));
   }

@@ -9,15 +9,15 @@
 #include "tenon/scene/physics_scene.h"
 
 /// Joints of every kind as a chain of single degrees of freedom.
-namespace tenon::engines::mujoco {
+namespace tenon::scene {
 
 /// One free degree of freedom of a chain.
 struct FreeDof {
-  scene::Dof dof = scene::Dof::RotX;
-  Vec3d axis0;                        ///< unit axis in frame 0 when all coordinates are zero
-  Vec3d axis1;                        ///< the same axis in frame 1
-  double lower = -scene::kUnlimited;  ///< [m or rad]
-  double upper = scene::kUnlimited;
+  Dof dof = Dof::RotX;
+  Vec3d axis0;                 ///< unit axis in frame 0 when all coordinates are zero
+  Vec3d axis1;                 ///< the same axis in frame 1
+  double lower = -kUnlimited;  ///< [m or rad]
+  double upper = kUnlimited;
 };
 
 /// Three rotations that nothing bounds: one ball, or hinges, so that each has a coordinate.
@@ -37,14 +37,14 @@ struct JointDofs {
 /// Degrees of freedom of any joint but a distance joint (that one leaves all free), limits of the
 /// joint and of LimitAPI intersected (S-95, S-98, S-100). A drive or a mimic of a rotation makes
 /// hinges of what would be a ball, and so does `rotations`.
-JointDofs joint_dofs(const scene::Joint& joint, FreeRotations rotations = FreeRotations::Ball);
+JointDofs joint_dofs(const Joint& joint, FreeRotations rotations = FreeRotations::Ball);
 
 /// What each joint is to have: hinges where a rotation of it leads one of another (joint_count).
-std::vector<FreeRotations> wanted_rotations(const scene::PhysicsScene& scene);
+std::vector<FreeRotations> wanted_rotations(const PhysicsScene& scene);
 
 /// Bounds of the distance between the two frame origins [m], min and max (S-97); both infinite when
 /// there are none. min > max: both are max.
-scene::Limit distance_limit(const scene::Joint& joint);
+Limit distance_limit(const Joint& joint);
 
 /// Coordinates of `dofs.free` (and of a ball as rotation vector, last) at a relative pose X_J0J1.
 /// What the joint holds locked is not looked at.
@@ -53,8 +53,8 @@ std::vector<double> coordinates_at(const JointDofs& dofs, const Pose& relative);
 /// X_J0J1 at the given coordinates, the inverse of `coordinates_at`.
 Pose relative_pose_at(const JointDofs& dofs, const std::vector<double>& coordinates);
 
-Vec3d unit_axis(scene::Axis axis);
+Vec3d unit_axis(Axis axis);
 /// Axis of a degree of freedom, 0..2 for x, y, z.
-inline std::size_t axis_of(scene::Dof dof) { return static_cast<std::size_t>(dof) % 3; }
+inline std::size_t axis_of(Dof dof) { return static_cast<std::size_t>(dof) % 3; }
 
-}  // namespace tenon::engines::mujoco
+}  // namespace tenon::scene

@@ -6,7 +6,7 @@
 // through it. For the way back from a pose a locked rotation at either end is taken off. One angle
 // is then the twist about its axis, and two or three follow from entries of the rotation matrix.
 // Three have no unique answer where the middle one is at 90 degrees.
-#include "tenon/engines/mujoco/build/joint_dofs.h"
+#include "tenon/scene/joint_dofs.h"
 
 #include <algorithm>
 #include <array>
@@ -14,13 +14,8 @@
 
 #include "tenon/scene/joint_freedom.h"
 
-namespace tenon::engines::mujoco {
+namespace tenon::scene {
 namespace {
-
-using scene::Dof;
-using scene::Joint;
-using scene::JointKind;
-using scene::kUnlimited;
 
 constexpr double kSameValue = 1e-9;  // a limit this narrow [m or rad] is a lock at its value
 
@@ -53,7 +48,7 @@ Link make_link(Dof dof, double lower, double upper) {
 }
 
 Link limited_link(const Joint& joint, Dof dof, double lower, double upper) {
-  for (const scene::Limit& limit : joint.limits) {
+  for (const Limit& limit : joint.limits) {
     if (limit.dof == dof) {
       if (limit.locked()) {
         return make_link(dof, 1, -1);
@@ -125,7 +120,7 @@ bool is_ball(const std::vector<Link>& links) {
 
 }  // namespace
 
-Vec3d unit_axis(scene::Axis axis) { return unit(static_cast<std::size_t>(axis)); }
+Vec3d unit_axis(Axis axis) { return unit(static_cast<std::size_t>(axis)); }
 
 JointDofs joint_dofs(const Joint& joint, FreeRotations rotations) {
   const std::vector<Link> links = links_of(joint);
@@ -154,10 +149,10 @@ JointDofs joint_dofs(const Joint& joint, FreeRotations rotations) {
   return result;
 }
 
-std::vector<FreeRotations> wanted_rotations(const scene::PhysicsScene& scene) {
+std::vector<FreeRotations> wanted_rotations(const PhysicsScene& scene) {
   std::vector<FreeRotations> wanted(scene.joints.size(), FreeRotations::Ball);
   for (const Joint& joint : scene.joints) {
-    for (const scene::Mimic& mimic : joint.mimics) {
+    for (const Mimic& mimic : joint.mimics) {
       if (joint.enabled && is_angular(mimic.leader_dof)) {
         wanted[mimic.leader] = FreeRotations::Hinges;
       }
@@ -166,13 +161,13 @@ std::vector<FreeRotations> wanted_rotations(const scene::PhysicsScene& scene) {
   return wanted;
 }
 
-scene::Limit distance_limit(const Joint& joint) {
-  scene::Limit result{Dof::Distance, -kUnlimited, kUnlimited};
+Limit distance_limit(const Joint& joint) {
+  Limit result{Dof::Distance, -kUnlimited, kUnlimited};
   if (joint.kind == JointKind::Distance) {
     result.lower = joint.lower;
     result.upper = joint.upper;
   }
-  for (const scene::Limit& limit : joint.limits) {
+  for (const Limit& limit : joint.limits) {
     if (limit.dof == Dof::Distance) {
       result.lower = std::max(result.lower, limit.lower);
       result.upper = std::min(result.upper, limit.upper);
@@ -284,4 +279,4 @@ Pose relative_pose_at(const JointDofs& dofs, const std::vector<double>& coordina
   return result;
 }
 
-}  // namespace tenon::engines::mujoco
+}  // namespace tenon::scene

@@ -1,33 +1,29 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/engines/mujoco/build/joint_dofs.h"
+#include "tenon/scene/joint_dofs.h"
 
 #include <gtest/gtest.h>
 
-#include "tenon/engines/mujoco/test_scene.h"
+#include "tenon/scene/physics_scene.h"
 
-namespace tenon::engines::mujoco {
+namespace tenon::scene {
 namespace {
-
-using scene::Dof;
-using scene::Joint;
-using scene::JointKind;
 
 struct RoundTrip {
   const char* name;
-  std::vector<scene::Limit> limits;  // of a D6 joint
+  std::vector<Limit> limits;  // of a D6 joint
   std::vector<double> coordinates;
 };
 
 TEST(JointDofs, CoordinatesSurviveTheWayThroughAPose) {
-  const scene::Limit lock_x{Dof::RotX, 1, -1};
-  const scene::Limit lock_y{Dof::RotY, 1, -1};
-  const scene::Limit lock_z{Dof::RotZ, 1, -1};
-  const scene::Limit no_slide_z{Dof::TransZ, 1, -1};
-  const scene::Limit hold_x{Dof::RotX, 0.3, 0.3};
-  const scene::Limit hold_y{Dof::RotY, 0.3, 0.3};
-  const scene::Limit hold_z{Dof::RotZ, 0.3, 0.3};
-  const scene::Limit limited_x{Dof::RotX, -3, 3};
+  const Limit lock_x{Dof::RotX, 1, -1};
+  const Limit lock_y{Dof::RotY, 1, -1};
+  const Limit lock_z{Dof::RotZ, 1, -1};
+  const Limit no_slide_z{Dof::TransZ, 1, -1};
+  const Limit hold_x{Dof::RotX, 0.3, 0.3};
+  const Limit hold_y{Dof::RotY, 0.3, 0.3};
+  const Limit hold_z{Dof::RotZ, 0.3, 0.3};
+  const Limit limited_x{Dof::RotX, -3, 3};
   const RoundTrip cases[] = {
       {"one turn beyond a quarter", {lock_x, lock_z}, {0.1, 0.2, 0.3, 2.5}},
       {"two turns x y", {lock_z}, {0.1, 0.2, 0.3, -2.5, 2.8}},
@@ -55,7 +51,7 @@ TEST(JointDofs, CoordinatesSurviveTheWayThroughAPose) {
 }
 
 TEST(JointDofs, EllipticConeComesBackToo) {
-  for (const scene::Axis axis : {scene::Axis::X, scene::Axis::Y, scene::Axis::Z}) {
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
     Joint joint;
     joint.kind = JointKind::Spherical;
     joint.axis = axis;
@@ -73,7 +69,7 @@ TEST(JointDofs, EllipticConeComesBackToo) {
 TEST(JointDofs, LimitApiIntersectsTheJointsOwnLimits) {
   Joint joint;
   joint.kind = JointKind::Revolute;
-  joint.axis = scene::Axis::Y;
+  joint.axis = Axis::Y;
   joint.lower = -1;
   joint.upper = 1;
   joint.limits = {{Dof::RotY, -0.5, 2}, {Dof::RotZ, 1, -1}};
@@ -91,7 +87,7 @@ struct DistanceCase {
 };
 
 TEST(JointDofs, DistanceLimits) {
-  const double open = scene::kUnlimited;
+  const double open = kUnlimited;
   for (const DistanceCase& c :
        {DistanceCase{-1, -1, -open, open}, DistanceCase{0.1, 0.5, 0.1, 0.5},
         DistanceCase{-open, 2, -open, 2}, DistanceCase{5, 1, 1, 1}, DistanceCase{3, -1, 3, open}}) {
@@ -99,11 +95,11 @@ TEST(JointDofs, DistanceLimits) {
     joint.kind = JointKind::Distance;
     joint.lower = c.lower;
     joint.upper = c.upper;
-    const scene::Limit limit = distance_limit(joint);
+    const Limit limit = distance_limit(joint);
     EXPECT_EQ(limit.lower, c.expected_lower);
     EXPECT_EQ(limit.upper, c.expected_upper);
   }
 }
 
 }  // namespace
-}  // namespace tenon::engines::mujoco
+}  // namespace tenon::scene
