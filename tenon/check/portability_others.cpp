@@ -67,7 +67,7 @@ bool closes_loop(const scene::PhysicsScene& scene, Path joint) {
 
 }  // namespace
 
-void check_newton_loose_joint(const Subject& subject, Reporter& report) {
+void check_newton_loose(const Subject& subject, Reporter& report) {
   each_enabled_joint(subject, [&](const Joint& joint) {
     const bool between = joint.body0 && joint.body1;
     if (between && !joint.articulation && !closes_loop(subject.scene, joint.path)) {

@@ -183,7 +183,7 @@ void check_physx_cones(const Subject& subject, Reporter& report) {
 }
 
 // S-104: the response of the angular row alone is that of the body about its centre of mass.
-void check_physx_acceleration(const Subject& subject, Reporter& report) {
+void check_physx_drive(const Subject& subject, Reporter& report) {
   for (const Joint& joint : subject.scene.joints) {
     const bool accelerates =
         std::any_of(joint.drives.begin(), joint.drives.end(), [](const scene::Drive& drive) {
@@ -257,7 +257,7 @@ void check_physx_mimic_limits(const Subject& subject, Reporter& report) {
   }
 }
 
-void check_physx_drives(const Subject& subject, Reporter& report) {
+void check_physx_several_drives(const Subject& subject, Reporter& report) {
   for (const Joint& joint : subject.scene.joints) {
     const auto drives =
         std::count_if(joint.drives.begin(), joint.drives.end(), [](const scene::Drive& drive) {

@@ -15,7 +15,9 @@ import unittest
 
 TENON = sys.argv[1]
 UNITS = 'metersPerUnit = 1\n    kilogramsPerUnit = 1\n    upAxis = "Z"'
-BOX = """    def Cube "{name}" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"{more}])
+BOX = """    def Cube "{name}" (
+        prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"{more}]
+    )
     {{
         double size = 0.2
         double3 xformOp:translate = {at}
