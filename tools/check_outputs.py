@@ -40,7 +40,7 @@ def read(root, path):
 
 def product(files, folder):
     return [path for path in files if path.startswith(folder) and path.endswith(source_files.CODE)
-            and not re.search(r"_test\.cpp$|/killed_child\.h$", path)]
+            and not re.search(r"_test\.cpp$|/test_\w+\.h$|/killed_child\.h$", path)]
 
 
 def headers_that_write(texts):

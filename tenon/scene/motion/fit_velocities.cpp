@@ -4,8 +4,7 @@
 // Gauss's principle for impulses: among the velocities v that joints allow, the impulses of joints
 // choose the one with the least (v - v0)^T M (v - v0). With v = base + J q, where base is the
 // motion that is prescribed, that is M_q q = J^T M (v0 - base), the momentum along each coordinate.
-// What closes a loop adds rows A v = 0. Their impulses are found by conjugate gradients (CGLS) in
-// the metric of M_q, which end at the least squares where rows repeat or contradict each other.
+// What closes a loop adds rows A v = 0, whose impulses loop_impulses.cpp finds.
 // Joints that hang together, over loops and mimics too, are one group; a group at rest is passed
 // over and a body without joints keeps its velocity as it is.
 #include "tenon/scene/motion/fit_velocities.h"
@@ -20,6 +19,7 @@
 #include "tenon/scene/disjoint_sets.h"
 #include "tenon/scene/joint_freedom.h"
 #include "tenon/scene/motion/joint_motion.h"
+#include "tenon/scene/motion/loop_impulses.h"
 #include "tenon/scene/motion/tree_inertia.h"
 
 namespace tenon::scene {
@@ -28,35 +28,79 @@ namespace {
 constexpr double kLeastMass = 1e-9;     // [kg] of a body without mass
 constexpr double kLeastMoment = 1e-13;  // [kg m^2]
 constexpr double kNoticedLoss = 1e-4;   // of the energy
-constexpr std::size_t kMostRounds = 2000;
-constexpr double kExact = 1e-14;  // of the violation that is left, to the one at first
-
-/// One direction in which a joint holds two bodies together: what a unit impulse along it is.
-struct Row {
-  Index joint = 0;
-  std::optional<std::size_t> member0;
-  std::optional<std::size_t> member1;
-  Screw impulse;    // on member1; the opposite on member0
-  double size = 1;  // makes rows of any mass alike: 1 / root of the speed that it gives
-};
-
-/// A rigid mimic: the speed of one column follows another's.
-struct SpeedRow {
-  std::size_t follower = 0;
-  std::size_t leader = 0;
-  double ratio = 1;
-  double size = 1;
-};
 
 bool is_moving(const BodyState& state) {
   return state.linear_velocity != Vec3d{} || state.angular_velocity != Vec3d{};
 }
 
+bool holds(const Joint& j) {
+  return j.kind != JointKind::Distance && !(j.kind == JointKind::D6 && is_plain(j));
+}
+
+/// Bodies and joints of a group, seen from its origin.
+struct Places {
+  const PhysicsScene& scene;
+  const std::vector<JointDofs>& dofs;
+  const std::vector<BodyState>& states;
+  Vec3d origin;  // of all vectors, in the world
+
+  Vec3d center_of(Index body) const {
+    return transform_point(states[body].pose, scene.bodies[body].center_of_mass) - origin;
+  }
+
+  Pose frame_of(const std::optional<Index>& body, const Pose& frame) const {
+    Pose result = body ? states[*body].pose * frame : frame;
+    result.position -= origin;
+    return result;
+  }
+
+  JointMotion motion_of(Index joint) const {
+    const Joint& j = scene.joints[joint];
+    return joint_motion(dofs[joint], frame_of(j.body0, j.frame0), frame_of(j.body1, j.frame1));
+  }
+
+  Mat3d inertia_about_center(Index body) const {
+    Mat3d inertia = rotate_inertia(states[body].pose.orientation, scene.bodies[body].inertia);
+    for (std::size_t i = 0; i < 3; ++i) {
+      inertia[i][i] += kLeastMoment;
+    }
+    return inertia;
+  }
+
+  RigidInertia inertia_of(Index body) const {
+    RigidInertia result;
+    if (!scene.bodies[body].kinematic) {
+      const Vec3d center = center_of(body);
+      result.mass = std::max(scene.bodies[body].mass, kLeastMass);
+      result.moment = center * result.mass;
+      result.inertia = shift_inertia(inertia_about_center(body), result.mass, center);
+    }
+    return result;
+  }
+
+  double coordinate(Index joint, Dof dof) const {
+    const Joint& j = scene.joints[joint];
+    const Pose relative = inverse(frame_of(j.body0, j.frame0)) * frame_of(j.body1, j.frame1);
+    const std::vector<double> all = coordinates_at(dofs[joint], relative);
+    for (std::size_t i = 0; i < dofs[joint].free.size(); ++i) {
+      if (dofs[joint].free[i].dof == dof) {
+        return all[i];
+      }
+    }
+    return 0;
+  }
+};
+
 class Group {
  public:
   Group(const PhysicsScene& scene, const JointForest& forest, const std::vector<JointDofs>& dofs,
         const std::vector<BodyState>& states, LinkVelocities links)
-      : scene_(scene), forest_(forest), dofs_(dofs), states_(states), links_(links) {}
+      : scene_(scene),
+        forest_(forest),
+        dofs_(dofs),
+        states_(states),
+        places_{scene, dofs, states, {}},
+        links_(links) {}
 
   void add_body(Index body) {
     member_of_[body] = bodies_.size();
@@ -69,12 +113,12 @@ class Group {
       return;
     }
     for (const Index body : bodies_) {
-      origin_ += states_[body].pose.position * (1.0 / static_cast<double>(bodies_.size()));
+      places_.origin += states_[body].pose.position * (1.0 / static_cast<double>(bodies_.size()));
     }
     add_members();
     add_rows();
     std::vector<double> speeds = nearest_speeds();
-    close_loops(speeds);
+    close_loops(tree_, *inertia_, loops_, base_, given_speeds_, speeds);
     const std::vector<Screw> moved = tree_.motions(speeds);
     for (std::size_t m = 0; m < bodies_.size(); ++m) {
       motion_.push_back(base_[m] + moved[m]);
@@ -91,42 +135,8 @@ class Group {
                        [&](Index j) { return scene_.joints[j].initial_velocity.value_or(0) != 0; });
   }
 
-  Vec3d center_of(Index body) const {
-    return transform_point(states_[body].pose, scene_.bodies[body].center_of_mass) - origin_;
-  }
-
-  Pose frame_of(const std::optional<Index>& body, const Pose& frame) const {
-    Pose result = body ? states_[*body].pose * frame : frame;
-    result.position -= origin_;
-    return result;
-  }
-
-  JointMotion motion_of(Index joint) const {
-    const Joint& j = scene_.joints[joint];
-    return joint_motion(dofs_[joint], frame_of(j.body0, j.frame0), frame_of(j.body1, j.frame1));
-  }
-
   std::optional<std::size_t> member_at(const std::optional<Index>& body) const {
     return body ? std::optional(member_of_.at(*body)) : std::nullopt;
-  }
-
-  Mat3d inertia_about_center(Index body) const {
-    Mat3d inertia = rotate_inertia(states_[body].pose.orientation, scene_.bodies[body].inertia);
-    for (std::size_t i = 0; i < 3; ++i) {
-      inertia[i][i] += kLeastMoment;
-    }
-    return inertia;
-  }
-
-  RigidInertia inertia_of(Index body) const {
-    RigidInertia result;
-    if (!scene_.bodies[body].kinematic) {
-      const Vec3d center = center_of(body);
-      result.mass = std::max(scene_.bodies[body].mass, kLeastMass);
-      result.moment = center * result.mass;
-      result.inertia = shift_inertia(inertia_about_center(body), result.mass, center);
-    }
-    return result;
   }
 
   void add_column(std::size_t member, const Screw& screw, std::optional<double> speed) {
@@ -142,12 +152,13 @@ class Group {
       const bool free = !scene_.bodies[bodies_[member]].kinematic;
       for (int i = 0; free && i < 6; ++i) {
         const Vec3d axis = unit_axis(static_cast<Axis>(i % 3));
-        add_column(member, i < 3 ? Screw{{}, axis} : turn_about(center_of(bodies_[member]), axis),
+        add_column(member,
+                   i < 3 ? Screw{{}, axis} : turn_about(places_.center_of(bodies_[member]), axis),
                    std::nullopt);
       }
       return;
     }
-    const JointMotion motion = motion_of(*link.joint);
+    const JointMotion motion = places_.motion_of(*link.joint);
     const double sign = link.reversed ? -1 : 1;
     first_column_[*link.joint] = tree_.members.size();
     std::optional<double> speed = scene_.joints[*link.joint].initial_velocity;
@@ -171,8 +182,9 @@ class Group {
       prescribed = prescribed + tree_.screws[c - 1] * given_speeds_[c - 1];
     }
     const BodyState& state = states_[body];
-    Screw wanted{state.angular_velocity,
-                 velocity_at({-state.angular_velocity, state.linear_velocity}, center_of(body))};
+    Screw wanted{
+        state.angular_velocity,
+        velocity_at({-state.angular_velocity, state.linear_velocity}, places_.center_of(body))};
     const ForestBody& link = forest_.bodies[body];
     if (link.joint && link.parent && links_ == LinkVelocities::OfJoints &&
         scene_.joints[*link.joint].articulation) {
@@ -191,7 +203,7 @@ class Group {
     for (std::size_t m = 0; m < bodies_.size(); ++m) {
       const ForestBody& link = forest_.bodies[bodies_[m]];
       tree_.parents.push_back(link.parent ? member_of_.at(*link.parent) : MotionTree::kNone);
-      tree_.inertias.push_back(inertia_of(bodies_[m]));
+      tree_.inertias.push_back(places_.inertia_of(bodies_[m]));
       add_columns(m);
       add_motions(m);
     }
@@ -205,17 +217,17 @@ class Group {
       return 0;
     }
     const Index body = bodies_[*member];
-    const Vec3d twist = impulse.turn - cross(center_of(body), impulse.move);
+    const Vec3d twist = impulse.turn - cross(places_.center_of(body), impulse.move);
     return dot(impulse.move, impulse.move) / tree_.inertias[*member].mass +
-           dot(twist, twist * inverse(inertia_about_center(body)));
+           dot(twist, twist * inverse(places_.inertia_about_center(body)));
   }
 
-  std::vector<Row> rows_of(Index joint) const {
+  std::vector<LoopRow> rows_of(Index joint) const {
     const Joint& j = scene_.joints[joint];
-    const JointMotion motion = motion_of(joint);
-    std::vector<Row> rows;
+    const JointMotion motion = places_.motion_of(joint);
+    std::vector<LoopRow> rows;
     const auto add = [&](const Screw& impulse) {
-      Row row{joint, member_at(j.body0), member_at(j.body1), impulse, 1};
+      LoopRow row{joint, member_at(j.body0), member_at(j.body1), impulse, 1};
       const double speed = response(row.member0, impulse) + response(row.member1, impulse);
       row.size = speed > 0 ? 1 / std::sqrt(speed) : 0;
       rows.push_back(row);
@@ -229,16 +241,11 @@ class Group {
     return rows;
   }
 
-  bool holds(Index joint) const {
-    const Joint& j = scene_.joints[joint];
-    return j.kind != JointKind::Distance && !(j.kind == JointKind::D6 && is_plain(j));
-  }
-
   void add_rows() {
     for (const Index joint : joints_) {
-      if (forest_.joints[joint] == ForestRole::Loop && holds(joint)) {
-        const std::vector<Row> rows = rows_of(joint);
-        rows_.insert(rows_.end(), rows.begin(), rows.end());
+      if (forest_.joints[joint] == ForestRole::Loop && holds(scene_.joints[joint])) {
+        const std::vector<LoopRow> rows = rows_of(joint);
+        loops_.rows.insert(loops_.rows.end(), rows.begin(), rows.end());
       }
       for (const Mimic& mimic : scene_.joints[joint].mimics) {
         add_mimic(joint, mimic);
@@ -256,18 +263,6 @@ class Group {
     return std::nullopt;
   }
 
-  double coordinate(Index joint, Dof dof) const {
-    const Joint& j = scene_.joints[joint];
-    const Pose relative = inverse(frame_of(j.body0, j.frame0)) * frame_of(j.body1, j.frame1);
-    const std::vector<double> all = coordinates_at(dofs_[joint], relative);
-    for (std::size_t i = 0; i < dofs_[joint].free.size(); ++i) {
-      if (dofs_[joint].free[i].dof == dof) {
-        return all[i];
-      }
-    }
-    return 0;
-  }
-
   // Soft mimics are springs, which give no impulse.
   void add_mimic(Index joint, const Mimic& mimic) {
     const auto follower = column_of(joint, mimic.dof);
@@ -277,7 +272,7 @@ class Group {
       return;
     }
     SpeedRow row{*follower, *leader, mimic.multiplier, 1};
-    const double at = coordinate(mimic.leader, mimic.leader_dof);
+    const double at = places_.coordinate(mimic.leader, mimic.leader_dof);
     for (std::size_t i = 0; i < mimic.higher.size(); ++i) {
       row.ratio +=
           static_cast<double>(i + 2) * mimic.higher[i] * std::pow(at, static_cast<double>(i + 1));
@@ -286,7 +281,7 @@ class Group {
     const double inertia = dot(tree_.screws[row.follower],
                                tree_.inertias[member].momentum(tree_.screws[row.follower]));
     row.size = inertia > 0 ? std::sqrt(inertia) : 1;
-    speed_rows_.push_back(row);
+    loops_.speed_rows.push_back(row);
   }
 
   // ---- the solution
@@ -302,107 +297,6 @@ class Group {
     return speeds;
   }
 
-  double speed_along(const Row& row, const std::vector<Screw>& motions) const {
-    double sum = row.member1 ? dot(row.impulse, motions[*row.member1]) : 0;
-    sum -= row.member0 ? dot(row.impulse, motions[*row.member0]) : 0;
-    return sum * row.size;
-  }
-
-  std::vector<double> violations(const std::vector<Screw>& motions,
-                                 const std::vector<double>& speeds) const {
-    std::vector<double> result;
-    for (const Row& row : rows_) {
-      result.push_back(speed_along(row, motions));
-    }
-    for (const SpeedRow& row : speed_rows_) {
-      result.push_back((speeds[row.follower] - row.ratio * speeds[row.leader]) * row.size);
-    }
-    return result;
-  }
-
-  std::vector<double> along_columns(const std::vector<double>& impulses) const {
-    std::vector<Screw> forces(bodies_.size());
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      const Screw impulse = rows_[r].impulse * (rows_[r].size * impulses[r]);
-      if (rows_[r].member0) {
-        forces[*rows_[r].member0] = forces[*rows_[r].member0] - impulse;
-      }
-      if (rows_[r].member1) {
-        forces[*rows_[r].member1] = forces[*rows_[r].member1] + impulse;
-      }
-    }
-    std::vector<double> result = tree_.along_columns(std::move(forces));
-    for (std::size_t r = 0; r < speed_rows_.size(); ++r) {
-      const double impulse = impulses[rows_.size() + r] * speed_rows_[r].size;
-      result[speed_rows_[r].follower] += impulse;
-      result[speed_rows_[r].leader] -= impulse * speed_rows_[r].ratio;
-    }
-    for (std::size_t c = 0; c < result.size(); ++c) {
-      result[c] = tree_.given[c] != 0 ? 0 : result[c];
-    }
-    return result;
-  }
-
-  static double product(const std::vector<double>& a, const std::vector<double>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      sum += a[i] * b[i];
-    }
-    return sum;
-  }
-
-  static void add(std::vector<double>& to, const std::vector<double>& what, double factor) {
-    for (std::size_t i = 0; i < to.size(); ++i) {
-      to[i] += what[i] * factor;
-    }
-  }
-
-  // The speeds with those that are prescribed, and the motions that they and the base make.
-  std::vector<double> rest_of(const std::vector<double>& speeds) const {
-    std::vector<Screw> motions = tree_.motions(speeds);
-    for (std::size_t m = 0; m < motions.size(); ++m) {
-      motions[m] = motions[m] + base_[m];
-    }
-    std::vector<double> all = speeds;
-    add(all, given_speeds_, 1);
-    std::vector<double> rest = violations(motions, all);
-    for (double& value : rest) {
-      value = -value;
-    }
-    return rest;
-  }
-
-  void close_loops(std::vector<double>& speeds) const {
-    std::vector<double> rest = rest_of(speeds);
-    const double at_first = product(rest, rest);
-    std::vector<double> gradient = along_columns(rest);
-    std::vector<double> step = gradient;
-    inertia_->solve(step);
-    double steepness = product(gradient, step);
-    std::vector<double> way = step;
-    const std::size_t rounds = std::min(kMostRounds, 10 * rest.size() + 50);
-    for (std::size_t i = 0; i < rounds && steepness > 0; ++i) {
-      if (product(rest, rest) <= kExact * kExact * at_first) {
-        break;
-      }
-      const std::vector<double> change = violations(tree_.motions(way), way);
-      const double reach = product(change, change);
-      if (!(reach > 0)) {
-        break;
-      }
-      add(speeds, way, steepness / reach);
-      add(rest, change, -steepness / reach);
-      gradient = along_columns(rest);
-      step = gradient;
-      inertia_->solve(step);
-      const double next = product(gradient, step);
-      for (std::size_t c = 0; c < way.size(); ++c) {
-        way[c] = step[c] + way[c] * (next / steepness);
-      }
-      steepness = next;
-    }
-  }
-
   // ---- what comes of it
 
   void write(const std::vector<double>& speeds, FittedVelocities& result) const {
@@ -410,7 +304,7 @@ class Group {
       const Index body = bodies_[m];
       if (!scene_.bodies[body].kinematic) {
         result.bodies[body].angular_velocity = motion_[m].turn;
-        result.bodies[body].linear_velocity = velocity_at(motion_[m], center_of(body));
+        result.bodies[body].linear_velocity = velocity_at(motion_[m], places_.center_of(body));
       }
     }
     for (const auto& [joint, first] : first_column_) {
@@ -419,7 +313,7 @@ class Group {
       }
     }
     for (const Index joint : joints_) {
-      if (forest_.joints[joint] == ForestRole::Loop && holds(joint)) {
+      if (forest_.joints[joint] == ForestRole::Loop && holds(scene_.joints[joint])) {
         result.joints[joint] = loop_speeds(joint);
       }
     }
@@ -427,7 +321,7 @@ class Group {
 
   std::vector<double> loop_speeds(Index joint) const {
     const Joint& j = scene_.joints[joint];
-    const JointMotion motion = motion_of(joint);
+    const JointMotion motion = places_.motion_of(joint);
     Screw relative = j.body1 ? motion_[member_of_.at(*j.body1)] : Screw{};
     relative = relative - (j.body0 ? motion_[member_of_.at(*j.body0)] : Screw{});
     std::vector<double> result = shares_of(motion.slides, velocity_at(relative, motion.point));
@@ -451,13 +345,13 @@ class Group {
     }
     double worst = 0;
     for (const Index joint : joints_) {
-      if (forest_.joints[joint] == ForestRole::None || !holds(joint)) {
+      if (forest_.joints[joint] == ForestRole::None || !holds(scene_.joints[joint])) {
         continue;
       }
       double violation = 0;
       double speed = 0;
       double turn = 0;
-      for (const Row& row : rows_of(joint)) {
+      for (const LoopRow& row : rows_of(joint)) {
         const double along = speed_along(row, wanted_);
         violation += along * along;
         const double plain = row.size > 0 ? along / row.size : 0;
@@ -479,19 +373,18 @@ class Group {
   const JointForest& forest_;
   const std::vector<JointDofs>& dofs_;
   const std::vector<BodyState>& states_;
+  Places places_;
   LinkVelocities links_;
   std::vector<Index> bodies_;  // (member_count), parents before children
   std::vector<Index> joints_;
   std::map<Index, std::size_t> member_of_;
   std::map<Index, std::size_t> first_column_;  // of each joint of the tree
-  Vec3d origin_;                               // of all vectors, in the world
   MotionTree tree_;
   std::vector<double> given_speeds_;  // (column_count), 0 for those that are sought
   std::vector<Screw> wanted_;         // (member_count)
   std::vector<Screw> base_;           // (member_count)
   std::vector<Screw> motion_;         // (member_count)
-  std::vector<Row> rows_;
-  std::vector<SpeedRow> speed_rows_;
+  LoopRows loops_;
   std::optional<TreeInertia> inertia_;
   bool pulled_ = false;  // by kinematic bodies that move
 };
