@@ -148,6 +148,20 @@ TEST(EnergyWatch, FallsAndImpactsAreNoGrowth) {
   EXPECT_FALSE(failure_within(*sim, 3000).has_value());
 }
 
+// A limit pulls a box into the ground and the ground pushes it out: much work, no motion.
+TEST(EnergyWatch, ALimitThatFightsAContactIsNoGrowth) {
+  TestScene scene;
+  const Index body = scene.add_body("Box", {{0, 0, 0.1}}, 0.1, {{1e-4, 1e-4, 1e-4}});
+  scene.add_collider("BoxShape", body, box({{0.1, 0.1, 0.1}}));
+  scene.add_collider("Ground", std::nullopt, ground());
+  auto& joint = scene.add_joint("Rail", JointKind::Prismatic, {}, body, Axis::Z);
+  joint.frame1.position = {{0, 0, -0.1}};
+  joint.lower = -0.1;
+  joint.upper = -0.05;
+  auto sim = simulation(scene);
+  EXPECT_FALSE(failure_within(*sim, 1500).has_value());
+}
+
 TEST(EnergyWatch, AStateThatIsSetIsJudgedAnew) {
   TestScene scene(0);
   const Index body = scene.add_body("Body", {});
@@ -190,6 +204,23 @@ TEST(PassageWatch, ABallThatBouncesIsNotTold) {
     EXPECT_TRUE(sim->events().empty()) << speed;
     EXPECT_LT(sim->body_state(0).pose.position[0], 2) << speed;
   }
+}
+
+// One flies behind the other, and both are where the other was a step before; so are links.
+TEST(PassageWatch, WhatFliesAlongIsNotPassed) {
+  TestScene scene = bullet(200);
+  const Index next = scene.add_body("Next", {{0.2, 0, 0}}, 0.1, {{1e-4, 1e-4, 1e-4}});
+  scene.add_collider("NextShape", next, sphere(0.03));
+  const Index link = scene.add_body("Link", {{-0.2, 0, 0}}, 0.1, {{1e-4, 1e-4, 1e-4}});
+  scene.add_collider("LinkShape", link, sphere(0.03));
+  scene.add_joint("Hinge", JointKind::Revolute, Index{0}, link).frame0.position = {{-0.2, 0, 0}};
+  for (scene::Body& body : scene.bodies) {
+    body.linear_velocity = {{-200, 0, 0}};
+  }
+  auto sim = simulation(scene);
+  run(*sim, 0.1);
+  EXPECT_TRUE(sim->events().empty());
+  EXPECT_LT(sim->body_state(next).pose.position[0], -10);
 }
 
 TEST(PassageWatch, WhatDoesNotCollideMayBePassed) {

@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kMostOnTheWay = 16;  // colliders that one ray goes through
 constexpr std::size_t kMostTold = 100;
+constexpr double kShortestWay = 1e-6;  // [m]; MuJoCo takes no ray of length 0
 
 struct Hit {
   int geom = -1;
@@ -30,6 +31,9 @@ std::vector<Hit> hits_along(const Model& model, int own, const Vec3d& from, cons
   const mjModel* m = model.model.get();
   std::vector<Hit> hits;
   double part = 0;
+  if (!(length(way) > kShortestWay)) {
+    return hits;
+  }
   for (int i = 0; i < kMostOnTheWay; ++i) {
     const Vec3d start = from + way * part;
     int geom = -1;
@@ -45,6 +49,31 @@ std::vector<Hit> hits_along(const Model& model, int own, const Vec3d& from, cons
     part += 1e-6;
   }
   return hits;
+}
+
+/// Those that lie on a way with both of its ends outside.
+std::vector<int> passed_geoms(const Model& model, int own, const Vec3d& from, const Vec3d& way) {
+  std::vector<int> passed;
+  const std::vector<Hit> there = hits_along(model, own, from, way);
+  if (there.empty()) {
+    return passed;
+  }
+  const std::vector<Hit> back = hits_along(model, own, from + way, way * -1);
+  for (const Hit& in : there) {
+    const auto out =
+        std::find_if(back.begin(), back.end(), [&](const Hit& hit) { return hit.geom == in.geom; });
+    if (out != back.end() && in.part + out->part <= 1) {
+      passed.push_back(in.geom);
+    }
+  }
+  return passed;
+}
+
+/// Of a body in the step, from its velocity at the beginning [m].
+Vec3d way_of(const Model& model, int body) {
+  double velocity[6];
+  mj_objectVelocity(model.model.get(), model.data.get(), mjOBJ_BODY, body, velocity, 0);
+  return read_vector(velocity + 3) * model.model->opt.timestep;
 }
 
 }  // namespace
@@ -85,24 +114,26 @@ std::vector<PassageWatch::Passage> PassageWatch::look(const Model& model) {
 
 void PassageWatch::look_along(const Model& model, const FreeBody& free,
                               std::vector<Passage>& found) {
+  const mjModel& m = *model.model;
   const Vec3d from = read_vector(model.data->xipos + std::ptrdiff_t{3} * free.id);
-  const Vec3d to = read_vector(model.data->qpos + free.qpos);
-  const std::vector<Hit> there = hits_along(model, free.geom, from, to - from);
-  if (there.empty()) {
-    return;
-  }
-  const std::vector<Hit> back = hits_along(model, free.geom, to, from - to);
-  for (const Hit& in : there) {
-    const auto out =
-        std::find_if(back.begin(), back.end(), [&](const Hit& hit) { return hit.geom == in.geom; });
-    const int collider = model.collider_of_geom[static_cast<std::size_t>(in.geom)];
-    if (out == back.end() || in.part + out->part > 1 || collider < 0) {
+  const Vec3d way = read_vector(model.data->qpos + free.qpos) - from;
+  for (const int geom : passed_geoms(model, free.geom, from, way)) {
+    const int collider = model.collider_of_geom[static_cast<std::size_t>(geom)];
+    const int other = m.geom_bodyid[geom];
+    if (collider < 0 || m.body_rootid[other] == m.body_rootid[free.id]) {
       continue;
+    }
+    if (m.body_weldid[other] != 0) {  // as the other body, which moves too, sees it
+      const std::vector<int> seen =
+          passed_geoms(model, free.geom, from, way - way_of(model, other));
+      if (std::find(seen.begin(), seen.end(), geom) == seen.end()) {
+        continue;
+      }
     }
     const std::pair pair(free.body, static_cast<scene::Index>(collider));
     if (std::find(told_.begin(), told_.end(), pair) == told_.end()) {
       told_.push_back(pair);
-      found.push_back({pair.first, pair.second, length(to - from)});
+      found.push_back({pair.first, pair.second, length(way)});
     }
   }
 }
