@@ -15,7 +15,7 @@
 #include "tenon/base/text/text_number.h"
 #include "tenon/check/subject.h"
 #include "tenon/check/unit_signs.h"
-#include "tenon/edit/list_edit.h"
+#include "tenon/edit/apply_list_edit.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/stage/collections/material_binding.h"

@@ -7,6 +7,7 @@
 
 #include "tenon/check/extents.h"
 #include "tenon/check/subject.h"
+#include "tenon/math/inertia.h"
 
 namespace tenon::check {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "tenon/check/extents.h"
 #include "tenon/check/subject.h"
+#include "tenon/math/angle.h"
 #include "tenon/scene/joint_forest.h"
 #include "tenon/scene/joint_freedom.h"
 

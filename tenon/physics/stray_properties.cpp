@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tenon/physics/physics_tokens.h"
 #include "tenon/schema/declaring_apis.h"
 #include "tenon/schema/registry.h"
 
