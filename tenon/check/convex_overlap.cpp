@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gilbert's iteration (1966) for the point of the difference A - B that lies nearest to the origin.
-// Each step asks for the farthest point against the nearest one known; when that lies beyond the
-// origin's plane, the plane separates the solids.
+// The iteration of Gilbert, Johnson and Keerthi (1988) for the point of the difference A - B that
+// lies nearest to the origin. Each step asks for the farthest point against the nearest one known,
+// and takes the nearest point of the simplex of it and those that carried the last one; one point
+// alone would creep along where a small solid lies on a large one. A point beyond the origin's
+// plane separates the solids.
 #include "tenon/check/convex_overlap.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace tenon::check {
 namespace {
@@ -66,6 +70,53 @@ Vec3d local_point(const ConvexSolid& solid, const Vec3d& d) {
   }
 }
 
+/// The point nearest to the origin of what some corners span, if it lies within them.
+std::optional<Vec3d> nearest_within(const std::vector<Vec3d>& corners) {
+  std::vector<Vec3d> edges;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    edges.push_back(corners[i] - corners[0]);
+  }
+  Mat3d gram = Mat3d::identity();
+  Vec3d right;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (std::size_t j = 0; j < edges.size(); ++j) {
+      gram[i][j] = dot(edges[i], edges[j]);
+    }
+    right[i] = -dot(edges[i], corners[0]);
+  }
+  bool solved = true;
+  const Vec3d shares = right * inverse(gram, &solved);
+  Vec3d point = corners[0];
+  double rest = 1;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    solved = solved && shares[i] >= 0;
+    rest -= shares[i];
+    point += edges[i] * shares[i];
+  }
+  return solved && rest >= 0 ? std::optional(point) : std::nullopt;
+}
+
+/// The point of a simplex nearest to the origin; only the corners that carry it are kept.
+Vec3d nearest_in(std::vector<Vec3d>& simplex) {
+  std::vector<Vec3d> best{simplex.back()};
+  Vec3d nearest = simplex.back();
+  for (unsigned chosen = 1; chosen < 1u << simplex.size(); ++chosen) {
+    std::vector<Vec3d> corners;
+    for (std::size_t i = 0; i < simplex.size(); ++i) {
+      if ((chosen >> i & 1u) != 0) {
+        corners.push_back(simplex[i]);
+      }
+    }
+    const std::optional<Vec3d> point = corners.size() <= 4 ? nearest_within(corners) : std::nullopt;
+    if (point && length(*point) < length(nearest)) {
+      nearest = *point;
+      best = corners;
+    }
+  }
+  simplex = best;
+  return nearest;
+}
+
 }  // namespace
 
 bool is_convex(const Shape& shape) {
@@ -95,6 +146,7 @@ bool overlap(const ConvexSolid& a, const ConvexSolid& b) {
   const auto [low, high] = bounds_of(a);
   const auto [low_b, high_b] = bounds_of(b);
   const double size = std::fmin(length(high - low), length(high_b - low_b));
+  std::vector<Vec3d> simplex{nearest};
   for (int step = 0; step < kSteps; ++step) {
     if (length(nearest) <= kTouching * size) {
       return true;
@@ -103,11 +155,14 @@ bool overlap(const ConvexSolid& a, const ConvexSolid& b) {
     if (dot(next, nearest) > 0) {
       return false;  // all of A - B lies on one side of a plane through `next`
     }
-    const Vec3d way = next - nearest;
-    const double t = std::clamp(-dot(nearest, way) / dot(way, way), 0.0, 1.0);
-    nearest += way * t;
+    simplex.push_back(next);
+    const Vec3d nearer = nearest_in(simplex);
+    if (!(length(nearer) < length(nearest))) {
+      return true;
+    }
+    nearest = nearer;
   }
-  return true;
+  return false;
 }
 
 }  // namespace tenon::check

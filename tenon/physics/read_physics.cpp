@@ -13,6 +13,7 @@
 
 #include "tenon/approximate/mesh_approximator.h"
 #include "tenon/physics/bodies/bodies_with_mass.h"
+#include "tenon/physics/joints/joint_checks.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/scene/canonical_scene.h"
 
@@ -77,6 +78,7 @@ PhysicsScene read_walked(ReadState& state) {
   read_collision_groups(state);
   read_filtered_pairs(state);
   read_tracks(state);
+  let_fixed_roots_stay(state);
   read_moving_shapes(state);
   read_nesting(state);
   note_frozen_samples(state);

@@ -56,6 +56,11 @@ const Row kRows[] = {
      {"ignore", "shapes-below"},
      "PhysicsCollisionAPI on an Xform: PhysX means the shapes below (S-47)",
      assign<&Readings::collision_on_group>},
+    {"fixed-to-world",
+     {"stay", "together"},
+     "a fixed joint to the world whose frames are apart: PhysX and Newton leave the root of an "
+     "articulation where it stands; the frames say that it is moved (S-90)",
+     assign<&Readings::fixed_to_world>},
     {"held-samples",
      {"linear", "held"},
      "poses between time samples: the interpolation of the stage (S-117)",

@@ -31,6 +31,7 @@ enum class ValueTypes : std::uint8_t { Strict, Lenient };              ///< S-3
 enum class HeldSamples : std::uint8_t { Linear, Held };                ///< S-117
 enum class PointInstancers : std::uint8_t { Expand, Skip };            ///< S-38
 enum class BodyDefaults : std::uint8_t { None, Physx };                ///< as PhysX
+enum class FixedToWorld : std::uint8_t { Stay, Together };             ///< S-90
 enum class LayerUnits : std::uint8_t { Stage, Layer };                 ///< S-11
 
 struct Readings {
@@ -52,6 +53,7 @@ struct Readings {
   HeldSamples held_samples = HeldSamples::Linear;
   PointInstancers point_instancers = PointInstancers::Expand;
   BodyDefaults body_defaults = BodyDefaults::None;
+  FixedToWorld fixed_to_world = FixedToWorld::Stay;
   /// Acts where the stage is opened (tenon::OpenOptions::layer_units).
   LayerUnits layer_units = LayerUnits::Stage;
 };

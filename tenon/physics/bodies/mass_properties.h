@@ -15,8 +15,8 @@
 namespace tenon::physics {
 
 inline constexpr double kDefaultDensity = 1000;  ///< [kg/m^3] where nothing else is said (S-39)
-inline constexpr double kDefaultMass = 1;        ///< [kg] of a body without colliders (S-42)
-inline constexpr double kDefaultRadius = 0.1;    ///< [m] of the ball that gives its inertia (M-18)
+inline constexpr double kDefaultMass = 1;  ///< units of mass, of a body without colliders (S-42)
+inline constexpr double kDefaultRadius = 0.1;  ///< [m] of the ball that gives its inertia (M-18)
 
 /// What is authored about the mass of one prim, in SI; absent where unset (S-41, S-44..S-46).
 struct AuthoredMass {

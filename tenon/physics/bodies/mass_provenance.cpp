@@ -72,7 +72,8 @@ void trace_mass(const ReadState& state, const PhysicsPrim& found, MassProvenance
     chain.add({}, {}, mass_text(provenance.computed.mass), "S-39",
               "the sum over the colliders below");
   } else {
-    chain.add({}, {}, mass_text(kDefaultMass), "S-42", "no collider has a volume: 1 kg");
+    chain.add({}, {}, mass_text(kDefaultMass * state.units.mass), "S-42",
+              "no collider has a volume: one unit of mass");
   }
 }
 

@@ -146,7 +146,7 @@ class BodyMassComputation {
       }
     }
     report_shift(sum);
-    store(body_mass(sum, own_, state_.readings.center_shift), sum);
+    store(body_mass(sum, authored_or_default(sum), state_.readings.center_shift), sum);
     if (state_.provenance != nullptr) {
       give_provenance(colliders, sum);
     }
@@ -394,6 +394,15 @@ class BodyMassComputation {
     add(MassQuantity::Density, {}, {}, density_text(kDefaultDensity), "S-39",
         "nothing else gives a density");
     return provenance;
+  }
+
+  // S-42: a body that nothing gives a mass has one unit of the stage's.
+  AuthoredMass authored_or_default(const MassProperties& sum) const {
+    AuthoredMass result = own_;
+    if (!(sum.mass > 0) && !result.mass) {
+      result.mass = kDefaultMass * state_.units.mass;
+    }
+    return result;
   }
 
   void give_provenance(const std::vector<Index>& colliders, const MassProperties& sum) {

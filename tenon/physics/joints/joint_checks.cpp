@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/physics/joints/joint_checks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -85,7 +86,31 @@ void check_limits(const ReadState& state, const stage::Prim& prim, const Joint& 
                "move the bodies or widen the limit");
 }
 
+// Of what is fixed to the world.
+bool stays(const ReadState& state, const Joint& joint) {
+  const auto moves = [&](const scene::PoseTrack& track) {
+    return track.joint && &state.scene.joints[*track.joint] == &joint;
+  };
+  return joint.kind == JointKind::Fixed && joint.body0.has_value() != joint.body1.has_value() &&
+         state.readings.fixed_to_world == FixedToWorld::Stay &&
+         std::none_of(state.scene.pose_tracks.begin(), state.scene.pose_tracks.end(), moves);
+}
+
 }  // namespace
+
+void let_fixed_roots_stay(ReadState& state) {
+  for (Joint& joint : state.scene.joints) {
+    if (!joint.enabled || !stays(state, joint)) {
+      continue;
+    }
+    const Pose at0 = in_world(state, joint.body0, joint.frame0);
+    const Pose at1 = in_world(state, joint.body1, joint.frame1);
+    const Misfit misfit = misfit_of(joint, inverse(at0) * at1);
+    if (misfit.gap > kGap || misfit.angle > kAngle) {
+      (joint.body0 ? joint.frame1 : joint.frame0) = joint.body0 ? at0 : at1;
+    }
+  }
+}
 
 void check_joint_start(const ReadState& state, const stage::Prim& prim, const Joint& joint) {
   const auto is_lost = [&](const std::optional<Index>& body) {
@@ -101,7 +126,9 @@ void check_joint_start(const ReadState& state, const stage::Prim& prim, const Jo
     state.report(prim, Severity::Warning, "joint.frames-apart",
                  "the frames of the joint are " + text(misfit.gap / state.units.length) +
                      " units and " + text(misfit.angle / kRadians) +
-                     " degrees apart at the start; they are pulled together",
+                     " degrees apart at the start; " +
+                     (stays(state, joint) ? "the body is held where it stands"
+                                          : "the bodies are moved together"),
                  "correct physics:localPos0, localRot0, localPos1, localRot1 or the bodies' poses");
   }
   if (joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic ||
