@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The model of a run as MuJoCo's own text. MuJoCo writes what its specification held when it was
+// compiled, so that numbers which follow from the compiled model (soft bounds) are compiled in once
+// more. What tenon does from step to step is no part of a model: it is listed, for the text would
+// move otherwise without a word.
 #include "tenon/engines/mujoco/write_mjcf.h"
 
 #include <algorithm>
