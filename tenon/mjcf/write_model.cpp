@@ -278,8 +278,15 @@ class VisualWriter {
 Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::RobotModel& visuals,
                                 const std::map<std::string, std::string>& images,
                                 const scene::MujocoParts& parts, Diagnostics& diagnostics) {
+  // Actuators are written below, in the order of the stage.
+  scene::PhysicsScene without;
+  const bool has_actuators = !scene.actuators.empty();
+  if (has_actuators) {
+    without = scene;
+    without.actuators.clear();
+  }
   TENON_TRY(engines::mujoco::SpecAndModel built,
-            engines::mujoco::writable_model(scene, {}, diagnostics));
+            engines::mujoco::writable_model(has_actuators ? without : scene, {}, diagnostics));
   TENON_TRY(const std::vector<mjsActuator*> made,
             write_actuators(scene, parts.actuators, built.model, *built.spec, diagnostics));
   TENON_CHECK(write_keyframes(scene, parts, made, built.model, *built.spec, diagnostics));

@@ -103,6 +103,13 @@ class Check {
     require(body.mass >= 0 && is_finite(body.mass), "a mass is negative or not finite");
     require(is_finite(body.inertia), "an inertia is not finite");
   }
+  void own(const MujocoActuator& actuator) {
+    using Target = MujocoActuator::Target;
+    require((actuator.kind != Target::Joint || actuator.target < scene_.joints.size()) &&
+                (actuator.kind != Target::Tendon || actuator.target < scene_.tendons.size()) &&
+                (actuator.kind != Target::Crank || actuator.other_site.has_value()),
+            "an actuator acts on nothing that is there");
+  }
   void own(const TriangleMesh& mesh) {
     for (const Vec3i& triangle : mesh.triangles) {
       for (const int corner : triangle.v) {

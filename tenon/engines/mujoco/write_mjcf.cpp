@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The model of a run as MuJoCo's own text. MuJoCo writes what its specification held when it was
+// compiled, so that numbers which follow from the compiled model (soft bounds) are compiled in once
+// more. What tenon does from step to step is no part of a model: it is listed, for the text would
+// move otherwise without a word.
 #include "tenon/engines/mujoco/write_mjcf.h"
 
 #include <algorithm>
@@ -26,11 +31,85 @@ void report_not_mapped(const Model& model, Diagnostics& diagnostics) {
   }
 }
 
+void report_lost(const Path& prim, const char* property, const char* what,
+                 Diagnostics& diagnostics) {
+  Diagnostic finding;
+  finding.severity = Severity::Info;
+  finding.rule = "mujoco.not-mapped";
+  finding.message = std::string(what) + " no part of MuJoCo's models; tenon's own runs have them";
+  finding.prim = prim.str();
+  finding.property = property;
+  diagnostics.add(std::move(finding));
+}
+
+/// What runs of tenon do from step to step, beside the model.
+void report_what_runs_do(const scene::PhysicsScene& scene, Diagnostics& diagnostics) {
+  for (const scene::Body& body : scene.bodies) {
+    const scene::BodySettings& settings = body.settings;
+    if (!settings.forces.empty()) {
+      report_lost(body.path, "forces", "constant forces are", diagnostics);
+    }
+    if (settings.max_linear_velocity < scene::kUnlimited ||
+        settings.max_angular_velocity < scene::kUnlimited) {
+      report_lost(body.path, "maxLinearVelocity", "limits of speed are", diagnostics);
+    }
+    if ((settings.locked_translation | settings.locked_rotation) != 0) {
+      report_lost(body.path, "lockedTranslation", "locked axes are", diagnostics);
+    }
+    if (!settings.gyroscopic) {
+      report_lost(body.path, "gyroscopic", "bodies without gyroscopic torque are", diagnostics);
+    }
+  }
+  for (const scene::Joint& joint : scene.joints) {
+    if (joint.velocity_limit < scene::kUnlimited) {
+      report_lost(joint.path, "velocityLimit", "limits of velocity are", diagnostics);
+    }
+    for (const scene::Drive& drive : joint.drives) {
+      if (drive.envelope.max_velocity < scene::kUnlimited ||
+          drive.envelope.velocity_resistance > 0) {
+        report_lost(joint.path, "maxVelocity", "performance envelopes are", diagnostics);
+      }
+    }
+  }
+  for (const scene::Collider& collider : scene.colliders) {
+    if (collider.settings.trigger) {
+      report_lost(collider.path, "trigger", "what triggers tell is", diagnostics);
+    }
+    if (collider.settings.torsional_patch > 0 || collider.settings.min_torsional_patch > 0) {
+      report_lost(collider.path, "torsionalPatchRadius", "torsional patches are", diagnostics);
+    }
+  }
+  for (const scene::Material& material : scene.materials) {
+    if (material.compliance.stiffness > 0) {
+      report_lost(material.path, "compliance", "contacts as springs are", diagnostics);
+    }
+  }
+}
+
+bool has_springs(const scene::PhysicsScene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(),
+                     [](const auto& joint) { return !joint.limit_springs.empty(); }) ||
+         std::any_of(scene.tendons.begin(), scene.tendons.end(),
+                     [](const auto& tendon) { return tendon.limit_stiffness > 0; });
+}
+
+/// Text is made of what was compiled.
+Result<void> compile_again(mjSpec& spec) {
+  mjModel* model = nullptr;
+  TENON_CHECK(guarded([&] { model = mj_compile(&spec, nullptr); }));
+  mj_deleteModel(model);
+  return {};
+}
+
 /// Where the asset speaks of MuJoCo's options, what it does not say is MuJoCo's default, not that
 /// of simulations.
 Result<void> restore_options(const scene::PhysicsScene& scene, mjSpec& spec) {
-  if (!scene.scenes.front().parts.mujoco) {
+  const bool speaks = scene.scenes.front().parts.mujoco.has_value();
+  if (!speaks && !has_springs(scene)) {
     return {};
+  }
+  if (!speaks) {
+    return compile_again(spec);
   }
   mjOption option;
   mj_defaultOption(&option);
@@ -40,10 +119,7 @@ Result<void> restore_options(const scene::PhysicsScene& scene, mjSpec& spec) {
     apply_setting(setting, option);  // what it does not take is reported by now
   }
   spec.option = option;
-  mjModel* model = nullptr;  // text is made of what was compiled
-  TENON_CHECK(guarded([&] { model = mj_compile(&spec, nullptr); }));
-  mj_deleteModel(model);
-  return {};
+  return compile_again(spec);
 }
 
 }  // namespace
@@ -78,6 +154,7 @@ Result<SpecAndModel> writable_model(const scene::PhysicsScene& scene,
   }
   TENON_TRY(SpecAndModel built, build_spec(scene, exact, diagnostics));
   report_not_mapped(built.model, diagnostics);
+  report_what_runs_do(scene, diagnostics);
   TENON_CHECK(restore_options(scene, *built.spec));
   return built;
 }

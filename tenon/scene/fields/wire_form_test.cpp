@@ -60,5 +60,16 @@ TEST(CheckScene, AnIndexThatLeadsNowhereIsNamed) {
       << checked.error().to_string();
 }
 
+TEST(CheckScene, AnActuatorOnNothingIsRefused) {
+  PhysicsScene scene = filled_scene();
+  ASSERT_TRUE(check_scene(scene).has_value());
+  scene.actuators[0].kind = MujocoActuator::Target::Tendon;
+  scene.actuators[0].target = 2;
+  EXPECT_FALSE(check_scene(scene).has_value());
+  scene.actuators[0].kind = MujocoActuator::Target::Crank;
+  scene.actuators[0].other_site.reset();
+  EXPECT_FALSE(check_scene(scene).has_value());
+}
+
 }  // namespace
 }  // namespace tenon::scene

@@ -26,8 +26,8 @@ struct AuxiliaryBody {
 
 /// A bound of a joint or tendon that gives way as a spring beyond it.
 struct SoftBound {
-  mjsElement* element = nullptr;
-  bool is_tendon = false;
+  mjsJoint* joint = nullptr;
+  mjsTendon* tendon = nullptr;  ///< where `joint` is none
   double stiffness = 0;
   double damping = 0;
 };

@@ -152,7 +152,7 @@ void add_distance_springs(Build& build, const scene::Limit& limit, const scene::
                           const std::string& name, const std::array<std::string, 2>& sites) {
   const auto add = [&](const char* suffix, double lower, double upper) {
     mjsTendon* tendon = add_tendon(build, name + suffix, sites[0], sites[1], lower, upper);
-    build.soft_bounds.push_back({tendon->element, true, spring.stiffness, spring.damping});
+    build.soft_bounds.push_back({nullptr, tendon, spring.stiffness, spring.damping});
   };
   if (limit.upper < kUnlimited) {
     add(".max", 0, limit.upper);

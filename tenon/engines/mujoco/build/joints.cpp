@@ -33,7 +33,7 @@ void set_limit(mjsJoint* joint, const scene::FreeDof& dof, const scene::MujocoSo
 void set_spring(Build& build, const scene::Joint& joint, const scene::LimitSpring& spring,
                 mjsJoint* target) {
   if (spring.stiffness > 0) {
-    build.soft_bounds.push_back({target->element, false, spring.stiffness, spring.damping});
+    build.soft_bounds.push_back({target, nullptr, spring.stiffness, spring.damping});
     return;
   }
   const std::array<double, 2> solref = contact_solref(spring.restitution, build.time_step);

@@ -35,20 +35,28 @@ SpringReference spring_reference(double stiffness, double damping, double time_s
 }
 
 void soften_bounds(const Build& build, mjModel& model) {
-  for (const SoftBound& bound : build.soft_bounds) {
-    const int id = mjs_getId(bound.element);
-    const double weight =
-        bound.is_tendon ? model.tendon_invweight0[id] : model.dof_invweight0[model.jnt_dofadr[id]];
-    const SpringReference spring =
-        spring_reference(bound.stiffness * weight, bound.damping * weight, build.time_step);
-    double* solref = (bound.is_tendon ? model.tendon_solref_lim : model.jnt_solref) +
-                     std::ptrdiff_t{mjNREF} * id;
-    double* solimp = (bound.is_tendon ? model.tendon_solimp_lim : model.jnt_solimp) +
-                     std::ptrdiff_t{mjNIMP} * id;
+  const auto write = [](const SpringReference& spring, double* solref, double* solimp) {
     solref[0] = -spring.stiffness;
     solref[1] = -spring.damping;
     solimp[0] = spring.impedance;
     solimp[1] = spring.impedance;
+  };
+  for (const SoftBound& bound : build.soft_bounds) {
+    const bool is_tendon = bound.joint == nullptr;
+    const int id = mjs_getId(is_tendon ? bound.tendon->element : bound.joint->element);
+    const double weight =
+        is_tendon ? model.tendon_invweight0[id] : model.dof_invweight0[model.jnt_dofadr[id]];
+    const SpringReference spring =
+        spring_reference(bound.stiffness * weight, bound.damping * weight, build.time_step);
+    write(spring,
+          (is_tendon ? model.tendon_solref_lim : model.jnt_solref) + std::ptrdiff_t{mjNREF} * id,
+          (is_tendon ? model.tendon_solimp_lim : model.jnt_solimp) + std::ptrdiff_t{mjNIMP} * id);
+    // For those who write the model as text.
+    if (is_tendon) {
+      write(spring, bound.tendon->solref_limit, bound.tendon->solimp_limit);
+    } else {
+      write(spring, bound.joint->solref_limit, bound.joint->solimp_limit);
+    }
   }
 }
 

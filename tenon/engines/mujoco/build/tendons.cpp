@@ -44,7 +44,7 @@ class TendonPass {
       std::copy(tendon.range->begin(), tendon.range->end(), result->range);
     }
     if (tendon.range && tendon.limit_stiffness > 0) {
-      build_.soft_bounds.push_back({result->element, true, tendon.limit_stiffness, 0});
+      build_.soft_bounds.push_back({nullptr, result, tendon.limit_stiffness, 0});
     }
     for (const scene::MujocoSetting& setting : tendon.settings) {
       if (!apply(setting, *result)) {
