@@ -130,15 +130,16 @@ std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Di
   return findings;
 }
 
-std::unordered_set<std::string> used_properties(const stage::Stage& stage) {
-  std::unordered_set<std::string> used;
+std::vector<std::string> used_properties(const stage::Stage& stage) {
+  std::vector<std::string> used;
   for (const stage::Prim& prim : counted_prims(stage)) {
     for (const Token name : prim.authored_property_names()) {
       if (prim.definition()->find(name) != nullptr && !physics::physics_apis_of(name).empty()) {
-        used.insert(prim.path().str() + ' ' + name.str());
+        used.push_back(prim.path().str() + ' ' + name.str());
       }
     }
   }
+  std::sort(used.begin(), used.end());
   return used;
 }
 
@@ -161,8 +162,9 @@ std::vector<Finding> merge_variants(std::vector<VariantFindings> runs) {
   }
   const auto is_used = [&](const Finding& finding) {
     const std::string key = finding.diagnostic.prim + ' ' + finding.diagnostic.property;
-    return std::any_of(runs.begin(), runs.end(),
-                       [&](const VariantFindings& run) { return run.used.contains(key); });
+    return std::any_of(runs.begin(), runs.end(), [&](const VariantFindings& run) {
+      return std::binary_search(run.used.begin(), run.used.end(), key);
+    });
   };
   std::erase_if(merged, [&](const Finding& finding) {
     const Holds holds = finding.rule == nullptr ? Holds::InAnyVariant : finding.rule->holds;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 #include "tenon/check/finding.h"
@@ -30,14 +29,14 @@ std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Di
                                  const Selection& selection,
                                  const physics::ReadOptions& reading = {});
 
-/// "prim property" of what applied APIs of physics declare and the asset authors.
-std::unordered_set<std::string> used_properties(const stage::Stage& stage);
+/// "prim property" of what applied APIs of physics declare and the asset authors, sorted.
+std::vector<std::string> used_properties(const stage::Stage& stage);
 
 /// Findings of one asset under one variant of its set "Physics".
 struct VariantFindings {
   std::string variant;
   std::vector<Finding> findings;
-  std::unordered_set<std::string> used{};  ///< used_properties
+  std::vector<std::string> used{};  ///< used_properties
 };
 
 /// One list out of those of all variants: each finding once, with the variants under which it

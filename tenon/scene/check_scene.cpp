@@ -26,6 +26,12 @@ bool is_finite(const Mat3d& m) {
   });
 }
 
+bool all_below(const std::vector<std::pair<Index, Index>>& pairs, std::size_t count) {
+  return std::all_of(pairs.begin(), pairs.end(), [count](const auto& pair) {
+    return pair.first < count && pair.second < count;
+  });
+}
+
 /// Looks at every index, as deep as it lies.
 class Check {
  public:
@@ -184,14 +190,6 @@ class Check {
             "a table of groups has another size");
   }
 
-  void colliders(const std::vector<std::pair<Index, Index>>& pairs) {
-    const std::size_t count = scene_.colliders.size();
-    require(std::all_of(
-                pairs.begin(), pairs.end(),
-                [count](const auto& pair) { return pair.first < count && pair.second < count; }),
-            "a pair of colliders leads nowhere");
-  }
-
   void filter() {
     place_ = "filter";
     const CollisionFilter& filter = scene_.filter;
@@ -207,10 +205,12 @@ class Check {
     require(
         filter.group_pair_off.size() == groups * groups && filter.ungrouped_off.size() == groups,
         "a table of groups has another size");
-    colliders(filter.pairs_off);
-    colliders(filter.permanent_pairs);
+    const std::size_t count = scene_.colliders.size();
+    const char* const fault = "a pair of colliders leads nowhere";
+    require(all_below(filter.pairs_off, count), fault);
+    require(all_below(filter.permanent_pairs, count), fault);
     for (const JointPairs& pairs : filter.joint_pairs) {
-      colliders(pairs.pairs);
+      require(all_below(pairs.pairs, count), fault);
     }
   }
 

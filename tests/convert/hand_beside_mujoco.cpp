@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A hand converted from URDF beside MuJoCo's own reading of that URDF: the same numbers, and 2 s of
-// free motion within 0.1 degree. Contacts are off on both sides, and MuJoCo's own model gets the
-// solver's settings of ours (how stiff limits and mimics are, the integrator): those are choices of
-// an engine, not of the description. Exit 77 without the shared asset.
+// free motion within 0.1 degree. Contacts and limits of velocity, which MuJoCo passes over, are
+// off, and MuJoCo's own model gets the solver's settings of ours (how stiff limits and mimics are,
+// the integrator): those are choices of an engine, not of the description. Exit 77 without the
+// shared asset.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -132,6 +133,9 @@ int compare(const std::string& path) {
   scene::PhysicsScene scene = physics::read_physics(*stage, {}, findings);
   scene.colliders.clear();
   scene.filter = {};
+  for (scene::Joint& joint : scene.joints) {
+    joint.velocity_limit = scene::kUnlimited;
+  }
   engines::SimulationOptions options;
   options.time_step = 0.001;
   auto simulation = MujocoSimulation::make(scene, options, findings);

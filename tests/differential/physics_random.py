@@ -26,9 +26,9 @@ import physics_scenes
 import numpy as np
 from pxr import Tf, Usd, UsdGeom
 
-READINGS = ("mass-inheritance=own", "missing-target=world", "negative-gravity=literal",
-            "one-sided-limits=drop", "sheared-offsets=factored", "stretched-sphere=ball",
-            "ungrouped=on", "velocity-space=world")
+READINGS = ("fixed-to-world=together", "mass-inheritance=own", "missing-target=world",
+            "negative-gravity=literal", "one-sided-limits=drop", "sheared-offsets=factored",
+            "stretched-sphere=ball", "ungrouped=on", "velocity-space=world")
 SEEDS, SEEDS_OF_A_LONG_RUN = 60, 500
 SHRINK_RUNS = 400
 
