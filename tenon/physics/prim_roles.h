@@ -18,7 +18,6 @@ namespace tenon::physics {
 enum class Api : std::uint8_t {
 #define TENON_API(enumerator, name) enumerator,
 #include "tenon/physics/api_schemas.def"
-  kCount
 };
 
 /// What a prim is by its type.

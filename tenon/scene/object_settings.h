@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "tenon/base/path.h"
+#include "tenon/math/functions.h"
 #include "tenon/math/vector.h"
 
 /// Settings of bodies, colliders and drives that UsdPhysics does not have and engines may act on,
@@ -26,8 +26,8 @@ struct BodyForce {
 struct BodySettings {
   std::vector<BodyForce> forces;
   /// Speeds are cut to these after each step [m/s], [rad/s].
-  double max_linear_velocity = std::numeric_limits<double>::infinity();
-  double max_angular_velocity = std::numeric_limits<double>::infinity();
+  double max_linear_velocity = kInfinity;
+  double max_angular_velocity = kInfinity;
   int locked_translation = 0;   ///< world axes that it does not move along: 1 x, 2 y, 4 z
   int locked_rotation = 0;      ///< world axes that it does not turn about: 1 x, 2 y, 4 z
   bool gyroscopic = true;       ///< false: turns as if its inertia were that of a ball
@@ -53,9 +53,9 @@ struct ColliderSettings {
 /// What a motor can do at a speed: beside its own maximum the effort is at most
 /// max_force - velocity_resistance |v|, and |v| at most max_velocity - speed_effort_gradient |F|.
 struct DriveEnvelope {
-  double max_velocity = std::numeric_limits<double>::infinity();  ///< [m/s or rad/s]
-  double speed_effort_gradient = 0;                               ///< [m/s/N or rad/s/(N m)]
-  double velocity_resistance = 0;                                 ///< [N s/m or N m s/rad]
+  double max_velocity = kInfinity;   ///< [m/s or rad/s]
+  double speed_effort_gradient = 0;  ///< [m/s/N or rad/s/(N m)]
+  double velocity_resistance = 0;    ///< [N s/m or N m s/rad]
 };
 
 }  // namespace tenon::scene

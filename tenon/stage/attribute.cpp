@@ -170,7 +170,7 @@ Value Attribute::metadata(Token field) const {
   if (field == fields::custom) {
     return is_custom();
   }
-  const Value authored = compose_field(*stage_, *prim_, property_opinions(*prim_, name_), field);
+  Value authored = compose_field(*stage_, *prim_, property_opinions(*prim_, name_), field);
   const schema::PropertyDefinition* declared = definition();
   if (authored.empty() && field == fields::allowedTokens && declared != nullptr &&
       !declared->allowed_tokens.empty()) {

@@ -51,7 +51,7 @@ void read_force(ReadState& state, const PhysicsPrim& found) {
     force.torque = rotate(place.orientation, force.torque);
   }
   if (!(force.force == zero && force.torque == zero)) {
-    body.settings.forces.push_back(std::move(force));
+    body.settings.forces.push_back(force);
   }
 }
 

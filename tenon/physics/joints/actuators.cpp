@@ -138,7 +138,7 @@ class ActuatorReader {
     const auto same = std::find_if(joint.drives.begin(), joint.drives.end(),
                                    [&](const Drive& other) { return other.dof == drive.dof; });
     if (same == joint.drives.end()) {
-      joint.drives.push_back(std::move(drive));
+      joint.drives.push_back(drive);
       return;
     }
     state_.report(prim, Severity::Info, "actuator.replaces-drive",
@@ -147,7 +147,7 @@ class ActuatorReader {
                   "remove one of the two to say which counts");
     drive.target_position = same->target_position;
     drive.target_velocity = same->target_velocity;
-    *same = std::move(drive);
+    *same = drive;
   }
 
   ReadState& state_;

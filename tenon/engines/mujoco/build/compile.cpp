@@ -187,7 +187,8 @@ void set_mean_inertia(const Build& build, Model& result) {
     for (int i = 0; i < 6 && result.bodies[b].free_dof >= 0; ++i) {
       if (m.dof_armature[result.bodies[b].free_dof + i] > 0) {  // a locked axis
         any = true;
-        driven[static_cast<std::size_t>(result.bodies[b].free_dof + i)] = 1;
+        driven[static_cast<std::size_t>(result.bodies[b].free_dof) + static_cast<std::size_t>(i)] =
+            1;
       }
     }
   }

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <utility>
 
@@ -202,8 +203,8 @@ void make_soft(const SurfaceKind& a, const SurfaceKind& b, double time_step, con
   }
   double weight = 1;
   if (!soft.by_mass) {
-    weight = model.body_invweight0[2 * model.geom_bodyid[contact.geom[0]]] +
-             model.body_invweight0[2 * model.geom_bodyid[contact.geom[1]]];
+    weight = model.body_invweight0[std::ptrdiff_t{2} * model.geom_bodyid[contact.geom[0]]] +
+             model.body_invweight0[std::ptrdiff_t{2} * model.geom_bodyid[contact.geom[1]]];
   }
   const SpringReference spring = spring_reference(stiffness * weight, damping * weight, time_step);
   contact.solref[0] = -spring.stiffness;

@@ -102,7 +102,7 @@ void StepInputs::collect_pushed_bodies(const scene::PhysicsScene& scene, const M
     const bool pushes = pushed.linear > 0 || pushed.angular > 0 || !body.settings.forces.empty() ||
                         !body.settings.gyroscopic;
     if (pushes && !body.kinematic && (base == BodyBase::Jointed || base == BodyBase::Free)) {
-      pushed_bodies_.push_back(std::move(pushed));
+      pushed_bodies_.push_back(pushed);
     }
   }
   take_constant_forces(model);

@@ -21,22 +21,22 @@ using layer::ListOp;
 /// How one kind of item is printed.
 template <class T>
 struct ItemStyle {
-  static constexpr bool per_line = false;
+  static constexpr bool kPerLine = false;
   static bool alone(const T&) { return false; }  // may stand without brackets
 };
 template <>
 struct ItemStyle<Path> {
-  static constexpr bool per_line = true;
+  static constexpr bool kPerLine = true;
   static bool alone(const Path&) { return true; }
 };
 template <>
 struct ItemStyle<layer::Payload> {
-  static constexpr bool per_line = true;
+  static constexpr bool kPerLine = true;
   static bool alone(const layer::Payload&) { return true; }
 };
 template <>
 struct ItemStyle<layer::Reference> {
-  static constexpr bool per_line = true;
+  static constexpr bool kPerLine = true;
   static bool alone(const layer::Reference& item) { return item.custom_data.empty(); }
 };
 
@@ -103,15 +103,15 @@ void append_items(std::string& out, std::size_t indent, const std::vector<T>& it
     out += '\n';
     return;
   }
-  out += Style::per_line ? "[\n" : "[";
+  out += Style::kPerLine ? "[\n" : "[";
   for (std::size_t i = 0; i < items.size(); ++i) {
-    append_indent(out, Style::per_line ? indent + 1 : 0);
+    append_indent(out, Style::kPerLine ? indent + 1 : 0);
     append_item(out, indent + 1, items[i]);
     const bool last = i + 1 == items.size();
-    out += last ? "" : Style::per_line ? "," : ", ";
-    out += Style::per_line ? "\n" : "";
+    out += last ? "" : Style::kPerLine ? "," : ", ";
+    out += Style::kPerLine ? "\n" : "";
   }
-  append_indent(out, Style::per_line ? indent : 0);
+  append_indent(out, Style::kPerLine ? indent : 0);
   out += "]\n";
 }
 
