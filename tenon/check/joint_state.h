@@ -4,11 +4,13 @@
 
 #include "tenon/math/angle.h"
 #include "tenon/scene/physics_scene.h"
+#include "tenon/scene/start_coordinate.h"
 
 namespace tenon::check {
 
-/// Coordinate of a revolute or prismatic joint as the poses of its bodies have it [rad or m].
-double coordinate_from_poses(const scene::PhysicsScene& scene, const scene::Joint& joint);
+using scene::coordinate_from_poses;
+using scene::start_coordinate;
+
 inline bool has_one_axis(const scene::Joint& joint) {
   return joint.kind == scene::JointKind::Revolute || joint.kind == scene::JointKind::Prismatic;
 }
@@ -16,7 +18,5 @@ inline bool has_one_axis(const scene::Joint& joint) {
 inline double coordinate_unit(const scene::PhysicsScene& scene, const scene::Joint& joint) {
   return joint.kind == scene::JointKind::Revolute ? kDegreesPerRadian : 1 / scene.meters_per_unit;
 }
-/// The authored start, else that of the poses.
-double start_coordinate(const scene::PhysicsScene& scene, const scene::Joint& joint);
 
 }  // namespace tenon::check

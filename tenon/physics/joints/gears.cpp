@@ -12,6 +12,7 @@
 
 #include "tenon/physics/read_state.h"
 #include "tenon/scene/joint_freedom.h"
+#include "tenon/scene/start_coordinate.h"
 
 namespace tenon::physics {
 namespace {
@@ -68,26 +69,6 @@ class GearReader {
     return std::nullopt;
   }
 
-  Pose side(const std::optional<Index>& body, const Pose& frame) const {
-    return body ? state_.scene.bodies[*body].pose * frame : frame;
-  }
-
-  /// The coordinate of a joint of one axis at the start.
-  double start_of(const Joint& joint) const {
-    if (joint.initial_position) {
-      return *joint.initial_position;
-    }
-    const Pose relative =
-        inverse(side(joint.body0, joint.frame0)) * side(joint.body1, joint.frame1);
-    const auto axis = static_cast<std::size_t>(joint.axis);
-    if (joint.kind == JointKind::Prismatic) {
-      return relative.position[axis];
-    }
-    const Quatd& q = relative.orientation;
-    const double along[] = {q.x, q.y, q.z};
-    return std::remainder(2 * std::atan2(along[axis], q.w), 2 * M_PI);
-  }
-
   void add(Index follower, Index leader, double multiplier) {
     Joint& joint = state_.scene.joints[follower];
     const Joint& other = state_.scene.joints[leader];
@@ -104,7 +85,8 @@ class GearReader {
     mimic.leader = leader;
     mimic.leader_dof = other.dof();
     mimic.multiplier = multiplier;
-    mimic.offset = start_of(joint) - multiplier * start_of(other);
+    mimic.offset =
+        start_coordinate(state_.scene, joint) - multiplier * start_coordinate(state_.scene, other);
     joint.mimics.push_back(std::move(mimic));
   }
 
