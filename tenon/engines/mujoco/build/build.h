@@ -57,8 +57,9 @@ struct Build {
   std::vector<AuxiliaryBody> auxiliary_bodies;
   std::vector<SoftBound> soft_bounds;
   std::vector<NotMapped> not_mapped;
-  std::set<Path> refused;  ///< colliders that are left out, joints that get no limits
-  double driven_mass = 0;  ///< of bodies that follow a pose track [kg]
+  std::set<std::string> sites;  ///< names of those that site_at made
+  std::set<Path> refused;       ///< colliders that are left out, joints that get no limits
+  double driven_mass = 0;       ///< of bodies that follow a pose track [kg]
 
   void report(const Path& prim, std::string property, std::string why) {
     not_mapped.push_back({prim, std::move(property), std::move(why)});
@@ -143,6 +144,8 @@ void add_chain(Build& build, scene::Index joint, mjsBody* child, const Pose& joi
 mjsBody* side_body(Build& build, const std::optional<scene::Index>& body);
 /// A joint frame seen from the MuJoCo body of that side.
 Pose side_frame(const Build& build, const std::optional<scene::Index>& body, const Pose& frame);
+/// The site that stands for a place, made when first asked for; its name.
+std::string site_at(Build& build, const scene::TendonWrap::Attachment& place);
 /// Sets name, position and orientation.
 void place(mjsBody* body, const std::string& name, const Pose& pose);
 /// The scene's coordinate of a dof is this MuJoCo joint; nullptr when it has none.

@@ -34,9 +34,9 @@ class ActuatorPass {
     made->trntype = type_;
     mjs_setString(made->target, target_.c_str());
     if (from.kind == Target::Site && from.other_site) {
-      mjs_setString(made->refsite, site(*from.other_site).c_str());
+      mjs_setString(made->refsite, site_at(build_, *from.other_site).c_str());
     } else if (from.kind == Target::Crank) {
-      mjs_setString(made->slidersite, site(*from.other_site).c_str());
+      mjs_setString(made->slidersite, site_at(build_, *from.other_site).c_str());
       made->cranklength = from.crank_length;
     }
     set_actuator_numbers(from, *made);
@@ -67,22 +67,10 @@ class ActuatorPass {
       case Target::Site:
       case Target::Crank:
         type_ = from.kind == Target::Site ? mjTRN_SITE : mjTRN_SLIDERCRANK;
-        target_ = site(from.site);
+        target_ = site_at(build_, from.site);
         return from.kind == Target::Site || from.other_site ? "" : missing;
     }
     return missing;
-  }
-
-  std::string site(const scene::TendonWrap::Attachment& place) {
-    std::string name = place.path.str();
-    if (mjs_findElement(build_.spec.get(), mjOBJ_SITE, name.c_str()) == nullptr) {
-      mjsSite* made = mjs_addSite(side_body(build_, place.body), nullptr);
-      mjs_setName(made->element, name.c_str());
-      const Pose pose = side_frame(build_, place.body, place.pose);
-      write_vector(made->pos, pose.position);
-      write_quaternion(made->quat, normalized(pose.orientation));
-    }
-    return name;
   }
 
   Build& build_;

@@ -76,18 +76,6 @@ class TendonPass {
     return true;
   }
 
-  std::string site(const TendonWrap::Attachment& place) {
-    const std::string name = place.path.str();
-    if (sites_.insert(name).second) {
-      mjsSite* made = mjs_addSite(side_body(build_, place.body), nullptr);
-      mjs_setName(made->element, name.c_str());
-      const Pose pose = side_frame(build_, place.body, place.pose);
-      write_vector(made->pos, pose.position);
-      write_quaternion(made->quat, normalized(pose.orientation));
-    }
-    return name;
-  }
-
   std::string round(const TendonWrap& wrap) {
     const std::string name = wrap.attachment.path.str() + ".wrap";
     if (rounds_.insert(name).second) {
@@ -109,11 +97,11 @@ class TendonPass {
   void add_wrap(mjsTendon* tendon, const TendonWrap& wrap) {
     switch (wrap.kind) {
       case TendonWrap::Kind::Site:
-        mjs_wrapSite(tendon, site(wrap.attachment).c_str());
+        mjs_wrapSite(tendon, site_at(build_, wrap.attachment).c_str());
         break;
       case TendonWrap::Kind::Sphere:
       case TendonWrap::Kind::Cylinder: {
-        const std::string side = wrap.side ? site(*wrap.side) : "";
+        const std::string side = wrap.side ? site_at(build_, *wrap.side) : "";
         mjs_wrapGeom(tendon, round(wrap).c_str(), side.c_str());
         break;
       }
@@ -167,11 +155,22 @@ class TendonPass {
   }
 
   Build& build_;
-  std::set<std::string> sites_;
   std::set<std::string> rounds_;
 };
 
 }  // namespace
+
+std::string site_at(Build& build, const TendonWrap::Attachment& place) {
+  const std::string name = place.path.str();
+  if (build.sites.insert(name).second) {
+    mjsSite* made = mjs_addSite(side_body(build, place.body), nullptr);
+    mjs_setName(made->element, name.c_str());
+    const Pose pose = side_frame(build, place.body, place.pose);
+    write_vector(made->pos, pose.position);
+    write_quaternion(made->quat, normalized(pose.orientation));
+  }
+  return name;
+}
 
 void add_tendons(Build& build) {
   TendonPass pass(build);
