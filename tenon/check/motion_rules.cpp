@@ -122,20 +122,37 @@ Down down_of(const Vec3d& gravity) {
   return down;
 }
 
-/// The collider lies below the box, and their outlines from above meet.
-bool lies_below(const scene::PhysicsScene& scene, const scene::Collider& collider, const Vec3d& low,
-                const Vec3d& high, const Down& down) {
-  const auto [floor_low, floor_high] = world_bounds(scene, collider);
+/// What no body carries, with its bounds in the world.
+struct Floor {
+  const scene::Collider* collider = nullptr;
+  Vec3d low;
+  Vec3d high;
+};
+
+std::vector<Floor> floors_of(const scene::PhysicsScene& scene) {
+  std::vector<Floor> floors;
+  for (const scene::Collider& collider : scene.colliders) {
+    if (!collider.body && collider.enabled) {
+      const auto [low, high] = world_bounds(scene, collider);
+      floors.push_back({&collider, low, high});
+    }
+  }
+  return floors;
+}
+
+/// The floor lies below the box, and their outlines from above meet.
+bool lies_below(const Floor& floor, const Vec3d& low, const Vec3d& high, const Down& down) {
+  const scene::Collider& collider = *floor.collider;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (i != down.axis && !(floor_low[i] < high[i] && low[i] < floor_high[i])) {
+    if (i != down.axis && !(floor.low[i] < high[i] && low[i] < floor.high[i])) {
       return false;
     }
   }
   const bool plane = collider.shape.kind == scene::ShapeKind::Plane;
   const double middle = (low[down.axis] + high[down.axis]) / 2;
   const double top = plane           ? collider.pose.position[down.axis]
-                     : down.sign < 0 ? floor_high[down.axis]
-                                     : floor_low[down.axis];
+                     : down.sign < 0 ? floor.high[down.axis]
+                                     : floor.low[down.axis];
   return down.sign * (top - middle) > 0;
 }
 
@@ -154,7 +171,8 @@ std::pair<Vec3d, Vec3d> body_bounds(const Subject& subject, Index body) {
 }
 
 /// The floor of another scene that lies below a body where its own scene has none.
-const scene::Collider* floor_elsewhere(const Subject& subject, Index body) {
+const scene::Collider* floor_elsewhere(const Subject& subject, const std::vector<Floor>& floors,
+                                       Index body) {
   const Body& falling = subject.scene.bodies[body];
   const Down down = down_of(subject.scene.scenes[falling.scene].gravity);
   if (down.sign == 0 || subject.colliders_of_body[body].empty()) {
@@ -162,15 +180,14 @@ const scene::Collider* floor_elsewhere(const Subject& subject, Index body) {
   }
   const auto [low, high] = body_bounds(subject, body);
   const scene::Collider* other = nullptr;
-  for (const scene::Collider& collider : subject.scene.colliders) {
-    if (collider.body || !collider.enabled ||
-        !lies_below(subject.scene, collider, low, high, down)) {
+  for (const Floor& floor : floors) {
+    if (!lies_below(floor, low, high, down)) {
       continue;
     }
-    if (collider.scene == falling.scene) {
+    if (floor.collider->scene == falling.scene) {
       return nullptr;
     }
-    other = other == nullptr ? &collider : other;
+    other = other == nullptr ? floor.collider : other;
   }
   return other;
 }
@@ -206,11 +223,14 @@ void check_weak_drive(const Subject& subject, Reporter& report) {
 void check_fast_body(const Subject& subject, Reporter& report) {
   for (Index i = 0; i < subject.scene.bodies.size(); ++i) {
     const Body& body = subject.scene.bodies[i];
-    const double size = thickness_of_body(subject, i);
     const double step = step_of(subject.scene, body);
     const double way = length(body.linear_velocity) * step;
     const bool alone = subject.colliders_of_body[i].size() == subject.scene.colliders.size();
-    if (!body.kinematic && !alone && size > 0 && way > size) {
+    if (body.kinematic || alone || !(way > 0)) {
+      continue;
+    }
+    const double size = thickness_of_body(subject, i);
+    if (size > 0 && way > size) {
       report.at(subject.stage.prim(body.path), "physics:velocity",
                 "the body moves " + digits(way) + " m in a step of " + digits(step) + " s and is " +
                     digits(size) + " m thick: it can pass others without touching them",
@@ -226,10 +246,11 @@ void check_floor_elsewhere(const Subject& subject, Reporter& report) {
     return;
   }
   const scene::JointForest forest = scene::joint_forest(subject.scene);
+  const std::vector<Floor> floors = floors_of(subject.scene);
   for (Index i = 0; i < subject.scene.bodies.size(); ++i) {
     const Body& body = subject.scene.bodies[i];
     const scene::Collider* floor =
-        body.kinematic || forest.bodies[i].fixed ? nullptr : floor_elsewhere(subject, i);
+        body.kinematic || forest.bodies[i].fixed ? nullptr : floor_elsewhere(subject, floors, i);
     if (floor != nullptr) {
       report.at(subject.stage.prim(body.path),
                 "<" + floor->path.str() + "> lies below the body but belongs to the scene <" +

@@ -392,7 +392,9 @@ std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource&
                  "give the mesh a thickness, or use a Plane or a thin Cube");
   }
   if (kind == Approximation::MeshSimplification) {
-    made = mesh;
+    if (shared) {
+      made = mesh;
+    }
     simplify(state, source, made);
     reading.shape.mesh = add_mesh(state, std::move(made));
     return reading;

@@ -25,8 +25,8 @@ class EnergyWatch {
   void restart() { fresh_ = true; }
   /// Before MuJoCo advances, when all inputs are written.
   void begin(const Model& model);
-  /// After it has, before anything else is derived or written. A value: nothing explains the
-  /// energy; derive_motion() has run then.
+  /// After it has and speeds are cut, before anything else is derived or written. A value: nothing
+  /// explains the energy; derive_motion() has run then.
   std::optional<Growth> end(const Model& model);
 
  private:
