@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "tenon/bake/commands.h"
+#include "tenon/bake/commands/commands.h"
 #include "tenon/bake/test_still_simulation.h"
 
 namespace {

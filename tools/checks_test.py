@@ -226,6 +226,11 @@ class Sizes(unittest.TestCase):
         self.assertEqual(self.run_on(61, excuse), [])
         self.assertEqual(len(self.run_on(60, excuse)), 1)
 
+    def test_rooms(self):
+        files = [f"tenon/base/a{number}.h" for number in range(40)]
+        self.assertEqual(check_sizes.crowded(files + ["tenon/base/more/b.h", "tests/b.py"]), [])
+        self.assertEqual(len(check_sizes.crowded(files + ["tenon/base/b_test.cpp"])), 1)
+
     def test_long_files_have_a_head(self):
         licence, body = "// a\n// b\n", "int x;\n" * 150
         self.assertTrue(check_sizes.lacks_head("tenon/base/a.cpp", licence + body))

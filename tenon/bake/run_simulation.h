@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "tenon/bake/commands.h"
+#include "tenon/bake/commands/commands.h"
 #include "tenon/bake/rest.h"
 #include "tenon/bake/state_recording.h"
 #include "tenon/base/error.h"

@@ -11,7 +11,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/compose/cache/index_cache.h"
 #include "tenon/compose/node_graph.h"
-#include "tenon/compose/task_queue.h"
+#include "tenon/compose/work/task_queue.h"
 
 /// Internal: the state of building one prim index, and the steps that act on it.
 namespace tenon::compose {

@@ -16,7 +16,7 @@
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/expressions/variable_expression.h"
 #include "tenon/compose/muting.h"
-#include "tenon/compose/work_meter.h"
+#include "tenon/compose/work/work_meter.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/finding_place.h"
 

@@ -10,7 +10,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/compose/layer_opener.h"
-#include "tenon/compose/map_function.h"
+#include "tenon/compose/maps/map_function.h"
 #include "tenon/layer/layer.h"
 
 namespace tenon::compose {

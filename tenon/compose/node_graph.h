@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "tenon/compose/map_pool.h"
+#include "tenon/compose/maps/map_pool.h"
 #include "tenon/compose/prim_index.h"
 #include "tenon/compose/site.h"
-#include "tenon/compose/work_meter.h"
+#include "tenon/compose/work/work_meter.h"
 
 /// The graph of sites that a prim index grows in: a tree of arcs whose siblings are kept in order
 /// of strength, with an `origin` link from implied arcs to the arcs that imply them.

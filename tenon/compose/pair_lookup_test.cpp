@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/compose/map_function.h"
+#include "tenon/compose/maps/map_function.h"
 
 namespace tenon::compose {
 namespace {

@@ -11,7 +11,7 @@
 #include "tenon/base/path.h"
 #include "tenon/compose/arcs/arc.h"
 #include "tenon/compose/layer_stack.h"
-#include "tenon/compose/map_function.h"
+#include "tenon/compose/maps/map_function.h"
 
 namespace tenon::compose {
 

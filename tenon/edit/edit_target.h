@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tenon/base/path.h"
-#include "tenon/compose/map_function.h"
+#include "tenon/compose/maps/map_function.h"
 #include "tenon/compose/prim_index.h"
 #include "tenon/layer/value.h"
 #include "tenon/stage/sources/opinion_sources.h"

@@ -7,7 +7,7 @@
 #include <unordered_set>
 
 #include "tenon/physics/read_state.h"
-#include "tenon/physics/vendor_attributes.h"
+#include "tenon/physics/vendors/vendor_attributes.h"
 
 namespace tenon::physics {
 namespace {

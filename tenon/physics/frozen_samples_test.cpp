@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tenon/physics/read_physics.h"
-#include "tenon/physics/vendor_attributes.h"
+#include "tenon/physics/vendors/vendor_attributes.h"
 #include "tenon/schema/registry.h"
 #include "tenon/stage/test_stage.h"
 

@@ -10,8 +10,8 @@
 /// What the schemas of single vendors say of an object beside its neutral fields: one member for
 /// each vendor, of a type of that vendor's own header (mujoco_parts.h). Other engines pass over it.
 /// What of a vendor's schemas is neutral, stands here or has no effect, and why, is in
-/// physics/vendor_attributes.def. A further vendor is a header, members here, and their rows in
-/// fields/object_fields.h.
+/// physics/vendors/vendor_attributes.def. A further vendor is a header, members here, and their
+/// rows in fields/object_fields.h.
 namespace tenon::scene {
 
 struct SceneParts {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "tenon/bake/commands.h"
+#include "tenon/bake/commands/commands.h"
 #include "tenon/bake/run_simulation.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/function.h"
@@ -40,7 +40,7 @@ struct SimulateAssetOptions {
   engines::Methods methods{};      ///< how steps are made
   double frames_per_second = 60;   ///< of the recording
   engines::Outputs outputs;        ///< what the recording has beside states
-  std::string commands;            ///< a file of commands (bake/commands.h); empty: none
+  std::string commands;            ///< a file of commands (bake/commands/commands.h); empty: none
   std::string state_in;            ///< a file with the saved state to begin from; empty: the start
   std::optional<bake::RestRule> until_rest;  ///< the run ends where everything rests
   SimulationListener listener;

@@ -14,7 +14,7 @@
 
 #include "tenon/engines/mujoco/test_scene.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/physics/vendor_attributes.h"
+#include "tenon/physics/vendors/vendor_attributes.h"
 #include "tenon/scene/fields/same_fields.h"
 #include "tenon/schema/registry.h"
 #include "tenon/stage/test_stage.h"

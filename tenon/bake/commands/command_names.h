@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "tenon/bake/commands.h"
+#include "tenon/bake/commands/commands.h"
 #include "tenon/base/result.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/scene/physics_scene.h"

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "tenon/bake/commands.h"
+#include "tenon/bake/commands/commands.h"
 #include "tenon/bytes/file_bytes.h"
 
 namespace tenon::bake {

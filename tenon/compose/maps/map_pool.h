@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "tenon/compose/map_function.h"
-#include "tenon/compose/work_meter.h"
+#include "tenon/compose/maps/map_function.h"
+#include "tenon/compose/work/work_meter.h"
 
 /// Internal: where map functions of nodes live. Maps of many pairs, which relocates make, are made
 /// once for all prims that they apply to: whoever needs one first pays for it.

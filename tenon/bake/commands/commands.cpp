@@ -4,13 +4,13 @@
 // A row takes effect with the first step that begins at its time, to a millionth of a step, because
 // times of steps are sums. A drive has one target of two numbers: where the file has a column for
 // one of them, the other is the asset's.
-#include "tenon/bake/commands.h"
+#include "tenon/bake/commands/commands.h"
 
 #include <cmath>
 #include <utility>
 
-#include "tenon/bake/commands_from_csv.h"
-#include "tenon/bake/commands_from_npz.h"
+#include "tenon/bake/commands/commands_from_csv.h"
+#include "tenon/bake/commands/commands_from_npz.h"
 #include "tenon/bytes/zip/zip_archive.h"
 
 namespace tenon::bake {

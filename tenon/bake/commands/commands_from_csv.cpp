@@ -3,7 +3,7 @@
 //
 // A table of commands as text, cell by cell, so that every error has its line and column. Numbers
 // become SI while they are read.
-#include "tenon/bake/commands_from_csv.h"
+#include "tenon/bake/commands/commands_from_csv.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "tenon/bake/command_names.h"
+#include "tenon/bake/commands/command_names.h"
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/text_number.h"
 

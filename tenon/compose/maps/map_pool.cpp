@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/compose/map_pool.h"
+#include "tenon/compose/maps/map_pool.h"
 
 namespace tenon::compose {
 

@@ -3,7 +3,7 @@
 //
 // Commands from NumPy. Sizes are compared with one another and with the limit before a number is
 // read; numbers become SI while they are.
-#include "tenon/bake/commands_from_npz.h"
+#include "tenon/bake/commands/commands_from_npz.h"
 
 #include <cmath>
 #include <set>
@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "tenon/bake/command_names.h"
+#include "tenon/bake/commands/command_names.h"
 #include "tenon/bake/npy_array.h"
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/text_number.h"

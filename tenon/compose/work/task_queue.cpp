@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/compose/task_queue.h"
+#include "tenon/compose/work/task_queue.h"
 
 #include <algorithm>
 

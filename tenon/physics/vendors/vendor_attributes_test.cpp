@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/physics/vendor_attributes.h"
+#include "tenon/physics/vendors/vendor_attributes.h"
 
 #include <algorithm>
 #include <string>

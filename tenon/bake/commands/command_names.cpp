@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/bake/command_names.h"
+#include "tenon/bake/commands/command_names.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/bake/commands_from_npz.h"
+#include "tenon/bake/commands/commands_from_npz.h"
 
 #include <cmath>
 #include <map>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/bake/commands.h"
+#include "tenon/bake/commands/commands.h"
 
 #include <cmath>
 #include <string>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/bake/commands_from_csv.h"
+#include "tenon/bake/commands/commands_from_csv.h"
 #include "tenon/bake/run_simulation.h"
 #include "tenon/bake/test_still_simulation.h"
 #include "tenon/math/angle.h"

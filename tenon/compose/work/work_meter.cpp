@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/compose/work_meter.h"
+#include "tenon/compose/work/work_meter.h"
 
 #include <string_view>
 

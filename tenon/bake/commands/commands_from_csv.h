@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "tenon/bake/commands.h"
+#include "tenon/bake/commands/commands.h"
 
 namespace tenon::bake {
 

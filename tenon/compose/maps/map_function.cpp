@@ -4,7 +4,7 @@
 // searched from its deepest source on, so the first hit is the longest match. Lists of more than a
 // few pairs, which only relocates make, have an index: making a map and looking into it stays
 // linear.
-#include "tenon/compose/map_function.h"
+#include "tenon/compose/maps/map_function.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/compose/map_function.h"
+#include "tenon/compose/maps/map_function.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/physics/vendor_attributes.h"
+#include "tenon/physics/vendors/vendor_attributes.h"
 
 #include <algorithm>
 #include <iterator>
@@ -19,7 +19,7 @@ struct VendorRow {
 constexpr VendorRow kVendorRows[] = {
 #define TENON_READ(name) {name, VendorUse::Read},
 #define TENON_HARMLESS(name, why) {name, VendorUse::Harmless},
-#include "tenon/physics/vendor_attributes.def"
+#include "tenon/physics/vendors/vendor_attributes.def"
 };
 
 constexpr bool comes_first(const VendorRow& a, const VendorRow& b) { return a.name < b.name; }
