@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -35,141 +34,155 @@ constexpr std::size_t field_count() {
   }
 }
 
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 1>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 1>) {
   auto& [a] = of;
-  return std::tie(a);
+  return call(a);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 2>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 2>) {
   auto& [a, b] = of;
-  return std::tie(a, b);
+  return call(a, b);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 3>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 3>) {
   auto& [a, b, c] = of;
-  return std::tie(a, b, c);
+  return call(a, b, c);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 4>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 4>) {
   auto& [a, b, c, d] = of;
-  return std::tie(a, b, c, d);
+  return call(a, b, c, d);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 5>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 5>) {
   auto& [a, b, c, d, e] = of;
-  return std::tie(a, b, c, d, e);
+  return call(a, b, c, d, e);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 6>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 6>) {
   auto& [a, b, c, d, e, f] = of;
-  return std::tie(a, b, c, d, e, f);
+  return call(a, b, c, d, e, f);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 7>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 7>) {
   auto& [a, b, c, d, e, f, g] = of;
-  return std::tie(a, b, c, d, e, f, g);
+  return call(a, b, c, d, e, f, g);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 8>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 8>) {
   auto& [a, b, c, d, e, f, g, h] = of;
-  return std::tie(a, b, c, d, e, f, g, h);
+  return call(a, b, c, d, e, f, g, h);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 9>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 9>) {
   auto& [a, b, c, d, e, f, g, h, i] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i);
+  return call(a, b, c, d, e, f, g, h, i);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 10>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 10>) {
   auto& [a, b, c, d, e, f, g, h, i, j] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j);
+  return call(a, b, c, d, e, f, g, h, i, j);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 11>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 11>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k);
+  return call(a, b, c, d, e, f, g, h, i, j, k);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 12>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 12>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 13>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 13>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l, m);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 14>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 14>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 15>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 15>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 16>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 16>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 17>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 17>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 18>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 18>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 19>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 19>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 20>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 20>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 21>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 21>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 22>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 22>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 23>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 23>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w);
 }
-template <class T>
-constexpr auto tied(T& of, std::integral_constant<std::size_t, 24>) {
+template <class T, class Call>
+constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t, 24>) {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x] = of;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x);
+  return call(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x);
 }
 
-/// A struct that has a table of its fields says here how they are tied:
-///   template <class Of> static constexpr auto tie(Of& of)
+/// A struct that has a table of its fields says here how they are found:
+///   template <class Of, class Call> static constexpr auto with(Of& of, const Call& call)
 template <class T>
 struct FieldTie;
 
-/// References to all fields of a struct, in their order.
-template <class T>
-constexpr auto fields_of(T& of) {
+/// Calls `call(field, ...)` with all fields of a struct, in their order; -> what it returns.
+template <class T, class Call>
+constexpr auto with_fields(T& of, const Call& call) {
   using Plain = std::remove_const_t<T>;
-  if constexpr (requires { FieldTie<Plain>::tie(of); }) {
-    return FieldTie<Plain>::tie(of);
+  if constexpr (requires { FieldTie<Plain>::with(of, call); }) {
+    return FieldTie<Plain>::with(of, call);
   } else {
-    return tied(of, std::integral_constant<std::size_t, field_count<Plain>()>());
+    return tied(of, call, std::integral_constant<std::size_t, field_count<Plain>()>());
   }
 }
+
+template <class... T>
+struct TypeList {};
+
+struct ToTypes {
+  template <class... T>
+  constexpr TypeList<std::remove_const_t<T>...> operator()(T&...) const {
+    return {};
+  }
+};
+
+/// The types of the fields of a struct.
+template <class T>
+using FieldTypes = decltype(with_fields(std::declval<T&>(), ToTypes()));
 
 }  // namespace tenon::wire

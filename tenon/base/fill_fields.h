@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <type_traits>
 
 #include "tenon/base/path.h"
@@ -48,7 +47,7 @@ class FillFields {
         (*this)(item);
       }
     } else {
-      std::apply([&](auto&... field) { ((*this)(field), ...); }, fields_of(value));
+      with_fields(value, [&](auto&... field) { ((*this)(field), ...); });
     }
   }
 

@@ -60,8 +60,8 @@ template <class T>
 constexpr std::size_t min_size();
 
 template <class... T>
-constexpr std::size_t sum_of_least(std::tuple<T&...>*) {
-  return (std::size_t{0} + ... + min_size<std::remove_const_t<T>>());
+constexpr std::size_t sum_of_least(TypeList<T...>) {
+  return (std::size_t{0} + ... + min_size<T>());
 }
 
 /// Bytes that the smallest value of a type takes.
@@ -80,7 +80,7 @@ constexpr std::size_t min_size() {
   } else if constexpr (Travels<T>) {
     return min_size<Travelling<T>>();
   } else {
-    return sum_of_least(static_cast<decltype(fields_of(std::declval<T&>()))*>(nullptr));
+    return sum_of_least(FieldTypes<T>());
   }
 }
 
@@ -88,8 +88,8 @@ template <class T>
 constexpr bool is_flat();
 
 template <class... T>
-constexpr bool all_flat(std::tuple<T&...>*) {
-  return (is_flat<std::remove_const_t<T>>() && ...);
+constexpr bool all_flat(TypeList<T...>) {
+  return (is_flat<T>() && ...);
 }
 
 /// Numbers without gaps, which are copied as they lie in memory.
@@ -102,8 +102,7 @@ constexpr bool is_flat() {
   } else if constexpr (Travels<T> || kIsPair<T>) {
     return false;
   } else if constexpr (std::is_aggregate_v<T> && std::is_trivially_copyable_v<T>) {
-    return all_flat(static_cast<decltype(fields_of(std::declval<T&>()))*>(nullptr)) &&
-           sizeof(T) == min_size<T>();
+    return all_flat(FieldTypes<T>()) && sizeof(T) == min_size<T>();
   } else {
     return false;
   }
@@ -150,7 +149,7 @@ void encode(Sink& sink, const T& value) {
       }
     }
   } else {
-    std::apply([&](const auto&... field) { (encode(sink, field), ...); }, fields_of(value));
+    with_fields(value, [&](const auto&... field) { (encode(sink, field), ...); });
   }
 }
 
@@ -190,7 +189,7 @@ class Decoder {
     } else if constexpr (kIsArray<T>) {
       read_items(value);
     } else {
-      std::apply([&](auto&... field) { (read(field), ...); }, fields_of(value));
+      with_fields(value, [&](auto&... field) { (read(field), ...); });
     }
   }
 

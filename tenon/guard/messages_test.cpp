@@ -44,7 +44,7 @@ struct Change {
         (*this)(item);
       }
     } else {
-      std::apply([&](auto&... field) { ((*this)(field), ...); }, wire::fields_of(value));
+      wire::with_fields(value, [&](auto&... field) { ((*this)(field), ...); });
     }
   }
   bool is_it() { return seen++ == at; }

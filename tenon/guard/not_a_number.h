@@ -33,8 +33,8 @@ bool has_not_a_number(const T& value) {
     }
     return false;
   } else {
-    return std::apply([](const auto&... field) { return (has_not_a_number(field) || ...); },
-                      wire::fields_of(value));
+    return wire::with_fields(value,
+                             [](const auto&... field) { return (has_not_a_number(field) || ...); });
   }
 }
 

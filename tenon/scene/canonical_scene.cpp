@@ -3,7 +3,6 @@
 #include "tenon/scene/canonical_scene.h"
 
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -43,7 +42,7 @@ void canonical(T& value) {
       }
     }
   } else {
-    std::apply([](auto&... field) { (canonical(field), ...); }, wire::fields_of(value));
+    wire::with_fields(value, [](auto&... field) { (canonical(field), ...); });
   }
 }
 

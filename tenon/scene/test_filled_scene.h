@@ -98,7 +98,7 @@ class ChangeLeaf {
         change(value);
       }
     } else {
-      std::apply([&](auto&... field) { (visit(field, place), ...); }, wire::fields_of(value));
+      wire::with_fields(value, [&](auto&... field) { (visit(field, place), ...); });
     }
   }
 

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -88,7 +88,6 @@ struct FieldInfo {
 template <auto Member>
 struct Field {
   FieldInfo info;
-  static constexpr auto kMember = Member;
 };
 
 template <auto Member>
@@ -96,7 +95,15 @@ constexpr Field<Member> field(FieldInfo info) {
   return {info};
 }
 
-/// The table of a struct: `static constexpr std::tuple kFields{field<&T::member>({...}), ...}` and
+/// The rows of a table. Not a tuple, of which a compiler makes a type and a function for each row.
+template <auto... Members>
+struct Rows {
+  FieldInfo infos[sizeof...(Members)];
+
+  constexpr Rows(Field<Members>... rows) : infos{rows.info...} {}  // NOLINT: read like a list
+};
+
+/// The table of a struct: `static constexpr Rows kFields{field<&T::member>({...}), ...}` and
 /// `static constexpr std::string_view kWord`, what one such object is called.
 template <class T>
 struct Table;
@@ -105,54 +112,66 @@ template <class T>
 concept HasTable = requires { Table<T>::kFields; };
 
 template <class T>
-inline constexpr std::size_t kFieldCount = std::tuple_size_v<decltype(Table<T>::kFields)>;
+inline constexpr std::size_t kFieldCount = std::size(Table<T>::kFields.infos);
 
-template <class Field, class... All>
-constexpr std::size_t times_in(std::tuple<All...>*) {
-  return (std::size_t{0} + ... + (std::is_same_v<Field, All> ? 1u : 0u));
+/// Two rows of one member are two bases of one type, which no class has.
+template <auto... Members>
+struct EachOnce : Field<Members>... {};
+
+template <class Of, auto... Members, class Visit>
+void each_row(const Rows<Members...>& rows, Of& of, Visit& visit) {
+  const FieldInfo* info = rows.infos;
+  (visit(*info++, of.*Members), ...);
 }
 
-template <class... All>
-constexpr bool all_once(std::tuple<All...>*) {
-  return ((times_in<All>(static_cast<std::tuple<All...>*>(nullptr)) == 1) && ...);
+template <class T, auto... Members, class Visit>
+void each_row_type(const Rows<Members...>& rows, Visit& visit) {
+  const FieldInfo* info = rows.infos;
+  (visit(*info++, std::type_identity<std::remove_cvref_t<decltype(std::declval<T&>().*Members)>>()),
+   ...);
+}
+
+template <class T, auto... Members, class Visit>
+void each_row_of_both(const Rows<Members...>& rows, const T& a, const T& b, Visit& visit) {
+  const FieldInfo* info = rows.infos;
+  (visit(*info++, a.*Members, b.*Members), ...);
+}
+
+template <class Of, auto... Members, class Call>
+constexpr auto with_members(const Rows<Members...>&, Of& of, const Call& call) {
+  return call((of.*Members)...);
+}
+
+template <auto... Members>
+constexpr bool are_apart(const Rows<Members...>&) {
+  return sizeof(EachOnce<Members...>) >= sizeof(FieldInfo);
 }
 
 /// Each member has exactly one row: as many rows as the compiler counts members, none twice.
 template <class T>
 constexpr bool is_complete() {
-  using Fields = std::remove_const_t<decltype(Table<T>::kFields)>;
-  return kFieldCount<T> == wire::field_count<T>() && all_once(static_cast<Fields*>(nullptr));
+  return kFieldCount<T> == wire::field_count<T>() && are_apart(Table<T>::kFields);
 }
 
 /// Calls `visit(info, member)` for each field of `of` in the order of the table.
 template <class Of, class Visit>
 void each_field(Of& of, Visit&& visit) {
   static_assert(is_complete<std::remove_const_t<Of>>(), "a member has no row in its table");
-  std::apply([&](const auto&... field) { (visit(field.info, of.*field.kMember), ...); },
-             Table<std::remove_const_t<Of>>::kFields);
+  each_row(Table<std::remove_const_t<Of>>::kFields, of, visit);
 }
 
 /// The same without an object: `visit(info, std::type_identity<member's type>)`.
 template <class T, class Visit>
 void each_field_type(Visit&& visit) {
   static_assert(is_complete<T>(), "a member has no row in its table");
-  std::apply(
-      [&](const auto&... field) {
-        (visit(
-             field.info,
-             std::type_identity<std::remove_cvref_t<decltype(std::declval<T>().*field.kMember)>>()),
-         ...);
-      },
-      Table<T>::kFields);
+  each_row_type<T>(Table<T>::kFields, visit);
 }
 
 /// The same for two objects of one type: `visit(info, member of a, member of b)`.
 template <class T, class Visit>
 void each_field_of_both(const T& a, const T& b, Visit&& visit) {
   static_assert(is_complete<T>(), "a member has no row in its table");
-  std::apply(
-      [&](const auto&... field) { (visit(field.info, a.*field.kMember, b.*field.kMember), ...); },
-      Table<T>::kFields);
+  each_row_of_both(Table<T>::kFields, a, b, visit);
 }
 
 }  // namespace tenon::scene
@@ -162,11 +181,10 @@ namespace tenon::wire {
 
 template <scene::HasTable T>
 struct FieldTie<T> {
-  template <class Of>
-  static constexpr auto tie(Of& of) {
+  template <class Of, class Call>
+  static constexpr auto with(Of& of, const Call& call) {
     static_assert(scene::is_complete<T>(), "a member has no row in its table");
-    return std::apply([&](const auto&... field) { return std::tie((of.*field.kMember)...); },
-                      scene::Table<T>::kFields);
+    return scene::with_members(scene::Table<T>::kFields, of, call);
   }
 };
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string_view>
-#include <tuple>
 
 #include "tenon/scene/fields/field.h"
 #include "tenon/scene/fields/setting_fields.h"
@@ -16,7 +15,7 @@ namespace tenon::scene {
 template <>
 struct Table<MujocoSetting> {
   static constexpr std::string_view kWord = "setting";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&MujocoSetting::name>(
           {.name = "name", .meaning = "of the setting", .role = Role::Identity}),
       field<&MujocoSetting::numbers>(
@@ -32,7 +31,7 @@ inline constexpr FieldInfo kPartsField{
 template <>
 struct Table<SceneParts> {
   static constexpr std::string_view kWord = "parts of vendors";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&SceneParts::mujoco>({.name = "mujoco",
                                   .meaning = "what MjcSceneAPI authors, but for the time step",
                                   .presence = Presence::WhenSet,
@@ -43,7 +42,7 @@ struct Table<SceneParts> {
 template <>
 struct Table<Scene> {
   static constexpr std::string_view kWord = "scene";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Scene::path>({.name = "path",
                            .meaning = "null: made up because the stage has none",
                            .role = Role::Identity}),
@@ -61,7 +60,7 @@ struct Table<Scene> {
 template <>
 struct Table<InstanceSource> {
   static constexpr std::string_view kWord = "instance";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&InstanceSource::instancer>(
           {.name = "instancer", .meaning = "the UsdGeomPointInstancer", .role = Role::Provenance}),
       field<&InstanceSource::prototype>({.name = "prototype",
@@ -84,7 +83,7 @@ struct Table<InstanceSource> {
 template <>
 struct Table<Body> {
   static constexpr std::string_view kWord = "body";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Body::path>({.name = "path",
                           .meaning = "the prim; made up for instances of a point instancer",
                           .role = Role::Identity}),
@@ -131,7 +130,7 @@ struct Table<Body> {
 template <>
 struct Table<TriangleMesh> {
   static constexpr std::string_view kWord = "mesh";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&TriangleMesh::points>({.name = "points",
                                     .meaning = "in the collider's frame, scale included",
                                     .unit = Unit::Meter}),
@@ -145,7 +144,7 @@ struct Table<TriangleMesh> {
 template <>
 struct Table<Shape> {
   static constexpr std::string_view kWord = "shape";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Shape::kind>({.name = "shape", .meaning = "what collides"}),
       field<&Shape::half_extents>({.name = "halfExtents",
                                    .meaning = "of boxes; semi-axes of ellipsoids",
@@ -187,7 +186,7 @@ struct Table<Shape> {
 template <>
 struct Table<FaceMaterial> {
   static constexpr std::string_view kWord = "faces of";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&FaceMaterial::subset>(
           {.name = "subset", .meaning = "the GeomSubset", .role = Role::Identity}),
       field<&FaceMaterial::material>(
@@ -199,7 +198,7 @@ struct Table<FaceMaterial> {
 template <>
 struct Table<MujocoContact> {
   static constexpr std::string_view kWord = "contact";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&MujocoContact::condim>({.name = "condim",
                                      .meaning = "1, 3, 4 or 6 directions that resist",
                                      .presence = Presence::WhenSet}),
@@ -219,7 +218,7 @@ struct Table<MujocoContact> {
 template <>
 struct Table<ColliderParts> {
   static constexpr std::string_view kWord = "parts of vendors";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&ColliderParts::mujoco>({.name = "mujoco",
                                      .meaning = "what MjcCollisionAPI authors",
                                      .presence = Presence::WhenSet,
@@ -230,7 +229,7 @@ struct Table<ColliderParts> {
 template <>
 struct Table<Collider> {
   static constexpr std::string_view kWord = "collider";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Collider::path>({.name = "path", .meaning = "the prim", .role = Role::Identity}),
       field<&Collider::body>({.name = "body", .meaning = "null: static", .refers = List::Bodies}),
       field<&Collider::scene>(
@@ -268,7 +267,7 @@ struct Table<Collider> {
 template <>
 struct Table<Material> {
   static constexpr std::string_view kWord = "material";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Material::path>({.name = "path", .meaning = "the prim", .role = Role::Identity}),
       field<&Material::static_friction>(
           {.name = "staticFriction", .meaning = "coefficient at rest"}),
@@ -300,7 +299,7 @@ struct Table<Material> {
 template <>
 struct Table<Limit> {
   static constexpr std::string_view kWord = "";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Limit::dof>({.name = "dof", .meaning = "degree of freedom", .role = Role::Identity}),
       field<&Limit::lower>({.name = "lower",
                             .meaning = "null: unlimited; above upper: locked at zero",
@@ -316,7 +315,7 @@ struct Table<Limit> {
 template <>
 struct Table<Drive> {
   static constexpr std::string_view kWord = "drive";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Drive::source>({.name = "source",
                              .meaning = "the prim that authors it: the joint, or an actuator",
                              .role = Role::Provenance}),
@@ -344,7 +343,7 @@ struct Table<Drive> {
 template <>
 struct Table<MujocoEquality> {
   static constexpr std::string_view kWord = "equality";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&MujocoEquality::solref>({.name = "mujocoSolref",
                                       .meaning = "mjc:solref",
                                       .presence = Presence::WhenSet,
@@ -359,7 +358,7 @@ struct Table<MujocoEquality> {
 template <>
 struct Table<MimicParts> {
   static constexpr std::string_view kWord = "parts of vendors";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&MimicParts::mujoco>(
           {.name = "mujoco", .meaning = "what MjcEqualityJointAPI authors", .inlined = true}),
   };
@@ -368,7 +367,7 @@ struct Table<MimicParts> {
 template <>
 struct Table<Mimic> {
   static constexpr std::string_view kWord = "mimic";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Mimic::schema>(
           {.name = "schema", .meaning = "the API that says so", .role = Role::Provenance}),
       field<&Mimic::dof>({.name = "dof",
@@ -396,7 +395,7 @@ struct Table<Mimic> {
 template <>
 struct Table<MujocoSoftness> {
   static constexpr std::string_view kWord = "softness";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&MujocoSoftness::solref_limit>({.name = "solrefLimit",
                                             .meaning = "of the limit",
                                             .presence = Presence::WhenSet,
@@ -419,7 +418,7 @@ struct Table<MujocoSoftness> {
 template <>
 struct Table<JointParts> {
   static constexpr std::string_view kWord = "parts of vendors";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&JointParts::mujoco>({.name = "mujoco",
                                   .meaning = "what MjcJointAPI authors",
                                   .presence = Presence::WhenSet,
@@ -430,7 +429,7 @@ struct Table<JointParts> {
 template <>
 struct Table<Joint> {
   static constexpr std::string_view kWord = "joint";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Joint::path>({.name = "path", .meaning = "the prim", .role = Role::Identity}),
       field<&Joint::kind>(
           {.name = "type", .meaning = "which degrees of freedom it leaves", .words = "kind"}),
@@ -513,7 +512,7 @@ struct Table<Joint> {
 template <>
 struct Table<Articulation> {
   static constexpr std::string_view kWord = "articulation";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Articulation::path>({.name = "path", .meaning = "prim with the root API"}),
       field<&Articulation::root>({.name = "root",
                                   .meaning = "root body, or the joint that fixes it to the world",

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string_view>
-#include <tuple>
 
 #include "tenon/scene/fields/field.h"
 #include "tenon/scene/fields/object_fields.h"
@@ -18,7 +17,7 @@ namespace tenon::scene {
 template <>
 struct Table<NotRead> {
   static constexpr std::string_view kWord = "not read";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&NotRead::prim>({.name = "prim", .meaning = "the prim", .role = Role::Provenance}),
       field<&NotRead::property>(
           {.name = "property", .meaning = "its property", .role = Role::Provenance}),
@@ -29,7 +28,7 @@ struct Table<NotRead> {
 template <>
 struct Table<PhysicsScene> {
   static constexpr std::string_view kWord = "stage";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&PhysicsScene::scenes>({.name = "scenes", .meaning = "at least one"}),
       field<&PhysicsScene::bodies>({.name = "bodies", .meaning = "by path"}),
       field<&PhysicsScene::colliders>({.name = "colliders", .meaning = "by path"}),

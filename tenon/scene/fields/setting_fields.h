@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string_view>
-#include <tuple>
 
 #include "tenon/scene/fields/field.h"
 #include "tenon/scene/physics_scene.h"
@@ -18,7 +17,7 @@ inline constexpr FieldInfo kSettingsField{
 template <>
 struct Table<BodyForce> {
   static constexpr std::string_view kWord = "force";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&BodyForce::source>(
           {.name = "source", .meaning = "the prim that authors it", .role = Role::Identity}),
       field<&BodyForce::force>({.name = "force",
@@ -41,7 +40,7 @@ struct Table<BodyForce> {
 template <>
 struct Table<BodySettings> {
   static constexpr std::string_view kWord = "settings";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&BodySettings::forces>(
           {.name = "forces", .meaning = "that act all the time", .presence = Presence::WhenSet}),
       field<&BodySettings::max_linear_velocity>({.name = "maxLinearVelocity",
@@ -72,7 +71,7 @@ struct Table<BodySettings> {
 template <>
 struct Table<SurfaceVelocity> {
   static constexpr std::string_view kWord = "surface velocity";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&SurfaceVelocity::linear>(
           {.name = "linear", .meaning = "of what it carries along", .unit = Unit::MeterPerSecond}),
       field<&SurfaceVelocity::angular>({.name = "angular",
@@ -86,7 +85,7 @@ struct Table<SurfaceVelocity> {
 template <>
 struct Table<ColliderSettings> {
   static constexpr std::string_view kWord = "settings";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&ColliderSettings::trigger>({.name = "trigger",
                                          .meaning = "touches nothing, tells what enters it",
                                          .presence = Presence::WhenSet}),
@@ -108,7 +107,7 @@ struct Table<ColliderSettings> {
 template <>
 struct Table<Compliance> {
   static constexpr std::string_view kWord = "compliance";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Compliance::stiffness>(
           {.name = "stiffness", .meaning = "N/m, of type acceleration 1/s^2; 0: hard"}),
       field<&Compliance::damping>(
@@ -125,7 +124,7 @@ struct Table<Compliance> {
 template <>
 struct Table<LimitSpring> {
   static constexpr std::string_view kWord = "limit spring";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&LimitSpring::dof>(
           {.name = "dof", .meaning = "degree of freedom", .role = Role::Identity}),
       field<&LimitSpring::stiffness>(
@@ -143,7 +142,7 @@ struct Table<LimitSpring> {
 template <>
 struct Table<DriveEnvelope> {
   static constexpr std::string_view kWord = "envelope";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&DriveEnvelope::max_velocity>({.name = "maxVelocity",
                                            .meaning = "above it the drive exerts nothing",
                                            .unit = Unit::Velocity,

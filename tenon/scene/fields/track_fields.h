@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string_view>
-#include <tuple>
 
 #include "tenon/scene/fields/field.h"
 #include "tenon/scene/physics_scene.h"
@@ -15,7 +14,7 @@ namespace tenon::scene {
 template <>
 struct Table<TendonWrap::Attachment> {
   static constexpr std::string_view kWord = "attachment";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&TendonWrap::Attachment::path>(
           {.name = "path", .meaning = "the prim", .role = Role::Provenance}),
       field<&TendonWrap::Attachment::body>(
@@ -28,7 +27,7 @@ struct Table<TendonWrap::Attachment> {
 template <>
 struct Table<TendonWrap> {
   static constexpr std::string_view kWord = "wrap";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&TendonWrap::kind>({.name = "kind", .meaning = "what the tendon does there"}),
       field<&TendonWrap::attachment>({.name = "attachment",
                                       .meaning = "a point of the tendon's surroundings",
@@ -49,7 +48,7 @@ struct Table<TendonWrap> {
 template <>
 struct Table<Tendon> {
   static constexpr std::string_view kWord = "tendon";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Tendon::path>({.name = "path", .meaning = "the prim", .role = Role::Identity}),
       field<&Tendon::joints>(
           {.name = "joints", .meaning = "of a fixed tendon", .refers = List::Joints}),
@@ -74,7 +73,7 @@ struct Table<Tendon> {
 template <>
 struct Table<MujocoActuator> {
   static constexpr std::string_view kWord = "actuator";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&MujocoActuator::path>({.name = "path", .meaning = "the prim", .role = Role::Identity}),
       field<&MujocoActuator::kind>({.name = "on", .meaning = "what it acts on"}),
       field<&MujocoActuator::target>(
@@ -118,7 +117,7 @@ struct Table<MujocoActuator> {
 template <>
 struct Table<JointPairs> {
   static constexpr std::string_view kWord = "pairs of";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&JointPairs::joint>({.name = "joint",
                                  .meaning = "that keeps them apart",
                                  .refers = List::Joints,
@@ -130,7 +129,7 @@ struct Table<JointPairs> {
 template <>
 struct Table<CollisionFilter> {
   static constexpr std::string_view kWord = "filter";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&CollisionFilter::groups_of_collider>(
           {.name = "groupsOfCollider",
            .meaning = "for each collider, indices into groupPaths; none: ungrouped"}),
@@ -151,7 +150,7 @@ struct Table<CollisionFilter> {
 template <>
 struct Table<ScalarTrack> {
   static constexpr std::string_view kWord = "drive over time";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&ScalarTrack::what>(
           {.name = "value", .meaning = "what changes", .role = Role::Identity}),
       field<&ScalarTrack::joint>({.name = "joint",
@@ -169,7 +168,7 @@ struct Table<ScalarTrack> {
 template <>
 struct Table<SwitchTrack> {
   static constexpr std::string_view kWord = "switch over time";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&SwitchTrack::what>(
           {.name = "value", .meaning = "what is switched", .role = Role::Identity}),
       field<&SwitchTrack::object>({.name = "object",
@@ -184,7 +183,7 @@ struct Table<SwitchTrack> {
 template <>
 struct Table<JointBounds> {
   static constexpr std::string_view kWord = "bounds";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&JointBounds::lower>(
           {.name = "lower", .meaning = "null: unlimited", .unit = Unit::Position}),
       field<&JointBounds::upper>(
@@ -206,7 +205,7 @@ struct Table<JointBounds> {
 template <>
 struct Table<BoundsTrack> {
   static constexpr std::string_view kWord = "bounds over time";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&BoundsTrack::joint>({.name = "joint",
                                   .meaning = "whose bounds",
                                   .refers = List::Joints,
@@ -220,7 +219,7 @@ struct Table<BoundsTrack> {
 template <>
 struct Table<GravityTrack> {
   static constexpr std::string_view kWord = "gravity over time";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&GravityTrack::scene>({.name = "scene",
                                    .meaning = "whose gravity",
                                    .refers = List::Scenes,
@@ -235,7 +234,7 @@ struct Table<GravityTrack> {
 template <>
 struct Table<PoseTrack> {
   static constexpr std::string_view kWord = "pose over time";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&PoseTrack::body>({.name = "body",
                                .meaning = "a kinematic body",
                                .refers = List::Bodies,
@@ -264,7 +263,7 @@ struct Table<PoseTrack> {
 template <>
 struct Table<BodyShapes> {
   static constexpr std::string_view kWord = "shapes";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&BodyShapes::poses>({.name = "poses", .meaning = "of the colliders, in the body"}),
       field<&BodyShapes::shapes>({.name = "shapes", .meaning = "of the colliders"}),
       field<&BodyShapes::mass>({.name = "mass", .meaning = "of the body", .unit = Unit::Kilogram}),
@@ -280,7 +279,7 @@ struct Table<BodyShapes> {
 template <>
 struct Table<ShapesTrack> {
   static constexpr std::string_view kWord = "shapes over time";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&ShapesTrack::body>({.name = "body",
                                  .meaning = "that they are of",
                                  .refers = List::Bodies,
@@ -295,7 +294,7 @@ struct Table<ShapesTrack> {
 template <>
 struct Table<GroupState> {
   static constexpr std::string_view kWord = "collision groups at";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&GroupState::time>({.name = "time",
                                 .meaning = "from which on it holds",
                                 .unit = Unit::Second,
@@ -310,7 +309,7 @@ struct Table<GroupState> {
 template <>
 struct Table<BodyMass> {
   static constexpr std::string_view kWord = "mass";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&BodyMass::mass>({.name = "mass", .meaning = "of the body", .unit = Unit::Kilogram}),
       field<&BodyMass::center_of_mass>({.name = "centerOfMass",
                                         .meaning = "in the body frame",
@@ -324,7 +323,7 @@ struct Table<BodyMass> {
 template <>
 struct Table<MergedBody> {
   static constexpr std::string_view kWord = "merged";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&MergedBody::body>({.name = "body",
                                 .meaning = "that is off",
                                 .refers = List::Bodies,
@@ -339,7 +338,7 @@ struct Table<MergedBody> {
 template <>
 struct Table<NestingState> {
   static constexpr std::string_view kWord = "nesting at";
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&NestingState::time>({.name = "time",
                                   .meaning = "from which on it holds",
                                   .unit = Unit::Second,
