@@ -5,8 +5,8 @@
 #
 # Turns tenon/<folder> into the static library tenon_<folder> ('/' becomes '_'), built from every
 # .cpp in it and below it except *_test.cpp and except the sub-folders named by WITHOUT (they are
-# folders of their own); FOR_SIZE is tenon_for_size() of cmake/unity.cmake. Its dependencies are read
-# from tenon/folders.txt. With TENON_DEVELOPER it also makes
+# folders of their own); FOR_SIZE is tenon_for_size() of cmake/unity.cmake. Its dependencies are
+# read from tenon/folders.txt. With TENON_DEVELOPER it also makes
 #   tenon_<folder>_test      all *_test.cpp, each TEST registered with ctest under the label `unit`
 #   tenon_<folder>_headers   compiles every header without a source file alone, unless TENON_UNITY
 # A folder without any .cpp becomes an interface library. The others, and what they name as
