@@ -71,9 +71,12 @@ bool closes_loop(const scene::PhysicsScene& scene, Path joint) {
 void check_newton_loose(const Subject& subject, Reporter& report) {
   each_enabled_joint(subject, [&](const Joint& joint) {
     const bool between = joint.body0 && joint.body1;
-    if (between && !joint.articulation && !closes_loop(subject.scene, joint.path)) {
+    const bool loose = !joint.articulation && !closes_loop(subject.scene, joint.path);
+    if (loose && (between || joint.kind != JointKind::Fixed)) {
       report.at(prim_of_joint(subject, joint),
-                "the joint belongs to no articulation: Newton builds no model of the file",
+                between ? "the joint belongs to no articulation: Newton builds no model of the file"
+                        : "the joint belongs to no articulation: Newton's body stays where it is, "
+                          "only the coordinate of the joint moves",
                 "apply PhysicsArticulationRootAPI to the prim above the jointed bodies");
     }
   });

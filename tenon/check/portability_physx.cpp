@@ -31,6 +31,8 @@ constexpr double kSameAngle = 1e-3;            ///< [rad]
 constexpr double kWeaker = 0.99;               ///< share of a drive that is told
 constexpr double kTravelTime = 10;             ///< [s] that a fast body is followed
 constexpr double kUnequalMasses = 100;
+constexpr double kDistanceTolerance = 0.025;  ///< [m] that PhysX lets distances be off
+constexpr double kOwnShare = 0.15;  ///< of the inertia about a joint, below which PhysX is soft
 
 stage::Prim joint_prim(const Subject& subject, const Joint& joint) {
   return subject.stage.prim(joint.path);
@@ -64,6 +66,14 @@ Vec3d world_axis(const scene::PhysicsScene& scene, const Joint& joint, Vec3d& po
   Vec3d axis;
   axis[static_cast<std::size_t>(joint.axis)] = 1;
   return rotate(frame.orientation, axis);
+}
+
+/// Between the frames of a joint as they stand at the start [m].
+double anchor_distance(const scene::PhysicsScene& scene, const Joint& joint) {
+  const auto anchor = [&](const std::optional<Index>& body, const Pose& frame) {
+    return body ? transform_point(scene.bodies[*body].pose, frame.position) : frame.position;
+  };
+  return length(anchor(joint.body1, joint.frame1) - anchor(joint.body0, joint.frame0));
 }
 
 /// Inertia about the joint's axis through the centre of mass, over that through the joint.
@@ -148,6 +158,28 @@ const scene::Collider* passed_collider(const Subject& subject, Index index, doub
     }
   }
   return nullptr;
+}
+
+/// Of a revolute joint whose limits are in order.
+void report_range(const Subject& subject, const Joint& joint, Reporter& report) {
+  const bool below = std::isfinite(joint.lower);
+  const bool above = std::isfinite(joint.upper);
+  const bool beyond =
+      (below && joint.lower < -kPi - kSameAngle) || (above && joint.upper > kPi + kSameAngle);
+  if (joint.articulation && below != above) {
+    report.at(joint_prim(subject, joint),
+              "PhysX refuses limits that are open to one side in articulations: the joint does "
+              "not move there",
+              "author both limits, or none");
+  } else if (!joint.articulation && (below != above || beyond)) {
+    report.at(joint_prim(subject, joint),
+              "outside of articulations PhysX knows angles of half a turn to each side: limits "
+              "from " +
+                  (below ? degrees_text(joint.lower) : "none") + " to " +
+                  (above ? degrees_text(joint.upper) : "none") +
+                  " stop the joint a turn away from where they are",
+              "author limits within -180 and 180 degrees, or none");
+  }
 }
 
 }  // namespace
@@ -342,29 +374,84 @@ void check_physx_masses(const Subject& subject, Reporter& report) {
   }
 }
 
+// The row of an angular drive or limit knows the body's inertia about its own centre of mass alone;
+// the rows that hold the anchor carry the rest, iteration by iteration.
+void check_physx_off_center(const Subject& subject, Reporter& report) {
+  for (const Joint& joint : subject.scene.joints) {
+    const Body* body = only_mover(subject.scene, joint);
+    const bool driven =
+        std::any_of(joint.drives.begin(), joint.drives.end(), [](const scene::Drive& drive) {
+          return !drive.acceleration && acts_at_all(drive) && scene::is_angular(drive.dof);
+        });
+    const bool bounded =
+        joint.lower <= joint.upper && (std::isfinite(joint.lower) || std::isfinite(joint.upper));
+    if (joint.articulation || !joint.enabled || joint.kind != JointKind::Revolute ||
+        body == nullptr || !(driven || bounded)) {
+      continue;
+    }
+    const double share = own_share(subject.scene, joint, *body);
+    if (share < kOwnShare) {
+      report.at(joint_prim(subject, joint),
+                std::string("outside of articulations PhysX solves ") +
+                    (driven ? "drives" : "limits") +
+                    " of bodies far from the joint by iterations: this body's own inertia is " +
+                    digits(100 * share) + " % of that about the joint, and the joint " +
+                    (driven ? "lags behind and sags there" : "trembles on its limit there"),
+                "make the joint part of an articulation");
+    }
+  }
+}
+
+// S-90
+void check_physx_frames(const Subject& subject, Reporter& report) {
+  for (const Joint& joint : subject.scene.joints) {
+    const bool apart = subject.has_finding("joint.frames-apart", joint.path.str());
+    const bool both = only_mover(subject.scene, joint) == nullptr;
+    if (apart && joint.enabled && !joint.articulation && (both || joint.kind == JointKind::Fixed)) {
+      report.at(
+          joint_prim(subject, joint),
+          std::string("outside of articulations PhysX pulls the frames of a joint together, ") +
+              (both ? "and moves both bodies by their masses; here one of them is moved"
+                    : "and moves the body; here it is held where it stands"),
+          "correct physics:localPos0, localRot0, localPos1, localRot1 or the bodies' poses");
+    }
+  }
+}
+
+// S-97
+void check_physx_distances(const Subject& subject, Reporter& report) {
+  for (const Joint& joint : subject.scene.joints) {
+    if (joint.kind != JointKind::Distance || !joint.enabled) {
+      continue;
+    }
+    const double at = anchor_distance(subject.scene, joint);
+    const bool taut =
+        at > joint.upper - kDistanceTolerance || at < joint.lower + kDistanceTolerance;
+    if (taut && (std::isfinite(joint.upper) || joint.lower > 0)) {
+      report.at(joint_prim(subject, joint),
+                "PhysX lets the distance creep beyond its bounds by up to 0.025 m: under load it "
+                "comes to rest there, not at the bound",
+                "use a PhysicsSphericalJoint with its frames that distance apart for a rod");
+    }
+  }
+}
+
 // S-98, S-99
 void check_physx_limits(const Subject& subject, Reporter& report) {
   for (const Joint& joint : subject.scene.joints) {
-    if (joint.kind != JointKind::Revolute || !joint.enabled || joint.lower > joint.upper) {
+    const bool turns = joint.kind == JointKind::Revolute;
+    if (!joint.enabled || !(turns || joint.kind == JointKind::Prismatic)) {
       continue;
     }
-    const bool below = std::isfinite(joint.lower);
-    const bool above = std::isfinite(joint.upper);
-    const bool beyond =
-        (below && joint.lower < -kPi - kSameAngle) || (above && joint.upper > kPi + kSameAngle);
-    if (joint.articulation && below != above) {
-      report.at(joint_prim(subject, joint),
-                "PhysX refuses limits that are open to one side in articulations: the joint does "
-                "not move there",
-                "author both limits, or none");
-    } else if (!joint.articulation && (below != above || beyond)) {
-      report.at(joint_prim(subject, joint),
-                "outside of articulations PhysX knows angles of half a turn to each side: limits "
-                "from " +
-                    (below ? degrees_text(joint.lower) : "none") + " to " +
-                    (above ? degrees_text(joint.upper) : "none") +
-                    " stop the joint a turn away from where they are",
-                "author limits within -180 and 180 degrees, or none");
+    if (joint.lower > joint.upper) {
+      if (!joint.articulation) {
+        report.at(joint_prim(subject, joint),
+                  "outside of articulations PhysX refuses a lower limit above the upper one: the "
+                  "joint moves freely there, and is locked here",
+                  "use a PhysicsFixedJoint, or equal limits");
+      }
+    } else if (turns) {
+      report_range(subject, joint, report);
     }
   }
 }
