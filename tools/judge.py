@@ -39,10 +39,12 @@ LOGS = os.path.join(ROOT, "build/judge")
 
 
 class Judgement:
-    """A command and what has to be built for it; {jobs} and {python} are filled in."""
+    """A command and what has to be built for it; {jobs} and {python} are filled in, and {engine}
+    by the Python of an environment with another engine, whose file of requirements is `engine`."""
 
-    def __init__(self, name, command, preset=None, targets=()):
+    def __init__(self, name, command, preset=None, targets=(), engine=None):
         self.name, self.command, self.preset, self.targets = name, command, preset, targets
+        self.engine = engine
 
 
 def mutants(name, program, start, more=()):
@@ -83,22 +85,29 @@ def judgements():
                                       "--scenes", "5000", "--show", "3", "--misses",
                                       "tests/differential/random_scenes_misses.txt"],
                     "bench", ["tenon_composition_dump"])
+    for engine in ("ovphysx", "newton"):
+        yield Judgement(f"beside_{engine}", ["{python}", "-B", "tests/engines_beside/beside.py",
+                                             engine, "{engine}", "build/release/bin/tenon",
+                                             "docs/beside-other-engines.md"],
+                        "release", ["tenon_cli", "tenon_worker"],
+                        f"tests/engines_beside/requirements-{engine}.txt")
     for source in sorted(glob.glob(os.path.join(ROOT, "fuzz/*_fuzz.cpp"))):
         target = os.path.basename(source)[:-len(".cpp")]
         yield Judgement(f"fuzz_{target[:-len('_fuzz')]}",
                         ["fuzz/run.sh", target, str(FUZZ_SECONDS)], "fuzz", [target])
 
 
-def oracle_python():
-    """The Python with usd-core of tests/requirements.txt, made once in the cache."""
-    with open(os.path.join(ROOT, "tests/requirements.txt"), "rb") as file:
+def environment_python(name, requirements):
+    """The Python of an environment with what a file asks for by hash, made once in the cache."""
+    requirements = os.path.join(ROOT, requirements)
+    with open(requirements, "rb") as file:
         key = hashlib.sha256(file.read()).hexdigest()[:12]
-    folder = os.path.join(CACHE, f"oracle-{key}")
+    folder = os.path.join(CACHE, f"{name}-{key}")
     python = os.path.join(folder, "bin/python")
     if not os.path.exists(os.path.join(folder, "made")):
         subprocess.run([sys.executable, "-m", "venv", "--clear", folder], check=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "--require-hashes", "-r",
-                        os.path.join(ROOT, "tests/requirements.txt")], check=True)
+        subprocess.run([python, "-m", "pip", "install", "--quiet", "--no-deps", "--require-hashes",
+                        "-r", requirements], check=True)
         with open(os.path.join(folder, "made"), "w", encoding="utf-8"):
             pass
     return python
@@ -143,7 +152,9 @@ def run(judgement, python, jobs):
     with open(path, "w", encoding="utf-8") as log:
         if not build(judgement, jobs, log):
             return False, f"not built: {os.path.relpath(path, ROOT)}", 0
-        words = [word.format(jobs=jobs, python=python) for word in judgement.command]
+        engine = judgement.engine and environment_python(judgement.name, judgement.engine)
+        words = [word.format(jobs=jobs, python=python, engine=engine)
+                 for word in judgement.command]
         environment = {**os.environ, "TENON_ORACLE_PYTHON": python}
         try:
             status = subprocess.run(words, cwd=ROOT, stdout=log, stderr=log, env=environment,
@@ -205,7 +216,7 @@ def main():
     if unknown:
         print(f"no judgement {', '.join(unknown)}; there are {', '.join(known)}")
         return 2
-    python = oracle_python()
+    python = environment_python("oracle", "tests/requirements.txt")
     all_good = True
     for name in arguments.names or known:
         good, result, minutes = run(known[name], python, arguments.jobs)

@@ -1,0 +1,26 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""All scenes."""
+
+import articulations
+import bodies
+import contacts
+import differences
+import differences_of_joints
+import differences_of_newton
+import joints
+
+PARTS = (
+    bodies,
+    contacts,
+    joints,
+    articulations,
+    differences,
+    differences_of_joints,
+    differences_of_newton,
+)
+
+
+def rows():
+    for part in PARTS:
+        yield from part.scenes()
