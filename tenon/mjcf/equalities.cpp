@@ -5,10 +5,12 @@
 #include <algorithm>
 
 #include "tenon/engines/mujoco/model.h"
-#include "tenon/mjcf/contact_defaults.h"
+#include "tenon/engines/mujoco/soft_defaults.h"
 
 namespace tenon::mjcf {
 
+using engines::mujoco::kSolimp;
+using engines::mujoco::kSolref;
 using engines::mujoco::read_quaternion;
 using engines::mujoco::read_vector;
 using robot::JointKind;

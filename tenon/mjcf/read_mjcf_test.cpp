@@ -58,6 +58,10 @@ TEST_F(ReadMjcf, ResolvesDefaultsAnglesAndInertias) {
   EXPECT_NEAR(j.limit->upper, std::numbers::pi / 4, 1e-12);
   EXPECT_EQ(j.damping, 0.5);
   EXPECT_EQ(j.armature, 0.1);
+  // Limits of other assets are harder than MuJoCo's default.
+  EXPECT_EQ(j.mujoco.solref_limit, (std::vector<double>{0.02, 1}));
+  EXPECT_EQ(j.mujoco.solimp_limit, (std::vector<double>{0.9, 0.95, 0.001, 0.5, 2}));
+  EXPECT_TRUE(j.mujoco.solref_friction.empty());
   EXPECT_EQ(j.frame.position, (Vec3d{{0.1, 0, 0}}));
   EXPECT_EQ(j.origin.position, (Vec3d{{0, 0, 1}}));
   const robot::Inertial& inertial = *model->links[1].inertial;

@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <array>
 
-#include "tenon/mjcf/contact_defaults.h"
+#include "tenon/engines/mujoco/soft_defaults.h"
 
 namespace tenon::mjcf {
+
+using engines::mujoco::kSolimp;
+using engines::mujoco::kSolref;
+
 namespace {
 
 /// Numbers where they are not what MuJoCo takes by itself.
@@ -41,10 +45,16 @@ robot::MujocoContact contact_of(const mjModel& model, int geom) {
 robot::MujocoSoftness softness_of(const mjModel& model, int joint) {
   const auto at = static_cast<std::size_t>(joint);
   const auto dof = static_cast<std::size_t>(model.jnt_dofadr[at]);
-  return {unless(model.jnt_solref + mjNREF * at, kSolref),
-          unless(model.jnt_solimp + mjNIMP * at, kSolimp),
-          unless(model.dof_solref + mjNREF * dof, kSolref),
-          unless(model.dof_solimp + mjNIMP * dof, kSolimp)};
+  robot::MujocoSoftness softness;
+  if (model.jnt_limited[at] != 0) {
+    softness.solref_limit.assign(model.jnt_solref + mjNREF * at,
+                                 model.jnt_solref + mjNREF * (at + 1));
+    softness.solimp_limit.assign(model.jnt_solimp + mjNIMP * at,
+                                 model.jnt_solimp + mjNIMP * (at + 1));
+  }
+  softness.solref_friction = unless(model.dof_solref + mjNREF * dof, kSolref);
+  softness.solimp_friction = unless(model.dof_solimp + mjNIMP * dof, kSolimp);
+  return softness;
 }
 
 }  // namespace tenon::mjcf

@@ -11,7 +11,8 @@ namespace tenon::mjcf {
 /// How contacts of a geom are made, where that is not what MuJoCo takes by itself.
 robot::MujocoContact contact_of(const mjModel& model, int geom);
 
-/// How hard limits and friction of a joint are, where that is not what MuJoCo takes by itself.
+/// How soft the limit of a joint is, also where that is what MuJoCo takes by itself: the limits of
+/// other assets are harder. Of friction, what MuJoCo does not take by itself.
 robot::MujocoSoftness softness_of(const mjModel& model, int joint);
 
 }  // namespace tenon::mjcf

@@ -10,10 +10,12 @@
 #include <algorithm>
 #include <array>
 
-#include "tenon/mjcf/contact_defaults.h"
+#include "tenon/engines/mujoco/soft_defaults.h"
 
 namespace tenon::mjcf {
 
+using engines::mujoco::kSolimp;
+using engines::mujoco::kSolref;
 using robot::Index;
 using robot::MujocoTendonWrap;
 

@@ -121,8 +121,12 @@ Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOpti
 
 // ---- shared by the passes
 
-/// Makes a limit or an equality as hard as the time step allows.
+/// Makes an equality or a tendon's bound as hard as the time step allows.
 void make_hard(double time_step, mjtNum* solref, mjtNum* solimp);
+/// Gives the limit of a joint the softness that the asset says, else one that robots survive; see
+/// softness.cpp.
+void soften_limit(double time_step, const scene::MujocoSoftness& authored, mjtNum* solref,
+                  mjtNum* solimp);
 /// MuJoCo's numbers of a constraint that is a spring-damper; see softness.cpp.
 struct SpringReference {
   double stiffness = 0;  ///< -solref[0]

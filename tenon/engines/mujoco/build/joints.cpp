@@ -5,6 +5,7 @@
 
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/build/surfaces.h"
+#include "tenon/engines/mujoco/soft_defaults.h"
 
 // MuJoCo applies the joints of one body in order, each axis carried by the ones before: exactly the
 // chain of JointDofs. When the MuJoCo child is body0, the chain runs backwards with turned axes,
@@ -25,9 +26,7 @@ void set_limit(mjsJoint* joint, const scene::FreeDof& dof, const scene::MujocoSo
   }
   joint->range[0] = std::max(dof.lower, -kOpenEnd);
   joint->range[1] = std::min(dof.upper, kOpenEnd);
-  make_hard(time_step, joint->solref_limit, joint->solimp_limit);
-  std::copy(softness.solref_limit.begin(), softness.solref_limit.end(), joint->solref_limit);
-  std::copy(softness.solimp_limit.begin(), softness.solimp_limit.end(), joint->solimp_limit);
+  soften_limit(time_step, softness, joint->solref_limit, joint->solimp_limit);
 }
 
 void set_spring(Build& build, const scene::Joint& joint, const scene::LimitSpring& spring,
@@ -37,9 +36,8 @@ void set_spring(Build& build, const scene::Joint& joint, const scene::LimitSprin
     return;
   }
   const std::array<double, 2> solref = contact_solref(spring.restitution, build.time_step);
-  constexpr mjtNum kImpedance[mjNIMP] = {0.9, 0.95, 0.001, 0.5, 2};  // that of contacts
   std::copy(solref.begin(), solref.end(), target->solref_limit);
-  std::copy(std::begin(kImpedance), std::end(kImpedance), target->solimp_limit);
+  std::copy(kSolimp.begin(), kSolimp.end(), target->solimp_limit);  // that of contacts
   if (spring.bounce_threshold > 0) {
     build.report(joint.path, "physxLimit:bounceThreshold",
                  "slow impacts on the bound rebound like fast ones");

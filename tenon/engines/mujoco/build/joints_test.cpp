@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tenon/engines/mujoco/test_scene.h"
@@ -77,6 +78,62 @@ TEST(Joints, RevoluteJointTurnsSeveralTimesUpToItsLimit) {
   run(*sim, 1.5);
   EXPECT_LT(sim->joint_state(0).position[0], 17.001);
   EXPECT_LE(std::fabs(sim->joint_state(0).velocity[0]), 10.0);
+}
+
+TEST(Joints, LimitsBringBackGentlyWhatStartsBeyondThem) {
+  TestScene scene(0);
+  const auto wheel = scene.add_body("Wheel", {});
+  auto& joint = scene.add_joint("Axle", JointKind::Revolute, {}, wheel, Axis::Z);
+  joint.lower = 0.5;
+  joint.upper = 1;
+  for (const double time_step : {0.002, 0.0005, 0.01}) {
+    auto sim = simulation(scene, time_step);
+    double fastest = 0;
+    for (double t = 0; t < 0.5; t += time_step) {
+      ASSERT_TRUE(sim->step());
+      fastest = std::max(fastest, sim->joint_state(0).velocity[0]);
+    }
+    // Critically damped from x: at most x / (e T).
+    const double time_constant = std::max(0.01, 5 * time_step);
+    EXPECT_LT(fastest, 1.05 * 0.5 / (M_E * time_constant)) << time_step;
+    EXPECT_GT(fastest, 0.5 * 0.5 / (M_E * time_constant)) << time_step;
+    EXPECT_GT(sim->joint_state(0).position[0], 0.499) << time_step;
+  }
+}
+
+TEST(Joints, LimitsGiveWayLittleUnderALoad) {
+  for (const double load : {1.0, 100.0, 10000.0}) {  // [rad/s^2]
+    TestScene scene(0);
+    const auto wheel = scene.add_body("Wheel", {});
+    auto& joint = scene.add_joint("Axle", JointKind::Revolute, {}, wheel, Axis::Z);
+    joint.upper = 0.2;
+    scene.bodies[wheel].pose.orientation = rotation_about({{0, 0, 1}}, 0.2);
+    auto sim = simulation(scene);
+    ASSERT_TRUE(sim->set_joint_efforts(0, std::vector<double>{0.1 * load}));
+    run(*sim, 1);
+    // a (1 - d) T^2 with d from 0.99 to 0.999.
+    EXPECT_GT(sim->joint_state(0).position[0] - 0.2, load * 0.5e-3 * 1e-4) << load;
+    EXPECT_LT(sim->joint_state(0).position[0] - 0.2, load * 1.1e-2 * 1e-4) << load;
+  }
+}
+
+TEST(Joints, LimitsAreAsSoftAsTheAssetSays) {
+  TestScene scene;
+  const auto wheel = scene.add_body("Wheel", {});
+  auto& joint = scene.add_joint("Axle", JointKind::Revolute, {}, wheel, Axis::Z);
+  joint.upper = 1;
+  const auto numbers = [&] {
+    const auto sim = simulation(scene);
+    const mjModel& m = sim->engine_model();
+    return std::array{m.jnt_solref[0], m.jnt_solref[1], m.jnt_solimp[0], m.jnt_solimp[1]};
+  };
+  EXPECT_EQ(numbers(), (std::array{0.01, 1.0, 0.99, 0.999}));
+  joint.parts.mujoco.solref_limit = {0.05, 0.8};
+  EXPECT_EQ(numbers(), (std::array{0.05, 0.8, 0.9, 0.95}));  // MuJoCo's default for the other
+  joint.parts.mujoco.solimp_limit = {0.7, 0.8, 0.002, 0.5, 2};
+  EXPECT_EQ(numbers(), (std::array{0.05, 0.8, 0.7, 0.8}));
+  joint.parts.mujoco.solref_limit = {};
+  EXPECT_EQ(numbers(), (std::array{0.02, 1.0, 0.7, 0.8}));
 }
 
 struct LockCase {

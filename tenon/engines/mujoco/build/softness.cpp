@@ -9,9 +9,17 @@
 // In motion the inertia before the constraint looks greater by A / R, about d. So d is small, and
 // is raised only where the spring is too stiff for the time step: MuJoCo's step is explicit in r
 // and v.
+//
+// Limits of joints without a word about it are softer than equalities. Who stands beyond a limit by
+// x comes back with at most x / (e T), T the time constant: as hard as the step allows (T = 5 ms at
+// 2 ms), robots that start outside fly apart, which MuJoCo's own 20 ms survive. How deep a limit
+// gives way under a load depends on the impedance alone times T^2, and costs no stability until it
+// spoils the solver's condition. docs/simulation.md has what was measured.
 #include <algorithm>
+#include <array>
 
 #include "tenon/engines/mujoco/build/build.h"
+#include "tenon/engines/mujoco/soft_defaults.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -20,7 +28,26 @@ constexpr double kLeastImpedance = 1e-3;
 constexpr double kStiffest = 0.5;  // stiffness by inertia times the square of the time step
 constexpr double kMostDamping = 0.5;
 
+constexpr double kLimitTime = 0.01;  // time constant of limits [s], and at least so many steps:
+constexpr double kLimitSteps = 5;
+constexpr std::array<double, mjNIMP> kLimitImpedance{0.99, 0.999, 0.001, 0.5, 2};
+
 }  // namespace
+
+void soften_limit(double time_step, const scene::MujocoSoftness& authored, mjtNum* solref,
+                  mjtNum* solimp) {
+  const auto write = [&](const auto& reference, const auto& impedance) {
+    std::copy(reference.begin(), reference.end(), solref);
+    std::copy(impedance.begin(), impedance.end(), solimp);
+  };
+  if (authored.solref_limit.empty() && authored.solimp_limit.empty()) {
+    write(std::array{std::max(kLimitTime, kLimitSteps * time_step), 1.0}, kLimitImpedance);
+    return;
+  }
+  // Who says one of the two for MuJoCo means its default for the other.
+  write(kSolref, kSolimp);
+  write(authored.solref_limit, authored.solimp_limit);
+}
 
 SpringReference spring_reference(double stiffness, double damping, double time_step) {
   double share = 1 - kLeastImpedance;  // 1 - d

@@ -19,11 +19,8 @@ void set_range(mjModel& m, int joint, const scene::FreeDof& dof,
   constexpr double kOpenEnd = 1e10;
   const bool limited = dof.lower > -scene::kUnlimited || dof.upper < scene::kUnlimited;
   if (limited && m.jnt_limited[joint] == 0) {
-    mjtNum* solref = m.jnt_solref + std::ptrdiff_t{mjNREF} * joint;
-    mjtNum* solimp = m.jnt_solimp + std::ptrdiff_t{mjNIMP} * joint;
-    make_hard(m.opt.timestep, solref, solimp);
-    std::copy(softness.solref_limit.begin(), softness.solref_limit.end(), solref);
-    std::copy(softness.solimp_limit.begin(), softness.solimp_limit.end(), solimp);
+    soften_limit(m.opt.timestep, softness, m.jnt_solref + std::ptrdiff_t{mjNREF} * joint,
+                 m.jnt_solimp + std::ptrdiff_t{mjNIMP} * joint);
   }
   m.jnt_limited[joint] = limited ? 1 : 0;
   m.jnt_range[std::ptrdiff_t{2} * joint] = std::max(dof.lower, -kOpenEnd);

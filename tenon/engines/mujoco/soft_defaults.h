@@ -7,9 +7,9 @@
 #include "tenon/engines/mujoco/mujoco_library.h"
 
 /// What MuJoCo takes for the softness of constraints where MJCF says nothing.
-namespace tenon::mjcf {
+namespace tenon::engines::mujoco {
 
 inline constexpr std::array<double, mjNREF> kSolref{0.02, 1};
 inline constexpr std::array<double, mjNIMP> kSolimp{0.9, 0.95, 0.001, 0.5, 2};
 
-}  // namespace tenon::mjcf
+}  // namespace tenon::engines::mujoco
