@@ -373,6 +373,37 @@ TEST(Contacts, ManyStaticCollidersCollide) {
   EXPECT_LT(s->body_state(falls).pose.position[2], -0.1);
 }
 
+// With two materials a step is made by its parts, of which MuJoCo's last one knows no such method.
+TEST(Contacts, RungeKuttaStepsAreThoseOfMujocoAlsoWithSeveralMaterials) {
+  std::vector<BodyState> ends;
+  for (const bool several : {false, true}) {
+    TestScene scene;
+    const auto tumbles = scene.add_body("Tumbles", {{0, 0, 50}}, 1, {{0.01, 0.02, 0.03}});
+    scene.bodies[tumbles].angular_velocity = {{0.1, 10, 0.1}};
+    const auto rests = scene.add_body("Rests", {{3, 0, 0.1}}, 2, {{0.03, 0.03, 0.05}});
+    scene.add_collider("Box", rests, box({{0.2, 0.2, 0.1}}));
+    scene.add_collider("Ground", {}, ground());
+    if (several) {
+      const auto far = scene.add_collider("Far", {}, sphere(0.1), {{{90, 0, 0}}});
+      scene.colliders[far].material = add_material(scene, "Rubber", 0.9);
+    }
+    Diagnostics findings;
+    SimulationOptions options;
+    options.methods.integrator = Integrator::RungeKutta4;
+    auto sim = MujocoSimulation::make(scene, options, findings);
+    ASSERT_TRUE(sim.has_value());
+    const double energy = (*sim)->energy().total();
+    run(**sim, 2);
+    EXPECT_NEAR((*sim)->energy().total(), energy, 5e-3);
+    ends.push_back((*sim)->body_state(tumbles));
+    ends.push_back((*sim)->body_state(rests));
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(length(ends[i].pose.position - ends[i + 2].pose.position), 0, 1e-9);
+    EXPECT_NEAR(length(ends[i].angular_velocity - ends[i + 2].angular_velocity), 0, 1e-4);
+  }
+}
+
 // MuJoCo makes hulls with Qhull, which took minutes here.
 TEST(Contacts, HullsOfVeryManyCornersAreSimplified) {
   TestScene scene;

@@ -7,9 +7,26 @@
 
 #include "tenon/engines/mujoco/build/surfaces.h"
 #include "tenon/engines/mujoco/mujoco_library.h"
+#include "tenon/engines/mujoco/run/runge_kutta.h"
 
 namespace tenon::engines::mujoco {
 namespace {
+
+// mj_step1 by its parts, of which a model without sensors has these.
+void derive_forces(Model& model) {
+  const mjModel* m = model.model.get();
+  mjData* d = model.data.get();
+  mj_fwdKinematics(m, d);
+  mj_makeM(m, d);
+  mj_factorM(m, d);
+  mj_collision(m, d);
+  apply_surfaces(model.surfaces, m, d);
+  mj_makeConstraint(m, d);
+  mj_island(m, d);
+  mj_transmission(m, d);
+  mj_projectConstraint(m, d);
+  mj_fwdVelocity(m, d);
+}
 
 // What wakes and falls asleep is decided inside mj_step1: constraints are made again after it.
 void advance_sleepers(Model& model) {
@@ -48,8 +65,7 @@ Error unstable(const Model& model, int warning) {
 
 }  // namespace
 
-// Pair averages of friction are written between the making of contacts and that of constraints;
-// without them this is one mj_step.
+// Contacts may need to be finished; without that this is one mj_step.
 void advance(Model& model) {
   const mjModel* m = model.model.get();
   mjData* d = model.data.get();
@@ -57,20 +73,15 @@ void advance(Model& model) {
     mj_step(m, d);
   } else if ((m->opt.enableflags & mjENBL_SLEEP) != 0) {
     advance_sleepers(model);
-  } else {  // mj_step1 by its parts, of which a model without sensors has these
+  } else {
     mj_checkPos(m, d);
     mj_checkVel(m, d);
-    mj_fwdKinematics(m, d);
-    mj_makeM(m, d);
-    mj_factorM(m, d);
-    mj_collision(m, d);
-    apply_surfaces(model.surfaces, m, d);
-    mj_makeConstraint(m, d);
-    mj_island(m, d);
-    mj_transmission(m, d);
-    mj_projectConstraint(m, d);
-    mj_fwdVelocity(m, d);
-    mj_step2(m, d);
+    if (m->opt.integrator == mjINT_RK4) {  // mj_step2 would make it a step of Euler's method
+      step_runge_kutta(model, [&model] { derive_forces(model); });
+    } else {
+      derive_forces(model);
+      mj_step2(m, d);
+    }
   }
 }
 
