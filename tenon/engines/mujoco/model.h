@@ -127,6 +127,7 @@ struct ModelMaps {
   std::vector<int> mocap_of_collider;  ///< (collider_count); -1: does not move by itself
   ContactFilter filter;
   Surfaces surfaces;
+  bool curved_shapes = false;  ///< see build/touching.h
   std::vector<NotMapped> not_mapped;
   std::vector<int> auxiliary_bodies;  ///< MuJoCo bodies whose weights compile() has set
 };

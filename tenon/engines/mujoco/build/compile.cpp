@@ -12,6 +12,7 @@
 #include <cstdio>
 
 #include "tenon/engines/mujoco/build/build.h"
+#include "tenon/engines/mujoco/build/touching.h"
 #include "tenon/engines/mujoco/error_hook.h"
 
 namespace tenon::engines::mujoco {
@@ -331,6 +332,7 @@ void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces) {
   surfaces.keeps_solref = std::move(keeps_solref);
   model.filter = std::move(filter);
   model.surfaces = std::move(surfaces);
+  model.curved_shapes = has_curved_shapes(*model.model);
 }
 
 void report_overlaps(const scene::PhysicsScene& scene, const Model& model,

@@ -6,11 +6,20 @@
 #include <string>
 
 #include "tenon/engines/mujoco/build/surfaces.h"
+#include "tenon/engines/mujoco/build/touching.h"
 #include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/engines/mujoco/run/runge_kutta.h"
 
 namespace tenon::engines::mujoco {
 namespace {
+
+// Between the making of contacts and that of constraints. True when any contact was changed.
+bool finish_contacts(Model& model) {
+  const mjModel* m = model.model.get();
+  mjData* d = model.data.get();
+  const bool changed = model.surfaces.by_contact && apply_surfaces(model.surfaces, m, d);
+  return (model.curved_shapes && leave_out_touching(*m, *d)) || changed;
+}
 
 // mj_step1 by its parts, of which a model without sensors has these.
 void derive_forces(Model& model) {
@@ -20,7 +29,7 @@ void derive_forces(Model& model) {
   mj_makeM(m, d);
   mj_factorM(m, d);
   mj_collision(m, d);
-  apply_surfaces(model.surfaces, m, d);
+  finish_contacts(model);
   mj_makeConstraint(m, d);
   mj_island(m, d);
   mj_transmission(m, d);
@@ -33,7 +42,7 @@ void advance_sleepers(Model& model) {
   const mjModel* m = model.model.get();
   mjData* d = model.data.get();
   mj_step1(m, d);
-  if (apply_surfaces(model.surfaces, m, d)) {
+  if (finish_contacts(model)) {
     mj_makeConstraint(m, d);
     mj_island(m, d);
     mj_projectConstraint(m, d);
@@ -69,7 +78,7 @@ Error unstable(const Model& model, int warning) {
 void advance(Model& model) {
   const mjModel* m = model.model.get();
   mjData* d = model.data.get();
-  if (!model.surfaces.by_contact) {
+  if (!model.surfaces.by_contact && !model.curved_shapes) {
     mj_step(m, d);
   } else if ((m->opt.enableflags & mjENBL_SLEEP) != 0) {
     advance_sleepers(model);
