@@ -79,7 +79,8 @@ class Reader {
     static constexpr std::pair<List, const char*> kLists[] = {
         {List::Scenes, "scenes"},       {List::Bodies, "bodies"},
         {List::Colliders, "colliders"}, {List::Materials, "materials"},
-        {List::Joints, "joints"},       {List::Articulations, "articulations"}};
+        {List::Joints, "joints"},       {List::Articulations, "articulations"},
+        {List::Tendons, "tendons"},     {List::Actuators, "mujocoActuators"}};
     for (const auto& [list, key] : kLists) {
       const auto rows = json.find(key);
       if (rows == json.end() || !rows->is_array()) {

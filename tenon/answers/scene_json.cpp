@@ -112,6 +112,10 @@ void name_value(const PhysicsScene&, const scene::BoundsTrack&, Json& row) {
 void name_value(const PhysicsScene&, const scene::GravityTrack&, Json& row) {
   row["value"] = "gravity";
 }
+template <class Object>
+void name_value(const PhysicsScene&, const scene::ObjectTrack<Object>&, Json& row) {
+  row["value"] = "state";
+}
 void name_value(const PhysicsScene& scene, const scene::ShapesTrack& track, Json& row) {
   row["value"] = "shapes";
   for (const Index i : track.colliders) {
@@ -134,7 +138,7 @@ class Writer {
  public:
   Writer(const PhysicsScene& scene, Geometry geometry) : scene_(scene), geometry_(geometry) {
     for (const List list : {List::Scenes, List::Bodies, List::Colliders, List::Materials,
-                            List::Joints, List::Articulations}) {
+                            List::Joints, List::Articulations, List::Tendons, List::Actuators}) {
       for (Index i = 0; i < size_of(scene, list); ++i) {
         ++times_[{list, path_of(scene, list, i)}];
       }

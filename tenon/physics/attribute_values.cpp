@@ -65,7 +65,13 @@ std::optional<double> number_of(const layer::Value& value) {
 // S-6: the default where one is authored, else the value at the start, held before the first
 // sample.
 layer::Value AttributeValues::resolved(const stage::Attribute& attribute) const {
-  if (animated_ && attribute.value_source() != stage::ValueSource::Default) {
+  if (!animated_) {
+    return attribute.get();
+  }
+  if (asked_ != nullptr && attribute.is_animated()) {
+    asked_->insert(attribute.path().str());
+  }
+  if (samples_first_ || attribute.value_source() != stage::ValueSource::Default) {
     return attribute.get(start_);
   }
   return attribute.get();

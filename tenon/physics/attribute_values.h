@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <unordered_set>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/layer/value.h"
@@ -32,6 +33,19 @@ class AttributeValues {
   /// `animated`: some attribute of the stage varies over time (`stage_is_animated`).
   AttributeValues(stage::Time start, bool animated, ValueTypes types, Diagnostics& diagnostics)
       : start_(start), animated_(animated), types_(types), diagnostics_(&diagnostics) {}
+
+  /// The same at another time, where samples win over a default beside them: they are followed.
+  AttributeValues at_sample(stage::Time time, Diagnostics& diagnostics) const {
+    AttributeValues later = *this;
+    later.start_ = time;
+    later.samples_first_ = true;
+    later.diagnostics_ = &diagnostics;
+    later.asked_ = nullptr;
+    return later;
+  }
+  /// From here on the attributes that vary and are asked for are put into `asked`, as
+  /// "PRIM.attribute"; null: no more.
+  void note_asked(std::unordered_set<std::string>* asked) { asked_ = asked; }
 
   stage::Time start() const { return start_; }
   bool stage_is_animated() const { return animated_; }
@@ -81,6 +95,8 @@ class AttributeValues {
   stage::Time start_;
   bool animated_ = false;
   ValueTypes types_ = ValueTypes::Strict;
+  bool samples_first_ = false;
+  std::unordered_set<std::string>* asked_ = nullptr;
   Diagnostics* diagnostics_;
 };
 

@@ -4,11 +4,18 @@
 
 #include <vector>
 
-#include "tenon/base/token.h"
+#include "tenon/physics/read_state.h"
 
 namespace tenon::physics {
 
-/// Attributes of geometry that give a collider its shape.
-const std::vector<Token>& size_names();
+/// An attribute whose samples nothing follows yet.
+struct FrozenSample {
+  stage::Prim prim;
+  Token name;
+};
+
+/// Those with which the description could be another one at another time. One of a prototype of
+/// point instancers stands there once.
+std::vector<FrozenSample> frozen_samples(const ReadState& state);
 
 }  // namespace tenon::physics

@@ -54,7 +54,10 @@ bool has_tracks(const PhysicsScene& scene) {
   return !scene.scalar_tracks.empty() || !scene.pose_tracks.empty() ||
          !scene.switch_tracks.empty() || !scene.bounds_tracks.empty() ||
          !scene.gravity_tracks.empty() || !scene.shapes_tracks.empty() ||
-         !scene.group_states.empty();
+         !scene.scene_tracks.empty() || !scene.body_tracks.empty() ||
+         !scene.collider_tracks.empty() || !scene.material_tracks.empty() ||
+         !scene.joint_tracks.empty() || !scene.tendon_tracks.empty() ||
+         !scene.actuator_tracks.empty() || !scene.group_states.empty();
 }
 
 bool names(const PhysicsScene& scene, const Diagnostics& findings, const std::string& name) {
@@ -173,17 +176,24 @@ TEST(FrozenSamples, CentresAndInertiasAreFollowed) {
   EXPECT_NEAR(end.inertia[0][0], 2e-4, 1e-12);    // kg cm^2
 }
 
-TEST(FrozenSamples, OfJointsAndMaterialsAreNamed) {
+// Sampled at 0 and 24 of 24 codes per second.
+TEST(FrozenSamples, OfJointsAndMaterialsAreFollowed) {
   Diagnostics findings;
   const PhysicsScene scene = read_text(R"(def Xform "A" (
   apiSchemas = ["PhysicsRigidBodyAPI"]
 )
 {
+  def Sphere "S" (
+    apiSchemas = ["PhysicsCollisionAPI", "MaterialBindingAPI"]
+  )
+  {
+    rel material:binding = </M>
+  }
 }
 def PhysicsFixedJoint "J"
 {
   rel physics:body1 = </A>
-  point3f physics:localPos0.timeSamples = { 0: (0, 0, 0), 24: (1, 0, 0) }
+  point3f physics:localPos1.timeSamples = { 0: (0, 0, 0), 24: (100, 0, 0) }
   float physics:breakForce.timeSamples = { 0: 10, 24: 20 }
 }
 def Material "M" (
@@ -191,16 +201,89 @@ def Material "M" (
 )
 {
   float physics:dynamicFriction.timeSamples = { 0: 0, 24: 1 }
+  float physics:density.timeSamples = { 0: 1, 24: 2 }
 }
 )",
                                        findings);
-  std::vector<std::string> found;
-  for (const scene::NotRead& part : scene.not_read) {
-    found.push_back(part.prim.str() + " " + part.property);
-  }
-  std::sort(found.begin(), found.end());
-  EXPECT_EQ(found, (std::vector<std::string>{"/J physics:breakForce", "/J physics:localPos0",
-                                             "/M physics:dynamicFriction"}));
+  EXPECT_TRUE(scene.not_read.empty()) << scene.not_read[0].property;
+  ASSERT_EQ(scene.joint_tracks.size(), 1u);
+  const auto& joint = scene.joint_tracks[0];
+  EXPECT_EQ(joint.times.size(), 96u);
+  EXPECT_NEAR(joint.times.back(), 1, 1e-9);
+  EXPECT_NEAR(joint.states.back().frame1.position[0], 1, 1e-9);
+  EXPECT_NEAR(joint.states[47].frame1.position[0], 0.5, 1e-9);
+  EXPECT_NEAR(joint.states.back().break_force, 0.2, 1e-9);  // kg cm/s^2
+  ASSERT_EQ(scene.material_tracks.size(), 1u);
+  EXPECT_NEAR(scene.material_tracks[0].states.back().dynamic_friction, 1, 1e-9);
+  ASSERT_EQ(scene.body_tracks.size(), 1u);
+  EXPECT_NEAR(scene.body_tracks[0].states.back().mass / scene.bodies[0].mass, 2, 1e-6);
+  EXPECT_TRUE(scene.collider_tracks.empty());
+}
+
+TEST(FrozenSamples, OfSizesAndSettingsAreFollowed) {
+  Diagnostics findings;
+  const PhysicsScene scene = read_text(R"(def Cube "Floor" (
+  apiSchemas = ["PhysicsCollisionAPI", "PhysxCollisionAPI"]
+)
+{
+  double size = 100
+  double size.timeSamples = { 0: 100, 24: 200 }
+  color3f[] primvars:displayColor.timeSamples = { 0: [(1, 0, 0)], 24: [(0, 1, 0)] }
+  float physxCollision:restOffset.timeSamples = { 0: 0, 24: 1 }
+}
+def Mesh "Ground" (
+  apiSchemas = ["PhysicsCollisionAPI"]
+)
+{
+  int[] faceVertexCounts = [3]
+  int[] faceVertexIndices = [0, 1, 2]
+  point3f[] points.timeSamples = { 0: [(0, 0, 0), (100, 0, 0), (0, 0, 100)],
+                                   12: [(0, 0, 0), (100, 0, 0), (0, 0, 100)],
+                                   24: [(0, 0, 0), (200, 0, 0), (0, 0, 100)] }
+}
+def Xform "A" (
+  apiSchemas = ["PhysicsRigidBodyAPI", "PhysxRigidBodyAPI"]
+)
+{
+  float physxRigidBody:linearDamping.timeSamples = { 0: 0, 24: 4 }
+}
+)",
+                                       findings);
+  EXPECT_TRUE(scene.not_read.empty()) << scene.not_read[0].property;
+  ASSERT_EQ(scene.collider_tracks.size(), 2u);
+  const auto& floor = scene.collider_tracks[0];
+  EXPECT_NEAR(floor.states.back().shape.half_extents[0], 1, 1e-9);
+  EXPECT_NEAR(*floor.states.back().rest_offset, 0.01, 1e-9);
+  const auto& ground = scene.collider_tracks[1];
+  EXPECT_GT(ground.times.front(), 0.5);  // until then it is as at the start
+  EXPECT_NEAR(scene.meshes[ground.states.back().shape.mesh].points[1][0], 2, 1e-6);
+  ASSERT_EQ(scene.body_tracks.size(), 1u);
+  EXPECT_NEAR(scene.body_tracks[0].states.back().linear_damping, 4, 1e-9);
+}
+
+TEST(FrozenSamples, WhatStatesCannotSayIsNamed) {
+  Diagnostics findings;
+  const PhysicsScene scene = read_text(R"(def PhysicsScene "S" (
+  apiSchemas = ["PhysxSceneAPI"]
+)
+{
+  uint physxScene:timeStepsPerSecond.timeSamples = { 0: 60, 24: 120 }
+}
+)",
+                                       findings);
+  ASSERT_EQ(scene.not_read.size(), 1u);
+  EXPECT_EQ(scene.not_read[0].property, "physxScene:timeStepsPerSecond");
+  EXPECT_TRUE(scene.scene_tracks.empty());
+}
+
+TEST(FrozenSamples, CountBesideADefaultToo) {
+  Diagnostics findings;
+  const PhysicsScene scene = read_text(
+      body_with("float physics:mass = 5\nfloat physics:mass.timeSamples = { 0: 1, 24: 3 }", ""),
+      findings);
+  EXPECT_EQ(scene.bodies[0].mass, 5);
+  ASSERT_EQ(scene.shapes_tracks.size(), 1u);
+  EXPECT_NEAR(scene.shapes_tracks[0].shapes.back().mass, 3, 1e-9);
 }
 
 }  // namespace

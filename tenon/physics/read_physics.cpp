@@ -62,6 +62,20 @@ void append_once(const Diagnostics& found, Diagnostics& diagnostics) {
 }
 
 PhysicsScene read_walked(ReadState& state) {
+  read_objects(state);
+  read_tracks(state);
+  let_fixed_roots_stay(state);
+  read_moving_shapes(state);
+  read_nesting(state);
+  read_object_tracks(state);
+  note_frozen_samples(state);
+  note_what_is_not_read(state);
+  return std::move(state.scene);
+}
+
+}  // namespace
+
+void read_objects(ReadState& state) {
   read_bodies_with_mass(state);
   read_body_settings(state);
   read_joints(state);
@@ -77,16 +91,7 @@ PhysicsScene read_walked(ReadState& state) {
   read_articulations(state);
   read_collision_groups(state);
   read_filtered_pairs(state);
-  read_tracks(state);
-  let_fixed_roots_stay(state);
-  read_moving_shapes(state);
-  read_nesting(state);
-  note_frozen_samples(state);
-  note_what_is_not_read(state);
-  return std::move(state.scene);
 }
-
-}  // namespace
 
 void read_bodies_with_mass(ReadState& state) {
   read_scenes(state);

@@ -64,6 +64,8 @@ struct ReadState {
   std::unordered_map<Index, SolidIntegrals> integrals_of_collider{};
   /// Drives of the drive API, in the order of joints.
   std::vector<DriveInstance> drive_instances{};
+  /// Attributes that vary and give colliders their shapes, as "PRIM.attribute".
+  std::unordered_set<std::string> sizes{};
   /// Attributes whose samples the description follows, or of which it is said that it does not.
   std::unordered_set<std::string> followed{};
   /// Materials of the scene by prim path.
@@ -71,9 +73,8 @@ struct ReadState {
 
   /// The same stage, units and readings at another stage time, with nothing read yet.
   ReadState at(double code, Diagnostics& findings) const {
-    const AttributeValues later(stage::Time(code), values.stage_is_animated(), readings.value_types,
-                                findings);
-    return ReadState{stage, findings, tokens, readings, units, later};
+    return ReadState{stage,    findings, tokens,
+                     readings, units,    values.at_sample(stage::Time(code), findings)};
   }
   /// [s] from the start of the simulation to a stage time.
   double seconds(double code) const {
@@ -160,6 +161,9 @@ void read_filtered_pairs(ReadState& state);
 void read_tracks(ReadState& state);
 void read_moving_shapes(ReadState& state);
 void read_nesting(ReadState& state);
+void read_object_tracks(ReadState& state);
+/// The passes before read_tracks(), which read a stage as it is at one time.
+void read_objects(ReadState& state);
 void note_what_is_not_read(ReadState& state);
 /// Lists attributes that vary over time and whose value at the start counts for good (S-116). After
 /// all passes that follow samples.

@@ -103,7 +103,17 @@ class Check {
 
   // What belongs together in one struct; most have nothing to hold but their indices.
   template <class T>
-  void own(const T&) {}
+  void own(const T& of) {
+    if constexpr (requires { of.times, of.values; }) {
+      times(of.times, of.values.size());
+    } else if constexpr (requires { of.times, of.states; }) {
+      times(of.times, of.states.size());
+    } else if constexpr (requires { of.times, of.bounds; }) {
+      times(of.times, of.bounds.size());
+    } else if constexpr (requires { of.times, of.gravity; }) {
+      times(of.times, of.gravity.size());
+    }
+  }
 
   void own(const Body& body) {
     require(body.mass >= 0 && is_finite(body.mass), "a mass is negative or not finite");
@@ -167,9 +177,6 @@ class Check {
                 track.drive < scene_.joints[track.joint].drives.size(),
             "a drive that changes is not there");
   }
-  void own(const SwitchTrack& track) { times(track.times, track.values.size()); }
-  void own(const BoundsTrack& track) { times(track.times, track.bounds.size()); }
-  void own(const GravityTrack& track) { times(track.times, track.gravity.size()); }
   void own(const PoseTrack& track) {
     times(track.times, track.poses.size());
     require(track.body || track.collider || track.joint, "a track of poses is of nothing");

@@ -418,6 +418,16 @@ struct ShapesTrack {
   std::size_t at(double seconds) const;
 };
 
+/// One object of a list as its samples make it from some times on; before the first it is as in the
+/// list. What other tracks and the run decide on is in the states as at the start, and does not
+/// count (keep_followed of timeline/object_states.h).
+template <class Object>
+struct ObjectTrack {
+  Index object = 0;
+  std::vector<double> times;   ///< [s] from the start, ascending (state_count)
+  std::vector<Object> states;  ///< each holds until the next (state_count)
+};
+
 /// Mass, centre of mass and inertia of a body, as in Body.
 struct BodyMass {
   double mass = 1;                    ///< [kg]
@@ -466,6 +476,13 @@ struct PhysicsScene {
   std::vector<BoundsTrack> bounds_tracks;
   std::vector<GravityTrack> gravity_tracks;
   std::vector<ShapesTrack> shapes_tracks;
+  std::vector<ObjectTrack<Scene>> scene_tracks;
+  std::vector<ObjectTrack<Body>> body_tracks;
+  std::vector<ObjectTrack<Collider>> collider_tracks;
+  std::vector<ObjectTrack<Material>> material_tracks;
+  std::vector<ObjectTrack<Joint>> joint_tracks;
+  std::vector<ObjectTrack<Tendon>> tendon_tracks;
+  std::vector<ObjectTrack<MujocoActuator>> actuator_tracks;
   std::vector<GroupState> group_states;  ///< ascending in time; empty: `filter` holds throughout
   std::vector<NestingState> nesting_states;  ///< ascending in time; empty: no body is ever merged
   std::vector<NotRead> not_read;

@@ -14,6 +14,31 @@
 /// scene with one of them changed.
 namespace tenon::scene {
 
+inline void make_sound(Collider& collider) { collider.shape.kind = ShapeKind::Mesh; }
+inline void make_sound(Joint& joint) { joint.mimics[1].dof = Dof::RotZ; }
+inline void make_sound(Tendon& tendon) {
+  for (MujocoSetting& setting : tendon.settings) {
+    setting.numbers.clear();
+  }
+}
+inline void make_sound(Scene& scene) {
+  for (MujocoSetting& setting : *scene.parts.mujoco) {
+    setting.token.clear();
+  }
+}
+
+template <class Object>
+void make_sound(std::vector<Object>& list, std::vector<ObjectTrack<Object>>& tracks) {
+  for (Object& object : list) {
+    make_sound(object);
+  }
+  for (ObjectTrack<Object>& track : tracks) {
+    for (Object& object : track.states) {
+      make_sound(object);
+    }
+  }
+}
+
 /// Sound by check_scene.
 inline PhysicsScene filled_scene() {
   PhysicsScene scene;
@@ -23,27 +48,15 @@ inline PhysicsScene filled_scene() {
   for (GroupState& state : scene.group_states) {
     state.group_pair_off = {1, 0, 0, 1};
   }
-  for (Collider& collider : scene.colliders) {
-    collider.shape.kind = ShapeKind::Mesh;
-  }
+  make_sound(scene.colliders, scene.collider_tracks);
+  make_sound(scene.joints, scene.joint_tracks);
+  make_sound(scene.tendons, scene.tendon_tracks);
+  make_sound(scene.scenes, scene.scene_tracks);
   for (ShapesTrack& track : scene.shapes_tracks) {
     for (BodyShapes& shapes : track.shapes) {
       for (Shape& shape : shapes.shapes) {
         shape.kind = ShapeKind::Mesh;
       }
-    }
-  }
-  for (Joint& joint : scene.joints) {
-    joint.mimics[1].dof = Dof::RotZ;
-  }
-  for (Tendon& tendon : scene.tendons) {
-    for (MujocoSetting& setting : tendon.settings) {
-      setting.numbers.clear();
-    }
-  }
-  for (Scene& one : scene.scenes) {
-    for (MujocoSetting& setting : *one.parts.mujoco) {
-      setting.token.clear();
     }
   }
   return scene;

@@ -247,6 +247,79 @@ TEST(Changes, AnchorOnAMovingPrimCarriesTheBody) {
   EXPECT_NEAR(sim->body_state(body).linear_velocity[0], 2, 1e-3);
 }
 
+TEST(Changes, FrictionThatRisesStopsWhatSlides) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {{0, 0, 0.1}}, 2, {{0.03, 0.03, 0.05}});
+  scene.bodies[body].linear_velocity = {{2, 0, 0}};
+  const auto shape = scene.add_collider("Shape", body, box({{0.2, 0.2, 0.1}}));
+  const auto floor = scene.add_collider("Ground", {}, ground());
+  scene::Material ice;
+  ice.path = named("Ice");
+  scene.materials = {ice};
+  scene.colliders[shape].material = scene.colliders[floor].material = 0;
+  ice.dynamic_friction = ice.static_friction = 0.8;
+  scene.material_tracks.push_back({0, {1}, {ice}});
+  auto sim = simulation(scene, kDt);
+  run(*sim, 1);
+  EXPECT_NEAR(sim->body_state(body).pose.position[0], 2, 1e-3);
+  EXPECT_NEAR(sim->body_state(body).linear_velocity[0], 2, 1e-3);
+  run(*sim, 1);
+  // v^2 / (2 mu g) further.
+  EXPECT_NEAR(sim->body_state(body).pose.position[0], 2 + 4 / (2 * 0.8 * kG), 0.01);
+}
+
+TEST(Changes, AJointWhoseFrameMovesTakesItsBodyAlong) {
+  TestScene scene;
+  const auto body = scene.add_body("Body", {{0, 0, -1}});
+  scene::Joint& joint = scene.add_joint("Held", JointKind::Fixed, {}, body);
+  joint.frame1.position = {{0, 0, 1}};
+  scene::Joint later = joint;
+  later.frame0.position = {{0.5, 0, 0}};
+  scene.joint_tracks.push_back({0, {1}, {later}});
+  auto sim = simulation(scene, kDt);
+  run(*sim, 1);
+  EXPECT_NEAR(sim->body_state(body).pose.position[0], 0, 1e-6);
+  run(*sim, 0.5);
+  EXPECT_NEAR(sim->body_state(body).pose.position[0], 0.5, 1e-6);
+  EXPECT_NEAR(sim->body_state(body).pose.position[2], -1, 1e-6);
+}
+
+TEST(Changes, AFloorThatGrowsCatchesWhatWouldFallBesideIt) {
+  for (const bool grows : {false, true}) {
+    TestScene scene;
+    const auto body = scene.add_body("Body", {{3, 0, 1}});
+    scene.add_collider("Ball", body, sphere(0.1));
+    const auto floor = scene.add_collider("Floor", {}, box({{1, 1, 0.5}}), {{{0, 0, -0.5}}});
+    if (grows) {
+      scene::Collider wide = scene.colliders[floor];
+      wide.shape.half_extents = {{5, 5, 0.5}};
+      scene.collider_tracks.push_back({floor, {0.2}, {wide}});
+    }
+    auto sim = simulation(scene, kDt);
+    run(*sim, 2);
+    const double height = sim->body_state(body).pose.position[2];
+    EXPECT_EQ(height > 0, grows) << height;
+  }
+}
+
+TEST(Changes, SettingsOfBodiesFollowTheirStates) {
+  TestScene scene(0);
+  const auto body = scene.add_body("Body", {});
+  scene.bodies[body].linear_velocity = {{1, 0, 0}};
+  scene::Body damped = scene.bodies[body];
+  damped.linear_damping = 2;
+  damped.pose.position = {{100, 0, 0}};  // the run knows better
+  damped.linear_velocity = {};
+  scene.body_tracks.push_back({body, {1}, {damped}});
+  auto sim = simulation(scene, kDt);
+  run(*sim, 2);
+  EXPECT_NEAR(sim->body_state(body).linear_velocity[0], std::exp(-2.0), 2e-3);
+  EXPECT_NEAR(sim->body_state(body).pose.position[0], 1 + (1 - std::exp(-2.0)) / 2, 2e-3);
+  ASSERT_TRUE(sim->reset());
+  run(*sim, 0.5);
+  EXPECT_NEAR(sim->body_state(body).linear_velocity[0], 1, 1e-9);
+}
+
 /// 10 kg on a joint to the world, as E-104.
 TestScene hanging(JointKind kind, double break_force) {
   TestScene scene;
@@ -313,6 +386,21 @@ TEST(Breaking, JointsGiveWayAboveTheirForceOnly) {
     EXPECT_NEAR(holds->body_state(0).pose.position[2], -1, 1e-6);
     EXPECT_TRUE(holds->events().empty());
   }
+}
+
+TEST(Breaking, LimitsFollowTheirStates) {
+  TestScene scene = hanging(JointKind::Fixed, 150);
+  scene::Joint weaker = scene.joints[0];
+  for (const double limit : {140.0, 120.0, 90.0}) {
+    weaker.break_force = limit;
+    scene.joint_tracks.resize(1);
+    scene.joint_tracks[0].times.push_back(0.2 + (150 - limit) / 100);
+    scene.joint_tracks[0].states.push_back(weaker);
+  }
+  auto sim = simulation(scene, kDt);
+  run(*sim, 1);
+  ASSERT_EQ(sim->events().size(), 1u);
+  EXPECT_NEAR(sim->events()[0].time, 0.8, 2 * kDt);
 }
 
 TEST(Breaking, TorqueIsThatAboutTheAnchor) {

@@ -194,7 +194,10 @@ std::optional<Collider> read_collider(ReadState& state, const PhysicsPrim& found
     const OwnerScene owner = owner_scene(state, found.prim, default_scene(state));
     collider.scene = owner.scene;
   }
-  std::optional<ShapeReading> reading = told_shape(state, found, read_shape(state, source));
+  state.values.note_asked(&state.sizes);
+  std::optional<ShapeReading> own = read_shape(state, source);
+  state.values.note_asked(nullptr);
+  std::optional<ShapeReading> reading = told_shape(state, found, std::move(own));
   if (!reading) {
     return std::nullopt;
   }

@@ -10,15 +10,12 @@
 #include <vector>
 
 #include "tenon/base/limits/physics_limits.h"
-#include "tenon/physics/frozen_samples.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/sample_codes.h"
 #include "tenon/stage/transform_at.h"
 
 namespace tenon::physics {
 namespace {
-
-constexpr double kShapesPerFrame = 4;  ///< between authored samples
 
 /// Sample times of the prim's own transform ops.
 std::vector<double> own_samples(const stage::Prim& prim) {
@@ -74,7 +71,7 @@ class MovingShapes {
     for (const Index i : state_.colliders_of_body[body]) {
       const stage::Prim& prim = state_.prim_of_collider(i).prim;
       std::vector<double> samples = samples_below(body, prim);
-      const std::vector<double> sizes = follow_names(prim, size_names());
+      const std::vector<double> sizes = follow_names(prim, size_names_of(prim));
       samples.insert(samples.end(), sizes.begin(), sizes.end());
       if (samples.size() > 1) {
         track.colliders.push_back(i);
@@ -86,8 +83,20 @@ class MovingShapes {
     if (codes.size() < 2) {
       return;
     }
-    read_samples(dense(ascending_codes(std::move(codes))), track);
+    read_samples(dense_codes(state_, ascending_codes(std::move(codes)), limits::kShapeSamples),
+                 track);
     state_.scene.shapes_tracks.push_back(std::move(track));
+  }
+
+  /// The attributes that vary and that the shape of a collider was read from.
+  std::vector<Token> size_names_of(const stage::Prim& prim) const {
+    std::vector<Token> names;
+    for (const Token name : prim.authored_property_names()) {
+      if (state_.sizes.contains(prim.path().property(name).str())) {
+        names.push_back(name);
+      }
+    }
+    return names;
   }
 
   /// Sample times of those that vary, which are followed from here on.
@@ -125,27 +134,6 @@ class MovingShapes {
       codes.insert(codes.end(), own.begin(), own.end());
     }
     return codes;
-  }
-
-  std::vector<double> dense(std::vector<double> codes) const {
-    if (state_.readings.held_samples == HeldSamples::Held || codes.empty()) {
-      return codes;
-    }
-    const double first = codes.front();
-    const double last = codes.back();
-    const double span = last - first;
-    const double fps = state_.stage.frames_per_second();
-    const double frame = fps > 0 ? state_.scene.time_codes_per_second / fps : 1;
-    const double step =
-        std::max(frame / kShapesPerFrame, span / static_cast<double>(limits::kShapeSamples));
-    for (std::size_t i = 1; i <= limits::kShapeSamples; ++i) {
-      const double code = first + static_cast<double>(i) * step;
-      if (!(code < last)) {
-        break;
-      }
-      codes.push_back(code);
-    }
-    return ascending_codes(std::move(codes));
   }
 
   /// Reads the colliders and weighs the body at each time, then puts everything back.

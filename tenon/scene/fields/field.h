@@ -52,6 +52,8 @@ enum class List : std::uint8_t {
   Materials,
   Joints,
   Articulations,
+  Tendons,
+  Actuators,
   BySwitch,  ///< bodies, colliders or joints, as SwitchTrack::what says
 };
 

@@ -49,6 +49,10 @@ inline std::size_t size_of(const PhysicsScene& scene, List list) {
       return scene.joints.size();
     case List::Articulations:
       return scene.articulations.size();
+    case List::Tendons:
+      return scene.tendons.size();
+    case List::Actuators:
+      return scene.actuators.size();
     case List::None:
     case List::BySwitch:
       break;
@@ -75,6 +79,10 @@ inline Path path_of(const PhysicsScene& scene, List list, Index index) {
       return scene.joints[index].path;
     case List::Articulations:
       return scene.articulations[index].path;
+    case List::Tendons:
+      return scene.tendons[index].path;
+    case List::Actuators:
+      return scene.actuators[index].path;
     case List::Meshes:
     case List::None:
     case List::BySwitch:

@@ -291,6 +291,59 @@ struct Table<ShapesTrack> {
   };
 };
 
+/// What tracks of objects are of.
+template <class Object>
+struct ObjectTrackWords;
+template <>
+struct ObjectTrackWords<Scene> {
+  static constexpr std::string_view kWord = "scene over time";
+  static constexpr List kList = List::Scenes;
+};
+template <>
+struct ObjectTrackWords<Body> {
+  static constexpr std::string_view kWord = "body over time";
+  static constexpr List kList = List::Bodies;
+};
+template <>
+struct ObjectTrackWords<Collider> {
+  static constexpr std::string_view kWord = "collider over time";
+  static constexpr List kList = List::Colliders;
+};
+template <>
+struct ObjectTrackWords<Material> {
+  static constexpr std::string_view kWord = "material over time";
+  static constexpr List kList = List::Materials;
+};
+template <>
+struct ObjectTrackWords<Joint> {
+  static constexpr std::string_view kWord = "joint over time";
+  static constexpr List kList = List::Joints;
+};
+template <>
+struct ObjectTrackWords<Tendon> {
+  static constexpr std::string_view kWord = "tendon over time";
+  static constexpr List kList = List::Tendons;
+};
+template <>
+struct ObjectTrackWords<MujocoActuator> {
+  static constexpr std::string_view kWord = "actuator over time";
+  static constexpr List kList = List::Actuators;
+};
+
+template <class Object>
+struct Table<ObjectTrack<Object>> {
+  using Track = ObjectTrack<Object>;
+  static constexpr std::string_view kWord = ObjectTrackWords<Object>::kWord;
+  static constexpr std::tuple kFields{
+      field<&Track::object>({.name = "object",
+                             .meaning = "that changes",
+                             .refers = ObjectTrackWords<Object>::kList,
+                             .role = Role::Identity}),
+      field<&Track::times>({.name = "times", .meaning = "ascending", .unit = Unit::Second}),
+      field<&Track::states>({.name = "states", .meaning = "each holds until the next"}),
+  };
+};
+
 template <>
 struct Table<GroupState> {
   static constexpr std::string_view kWord = "collision groups at";

@@ -7,10 +7,13 @@
 #include "tenon/scene/timeline/timeline.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
+#include "tenon/scene/fields/same_fields.h"
 #include "tenon/scene/joint_freedom.h"
+#include "tenon/scene/timeline/object_states.h"
 
 namespace tenon::scene {
 namespace {
@@ -40,6 +43,13 @@ PhysicsScene with_anchors(PhysicsScene scene) {
   return scene;
 }
 
+bool has_object_tracks(const PhysicsScene& scene) {
+  return !scene.scene_tracks.empty() || !scene.body_tracks.empty() ||
+         !scene.collider_tracks.empty() || !scene.material_tracks.empty() ||
+         !scene.joint_tracks.empty() || !scene.tendon_tracks.empty() ||
+         !scene.actuator_tracks.empty();
+}
+
 bool is_on(const PhysicsScene& scene, const SwitchTrack& track) {
   switch (track.what) {
     case Switch::BodyEnabled:
@@ -61,7 +71,7 @@ bool is_on(const PhysicsScene& scene, const SwitchTrack& track) {
 bool Timeline::is_needed(const PhysicsScene& scene) {
   return !scene.switch_tracks.empty() || !scene.bounds_tracks.empty() ||
          !scene.gravity_tracks.empty() || !scene.shapes_tracks.empty() ||
-         !scene.group_states.empty() || !scene.nesting_states.empty() ||
+         !scene.group_states.empty() || !scene.nesting_states.empty() || has_object_tracks(scene) ||
          std::any_of(scene.joints.begin(), scene.joints.end(), can_break) ||
          std::any_of(scene.pose_tracks.begin(), scene.pose_tracks.end(),
                      [](const PoseTrack& track) { return track.joint.has_value(); });
@@ -88,9 +98,10 @@ SceneChange Timeline::advance(double seconds) {
   const bool regrouped = follow_groups(now);
   follow_bounds(seconds);
   change.bounds = !scene_.bounds_tracks.empty();
+  const bool set = follow_objects(now);
   const bool moved = follow_shapes(now);
   const bool nested = nesting_.apply(scene_, now);
-  change.structure = switched || regrouped || moved || nested;
+  change.structure = switched || regrouped || set || moved || nested;
   return change;
 }
 
@@ -221,6 +232,53 @@ bool Timeline::follow_shapes(double seconds) {
     body.inertia = now.inertia;
   }
   return moved;
+}
+
+namespace {
+
+template <class Object>
+bool asks_for_another_model(const Object&, const Object&) {
+  return true;
+}
+// The limits at which joints break are read at every step.
+bool asks_for_another_model(const Joint& before, const Joint& after) {
+  Joint same_limits = after;
+  same_limits.break_force = before.break_force;
+  same_limits.break_torque = before.break_torque;
+  return can_break(before) != can_break(after) || !same_fields(before, same_limits);
+}
+
+}  // namespace
+
+template <class Object>
+bool Timeline::follow_objects(const std::vector<ObjectTrack<Object>>& tracks,
+                              std::vector<Object>& objects, double seconds) {
+  bool changed = false;
+  for (const ObjectTrack<Object>& track : tracks) {
+    const auto after = std::upper_bound(track.times.begin(), track.times.end(), seconds);
+    if (after == track.times.begin() || *(after - 1) <= objects_at_) {
+      continue;
+    }
+    Object next = track.states[static_cast<std::size_t>(after - track.times.begin()) - 1];
+    Object& now = objects[track.object];
+    keep_followed(scene_, track.object, now, next);
+    changed = asks_for_another_model(now, next) || changed;
+    now = std::move(next);
+  }
+  return changed;
+}
+
+bool Timeline::follow_objects(double seconds) {
+  // Every one of them must run.
+  const bool changes[] = {follow_objects(scene_.scene_tracks, scene_.scenes, seconds),
+                          follow_objects(scene_.body_tracks, scene_.bodies, seconds),
+                          follow_objects(scene_.collider_tracks, scene_.colliders, seconds),
+                          follow_objects(scene_.material_tracks, scene_.materials, seconds),
+                          follow_objects(scene_.joint_tracks, scene_.joints, seconds),
+                          follow_objects(scene_.tendon_tracks, scene_.tendons, seconds),
+                          follow_objects(scene_.actuator_tracks, scene_.actuators, seconds)};
+  objects_at_ = seconds;
+  return std::any_of(std::begin(changes), std::end(changes), [](bool changed) { return changed; });
 }
 
 void Timeline::follow_gravity(double seconds) {

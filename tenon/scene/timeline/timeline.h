@@ -13,16 +13,17 @@ namespace tenon::scene {
 
 /// What Timeline::advance() changed.
 struct SceneChange {
-  /// Bodies, colliders, joints, filters, shapes or masses: an engine makes its model anew.
+  /// Bodies, colliders, joints, filters, shapes, masses or settings: an engine makes its model
+  /// anew.
   bool structure = false;
   bool gravity = false;  ///< maybe; of any scene
   bool bounds = false;   ///< maybe; of the joints of PhysicsScene::bounds_tracks
 };
 
 /// A scene as it is at a time: what its asset switches, bounds, weighs, filters, moves inside
-/// bodies and nests by time samples (S-23, S-28, S-37, S-91), and which joints broke. For every
-/// engine the same; drive targets and the poses of kinematic bodies and static colliders, which
-/// engines write at every step, they read from the tracks.
+/// bodies, sets and nests by time samples (S-23, S-28, S-37, S-91), and which joints broke. For
+/// every engine the same; drive targets and the poses of kinematic bodies and static colliders,
+/// which engines write at every step, they read from the tracks.
 class Timeline {
  public:
   /// False for most scenes: nothing but tracks of drives and poses, so that no Timeline is needed.
@@ -57,6 +58,10 @@ class Timeline {
   bool follow_switches(double seconds);
   bool follow_groups(double seconds);
   bool follow_shapes(double seconds);
+  bool follow_objects(double seconds);
+  template <class Object>
+  bool follow_objects(const std::vector<ObjectTrack<Object>>& tracks, std::vector<Object>& objects,
+                      double seconds);
   void follow_bounds(double seconds);
   void follow_gravity(double seconds);
 
@@ -66,6 +71,7 @@ class Timeline {
   std::vector<char> broken_;               ///< (joint_count)
   std::size_t group_state_ = 0;            ///< into group_states, plus one; 0: as at the start
   std::vector<std::size_t> shape_states_;  ///< sample in force (shapes_track_count)
+  double objects_at_ = -kUnlimited;        ///< [s] that object tracks were brought to
 };
 
 }  // namespace tenon::scene
