@@ -96,6 +96,48 @@ TEST(BodySettings, JointVelocitiesAreCutWithoutALossOfMomentum) {
   EXPECT_NEAR(v0 + v1, before, 1e-9);
 }
 
+TEST(BodySettings, SpeedsOfBodiesOnJointsAreCut) {
+  TestScene scene;
+  const auto upper = scene.add_body("Upper", {{1, 0, 0}});
+  const auto lower = scene.add_body("Lower", {{2, 0, 0}});
+  scene::Joint& shoulder =
+      scene.add_joint("Shoulder", JointKind::Revolute, {}, upper, scene::Axis::Y);
+  shoulder.frame1.position = {{-1, 0, 0}};
+  scene::Joint& elbow = scene.add_joint("Elbow", JointKind::Revolute, upper, lower, scene::Axis::Y);
+  elbow.frame1.position = {{-1, 0, 0}};
+  scene.bodies[lower].settings.max_linear_velocity = 1.5;
+  scene.bodies[upper].settings.max_angular_velocity = 0.8;
+  auto sim = simulation(scene);
+  double fastest = 0;
+  double turning = 0;
+  double difference = 0;
+  for (int i = 0; i < 500; ++i) {
+    ASSERT_TRUE(sim->step());
+    fastest = std::max(fastest, length(sim->body_state(lower).linear_velocity));
+    turning = std::max(turning, length(sim->body_state(upper).angular_velocity));
+    difference = std::max(difference, std::fabs(sim->joint_state(0).velocity[0] -
+                                                sim->body_state(upper).angular_velocity[1]));
+  }
+  EXPECT_NEAR(fastest, 1.5, 1e-6);
+  EXPECT_NEAR(turning, 0.8, 1e-6);
+  EXPECT_LT(difference, 1e-9);  // what joints show fits
+  EXPECT_TRUE(sim->not_mapped().empty());
+}
+
+TEST(BodySettings, SlowBodiesOnJointsMoveAsWithoutALimit) {
+  TestScene scene;
+  const auto bob = scene.add_body("Bob", {{1, 0, 0}});
+  scene::Joint& joint = scene.add_joint("J", JointKind::Revolute, {}, bob, scene::Axis::Y);
+  joint.frame1.position = {{-1, 0, 0}};
+  auto plain = simulation(scene);
+  scene.bodies[bob].settings.max_linear_velocity = 4.5;  // it falls with 4.2 m/s at most
+  scene.bodies[bob].settings.max_angular_velocity = 4.5;
+  auto capped = simulation(scene);
+  run(*plain, 2);
+  run(*capped, 2);
+  EXPECT_EQ(plain->joint_state(0).position[0], capped->joint_state(0).position[0]);
+}
+
 TEST(BodySettings, LockedAxesOfTheWorldDoNotMove) {
   TestScene scene;
   const auto body = scene.add_body("Body", {}, 1, {{0.1, 0.2, 0.3}});

@@ -9,13 +9,14 @@
 namespace tenon::engines::mujoco {
 
 /// Cuts velocities to the limits of the scene after a step: of joints by the impulse along them
-/// that does it, of bodies that move freely by scaling their own velocity.
+/// that does it, of bodies that move freely by scaling their own velocity, of bodies on joints by
+/// the impulse on the body against its motion.
 class VelocityCaps {
  public:
   VelocityCaps() = default;
   VelocityCaps(const scene::PhysicsScene& scene, const Model& model);
 
-  bool empty() const { return dofs_.empty() && bodies_.empty(); }
+  bool empty() const { return dofs_.empty() && bodies_.empty() && trees_.empty(); }
   void apply(Model& model);
 
  private:
@@ -28,10 +29,38 @@ class VelocityCaps {
     double linear = 0;
     double angular = 0;
   };
+  /// A body on joints with a limit.
+  struct Link {
+    int body = 0;  ///< MuJoCo's
+    double linear = 0;
+    double angular = 0;
+  };
+  /// A kinematic tree with such bodies, and what bounds how fast all of it can be.
+  struct Tree {
+    int root = 0;  ///< MuJoCo's body
+    std::vector<Link> links;
+    std::vector<int> turns;     ///< degrees of freedom that turn
+    std::vector<int> ways;      ///< those that move
+    std::vector<int> slides;    ///< coordinates of slides
+    double reach = 0;           ///< no two points are farther apart, but for slides [m]
+    double linear = kInfinity;  ///< the least of its links
+    double angular = kInfinity;
+  };
+
+  static void add_joint(const mjModel& m, int joint, Tree& tree);
+  static Tree tree_from(const mjModel& m, int root);
+  void add_link(const Model& model, int body, const scene::BodySettings& settings);
+  static bool may_exceed(const Tree& tree, const mjData& data);
+  /// True where the velocity was cut.
+  bool cut_link(const Link& link, bool angular, Model& model);
+  void push(Model& model, double impulse);
+
   std::vector<Coordinate> dofs_;
   std::vector<FreeBody> bodies_;
+  std::vector<Tree> trees_;
   std::vector<double> unit_;      ///< scratch (dof_count)
   std::vector<double> response_;  ///< scratch (dof_count)
+  std::vector<double> jacobian_;  ///< scratch (3 x dof_count)
 };
 
 }  // namespace tenon::engines::mujoco
