@@ -446,6 +446,31 @@ TEST(Contacts, RungeKuttaStepsAreThoseOfMujocoAlsoWithSeveralMaterials) {
   }
 }
 
+// 64 robots have the meshes of one.
+TEST(Contacts, EqualMeshesAreMadeOnce) {
+  TestScene scene;
+  scene::TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.points.push_back({{(i & 1) * 0.2 - 0.1, (i & 2) * 0.1 - 0.1, (i & 4) * 0.05 - 0.1}});
+  }
+  scene.meshes.push_back(mesh);
+  scene::Shape hull;
+  hull.kind = scene::ShapeKind::ConvexHull;
+  for (int i = 0; i < 64; ++i) {
+    const std::string name = std::to_string(i);
+    const auto body = scene.add_body("B" + name, {{i * 1.0, 0, 0.1}});
+    scene.add_collider("C" + name, body, hull);
+  }
+  scene.add_collider("Floor", {}, ground());
+  auto sim = simulation(scene);
+  EXPECT_EQ(sim->engine_model().nmesh, 1);
+  EXPECT_EQ(sim->engine_model().ngeom, 65);
+  run(*sim, 0.2);
+  EXPECT_NEAR(sim->body_state(63).pose.position[2], 0.1, 1e-3);
+  scene.colliders[5].max_hull_vertices = 4;
+  EXPECT_EQ(simulation(scene)->engine_model().nmesh, 2);
+}
+
 // MuJoCo makes hulls with Qhull, which took minutes here.
 TEST(Contacts, HullsOfVeryManyCornersAreSimplified) {
   TestScene scene;

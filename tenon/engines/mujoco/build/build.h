@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -32,6 +33,13 @@ struct SoftBound {
   double damping = 0;
 };
 
+/// What one mesh of MuJoCo is made from.
+struct MeshKey {
+  std::vector<float> points;  ///< (3 x point_count)
+  int most_vertices = 0;      ///< of its hull; 0: as many as there are
+  auto operator<=>(const MeshKey&) const = default;
+};
+
 /// What the passes share until the model is compiled.
 struct Build {
   Build(const scene::PhysicsScene& source, Diagnostics& findings)
@@ -57,9 +65,10 @@ struct Build {
   std::vector<AuxiliaryBody> auxiliary_bodies;
   std::vector<SoftBound> soft_bounds;
   std::vector<NotMapped> not_mapped;
-  std::set<std::string> sites;  ///< names of those that site_at made
-  std::set<Path> refused;       ///< colliders that are left out, joints that get no limits
-  double driven_mass = 0;       ///< of bodies that follow a pose track [kg]
+  std::map<MeshKey, std::string> mesh_names;  ///< of those that colliders have made
+  std::set<std::string> sites;                ///< names of those that site_at made
+  std::set<Path> refused;  ///< colliders that are left out, joints that get no limits
+  double driven_mass = 0;  ///< of bodies that follow a pose track [kg]
 
   void report(const Path& prim, std::string property, std::string why) {
     not_mapped.push_back({prim, std::move(property), std::move(why)});

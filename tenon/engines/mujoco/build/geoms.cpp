@@ -347,24 +347,36 @@ class ColliderPass {
       build_.report(collider_.path, "physics:approximation", pieces.note);
     }
     for (const std::vector<Vec3d>& hull : pieces.hulls) {
-      mjsMesh* mesh = mjs_addMesh(build_.spec.get(), nullptr);
-      const std::string name =
-          collider_.path.str() + ".mesh" + std::to_string(build_.geoms[index_].size());
-      mjs_setName(mesh->element, name.c_str());
-      std::vector<float> numbers;
-      for (const Vec3d& p : hull) {
-        for (const double x : p.v) {
-          numbers.push_back(static_cast<float>(x));
-        }
-      }
-      mesh_points_ += hull.size();
-      mjs_setFloat(mesh->uservert, numbers.data(), static_cast<int>(numbers.size()));
-      mesh->inertia = mjMESH_INERTIA_CONVEX;
-      if (collider_.max_hull_vertices.has_value() && *collider_.max_hull_vertices > 3) {
-        mesh->maxhullvert = *collider_.max_hull_vertices;
-      }
+      const std::string name = mesh_of(hull);
       mjs_setString(add_geom(mjGEOM_MESH, {}, {})->meshname, name.c_str());
     }
+  }
+
+  /// The name of MuJoCo's mesh with these corners, made for the first collider that has them.
+  std::string mesh_of(const std::vector<Vec3d>& hull) {
+    MeshKey key;
+    for (const Vec3d& p : hull) {
+      for (const double x : p.v) {
+        key.points.push_back(static_cast<float>(x));
+      }
+    }
+    if (collider_.max_hull_vertices.has_value() && *collider_.max_hull_vertices > 3) {
+      key.most_vertices = *collider_.max_hull_vertices;
+    }
+    const auto [known, is_new] = build_.mesh_names.try_emplace(std::move(key));
+    if (is_new) {
+      known->second = collider_.path.str() + ".mesh" + std::to_string(build_.geoms[index_].size());
+      mjsMesh* mesh = mjs_addMesh(build_.spec.get(), nullptr);
+      mjs_setName(mesh->element, known->second.c_str());
+      const std::vector<float>& points = known->first.points;
+      mjs_setFloat(mesh->uservert, points.data(), static_cast<int>(points.size()));
+      mesh->inertia = mjMESH_INERTIA_CONVEX;
+      if (known->first.most_vertices > 0) {
+        mesh->maxhullvert = known->first.most_vertices;
+      }
+      mesh_points_ += hull.size();
+    }
+    return known->second;
   }
 
   // Against gravity, in the collider's frame.
