@@ -38,7 +38,7 @@ Result<engines::World> make_world(const std::string& engine, const scene::Physic
                                   const engines::SimulationOptions& options,
                                   Diagnostics& diagnostics) {
   TENON_TRY(auto simulation, make_simulation(engine, scene, options, diagnostics));
-  return engines::World(std::move(simulation));
+  return engines::World::with_sensors(std::move(simulation), scene);
 }
 
 Result<engines::Environments> make_environments(const std::string& engine,

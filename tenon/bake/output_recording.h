@@ -11,7 +11,7 @@
 namespace tenon::bake {
 
 /// What one series has numbers of.
-enum class SeriesOf : std::uint8_t { Bodies, Joints, Scene };
+enum class SeriesOf : std::uint8_t { Bodies, Joints, Sensors, Scene };
 
 /// One output of all objects of a kind over time, as logs have it: lengths in units of the stage,
 /// angles in degrees, forces, torques and energies in N, N m and J.
@@ -31,6 +31,7 @@ struct OutputSeries {
 /// one what acts before any step.
 struct OutputRecording {
   std::vector<OutputSeries> series;
+  bool has_sensors = false;
   bool has_contacts = false;
   std::vector<std::size_t> contact_offsets = {0};  ///< of each frame (frame_count + 1)
   std::vector<engines::Contact> contacts;          ///< SI

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "tenon/bake/drive_names.h"
+#include "tenon/bake/sensor_series.h"
 #include "tenon/bake/stage_values.h"
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/math/angle.h"
@@ -24,7 +25,7 @@ using scene::Index;
 constexpr std::pair<const char*, bool Outputs::*> kLogOutputs[] = {
     {"contacts", &Outputs::contacts},   {"efforts", &Outputs::efforts},
     {"reactions", &Outputs::reactions}, {"accelerations", &Outputs::accelerations},
-    {"energy", &Outputs::work},
+    {"energy", &Outputs::work},         {"sensors", &Outputs::sensors},
 };
 
 constexpr std::pair<const char*, double engines::Work::*> kWorkParts[] = {
@@ -83,9 +84,9 @@ std::vector<std::string> names_of(const Outputs& outputs) {
 }
 
 OutputRecorder::OutputRecorder(const engines::Simulation& simulation,
-                               const scene::PhysicsScene& scene, OutputRecording& recording)
+                               const scene::PhysicsScene& scene, const Outputs& wanted,
+                               OutputRecording& recording)
     : simulation_(simulation), scene_(scene), recording_(recording) {
-  const Outputs& wanted = simulation.outputs();
   recording_.has_contacts = wanted.contacts;
   if (wanted.efforts) {
     add_efforts();
@@ -99,6 +100,15 @@ OutputRecorder::OutputRecorder(const engines::Simulation& simulation,
   if (wanted.work) {
     add_energy();
   }
+  if (wanted.sensors) {
+    add_sensors();
+  }
+}
+
+Result<void> OutputRecorder::begin() { return sensors_ ? sensors_->restart() : Result<void>(); }
+
+Result<void> OutputRecorder::after_step() {
+  return sensors_ ? sensors_->after_step() : Result<void>();
 }
 
 void OutputRecorder::add(OutputSeries series, Read read) {
@@ -194,6 +204,17 @@ void OutputRecorder::add_energy() {
     }
     return {};
   });
+}
+
+void OutputRecorder::add_sensors() {
+  sensors_.emplace(scene_, simulation_);
+  recording_.has_sensors = true;
+  for (SensorSeries& one : sensor_series(scene_, simulation_)) {
+    add(std::move(one.series), [this, read = std::move(one.read)](Numbers& values) -> Result<void> {
+      read(sensors_->readings(), values);
+      return {};
+    });
+  }
 }
 
 Result<void> OutputRecorder::read_contacts() {

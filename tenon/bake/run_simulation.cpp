@@ -59,6 +59,10 @@ JointState mix(const JointState& a, const JointState& b, double t) {
 
 constexpr std::size_t kStepsBetweenQuestions = 64;
 
+engines::Outputs wanted_outputs(const Simulation& simulation, const RunOptions& options) {
+  return options.outputs.value_or(simulation.outputs());
+}
+
 class Recorder {
  public:
   Recorder(const Simulation& simulation, const scene::PhysicsScene& scene,
@@ -66,7 +70,7 @@ class Recorder {
       : simulation_(simulation),
         recording_(recording),
         rate_(options.frames_per_second),
-        outputs_(simulation, scene, recording.outputs) {
+        outputs_(simulation, scene, wanted_outputs(simulation, options), recording.outputs) {
     recording_.body_count = scene.bodies.size();
     recording_.joint_count = scene.joints.size();
     for (Frame* frame : {&before_, &now_}) {
@@ -80,6 +84,7 @@ class Recorder {
     if (rate_ <= 0) {
       return {};
     }
+    TENON_CHECK(outputs_.begin());
     read_frame(simulation_, now_);
     const double frames = now_.time * rate_;
     const bool on_grid =
@@ -98,6 +103,9 @@ class Recorder {
   }
 
   Result<void> after_step() {
+    if (rate_ > 0) {
+      TENON_CHECK(outputs_.after_step());
+    }
     if (!crossing_) {
       return {};
     }

@@ -53,6 +53,7 @@ class StillSimulation : public engines::Simulation {
   const std::vector<engines::NotMapped>& not_mapped() const override { return none_; }
   const std::vector<engines::Event>& events() const override { return no_events_; }
   Vec3d center_of_mass(scene::Index) const override { return {}; }
+  Vec3d gravity(scene::Index) const override { return {}; }
   bool can(engines::Ability) const override { return false; }
   engines::EngineObjects engine_objects() const override { return {}; }
   const engines::Outputs& outputs() const override { return no_outputs_; }

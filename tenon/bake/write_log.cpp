@@ -32,7 +32,9 @@ void name_columns(std::string& text, const std::string& path, const char* what) 
 }
 
 std::string object_path(const PhysicsScene& scene, SeriesOf of, std::size_t i) {
-  return of == SeriesOf::Bodies ? scene.bodies[i].path.str() : scene.joints[i].path.str();
+  return of == SeriesOf::Bodies    ? scene.bodies[i].path.str()
+         : of == SeriesOf::Sensors ? scene.sensors[i].path.str()
+                                   : scene.joints[i].path.str();
 }
 
 void name_series(std::string& text, const PhysicsScene& scene, const OutputSeries& series) {
@@ -89,12 +91,14 @@ std::string json_list(const Vec3d& v) {
   return json_list(std::vector<double>(v.v.begin(), v.v.end()));
 }
 
-/// The outputs of one object in one frame, each with a comma before it.
+/// The outputs of one object in one frame, each with a comma before it; sensors read some alone.
 std::string json_outputs(const OutputRecording& outputs, SeriesOf of, std::size_t object,
                          std::size_t frame) {
   std::string text;
   for (const OutputSeries& series : outputs.series) {
-    if (series.of == of) {
+    const bool has_some =
+        series.offsets.size() > object + 1 && series.offsets[object] != series.offsets[object + 1];
+    if (series.of == of && (has_some || of != SeriesOf::Sensors)) {
       const auto first =
           series.values.begin() + static_cast<std::ptrdiff_t>(frame * series.width());
       text += ",\"" + series.key + "\":" +
@@ -146,6 +150,20 @@ std::string json_contacts(const PhysicsScene& scene, const OutputRecording& outp
         (i == outputs.contact_offsets[frame] ? "" : ",") + json_contact(scene, outputs.contacts[i]);
   }
   return text + "]";
+}
+
+std::string json_sensors(const PhysicsScene& scene, const OutputRecording& outputs,
+                         std::size_t frame) {
+  std::string text = ",\"sensors\":{";
+  for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
+    const scene::Sensor& sensor = scene.sensors[i];
+    if (sensor.enabled) {
+      text += (text.back() == '{' ? "\"" : ",\"") + sensor.path.str() + "\":{\"kind\":\"" +
+              std::string(sensor_kind_name(sensor.kind)) + "\"" +
+              json_outputs(outputs, SeriesOf::Sensors, i, frame) + "}";
+    }
+  }
+  return text + "}";
 }
 
 std::string json_body(const BodyState& s, const std::string& outputs) {
@@ -212,6 +230,7 @@ std::string jsonl_log(const PhysicsScene& scene, const StateRecording& recording
               json_outputs(outputs, SeriesOf::Joints, i, frame) + "}";
     }
     text += "}" + json_scene_outputs(outputs, frame);
+    text += outputs.has_sensors ? json_sensors(scene, outputs, frame) : "";
     text += (outputs.has_contacts ? json_contacts(scene, outputs, frame) : "") + "}\n";
   }
   return text;

@@ -72,6 +72,14 @@ std::vector<std::string> paths_of(const std::vector<T>& objects) {
   return paths;
 }
 
+std::vector<std::string> kinds_of(const std::vector<scene::Sensor>& sensors) {
+  std::vector<std::string> kinds;
+  for (const scene::Sensor& sensor : sensors) {
+    kinds.emplace_back(sensor_kind_name(sensor.kind));
+  }
+  return kinds;
+}
+
 struct BodyColumns {
   std::vector<double> position;
   std::vector<double> orientation;
@@ -185,6 +193,10 @@ Result<std::string> npz_log(const scene::PhysicsScene& scene, const StateRecordi
       {"joint_position.npy", npy(joint.position, {frames, coordinates})},
       {"joint_velocity.npy", npy(joint.velocity, {frames, coordinates})},
   };
+  if (recording.outputs.has_sensors) {
+    arrays.emplace_back("sensor_paths.npy", npy(paths_of(scene.sensors)));
+    arrays.emplace_back("sensor_kinds.npy", npy(kinds_of(scene.sensors)));
+  }
   add_series(recording.outputs, frames, arrays);
   if (recording.outputs.has_contacts) {
     add_contacts(scene, recording.outputs, arrays);

@@ -11,6 +11,7 @@ namespace tenon::check {
 #define TENON_RULE_IN_ALL(id, severity, numbers, check, fix) CheckFunction check;
 #define TENON_PORTABILITY(id, engines, numbers, check) CheckFunction check;
 #define TENON_FOUND(id, severity, numbers, fix)
+#define TENON_FOUND_IN_ALL(id, severity, numbers, fix)
 #define TENON_FOUND_UNUSED(id, severity, numbers, fix)
 #define TENON_FORMER_ID(former, id)
 #include "tenon/check/rules.def"
@@ -27,6 +28,8 @@ std::vector<Rule> sorted_rules() {
   {id, Severity::Warning, numbers, check, nullptr, Holds::InAnyVariant, engines},
 #define TENON_FOUND(id, severity, numbers, fix) \
   {id, Severity::severity, numbers, nullptr, fix, Holds::InAnyVariant, {}},
+#define TENON_FOUND_IN_ALL(id, severity, numbers, fix) \
+  {id, Severity::severity, numbers, nullptr, fix, Holds::InAllVariants, {}},
 #define TENON_FOUND_UNUSED(id, severity, numbers, fix) \
   {id, Severity::severity, numbers, nullptr, fix, Holds::WhereNoVariantUsesIt, {}},
 #define TENON_FORMER_ID(former, id)
@@ -41,6 +44,7 @@ constexpr std::pair<std::string_view, std::string_view> kFormerIds[] = {
 #define TENON_RULE_IN_ALL(id, severity, numbers, check, fix)
 #define TENON_PORTABILITY(id, engines, numbers, check)
 #define TENON_FOUND(id, severity, numbers, fix)
+#define TENON_FOUND_IN_ALL(id, severity, numbers, fix)
 #define TENON_FOUND_UNUSED(id, severity, numbers, fix)
 #define TENON_FORMER_ID(former, id) {former, id},
 #include "tenon/check/rules.def"

@@ -6,6 +6,8 @@
 #include <array>
 #include <string_view>
 
+#include "tenon/engines/sensors.h"
+
 namespace tenon::engines {
 namespace {
 
@@ -65,7 +67,9 @@ Result<std::unique_ptr<Simulation>> make_simulation(std::span<const Engine> buil
                                                     const SimulationOptions& options,
                                                     Diagnostics& diagnostics) {
   TENON_TRY(const Engine* found, find_engine(built, engine));
-  return found->make(scene, options, diagnostics);
+  SimulationOptions all = options;
+  all.outputs = with_needs_of_sensors(options.outputs, scene);
+  return found->make(scene, all, diagnostics);
 }
 
 }  // namespace tenon::engines

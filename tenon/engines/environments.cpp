@@ -8,6 +8,7 @@
 
 #include "tenon/base/limits/engine_limits.h"
 #include "tenon/base/parallel.h"
+#include "tenon/engines/sensors.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/engines/steering.h"
 
@@ -18,14 +19,16 @@ using Simulations = std::vector<std::unique_ptr<Simulation>>;
 
 Result<Simulations> make_simulations(const Engine& engine, const scene::PhysicsScene& scene,
                                      const EnvironmentOptions& options, Diagnostics& diagnostics) {
+  SimulationOptions simulation_options = options.simulation;
+  simulation_options.outputs = with_needs_of_sensors(simulation_options.outputs, scene);
   if (engine.make_many != nullptr) {
-    return engine.make_many(scene, options.simulation, options.count, diagnostics);
+    return engine.make_many(scene, simulation_options, options.count, diagnostics);
   }
   Simulations made;
   for (std::size_t i = 0; i < options.count; ++i) {
     Diagnostics again;  // what there is to say the first one says
     TENON_TRY(auto simulation,
-              engine.make(scene, options.simulation, i == 0 ? diagnostics : again));
+              engine.make(scene, simulation_options, i == 0 ? diagnostics : again));
     made.push_back(std::move(simulation));
   }
   return made;
@@ -45,7 +48,8 @@ Result<Environments> Environments::make(const Engine& engine, const scene::Physi
   TENON_TRY(Simulations made, make_simulations(engine, scene, options, diagnostics));
   Environments result;
   for (std::unique_ptr<Simulation>& simulation : made) {
-    result.worlds_.emplace_back(std::move(simulation));
+    TENON_TRY(World world, World::with_sensors(std::move(simulation), scene));
+    result.worlds_.push_back(std::move(world));
   }
   result.failures_.resize(options.count);
   result.threads_ = std::clamp<std::size_t>(

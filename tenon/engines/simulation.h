@@ -50,6 +50,9 @@ class Simulation {  // all functions inline: who derives needs no type informati
   /// The centre of mass of a body, world [m].
   virtual Vec3d center_of_mass(scene::Index body) const = 0;
 
+  /// Gravity of one scene as it is now, world axes [m/s^2].
+  virtual Vec3d gravity(scene::Index scene) const = 0;
+
   /// What the engine offers of the rest.
   virtual bool can(Ability ability) const = 0;
   virtual EngineObjects engine_objects() const = 0;

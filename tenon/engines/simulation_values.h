@@ -76,6 +76,7 @@ struct Outputs {
   bool reactions = false;
   bool accelerations = false;
   bool work = false;
+  bool sensors = false;  ///< of the asset (engines/sensors.h), from what engines give of the others
 
   bool any() const { return contacts || efforts || reactions || accelerations || work; }
   bool operator==(const Outputs&) const = default;
@@ -156,6 +157,25 @@ struct Contact {
 struct BodyAcceleration {
   Vec3d linear;   ///< of the centre of mass [m/s^2]
   Vec3d angular;  ///< [rad/s^2]
+};
+
+/// What one sensor read last. Forces and accelerations are those of the step that was just made,
+/// seen in frames as they stood at its beginning; velocities, orientations and coordinates are
+/// those at its end, as states have them.
+struct SensorReading {
+  double time = 0;  ///< [s] of the measurement
+  // Of SensorKind::Contact.
+  bool in_contact = false;  ///< the body is touched by at least the sensor's least force
+  double normal_force = 0;  ///< sum of the normal forces of its contacts [N]; 0 without contact
+  // Of SensorKind::Imu, along the axes of the sensor.
+  Vec3d linear_acceleration;  ///< of its origin, less gravity: at rest that is up [m/s^2]
+  Vec3d angular_velocity;     ///< [rad/s]
+  Quatd orientation = kIdentityRotation;  ///< world <- sensor
+  // Of SensorKind::ForceTorque: what carries the body exerts on it, along the axes of the sensor.
+  Wrench wrench{};  ///< about its origin
+  // Of SensorKind::Joint.
+  JointState joint{};           ///< as joint_state()
+  std::vector<double> efforts;  ///< as drive_efforts()
 };
 
 /// Work that was done on all bodies that are not kinematic since the start [J], positive where it

@@ -102,6 +102,9 @@ class FreeBodies final : public Simulation {
     }
   }
   EngineObjects engine_objects() const override { return {"free", "1", this, nullptr}; }
+  Vec3d gravity(scene::Index scene) const override {
+    return now_.steering.gravity_of(scene_)[scene];
+  }
   const Outputs& outputs() const override { return options_.outputs; }
 
   Result<void> set_body_wrench(scene::Index body, const Wrench& wrench) override {

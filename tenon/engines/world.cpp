@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "tenon/engines/sensors.h"
 #include "tenon/engines/simulation.h"
 
 namespace tenon::engines {
@@ -13,19 +14,36 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
 
+Result<World> World::with_sensors(std::unique_ptr<Simulation> simulation,
+                                  const scene::PhysicsScene& scene) {
+  World world(std::move(simulation));
+  if (world.outputs().sensors) {
+    world.sensors_ = std::make_unique<Sensors>(scene, *world.simulation_);
+    TENON_CHECK(world.sensors_->restart());
+  }
+  return world;
+}
+
 Result<void> World::step(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     TENON_CHECK(simulation_->step());
+    if (sensors_) {
+      TENON_CHECK(sensors_->after_step());
+    }
   }
   return {};
 }
-Result<void> World::reset() { return simulation_->reset(); }
+Result<void> World::reset() {
+  TENON_CHECK(simulation_->reset());
+  return sensors_ ? sensors_->restart() : Result<void>();
+}
 double World::time() const { return simulation_->time(); }
 double World::time_step() const { return simulation_->time_step(); }
 
 BodyState World::body_state(scene::Index body) const { return simulation_->body_state(body); }
 JointState World::joint_state(scene::Index joint) const { return simulation_->joint_state(joint); }
 Vec3d World::center_of_mass(scene::Index body) const { return simulation_->center_of_mass(body); }
+Vec3d World::gravity(scene::Index scene) const { return simulation_->gravity(scene); }
 Energy World::energy() const { return simulation_->energy(); }
 std::size_t World::contact_count() const { return simulation_->contact_count(); }
 std::size_t World::dof_count() const { return simulation_->dof_count(); }
@@ -59,14 +77,23 @@ Result<void> World::set_parameter(const ParameterKey& key, double value) {
   return simulation_->set_parameter(key, value);
 }
 Result<void> World::set_joint_state(scene::Index joint, const JointState& state) {
-  return simulation_->set_joint_state(joint, state);
+  TENON_CHECK(simulation_->set_joint_state(joint, state));
+  if (sensors_) {
+    sensors_->look_again();
+  }
+  return {};
 }
 Result<void> World::set_body_state(scene::Index body, const BodyState& state) {
-  return simulation_->set_body_state(body, state);
+  TENON_CHECK(simulation_->set_body_state(body, state));
+  if (sensors_) {
+    sensors_->look_again();
+  }
+  return {};
 }
 Result<std::string> World::save_state() const { return simulation_->save_state(); }
 Result<void> World::restore_state(std::string_view bytes) {
-  return simulation_->restore_state(bytes);
+  TENON_CHECK(simulation_->restore_state(bytes));
+  return sensors_ ? sensors_->restart() : Result<void>();
 }
 
 Result<std::vector<Contact>> World::contacts() const { return simulation_->contacts(); }
@@ -83,5 +110,11 @@ Result<std::vector<double>> World::joint_acceleration(scene::Index joint) const 
   return simulation_->joint_acceleration(joint);
 }
 Result<Work> World::work() const { return simulation_->work(); }
+Result<std::vector<SensorReading>> World::sensors() const {
+  if (!sensors_) {
+    return output_off("sensors");
+  }
+  return sensors_->readings();
+}
 
 }  // namespace tenon::engines

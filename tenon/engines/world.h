@@ -13,6 +13,7 @@
 
 namespace tenon::engines {
 
+class Sensors;
 class Simulation;
 
 /// A simulation as programs and bindings hold it: a value that moves, without virtual functions and
@@ -21,6 +22,9 @@ class Simulation;
 class World {
  public:
   explicit World(std::unique_ptr<Simulation> simulation);
+  /// With the sensors of the scene, which must outlive it, where Outputs::sensors is on.
+  static Result<World> with_sensors(std::unique_ptr<Simulation> simulation,
+                                    const scene::PhysicsScene& scene);
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
   ~World();
@@ -33,6 +37,7 @@ class World {
   BodyState body_state(scene::Index body) const;
   JointState joint_state(scene::Index joint) const;
   Vec3d center_of_mass(scene::Index body) const;
+  Vec3d gravity(scene::Index scene) const;
   Energy energy() const;
   std::size_t contact_count() const;
   std::size_t dof_count() const;
@@ -62,9 +67,13 @@ class World {
   Result<BodyAcceleration> body_acceleration(scene::Index body) const;
   Result<std::vector<double>> joint_acceleration(scene::Index joint) const;
   Result<Work> work() const;
+  /// What the sensors of the scene read (sensor_count). Errors: Invalid
+  /// (simulation.output-off).
+  Result<std::vector<SensorReading>> sensors() const;
 
  private:
   std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<Sensors> sensors_;  ///< null: off
 };
 
 }  // namespace tenon::engines

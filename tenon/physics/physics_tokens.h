@@ -8,6 +8,7 @@ namespace tenon::physics {
 
 /// Property names that are looked up for every prim, interned once.
 struct PhysicsTokens {
+  Token sensor{"tenon:sensor"};  // what a prim measures
   // PhysicsScene and the vendors' scene APIs
   Token gravity_direction{"physics:gravityDirection"};
   Token gravity_magnitude{"physics:gravityMagnitude"};

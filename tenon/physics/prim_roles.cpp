@@ -44,6 +44,8 @@ constexpr KindOfType kKinds[] = {
     {"PointInstancer", PrimKind::PointInstancer},
     {"MjcActuator", PrimKind::Actuator},
     {"MjcTendon", PrimKind::Tendon},
+    {"IsaacContactSensor", PrimKind::ContactSensor},
+    {"IsaacImuSensor", PrimKind::ImuSensor},
 };
 
 PrimKind kind_of(const stage::Prim& prim) {
@@ -86,7 +88,7 @@ bool is_of_vendor(Token type, const std::vector<Token>& schemas) {
 bool Roles::matters() const {
   constexpr std::uint64_t kNot = std::uint64_t{1} << static_cast<unsigned>(Api::MaterialBinding);
   const bool shape = kind >= PrimKind::Cube && kind <= PrimKind::OtherGprim;
-  return (apis & ~kNot) != 0 || (kind != PrimKind::Other && !shape);
+  return (apis & ~kNot) != 0 || (kind != PrimKind::Other && !shape) || marked_sensor;
 }
 
 RoleFinder::RoleFinder() {

@@ -47,6 +47,8 @@ enum class PrimKind : std::uint8_t {
   Tendon,
   GearJoint,  ///< of PhysX: couples two hinges
   RackJoint,  ///< of PhysX: couples a hinge and a slide
+  ContactSensor,
+  ImuSensor,
 };
 
 inline bool is_joint(PrimKind kind) {
@@ -58,6 +60,7 @@ struct Roles {
   std::uint64_t apis = 0;
   PrimKind kind = PrimKind::Other;
   bool xformable = false;
+  bool marked_sensor = false;  ///< says with tenon:sensor what it measures; of this prim alone
   bool vendor = false;  ///< its type or an API of it is a vendor's (physx, newton, mjc, isaac)
   /// The joint type that an unknown type name such as "DistancePhysicsJoint" seems to mean, or "".
   Token meant_type;

@@ -68,6 +68,7 @@ PhysicsScene read_walked(ReadState& state) {
   read_moving_shapes(state);
   read_nesting(state);
   read_object_tracks(state);
+  read_sensors(state);
   note_frozen_samples(state);
   note_what_is_not_read(state);
   return std::move(state.scene);

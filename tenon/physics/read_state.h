@@ -164,6 +164,7 @@ void read_nesting(ReadState& state);
 void read_object_tracks(ReadState& state);
 /// The passes before read_tracks(), which read a stage as it is at one time.
 void read_objects(ReadState& state);
+void read_sensors(ReadState& state);
 void note_what_is_not_read(ReadState& state);
 /// Lists attributes that vary over time and whose value at the start counts for good (S-116). After
 /// all passes that follow samples.

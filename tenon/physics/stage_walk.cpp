@@ -86,7 +86,7 @@ class Walker {
   }
 
   void visit(const stage::Prim& prim, Inherited state) {
-    const Roles roles = collision_from_above(finder_.roles_of(prim), state);
+    Roles roles = collision_from_above(finder_.roles_of(prim), state);
     bool resets = false;
     if (roles.xformable) {
       const stage::LocalTransform local = stage::local_transform(prim, values_.start());
@@ -94,7 +94,7 @@ class Walker {
       state.world = resets ? local.matrix : local.matrix * state.world;
     }
     state.resets_below_body = state.resets_below_body || resets;
-    stray_.report_on(values_, prim, roles);
+    roles.marked_sensor = stray_.report_on(values_, prim, roles);
     if (roles.vendor) {
       walk_.vendor_prims.push_back(prim);
     }

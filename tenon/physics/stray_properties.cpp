@@ -86,13 +86,15 @@ const std::vector<Token>& StrayProperties::apis_of(Token name) {
 }
 
 // S-2
-void StrayProperties::report_ignored(const AttributeValues& values, const stage::Prim& prim,
+bool StrayProperties::report_ignored(const AttributeValues& values, const stage::Prim& prim,
                                      const Roles& roles) {
   std::vector<std::pair<Token, std::vector<Token>>> ignored;  // API, names
+  bool marks_sensor = false;
   for (const Token name : prim.authored_property_names()) {
     if (prim.definition()->find(name) != nullptr) {
       continue;
     }
+    marks_sensor = marks_sensor || name == physics_tokens().sensor;
     const std::vector<Token>& apis = apis_of(name);
     if (apis.empty() || has_its_own_rule(name, roles) || !is_said(prim, name)) {
       continue;
@@ -116,11 +118,12 @@ void StrayProperties::report_ignored(const AttributeValues& values, const stage:
         list + (names.size() == 1 ? " is" : " are") + " ignored: " + api.str() + " is not applied",
         "apply " + api.str());
   }
+  return marks_sensor;
 }
 
-void StrayProperties::report_on(const AttributeValues& values, const stage::Prim& prim,
+bool StrayProperties::report_on(const AttributeValues& values, const stage::Prim& prim,
                                 const Roles& roles) {
-  report_ignored(values, prim, roles);
+  const bool marks_sensor = report_ignored(values, prim, roles);
   for (const Token name : unprefixed(roles)) {
     if (prim.has_property(name)) {
       values.report(prim, name, Severity::Warning, "attribute.unprefixed",
@@ -133,6 +136,7 @@ void StrayProperties::report_on(const AttributeValues& values, const stage::Prim
            "there is no type \"" + prim.type_name().str() + "\"; the joint is left out",
            "write " + roles.meant_type.str(), type_part());
   }
+  return marks_sensor;
 }
 
 }  // namespace tenon::physics

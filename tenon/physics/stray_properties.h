@@ -14,11 +14,13 @@ namespace tenon::physics {
 /// old and unprefixed names, types of older texts. Remembers which APIs declare a name.
 class StrayProperties {
  public:
-  void report_on(const AttributeValues& values, const stage::Prim& prim, const Roles& roles);
+  /// Whether the prim says with tenon:sensor what it measures, which this walk over its properties
+  /// finds on the way.
+  bool report_on(const AttributeValues& values, const stage::Prim& prim, const Roles& roles);
 
  private:
   const std::vector<Token>& apis_of(Token name);
-  void report_ignored(const AttributeValues& values, const stage::Prim& prim, const Roles& roles);
+  bool report_ignored(const AttributeValues& values, const stage::Prim& prim, const Roles& roles);
 
   std::unordered_map<Token, std::vector<Token>> apis_;
 };

@@ -20,9 +20,10 @@ namespace {
 
 using layer::SpecKind;
 
-constexpr std::string_view kSchemaPrefixes[] = {"Physics", "Physx", "OmniPhysics", "Newton", "Mjc"};
+constexpr std::string_view kSchemaPrefixes[] = {
+    "Physics", "Physx", "OmniPhysics", "Newton", "Mjc", "IsaacContactSensor", "IsaacImuSensor"};
 constexpr std::string_view kPropertyPrefixes[] = {
-    "physics:", "physx", "newton:", "mjc:", "omniphysics:", "isaac:physics:"};
+    "physics:", "physx", "newton:", "mjc:", "omniphysics:", "isaac:physics:", "tenon:sensor"};
 /// Metadata of layers that nothing but physics reads (S-8).
 constexpr const char* kMassUnit = "kilogramsPerUnit";
 /// Multiple-apply schemas: "drive:angular:physics:stiffness".

@@ -32,6 +32,22 @@ bool all_below(const std::vector<std::pair<Index, Index>>& pairs, std::size_t co
   });
 }
 
+/// What contradicts itself in one struct by itself; nullptr: nothing.
+const char* fault_of(const Tendon& tendon) {
+  return tendon.joints.size() == tendon.coefficients.size() ? nullptr
+                                                            : "a tendon lacks coefficients";
+}
+const char* fault_of(const Sensor& sensor) {
+  const bool wants_body = sensor.kind != SensorKind::Joint;
+  const bool wants_joint =
+      sensor.kind == SensorKind::ForceTorque || sensor.kind == SensorKind::Joint;
+  if ((wants_body && !sensor.body) || (wants_joint && !sensor.joint)) {
+    return "a sensor measures nothing that is there";
+  }
+  return is_finite(sensor.period) && sensor.period >= 0 ? nullptr
+                                                        : "a period is negative or not finite";
+}
+
 /// Looks at every index, as deep as it lies.
 class Check {
  public:
@@ -104,7 +120,10 @@ class Check {
   // What belongs together in one struct; most have nothing to hold but their indices.
   template <class T>
   void own(const T& of) {
-    if constexpr (requires { of.times, of.values; }) {
+    if constexpr (requires { fault_of(of); }) {
+      const char* fault = fault_of(of);
+      require(fault == nullptr, fault);
+    } else if constexpr (requires { of.times, of.values; }) {
       times(of.times, of.values.size());
     } else if constexpr (requires { of.times, of.states; }) {
       times(of.times, of.states.size());
@@ -160,9 +179,6 @@ class Check {
       require((followed & dof) == 0, "a degree of freedom follows twice");
       followed |= dof;
     }
-  }
-  void own(const Tendon& tendon) {
-    require(tendon.joints.size() == tendon.coefficients.size(), "a tendon lacks coefficients");
   }
 
   void times(const std::vector<double>& all, std::size_t values) {

@@ -88,6 +88,7 @@ std::string_view shape_name(ShapeKind kind) { return name_of(kind); }
 
 std::string_view approximation_name(Approximation approximation) { return name_of(approximation); }
 
+std::string_view sensor_kind_name(SensorKind kind) { return name_of(kind); }
 std::string_view joint_kind_name(JointKind kind) { return name_of(kind); }
 
 std::string_view dof_name(Dof dof) { return name_of(dof); }

@@ -15,6 +15,7 @@
 #include "tenon/math/vector.h"
 #include "tenon/scene/mujoco_parts.h"
 #include "tenon/scene/object_settings.h"
+#include "tenon/scene/sensors.h"
 #include "tenon/scene/vendor_parts.h"
 
 /// The neutral description of a physics scene: what every engine receives. Plain structs; metres,
@@ -469,6 +470,7 @@ struct PhysicsScene {
   std::vector<Tendon> tendons;
   /// Actuators of MuJoCo that are no drives of joints.
   std::vector<MujocoActuator> actuators;
+  std::vector<Sensor> sensors;
   CollisionFilter filter;
   std::vector<ScalarTrack> scalar_tracks;
   std::vector<PoseTrack> pose_tracks;

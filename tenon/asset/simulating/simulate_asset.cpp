@@ -46,7 +46,8 @@ double values_of_frame(const scene::PhysicsScene& scene, const engines::Outputs&
   const auto bodies = static_cast<double>(scene.bodies.size());
   const auto joints = static_cast<double>(scene.joints.size());
   return (bodies + joints) * (outputs.accelerations ? 2 : 1) +
-         joints * ((outputs.reactions ? 1 : 0) + (outputs.efforts ? 1 : 0));
+         joints * ((outputs.reactions ? 1 : 0) + (outputs.efforts ? 1 : 0)) +
+         (outputs.sensors ? static_cast<double>(scene.sensors.size()) : 0);
 }
 
 /// Refuses what would take no step although time is to pass, and records that no memory holds.
@@ -60,7 +61,7 @@ Result<void> check_run(const bake::RunOptions& run, const engines::Simulation& s
         .with_fix("give a smaller --dt or a longer --duration");
   }
   const double states =
-      (run.duration * run.frames_per_second + 2) * values_of_frame(scene, simulation.outputs());
+      (run.duration * run.frames_per_second + 2) * values_of_frame(scene, *run.outputs);
   if (states > static_cast<double>(limits::kRecordedStates)) {
     return Error(ErrorCode::Limit, "the run would record " + shortest(std::floor(states)) +
                                        " states of bodies and joints; the limit is " +
@@ -192,6 +193,7 @@ bake::RunOptions run_options(const SimulateAssetOptions& options, const Simulate
   bake::RunOptions run;
   run.duration = duration_of(options, *asset.scene);
   run.frames_per_second = options.frames_per_second;
+  run.outputs = options.outputs;
   run.commands = asset.commands ? &*asset.commands : nullptr;
   run.until_rest = options.until_rest;
   if (options.listener.go_on) {
@@ -200,6 +202,37 @@ bake::RunOptions run_options(const SimulateAssetOptions& options, const Simulate
     };
   }
   return run;
+}
+
+/// A mean of measurements before, or a reading that is held, is no part of a saved state.
+bool remembers(const scene::Sensor& sensor, double time_step) {
+  return sensor.enabled && (sensor.period > time_step || sensor.acceleration_width > 1 ||
+                            sensor.velocity_width > 1 || sensor.orientation_width > 1);
+}
+
+/// What a log with sensors lacks.
+void tell_sensors(const SimulateAssetOptions& options, const SimulatedAsset& asset,
+                  Diagnostics& diagnostics) {
+  const std::vector<scene::Sensor>& sensors = asset.scene->sensors;
+  const double step = asset.simulation->time_step();
+  Diagnostic finding;
+  finding.severity = Severity::Warning;
+  if (std::none_of(sensors.begin(), sensors.end(),
+                   [](const scene::Sensor& sensor) { return sensor.enabled; })) {
+    finding.rule = "sim.no-sensors";
+    finding.message = "the log is to have sensors, and the asset has none that measure";
+    finding.fix = "author IsaacContactSensor or IsaacImuSensor prims, or tenon:sensor";
+  } else if (!options.state_in.empty() &&
+             std::any_of(sensors.begin(), sensors.end(),
+                         [step](const scene::Sensor& sensor) { return remembers(sensor, step); })) {
+    finding.rule = "sim.sensors-anew";
+    finding.message =
+        "means and periods of sensors begin anew where the run is continued: a saved state has no "
+        "measurements";
+  }
+  if (!finding.rule.empty()) {
+    diagnostics.add(std::move(finding));
+  }
 }
 
 /// Small fast bodies that were before something at one step and behind it at the next.
@@ -246,6 +279,9 @@ Result<SimulatedAsset> simulate_asset(const std::string& path, const SimulateAss
   TENON_CHECK(build_model(options, asset, diagnostics));
   TENON_CHECK(begin_from_state(options, asset));
   TENON_CHECK(read_commands(options, asset));
+  if (options.outputs.sensors) {
+    tell_sensors(options, asset, diagnostics);
+  }
   asset.until_rest = options.until_rest.has_value();
   const bake::RunOptions run = run_options(options, asset);
   TENON_CHECK(check_run(run, *asset.simulation, *asset.scene));

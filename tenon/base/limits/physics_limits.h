@@ -14,6 +14,7 @@ inline constexpr std::size_t kDecomposedTriangles = 200'000;  ///< of a mesh tha
 inline constexpr std::size_t kShapeSamples = 4'000;           ///< of shapes that move inside a body
 inline constexpr std::size_t kObjectReadings = 2'000'000;     ///< prims read again, of all samples
 inline constexpr std::size_t kHullPoints = 10'000;            ///< corners of a hull
+inline constexpr std::size_t kSensorWidth = 10'000;           ///< measurements in a sensor's mean
 inline constexpr std::size_t kNestingStates = 1'000;          ///< of bodies switched off in others
 
 }  // namespace tenon::limits

@@ -276,6 +276,10 @@ Vec3d MujocoSimulation::center_of_mass(scene::Index body) const {
   return read_center_of_mass(model_, body);
 }
 
+Vec3d MujocoSimulation::gravity(scene::Index scene) const {
+  return steering_.gravity_of(*scene_)[scene];
+}
+
 Energy MujocoSimulation::energy() const {
   bring_up_to_date();
   return read_energy(*scene_, model_, steering_.gravity_of(*scene_));

@@ -51,6 +51,7 @@ class MujocoSimulation final : public Simulation {
   Vec3d center_of_mass(scene::Index body) const override;
   bool can(Ability ability) const override;
   EngineObjects engine_objects() const override;
+  Vec3d gravity(scene::Index scene) const override;
   const Outputs& outputs() const override { return start_->options.outputs; }
 
   Result<void> set_drive_target(scene::Index joint, scene::Index drive,

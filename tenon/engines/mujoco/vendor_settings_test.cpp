@@ -402,7 +402,7 @@ TEST(VendorSettings, EachActsIsNamedOrIsHarmless) {
   EXPECT_EQ(tally.physx,
             (std::map<std::string, int>{{"acts", 96}, {"harmless", 21}, {"named", 453}}));
   EXPECT_EQ(tally.others,
-            (std::map<std::string, int>{{"acts", 146}, {"harmless", 56}, {"named", 236}}));
+            (std::map<std::string, int>{{"acts", 157}, {"harmless", 69}, {"named", 254}}));
   EXPECT_EQ(tally.physx_runs.size(), 93u);
   expect_listed_to_act(tally.physx_runs);
 }

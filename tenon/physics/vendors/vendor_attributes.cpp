@@ -52,11 +52,15 @@ namespace {
 
 /// Properties that are read where `unless` is applied, and not of `schema` alone.
 struct UnreadRow {
-  const char* schema;
+  const char* schema;    ///< an API, or a type
   const char* property;  ///< empty: all that it declares
   const char* unless;
 };
 constexpr UnreadRow kUnread[] = {
+    {"IsaacLightBeamSensor", "enabled", ""},
+    {"IsaacLightBeamSensor", "xformOpOrder", ""},
+    {"IsaacRaycastSensor", "enabled", ""},
+    {"IsaacRaycastSensor", "xformOpOrder", ""},
     {"MjcEqualityAPI", "", "MjcEqualityJointAPI"},
     {"MjcJointAPI", "mjc:actuatorfrclimited", ""},
     {"MjcJointAPI", "mjc:actuatorfrcrange:max", ""},
@@ -80,7 +84,8 @@ VendorUse use_of_vendor_attribute(const stage::Prim& prim, Token name) {
   }
   for (const UnreadRow& row : kUnread) {
     const bool named = *row.property == '\0' ? declares(row.schema, name) : name == row.property;
-    if (named && prim.has_api(row.schema) && (*row.unless == '\0' || !prim.has_api(row.unless))) {
+    const bool has = prim.has_api(row.schema) || prim.type_name() == row.schema;
+    if (named && has && (*row.unless == '\0' || !prim.has_api(row.unless))) {
       return VendorUse::NotRead;
     }
   }

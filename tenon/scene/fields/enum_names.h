@@ -62,6 +62,10 @@ struct EnumNames<Switch> {
       "bodyEnabled", "bodyKinematic", "colliderEnabled", "jointEnabled", "jointCollision"};
 };
 template <>
+struct EnumNames<SensorKind> {
+  static constexpr std::array<std::string_view, 4> kNames{"contact", "imu", "forceTorque", "joint"};
+};
+template <>
 struct EnumNames<TendonWrap::Kind> {
   static constexpr std::array<std::string_view, 4> kNames{"site", "sphere", "cylinder", "pulley"};
 };

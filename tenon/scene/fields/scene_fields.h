@@ -6,12 +6,13 @@
 
 #include "tenon/scene/fields/field.h"
 #include "tenon/scene/fields/object_fields.h"
+#include "tenon/scene/fields/sensor_fields.h"
 #include "tenon/scene/fields/track_fields.h"
 #include "tenon/scene/physics_scene.h"
 
 /// The table of the whole description. A member that is added to a struct of physics_scene.h,
-/// mujoco_parts.h or vendor_parts.h gets its row in one of these headers; all that walks the tables
-/// then carries it.
+/// mujoco_parts.h, sensors.h or vendor_parts.h gets its row in one of these headers; all that walks
+/// the tables then carries it.
 namespace tenon::scene {
 
 template <>
@@ -45,6 +46,8 @@ struct Table<PhysicsScene> {
                                        .presence = Presence::WhenSet,
                                        .of_vendor = true,
                                        .words = "actuators of MuJoCo"}),
+      field<&PhysicsScene::sensors>(
+          {.name = "sensors", .meaning = "by path", .presence = Presence::WhenSet}),
       field<&PhysicsScene::filter>({.name = "filter", .meaning = "which colliders may touch"}),
       field<&PhysicsScene::scalar_tracks>(
           {.name = "driveTracks", .meaning = "numbers of drives that follow samples"}),

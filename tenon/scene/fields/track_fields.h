@@ -334,7 +334,7 @@ template <class Object>
 struct Table<ObjectTrack<Object>> {
   using Track = ObjectTrack<Object>;
   static constexpr std::string_view kWord = ObjectTrackWords<Object>::kWord;
-  static constexpr std::tuple kFields{
+  static constexpr Rows kFields{
       field<&Track::object>({.name = "object",
                              .meaning = "that changes",
                              .refers = ObjectTrackWords<Object>::kList,

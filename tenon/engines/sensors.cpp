@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Contacts, reactions and accelerations of a step are those that act where bodies stand at its
+// beginning, so the states before it are kept until it is over. A sensor's origin moves with its
+// body: a = a_c + w' x r + w x (w x r), where r leads from the centre of mass to it. Gravity is
+// taken off, because an accelerometer feels what holds it, not what pulls all of it alike.
+// A reaction is known about the origin of joint frame 1 and on body 1; its torque is moved to the
+// sensor, and its sign turned where the sensor is on body 0.
+// Measurements fall on multiples of the period; a reading stays until the next one.
+#include "tenon/engines/sensors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tenon/engines/simulation.h"
+
+namespace tenon::engines {
+namespace {
+
+using scene::Index;
+using scene::Sensor;
+using scene::SensorKind;
+
+template <class T>
+void keep_last(std::deque<T>& values, const T& value, int count) {
+  values.push_back(value);
+  while (values.size() > static_cast<std::size_t>(std::max(count, 1))) {
+    values.pop_front();
+  }
+}
+
+Vec3d mean(const std::deque<Vec3d>& values) {
+  Vec3d sum;
+  for (const Vec3d& value : values) {
+    sum += value;
+  }
+  return sum * (1 / static_cast<double>(values.size()));
+}
+
+/// Of turns that lie close to each other; q and -q are one.
+Quatd mean(const std::deque<Quatd>& values) {
+  if (values.size() == 1) {
+    return values.front();
+  }
+  Quatd sum{0, 0, 0, 0};
+  for (const Quatd& q : values) {
+    const double sign = dot(values.front(), q) < 0 ? -1 : 1;
+    sum = {sum.x + sign * q.x, sum.y + sign * q.y, sum.z + sign * q.z, sum.w + sign * q.w};
+  }
+  return normalized(sum);
+}
+
+}  // namespace
+
+Outputs with_needs_of_sensors(const Outputs& outputs, const scene::PhysicsScene& scene) {
+  Outputs all = outputs;
+  for (const Sensor& sensor : scene.sensors) {
+    if (outputs.sensors && sensor.enabled) {
+      all.contacts = all.contacts || sensor.kind == SensorKind::Contact;
+      all.accelerations = all.accelerations || sensor.kind == SensorKind::Imu;
+      all.reactions = all.reactions || sensor.kind == SensorKind::ForceTorque;
+      all.efforts = all.efforts || sensor.kind == SensorKind::Joint;
+    }
+  }
+  return all;
+}
+
+Sensors::Sensors(const scene::PhysicsScene& scene, const Simulation& simulation)
+    : scene_(scene), simulation_(simulation), at_begin_(scene.bodies.size()) {
+  for (const Sensor& sensor : scene.sensors) {
+    if (sensor.body && sensor.enabled) {
+      bodies_.push_back(*sensor.body);
+    }
+    if (sensor.kind == SensorKind::ForceTorque && scene.joints[*sensor.joint].body1) {
+      bodies_.push_back(*scene.joints[*sensor.joint].body1);
+    }
+    if (sensor.kind == SensorKind::Contact && sensor.enabled) {
+      touches_.resize(scene.bodies.size());
+    }
+  }
+  std::sort(bodies_.begin(), bodies_.end());
+  bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
+}
+
+Result<void> Sensors::restart() {
+  const std::size_t count = scene_.sensors.size();
+  readings_.assign(count, {});
+  histories_.assign(count, {});
+  periods_done_.assign(count, -kInfinity);
+  look_again();
+  return measure_all();
+}
+
+void Sensors::look_again() {
+  for (const Index body : bodies_) {
+    at_begin_[body] = simulation_.body_state(body);
+  }
+}
+
+Result<void> Sensors::after_step() {
+  TENON_CHECK(measure_all());
+  look_again();
+  return {};
+}
+
+Result<void> Sensors::measure_all() {
+  bool found_touches = false;
+  for (Index i = 0; i < scene_.sensors.size(); ++i) {
+    const Sensor& sensor = scene_.sensors[i];
+    if (!sensor.enabled || !is_due(i)) {
+      continue;
+    }
+    if (sensor.kind == SensorKind::Contact && !found_touches) {
+      TENON_CHECK(find_touches());
+      found_touches = true;
+    }
+    TENON_CHECK(measure(i));
+  }
+  return {};
+}
+
+bool Sensors::is_due(Index sensor) {
+  const double period = scene_.sensors[sensor].period;
+  if (!(period > simulation_.time_step())) {
+    return true;
+  }
+  const double done = std::floor(simulation_.time() / period + 1e-9);
+  const bool is_due = done > periods_done_[sensor];
+  periods_done_[sensor] = done;
+  return is_due;
+}
+
+Result<void> Sensors::measure(Index i) {
+  const Sensor& sensor = scene_.sensors[i];
+  SensorReading& reading = readings_[i];
+  reading.time = simulation_.time();
+  switch (sensor.kind) {
+    case SensorKind::Contact:
+      measure_contact(sensor, reading);
+      return {};
+    case SensorKind::Imu:
+      return measure_imu(sensor, histories_[i], reading);
+    case SensorKind::ForceTorque:
+      return measure_wrench(sensor, reading);
+    case SensorKind::Joint:
+      break;
+  }
+  return measure_joint(sensor, reading);
+}
+
+Result<void> Sensors::find_touches() {
+  for (std::vector<Touch>& touches : touches_) {
+    touches.clear();
+  }
+  TENON_TRY(const std::vector<Contact> contacts, simulation_.contacts());
+  for (const Contact& contact : contacts) {
+    for (const std::optional<Index>& body : {contact.body0, contact.body1}) {
+      if (body) {
+        touches_[*body].push_back({contact.point, contact.normal_force});
+      }
+    }
+  }
+  return {};
+}
+
+void Sensors::measure_contact(const Sensor& sensor, SensorReading& reading) const {
+  const Vec3d origin = transform_point(at_begin_[*sensor.body].pose, sensor.pose.position);
+  double force = 0;
+  for (const Touch& touch : touches_[*sensor.body]) {
+    force += length(touch.point - origin) <= sensor.radius ? touch.force : 0;
+  }
+  reading.in_contact = force > 0 && force >= sensor.min_force;
+  reading.normal_force = reading.in_contact ? std::min(force, sensor.max_force) : 0;
+}
+
+Result<void> Sensors::measure_imu(const Sensor& sensor, History& history, SensorReading& reading) {
+  const Index body = *sensor.body;
+  TENON_TRY(const BodyAcceleration moved, simulation_.body_acceleration(body));
+  const BodyState& begin = at_begin_[body];
+  const BodyState now = simulation_.body_state(body);
+  const Vec3d center = transform_point(inverse(now.pose), simulation_.center_of_mass(body));
+  const Vec3d arm = rotate(begin.pose.orientation, sensor.pose.position - center);
+  const Vec3d spin = begin.angular_velocity;
+  const Vec3d acceleration = moved.linear + cross(moved.angular, arm) +
+                             cross(spin, cross(spin, arm)) -
+                             simulation_.gravity(scene_.bodies[body].scene);
+  const Quatd at_begin = begin.pose.orientation * sensor.pose.orientation;
+  const Quatd at_end = now.pose.orientation * sensor.pose.orientation;
+  keep_last(history.accelerations, rotate(conjugate(at_begin), acceleration),
+            sensor.acceleration_width);
+  keep_last(history.velocities, rotate(conjugate(at_end), now.angular_velocity),
+            sensor.velocity_width);
+  keep_last(history.orientations, at_end, sensor.orientation_width);
+  reading.linear_acceleration = mean(history.accelerations);
+  reading.angular_velocity = mean(history.velocities);
+  reading.orientation = mean(history.orientations);
+  return {};
+}
+
+Result<void> Sensors::measure_wrench(const Sensor& sensor, SensorReading& reading) const {
+  const scene::Joint& joint = scene_.joints[*sensor.joint];
+  TENON_TRY(const Wrench reaction, simulation_.joint_reaction(*sensor.joint));
+  const Pose side1 = joint.body1 ? at_begin_[*joint.body1].pose : Pose{};
+  const Pose frame = at_begin_[*sensor.body].pose * sensor.pose;
+  const Vec3d arm = transform_point(side1, joint.frame1.position) - frame.position;
+  const double sign = joint.body1 == sensor.body ? 1 : -1;
+  const Quatd to_sensor = conjugate(frame.orientation);
+  reading.wrench.force = rotate(to_sensor, reaction.force * sign);
+  reading.wrench.torque = rotate(to_sensor, (reaction.torque + cross(arm, reaction.force)) * sign);
+  return {};
+}
+
+Result<void> Sensors::measure_joint(const Sensor& sensor, SensorReading& reading) const {
+  reading.joint = simulation_.joint_state(*sensor.joint);
+  TENON_TRY(reading.efforts, simulation_.drive_efforts(*sensor.joint));
+  return {};
+}
+
+}  // namespace tenon::engines

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "tenon/base/result.h"
+#include "tenon/engines/simulation_values.h"
+#include "tenon/scene/physics_scene.h"
+
+/// What the sensors of a scene read, worked out from what every engine gives, so that none of them
+/// needs to know sensors.
+namespace tenon::engines {
+
+class Simulation;
+
+/// The outputs that were asked for and, where sensors are among them, those that sensors are worked
+/// out from.
+Outputs with_needs_of_sensors(const Outputs& outputs, const scene::PhysicsScene& scene);
+
+/// The sensors of one simulation. Both, and the scene, must outlive it and stay where they are. The
+/// simulation was made with what with_needs_of_sensors() says. Errors of what measures: those of
+/// the simulation's outputs.
+class Sensors {
+ public:
+  Sensors(const scene::PhysicsScene& scene, const Simulation& simulation);
+
+  /// Measures anew, without what was measured before: at the start, and where the simulation was
+  /// set back or restored.
+  Result<void> restart();
+  /// Bodies were put elsewhere between two steps.
+  void look_again();
+  /// After each step.
+  Result<void> after_step();
+
+  /// (sensor_count); of one that is not enabled all is zero.
+  const std::vector<SensorReading>& readings() const { return readings_; }
+
+ private:
+  /// The last measurements of an IMU.
+  struct History {
+    std::deque<Vec3d> accelerations;
+    std::deque<Vec3d> velocities;
+    std::deque<Quatd> orientations;
+  };
+  struct Touch {
+    Vec3d point;
+    double force = 0;
+  };
+
+  Result<void> measure_all();
+  Result<void> measure(scene::Index sensor);
+  Result<void> find_touches();
+  void measure_contact(const scene::Sensor& sensor, SensorReading& reading) const;
+  Result<void> measure_imu(const scene::Sensor& sensor, History& history, SensorReading& reading);
+  Result<void> measure_wrench(const scene::Sensor& sensor, SensorReading& reading) const;
+  Result<void> measure_joint(const scene::Sensor& sensor, SensorReading& reading) const;
+  bool is_due(scene::Index sensor);
+
+  const scene::PhysicsScene& scene_;
+  const Simulation& simulation_;
+  std::vector<SensorReading> readings_;
+  std::vector<History> histories_;
+  std::vector<double> periods_done_;  ///< (sensor_count), counted from time 0
+  std::vector<scene::Index> bodies_;  ///< whose states are looked at
+  std::vector<BodyState> at_begin_;   ///< (body_count), of these, at the beginning of the step
+  std::vector<std::vector<Touch>> touches_;  ///< (body_count), of bodies with contact sensors
+};
+
+}  // namespace tenon::engines
