@@ -12,6 +12,7 @@
 #include "tenon/convert/prepare_joints.h"
 #include "tenon/convert/robot_layer.h"
 #include "tenon/convert/robot_metadata.h"
+#include "tenon/convert/sensors.h"
 #include "tenon/convert/shapes/material_writer.h"
 #include "tenon/convert/shapes/shape_writer.h"
 #include "tenon/robot/merge_fixed.h"
@@ -44,6 +45,7 @@ Result<LayerAndImages> write_robot(const Source& source, Diagnostics& diagnostic
   write_contact_classes(physics, model.contact_classes, shapes.prims().contact_members);
   write_loops(model.loops, links, physics);
   write_mujoco_parts(model.mujoco, joints, shapes.prims(), physics);
+  write_sensors(source, links, joints, shapes.prims(), layer);
   write_scene(source, physics);
   write_robot_metadata(source.tree, links, joints, layer);
   return LayerAndImages{layer.take(), materials.take_images()};
@@ -56,6 +58,7 @@ Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions
   TENON_TRY(robot::KinematicTree tree, robot::kinematic_tree(model));
   robot::sanitize_model(model, diagnostics);
   if (options.merge_fixed) {
+    drop_merged_sensors(model, diagnostics);
     model = robot::merge_fixed(model, tree);
     TENON_TRY(tree, robot::kinematic_tree(model));
   }

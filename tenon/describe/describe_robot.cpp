@@ -36,6 +36,9 @@ Result<robot::RobotModel> describe_robot(const stage::Stage& stage,
   if (!scene.filter.permanent_pairs.empty()) {
     source.left_out({}, "pairs of colliders are kept apart");
   }
+  for (const scene::Sensor& sensor : scene.sensors) {
+    source.left_out(sensor.path, "it is a sensor");
+  }
   robot::RobotModel robot = assembled(bodies.tree, std::move(looks));
   const stage::Prim root = stage.default_prim();
   robot.name = source.name_of(root ? root.path() : Path(), "robot");

@@ -11,10 +11,11 @@ void report_left_out(MjcfSource& source) {
     mjtObj kind;
   };
   const mjModel& model = source.model();
-  const Row rows[] = {
-      {model.nsensor, "sensors", mjOBJ_SENSOR}, {model.ncam, "cameras", mjOBJ_CAMERA},
-      {model.nlight, "lights", mjOBJ_LIGHT},    {model.nflex, "deformables", mjOBJ_UNKNOWN},
-      {model.nskin, "skins", mjOBJ_UNKNOWN},    {model.nplugin, "plugins", mjOBJ_UNKNOWN}};
+  const Row rows[] = {{model.ncam, "cameras", mjOBJ_CAMERA},
+                      {model.nlight, "lights", mjOBJ_LIGHT},
+                      {model.nflex, "deformables", mjOBJ_UNKNOWN},
+                      {model.nskin, "skins", mjOBJ_UNKNOWN},
+                      {model.nplugin, "plugins", mjOBJ_UNKNOWN}};
   for (const Row& row : rows) {
     if (row.count <= 0) {
       continue;

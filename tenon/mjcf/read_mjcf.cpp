@@ -16,6 +16,7 @@
 #include "tenon/mjcf/left_out.h"
 #include "tenon/mjcf/mjcf_source.h"
 #include "tenon/mjcf/mujoco_scene.h"
+#include "tenon/mjcf/sensors.h"
 #include "tenon/mjcf/shapes/geoms.h"
 #include "tenon/mjcf/shapes/material_table.h"
 #include "tenon/mjcf/shapes/meshes.h"
@@ -95,6 +96,7 @@ robot::RobotModel read_model(MjcfSource& source) {
   Equalities equalities = read_equalities(source, tree);
   attach_drives(actuators, tree.joints);
   attach_mimics(equalities, tree.joints);
+  read_sensors(source, tree);
   robot.mujoco.keyframes = read_keyframes(source, actuators, tree.joints);
   robot.mujoco.scene = read_scene(source);
   report_left_out(source);

@@ -172,7 +172,7 @@ TEST_F(ReadMjcf, TakesLoopsTendonsAndKeyframesAndNamesLinesOfTheRest) {
       "<equality><connect body1='a' body2='b' anchor='0 0 0.25'/><weld body1='b' "
       "relpose='0 0 2 1 0 0 0'/></equality>"
       "<actuator><velocity joint='k' kv='3' gear='2' ctrlrange='-1 1'/><position tendon='f'/>"
-      "</actuator>\n<sensor><jointpos joint='j'/></sensor><keyframe><key qpos='0.5 1' "
+      "</actuator>\n<sensor><jointpos joint='j'/><clock/></sensor><keyframe><key qpos='0.5 1' "
       "ctrl='0.5 2'/></keyframe>");
   ASSERT_TRUE(model) << model.error().to_string();
   ASSERT_EQ(model->loops.size(), 2u);
@@ -198,9 +198,37 @@ TEST_F(ReadMjcf, TakesLoopsTendonsAndKeyframesAndNamesLinesOfTheRest) {
   ASSERT_EQ(model->mujoco.keyframes.size(), 1u);
   EXPECT_NEAR(model->mujoco.keyframes[0].positions[0], 0.5 - std::numbers::pi / 6, 1e-12);
   EXPECT_EQ(model->mujoco.keyframes[0].controls, (std::vector<double>{0.25, 2}));
+  EXPECT_TRUE(model->joints[0].measured);
+  EXPECT_FALSE(model->joints[1].measured);
   EXPECT_EQ(found(), "mjcf.reference;mjcf.left-out;mjcf.left-out;");
   EXPECT_EQ(findings_.items()[1].line, 3u);  // the tendon that begins with a pulley
-  EXPECT_EQ(findings_.items()[2].line, 4u);  // the sensor
+  EXPECT_EQ(findings_.items()[2].line, 4u);  // the sensor of time
+}
+
+TEST_F(ReadMjcf, TakesSensorsOfSitesAndJointsAndNamesLinesOfTheRest) {
+  const auto model = read(
+      "<worldbody><body name='a' pos='0 0 1'><joint name='j' axis='0 1 0'/><geom size='0.1'/>"
+      "<site name='s' size='0.05'/><site name='box' type='box' size='1 1 1'/></body>"
+      "<body name='f'><freejoint/><geom size='0.1'/><site name='free'/></body></worldbody>\n"
+      "<actuator><position name='p' joint='j' kp='3'/></actuator>\n<sensor>\n"
+      "<accelerometer name='acc' site='s' cutoff='3'/>\n<gyro site='s' noise='1'/>\n"
+      "<force site='s'/><torque site='s'/>\n<touch name='tip' site='s'/>\n<touch site='box'/>\n"
+      "<force site='free'/>\n<actuatorfrc actuator='p'/>\n<clock/></sensor>");
+  ASSERT_TRUE(model) << model.error().to_string();
+  const std::vector<robot::SiteSensor>& sensors = model->links[1].sites.at(0).sensors;
+  ASSERT_EQ(sensors.size(), 3u);
+  EXPECT_EQ(sensors[0].kind, robot::SiteSensorKind::Imu);
+  EXPECT_EQ(sensors[0].name, "acc");
+  EXPECT_EQ(sensors[1].kind, robot::SiteSensorKind::ForceTorque);
+  EXPECT_EQ(sensors[2].kind, robot::SiteSensorKind::Contact);
+  EXPECT_EQ(sensors[2].radius, 0.05);
+  EXPECT_TRUE(model->links[1].sites.at(1).sensors.empty());
+  EXPECT_TRUE(model->joints[0].measured);
+  EXPECT_EQ(found(), "mjcf.left-out;mjcf.left-out;mjcf.left-out;mjcf.touch;");
+  EXPECT_EQ(findings_.items()[0].line, 8u);  // what there is no form for: box, free, clock
+  EXPECT_NE(findings_.items()[0].message.find("3 sensors left out"), std::string::npos);
+  EXPECT_EQ(findings_.items()[1].line, 4u);  // the cutoff
+  EXPECT_EQ(findings_.items()[2].line, 5u);  // the noise
 }
 
 /// A picture of one green pixel.

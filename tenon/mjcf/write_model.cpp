@@ -19,6 +19,7 @@
 #include "tenon/engines/mujoco/writable_model.h"
 #include "tenon/mjcf/write_actuators.h"
 #include "tenon/mjcf/write_keyframes.h"
+#include "tenon/mjcf/write_sensors.h"
 
 namespace tenon::mjcf {
 namespace {
@@ -289,6 +290,7 @@ Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::R
             engines::mujoco::writable_model(has_actuators ? without : scene, {}, diagnostics));
   TENON_TRY(const std::vector<mjsActuator*> made,
             write_actuators(scene, parts.actuators, built.model, *built.spec, diagnostics));
+  write_sensors(scene, built.model, *built.spec, diagnostics);
   TENON_CHECK(write_keyframes(scene, parts, made, built.model, *built.spec, diagnostics));
   const bool sees = !visuals.links.empty();
   Diagnostics seen;

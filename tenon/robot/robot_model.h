@@ -139,10 +139,24 @@ struct MeshFile {
   std::vector<Vec2f> texture_coordinates{};
 };
 
+enum class SiteSensorKind : std::uint8_t {
+  Imu,          ///< acceleration, angular velocity, orientation
+  Contact,      ///< contacts of the link within `radius`
+  ForceTorque,  ///< what carries the link exerts on it
+};
+
+/// What is measured at a site, along its axes.
+struct SiteSensor {
+  std::string name;
+  SiteSensorKind kind = SiteSensorKind::Imu;
+  double radius = 0;  ///< of Contact [m]
+};
+
 /// A named frame on a link.
 struct Site {
   std::string name;
-  Pose pose;  ///< in the link frame
+  Pose pose;                          ///< in the link frame
+  std::vector<SiteSensor> sensors{};  ///< one of each kind at most
 };
 
 struct Link {
@@ -228,6 +242,7 @@ struct Joint {
   std::optional<Calibration> calibration;
   std::optional<Mimic> mimic;
   std::optional<Drive> drive;
+  bool measured = false;  ///< a sensor reads its coordinate, velocity and effort
   MujocoSoftness mujoco;
   Place place;
 

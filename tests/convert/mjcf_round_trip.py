@@ -132,6 +132,39 @@ def corners(model, material):
     return rows[numpy.lexsort(rows.T)]
 
 
+def sensordata(path):
+    """What each kind of sensor reads at the start, with the joint "turn" moving."""
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    turn = next(i for i in range(model.njnt) if "turn" in model.joint(i).name)
+    data.qvel[model.jnt_dofadr[turn]] = 1.5
+    mujoco.mj_forward(model, data)
+    found = {}
+    for i in range(model.nsensor):
+        first = model.sensor_adr[i]
+        of_turn = "turn" in model.joint(model.sensor_objid[i]).name \
+            if model.sensor_objtype[i] == mujoco.mjtObj.mjOBJ_JOINT else False
+        key = (int(model.sensor_type[i]), of_turn)
+        found[key] = data.sensordata[first:first + model.sensor_dim[i]].copy()
+    return found
+
+
+def check_sensors(work):
+    """Sensors of sites and joints come back and read the same. A joint is measured as a whole."""
+    source, first, back = ROOT / "tests/convert/mjcf/sensors.xml", work / "s.usda", work / "s.xml"
+    answer = run("convert", source, first)
+    rules = {finding["rule"] for finding in answer["diagnostics"]}
+    if "mjcf.left-out" in rules or "mjcf.touch" not in rules:
+        faults.append(f"sensors: {sorted(rules)}")
+    run("convert", first, back)
+    before, after = sensordata(source), sensordata(back)
+    for key, wanted in before.items():
+        if key not in after:
+            faults.append(f"sensors: {key} is lost")
+        elif key[0] != int(mujoco.mjtSensor.mjSENS_TOUCH):  # contacts are as soft as chosen
+            near(f"sensor {key}", after[key], wanted)
+
+
 def check_left_out(work):
     """Unless asked for, the world stays out, and that is said."""
     answer = run("convert", ROOT / "tests/convert/mjcf/world.xml", work / "robot.usda")
@@ -143,4 +176,4 @@ def check_left_out(work):
 
 
 if __name__ == "__main__":
-    sys.exit(round_trip.main(check_world, check_left_out, check_images))
+    sys.exit(round_trip.main(check_world, check_left_out, check_images, check_sensors))

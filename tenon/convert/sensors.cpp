@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/convert/sensors.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tenon::convert {
+namespace {
+
+using layer::Value;
+using robot::SiteSensor;
+using robot::SiteSensorKind;
+
+bool is_force_torque(const SiteSensor& sensor) {
+  return sensor.kind == SiteSensorKind::ForceTorque;
+}
+
+void mark_sensor(LayerBuilder& builder, Path prim, const char* kind) {
+  builder.set_custom(prim, "tenon:sensor", "token", Value(Token(kind)));
+}
+
+void write_site_sensor(RobotLayer& layer, Path site, const SiteSensor& sensor, NameScope& names) {
+  LayerBuilder& builder = layer.builder();
+  if (is_force_torque(sensor)) {
+    mark_sensor(builder, site, "forceTorque");
+    return;
+  }
+  const bool contact = sensor.kind == SiteSensorKind::Contact;
+  const Token type(contact ? "IsaacContactSensor" : "IsaacImuSensor");
+  const Path prim = layer.define(
+      site, names, sensor.name.empty() ? (contact ? "contact" : "imu") : sensor.name, type);
+  if (contact) {
+    builder.set_number(prim, type, "radius", sensor.radius);
+    builder.set_value(prim, type, "threshold",
+                      Value(Vec2f{{0, std::numeric_limits<float>::infinity()}}));
+  }
+}
+
+}  // namespace
+
+void drop_merged_sensors(robot::RobotModel& model, Diagnostics& diagnostics) {
+  for (const robot::Joint& joint : model.joints) {
+    if (joint.kind != robot::JointKind::Fixed) {
+      continue;
+    }
+    robot::Link& link = model.links[joint.child];
+    for (robot::Site& site : link.sites) {
+      if (std::erase_if(site.sensors, is_force_torque) > 0) {
+        diagnostics.add(robot::model_finding(
+            model, link.place, Severity::Warning, "convert.sensor",
+            "the force-torque sensor at \"" + site.name + "\" is left out: its link is merged",
+            "convert without merging links that are fixed"));
+      }
+    }
+  }
+}
+
+void write_sensors(const Source& source, const LinkPrims& links, const JointPrims& joints,
+                   const ShapePrims& shapes, RobotLayer& layer) {
+  for (robot::Index i = 0; i < source.model.links.size(); ++i) {
+    for (const robot::Site& site : source.model.links[i].sites) {
+      const auto prim = shapes.sites.find(site.name);
+      if (site.sensors.empty() || prim == shapes.sites.end()) {
+        continue;
+      }
+      NameScope names;
+      for (const SiteSensor& sensor : site.sensors) {
+        if (is_force_torque(sensor) && links[i].role == LinkRole::Frame) {
+          layer.report(source.model.links[i].place, Severity::Warning, "convert.sensor",
+                       "the force-torque sensor at \"" + site.name +
+                           "\" is left out: its link has no mass and is a part of another",
+                       "give the link a mass");
+          continue;
+        }
+        write_site_sensor(layer, prim->second, sensor, names);
+      }
+    }
+  }
+  for (robot::Index j = 0; j < source.model.joints.size(); ++j) {
+    if (source.model.joints[j].measured && !joints.joints[j].empty()) {
+      mark_sensor(layer.builder(), joints.joints[j], "joint");
+    }
+  }
+}
+
+}  // namespace tenon::convert

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/mjcf/write_sensors.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "tenon/mjcf/write_actuators.h"
+
+namespace tenon::mjcf {
+namespace {
+
+using scene::Sensor;
+using scene::SensorKind;
+
+class SensorWriter {
+ public:
+  SensorWriter(const scene::PhysicsScene& scene, const engines::mujoco::Model& model, mjSpec& spec,
+               Diagnostics& diagnostics)
+      : scene_(scene), model_(model), spec_(spec), diagnostics_(diagnostics) {}
+
+  void write(const Sensor& sensor) {
+    if (!sensor.enabled) {
+      return leave_out(sensor, "the sensor is off");
+    }
+    if (sensor.period > 0) {
+      leave_out(sensor, "the period of the sensor");
+    }
+    switch (sensor.kind) {
+      case SensorKind::Contact:
+        return write_touch(sensor);
+      case SensorKind::Imu:
+        return write_imu(sensor);
+      case SensorKind::ForceTorque:
+        add(mjSENS_FORCE, sensor, ".force", mjOBJ_SITE, site(sensor));
+        add(mjSENS_TORQUE, sensor, ".torque", mjOBJ_SITE, site(sensor));
+        return;
+      case SensorKind::Joint:
+        return write_joint(sensor);
+    }
+  }
+
+ private:
+  void leave_out(const Sensor& sensor, const std::string& what) {
+    report_left_out(diagnostics_, sensor.path, "", what + ", which is left out");
+  }
+
+  void add(mjtSensor type, const Sensor& sensor, const char* suffix, mjtObj kind,
+           const std::string& object) {
+    mjsSensor* made = mjs_addSensor(&spec_);
+    made->type = type;
+    made->objtype = kind;
+    mjs_setString(made->objname, object.c_str());
+    mjs_setName(made->element, (sensor.path.str() + suffix).c_str());
+  }
+
+  /// The site at the sensor, named after its prim; a tendon or an actuator may have made it.
+  std::string site(const Sensor& sensor) {
+    std::string name = sensor.path.str();
+    if (mjs_findElement(&spec_, mjOBJ_SITE, name.c_str()) == nullptr) {
+      const std::string body = scene_.bodies[*sensor.body].path.str();
+      mjsSite* made = mjs_addSite(mjs_findBody(&spec_, body.c_str()), nullptr);
+      mjs_setName(made->element, name.c_str());
+      const Pose pose = inverse(model_.bodies[*sensor.body].engine_frame) * sensor.pose;
+      engines::mujoco::write_vector(made->pos, pose.position);
+      engines::mujoco::write_quaternion(made->quat, normalized(pose.orientation));
+      if (sensor.kind == SensorKind::Contact) {
+        made->type = mjGEOM_SPHERE;
+        made->size[0] = sensor.radius;
+      }
+    }
+    return name;
+  }
+
+  void write_touch(const Sensor& sensor) {
+    if (!std::isfinite(sensor.radius)) {
+      return leave_out(sensor, "MuJoCo's touch sensors have a volume, this one is of a whole body");
+    }
+    add(mjSENS_TOUCH, sensor, ".touch", mjOBJ_SITE, site(sensor));
+    if (sensor.min_force > 0 || std::isfinite(sensor.max_force)) {
+      leave_out(sensor, "the threshold of the sensor");
+    }
+  }
+
+  void write_imu(const Sensor& sensor) {
+    add(mjSENS_ACCELEROMETER, sensor, ".acceleration", mjOBJ_SITE, site(sensor));
+    add(mjSENS_GYRO, sensor, ".gyro", mjOBJ_SITE, site(sensor));
+    add(mjSENS_FRAMEQUAT, sensor, ".orientation", mjOBJ_SITE, site(sensor));
+    if (sensor.acceleration_width > 1 || sensor.velocity_width > 1 ||
+        sensor.orientation_width > 1) {
+      leave_out(sensor, "the mean that the sensor takes");
+    }
+  }
+
+  void write_joint(const Sensor& sensor) {
+    const scene::Joint& joint = scene_.joints[*sensor.joint];
+    const bool one_axis =
+        joint.kind == scene::JointKind::Revolute || joint.kind == scene::JointKind::Prismatic;
+    const std::string name =
+        one_axis ? joint.path.str() + "." + std::string(dof_name(joint.dof())) : std::string();
+    if (!one_axis || model_.joints[*sensor.joint].reversed ||
+        mjs_findElement(&spec_, mjOBJ_JOINT, name.c_str()) == nullptr) {
+      return leave_out(sensor, "the joint is none of one axis that runs from parent to child");
+    }
+    add(mjSENS_JOINTPOS, sensor, ".position", mjOBJ_JOINT, name);
+    add(mjSENS_JOINTVEL, sensor, ".velocity", mjOBJ_JOINT, name);
+    if (!joint.drives.empty()) {
+      add(mjSENS_JOINTACTFRC, sensor, ".effort", mjOBJ_JOINT, name);
+    }
+  }
+
+  const scene::PhysicsScene& scene_;
+  const engines::mujoco::Model& model_;
+  mjSpec& spec_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+void write_sensors(const scene::PhysicsScene& scene, const engines::mujoco::Model& model,
+                   mjSpec& spec, Diagnostics& diagnostics) {
+  SensorWriter writer(scene, model, spec, diagnostics);
+  for (const Sensor& sensor : scene.sensors) {
+    writer.write(sensor);
+  }
+}
+
+}  // namespace tenon::mjcf

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/engines/mujoco/model.h"
+#include "tenon/engines/mujoco/mujoco_library.h"
+#include "tenon/scene/physics_scene.h"
+
+/// Internal to this folder.
+namespace tenon::mjcf {
+
+/// Adds to the spec of a scene's model its sensors, each quantity as one of MuJoCo's. What MuJoCo
+/// has no word for is listed.
+void write_sensors(const scene::PhysicsScene& scene, const engines::mujoco::Model& model,
+                   mjSpec& spec, Diagnostics& diagnostics);
+
+}  // namespace tenon::mjcf
