@@ -5,7 +5,8 @@
 // vendors' settings of any prim. The stage is read again as it is at each of their samples, and an
 // object that is another one then gets a state of its own (S-116). So whatever the passes read is
 // followed, without a list of it. What such a state cannot say (a time step, the links of an
-// articulation) leaves all of them named as not followed.
+// articulation) leaves the attributes of its prim named as not followed, or all of them where it is
+// of no one prim.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -47,7 +48,11 @@ class ObjectTracks {
       each_list([](auto&, auto& tracks) { tracks.clear(); });
       return;
     }
-    each_list([this](auto& objects, auto& tracks) { note_followed(objects, tracks); });
+    each_list([this](auto& objects, auto& tracks) {
+      std::erase_if(tracks,
+                    [&](const auto& track) { return lost_.contains(objects[track.object].path); });
+      note_followed(objects, tracks);
+    });
     for (const FrozenSample& sample : frozen_) {
       if (followed_.contains(sample.prim.path())) {
         state_.follow(sample.prim, sample.name);
@@ -132,8 +137,18 @@ class ObjectTracks {
     take(later.scene.joints, state_.scene.joints, state_.scene.joint_tracks);
     take(later.scene.tendons, state_.scene.tendons, state_.scene.tendon_tracks);
     take(later.scene.actuators, state_.scene.actuators, state_.scene.actuator_tracks);
-    is_lost_ =
-        is_lost_ || !scene::same_fields(later.scene.articulations, state_.scene.articulations);
+    compare(later.scene.articulations);
+  }
+
+  void compare(const std::vector<Articulation>& now) {
+    const std::vector<Articulation>& start = state_.scene.articulations;
+    for (std::size_t i = 0; i < std::max(now.size(), start.size()); ++i) {
+      if (i >= now.size() || i >= start.size() || now[i].path != start[i].path) {
+        is_lost_ = true;
+      } else if (!scene::same_fields(now[i], start[i])) {
+        lost_.insert({start[i].path, start[i].root});
+      }
+    }
   }
 
   /// What the objects are now, where they are other ones than before.
@@ -158,7 +173,7 @@ class ObjectTracks {
                  std::vector<ObjectTrack<Object>>& tracks) {
     const auto known = places_.find({&tracks, i});
     const Object& last = known == places_.end() ? start : tracks[known->second].states.back();
-    is_lost_ = is_lost_ || loses(now, start, i);
+    note_lost(now, start, i);
     keep_followed(state_.scene, i, start, now);
     share_meshes(now, last);
     if (scene::near_fields(now, last)) {
@@ -175,19 +190,19 @@ class ObjectTracks {
 
   /// What keep_followed() takes back though nothing follows it.
   template <class Object>
-  bool loses(const Object&, const Object&, Index) const {
-    return false;
+  void note_lost(const Object&, const Object&, Index) {}
+  void note_lost(const Scene& now, const Scene& start, Index) {
+    if (now.time_step != start.time_step) {
+      lost_.insert(start.path);
+    }
   }
-  bool loses(const Scene& now, const Scene& start, Index) const {
-    return now.time_step != start.time_step;
-  }
-  bool loses(const Body& now, const Body&, Index i) const {
+  void note_lost(const Body& now, const Body&, Index i) {  // its material may say so
     const scene::ShapesTrack* shapes = scene::shapes_track_of(state_.scene, i);
-    return shapes != nullptr &&
-           !scene::near_fields(now.mass, shapes->shapes[shapes->at(time_)].mass);
+    is_lost_ = is_lost_ || (shapes != nullptr &&
+                            !scene::near_fields(now.mass, shapes->shapes[shapes->at(time_)].mass));
   }
-  bool loses(const Joint& now, const Joint& start, Index) const {
-    return now.drives.size() != start.drives.size();
+  void note_lost(const Joint& now, const Joint& start, Index) {  // an actuator's drive
+    is_lost_ = is_lost_ || now.drives.size() != start.drives.size();
   }
 
   /// Meshes of a shape are those of its last state, or new ones of this scene.
@@ -234,7 +249,8 @@ class ObjectTracks {
   std::map<std::pair<const void*, Index>, std::size_t> places_;  ///< of an object in its tracks
   double time_ = 0;                                              ///< [s] of what is read
   const PhysicsScene* scene_ = nullptr;                          ///< that is read
-  bool is_lost_ = false;                                         ///< some states do not say all
+  bool is_lost_ = false;           ///< states do not say all, of whatever prim
+  std::unordered_set<Path> lost_;  ///< prims of whose objects they do not
   std::unordered_set<Path> followed_;
 };
 
