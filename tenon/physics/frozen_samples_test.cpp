@@ -269,11 +269,18 @@ TEST(FrozenSamples, WhatStatesCannotSayIsNamed) {
 {
   uint physxScene:timeStepsPerSecond.timeSamples = { 0: 60, 24: 120 }
 }
+def Xform "A" (
+  apiSchemas = ["PhysicsRigidBodyAPI", "PhysxRigidBodyAPI"]
+)
+{
+  float physxRigidBody:linearDamping.timeSamples = { 0: 0, 24: 4 }
+}
 )",
                                        findings);
   ASSERT_EQ(scene.not_read.size(), 1u);
   EXPECT_EQ(scene.not_read[0].property, "physxScene:timeStepsPerSecond");
   EXPECT_TRUE(scene.scene_tracks.empty());
+  EXPECT_EQ(scene.body_tracks.size(), 1u);
 }
 
 TEST(FrozenSamples, CountBesideADefaultToo) {

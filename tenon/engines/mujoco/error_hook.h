@@ -31,10 +31,9 @@ struct ErrorTrap {
 bool run_trapped(ErrorTrap& trap, void (*call)(const void*), const void* context);
 
 /// Runs `call`, which must own nothing that has a destructor: a fatal error leaves it by longjmp.
-/// Errors: Invalid with MuJoCo's words, and those of open_mujoco. The process lives on.
+/// MuJoCo is open. Errors: Invalid with MuJoCo's words. The process lives on.
 template <class Call>
-Result<void> guarded(const Call& call, std::vector<std::string>* warnings = nullptr) {
-  TENON_CHECK(open_mujoco());
+Result<void> guarded_where_open(const Call& call, std::vector<std::string>* warnings = nullptr) {
   ErrorTrap trap;
   trap.warnings = warnings;
   const auto run = [](const void* context) { (*static_cast<const Call*>(context))(); };
@@ -43,6 +42,13 @@ Result<void> guarded(const Call& call, std::vector<std::string>* warnings = null
         .with_rule("mujoco.error");
   }
   return {};
+}
+
+/// The same where MuJoCo may not be open yet. Errors: those of open_mujoco, too.
+template <class Call>
+Result<void> guarded(const Call& call, std::vector<std::string>* warnings = nullptr) {
+  TENON_CHECK(open_mujoco());
+  return guarded_where_open(call, warnings);
 }
 
 }  // namespace tenon::engines::mujoco

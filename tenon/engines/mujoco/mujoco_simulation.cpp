@@ -137,7 +137,7 @@ Result<void> MujocoSimulation::step() {
   stale_ = true;
   {
     const FilterScope filter(model_.filter);
-    TENON_CHECK(guarded([this] { advance(model_); }));
+    TENON_CHECK(guarded_where_open([this] { advance(model_); }));
   }
   TENON_CHECK(check_step(model_));
   if (!caps_.empty()) {

@@ -96,6 +96,56 @@ TEST(BodySettings, JointVelocitiesAreCutWithoutALossOfMomentum) {
   EXPECT_NEAR(v0 + v1, before, 1e-9);
 }
 
+TEST(BodySettings, JointVelocitiesOfBranchesAreCutByAnImpulseAlongThem) {
+  TestScene scene(0);
+  std::vector<scene::Index> bodies;
+  for (int i = 0; i < 6; ++i) {
+    bodies.push_back(scene.add_body("B" + std::to_string(i), {{1.0 * i, 0.3 * i, 0}}, 1 + i));
+    scene.bodies[bodies.back()].angular_velocity = {{0, 0, 3.0 * (i % 2)}};
+    scene.bodies[bodies.back()].linear_velocity = {{0, 1.0 * i, 0.2 * i}};
+  }
+  const std::pair<int, int> pairs[] = {{0, 1}, {1, 2}, {0, 3}, {3, 4}, {3, 5}};
+  for (const auto& [parent, child] : pairs) {
+    scene::Joint& joint = scene.add_joint("J" + std::to_string(child), JointKind::Revolute,
+                                          bodies[static_cast<std::size_t>(parent)],
+                                          bodies[static_cast<std::size_t>(child)], scene::Axis::Z);
+    joint.frame1.position = {{-0.5, 0, 0}};
+    joint.frame0.position = scene.bodies[static_cast<std::size_t>(child)].pose.position -
+                            scene.bodies[static_cast<std::size_t>(parent)].pose.position +
+                            joint.frame1.position;
+  }
+  for (const std::size_t cut : {0u, 1u, 4u}) {
+    const auto speed = [cut](const MujocoSimulation& of) {
+      return std::fabs(of.joint_state(static_cast<scene::Index>(cut)).velocity[0]);
+    };
+    auto plain = simulation(scene);
+    ASSERT_TRUE(plain->step());
+    ASSERT_GT(speed(*plain), 0.1) << cut;
+    TestScene limited = scene;
+    limited.joints[cut].velocity_limit = speed(*plain) / 2;
+    auto sim = simulation(limited);
+    ASSERT_TRUE(sim->step());
+    EXPECT_NEAR(speed(*sim), limited.joints[cut].velocity_limit, 1e-9) << cut;
+    // The difference is what an impulse along the joint does, and nothing else.
+    const mjModel& m = sim->engine_model();
+    const int joint =
+        mj_name2id(&m, mjOBJ_JOINT, ("/J" + std::to_string(cut + 1) + ".rotZ").c_str());
+    ASSERT_GE(joint, 0);
+    const auto dof = static_cast<std::size_t>(m.jnt_dofadr[joint]);
+    std::vector<double> unit(static_cast<std::size_t>(m.nv), 0);
+    std::vector<double> response(unit);
+    unit[dof] = 1;
+    mj_solveM(&m, const_cast<mjData*>(&sim->engine_data()), response.data(), unit.data(), 1);
+    const double impulse =
+        (sim->engine_data().qvel[dof] - plain->engine_data().qvel[dof]) / response[dof];
+    for (std::size_t i = 0; i < unit.size(); ++i) {
+      EXPECT_NEAR(sim->engine_data().qvel[i] - plain->engine_data().qvel[i], impulse * response[i],
+                  1e-9)
+          << cut << " " << i;
+    }
+  }
+}
+
 TEST(BodySettings, SpeedsOfBodiesOnJointsAreCut) {
   TestScene scene;
   const auto upper = scene.add_body("Upper", {{1, 0, 0}});

@@ -20,8 +20,11 @@ class VelocityCaps {
   void apply(Model& model);
 
  private:
+  /// Of an impulse along it move only the degrees of freedom from `first` to before `last`.
   struct Coordinate {
     int dof = 0;
+    int first = 0;
+    int last = 0;
     double limit = 0;
   };
   struct FreeBody {
@@ -47,13 +50,15 @@ class VelocityCaps {
     double angular = kInfinity;
   };
 
+  static Coordinate coordinate(const mjModel& m, int dof, double limit);
   static void add_joint(const mjModel& m, int joint, Tree& tree);
   static Tree tree_from(const mjModel& m, int root);
   void add_link(const Model& model, int body, const scene::BodySettings& settings);
   static bool may_exceed(const Tree& tree, const mjData& data);
   /// True where the velocity was cut.
   bool cut_link(const Link& link, bool angular, Model& model);
-  void push(Model& model, double impulse);
+  /// What a unit impulse along a coordinate does, into response_.
+  void respond(const Coordinate& at, const Model& model);
 
   std::vector<Coordinate> dofs_;
   std::vector<FreeBody> bodies_;
