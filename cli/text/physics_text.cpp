@@ -118,6 +118,18 @@ std::string joint_lines(const PhysicsScene& scene, const scene::Joint& joint) {
   return lines;
 }
 
+std::string sensor_line(const PhysicsScene& scene, const scene::Sensor& sensor) {
+  std::string line = "  " + sensor.path.str() + "  " + std::string(sensor_kind_name(sensor.kind));
+  if (sensor.body) {
+    line += ", of " + scene.bodies[*sensor.body].path.str() + " at " + text(sensor.pose.position) +
+            " m";
+  }
+  if (sensor.kind == scene::SensorKind::ForceTorque) {
+    line += ", held by " + scene.joints[*sensor.joint].path.str();
+  }
+  return line + (sensor.enabled ? "\n" : ", off\n");
+}
+
 }  // namespace
 
 std::string physics_text(const PhysicsScene& scene) {
@@ -145,6 +157,12 @@ std::string physics_text(const PhysicsScene& scene) {
     out += "  " + articulation.path.str() + "  root " + articulation.root.str() +
            (articulation.fixed_base ? ", fixed base, " : ", floating base, ") +
            plural(articulation.links.size(), "link", "links") + "\n";
+  }
+  if (!scene.sensors.empty()) {
+    out += plural(scene.sensors.size(), "sensor", "sensors") + "\n";
+    for (const scene::Sensor& sensor : scene.sensors) {
+      out += sensor_line(scene, sensor);
+    }
   }
   out +=
       plural(scene.disabled_pairs().size(), "disabled collider pair", "disabled collider pairs") +

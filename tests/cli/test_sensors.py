@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What `tenon sim --log sensors` measures and writes.
+"""What `tenon sim --log sensors` measures and writes, and what other verbs do with sensors.
 
     test_sensors.py TENON
 """
@@ -145,6 +145,52 @@ class Sensors(unittest.TestCase):
         process = self.ok(mean, "--state-in", "mean.state", "--duration", 0.1, "-o", "run.csv",
                           "--log", "sensors")
         self.assertIn("sim.sensors-anew", process.stderr)
+
+    def tenon(self, *arguments):
+        return subprocess.run([TENON, *map(str, arguments)], capture_output=True, text=True,
+                              check=True, timeout=120, cwd=self.folder).stdout
+
+    def test_structure_keeps_sensors_and_strip_takes_them_out(self):
+        asset = self.write("asset.usda", """#usda 1.0
+(
+    defaultPrim = "Rig"
+    metersPerUnit = 1
+    kilogramsPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "Rig"
+{
+    def Xform "base" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])
+    {
+        float physics:mass = 3
+        def IsaacImuSensor "imu" {
+            float sensorPeriod = 0.01
+            double3 xformOp:translate = (0.1, 0, 0)
+            uniform token[] xformOpOrder = ["xformOp:translate"]
+        }
+        def IsaacContactSensor "touch" {
+            float radius = 0.3
+        }
+        def Xform "wrist" {
+            token tenon:sensor = "forceTorque"
+        }
+    }
+    def PhysicsFixedJoint "joint" {
+        rel physics:body1 = </Rig/base>
+        token tenon:sensor = "joint"
+    }
+}
+""")
+        before = json.loads(self.tenon("physics", asset, "--json"))["sensors"]
+        self.assertEqual([sensor["kind"] for sensor in before],
+                         ["imu", "contact", "forceTorque", "joint"])
+        self.assertIn("4 sensors", self.tenon("physics", asset))
+        self.tenon("structure", asset, "-o", "rig")
+        place = self.folder / "rig/Rig.usda"
+        self.assertEqual(json.loads(self.tenon("physics", place, "--json"))["sensors"], before)
+        self.assertTrue(json.loads(self.tenon("check", place, "--json"))["ok"])
+        self.tenon("strip", asset, "-o", "bare.usda")
+        self.assertNotIn("ensor", (self.folder / "bare.usda").read_text())
 
 
 if __name__ == "__main__":

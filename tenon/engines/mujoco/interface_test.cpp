@@ -10,6 +10,7 @@
 #include "tenon/engines/environments.h"
 #include "tenon/engines/mujoco/mujoco_engine.h"
 #include "tenon/engines/mujoco/test_scene.h"
+#include "tenon/engines/sensors.h"
 #include "tenon/engines/test_free_bodies.h"
 #include "tenon/engines/world.h"
 
@@ -81,6 +82,37 @@ TYPED_TEST(EngineInterface, GravityThatIsSetActsFromTheNextStepOn) {
   this->run(world, 10);
   EXPECT_NEAR(world.body_state(0).linear_velocity[2], -mujoco::kG * 0.1, 1e-12);
   EXPECT_NEAR(world.body_state(0).linear_velocity[0], 0.1, 1e-12);
+}
+
+// An accelerometer feels forces, not gravity: F / m, and beside the centre w' x r + w x (w x r).
+TYPED_TEST(EngineInterface, ImusReadWhatForcesDoAndTurnWithTheirBodies) {
+  scene::Sensor imu;
+  imu.kind = scene::SensorKind::Imu;
+  imu.body = 0;
+  this->scene.sensors.push_back(imu);
+  imu.pose.position = {{0.2, 0, 0}};
+  this->scene.sensors.push_back(imu);
+  Diagnostics diagnostics;
+  SimulationOptions options{.time_step = kStep};
+  options.outputs.sensors = true;
+  options.outputs = with_needs_of_sensors(options.outputs, this->scene);
+  auto made = TypeParam::engine().make(this->scene, options, diagnostics);
+  ASSERT_TRUE(made.has_value());
+  auto with_sensors = World::with_sensors(*std::move(made), this->scene);
+  ASSERT_TRUE(with_sensors.has_value());
+  World& world = *with_sensors;
+  this->run(world, 5);
+  EXPECT_NEAR(length((*world.sensors())[0].linear_acceleration), 0, 1e-9);
+  ASSERT_TRUE(world.set_body_wrench(0, {{{0, 0, 4}}, {{0, 0, 1}}}).has_value());
+  this->run(world, 11);
+  const std::vector<SensorReading> read = *world.sensors();
+  EXPECT_NEAR(read[0].linear_acceleration[2], 4.0 / 2, 1e-9);
+  const double spin = 10 * kStep * 1 / 0.5;  // at the beginning of the last step
+  EXPECT_NEAR(read[1].linear_acceleration[0], -spin * spin * 0.2, 1e-9);
+  EXPECT_NEAR(read[1].linear_acceleration[1], 1 / 0.5 * 0.2, 1e-9);
+  EXPECT_NEAR(read[1].angular_velocity[2], spin * 1.1, 1e-9);
+  ASSERT_TRUE(world.reset().has_value());
+  EXPECT_EQ((*world.sensors())[0].time, 0);
 }
 
 // v = t F / m and w = t T / I.
