@@ -276,4 +276,36 @@ void check_physx_mass_between(const Subject& subject, Reporter& report) {
   }
 }
 
+// S-58
+void check_physx_points(const Subject& subject, Reporter& report) {
+  for (const Collider& collider : subject.scene.colliders) {
+    if (collider.enabled && collider.shape.kind == scene::ShapeKind::Spheres) {
+      report.at(subject.stage.prim(collider.path),
+                "PhysX makes no collider of Points: what they touch here passes through there",
+                "use a Sphere for each point");
+    }
+  }
+}
+
+void check_physx_tendons(const Subject& subject, Reporter& report) {
+  const auto& joints = subject.scene.joints;
+  for (const scene::Tendon& tendon : subject.scene.tendons) {
+    for (const Index index : tendon.joints) {
+      const stage::Prim prim = subject.stage.prim(joints[index].path);
+      const bool is_branch = prim && !prim.api_instances("PhysxTendonAxisAPI").empty() &&
+                             prim.api_instances("PhysxTendonAxisRootAPI").empty();
+      const bool follows =
+          std::any_of(tendon.joints.begin(), tendon.joints.end(), [&](Index other) {
+            return joints[other].body1 && joints[other].body1 == joints[index].body0;
+          });
+      if (is_branch && !follows) {
+        report.at(prim,
+                  "PhysX leaves this joint out of its tendon: its parent link is not the child of "
+                  "another joint of the tendon",
+                  "let the tendon run from joint to joint along the links, or use a mimic");
+      }
+    }
+  }
+}
+
 }  // namespace tenon::check
