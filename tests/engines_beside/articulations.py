@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenes of articulations: bases, chains, drives, mimics, tendons."""
 
-from author import body, drive, joint, scene
+from author import body, drive, joint, limit, scene
 from row import OVPHYSX, Row
 
 WEIGHTLESS = ["float physics:gravityMagnitude = 0"]
@@ -33,7 +33,7 @@ def chain(*parts, first=None, second=None, gravity=(), more=(), second_body=None
         hinge("K", A, B, (0.5, 0, 0), **(second or {})),
         *more,
         articulated=True,
-        gravity=gravity
+        gravity=gravity,
     )
 
 
@@ -298,7 +298,7 @@ def fork(second, **more):
         ),
         hinge("K", BASE, B, (0, -0.3, 0), **second),
         articulated=True,
-        **more
+        **more,
     )
 
 
@@ -381,6 +381,114 @@ def loops():
     )
 
 
+LINKS = [link("Base", (0, 0, 3)), link("A", (0.5, 0, 3))]
+TURNS = [limit(axis, 1, -1) for axis in ("transX", "transY", "transZ", "rotX")]
+BOTH = [drive("angular", stiffness=2.0, damping=2.0, target_position=20.0, target_velocity=30.0)]
+
+
+def misfits():
+    yield Row(
+        "links_apart",
+        "links whose fixed frames are 0.2 m apart: the child is moved",
+        scene(
+            *LINKS,
+            link("B", (1.5, 0, 3)),
+            weld(),
+            hinge("J", BASE, A, (0, 0, 0)),
+            joint("fixed", "K", A, B, (0.5, 0, 0), (-0.7, 0, 0.1)),
+            articulated=True,
+        ),
+        (0.2, 0.4),
+        0.006,
+        0.6,
+        engines=(OVPHYSX,),
+    )
+    yield Row(
+        "weld_apart",
+        "a weld to the world whose frames are 1 m apart: the robot stays",
+        scene(
+            *LINKS,
+            joint("fixed", "Weld", None, BASE, (0, 0, 2)),
+            hinge("J", BASE, A, (0, 0, 0)),
+            articulated=True,
+        ),
+        (0.2, 0.4),
+        0.006,
+        0.6,
+        engines=(OVPHYSX,),
+    )
+    yield Row(
+        "hinge_apart",
+        "a hinge whose frames are 0.1 m apart: the child is moved",
+        scene(
+            link("Base", (0, 0, 3)),
+            link("A", (0.6, 0, 3)),
+            weld(),
+            hinge("J", BASE, A, (0, 0, 0)),
+            articulated=True,
+        ),
+        (0.2, 0.4),
+        0.006,
+        0.6,
+        engines=(OVPHYSX,),
+    )
+
+
+def turning():
+    yield Row(
+        "d6_of_two",
+        "a D6 that turns about Y and Z",
+        scene(
+            *LINKS,
+            weld(),
+            joint("d6", "J", BASE, A, (0, 0, 0), (-0.5, 0, 0), parts=TURNS),
+            articulated=True,
+        ),
+        (0.2, 0.4),
+        0.006,
+        0.6,
+        engines=(OVPHYSX,),
+    )
+    yield Row(
+        "arm_both_targets",
+        "a target of position and one of velocity",
+        chain(first={"parts": BOTH}, gravity=WEIGHTLESS),
+        (0.5, 1.0),
+        0.006,
+        0.6,
+        engines=(OVPHYSX,),
+    )
+    for name, what in (
+        ("dry", ("staticFrictionEffort = 3", "dynamicFrictionEffort = 3")),
+        ("viscous", ("viscousFrictionCoefficient = 0.1",)),
+    ):
+        yield Row(
+            f"joint_friction_{name}",
+            f"{name} friction of a joint",
+            chain(
+                first={
+                    "apis": ["PhysxJointAxisAPI:angular"],
+                    "lines": [f"float physxJointAxis:angular:{one}" for one in what],
+                }
+            ),
+            (0.2, 0.4),
+            0.006,
+            0.6,
+            engines=(OVPHYSX,),
+        )
+
+
 def scenes():
-    for part in (chains, bases, floating, targets, settings, inertias, mimics, loops):
+    for part in (
+        chains,
+        bases,
+        floating,
+        targets,
+        settings,
+        inertias,
+        mimics,
+        loops,
+        misfits,
+        turning,
+    ):
         yield from part()

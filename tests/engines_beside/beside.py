@@ -43,6 +43,7 @@ class Case:
         self.name = row.name + (".without" if plain else "")
         self.path = pathlib.Path(folder) / f"{self.name}.usda"
         self.path.write_text(self.difference.without if plain else row.layer)
+        self.tolerance = row.tolerance(engine)
         self.rules, self.own, self.other = [], {}, {}
 
     def expects_difference(self):
@@ -171,8 +172,8 @@ class Apart:
                 if turn >= self.degrees:
                     self.degrees, self.turn = turn, (path, time, a[3:], b[3:])
 
-    def within(self, row):
-        return self.error is None and self.metres <= row.metres and self.degrees <= row.degrees
+    def within(self, tolerance):
+        return self.error is None and self.metres <= tolerance[0] and self.degrees <= tolerance[1]
 
     def __str__(self):
         return self.error or f"{1000 * self.metres:.3g} mm, {self.degrees:.2g} degrees apart"
@@ -182,10 +183,10 @@ def fault(case):
     """What is not as the row says; None where all is."""
     apart = Apart(case)
     if not case.expects_difference():
-        if not apart.within(case.row):
+        if not apart.within(case.tolerance):
             return f"differs, and no rule is expected: {apart}; rules: {case.rules}"
         return f"agrees, but {case.rules} speak" if case.rules else None
-    if apart.within(case.row):
+    if apart.within(case.tolerance):
         return f"agrees ({apart}), but {case.difference.rule} is expected"
     if set(case.rules) != {case.difference.rule}:
         return f"{apart}; rules {case.rules}, expected {case.difference.rule} alone"

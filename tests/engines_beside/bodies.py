@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenes of single bodies: flight, gravity, units, mass, settings."""
 
-from author import body, drive, joint, scene, static
+from author import body, drive, joint, material, prim, scene, static
 from row import OVPHYSX, Row
 
 WEIGHTLESS = ["float physics:gravityMagnitude = 0"]
@@ -256,6 +256,108 @@ def nesting():
     )
 
 
+def held(*children, **words):
+    """A body on a hinge through its origin, which its centre of mass turns down."""
+    return scene(
+        body("A", (0, 0, 3), children=children, **words),
+        joint("revolute", "J", None, "/World/A", (0, 0, 3), axis="Y"),
+    )
+
+
+def on_spring(*more, **words):
+    return scene(
+        *more,
+        body("A", (1, 0, 0), **words),
+        joint(
+            "prismatic",
+            "S",
+            None,
+            "/World/A",
+            axis="X",
+            parts=[drive("linear", stiffness=50.0)],
+        ),
+        gravity=WEIGHTLESS
+    )
+
+
+apis = ["PhysicsMassAPI"]
+
+
+def masses():
+    yield Row("density_body", "a density of the body", on_spring(density=250.0), engines=(OVPHYSX,))
+    yield Row(
+        "density_material",
+        "a density of the material",
+        on_spring(material("D", density=400.0), material="/World/D"),
+        engines=(OVPHYSX,),
+    )
+    yield Row(
+        "no_mass",
+        "neither mass nor colliders: 1 kg",
+        scene(
+            body("A", (1, 0, 0), None, collides=False),
+            joint(
+                "prismatic", "S", None, "/World/A", axis="X", parts=[drive("linear", stiffness=5.0)]
+            ),
+            gravity=WEIGHTLESS,
+        ),
+        engines=(OVPHYSX,),
+    )
+    yield Row(
+        "center_of_pendulum",
+        "a centre of mass and moments about it",
+        held(mass=2.0, inertia=(0.1, 0.2, 0.3), com=(0.5, 0, 0.1)),
+        engines=(OVPHYSX,),
+    )
+    yield Row(
+        "center_scaled",
+        "a centre of mass on a scaled body",
+        held(shape=("Cube", 1), scale=(0.4, 0.2, 0.2), mass=2.0, com=(0.5, 0, 0)),
+        engines=(OVPHYSX,),
+    )
+
+
+def parts():
+    yield Row(
+        "masses_of_parts",
+        "masses of two colliders",
+        held(
+            static("C", (0.3, 0, 0), ("Cube", 0.2), apis=apis, lines=["float physics:mass = 3"]),
+            static(
+                "D", (-0.3, 0, 0.1), ("Sphere", 0.1), apis=apis, lines=["float physics:mass = 1"]
+            ),
+            shape=None,
+            collides=False,
+        ),
+        engines=(OVPHYSX,),
+    )
+    yield Row(
+        "two_gravities",
+        "two scenes of different gravity",
+        scene(
+            prim("PhysicsScene", "S2", (), ["float physics:gravityMagnitude = 1"]),
+            body("A", (0, 0, 5)),
+            body("B", (2, 0, 5), lines=["rel physics:simulationOwner = </World/S2>"]),
+        ),
+        engines=(OVPHYSX,),
+    )
+    yield Row(
+        "no_gyroscope",
+        "physxRigidBody:enableGyroscopicForces switched off",
+        scene(
+            body(
+                "A",
+                spin=(20, 170, 40),
+                mass=1.0,
+                inertia=(0.01, 0.02, 0.03),
+                lines=["bool physxRigidBody:enableGyroscopicForces = false"],
+            ),
+            gravity=WEIGHTLESS,
+        ),
+        engines=(OVPHYSX,),
+    )
+
+
 def scenes():
-    for part in (flight, gravity, units, damping, forces, nesting):
+    for part in (flight, gravity, units, damping, forces, nesting, masses, parts):
         yield from part()

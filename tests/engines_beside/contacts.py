@@ -261,7 +261,15 @@ def friction():
             ),
         )
 
-    yield Row("incline_slides", "30 degrees, friction 0.3", ramp(TILT, 0.3), (0.3, 0.6), 0.006, 1.0)
+    yield Row(
+        "incline_slides",
+        "30 degrees, friction 0.3",
+        ramp(TILT, 0.3),
+        (0.3, 0.6),
+        0.006,
+        1.0,
+        beside_newton=(0.004, 0.5),
+    )
     yield Row("incline_holds", "10 degrees, friction 0.5", ramp(LEAN, 0.5), (0.5, 1.0), 0.006, 1.0)
 
 
@@ -374,6 +382,64 @@ def filters():
     )
 
 
+def rolls():
+    spin = (-286.4789, 0, 0)  # of 1 m/s along Y on a radius of 0.2 m
+    for name, shape in (("ball", ("Sphere", 0.2)), ("capsule", ("Capsule", 0.2, 0.4, "X"))):
+        yield Row(
+            f"roll_{name}",
+            f"a {name} rolls",
+            scene(
+                rough(),
+                floor(ROUGH),
+                body("A", (0, 0, 0.2), shape, material=ROUGH, velocity=(0, 1, 0), spin=spin),
+            ),
+            (0.5, 1.0),
+            engines=(OVPHYSX,),
+        )
+    yield Row(
+        "roll_down",
+        "a ball rolls down 10 degrees",
+        scene(
+            rough(0.8),
+            static("Ramp", shape=("Cube", 1), turn=LEAN, scale=(10, 4, 1), material=ROUGH),
+            body("A", (0.7 * 0.1736482, 0, 0.7 * 0.9848078), ("Sphere", 0.2), material=ROUGH),
+        ),
+        engines=(OVPHYSX,),
+    )
+    yield resting(
+        "rest_cone", "a cone comes to rest", ("Cone", 0.2, 0.2, "Z"), 0.1, engines=(OVPHYSX,)
+    )
+    yield Row(
+        "asleep_on_floor",
+        "what falls onto a sleeper",
+        scene(
+            rough(),
+            floor(ROUGH),
+            body(
+                "A",
+                (0, 0, 0.2),
+                ("Cube", 0.4),
+                material=ROUGH,
+                lines=["uniform bool physics:startsAsleep = true"],
+            ),
+            body("B", (0, 0, 0.62), ("Cube", 0.4), material=ROUGH),
+        ),
+        SETTLED,
+        engines=(OVPHYSX,),
+    )
+    yield Row(
+        "head_on",
+        "a smooth box stops at another",
+        scene(
+            rough(0.0),
+            body("A", (0, 0, 3), mass=2.0, material=ROUGH),
+            body("B", (0.5, 0, 3), mass=2.0, velocity=(-1, 0, 0), material=ROUGH),
+            gravity=["float physics:gravityMagnitude = 0"],
+        ),
+        engines=(OVPHYSX,),
+    )
+
+
 def kinematics():
     yield Row(
         "kinematic_push",
@@ -428,5 +494,5 @@ def kinematics():
 
 
 def scenes():
-    for part in (rest, planes, stacks, meshes, friction, bounce, filters, kinematics):
+    for part in (rest, planes, stacks, meshes, friction, bounce, filters, rolls, kinematics):
         yield from part()

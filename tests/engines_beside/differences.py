@@ -164,7 +164,31 @@ def damping():
     )
 
 
+def three_points():
+    apis = ["PhysicsCollisionAPI", "PhysicsRigidBodyAPI", "PhysxRigidBodyAPI", "MaterialBindingAPI"]
+    lines = [
+        "point3f[] points = [(0, 0, 0), (0.4, 0, 0), (0, 0.4, 0)]",
+        "float[] widths = [0.2, 0.2, 0.2]",
+        f"rel material:binding:physics = <{ROUGH}>",
+    ]
+    return prim("Points", "A", apis, [*lines, *place((0, 0, 0.12))])
+
+
+def three_balls():
+    places = {"P": (0, 0, 0), "Q": (0.4, 0, 0), "R": (0, 0.4, 0)}
+    balls = [static(name, at, ("Sphere", 0.1), material=ROUGH) for name, at in places.items()]
+    return body("A", (0, 0, 0.12), None, collides=False, children=balls)
+
+
 def shapes():
+    yield beside_physx(
+        "points",
+        "a body of three points at rest",
+        "points",
+        "Points as colliders",
+        [scene(rough(), floor(ROUGH), what()) for what in (three_points, three_balls)],
+        SETTLED,
+    )
     yield beside_physx(
         "stretched_sphere",
         "a sphere of scale (1, 2, 1) at rest",

@@ -148,8 +148,8 @@ def joints():
             for kind in ("acceleration", "force")
         ],
         (0.25, 0.5),
-        0.006,
-        0.6,
+        0.001,
+        0.1,
     )
     yield beside_newton(
         "d6_newton",
@@ -165,8 +165,8 @@ def joints():
         "the cone",
         [ball("float physics:coneAngle0Limit = 20", "float physics:coneAngle1Limit = 20"), ball()],
         (0.4, 0.5),
-        0.004,
-        0.6,
+        0.001,
+        0.1,
     )
 
 
@@ -194,7 +194,7 @@ def roots():
         "no articulation",
         [LOOSE, on_base(LOOSE)],
         (0.25, 0.5),
-        0.004,
+        0.001,
     )
     yield beside_newton(
         "reversed_newton",
@@ -243,8 +243,8 @@ def units():
         "the unit of length",
         [spring_arm(0.01), spring_arm(1)],
         (0.25, 0.5),
-        0.006,
-        0.6,
+        0.001,
+        0.1,
     )
 
 

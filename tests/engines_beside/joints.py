@@ -351,6 +351,48 @@ def other_drives():
     )
 
 
+def carried():
+    kinematic = ["bool physics:kinematicEnabled = true"]
+    moves = kinematic + [
+        "double3 xformOp:translate.timeSamples = { 0: (0, 0, 3), 24: (0.5, 0, 3) }"
+    ]
+    yield Row(
+        "from_kinematic",
+        "a pendulum on a kinematic body",
+        scene(
+            body("K", HINGE, collides=False, mass=1.0, lines=kinematic),
+            bob(),
+            joint("revolute", "J", "/World/K", A, (0, 0, 0), (-1, 0, 0), axis="Y"),
+        ),
+        metres=0.004,
+    )
+    yield Row(
+        "from_moving",
+        "a pendulum below a kinematic body that moves",
+        scene(
+            body("K", HINGE, collides=False, mass=1.0, lines=moves),
+            bob(at=(0, 0, 2)),
+            joint("revolute", "J", "/World/K", A, (0, 0, 0), (0, 0, 1), axis="Y"),
+        ).replace("metersPerUnit", "timeCodesPerSecond = 24\n    metersPerUnit"),
+        metres=0.004,
+        moves={"/World/K": (0.5, 0, 0)},
+    )
+    soft = ["float physxLimit:angular:stiffness = 2", "float physxLimit:angular:damping = 1"]
+    yield Row(
+        "soft_limit",
+        "where a soft limit carries the weight",
+        hung(
+            "revolute",
+            inertia=WIDE,
+            axis="Y",
+            limits=(-90, 10),
+            apis=["PhysxLimitAPI:angular"],
+            lines=soft,
+        ),
+        (1.5, 2.0),
+    )
+
+
 def switches():
     yield Row(
         "joint_disabled",
@@ -431,6 +473,7 @@ def scenes():
         angular_drives,
         linear_drives,
         other_drives,
+        carried,
         switches,
     ):
         for row in part():

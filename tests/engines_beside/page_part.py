@@ -31,16 +31,16 @@ def compared(row):
     return " and ".join(f"{time:g}" for time in row.times) + " s"
 
 
-def tolerance(row):
-    turn = "" if row.degrees >= 180 else f", {row.degrees:g} degrees"
-    return f"{1000 * row.metres:g} mm{turn}"
+def tolerance(metres, degrees):
+    turn = "" if degrees >= 180 else f", {degrees:g} degrees"
+    return f"{1000 * metres:g} mm{turn}"
 
 
 def quantity(case, apart):
     """-> (what, tenon's value, the engine's value), of what is farthest beyond its tolerance"""
     if apart.error:
         return "the run", "goes through", apart.error.split("Error: ")[-1].split(". ")[0][:90]
-    by_place = apart.metres / case.row.metres >= apart.degrees / case.row.degrees
+    by_place = apart.metres / case.tolerance[0] >= apart.degrees / case.tolerance[1]
     path, time, a, b = apart.place if by_place else apart.turn
     name = path.rsplit("/", 1)[-1]
     if by_place:
@@ -78,7 +78,7 @@ def text(engine, results):
             case.row.name,
             case.row.shows,
             compared(case.row),
-            tolerance(case.row),
+            tolerance(*case.tolerance),
             f"below {below(1000 * apart.metres)} mm, {below(apart.degrees)} degrees",
         )
     return lines

@@ -9,6 +9,7 @@ import differences
 import differences_of_joints
 import differences_of_newton
 import joints
+import tendons
 
 PARTS = (
     bodies,
@@ -18,6 +19,7 @@ PARTS = (
     differences,
     differences_of_joints,
     differences_of_newton,
+    tendons,
 )
 
 
