@@ -346,6 +346,72 @@ def mimics():
     )
 
 
+def measured():
+    def turned(target):
+        locked = [limit(axis, 1, -1) for axis in ("transX", "transY", "transZ", "rotX", "rotY")]
+        spring = drive("rotZ", stiffness=0.05, damping=0.005, target_position=target)
+        return scene(
+            bob(), joint("d6", "J", None, A, (1, 0, 3), parts=[*locked, spring]), gravity=WEIGHTLESS
+        )
+
+    yield beside_physx(
+        "far_target",
+        "a joint driven about Z to 120 degrees",
+        "drive-angle",
+        "an angle of 120 degrees",
+        [turned(120.0), turned(15.0)],
+        (0.1, 0.25),
+        degrees=0.5,
+    )
+
+    def round_and_round(limits):
+        spring = [drive("angular", stiffness=0.5, damping=0.1, target_position=400.0)]
+        return scene(
+            link("Base", (0, 0, 3)),
+            link("A", (0.5, 0, 3)),
+            weld(),
+            hinge("J", BASE, A, (0, 0, 0), limits=limits, parts=spring),
+            articulated=True,
+            gravity=WEIGHTLESS,
+        )
+
+    yield beside_physx(
+        "far_turn",
+        "a hinge without limits, driven to 400 degrees",
+        "drive-turns",
+        "no limits",
+        [round_and_round(None), round_and_round((-1000, 1000))],
+        (0.1, 0.5),
+        degrees=0.5,
+    )
+    rebound = ["float physxLimit:angular:restitution = 0.5"]
+    yield beside_physx(
+        "rebound",
+        "a pendulum that falls onto its limit",
+        "limit-rebound",
+        "the limit's restitution",
+        [
+            scene(
+                bob(inertia=(2.0,) * 3),
+                joint(
+                    "revolute",
+                    "J",
+                    None,
+                    A,
+                    HINGE,
+                    (-1, 0, 0),
+                    axis="Y",
+                    limits=(-90, 20),
+                    apis=["PhysxLimitAPI:angular"],
+                    lines=lines,
+                ),
+            )
+            for lines in (rebound, [])
+        ],
+        (0.25, 0.5),
+    )
+
+
 def scenes():
-    for part in (driven, bounded, apart, roots, mimics):
+    for part in (driven, bounded, apart, measured, roots, mimics):
         yield from part()

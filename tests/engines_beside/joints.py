@@ -275,7 +275,7 @@ def angular_drives():
     yield Row(
         "drive_max_force",
         "a maximal force of 5 N m",
-        hinge(WEIGHTLESS, stiffness=500.0, damping=1.0, target_position=60.0, max_force=5.0),
+        hinge(WEIGHTLESS, stiffness=500.0, damping=1.0, target_position=45.0, max_force=5.0),
         (0.2, 0.4),
         0.004,
     )
