@@ -188,6 +188,21 @@ TEST(BodySettings, SlowBodiesOnJointsMoveAsWithoutALimit) {
   EXPECT_EQ(plain->joint_state(0).position[0], capped->joint_state(0).position[0]);
 }
 
+// A drive that could turn by 90 degrees in a few steps.
+TEST(BodySettings, JointsMoveNoFartherThanTheirVelocityLimitsLetThem) {
+  TestScene scene(0);
+  const auto body = scene.add_body("Body", {});
+  scene::Joint& joint = scene.add_joint("J", JointKind::Revolute, {}, body, scene::Axis::Z);
+  joint.velocity_limit = 1;
+  scene::Drive& drive = joint.drives.emplace_back();
+  drive.dof = Dof::RotZ;
+  drive.stiffness = 5000;
+  drive.target_position = 1.5;
+  auto sim = simulation(scene);
+  run(*sim, 0.5);
+  EXPECT_NEAR(sim->joint_state(0).position[0], 0.5, 1e-9);
+}
+
 TEST(BodySettings, LockedAxesOfTheWorldDoNotMove) {
   TestScene scene;
   const auto body = scene.add_body("Body", {}, 1, {{0.1, 0.2, 0.3}});

@@ -25,13 +25,15 @@ constexpr int kSweeps = 20;
 constexpr double kClose = 1e-9;      // relative, above which a speed is cut
 constexpr double kImmobile = 1e-15;  // of an inverse mass: no impulse moves the body that way
 
-void cut(double* velocity, double limit) {
+bool cut(double* velocity, double limit) {
   const double speed = std::hypot(velocity[0], velocity[1], velocity[2]);
-  if (speed > limit) {
-    for (int i = 0; i < 3; ++i) {
-      velocity[i] *= limit / speed;
-    }
+  if (!(speed > limit)) {
+    return false;
   }
+  for (int i = 0; i < 3; ++i) {
+    velocity[i] *= limit / speed;
+  }
+  return true;
 }
 
 double sum_of_sizes(const std::vector<int>& places, const double* numbers) {
@@ -65,9 +67,10 @@ VelocityCaps::VelocityCaps(const scene::PhysicsScene& scene, const Model& model)
       add_link(model, model.bodies[b].id, settings);
     }
   }
-  if (!dofs_.empty() || !trees_.empty()) {
+  if (!empty()) {
     unit_.assign(static_cast<std::size_t>(model.model->nv), 0);
     response_ = unit_;
+    change_ = unit_;
     jacobian_.resize(trees_.empty() ? 0 : 3 * unit_.size());
   }
 }
@@ -207,26 +210,10 @@ bool VelocityCaps::cut_link(const Link& link, bool angular, Model& model) {
   return inverse_mass > kImmobile;
 }
 
-void VelocityCaps::apply(Model& model) {
-  mjData* d = model.data.get();
-  for (const FreeBody& body : bodies_) {
-    cut(d->qvel + body.dof, body.linear);
-    cut(d->qvel + body.dof + 3, body.angular);
-  }
-  for (const Coordinate& at : dofs_) {
-    const double velocity = d->qvel[at.dof];
-    if (!(std::fabs(velocity) > at.limit)) {
-      continue;
-    }
-    respond(at, model);
-    const double impulse = (std::copysign(at.limit, velocity) - velocity) /
-                           response_[static_cast<std::size_t>(at.dof)];
-    for (int i = at.first; i < at.last; ++i) {
-      d->qvel[i] += impulse * response_[static_cast<std::size_t>(i)];
-    }
-  }
+bool VelocityCaps::cut_links(Model& model) {
+  bool any = false;
   for (const Tree& tree : trees_) {
-    if (!may_exceed(tree, *d)) {
+    if (!may_exceed(tree, *model.data)) {
       continue;
     }
     derive_motion(model);
@@ -238,7 +225,59 @@ void VelocityCaps::apply(Model& model) {
         const bool steadier = link.angular < scene::kUnlimited && cut_link(link, true, model);
         changed = changed || slower || steadier;
       }
+      any = any || changed;
     }
+  }
+  return any;
+}
+
+bool VelocityCaps::cut_bodies(mjData& data) const {
+  bool any = false;
+  for (const FreeBody& body : bodies_) {
+    const bool slower = cut(data.qvel + body.dof, body.linear);
+    const bool steadier = cut(data.qvel + body.dof + 3, body.angular);
+    any = any || slower || steadier;
+  }
+  return any;
+}
+
+bool VelocityCaps::cut_joints(Model& model) {
+  mjData* d = model.data.get();
+  bool any = false;
+  for (const Coordinate& at : dofs_) {
+    const double velocity = d->qvel[at.dof];
+    if (!(std::fabs(velocity) > at.limit)) {
+      continue;
+    }
+    respond(at, model);
+    const double impulse = (std::copysign(at.limit, velocity) - velocity) /
+                           response_[static_cast<std::size_t>(at.dof)];
+    for (int i = at.first; i < at.last; ++i) {
+      d->qvel[i] += impulse * response_[static_cast<std::size_t>(i)];
+    }
+    any = true;
+  }
+  return any;
+}
+
+// The step has moved by the velocity at its end, which was not cut yet: a strong drive goes through
+// many times the limit within one step.
+void VelocityCaps::take_back_way(const mjModel& m, mjData& d) {
+  for (std::size_t i = 0; i < change_.size(); ++i) {
+    change_[i] = d.qvel[i] - change_[i];
+  }
+  mj_integratePos(&m, d.qpos, change_.data(), m.opt.timestep);
+}
+
+void VelocityCaps::apply(Model& model) {
+  const mjModel& m = *model.model;
+  mjData& d = *model.data;
+  std::copy(d.qvel, d.qvel + m.nv, change_.begin());
+  const bool bodies = cut_bodies(d);
+  const bool joints = cut_joints(model);
+  const bool links = cut_links(model);
+  if ((bodies || joints || links) && m.opt.integrator != mjINT_RK4) {
+    take_back_way(m, d);
   }
 }
 

@@ -8,9 +8,9 @@
 
 namespace tenon::engines::mujoco {
 
-/// Cuts velocities to the limits of the scene after a step: of joints by the impulse along them
-/// that does it, of bodies that move freely by scaling their own velocity, of bodies on joints by
-/// the impulse on the body against its motion.
+/// Cuts velocities to the limits of the scene after a step, and the way that they made during it: of
+/// joints by the impulse along them that does it, of bodies that move freely by scaling their own
+/// velocity, of bodies on joints by the impulse on the body against its motion.
 class VelocityCaps {
  public:
   VelocityCaps() = default;
@@ -59,6 +59,11 @@ class VelocityCaps {
   bool cut_link(const Link& link, bool angular, Model& model);
   /// What a unit impulse along a coordinate does, into response_.
   void respond(const Coordinate& at, const Model& model);
+  /// The parts of apply(); true where a velocity was cut.
+  bool cut_bodies(mjData& data) const;
+  bool cut_joints(Model& model);
+  bool cut_links(Model& model);
+  void take_back_way(const mjModel& m, mjData& d);
 
   std::vector<Coordinate> dofs_;
   std::vector<FreeBody> bodies_;
@@ -66,6 +71,7 @@ class VelocityCaps {
   std::vector<double> unit_;      ///< scratch (dof_count)
   std::vector<double> response_;  ///< scratch (dof_count)
   std::vector<double> jacobian_;  ///< scratch (3 x dof_count)
+  std::vector<double> change_;    ///< scratch (dof_count)
 };
 
 }  // namespace tenon::engines::mujoco
