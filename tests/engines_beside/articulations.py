@@ -240,6 +240,29 @@ def settings():
 
 
 def inertias():
+    strong = {"parts": [drive("angular", stiffness=50.0, damping=1.0, target_position=100.0)]}
+    yield Row(
+        "joint_speed",
+        "physxJointAxis maxJointVelocity of 60 degrees per second",
+        scene(
+            link("Base", (0, 0, 3)),
+            link("A", (0.5, 0, 3)),
+            weld(),
+            hinge(
+                "J",
+                BASE,
+                A,
+                (0, 0, 0),
+                apis=["PhysxJointAxisAPI:angular"],
+                lines=["float physxJointAxis:angular:maxJointVelocity = 60"],
+                **strong,
+            ),
+            articulated=True,
+            gravity=WEIGHTLESS,
+        ),
+        (0.5, 1.0),
+        engines=(OVPHYSX,),
+    )
     yield Row(
         "armature",
         "physxJointAxis armature",
