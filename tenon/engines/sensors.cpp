@@ -156,7 +156,7 @@ Result<void> Sensors::find_touches() {
   TENON_TRY(const std::vector<Contact> contacts, simulation_.contacts());
   for (const Contact& contact : contacts) {
     for (const std::optional<Index>& body : {contact.body0, contact.body1}) {
-      if (body) {
+      if (body && *body < touches_.size()) {
         touches_[*body].push_back({contact.point, contact.normal_force});
       }
     }
