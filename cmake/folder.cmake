@@ -1,18 +1,18 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 
-# tenon_folder(<folder> [FOR_SIZE] [LIBRARIES <target>...] [WITHOUT <sub-folder>...])
+# tenon_folder(<folder> [LIBRARIES <target>...] [WITHOUT <sub-folder>...])
 #
 # Turns tenon/<folder> into the static library tenon_<folder> ('/' becomes '_'), built from every
 # .cpp in it and below it except *_test.cpp and except the sub-folders named by WITHOUT (they are
-# folders of their own); FOR_SIZE is tenon_for_size() of cmake/unity.cmake. Its dependencies are
-# read from tenon/folders.txt. With TENON_DEVELOPER it also makes
+# folders of their own). Its dependencies are read from tenon/folders.txt. With TENON_DEVELOPER it
+# also makes
 #   tenon_<folder>_test      all *_test.cpp, each TEST registered with ctest under the label `unit`
 #   tenon_<folder>_headers   compiles every header without a source file alone, unless TENON_UNITY
 # A folder without any .cpp becomes an interface library. The others, and what they name as
 # LIBRARIES, are in the global properties TENON_FOLDER_LIBRARIES and TENON_FOLDER_NEEDS.
 function(tenon_folder folder)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "FOR_SIZE" "" "LIBRARIES;WITHOUT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;WITHOUT")
   string(REPLACE "/" "_" name ${folder})
   set(library tenon_${name})
   set(root ${PROJECT_SOURCE_DIR}/tenon/${folder})
@@ -34,12 +34,7 @@ function(tenon_folder folder)
   if(sources)
     add_library(${library} STATIC ${sources})
     target_compile_options(${library} PRIVATE -fno-exceptions -fno-rtti)
-    if(arg_FOR_SIZE)
-      tenon_for_size(${library})
-      tenon_precompile(${library} folder_for_size)
-    else()
-      tenon_precompile(${library} folder)
-    endif()
+    tenon_precompile(${library} folder)
     tenon_unity(${library})
     target_link_libraries(${library} PUBLIC tenon_flags ${dependencies} ${arg_LIBRARIES})
     set_property(GLOBAL APPEND PROPERTY TENON_FOLDER_LIBRARIES ${library})

@@ -29,9 +29,3 @@ function(tenon_unity target)
                                                ${TENON_UNITY_SOURCES})
   endif()
 endfunction()
-
-# For folders whose code runs once for a file, whatever its size: half as long to compile, half the
-# bytes. Not where users wait for loops over prims, values or steps.
-function(tenon_for_size target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Os>)
-endfunction()

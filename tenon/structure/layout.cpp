@@ -283,7 +283,11 @@ Ownership owner_of_type(Token type) {
                                 Role::Engine, Role::Variant)};
   }
   const OwnerRow* row = find_row(kApis, type.view());
-  return row == nullptr ? kBase : row->ownership;
+  static const Token xformable("Xformable");
+  const bool is_place = row != nullptr && row->ownership.owner == Role::Robot &&
+                        schema::Registry::instance().is_a(type, xformable);
+  // A sensor stands on its link, in the kinematic tree.
+  return row == nullptr || is_place ? kBase : row->ownership;
 }
 
 Ownership owner_of_api(Token api) {

@@ -48,7 +48,7 @@ TABLE = [
      {"mjcf.left-out": 30, "convert.frame": 1, "convert.scene": 1}),
     ("MJCF arm", CONTROL + "third_party/kinova/jaco_arm.xml", {"convert.scene": 1}),
     ("MJCF humanoid", CONTROL + "suite/humanoid.xml",
-     {"mjcf.left-out": 5, "mjcf.several-joints": 7, "convert.floating": 1,
+     {"mjcf.left-out": 5, "mjcf.several-joints": 7, "mjcf.touch": 1, "convert.floating": 1,
       "convert.scene": 1}),
     ("MJCF mobile base with an arm", GYM + "fetch/reach.xml",
      {"mjcf.left-out": 4, "mjcf.several-joints": 1, "mjcf.reference": 1, "convert.no-inertia": 2,

@@ -44,6 +44,37 @@ double sum_of_sizes(const std::vector<int>& places, const double* numbers) {
   return sum;
 }
 
+// The degrees of freedom of trees in which an equality ties joints or bodies; of all trees where it
+// ties tendons.
+std::vector<char> held_by_equalities(const mjModel& m) {
+  std::vector<char> tree(static_cast<std::size_t>(m.ntree), 0);
+  const auto hold = [&](int type, int object) {
+    const int body = type == mjOBJ_JOINT  ? m.jnt_bodyid[object]
+                     : type == mjOBJ_SITE ? m.site_bodyid[object]
+                                          : object;
+    if (m.body_treeid[body] >= 0) {
+      tree[static_cast<std::size_t>(m.body_treeid[body])] = 1;
+    }
+  };
+  for (int i = 0; i < m.neq; ++i) {
+    const int type = m.eq_type[i] == mjEQ_JOINT ? mjOBJ_JOINT : m.eq_objtype[i];
+    if (type != mjOBJ_JOINT && type != mjOBJ_BODY && type != mjOBJ_SITE) {
+      std::fill(tree.begin(), tree.end(), char{1});
+      break;
+    }
+    for (const int object : {m.eq_obj1id[i], m.eq_obj2id[i]}) {
+      if (object >= 0) {
+        hold(type, object);
+      }
+    }
+  }
+  std::vector<char> held(static_cast<std::size_t>(m.nv), 0);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    held[i] = tree[static_cast<std::size_t>(m.dof_treeid[i])];
+  }
+  return held;
+}
+
 double norm(const double* vector) { return std::hypot(vector[0], vector[1], vector[2]); }
 
 }  // namespace
@@ -72,6 +103,7 @@ VelocityCaps::VelocityCaps(const scene::PhysicsScene& scene, const Model& model)
     response_ = unit_;
     change_ = unit_;
     jacobian_.resize(trees_.empty() ? 0 : 3 * unit_.size());
+    is_held_ = held_by_equalities(*model.model);
   }
 }
 
@@ -264,7 +296,7 @@ bool VelocityCaps::cut_joints(Model& model) {
 // many times the limit within one step.
 void VelocityCaps::take_back_way(const mjModel& m, mjData& d) {
   for (std::size_t i = 0; i < change_.size(); ++i) {
-    change_[i] = d.qvel[i] - change_[i];
+    change_[i] = is_held_[i] != 0 ? 0 : d.qvel[i] - change_[i];
   }
   mj_integratePos(&m, d.qpos, change_.data(), m.opt.timestep);
 }

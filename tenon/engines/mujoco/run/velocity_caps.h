@@ -8,9 +8,11 @@
 
 namespace tenon::engines::mujoco {
 
-/// Cuts velocities to the limits of the scene after a step, and the way that they made during it: of
-/// joints by the impulse along them that does it, of bodies that move freely by scaling their own
-/// velocity, of bodies on joints by the impulse on the body against its motion.
+/// Cuts velocities to the limits of the scene after a step, and the way that they made during it:
+/// of joints by the impulse along them that does it, of bodies that move freely by scaling their
+/// own velocity, of bodies on joints by the impulse on the body against its motion. Where
+/// equalities such as mimics and loops hold a kinematic tree together, only velocities are cut: an
+/// impulse along one joint knows nothing of those that follow it.
 class VelocityCaps {
  public:
   VelocityCaps() = default;
@@ -72,6 +74,7 @@ class VelocityCaps {
   std::vector<double> response_;  ///< scratch (dof_count)
   std::vector<double> jacobian_;  ///< scratch (3 x dof_count)
   std::vector<double> change_;    ///< scratch (dof_count)
+  std::vector<char> is_held_;     ///< (dof_count) in a tree with equalities
 };
 
 }  // namespace tenon::engines::mujoco
