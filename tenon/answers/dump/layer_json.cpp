@@ -83,11 +83,11 @@ struct PlainWriter {
   }
   template <class T, std::size_t N>
   void write(const Vec<T, N>& x) {
-    json.array(x.v, [this](const auto& item) { write(item); });
+    json.array(x.v, [this](const auto& item) { this->write(item); });
   }
   template <class T>
   void write(const Quat<T>& x) {
-    json.array(std::array{x.x, x.y, x.z, x.w}, [this](const auto& item) { write(item); });
+    json.array(std::array{x.x, x.y, x.z, x.w}, [this](const auto& item) { this->write(item); });
   }
   template <std::size_t N>
   void write(const Matrix<N>& x) {
@@ -97,7 +97,7 @@ struct PlainWriter {
   }
   template <class T>
   void write(const std::vector<T>& items) {
-    json.array(items, [this](const auto& item) { write(item); });
+    json.array(items, [this](const auto& item) { this->write(item); });
   }
 
   template <class T>
@@ -273,7 +273,7 @@ struct PlainWriter {
       if constexpr (std::is_same_v<T, bool>) {
         json.boolean(item != 0);  // bools are stored as char
       } else {
-        write(item);
+        this->write(item);
       }
     });
   }
