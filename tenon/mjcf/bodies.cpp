@@ -131,17 +131,4 @@ BodyTree read_bodies(MjcfSource& source) {
   return tree;
 }
 
-std::vector<std::array<Index, 2>> read_excluded_pairs(const mjModel& model, const BodyTree& tree) {
-  std::vector<std::array<Index, 2>> pairs;
-  for (int pair = 0; pair < model.nexclude; ++pair) {
-    const auto signature = static_cast<std::uint32_t>(model.exclude_signature[pair]);
-    const std::size_t first = signature >> 16u;
-    const std::size_t second = signature & 0xFFFFu;
-    if (first < tree.link_of_body.size() && second < tree.link_of_body.size()) {
-      pairs.push_back({tree.link_of_body[first], tree.link_of_body[second]});
-    }
-  }
-  return pairs;
-}
-
 }  // namespace tenon::mjcf

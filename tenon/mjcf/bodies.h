@@ -22,8 +22,4 @@ struct BodyTree {
 /// A link for each body, the world first, and a chain of links where a body has several joints.
 BodyTree read_bodies(MjcfSource& source);
 
-/// Pairs of links whose colliders do not touch each other.
-std::vector<std::array<robot::Index, 2>> read_excluded_pairs(const mjModel& model,
-                                                             const BodyTree& tree);
-
 }  // namespace tenon::mjcf

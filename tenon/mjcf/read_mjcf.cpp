@@ -12,6 +12,7 @@
 #include "tenon/mjcf/bodies.h"
 #include "tenon/mjcf/contact_classes.h"
 #include "tenon/mjcf/equalities.h"
+#include "tenon/mjcf/excluded_pairs.h"
 #include "tenon/mjcf/keyframes.h"
 #include "tenon/mjcf/left_out.h"
 #include "tenon/mjcf/mjcf_source.h"

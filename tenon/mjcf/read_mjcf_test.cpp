@@ -102,6 +102,25 @@ TEST_F(ReadMjcf, PutsLinksBetweenJointsOfOneBody) {
   EXPECT_EQ(found(), "mjcf.several-joints;");
 }
 
+// MuJoCo never lets a body touch what carries it.
+TEST_F(ReadMjcf, ExcludesWhatCarriesABodyWhereNoJointSaysSo) {
+  const std::string bodies =
+      "<worldbody><geom size='0.1'/><body name='hip'><freejoint/><geom size='0.1'/>"
+      "<body name='pad'><geom size='0.1'/></body>"
+      "<body name='leg'><joint name='x'/><joint name='y' axis='0 1 0'/><geom size='0.1'/></body>"
+      "<body name='tail'><joint name='t'/><geom size='0.1'/></body></body></worldbody>";
+  const auto model = read(bodies);
+  ASSERT_TRUE(model) << model.error().to_string();
+  std::vector<std::string> pairs;
+  for (const auto& [a, b] : model->excluded_pairs) {
+    pairs.push_back(model->links[a].name + "-" + model->links[b].name);
+  }
+  EXPECT_EQ(pairs, (std::vector<std::string>{"hip-leg", "pad-leg", "pad-tail"}));
+  const auto all = read(bodies + "<option><flag filterparent='disable'/></option>");
+  ASSERT_TRUE(all) << all.error().to_string();
+  EXPECT_TRUE(all->excluded_pairs.empty());
+}
+
 TEST_F(ReadMjcf, TakesActuatorsThatAreSpringsAndListsTheRest) {
   const auto model = read(
       "<worldbody><body name='a'><joint name='j' axis='0 0 1'/><geom size='0.1' rgba='1 0 0 1' "
