@@ -295,10 +295,14 @@ bool VelocityCaps::cut_joints(Model& model) {
 // The step has moved by the velocity at its end, which was not cut yet: a strong drive goes through
 // many times the limit within one step.
 void VelocityCaps::take_back_way(const mjModel& m, mjData& d) {
+  bool any = false;
   for (std::size_t i = 0; i < change_.size(); ++i) {
     change_[i] = is_held_[i] != 0 ? 0 : d.qvel[i] - change_[i];
+    any = any || change_[i] != 0;
   }
-  mj_integratePos(&m, d.qpos, change_.data(), m.opt.timestep);
+  if (any) {
+    mj_integratePos(&m, d.qpos, change_.data(), m.opt.timestep);
+  }
 }
 
 void VelocityCaps::apply(Model& model) {
