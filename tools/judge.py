@@ -36,6 +36,7 @@ FUZZ_SECONDS = 120
 CORE = ("base", "math", "bytes", "layer", "formats", "schema", "compose", "scene", "stage", "edit",
         "approximate", "physics")
 LOGS = os.path.join(ROOT, "build/judge")
+RACES_OF_OTHERS = os.path.join(ROOT, "tests/thread_suppressions.txt")
 
 
 class Judgement:
@@ -155,7 +156,8 @@ def run(judgement, python, jobs):
         engine = judgement.engine and environment_python(judgement.name, judgement.engine)
         words = [word.format(jobs=jobs, python=python, engine=engine)
                  for word in judgement.command]
-        environment = {**os.environ, "TENON_ORACLE_PYTHON": python}
+        environment = {**os.environ, "TENON_ORACLE_PYTHON": python,
+                       "TSAN_OPTIONS": f"suppressions={RACES_OF_OTHERS}"}
         try:
             status = subprocess.run(words, cwd=ROOT, stdout=log, stderr=log, env=environment,
                                     check=False).returncode
