@@ -44,14 +44,16 @@ class ObjectTracks {
     for (const double code : codes) {
       read_at(code);
     }
+    PhysicsScene& scene = state_.scene;
     if (is_lost_) {
-      each_list([](auto&, auto& tracks) { tracks.clear(); });
+      scene::each_tracked_list([&](auto, auto tracks) { (scene.*tracks).clear(); });
       return;
     }
-    each_list([this](auto& objects, auto& tracks) {
-      std::erase_if(tracks,
-                    [&](const auto& track) { return lost_.contains(objects[track.object].path); });
-      note_followed(objects, tracks);
+    scene::each_tracked_list([&](auto list, auto tracks) {
+      std::erase_if(scene.*tracks, [&](const auto& track) {
+        return lost_.contains((scene.*list)[track.object].path);
+      });
+      note_followed(scene.*list, scene.*tracks);
     });
     for (const FrozenSample& sample : frozen_) {
       if (followed_.contains(sample.prim.path())) {
@@ -61,19 +63,6 @@ class ObjectTracks {
   }
 
  private:
-  /// Calls `visit(objects, tracks)` for each list whose objects may have states.
-  template <class Visit>
-  void each_list(Visit&& visit) {
-    PhysicsScene& scene = state_.scene;
-    visit(scene.scenes, scene.scene_tracks);
-    visit(scene.bodies, scene.body_tracks);
-    visit(scene.colliders, scene.collider_tracks);
-    visit(scene.materials, scene.material_tracks);
-    visit(scene.joints, scene.joint_tracks);
-    visit(scene.tendons, scene.tendon_tracks);
-    visit(scene.actuators, scene.actuator_tracks);
-  }
-
   /// After the start, no more than may be read.
   std::vector<double> codes_of_samples() {
     std::vector<stage::Attribute> attributes;
@@ -130,13 +119,9 @@ class ObjectTracks {
     }
     time_ = state_.seconds(code);
     scene_ = &later.scene;
-    take(later.scene.scenes, state_.scene.scenes, state_.scene.scene_tracks);
-    take(later.scene.bodies, state_.scene.bodies, state_.scene.body_tracks);
-    take(later.scene.colliders, state_.scene.colliders, state_.scene.collider_tracks);
-    take(later.scene.materials, state_.scene.materials, state_.scene.material_tracks);
-    take(later.scene.joints, state_.scene.joints, state_.scene.joint_tracks);
-    take(later.scene.tendons, state_.scene.tendons, state_.scene.tendon_tracks);
-    take(later.scene.actuators, state_.scene.actuators, state_.scene.actuator_tracks);
+    scene::each_tracked_list([&](auto list, auto tracks) {
+      take(later.scene.*list, state_.scene.*list, state_.scene.*tracks);
+    });
     compare(later.scene.articulations);
   }
 

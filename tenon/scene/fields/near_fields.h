@@ -5,24 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <type_traits>
 
-#include "tenon/base/path.h"
-#include "tenon/base/wire.h"
 #include "tenon/math/transform.h"
-#include "tenon/scene/fields/scene_fields.h"
+#include "tenon/scene/fields/same_fields.h"
 
 namespace tenon::scene {
 
 inline constexpr double kNear = 1e-9;
 
-/// Equal but for what rounding makes of numbers, as deep as they lie: within kNear, relative to the
-/// larger one, of vectors and matrices to their largest number, of poses in metres.
-template <class T>
-bool near_fields(const T& a, const T& b);
-
-/// The same of numbers next to each other, of which the largest gives the scale.
+/// Numbers next to each other are near, where the largest of all gives the scale.
 template <class Numbers>
 bool near_numbers(const Numbers& a, const Numbers& b, double scale = 0) {
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -56,36 +48,24 @@ inline bool near_matrices(const Mat3d& a, const Mat3d& b) {
   return true;
 }
 
+/// Equal but for what rounding makes of numbers, as deep as they lie: within kNear, relative to the
+/// larger one, of vectors and matrices to their largest number, of poses in metres.
 template <class T>
 bool near_fields(const T& a, const T& b) {
-  if constexpr (std::is_floating_point_v<T>) {
-    return a == b || std::fabs(a - b) <= kNear * std::max(std::fabs(a), std::fabs(b)) ||
-           (std::isnan(a) && std::isnan(b));
-  } else if constexpr (wire::kIsOptional<T>) {
-    return a.has_value() == b.has_value() && (!a || near_fields(*a, *b));
-  } else if constexpr (wire::kIsPair<T>) {
-    return near_fields(a.first, b.first) && near_fields(a.second, b.second);
-  } else if constexpr (wire::kIsVector<T> || wire::kIsArray<T>) {
-    bool same = a.size() == b.size();
-    for (std::size_t i = 0; same && i < a.size(); ++i) {
-      same = near_fields(a[i], b[i]);
+  return fields_agree(a, b, []<class Leaf>(const Leaf& x, const Leaf& y) {
+    if constexpr (std::is_floating_point_v<Leaf>) {
+      return x == y || std::fabs(x - y) <= kNear * std::max(std::fabs(x), std::fabs(y)) ||
+             (std::isnan(x) && std::isnan(y));
+    } else if constexpr (std::is_same_v<Leaf, Pose>) {
+      return near_poses(x, y);
+    } else if constexpr (std::is_same_v<Leaf, Vec3d>) {
+      return near_numbers(x.v, y.v);
+    } else if constexpr (std::is_same_v<Leaf, Mat3d>) {
+      return near_matrices(x, y);
+    } else {
+      return x == y;
     }
-    return same;
-  } else if constexpr (std::is_same_v<T, Pose>) {
-    return near_poses(a, b);
-  } else if constexpr (std::is_same_v<T, Vec3d>) {
-    return near_numbers(a.v, b.v);
-  } else if constexpr (std::is_same_v<T, Mat3d>) {
-    return near_matrices(a, b);
-  } else if constexpr (HasTable<T>) {
-    bool same = true;
-    each_field_of_both(a, b, [&](const FieldInfo&, const auto& x, const auto& y) {
-      same = same && near_fields(x, y);
-    });
-    return same;
-  } else {
-    return a == b;
-  }
+  });
 }
 
 }  // namespace tenon::scene

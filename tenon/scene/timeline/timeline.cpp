@@ -7,7 +7,6 @@
 #include "tenon/scene/timeline/timeline.h"
 
 #include <algorithm>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -44,10 +43,9 @@ PhysicsScene with_anchors(PhysicsScene scene) {
 }
 
 bool has_object_tracks(const PhysicsScene& scene) {
-  return !scene.scene_tracks.empty() || !scene.body_tracks.empty() ||
-         !scene.collider_tracks.empty() || !scene.material_tracks.empty() ||
-         !scene.joint_tracks.empty() || !scene.tendon_tracks.empty() ||
-         !scene.actuator_tracks.empty();
+  bool any = false;
+  each_tracked_list([&](auto, auto tracks) { any = any || !(scene.*tracks).empty(); });
+  return any;
 }
 
 bool is_on(const PhysicsScene& scene, const SwitchTrack& track) {
@@ -269,16 +267,12 @@ bool Timeline::follow_objects(const std::vector<ObjectTrack<Object>>& tracks,
 }
 
 bool Timeline::follow_objects(double seconds) {
-  // Every one of them must run.
-  const bool changes[] = {follow_objects(scene_.scene_tracks, scene_.scenes, seconds),
-                          follow_objects(scene_.body_tracks, scene_.bodies, seconds),
-                          follow_objects(scene_.collider_tracks, scene_.colliders, seconds),
-                          follow_objects(scene_.material_tracks, scene_.materials, seconds),
-                          follow_objects(scene_.joint_tracks, scene_.joints, seconds),
-                          follow_objects(scene_.tendon_tracks, scene_.tendons, seconds),
-                          follow_objects(scene_.actuator_tracks, scene_.actuators, seconds)};
+  bool changed = false;
+  each_tracked_list([&](auto objects, auto tracks) {
+    changed = follow_objects(scene_.*tracks, scene_.*objects, seconds) || changed;
+  });
   objects_at_ = seconds;
-  return std::any_of(std::begin(changes), std::end(changes), [](bool changed) { return changed; });
+  return changed;
 }
 
 void Timeline::follow_gravity(double seconds) {
