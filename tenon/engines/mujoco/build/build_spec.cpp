@@ -16,6 +16,7 @@
 #include "tenon/engines/mujoco/build/model_size.h"
 #include "tenon/engines/mujoco/build/surfaces.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/start_coordinates.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -24,24 +25,19 @@ constexpr double kDefaultTimeStep = 0.002;  // [s]
 constexpr std::size_t kMaxRefused = 100;    // parts that are left out before the model is given up
 constexpr double kLargestTimeStep = 0.004;  // [s] an asset's own step is divided until it is below
 
-double choose_time_step(const scene::PhysicsScene& scene, const SimulationOptions& options,
-                        Diagnostics& diagnostics) {
+double time_step_of(const scene::PhysicsScene& scene, const SimulationOptions& options,
+                    Diagnostics& diagnostics) {
   if (options.time_step > 0) {
     return options.time_step;
   }
-  if (scene.scenes.empty() || !scene.scenes.front().time_step.has_value() ||
-      !(*scene.scenes.front().time_step > 0)) {
-    return kDefaultTimeStep;
-  }
-  const double asked = *scene.scenes.front().time_step;
-  const double parts = std::ceil(asked / kLargestTimeStep - 1e-9);
-  if (parts > 1) {
+  const StepChoice choice = choose_time_step(scene, kDefaultTimeStep, kLargestTimeStep);
+  if (choice.parts > 1) {
     diagnostics.add({Severity::Info, "mujoco.time-step",
-                     "the scene asks for steps of " + std::to_string(asked) + " s; MuJoCo takes " +
-                         shortest(parts) + " steps for each",
+                     "the scene asks for steps of " + std::to_string(choice.asked) +
+                         " s; MuJoCo takes " + shortest(choice.parts) + " steps for each",
                      "", 0, 0, scene.scenes.front().path.str(), "", ""});
   }
-  return asked / std::max(parts, 1.0);
+  return choice.time_step;
 }
 
 Result<void> check_sizes(const Build& build) {
@@ -136,7 +132,7 @@ void append_untold(const Diagnostics& findings, Diagnostics& diagnostics) {
 Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const SimulationOptions& options,
                                 Diagnostics& diagnostics, Begin begin) {
   TENON_CHECK(open_mujoco());
-  const double time_step = choose_time_step(scene, options, diagnostics);
+  const double time_step = time_step_of(scene, options, diagnostics);
   std::set<Path> refused;
   while (true) {
     Diagnostics findings;

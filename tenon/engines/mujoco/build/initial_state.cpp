@@ -7,11 +7,11 @@
 // derives the rest with the contact filter in force.
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/contact_filter.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/start_coordinates.h"
 #include "tenon/engines/steering.h"
 #include "tenon/scene/motion/fit_velocities.h"
 
@@ -21,48 +21,14 @@ namespace {
 using scene::Index;
 using scene::PhysicsScene;
 
-constexpr double kNoticedGap = 1e-4;   // [m]
-constexpr double kNoticedTurn = 1e-3;  // [rad]
-
-Pose world_frame(const PhysicsScene& scene, const std::optional<Index>& body, const Pose& frame) {
-  return body.has_value() ? scene.bodies[*body].pose * frame : frame;
-}
-
-Pose relative_frames(const PhysicsScene& scene, const scene::Joint& joint) {
-  return inverse(world_frame(scene, joint.body0, joint.frame0)) *
-         world_frame(scene, joint.body1, joint.frame1);
-}
-
-// Frames that do not meet are brought together by the coordinates of the tree (S-90).
-void report_gap(const scene::Joint& joint, const Pose& wanted, const Pose& possible,
-                Diagnostics& diagnostics) {
-  const double gap = length(wanted.position - possible.position);
-  const double turn =
-      length(rotation_vector(normalized(conjugate(possible.orientation) * wanted.orientation)));
-  if (gap <= kNoticedGap && turn <= kNoticedTurn) {
-    return;
-  }
-  char text[128];
-  std::snprintf(
-      text, sizeof(text),
-      "the joint's frames are %.3g mm and %.3g degrees apart at the start; the bodies are "
-      "moved together",
-      gap * 1000, turn * 180 / M_PI);
-  diagnostics.add({Severity::Warning, "joint.frames-apart", text, "", 0, 0, joint.path.str(), "",
-                   "correct localPos and localRot, or the poses of the bodies"});
-}
-
-void set_coordinates(const scene::Joint& joint, const JointMap& map, const Pose& relative,
+void set_coordinates(const PhysicsScene& scene, const scene::Joint& joint, const JointMap& map,
                      Diagnostics& diagnostics, double* qpos) {
-  std::vector<double> coordinates = coordinates_at(map.dofs, relative);
-  report_gap(joint, relative, relative_pose_at(map.dofs, coordinates), diagnostics);
-  if (joint.initial_position.has_value() && map.qpos.size() == 1 && map.ball_qpos < 0) {
-    coordinates[0] = *joint.initial_position;
-  }
+  const std::vector<double> coordinates = start_coordinates(scene, joint, map.dofs, diagnostics);
   for (std::size_t i = 0; i < map.qpos.size(); ++i) {
     qpos[map.qpos[i]] = coordinates[i];
   }
   if (map.ball_qpos >= 0) {
+    const Pose relative = relative_frames(scene, joint);
     const Quatd turn = map.reversed ? conjugate(relative.orientation) : relative.orientation;
     write_quaternion(qpos + map.ball_qpos,
                      normalized(map.child_frame * turn * conjugate(map.child_frame)));
@@ -73,8 +39,7 @@ void set_positions(const PhysicsScene& scene, Model& model, Diagnostics& diagnos
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const JointMap& map = model.joints[j];
     if (map.in_tree) {
-      set_coordinates(scene.joints[j], map, relative_frames(scene, scene.joints[j]), diagnostics,
-                      model.data->qpos);
+      set_coordinates(scene, scene.joints[j], map, diagnostics, model.data->qpos);
     }
   }
 }
@@ -97,15 +62,6 @@ void set_ball_velocity(const scene::Joint& joint, const JointMap& map, const Vec
   }
   const Vec3d turn = rotate(frame0, map.reversed ? -in_frame0 : in_frame0);
   write_vector(data->qvel + map.ball_dof, rotate(conjugate(child_world), turn));
-}
-
-void report_losses(const PhysicsScene& scene, const scene::FittedVelocities& fitted,
-                   Diagnostics& diagnostics) {
-  for (const scene::LostEnergy& loss : fitted.losses) {
-    diagnostics.add({Severity::Warning, "joint.velocities-apart", scene::words_of(loss), "", 0, 0,
-                     scene.joints[loss.joint].path.str(), "",
-                     "give the bodies velocities with which the joint's frames stay together"});
-  }
 }
 
 void stop_locked_axes(const scene::Body& body, const BodyMap& map, mjData* data) {
@@ -172,7 +128,7 @@ Result<void> set_velocities(const PhysicsScene& scene, Begin begin, Model& model
   const scene::FittedVelocities fitted = scene::fit_velocities(
       scene, model.plan.forest, dofs, states,
       begin == Begin::Start ? scene::LinkVelocities::OfJoints : scene::LinkVelocities::Own);
-  report_losses(scene, fitted, diagnostics);
+  report_lost_energy(scene, fitted, diagnostics);
   write_velocities(scene, fitted, model);
   return {};
 }

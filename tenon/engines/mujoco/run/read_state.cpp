@@ -11,13 +11,10 @@
 
 #include <cstddef>
 
+#include "tenon/engines/joint_readings.h"
+
 namespace tenon::engines::mujoco {
 namespace {
-
-struct Velocity {
-  Vec3d linear;
-  Vec3d angular;
-};
 
 Pose body_pose(const Model& model, scene::Index body) {
   const BodyMap& map = model.bodies[body];
@@ -26,18 +23,16 @@ Pose body_pose(const Model& model, scene::Index body) {
   return engine * inverse(map.engine_frame);
 }
 
-/// Of a point of a body, in world axes; the world stands still.
-Velocity velocity_of(const Model& model, const std::optional<scene::Index>& body,
-                     const Vec3d& point) {
+/// About its centre of mass; the world stands still.
+RigidMotion motion_of(const Model& model, const std::optional<scene::Index>& body) {
   if (!body.has_value()) {
     return {};
   }
   const int id = model.bodies[*body].id;
   double velocity[6];
   mj_objectVelocity(model.model.get(), model.data.get(), mjOBJ_BODY, id, velocity, 0);
-  const Vec3d angular = read_vector(velocity);
-  const Vec3d arm = point - read_vector(model.data->xipos + std::ptrdiff_t{3} * id);
-  return {read_vector(velocity + 3) + cross(angular, arm), angular};
+  return {read_vector(model.data->xipos + std::ptrdiff_t{3} * id), read_vector(velocity + 3),
+          read_vector(velocity)};
 }
 
 JointState tree_joint_state(const Model& model, scene::Index joint) {
@@ -66,33 +61,14 @@ JointState tree_joint_state(const Model& model, scene::Index joint) {
   return state;
 }
 
-// Joints outside the tree have their coordinates in the relative pose: angles within one turn.
+// Joints outside the tree have their coordinates in the relative pose.
 JointState loop_joint_state(const scene::PhysicsScene& scene, const Model& model,
                             scene::Index joint) {
   const scene::Joint& source = scene.joints[joint];
-  const Pose frame0 = frame_in_world(model, source.body0, source.frame0);
-  const Pose frame1 = frame_in_world(model, source.body1, source.frame1);
-  JointState state;
-  const Velocity side0 = velocity_of(model, source.body0, frame1.position);
-  const Velocity side1 = velocity_of(model, source.body1, frame1.position);
-  const Vec3d linear = side1.linear - side0.linear;
-  const Vec3d angular = side1.angular - side0.angular;
-  if (source.kind == scene::JointKind::Distance) {
-    const Velocity anchor0 = velocity_of(model, source.body0, frame0.position);
-    const Vec3d apart = frame1.position - frame0.position;
-    return {{length(apart)}, {dot(normalized(apart), side1.linear - anchor0.linear)}};
-  }
-  const scene::JointDofs& dofs = model.joints[joint].dofs;
-  state.position = coordinates_at(dofs, inverse(frame0) * frame1);
-  for (const scene::FreeDof& dof : dofs.free) {
-    const Vec3d axis = rotate(frame0.orientation, dof.axis0);
-    state.velocity.push_back(is_angular(dof.dof) ? dot(axis, angular) : dot(axis, linear));
-  }
-  if (dofs.ball) {
-    const Vec3d turn = rotate(conjugate(frame0.orientation), angular);
-    state.velocity.insert(state.velocity.end(), turn.v.begin(), turn.v.end());
-  }
-  return state;
+  return joint_state_between(
+      source, model.joints[joint].dofs,
+      {frame_in_world(model, source.body0, source.frame0), motion_of(model, source.body0)},
+      {frame_in_world(model, source.body1, source.frame1), motion_of(model, source.body1)});
 }
 
 }  // namespace
@@ -107,10 +83,10 @@ BodyState read_body_state(const scene::PhysicsScene& scene, const Model& model, 
   BodyState state;
   state.pose = body_pose(model, body);
   state.pose.orientation = normalized(state.pose.orientation);
-  const Velocity velocity =
-      velocity_of(model, body, transform_point(state.pose, scene.bodies[body].center_of_mass));
-  state.linear_velocity = velocity.linear;
-  state.angular_velocity = velocity.angular;
+  const RigidMotion motion = motion_of(model, body);
+  state.linear_velocity =
+      motion.velocity_at(transform_point(state.pose, scene.bodies[body].center_of_mass));
+  state.angular_velocity = motion.angular;
   return state;
 }
 

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/start_coordinates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tenon::engines {
+namespace {
+
+using scene::Index;
+using scene::PhysicsScene;
+
+constexpr double kNoticedGap = 1e-4;   // [m]
+constexpr double kNoticedTurn = 1e-3;  // [rad]
+
+Pose world_frame(const PhysicsScene& scene, const std::optional<Index>& body, const Pose& frame) {
+  return body.has_value() ? scene.bodies[*body].pose * frame : frame;
+}
+
+// Frames that do not meet are brought together by the coordinates of the tree (S-90).
+void report_gap(const scene::Joint& joint, const Pose& wanted, const Pose& possible,
+                Diagnostics& diagnostics) {
+  const double gap = length(wanted.position - possible.position);
+  const double turn =
+      length(rotation_vector(normalized(conjugate(possible.orientation) * wanted.orientation)));
+  if (gap <= kNoticedGap && turn <= kNoticedTurn) {
+    return;
+  }
+  char text[128];
+  std::snprintf(
+      text, sizeof(text),
+      "the joint's frames are %.3g mm and %.3g degrees apart at the start; the bodies are "
+      "moved together",
+      gap * 1000, turn * 180 / M_PI);
+  diagnostics.add({Severity::Warning, "joint.frames-apart", text, "", 0, 0, joint.path.str(), "",
+                   "correct localPos and localRot, or the poses of the bodies"});
+}
+
+}  // namespace
+
+Pose relative_frames(const PhysicsScene& scene, const scene::Joint& joint) {
+  return inverse(world_frame(scene, joint.body0, joint.frame0)) *
+         world_frame(scene, joint.body1, joint.frame1);
+}
+
+std::vector<double> start_coordinates(const PhysicsScene& scene, const scene::Joint& joint,
+                                      const scene::JointDofs& dofs, Diagnostics& diagnostics) {
+  const Pose relative = relative_frames(scene, joint);
+  std::vector<double> coordinates = coordinates_at(dofs, relative);
+  report_gap(joint, relative, relative_pose_at(dofs, coordinates), diagnostics);
+  if (joint.initial_position.has_value() && dofs.free.size() == 1 && !dofs.ball) {
+    coordinates[0] = *joint.initial_position;
+  }
+  return coordinates;
+}
+
+void report_lost_energy(const PhysicsScene& scene, const scene::FittedVelocities& fitted,
+                        Diagnostics& diagnostics) {
+  for (const scene::LostEnergy& loss : fitted.losses) {
+    diagnostics.add({Severity::Warning, "joint.velocities-apart", scene::words_of(loss), "", 0, 0,
+                     scene.joints[loss.joint].path.str(), "",
+                     "give the bodies velocities with which the joint's frames stay together"});
+  }
+}
+
+StepChoice choose_time_step(const PhysicsScene& scene, double usual, double largest) {
+  if (scene.scenes.empty() || !scene.scenes.front().time_step.has_value() ||
+      !(*scene.scenes.front().time_step > 0)) {
+    return {usual, 0, 1};
+  }
+  const double asked = *scene.scenes.front().time_step;
+  const double parts = std::max(std::ceil(asked / largest - 1e-9), 1.0);
+  return {asked / parts, asked, parts};
+}
+
+}  // namespace tenon::engines

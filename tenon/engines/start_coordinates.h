@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/scene/joint_dofs.h"
+#include "tenon/scene/motion/fit_velocities.h"
+#include "tenon/scene/physics_scene.h"
+
+/// Where a run begins: the same for every engine that has joint coordinates.
+namespace tenon::engines {
+
+/// X_J0J1 as the poses of the bodies have it.
+Pose relative_frames(const scene::PhysicsScene& scene, const scene::Joint& joint);
+
+/// Coordinates of a joint of a tree [m or rad], in the order of coordinates_at(): read off the
+/// poses of the bodies, or the authored one of a joint that has one. What they cannot express, so
+/// that the tree pulls the frames together, is reported (S-90, rule joint.frames-apart).
+std::vector<double> start_coordinates(const scene::PhysicsScene& scene, const scene::Joint& joint,
+                                      const scene::JointDofs& dofs, Diagnostics& diagnostics);
+
+/// What joints took from the authored velocities of bodies (rule joint.velocities-apart).
+void report_lost_energy(const scene::PhysicsScene& scene, const scene::FittedVelocities& fitted,
+                        Diagnostics& diagnostics);
+
+/// The step that an asset asks for, divided until it is at most `largest`, else `usual` [s].
+struct StepChoice {
+  double time_step = 0;
+  double asked = 0;  ///< by the asset; 0: nothing
+  double parts = 1;  ///< steps for each that is asked for
+};
+StepChoice choose_time_step(const scene::PhysicsScene& scene, double usual, double largest);
+
+}  // namespace tenon::engines
