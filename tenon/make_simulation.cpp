@@ -3,6 +3,7 @@
 
 #include "tenon/make_simulation.h"
 
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -10,18 +11,23 @@
 #if TENON_WITH_MUJOCO
 #include "tenon/engines/mujoco/mujoco_engine.h"
 #endif
+#if TENON_WITH_PHYSX
+#include "tenon/engines/physx/physx_engine.h"
+#endif
 
 namespace tenon {
 namespace {
 
 std::span<const engines::Engine> built_engines() {
-#if TENON_WITH_MUJOCO
   static constexpr engines::Engine kBuilt[] = {
-      {engines::mujoco::info, engines::mujoco::make_simulation, engines::mujoco::make_simulations}};
-  return kBuilt;
-#else
-  return {};
+#if TENON_WITH_MUJOCO
+      {engines::mujoco::info, engines::mujoco::make_simulation, engines::mujoco::make_simulations},
 #endif
+#if TENON_WITH_PHYSX
+      {engines::physx::info, engines::physx::make_simulation},
+#endif
+      {}};
+  return std::span(kBuilt).first(std::size(kBuilt) - 1);
 }
 
 }  // namespace

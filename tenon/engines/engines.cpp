@@ -19,7 +19,7 @@ struct KnownEngine {
 constexpr std::array<KnownEngine, 3> kKnownEngines{{
     {"jolt", "This version of tenon has no Jolt adapter; use mujoco."},
     {"mujoco", "Build tenon with -DTENON_WITH_MUJOCO=ON (the default of the presets)."},
-    {"physx", "This version of tenon has no PhysX adapter; use mujoco."},
+    {"physx", "Build tenon with PhysX: make build ENGINES=all, or -DTENON_WITH_PHYSX=ON."},
 }};
 
 }  // namespace

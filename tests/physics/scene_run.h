@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -14,11 +15,24 @@
 
 namespace tenon {
 
-/// A file on its way through composition, physics reading and MuJoCo. Lengths in stage units.
+/// The engines of this build that can be used.
+inline std::vector<std::string> engines_here() {
+  std::vector<std::string> names;
+  for (const engines::EngineInfo& info : list_engines()) {
+    if (info.available) {
+      names.push_back(info.name);
+    }
+  }
+  return names;
+}
+
+/// A file on its way through composition, physics reading and an engine. Lengths in stage units.
 class SceneRun {
  public:
   /// Records a failed test when any step on the way fails; `ready` tells.
-  explicit SceneRun(const std::string& path) { open(path); }
+  explicit SceneRun(const std::string& path, const std::string& engine = "mujoco") {
+    open(path, engine);
+  }
 
   bool ready() const { return simulation_ != nullptr; }
   const scene::PhysicsScene& scene() const { return *scene_; }
@@ -67,13 +81,13 @@ class SceneRun {
   }
 
  private:
-  void open(const std::string& path) {
+  void open(const std::string& path, const std::string& engine) {
     auto stage = open_stage(path, {}, diagnostics_);
     ASSERT_TRUE(stage.has_value()) << stage.error().to_string();
     stage_ = std::make_unique<stage::Stage>(*std::move(stage));
     scene_ =
         std::make_unique<scene::PhysicsScene>(physics::read_physics(*stage_, {}, diagnostics_));
-    auto made = make_simulation("mujoco", *scene_, {}, diagnostics_);
+    auto made = make_simulation(engine, *scene_, {}, diagnostics_);
     ASSERT_TRUE(made.has_value()) << made.error().to_string();
     simulation_ = *std::move(made);
   }

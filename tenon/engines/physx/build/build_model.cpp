@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The list of passes: neutral scene -> PhysX. What PhysX itself says while they run is an error
+// where no object came of it, and a warning where one did.
+#include "tenon/engines/physx/build/build.h"
+
+namespace tenon::engines::physx {
+namespace {
+
+Result<void> run_passes(Build& build, Begin begin) {
+  plan_joints(build);
+  TENON_CHECK(add_scenes(build));
+  add_materials(build);
+  TENON_CHECK(add_bodies(build));
+  TENON_CHECK(add_colliders(build));
+  set_reduced_joints(build);
+  TENON_CHECK(add_constraints(build));
+  add_mimics(build);
+  report_unmapped(build);
+  return start(build, begin);
+}
+
+}  // namespace
+
+Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOptions& options,
+                          double time_step, Diagnostics& diagnostics, Begin begin) {
+  TENON_TRY(const Runtime* runtime, open_physx());
+  if (scene.scenes.empty()) {
+    return Error(ErrorCode::Invalid, "the description has no scene").with_rule("physx.no-scene");
+  }
+  Messages messages;
+  Build build(scene, *runtime, options, diagnostics);
+  build.model.time_step = time_step;
+  TENON_CHECK(run_passes(build, begin));
+  for (const std::string& words : messages.errors()) {
+    diagnostics.add(
+        {Severity::Warning, "physx.message", "PhysX says: " + words, "", 0, 0, "", "", ""});
+  }
+  return std::move(build.model);
+}
+
+}  // namespace tenon::engines::physx

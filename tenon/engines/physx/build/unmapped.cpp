@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the scene says and PhysX 5.1 here does not do; nothing is passed over in silence.
+#include "tenon/engines/physx/build/build.h"
+#include "tenon/engines/physx/run/drives.h"
+#include "tenon/engines/physx/slots.h"
+#include "tenon/scene/joint_freedom.h"
+
+namespace tenon::engines::physx {
+namespace {
+
+using scene::Index;
+using scene::Joint;
+
+void report_body(Build& build, Index index) {
+  const scene::Body& body = build.scene.bodies[index];
+  const scene::BodySettings& settings = body.settings;
+  const bool locks = settings.locked_translation != 0 || settings.locked_rotation != 0;
+  if (locks && build.model.is_link(index)) {
+    build.report(body.path, "physxRigidBody:lockedPosAxis",
+                 "PhysX locks axes of bodies outside of articulations only");
+  }
+}
+
+void report_drives(Build& build, Index index) {
+  const Joint& joint = build.scene.joints[index];
+  const JointMap& map = build.model.joints[index];
+  int swings = 0;
+  for (const scene::Dof dof : kSlotDofs) {
+    const bool driven = is_driven(joint, dof);
+    if (driven && joint.friction > 0) {
+      build.report(joint.path, "friction", "the joint has a drive, whose place it needs in PhysX");
+    }
+    if (driven && map.d6 != nullptr && has_spring(joint)) {
+      build.report(joint.path, "damping", "joints outside of articulations have their drive alone");
+    }
+    swings += driven && map.d6 != nullptr && is_angular(dof) && slot_of(dof, map.main).number != 0;
+  }
+  if (swings > 1) {
+    build.report(joint.path, "drive",
+                 "PhysX drives both swings of a joint with the gains of the last one");
+  }
+  if (has_spring(joint) && joint.friction > 0) {
+    build.report(joint.path, "friction", "the joint has a spring, whose place it needs in PhysX");
+  }
+}
+
+void report_joint(Build& build, Index index) {
+  const Joint& joint = build.scene.joints[index];
+  const JointMap& map = build.model.joints[index];
+  if (map.role == JointRole::None) {
+    return;
+  }
+  if (joint.collision_enabled && (map.role == JointRole::Reduced)) {
+    build.report(joint.path, "physics:collisionEnabled",
+                 "links of an articulation that share a joint never touch in PhysX");
+  }
+  report_drives(build, index);
+  for (const scene::LimitSpring& spring : joint.limit_springs) {
+    if (spring.restitution > 0) {
+      build.report(joint.path, "restitution", "limits of PhysX here do not rebound");
+    }
+  }
+  for (const scene::Drive& drive : joint.drives) {
+    const scene::DriveEnvelope& envelope = drive.envelope;
+    if (envelope.max_velocity < scene::kUnlimited || envelope.velocity_resistance > 0) {
+      build.report(joint.path, "drive",
+                   "PhysX 5.1 bounds the force of a drive, not what it has left at a speed");
+    }
+  }
+  if (map.role == JointRole::Maximal && joint.armature > 0) {
+    build.report(joint.path, "armature", "joints outside of articulations have none in PhysX");
+  }
+  if (map.role == JointRole::Maximal && joint.velocity_limit < scene::kUnlimited) {
+    build.report(joint.path, "velocity", "joints outside of articulations have no speed limit");
+  }
+}
+
+}  // namespace
+
+void report_unmapped(Build& build) {
+  for (Index b = 0; b < build.scene.bodies.size(); ++b) {
+    report_body(build, b);
+  }
+  for (Index j = 0; j < build.scene.joints.size(); ++j) {
+    report_joint(build, j);
+  }
+  for (const scene::Tendon& tendon : build.scene.tendons) {
+    build.report(tendon.path, "", "tendons are not simulated on PhysX here");
+  }
+  for (const scene::MujocoActuator& actuator : build.scene.actuators) {
+    build.report(actuator.path, "", "an actuator of MuJoCo, which PhysX does not have");
+  }
+}
+
+}  // namespace tenon::engines::physx

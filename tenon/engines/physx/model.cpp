@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/engines/physx/model.h"
+
+#include <utility>
+
+namespace tenon::engines::physx {
+
+Owned& Owned::operator=(Owned&& other) noexcept {
+  release();
+  runtime_ = other.runtime_;
+  objects_ = std::exchange(other.objects_, {});
+  scenes_ = std::exchange(other.scenes_, {});
+  solids_ = std::exchange(other.solids_, {});
+  return *this;
+}
+
+px::PxScene* Owned::add_scene(px::PxScene* scene) {
+  if (scene != nullptr) {
+    scenes_.push_back(scene);
+  }
+  return scene;
+}
+
+px::PxCustomGeometryCallbacks* Owned::add_solid(const Runtime& runtime,
+                                                px::PxCustomGeometryCallbacks* solid) {
+  runtime_ = &runtime;
+  if (solid != nullptr) {
+    solids_.push_back(solid);
+  }
+  return solid;
+}
+
+void Owned::release() {
+  for (auto object = objects_.rbegin(); object != objects_.rend(); ++object) {
+    (*object)->release();
+  }
+  for (px::PxScene* scene : scenes_) {
+    scene->release();
+  }
+  for (px::PxCustomGeometryCallbacks* solid : solids_) {
+    runtime_->functions->release_solid(solid);
+  }
+  objects_.clear();
+  scenes_.clear();
+  solids_.clear();
+}
+
+bool Model::is_link(scene::Index body) const {
+  return bodies[body] != nullptr && bodies[body]->getType() == px::PxActorType::eARTICULATION_LINK;
+}
+
+scene::Index collider_of(const px::PxShape& shape) { return shape.getSimulationFilterData().word0; }
+
+std::optional<scene::Index> body_of(const px::PxActor& actor) {
+  const auto number = reinterpret_cast<std::uintptr_t>(actor.userData);
+  return number == 0 ? std::nullopt
+                     : std::optional<scene::Index>(static_cast<scene::Index>(number - 1));
+}
+
+}  // namespace tenon::engines::physx

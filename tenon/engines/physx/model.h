@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "tenon/engines/physx/physx_library.h"
+#include "tenon/engines/simulation_values.h"
+#include "tenon/scene/joint_dofs.h"
+#include "tenon/scene/physics_scene.h"
+
+/// A scene as PhysX has it, and what connects PhysX's objects with those of the neutral scene.
+namespace tenon::engines::physx {
+
+/// Objects of PhysX in the order they were made; they end in the opposite one.
+class Owned {
+ public:
+  Owned() = default;
+  Owned(Owned&&) noexcept = default;
+  Owned& operator=(Owned&& other) noexcept;
+  ~Owned() { release(); }
+
+  template <class Object>
+  Object* add(Object* object) {
+    if (object != nullptr) {
+      objects_.push_back(object);
+    }
+    return object;
+  }
+  px::PxScene* add_scene(px::PxScene* scene);
+  px::PxCustomGeometryCallbacks* add_solid(const Runtime& runtime,
+                                           px::PxCustomGeometryCallbacks* solid);
+
+ private:
+  void release();
+
+  const Runtime* runtime_ = nullptr;
+  std::vector<px::PxBase*> objects_;
+  std::vector<px::PxScene*> scenes_;
+  std::vector<px::PxCustomGeometryCallbacks*> solids_;
+};
+
+/// A tree of bodies in joint coordinates.
+struct ReducedTree {
+  px::PxArticulationReducedCoordinate* articulation = nullptr;
+  px::PxArticulationCache* cache = nullptr;  ///< released with the tree
+  scene::Index scene = 0;
+};
+
+/// How one joint stands in PhysX.
+enum class JointRole : std::uint8_t {
+  None,     ///< disabled, or without effect
+  Reduced,  ///< a coordinate, or a ball, between a link and its parent
+  Root,     ///< it fixes the root of a tree to the world
+  Maximal,  ///< a constraint between two bodies
+};
+
+struct JointMap {
+  JointRole role = JointRole::None;
+  scene::JointDofs dofs;
+  // Of Reduced:
+  std::size_t tree = 0;  ///< into Model::trees
+  px::PxArticulationJointReducedCoordinate* link_joint = nullptr;
+  bool reversed = false;                                               ///< the child is body0
+  px::PxArticulationAxis::Enum axis = px::PxArticulationAxis::eTWIST;  ///< of its one coordinate
+  int coordinate = -1;  ///< into the cache of its tree; -1: none, or a ball
+  // Of Maximal:
+  px::PxJoint* constraint = nullptr;
+  px::PxD6Joint* d6 = nullptr;  ///< the same, unless it bounds a distance
+  std::size_t main = 0;         ///< axis of the joint's frames that is x of the constraint's
+};
+
+/// A spring, damper or friction that no drive of PhysX has room for: a force on a coordinate,
+/// worked out before each step.
+struct PassiveForce {
+  scene::Index joint = 0;
+  double stiffness = 0;
+  double reference = 0;
+  double damping = 0;
+};
+
+/// What pairs of colliders do to each other; PhysX asks for each new pair.
+struct PairRules {
+  const scene::PhysicsScene* scene = nullptr;
+  bool report_contacts = false;
+};
+
+struct Model {
+  Owned owned;
+  std::vector<px::PxScene*> scenes;               ///< (scene_count)
+  std::vector<px::PxRigidBody*> bodies;           ///< (body_count)
+  std::vector<std::vector<px::PxShape*>> shapes;  ///< (collider_count)
+  std::vector<px::PxRigidActor*> static_actors;   ///< (collider_count), null: of a body
+  std::vector<JointMap> joints;                   ///< (joint_count)
+  std::vector<ReducedTree> trees;
+  std::vector<PassiveForce> passive;
+  std::vector<NotMapped> not_mapped;
+  std::unique_ptr<PairRules> pairs;  ///< where PhysX's filter finds it
+  double time_step = 0;              ///< [s]
+
+  bool is_link(scene::Index body) const;
+};
+
+/// The collider that a shape belongs to.
+scene::Index collider_of(const px::PxShape& shape);
+/// The body or collider that an actor belongs to is in its userData as index + 1.
+std::optional<scene::Index> body_of(const px::PxActor& actor);
+
+}  // namespace tenon::engines::physx

@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A step gives PhysX what the asset and the user say about its time (Timeline, StepInputs), lets it
+// advance scene by scene on this thread, and takes what it told. Where the scene changes, joints
+// that broke included, the model is made anew from the scene as it is now, with the bodies as they
+// are.
+#include "tenon/engines/physx/physx_simulation.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "tenon/engines/physx/build/build.h"
+#include "tenon/engines/physx/convert.h"
+#include "tenon/engines/physx/run/read_state.h"
+#include "tenon/engines/start_coordinates.h"
+
+namespace tenon::engines::physx {
+namespace {
+
+using scene::Index;
+using scene::PhysicsScene;
+
+constexpr double kUsualTimeStep = 0.002;    // [s]
+constexpr double kLargestTimeStep = 0.004;  // [s] an asset's own step is divided until it is below
+
+scene::BodyMass least_mass() {
+  scene::BodyMass least;
+  least.mass = 1e-9;
+  least.inertia = {};
+  for (std::size_t i = 0; i < 3; ++i) {
+    least.inertia[i][i] = 1e-13;
+  }
+  return least;
+}
+
+Error unstable(double time, const std::string& why, const Path& prim) {
+  char text[64];
+  std::snprintf(text, sizeof text, "the simulation became unstable at %.6g s: ", time);
+  return Error(ErrorCode::Unstable, text + why)
+      .with_rule("physx.unstable")
+      .with_prim(prim.str())
+      .with_fix("use a smaller time step, softer drives, or start within the limits of joints");
+}
+
+bool is_bounded(const px::PxTransform& pose) {
+  return pose.p.isFinite() && pose.q.isFinite() && pose.p.magnitude() < 1e9F;
+}
+
+Result<void> check_methods(const Methods& methods) {
+  if (methods.integrator == Integrator::Default || methods.integrator == Integrator::Euler) {
+    if (methods.solver == ConstraintSolver::Default ||
+        methods.solver == ConstraintSolver::ProjectedGaussSeidel) {
+      return {};
+    }
+  }
+  return Error(
+             ErrorCode::Unsupported,
+             "PhysX integrates by semi-implicit Euler (euler) and solves by projected Gauss-Seidel "
+             "(pgs)")
+      .with_rule("engine.method");
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PhysxSimulation>> PhysxSimulation::make(const PhysicsScene& scene,
+                                                               const SimulationOptions& options,
+                                                               Diagnostics& diagnostics) {
+  TENON_CHECK(check_methods(options.methods));
+  const StepChoice choice = choose_time_step(scene, kUsualTimeStep, kLargestTimeStep);
+  std::unique_ptr<PhysxSimulation> made(new PhysxSimulation(scene, options));
+  TENON_CHECK(
+      made->begin(options.time_step > 0 ? options.time_step : choice.time_step, diagnostics));
+  return made;
+}
+
+PhysxSimulation::PhysxSimulation(const PhysicsScene& scene, const SimulationOptions& options)
+    : asset_(&scene), options_(options), scene_(&scene) {}
+
+Result<void> PhysxSimulation::begin(double time_step, Diagnostics& diagnostics) {
+  timeline_ = scene::Timeline::is_needed(*asset_)
+                  ? std::make_unique<scene::Timeline>(*asset_, least_mass())
+                  : nullptr;
+  scene_ = timeline_ == nullptr ? asset_ : &timeline_->scene();
+  TENON_TRY(model_, build_model(*scene_, options_, time_step, diagnostics, Begin::Start));
+  connect();
+  return {};
+}
+
+void PhysxSimulation::connect() {
+  auto told = std::make_unique<StepEvents>(*scene_, model_.time_step);
+  auto surfaces = std::make_unique<SurfaceMotion>(*scene_);
+  for (px::PxScene* scene : model_.scenes) {
+    scene->setSimulationEventCallback(told.get());
+    scene->setContactModifyCallback(surfaces.get());
+  }
+  told_ = std::move(told);
+  surfaces_ = std::move(surfaces);
+  inputs_ = StepInputs(*scene_, model_);
+  stale_ = true;
+}
+
+Result<void> PhysxSimulation::step() {
+  Messages messages;
+  if (timeline_ != nullptr) {
+    TENON_CHECK(follow_changes());
+  }
+  if (options_.outputs.accelerations) {
+    keep_velocities();
+  }
+  inputs_.before_step(model_, steering_, time());
+  told_->clear();
+  stale_ = true;
+  for (px::PxScene* scene : model_.scenes) {
+    scene->simulate(to_px(model_.time_step));
+    scene->fetchResults(true);
+  }
+  ++steps_;
+  if (!messages.errors().empty()) {
+    return unstable(time(), "PhysX says: " + messages.errors().front(), {});
+  }
+  TENON_CHECK(check_step());
+  return take_events();
+}
+
+Result<void> PhysxSimulation::check_step() const {
+  for (Index b = 0; b < model_.bodies.size(); ++b) {
+    if (!is_bounded(model_.bodies[b]->getGlobalPose())) {
+      return unstable(time(), "a body left the finite numbers", scene_->bodies[b].path);
+    }
+  }
+  return {};
+}
+
+Result<void> PhysxSimulation::take_events() {
+  contacts_ = std::move(told_->contacts);
+  for (const StepEvents::Passed& passed : told_->passed) {
+    const std::optional<Index>& body = scene_->colliders[passed.other].body;
+    const Path& other = body ? scene_->bodies[*body].path : scene_->colliders[passed.other].path;
+    const Path& trigger = scene_->colliders[passed.trigger].path;
+    events_.push_back(
+        {time(), trigger, (passed.inside ? "entered by <" : "left by <") + other.str() + ">"});
+  }
+  if (told_->broken.empty()) {
+    return {};
+  }
+  for (const StepEvents::Broken& part : told_->broken) {
+    char what[96];
+    std::snprintf(what, sizeof what, "broke under %.4g N and %.4g N m", part.force, part.torque);
+    events_.push_back({time(), scene_->joints[part.joint].path, what});
+    timeline_->break_joint(part.joint);
+  }
+  return rebuild();
+}
+
+Result<void> PhysxSimulation::follow_changes() {
+  const scene::SceneChange changed = timeline_->advance(time());
+  if (changed.gravity) {
+    const std::vector<Vec3d> gravity = steering_.gravity_of(*scene_);
+    for (std::size_t s = 0; s < model_.scenes.size(); ++s) {
+      model_.scenes[s]->setGravity(to_px(gravity[s]));
+    }
+  }
+  return changed.structure || changed.bounds ? rebuild() : Result<void>();
+}
+
+Result<void> PhysxSimulation::rebuild() {
+  std::vector<BodyState> states;
+  for (Index b = 0; b < scene_->bodies.size(); ++b) {
+    states.push_back(body_state(b));
+  }
+  timeline_->restart(states);
+  Diagnostics silent;  // what there is to say was said at the start
+  TENON_TRY(model_, build_model(*scene_, options_, model_.time_step, silent, Begin::Middle));
+  connect();
+  apply_steering();
+  return {};
+}
+
+void PhysxSimulation::keep_velocities() {
+  bodies_at_begin_.clear();
+  joints_at_begin_.clear();
+  for (Index b = 0; b < scene_->bodies.size(); ++b) {
+    bodies_at_begin_.push_back(body_state(b));
+  }
+  for (Index j = 0; j < scene_->joints.size(); ++j) {
+    joints_at_begin_.push_back(joint_state(j));
+  }
+}
+
+void PhysxSimulation::bring_up_to_date() const {
+  if (stale_) {
+    read_caches(model_);
+    stale_ = false;
+  }
+}
+
+BodyState PhysxSimulation::body_state(Index body) const {
+  return read_body_state(*scene_, model_, body);
+}
+
+JointState PhysxSimulation::joint_state(Index joint) const {
+  bring_up_to_date();
+  return read_joint_state(*scene_, model_, joint);
+}
+
+Energy PhysxSimulation::energy() const {
+  bring_up_to_date();
+  return read_energy(*scene_, model_, steering_.gravity_of(*scene_));
+}
+
+std::size_t PhysxSimulation::contact_count() const { return read_contact_count(model_); }
+
+std::size_t PhysxSimulation::dof_count() const {
+  std::size_t count = 0;
+  for (const ReducedTree& tree : model_.trees) {
+    const bool floats =
+        !(tree.articulation->getArticulationFlags() & px::PxArticulationFlag::eFIX_BASE);
+    count += tree.articulation->getDofs() + (floats ? 6 : 0);
+  }
+  for (Index b = 0; b < model_.bodies.size(); ++b) {
+    count += model_.is_link(b) || scene_->bodies[b].kinematic ? 0 : 6;
+  }
+  return count;
+}
+
+Vec3d PhysxSimulation::center_of_mass(Index body) const {
+  return read_center_of_mass(model_, body);
+}
+
+Vec3d PhysxSimulation::gravity(Index scene) const { return steering_.gravity_of(*scene_)[scene]; }
+
+EngineObjects PhysxSimulation::engine_objects() const {
+  static const std::string version = physx_version();
+  return {"physx", version, model_.scenes.empty() ? nullptr : model_.scenes.front(), nullptr};
+}
+
+Result<void> PhysxSimulation::reset() {
+  Diagnostics silent;
+  steering_ = {};
+  events_.clear();
+  contacts_.clear();
+  steps_ = 0;
+  return begin(model_.time_step, silent);
+}
+
+}  // namespace tenon::engines::physx

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tenon/engines/physx/model.h"
+
+namespace tenon::engines::physx {
+
+/// What PhysX tells during a step: contacts, joints that broke, triggers.
+class StepEvents final : public px::PxSimulationEventCallback {
+ public:
+  struct Broken {
+    scene::Index joint = 0;
+    double force = 0;   ///< [N]
+    double torque = 0;  ///< [N m]
+  };
+  struct Passed {
+    scene::Index trigger = 0;  ///< collider
+    scene::Index other = 0;    ///< collider
+    bool inside = false;
+  };
+
+  StepEvents(const scene::PhysicsScene& scene, double time_step)
+      : scene_(&scene), time_step_(time_step) {}
+  void clear();
+
+  std::vector<Contact> contacts;
+  std::vector<Broken> broken;
+  std::vector<Passed> passed;
+
+  void onConstraintBreak(px::PxConstraintInfo* constraints, px::PxU32 count) override;
+  void onWake(px::PxActor** /*actors*/, px::PxU32 /*count*/) override {}
+  void onSleep(px::PxActor** /*actors*/, px::PxU32 /*count*/) override {}
+  void onContact(const px::PxContactPairHeader& header, const px::PxContactPair* pairs,
+                 px::PxU32 count) override;
+  void onTrigger(px::PxTriggerPair* pairs, px::PxU32 count) override;
+  void onAdvance(const px::PxRigidBody* const* /*bodies*/, const px::PxTransform* /*poses*/,
+                 px::PxU32 /*count*/) override {}
+
+ private:
+  void add_contacts(const px::PxContactPair& pair);
+
+  const scene::PhysicsScene* scene_;
+  double time_step_;
+};
+
+/// Surfaces that carry along what touches them (SurfaceVelocity).
+class SurfaceMotion final : public px::PxContactModifyCallback {
+ public:
+  explicit SurfaceMotion(const scene::PhysicsScene& scene) : scene_(&scene) {}
+  void onContactModify(px::PxContactModifyPair* const pairs, px::PxU32 count) override;
+
+ private:
+  const scene::PhysicsScene* scene_;
+};
+
+}  // namespace tenon::engines::physx

@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the user has set wins over samples of the asset. Forces on bodies end with the step, those
+// on coordinates stay until others are set, so they are set to 0 once nothing pushes any more.
+#include "tenon/engines/physx/run/step_inputs.h"
+
+#include <algorithm>
+
+#include "tenon/engines/physx/convert.h"
+#include "tenon/engines/physx/run/drives.h"
+#include "tenon/engines/physx/run/read_state.h"
+#include "tenon/scene/motion/joint_motion.h"
+
+namespace tenon::engines::physx {
+namespace {
+
+using scene::Index;
+
+bool has_scaled_gravity(const scene::Body& body) {
+  return body.gravity_scale != 0 && body.gravity_scale != 1;
+}
+
+void write_sample(const scene::ScalarTrack& track, double now, scene::Drive& drive) {
+  const double value = track.at(now);
+  switch (track.what) {
+    case scene::Animated::DriveTargetPosition:
+      drive.target_position = value;
+      break;
+    case scene::Animated::DriveTargetVelocity:
+      drive.target_velocity = value;
+      break;
+    case scene::Animated::DriveStiffness:
+      drive.stiffness = value;
+      break;
+    case scene::Animated::DriveDamping:
+      drive.damping = value;
+      break;
+    case scene::Animated::DriveMaxForce:
+      drive.max_force = value;
+      break;
+  }
+}
+
+void write_steering(const Steering& steering, Index joint, std::vector<scene::Drive>& drives) {
+  for (Index d = 0; d < drives.size(); ++d) {
+    if (const auto target = steering.targets.find({joint, d}); target != steering.targets.end()) {
+      drives[d].target_position = target->second.position;
+      drives[d].target_velocity = target->second.velocity;
+    }
+    const auto set = [&](Parameter what, double& number) {
+      const auto found = steering.parameters.find({what, joint, d});
+      number = found == steering.parameters.end() ? number : found->second;
+    };
+    set(Parameter::DriveStiffness, drives[d].stiffness);
+    set(Parameter::DriveDamping, drives[d].damping);
+    set(Parameter::DriveMaxForce, drives[d].max_force);
+  }
+}
+
+Wrench constant_wrench(const scene::Body& body, const px::PxRigidBody& actor) {
+  const Pose pose = from_px(actor.getGlobalPose());
+  Wrench total;
+  for (const scene::BodyForce& push : body.settings.forces) {
+    const auto turned = [&](const Vec3d& v) {
+      return push.body_axes ? rotate(pose.orientation, v) : v;
+    };
+    Vec3d force = turned(push.force);
+    Vec3d torque = turned(push.torque);
+    if (push.acceleration) {
+      force = force * body.mass;
+      const Vec3d own = rotate(conjugate(pose.orientation), torque);
+      torque = rotate(pose.orientation, own * body.inertia);
+    }
+    const Vec3d arm = rotate(pose.orientation, push.point - body.center_of_mass);
+    total.force += force;
+    total.torque += torque + cross(arm, force);
+  }
+  return total;
+}
+
+}  // namespace
+
+StepInputs::StepInputs(const scene::PhysicsScene& scene, const Model& /*model*/) : scene_(&scene) {
+  for (const scene::ScalarTrack& track : scene.scalar_tracks) {
+    if (!track.times.empty()) {
+      tracked_.push_back(track.joint);
+    }
+  }
+  std::sort(tracked_.begin(), tracked_.end());
+  tracked_.erase(std::unique(tracked_.begin(), tracked_.end()), tracked_.end());
+  for (Index b = 0; b < scene.bodies.size(); ++b) {
+    const scene::Body& body = scene.bodies[b];
+    if (!body.kinematic && (has_scaled_gravity(body) || !body.settings.forces.empty())) {
+      pushed_.push_back(b);
+    }
+  }
+}
+
+void StepInputs::before_step(const Model& model, const Steering& steering, double now) {
+  follow_drive_tracks(model, steering, now);
+  move_bodies(model, steering, now + model.time_step);
+  push_bodies(model, steering);
+  push_coordinates(model, steering);
+}
+
+scene::Joint StepInputs::joint_now(Index joint, const Steering& steering, double now) const {
+  scene::Joint source = scene_->joints[joint];
+  for (const scene::ScalarTrack& track : scene_->scalar_tracks) {
+    if (track.joint == joint && !track.times.empty()) {
+      write_sample(track, now, source.drives[track.drive]);
+    }
+  }
+  write_steering(steering, joint, source.drives);
+  return source;
+}
+
+scene::Drive StepInputs::drive_now(Index joint, Index drive, const Steering& steering,
+                                   double now) const {
+  return joint_now(joint, steering, now).drives[drive];
+}
+
+void StepInputs::steer_drive(Index joint, const Model& model, const Steering& steering,
+                             double now) {
+  write_drives(joint_now(joint, steering, now), model.joints[joint], model.time_step);
+}
+
+void StepInputs::follow_drive_tracks(const Model& model, const Steering& steering, double now) {
+  for (const Index joint : tracked_) {
+    steer_drive(joint, model, steering, now);
+  }
+}
+
+void StepInputs::move_bodies(const Model& model, const Steering& steering, double at) const {
+  const auto move = [](px::PxRigidActor* actor, const Pose& pose) {
+    static_cast<px::PxRigidDynamic*>(actor)->setKinematicTarget(to_px(pose));
+  };
+  for (const scene::PoseTrack& track : scene_->pose_tracks) {
+    if (track.times.empty()) {
+      continue;
+    }
+    if (track.body.has_value() && scene_->bodies[*track.body].kinematic &&
+        !steering.poses.contains(*track.body)) {
+      move(model.bodies[*track.body], track.at(at));
+    } else if (track.collider.has_value() && model.static_actors[*track.collider] != nullptr) {
+      move(model.static_actors[*track.collider], track.at(at));
+    }
+  }
+  for (const auto& [body, pose] : steering.poses) {
+    move(model.bodies[body], pose);
+  }
+}
+
+void StepInputs::push(const Model& model, Index body, const Wrench& wrench) const {
+  model.bodies[body]->addForce(to_px(wrench.force));
+  model.bodies[body]->addTorque(to_px(wrench.torque));
+}
+
+void StepInputs::push_bodies(const Model& model, const Steering& steering) const {
+  for (const Index b : pushed_) {
+    const scene::Body& body = scene_->bodies[b];
+    Wrench wrench = constant_wrench(body, *model.bodies[b]);
+    if (has_scaled_gravity(body)) {
+      const Vec3d gravity = from_px(model.scenes[body.scene]->getGravity());
+      wrench.force +=
+          gravity * (static_cast<double>(model.bodies[b]->getMass()) * (body.gravity_scale - 1));
+    }
+    push(model, b, wrench);
+  }
+  for (const auto& [body, wrench] : steering.wrenches) {
+    if (!scene_->bodies[body].kinematic) {
+      push(model, body, wrench);
+    }
+  }
+}
+
+void StepInputs::push_constraint(const Model& model, Index joint,
+                                 const std::vector<double>& efforts) const {
+  const scene::Joint& source = scene_->joints[joint];
+  const auto frame = [&](const std::optional<Index>& body, const Pose& local) {
+    return body ? from_px(model.bodies[*body]->getGlobalPose()) * local : local;
+  };
+  const Pose frame0 = frame(source.body0, source.frame0);
+  const Pose frame1 = frame(source.body1, source.frame1);
+  Vec3d force;
+  Vec3d torque;
+  if (source.kind == scene::JointKind::Distance) {
+    force = normalized(frame1.position - frame0.position) * efforts.front();
+  } else {
+    const scene::JointMotion motion = joint_motion(model.joints[joint].dofs, frame0, frame1);
+    for (std::size_t i = 0; i < efforts.size() && i < motion.slides.size(); ++i) {
+      const scene::JointDofs& dofs = model.joints[joint].dofs;
+      const bool angular = i >= dofs.free.size() || is_angular(dofs.free[i].dof);
+      force += angular ? Vec3d{} : motion.slides[i] * efforts[i];
+      torque += angular ? motion.turns[i] * efforts[i] : Vec3d{};
+    }
+  }
+  const auto act = [&](const std::optional<Index>& body, double sign) {
+    if (body && !scene_->bodies[*body].kinematic) {
+      const Vec3d arm = frame1.position - read_center_of_mass(model, *body);
+      push(model, *body, {force * sign, (torque + cross(arm, force)) * sign});
+    }
+  };
+  act(source.body1, 1);
+  act(source.body0, -1);
+}
+
+void StepInputs::push_coordinates(const Model& model, const Steering& steering) {
+  const bool pushes = !steering.efforts.empty() || !model.passive.empty();
+  if (!pushes && !has_forces_) {
+    return;
+  }
+  has_forces_ = pushes;
+  read_caches(model);
+  for (const ReducedTree& tree : model.trees) {
+    std::fill_n(tree.cache->jointForce, tree.articulation->getDofs(), 0.0F);
+  }
+  for (const PassiveForce& passive : model.passive) {
+    const JointMap& map = model.joints[passive.joint];
+    const JointState state = read_joint_state(*scene_, model, passive.joint);
+    model.trees[map.tree].cache->jointForce[map.coordinate] +=
+        to_px(passive.stiffness * (passive.reference - state.position[0]) -
+              passive.damping * state.velocity[0]);
+  }
+  for (const auto& [joint, efforts] : steering.efforts) {
+    const JointMap& map = model.joints[joint];
+    if (map.role == JointRole::Reduced && map.dofs.free.size() == 1) {
+      model.trees[map.tree].cache->jointForce[map.coordinate] += to_px(efforts.front());
+    } else if (map.role != JointRole::None && !efforts.empty()) {
+      push_constraint(model, joint, efforts);
+    }
+  }
+  for (const ReducedTree& tree : model.trees) {
+    tree.articulation->applyCache(*tree.cache, px::PxArticulationCacheFlag::eFORCE);
+  }
+}
+
+}  // namespace tenon::engines::physx

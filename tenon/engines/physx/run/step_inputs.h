@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "tenon/engines/physx/model.h"
+#include "tenon/engines/steering.h"
+
+namespace tenon::engines::physx {
+
+/// What is given to PhysX before every step: drives, bodies and colliders that follow the asset's
+/// samples, forces on bodies and coordinates. Nothing in most scenes.
+class StepInputs {
+ public:
+  StepInputs() = default;
+  StepInputs(const scene::PhysicsScene& scene, const Model& model);
+
+  /// `now` [s] is the beginning of the step.
+  void before_step(const Model& model, const Steering& steering, double now);
+  /// The drives of a joint with what the user has set of them, written at once.
+  void steer_drive(scene::Index joint, const Model& model, const Steering& steering, double now);
+  /// One drive with what samples and the user say of it.
+  scene::Drive drive_now(scene::Index joint, scene::Index drive, const Steering& steering,
+                         double now) const;
+
+ private:
+  scene::Joint joint_now(scene::Index joint, const Steering& steering, double now) const;
+  void follow_drive_tracks(const Model& model, const Steering& steering, double now);
+  void move_bodies(const Model& model, const Steering& steering, double at) const;
+  void push_bodies(const Model& model, const Steering& steering) const;
+  void push_coordinates(const Model& model, const Steering& steering);
+  void push_constraint(const Model& model, scene::Index joint,
+                       const std::vector<double>& efforts) const;
+  void push(const Model& model, scene::Index body, const Wrench& wrench) const;
+
+  const scene::PhysicsScene* scene_ = nullptr;
+  std::vector<scene::Index> tracked_;  ///< joints whose drives follow samples, ascending
+  std::vector<scene::Index> pushed_;
+  bool has_forces_ = false;  ///< forces of coordinates hold until they are set anew
+};
+
+}  // namespace tenon::engines::physx
