@@ -4,20 +4,26 @@
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build docs bench judge tidy clean packages test-packages judge-packages oracle
+.PHONY: help demo test build docs bench judge tidy clean packages test-packages judge-packages oracle engine-packages
 .DELETE_ON_ERROR:
 
 help:
 	@echo "make demo    build tenon, let the example hand grasp, say what to look at"
 	@echo "make test    build with sanitizers and run every test"
-	@echo "make build   only the program: build/release/bin/tenon"
+	@echo "make build   only the program: build/release/bin/tenon; ENGINES=all: PhysX too"
 	@echo "make docs    the reference of the C++ headers: build/docs/html"
 	@echo "make bench   measure, beside usd-core; BASE=<commit>: beside that commit"
 	@echo "make judge   the long runs, hours of them; ONLY=\"NAME...\" chooses, tools/judge.py --list"
 	@echo "make tidy    clang-tidy over the whole program, half an hour of processor time"
 	@echo "make clean   remove build/"
 
+# ENGINES=all: with every engine, PhysX too; a build folder that has them keeps them.
+ifeq ($(ENGINES),all)
+build: engine-packages packages
+	@cmake --preset release -DTENON_WITH_PHYSX=ON
+else
 build: packages
+endif
 	@tools/quiet_build.sh release $(JOBS) all
 
 docs: build
@@ -29,6 +35,7 @@ demo: build
 
 # Some tests are of the program that users run.
 test: test-packages oracle build/dev/build.ninja build/release/build.ninja
+	@cmake --preset release -DTENON_WITH_PHYSX=ON > /dev/null
 	@tools/quiet_build.sh dev $(JOBS) all
 	@tools/quiet_build.sh release $(JOBS) all
 	@tools/quiet_tests.sh dev -LE judge -j $(JOBS)
@@ -57,6 +64,9 @@ clean:
 # System packages and the oracle are made once; each script returns at once when nothing is missing.
 packages:
 	@tools/bootstrap.sh build
+
+engine-packages:
+	@tools/bootstrap.sh build engines
 
 test-packages:
 	@tools/bootstrap.sh build test

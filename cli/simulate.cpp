@@ -60,7 +60,9 @@ Result<SimulateAssetOptions> simulation_options(const SimulateArguments& argumen
 
 void SimulateArguments::add_to(const Command& verb) {
   asset.add_with_standard_input_to(verb);
-  verb.add_option("--engine", engine, "The engine; PhysX and Jolt are not built yet")
+  verb.add_option("--engine", engine,
+                  "The engine; without it that of the selected variant: PhysX for physx, else "
+                  "MuJoCo (tenon doctor lists those of this build)")
       .one_of({"mujoco", "physx", "jolt"})
       .value_name("NAME");
   verb.add_option("--duration", duration, {0, 1e6, false, false, "s"},
@@ -70,16 +72,20 @@ void SimulateArguments::add_to(const Command& verb) {
                   "Time step; without it the asset's, else 0.002 s")
       .value_name("SECONDS");
   verb.add_option("--integrator", integrator,
-                  "How steps are made; without it the asset's, else implicitfast (MuJoCo)")
+                  "How steps are made; without it the asset's, else implicitfast (MuJoCo), euler "
+                  "(PhysX, which has no other)")
       .one_of(engines::integrator_names())
       .value_name("NAME");
   verb.add_option(
           "--solver", solver,
-          "What finds the forces of contacts and limits; without it the asset's, else newton")
+          "What finds the forces of contacts and limits; without it the asset's, else newton "
+          "(MuJoCo), pgs (PhysX, which has no other)")
       .one_of(engines::solver_names())
       .value_name("NAME");
-  verb.add_option("--iterations", iterations, {1, 1e6, false, true, ""},
-                  "How often the solver tries, at most; without it the asset's, else 100")
+  verb.add_option(
+          "--iterations", iterations, {1, 1e6, false, true, ""},
+          "How often the solver tries, at most; without it the asset's, else 100 (MuJoCo), 16 "
+          "(PhysX)")
       .value_name("COUNT");
   verb.add_option("--fps", frames_per_second, {0, 1e5, true, false, "per second"},
                   "Frames of logs and baked layers");

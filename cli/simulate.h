@@ -17,8 +17,8 @@ namespace tenon::cli {
 struct SimulateArguments {
   AssetArguments asset;
   std::vector<std::string> readings;  ///< --reading NAME=VALUE
-  bool uninstance = false;  ///< of bake: instances with bodies inside become ordinary prims
-  std::string engine = "mujoco";
+  bool uninstance = false;         ///< of bake: instances with bodies inside become ordinary prims
+  std::string engine;              ///< empty: what the selected variant names
   std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5
   double time_step = 0;            ///< [s]; 0: the asset's, else the engine's
   double frames_per_second = 60;

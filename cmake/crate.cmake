@@ -58,20 +58,21 @@ function(tenon_fetch_crate name version sha256 destination fault)
   set(${fault} "" PARENT_SCOPE)
 endfunction()
 
-# Builds the project <source> with its crate in TENON_CRATE and installs it to <destination>.
-function(tenon_build_engine source crate destination fault)
+# Builds the project <source> with the crate in <work>.source, which it finds in TENON_CRATE, and
+# installs it to <destination>.
+function(tenon_build_engine source work destination fault)
   include(ProcessorCount)
   ProcessorCount(processors)
   execute_process(
-    COMMAND ${CMAKE_COMMAND} -G ${CMAKE_GENERATOR} -S ${source} -B ${destination}.build
-            -DTENON_CRATE=${crate} -DCMAKE_BUILD_TYPE=Release
+    COMMAND ${CMAKE_COMMAND} -G ${CMAKE_GENERATOR} -S ${source} -B ${work}.build
+            -DTENON_CRATE=${work}.source -DCMAKE_BUILD_TYPE=Release
             -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
             -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
             -DCMAKE_INSTALL_PREFIX=${destination}.part -DCMAKE_INSTALL_LIBDIR=lib
     RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(status EQUAL 0)
     execute_process(
-      COMMAND ${CMAKE_COMMAND} --build ${destination}.build --parallel ${processors}
+      COMMAND ${CMAKE_COMMAND} --build ${work}.build --parallel ${processors}
               --target install
       RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
   endif()
@@ -84,7 +85,7 @@ function(tenon_build_engine source crate destination fault)
     set(${fault} "${said}" PARENT_SCOPE)
     return()
   endif()
-  file(REMOVE_RECURSE ${destination} ${destination}.build)
+  file(REMOVE_RECURSE ${destination} ${work}.build)
   file(RENAME ${destination}.part ${destination})
   set(${fault} "" PARENT_SCOPE)
 endfunction()

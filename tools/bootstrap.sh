@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs what the build needs and this machine lacks (Debian 12, Ubuntu 22.04 and later).
 #   tools/bootstrap.sh build        to build the program
+#   tools/bootstrap.sh build engines   with the engines that are built from sources
 #   tools/bootstrap.sh build test   to run the tests too
 #   tools/bootstrap.sh build test judge   and the long runs, some of which need clang
 #   tools/bootstrap.sh docs         to make the reference of the headers
@@ -56,7 +57,10 @@ need_for_build() {
     libeigen3-dev libqhull-dev libpugixml-dev libassimp-dev libmeshoptimizer-dev
 }
 
+need_for_engines() { need_tool cargo cargo --version; }
+
 need_for_test() {
+  need_for_engines
   need_package libgtest-dev
   need_tool valgrind valgrind --version
   need_tool binutils readelf --version
@@ -103,11 +107,12 @@ fi
 for part in "${@:-build}"; do
   case "$part" in
     build) need_for_build ;;
+    engines) need_for_engines ;;
     test) need_for_test ;;
     judge) need_for_judge ;;
     docs) need_for_docs ;;
     *)
-      echo "bootstrap: unknown part '$part'; expected: build, test, judge, docs" >&2
+      echo "bootstrap: unknown part '$part'; expected: build, engines, test, judge, docs" >&2
       exit 2
       ;;
   esac

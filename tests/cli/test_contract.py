@@ -72,7 +72,7 @@ class Contract(unittest.TestCase):
         self.assertEqual(process.returncode, 0, process.stderr)
 
     def test_an_engine_that_is_not_built_is_4_and_an_unknown_one_2(self):
-        for engine, code in (("physx", 4), ("no-such-engine", 2)):
+        for engine, code in (("jolt", 4), ("no-such-engine", 2)):
             process = tenon("sim", HAND, "--engine", engine)
             self.assertEqual(process.returncode, code, process.stderr)
             self.assertIn(engine, process.stderr)
@@ -258,6 +258,19 @@ class Contract(unittest.TestCase):
         process = tenon("doctor", "--json")
         engines = {e["name"]: e for e in json.loads(process.stdout)["engines"]}
         self.assertTrue(engines["mujoco"]["available"])
+
+    def test_the_selected_variant_names_the_engine(self):
+        has_physx = any(e["name"] == "physx" and e["available"]
+                        for e in json.loads(tenon("doctor", "--json").stdout)["engines"])
+        for variant, engine in (("physics", "mujoco"), ("mujoco", "mujoco"), ("physx", "physx")):
+            answer = self.json("sim", HAND, "--physics", variant, "--duration", 0.01)
+            rules = [finding["rule"] for finding in answer["diagnostics"]]
+            expected = engine if has_physx else "mujoco"
+            self.assertEqual(answer["engine"], expected, variant)
+            self.assertEqual("sim.engine-fallback" in rules, expected != engine, variant)
+            asked = self.json("sim", HAND, "--physics", variant, "--engine", "mujoco",
+                              "--duration", 0.01)
+            self.assertEqual(asked["engine"], "mujoco")
 
 
 if __name__ == "__main__":

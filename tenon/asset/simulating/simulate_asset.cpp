@@ -15,6 +15,7 @@
 
 #include "tenon/asset/layers/relative_path.h"
 #include "tenon/asset/physics_options.h"
+#include "tenon/asset/simulating/engine_choice.h"
 #include "tenon/bake/write_time_samples.h"
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/grouped_digits.h"
@@ -74,14 +75,14 @@ Result<void> check_run(const bake::RunOptions& run, const engines::Simulation& s
 
 /// MuJoCo prepares a model in a time that grows with the square of its bodies: 10,000 that are free
 /// took 15.7 s on the machine of the benchmarks. Who has to wait for it is told before.
-void announce_setup(const SimulateAssetOptions& options, const scene::PhysicsScene& scene,
-                    Diagnostics& diagnostics) {
+void announce_setup(const SimulateAssetOptions& options, const std::string& engine,
+                    const scene::PhysicsScene& scene, Diagnostics& diagnostics) {
   constexpr double kSecondsPerPair = 1.5e-7;
   constexpr double kWorthTelling = 2;  // [s]
   const auto bodies = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                     [](const scene::Body& body) { return !body.kinematic; });
   const double seconds = kSecondsPerPair * std::pow(static_cast<double>(bodies), 2);
-  if (options.engine != "mujoco" || seconds < kWorthTelling) {
+  if (engine != "mujoco" || seconds < kWorthTelling) {
     return;
   }
   Diagnostic finding;
@@ -90,7 +91,7 @@ void announce_setup(const SimulateAssetOptions& options, const scene::PhysicsSce
   finding.message = "setting up " + grouped_digits(static_cast<std::size_t>(bodies)) +
                     " bodies on MuJoCo takes about " + std::to_string(std::llround(seconds)) +
                     " s; the time grows with the square of their number";
-  finding.fix = "simulate a part of the scene with --mask";
+  finding.fix = "simulate it with --engine physx, or a part of it with --mask";
   if (options.listener.announce) {
     options.listener.announce(finding);
   } else {
@@ -137,11 +138,9 @@ Result<void> build_model(const SimulateAssetOptions& options, SimulatedAsset& as
   simulation.time_step = options.time_step;
   simulation.outputs = options.outputs;
   simulation.methods = options.methods;
-  TENON_TRY(asset.simulation,
-            make_simulation(options.engine, *asset.scene, simulation, diagnostics));
-  asset.engine = options.engine;
+  TENON_TRY(asset.simulation, make_simulation(asset.engine, *asset.scene, simulation, diagnostics));
   for (const engines::EngineInfo& engine : list_engines()) {
-    if (engine.name == options.engine) {
+    if (engine.name == asset.engine) {
       asset.engine_version = engine.version;
     }
   }
@@ -273,7 +272,8 @@ void report_end(const SimulateAssetOptions& options, const SimulatedAsset& asset
 Result<SimulatedAsset> simulate_asset(const std::string& path, const SimulateAssetOptions& options,
                                       Diagnostics& diagnostics) {
   TENON_TRY(SimulatedAsset asset, read_scene(path, options, diagnostics));
-  announce_setup(options, *asset.scene, diagnostics);
+  asset.engine = choose_engine(options.engine, *asset.stage, diagnostics);
+  announce_setup(options, asset.engine, *asset.scene, diagnostics);
   tell_next(options,
             "building the model of " + std::to_string(asset.scene->bodies.size()) + " bodies");
   TENON_CHECK(build_model(options, asset, diagnostics));

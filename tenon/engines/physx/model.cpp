@@ -11,6 +11,7 @@ Owned& Owned::operator=(Owned&& other) noexcept {
   runtime_ = other.runtime_;
   objects_ = std::exchange(other.objects_, {});
   scenes_ = std::exchange(other.scenes_, {});
+  caches_ = std::exchange(other.caches_, {});
   solids_ = std::exchange(other.solids_, {});
   return *this;
 }
@@ -20,6 +21,14 @@ px::PxScene* Owned::add_scene(px::PxScene* scene) {
     scenes_.push_back(scene);
   }
   return scene;
+}
+
+px::PxArticulationCache* Owned::add_cache(const Runtime& runtime, px::PxArticulationCache* cache) {
+  runtime_ = &runtime;
+  if (cache != nullptr) {
+    caches_.push_back(cache);
+  }
+  return cache;
 }
 
 px::PxCustomGeometryCallbacks* Owned::add_solid(const Runtime& runtime,
@@ -32,6 +41,10 @@ px::PxCustomGeometryCallbacks* Owned::add_solid(const Runtime& runtime,
 }
 
 void Owned::release() {
+  for (px::PxArticulationCache* cache : caches_) {
+    runtime_->functions->release_cache(cache);
+  }
+  caches_.clear();
   for (auto object = objects_.rbegin(); object != objects_.rend(); ++object) {
     (*object)->release();
   }

@@ -32,6 +32,7 @@ class Owned {
     return object;
   }
   px::PxScene* add_scene(px::PxScene* scene);
+  px::PxArticulationCache* add_cache(const Runtime& runtime, px::PxArticulationCache* cache);
   px::PxCustomGeometryCallbacks* add_solid(const Runtime& runtime,
                                            px::PxCustomGeometryCallbacks* solid);
 
@@ -41,13 +42,14 @@ class Owned {
   const Runtime* runtime_ = nullptr;
   std::vector<px::PxBase*> objects_;
   std::vector<px::PxScene*> scenes_;
+  std::vector<px::PxArticulationCache*> caches_;
   std::vector<px::PxCustomGeometryCallbacks*> solids_;
 };
 
 /// A tree of bodies in joint coordinates.
 struct ReducedTree {
   px::PxArticulationReducedCoordinate* articulation = nullptr;
-  px::PxArticulationCache* cache = nullptr;  ///< released with the tree
+  px::PxArticulationCache* cache = nullptr;
   scene::Index scene = 0;
 };
 

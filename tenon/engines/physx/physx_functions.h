@@ -9,7 +9,7 @@
 namespace tenon::engines::physx_api {
 
 /// Goes up with every change of Functions.
-inline constexpr unsigned kFunctionsVersion = 1;
+inline constexpr unsigned kFunctionsVersion = 2;
 
 struct Functions {
   unsigned version;        ///< kFunctionsVersion of the library
@@ -35,6 +35,8 @@ struct Functions {
   ::physx::PxCustomGeometryCallbacks* (*create_cone)(float height, float radius, int axis);
   void (*release_solid)(::physx::PxCustomGeometryCallbacks* solid);
 
+  void (*release_cache)(::physx::PxArticulationCache* cache);
+
   ::physx::PxD6Joint* (*create_d6)(::physx::PxPhysics& physics, ::physx::PxRigidActor* actor0,
                                    const ::physx::PxTransform& frame0,
                                    ::physx::PxRigidActor* actor1,
@@ -44,6 +46,15 @@ struct Functions {
                                                const ::physx::PxTransform& frame0,
                                                ::physx::PxRigidActor* actor1,
                                                const ::physx::PxTransform& frame1);
+  ::physx::PxGearJoint* (*create_gear)(::physx::PxPhysics& physics, ::physx::PxRigidActor* actor0,
+                                       const ::physx::PxTransform& frame0,
+                                       ::physx::PxRigidActor* actor1,
+                                       const ::physx::PxTransform& frame1);
+  ::physx::PxRackAndPinionJoint* (*create_rack)(::physx::PxPhysics& physics,
+                                                ::physx::PxRigidActor* actor0,
+                                                const ::physx::PxTransform& frame0,
+                                                ::physx::PxRigidActor* actor1,
+                                                const ::physx::PxTransform& frame1);
 };
 
 /// The one symbol of the library.

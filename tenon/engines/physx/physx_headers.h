@@ -27,9 +27,12 @@
 #include <PxSimulationEventCallback.h>
 #include <PxSimulationStatistics.h>
 #include <cooking/PxCooking.h>
+#include <extensions/PxConstraintExt.h>
 #include <extensions/PxD6Joint.h>
 #include <extensions/PxDefaultCpuDispatcher.h>
 #include <extensions/PxDistanceJoint.h>
+#include <extensions/PxGearJoint.h>
+#include <extensions/PxRackAndPinionJoint.h>
 #include <foundation/PxFoundation.h>
 #include <foundation/PxPhysicsVersion.h>
 #include <geometry/PxCustomGeometry.h>

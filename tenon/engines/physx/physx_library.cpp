@@ -12,6 +12,8 @@ namespace tenon::engines::physx {
 namespace {
 thread_local Messages* current_messages = nullptr;
 constexpr std::size_t kMostMessages = 20;
+constexpr float kSmallLength = 0.01F;  // [m]
+constexpr float kUsualSpeed = 10;      // [m/s]
 }  // namespace
 
 class ErrorLog final : public px::PxErrorCallback {
@@ -69,7 +71,10 @@ std::string start(Runtime& runtime) {
   if (runtime.foundation == nullptr) {
     return "it makes no foundation: some other part of this process uses PhysX";
   }
-  runtime.physics = runtime.functions->create_physics(*runtime.foundation, px::PxTolerancesScale());
+  // What PhysX takes for small: else contacts of a box are looked for again only once it has moved
+  // by millimetres, and found when it has gone in that far.
+  const px::PxTolerancesScale scale(kSmallLength, kUsualSpeed);
+  runtime.physics = runtime.functions->create_physics(*runtime.foundation, scale);
   runtime.dispatcher = runtime.functions->create_dispatcher(0);
   return runtime.physics == nullptr || runtime.dispatcher == nullptr ? "it does not start" : "";
 }

@@ -41,7 +41,7 @@ px::PxRigidDynamic* make_free_body(Build& build, Index index) {
   }
   set_mass(body, *made);
   made->setRigidBodyFlag(px::PxRigidBodyFlag::eKINEMATIC, body.kinematic);
-  made->setSolverIterationCounts(kPositionIterations, kVelocityIterations);
+  made->setSolverIterationCounts(build.position_iterations(), kVelocityIterations);
   made->setSleepThreshold(0);
   made->setRigidDynamicLockFlags(locks_of(body.settings));
   return made;
@@ -59,7 +59,7 @@ std::size_t new_tree(Build& build, Index body, bool fixed) {
       build.model.owned.add(build.runtime.physics->createArticulationReducedCoordinate());
   made->setArticulationFlag(px::PxArticulationFlag::eFIX_BASE, fixed);
   made->setArticulationFlag(px::PxArticulationFlag::eDRIVE_LIMITS_ARE_FORCES, true);
-  made->setSolverIterationCounts(kPositionIterations, kVelocityIterations);
+  made->setSolverIterationCounts(build.position_iterations(), kVelocityIterations);
   made->setSleepThreshold(0);
   made->setStabilizationThreshold(0);
   made->setMaxCOMLinearVelocity(kNoBound);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,8 @@ enum class Begin : std::uint8_t {
 };
 
 /// PhysX's own numbers where the asset says none.
-inline constexpr px::PxU32 kPositionIterations = 16;
+inline constexpr int kPositionIterations = 16;
+inline constexpr int kMostIterations = 255;  ///< PhysX keeps them in a byte
 inline constexpr px::PxU32 kVelocityIterations = 1;
 inline constexpr float kNoBound = 1e16F;  ///< of speeds, whose squares PhysX forms
 
@@ -39,6 +41,11 @@ struct Build {
   std::vector<px::PxMaterial*> materials;  ///< (material_count + 1), the last for the unbound
   Model model;
 
+  px::PxU32 position_iterations() const {
+    const int asked = options.methods.iterations;
+    return static_cast<px::PxU32>(
+        std::min(asked > 0 ? asked : kPositionIterations, kMostIterations));
+  }
   void report(const Path& prim, std::string property, std::string why) {
     model.not_mapped.push_back({prim, std::move(property), std::move(why)});
   }

@@ -52,7 +52,7 @@ void insert(Build& build) {
   }
   for (ReducedTree& tree : model.trees) {
     model.scenes[tree.scene]->addArticulation(*tree.articulation);
-    tree.cache = tree.articulation->createCache();
+    tree.cache = model.owned.add_cache(build.runtime, tree.articulation->createCache());
   }
   number_coordinates(model);
 }

@@ -7,8 +7,6 @@
 
 #include <utility>
 
-#include <extensions/PxConstraintExt.h>
-
 #include "tenon/engines/physx/convert.h"
 
 namespace tenon::engines::physx {

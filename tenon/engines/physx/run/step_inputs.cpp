@@ -188,11 +188,10 @@ void StepInputs::push_constraint(const Model& model, Index joint,
     force = normalized(frame1.position - frame0.position) * efforts.front();
   } else {
     const scene::JointMotion motion = joint_motion(model.joints[joint].dofs, frame0, frame1);
-    for (std::size_t i = 0; i < efforts.size() && i < motion.slides.size(); ++i) {
-      const scene::JointDofs& dofs = model.joints[joint].dofs;
-      const bool angular = i >= dofs.free.size() || is_angular(dofs.free[i].dof);
-      force += angular ? Vec3d{} : motion.slides[i] * efforts[i];
-      torque += angular ? motion.turns[i] * efforts[i] : Vec3d{};
+    const std::size_t slides = motion.slides.size();  // which come first
+    for (std::size_t i = 0; i < efforts.size(); ++i) {
+      force += i < slides ? motion.slides[i] * efforts[i] : Vec3d{};
+      torque += i < slides ? Vec3d{} : motion.turns[i - slides] * efforts[i];
     }
   }
   const auto act = [&](const std::optional<Index>& body, double sign) {

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/asset/simulating/engine_choice.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "tenon/make_simulation.h"
+
+namespace tenon {
+namespace {
+
+constexpr const char* kUsualEngine = "mujoco";
+
+/// Engines by the first prim whose variant names each.
+using NamedEngines = std::map<std::string, Path>;
+
+void add_engine_of(const stage::Prim& prim, NamedEngines& named) {
+  const std::vector<std::string> sets = prim.variant_set_names();
+  if (std::find(sets.begin(), sets.end(), "Physics") == sets.end()) {
+    return;
+  }
+  const std::string selected = prim.variant_selection("Physics");
+  if (selected == "none" || selected.empty()) {
+    return;
+  }
+  named.try_emplace(selected == "physx" ? "physx" : kUsualEngine, prim.path());
+}
+
+NamedEngines named_engines(const stage::Stage& stage) {
+  NamedEngines named;
+  std::vector<stage::Prim> open = stage.pseudo_root().children();
+  while (!open.empty()) {
+    const stage::Prim prim = open.back();
+    open.pop_back();
+    add_engine_of(prim, named);
+    const std::vector<stage::Prim> children = prim.children();
+    open.insert(open.end(), children.begin(), children.end());
+  }
+  return named;
+}
+
+/// How to get the engine where this build has none; "" where it has.
+std::string missing(const std::string& engine) {
+  for (const engines::EngineInfo& info : list_engines()) {
+    if (info.name == engine) {
+      return info.available ? "" : info.how_to_get;
+    }
+  }
+  return "";
+}
+
+Diagnostic warning(std::string rule, std::string message, const Path& prim, std::string fix) {
+  return {Severity::Warning, std::move(rule), std::move(message), "", 0, 0, prim.str(), "",
+          std::move(fix)};
+}
+
+}  // namespace
+
+std::string choose_engine(const std::string& asked, const stage::Stage& stage,
+                          Diagnostics& diagnostics) {
+  if (!asked.empty()) {
+    return asked;
+  }
+  const NamedEngines named = named_engines(stage);
+  if (named.empty()) {
+    return kUsualEngine;
+  }
+  if (named.size() > 1) {
+    diagnostics.add(warning("sim.engines-mixed",
+                            "variants of the asset name MuJoCo and PhysX; MuJoCo runs it",
+                            named.at("physx"), "name the engine with --engine"));
+    return kUsualEngine;
+  }
+  const auto& [engine, prim] = *named.begin();
+  if (const std::string how_to_get = missing(engine); !how_to_get.empty()) {
+    diagnostics.add(warning("sim.engine-fallback",
+                            "the variant is for PhysX, which this build does not have; MuJoCo runs "
+                            "it (check --for mujoco tells what is different)",
+                            prim, how_to_get));
+    return kUsualEngine;
+  }
+  return engine;
+}
+
+}  // namespace tenon
