@@ -86,6 +86,12 @@ void report_unmapped(Build& build) {
   for (Index j = 0; j < build.scene.joints.size(); ++j) {
     report_joint(build, j);
   }
+  for (const scene::Material& material : build.scene.materials) {
+    if (material.torsional_friction.value_or(0) > 0 || material.rolling_friction.value_or(0) > 0) {
+      build.report(material.path, "torsionalFriction, rollingFriction",
+                   "PhysX has friction against sliding, and of patches of a size alone");
+    }
+  }
   for (const scene::Tendon& tendon : build.scene.tendons) {
     build.report(tendon.path, "", "tendons are not simulated on PhysX here");
   }
