@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,12 @@ using Json = nlohmann::ordered_json;
 
 /// The object without keys: an answer that says nothing.
 inline Json nothing() { return Json::object(); }
+
+/// Puts a member behind the others, whose keys are known to be different: Json looks for the key
+/// among all of them, which takes a square of their number.
+inline void append_member(Json& object, std::string key, Json value) {
+  object.get_ref<Json::object_t&>().emplace_back(std::move(key), std::move(value));
+}
 
 /// As it is printed, indented by two. Bytes that are no UTF-8 are replaced; `only_ascii` writes
 /// other characters as escapes.

@@ -8,6 +8,7 @@
 namespace tenon {
 namespace {
 
+using answers::append_member;
 using answers::Json;
 
 Json list_json(const Vec3d& v) { return Json(v.v); }
@@ -17,11 +18,11 @@ Json bodies_json(const SimulatedAsset& s) {
   Json bodies = Json::object();
   for (scene::Index i = 0; i < s.scene->bodies.size(); ++i) {
     const engines::BodyState state = bake::in_stage_units(s.simulation->body_state(i), *s.scene);
-    bodies[s.scene->bodies[i].path.str()] = {
-        {"position", list_json(state.pose.position)},
-        {"orientation", list_json(state.pose.orientation)},
-        {"linearVelocity", list_json(state.linear_velocity)},
-        {"angularVelocity", list_json(state.angular_velocity)}};
+    append_member(bodies, s.scene->bodies[i].path.str(),
+                  {{"position", list_json(state.pose.position)},
+                   {"orientation", list_json(state.pose.orientation)},
+                   {"linearVelocity", list_json(state.linear_velocity)},
+                   {"angularVelocity", list_json(state.angular_velocity)}});
   }
   return bodies;
 }
@@ -31,8 +32,8 @@ Json joints_json(const SimulatedAsset& s) {
   for (scene::Index i = 0; i < s.scene->joints.size(); ++i) {
     const engines::JointState state =
         bake::in_stage_units(s.simulation->joint_state(i), s.scene->joints[i], *s.scene);
-    joints[s.scene->joints[i].path.str()] = {{"position", state.position},
-                                             {"velocity", state.velocity}};
+    append_member(joints, s.scene->joints[i].path.str(),
+                  {{"position", state.position}, {"velocity", state.velocity}});
   }
   return joints;
 }
