@@ -3,8 +3,8 @@
 //
 // URDF gives full sizes, the model half sizes. Each mesh name gets its number when it is first met
 // and is looked for once. A mesh that is not found keeps its number with an empty path, and each
-// shape that uses it is reported and left out, while the link stays. An inertial without mass or
-// inertia, or a number that is none, ends the reading.
+// shape that uses it is reported and left out, while the link stays; so is an inertial without
+// mass. A number that is none ends the reading.
 #include "tenon/urdf/urdf_reader.h"
 
 namespace tenon::urdf {
@@ -35,7 +35,7 @@ Result<void> UrdfReader::read_link(pugi::xml_node element) {
   return {};
 }
 
-Result<robot::Inertial> UrdfReader::read_inertial(pugi::xml_node element) {
+Result<std::optional<robot::Inertial>> UrdfReader::read_inertial(pugi::xml_node element) {
   xml_.list_unknown(element, {}, {"origin", "mass", "inertia"});
   robot::Inertial inertial;
   inertial.place = xml_.place_of(element);
@@ -44,14 +44,18 @@ Result<robot::Inertial> UrdfReader::read_inertial(pugi::xml_node element) {
   inertial.axes = origin.orientation;
   const pugi::xml_node mass = element.child("mass");
   if (!mass) {
-    return xml_.fault(element, "urdf.missing", "needs a <mass>", "add <mass value=\"...\"/> [kg]");
+    xml_.warn(element, "urdf.missing", "has no <mass>; it is left out",
+              "add <mass value=\"...\"/> [kg]", Severity::Error);
+    return std::optional<robot::Inertial>();
   }
   xml_.list_unknown(mass, {"value"}, {});
   TENON_TRY(inertial.mass, xml_.number(mass, "value", std::nullopt));
   const pugi::xml_node inertia = element.child("inertia");
   if (!inertia) {
-    return xml_.fault(element, "urdf.missing", "needs an <inertia>",
-                      "add <inertia ixx=\"...\" .../> [kg m^2]");
+    xml_.warn(element, "urdf.missing",
+              "has no <inertia>; the mass is kept, and spread as the colliders are",
+              "add <inertia ixx=\"...\" .../> [kg m^2]");
+    return std::optional<robot::Inertial>(inertial);
   }
   xml_.list_unknown(inertia, {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {});
   struct Entry {
@@ -71,7 +75,7 @@ Result<robot::Inertial> UrdfReader::read_inertial(pugi::xml_node element) {
     inertial.inertia[entry.row][entry.column] = value;
     inertial.inertia[entry.column][entry.row] = value;
   }
-  return inertial;
+  return std::optional<robot::Inertial>(inertial);
 }
 
 Result<void> UrdfReader::read_visual(pugi::xml_node element, robot::Link& link) {
@@ -106,7 +110,9 @@ Result<void> UrdfReader::read_collision(pugi::xml_node element, robot::Link& lin
 Result<std::optional<Geometry>> UrdfReader::read_geometry(pugi::xml_node element) {
   const pugi::xml_node outer = element.child("geometry");
   if (!outer) {
-    return xml_.fault(element, "urdf.missing", "needs a <geometry>", "add one");
+    xml_.warn(element, "urdf.missing", "has no <geometry>; it is left out", "add one",
+              Severity::Error);
+    return std::optional<Geometry>();
   }
   xml_.list_unknown(outer, {}, {"box", "sphere", "cylinder", "capsule", "mesh"});
   for (const pugi::xml_node shape : outer.children()) {
@@ -136,8 +142,10 @@ Result<std::optional<Geometry>> UrdfReader::read_geometry(pugi::xml_node element
       return read_mesh(shape);
     }
   }
-  return xml_.fault(outer, "urdf.missing", "holds no shape that is known",
-                    "give it a box, sphere, cylinder, capsule or mesh");
+  xml_.warn(outer, "urdf.shape",
+            "holds no shape that is known; the " + std::string(element.name()) + " is left out",
+            "give it a box, sphere, cylinder, capsule or mesh", Severity::Error);
+  return std::optional<Geometry>();
 }
 
 Result<std::optional<Geometry>> UrdfReader::read_mesh(pugi::xml_node element) {
@@ -162,6 +170,12 @@ robot::Index UrdfReader::mesh_number(const std::string& written, pugi::xml_node 
     const Result<std::string> file = paths_.find(written);
     if (!file && !file.error().diagnostic().rule.empty()) {
       refusals_.emplace(written, file.error());
+    }
+    if (file && paths_.is_guess(written)) {
+      xml_.warn(element, "urdf.mesh-nearby",
+                "the mesh \"" + written + "\" is not at its place; \"" + *file +
+                    "\", whose name ends like it, is taken",
+                paths_.advice(written), Severity::Info);
     }
     model_.meshes.push_back({written, file.value_or(""), xml_.place_of(element), {}, {}});
   }

@@ -43,6 +43,15 @@ std::optional<std::pair<std::string, std::string>> package_parts(const std::stri
   return std::nullopt;
 }
 
+/// The parts of a name behind its scheme and its package.
+fs::path parts_of_name(const std::string& written) {
+  if (const auto package = package_parts(written)) {
+    return package->second;
+  }
+  const std::size_t scheme = written.find("://");
+  return scheme == std::string::npos ? written : written.substr(scheme + 3);
+}
+
 /// No package has an empty name, which every folder without a package.xml would answer to.
 bool names_a_package(const std::string& name) {
   return !name.empty() && name != "." && name != "..";
@@ -115,6 +124,41 @@ std::optional<std::string> MeshPaths::find_upward(const std::string& name,
   }
 }
 
+bool MeshPaths::may_be_read(const std::string& file) const {
+  return reading_.allows(file) || bytes::parts_folder(reading_.files(), path_, file).has_value();
+}
+
+/// By the longest end of the name that is the place of a file, seen from the nearest folder.
+std::optional<std::string> MeshPaths::find_nearby(const std::string& written) {
+  constexpr std::size_t kFolders = 4;
+  constexpr std::size_t kParts = 8;
+  const fs::path name = parts_of_name(written);
+  std::vector<fs::path> parts(name.begin(), name.end());
+  fs::path end;
+  std::vector<fs::path> ends;
+  while (!parts.empty() && ends.size() < kParts) {
+    const std::string part = parts.back().string();
+    if (part.empty() || part == "." || part == ".." || part == "/") {
+      break;
+    }
+    end = end.empty() ? parts.back() : parts.back() / end;
+    ends.push_back(end);
+    parts.pop_back();
+  }
+  for (auto at = ends.rbegin(); at != ends.rend(); ++at) {
+    fs::path folder = folder_;
+    for (std::size_t i = 0; i < kFolders && folder != folder.parent_path(); ++i) {
+      const auto file = file_at(reading_.files(), folder / *at);
+      if (file && may_be_read(*file)) {
+        guesses_.insert(written);
+        return file;
+      }
+      folder = folder.parent_path();
+    }
+  }
+  return std::nullopt;
+}
+
 void MeshPaths::take_folder(const std::string& folder) {
   if (!reading_.is_closed() && !reading_.allows(folder)) {
     reading_.add_found(folder);
@@ -123,7 +167,11 @@ void MeshPaths::take_folder(const std::string& folder) {
 }
 
 Result<std::string> MeshPaths::find(const std::string& written) {
-  const std::optional<std::string> file = look_for(written);
+  std::optional<std::string> file = look_for(written);
+  const auto package = package_parts(written);
+  if (!file && (!package || packages_.count(package->first) == 0)) {
+    file = find_nearby(written);
+  }
   if (!file) {
     return Error(ErrorCode::NotFound, "the file cannot be found");
   }

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct UrdfOptions;
 
 /// From file names in a description to files: `package://NAME/x` and `model://NAME/x` by the given
 /// folders, then upward from the description, then in the search paths; `file://`; else relative to
-/// the description.
+/// the description. Descriptions are passed on without their packages, so what is nowhere there is
+/// looked for near the description by the end of its name.
 class MeshPaths {
  public:
   /// `path` is the description.
@@ -25,6 +27,8 @@ class MeshPaths {
   /// The file. Errors: NotFound without a rule where there is none, with bytes::kOutsideRule where
   /// it lies outside of what may be read.
   Result<std::string> find(const std::string& written);
+  /// Whether the file was found by the end of its name only.
+  bool is_guess(const std::string& written) const { return guesses_.count(written) != 0; }
   /// What a person can do about a name that was not found.
   std::string advice(const std::string& written) const;
   /// Folders that files were found in: UrdfOptions::reading had them not.
@@ -34,6 +38,8 @@ class MeshPaths {
   std::optional<std::string> look_for(const std::string& written);
   std::optional<std::string> find_in_package(const std::string& name, const std::string& rest);
   std::optional<std::string> find_upward(const std::string& name, const std::string& rest);
+  std::optional<std::string> find_nearby(const std::string& written);
+  bool may_be_read(const std::string& file) const;
   void take_folder(const std::string& folder);
   /// The name that the package.xml of a folder gives; empty without one.
   const std::string& package_name(const std::string& folder);
@@ -45,6 +51,7 @@ class MeshPaths {
   bytes::ReadPolicy reading_;
   std::vector<std::string> found_folders_;
   std::map<std::string, std::string> names_;  // of folders, once read
+  std::set<std::string> guesses_;
 };
 
 }  // namespace tenon::urdf

@@ -222,15 +222,13 @@ TEST_F(ReadUrdf, SaysWhatIsWrongAndWhere) {
   const Row rows[] = {
       {"<link name='a'>", "urdf.xml:2"},
       {"<link/>", "urdf.missing:2"},
-      {"<link name='a'><inertial><mass value='1'/></inertial></link>", "urdf.missing:2"},
       {"<link name='a'>\n<inertial>\n<mass value='one'/></inertial></link>", "urdf.number:4"},
-      {"<link name='a'><visual><geometry/></visual></link>", "urdf.missing:2"},
-      {"<link name='a'><visual/></link>", "urdf.missing:2"},
       {"<link name='a'><visual><geometry><box size='1 1'/></geometry></visual></link>",
        "urdf.number:2"},
       {joint("fixed", "<origin xyz='1 2 3 4'/>"), "urdf.number:3"},
       {"<joint name='j' type='fixed'><parent link='a'/></joint>", "urdf.link-missing:2"},
       {"<xacro:macro name='m'/>", "urdf.xacro:2"},
+      {joint("fixed", "<origin xyz='${length} 0 0'/>"), "urdf.xacro:3"},
   };
   for (const Row& row : rows) {
     EXPECT_FALSE(read(row.text)) << row.text;
@@ -240,6 +238,74 @@ TEST_F(ReadUrdf, SaysWhatIsWrongAndWhere) {
             "urdf.root");
   EXPECT_EQ(read_urdf_text("", "m.xml", {}, findings_).error().diagnostic().rule, "urdf.xml");
   EXPECT_EQ(read_urdf("/nowhere/x.urdf", {}, findings_).error().code(), ErrorCode::NotFound);
+}
+
+TEST_F(ReadUrdf, LeavesOutShapesAndInertialsThatSayNothingAndKeepsTheLink) {
+  const auto model = read(
+      "<link name='a'>\n<inertial><inertia ixx='1' iyy='1' izz='1'/></inertial>\n"
+      "<visual><geometry/></visual>\n<visual/>\n"
+      "<collision><geometry><plane normal='0 0 1'/></geometry></collision>\n"
+      "<collision><geometry><box size='1 1 1'/></geometry></collision></link>\n"
+      "<link name='b'><inertial><mass value='2'/></inertial></link>");
+  ASSERT_TRUE(model) << error_->to_string();
+  EXPECT_EQ(found(),
+            "urdf.missing:3 urdf.shape:4 urdf.missing:5 urdf.left-out:6 urdf.shape:6 "
+            "urdf.missing:8 ");
+  EXPECT_FALSE(model->links[0].inertial);
+  EXPECT_TRUE(model->links[0].visuals.empty());
+  EXPECT_EQ(model->links[0].colliders.size(), 1u);
+  EXPECT_EQ(model->links[1].inertial->mass, 2);
+  EXPECT_EQ(model->links[1].inertial->inertia, Mat3d{});
+}
+
+TEST_F(ReadUrdf, RefusesXmlThatIsNotWellFormed) {
+  const std::string robot = "<robot name='a'><link name='l'/></robot>";
+  const std::string broken[] = {
+      robot + " text",
+      robot + robot,
+      "\n<?xml version='1.0'?>" + robot,
+      "<robot name='a' name='b'/>",
+      "<robot name='a'><!-- a -- b --></robot>",
+      "<robot name='a'><link name='l&foo;'/></robot>",
+      "<robot name='a'><link name='l<'/></robot>",
+      "<robot name='a'>a & b</robot>",
+      "<robot name='a'>]]></robot>",
+  };
+  for (const std::string& text : broken) {
+    const auto model = read_urdf_text(text, "r.urdf", {}, findings_);
+    ASSERT_FALSE(model) << text;
+    EXPECT_EQ(model.error().diagnostic().rule, "urdf.xml") << text;
+  }
+  const std::string sound[] = {
+      "\xEF\xBB\xBF<?xml version='1.0'?>\n<!-- a --><robot name='a&amp;b'/>\n<!-- b -->\n",
+      "<!DOCTYPE robot [<!ENTITY e 'x'>]><robot name='a'>&e;<![CDATA[a & b <]]></robot>",
+      "<robot name='a'><link name='x>y' /><link name = 'z'></link>&#65;</robot >",
+  };
+  for (const std::string& text : sound) {
+    EXPECT_TRUE(read_urdf_text(text, "r.urdf", {}, findings_)) << text;
+  }
+}
+
+TEST_F(ReadUrdf, FindsMeshesNearbyByTheEndOfTheirNames) {
+  const fs::path root = fs::temp_directory_path() / ("tenon_urdf_near_" + std::to_string(getpid()));
+  fs::create_directories(root / "robot/urdf");
+  fs::create_directories(root / "robot/meshes/visual");
+  std::ofstream(root / "robot/meshes/visual/a.stl") << "x";
+  std::ofstream(root / "robot/urdf/a.stl") << "x";
+  std::ofstream(root / "robot/urdf/r.urdf")
+      << "<robot name='r'><link name='a'>\n<visual><geometry>"
+         "<mesh filename='package://hand_description/meshes/visual/a.stl'/></geometry></visual>\n"
+         "<visual><geometry><mesh filename='/home/me/ws/meshes/a.stl'/></geometry></visual>\n"
+         "<visual><geometry><mesh filename='package://given/a.stl'/></geometry></visual>\n"
+         "</link></robot>";
+  const bytes::ReadPolicy reading({(root / "robot").string()});
+  const UrdfOptions options{{{"given", (root / "robot").string()}}, {}, reading};
+  const auto model = read_urdf((root / "robot/urdf/r.urdf").string(), options, findings_);
+  ASSERT_TRUE(model) << model.error().to_string();
+  EXPECT_EQ(model->meshes[0].path, (root / "robot/meshes/visual/a.stl").string());
+  EXPECT_EQ(model->meshes[1].path, (root / "robot/urdf/a.stl").string());
+  EXPECT_EQ(found(), "urdf.mesh-nearby:2 urdf.mesh-nearby:3 urdf.mesh-missing:4 ");
+  fs::remove_all(root);
 }
 
 TEST_F(ReadUrdf, FindsMeshesOfPackages) {

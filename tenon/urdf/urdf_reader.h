@@ -22,10 +22,11 @@ class UrdfReader {
  private:
   // links.cpp
   Result<void> read_link(pugi::xml_node element);
-  Result<robot::Inertial> read_inertial(pugi::xml_node element);
+  /// None without a mass, which is reported.
+  Result<std::optional<robot::Inertial>> read_inertial(pugi::xml_node element);
   Result<void> read_visual(pugi::xml_node element, robot::Link& link);
   Result<void> read_collision(pugi::xml_node element, robot::Link& link);
-  /// None for a mesh that cannot be found, which is reported.
+  /// None for a mesh that cannot be found and for unknown shapes, which is reported.
   Result<std::optional<robot::Geometry>> read_geometry(pugi::xml_node element);
   Result<std::optional<robot::Geometry>> read_mesh(pugi::xml_node element);
   void report_missing_mesh(const std::string& written, pugi::xml_node element);

@@ -14,6 +14,7 @@
 #include "tenon/base/file_finding.h"
 #include "tenon/base/limits/limits.h"
 #include "tenon/base/text/text_number.h"
+#include "tenon/urdf/well_formed.h"
 
 namespace tenon::urdf {
 namespace {
@@ -38,16 +39,23 @@ Result<pugi::xml_node> XmlReader::parse() {
   const pugi::xml_parse_result parsed =
       document_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!parsed) {
-    const auto offset = static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 0));
-    const std::size_t line = line_at(offset);
-    return Error(ErrorCode::Parse, std::string("the XML is broken: ") + parsed.description())
-        .in_file(file_)
-        .at(static_cast<std::uint32_t>(line),
-            static_cast<std::uint32_t>(offset - line_starts_[line - 1] + 1))
-        .with_rule("urdf.xml")
-        .with_fix("correct the XML there");
+    return broken(static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 0)),
+                  parsed.description());
+  }
+  if (const std::optional<XmlFault> fault = well_formed_fault(text_)) {
+    return broken(fault->offset, fault->message);
   }
   return document_.document_element();
+}
+
+Error XmlReader::broken(std::size_t offset, const std::string& why) const {
+  const std::size_t line = line_at(offset);
+  return Error(ErrorCode::Parse, "the XML is broken: " + why)
+      .in_file(file_)
+      .at(static_cast<std::uint32_t>(line),
+          static_cast<std::uint32_t>(offset - line_starts_[line - 1] + 1))
+      .with_rule("urdf.xml")
+      .with_fix("correct the XML there");
 }
 
 robot::Place XmlReader::place_of(pugi::xml_node element) const { return place_of(element, {}); }
@@ -185,6 +193,13 @@ Result<std::vector<double>> XmlReader::numbers(pugi::xml_node element, const cha
     rest = rest.substr(end);
   }
   if (values.size() != count) {
+    const std::string_view value = found.value();
+    if (value.find("${") != value.npos || value.find("$(") != value.npos) {
+      return fault(element, "urdf.xacro",
+                   std::string(attribute) + "=\"" + found.value() +
+                       "\" is an expression of xacro, which is not expanded",
+                   "expand it first: xacro IN.xacro > OUT.urdf", attribute);
+    }
     const std::string wanted = count == 1 ? "a number" : std::to_string(count) + " numbers";
     return fault(element, found ? "urdf.number" : "urdf.missing",
                  found ? std::string(attribute) + "=\"" + found.value() + "\" is not " + wanted

@@ -62,6 +62,7 @@ class XmlReader {
   /// Of an attribute of the element, or of its start tag.
   robot::Place place_of(pugi::xml_node element, std::string_view attribute) const;
   std::size_t line_at(std::size_t offset) const;
+  Error broken(std::size_t offset, const std::string& why) const;
 
   std::string_view text_;
   std::string file_;
