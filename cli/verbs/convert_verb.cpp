@@ -34,7 +34,9 @@ struct ConvertArguments {
   std::vector<std::string> packages;
   FileAccess files;
   std::string gains;
-  std::string schema = "current";
+  std::string name;
+  std::string names = "current";
+  std::string schema;
   std::string physics;
   bool fix_base = false;
   bool float_base = false;
@@ -52,8 +54,12 @@ Result<ConvertFileOptions> convert_options(const ConvertArguments& options) {
   result.robot.float_base = options.float_base;
   result.robot.merge_fixed = options.merge_fixed;
   result.robot.scene = options.scene;
+  result.name = options.name;
+  result.robot.tutorial = options.names == "tutorial";
+  result.robot.flat |= result.robot.tutorial;
+  const bool both = options.schema.empty() ? result.robot.tutorial : options.schema == "both";
   result.robot.schema = options.schema == "legacy" ? convert::SchemaGeneration::Legacy
-                        : options.schema == "both" ? convert::SchemaGeneration::Both
+                        : both                     ? convert::SchemaGeneration::Both
                                                    : convert::SchemaGeneration::Current;
   if (!options.gains.empty()) {
     TENON_CHECK(read_gains(options.gains, result.open.files, result.robot));
@@ -61,6 +67,15 @@ Result<ConvertFileOptions> convert_options(const ConvertArguments& options) {
   for (const std::string& text : options.packages) {
     TENON_TRY(auto package, split_assignment(text));
     result.packages.insert(std::move(package));
+  }
+  return result;
+}
+
+structure::StructureOptions structure_options(const ConvertArguments& options) {
+  structure::StructureOptions result;
+  if (options.names == "tutorial") {
+    result.names = structure::Names::Tutorial;
+    result.all_engines = true;
   }
   return result;
 }
@@ -86,13 +101,18 @@ Result<void> claim(const ConvertArguments& options, OutputKind kind, Outputs& ou
 Result<RobotCounts> convert_and_write(const ConvertArguments& options, Diagnostics& diagnostics) {
   TENON_TRY(const ConvertFileOptions wanted, convert_options(options));
   const bool folder = names_folder(options.output);  // straight into Asset Structure 3.0
+  if (!folder && options.names == "tutorial") {
+    return Error(ErrorCode::Invalid, "--names is about the files of a folder")
+        .with_fix("name a folder as the output, with a / at its end");
+  }
   Outputs outputs;
   TENON_CHECK(folder ? structure::check_folder(options.output, {.force = options.force})
                      : claim(options, OutputKind::Layer, outputs));
   TENON_TRY(ConvertedFile converted, convert_file(options.input, wanted, diagnostics));
   const RobotCounts counts = counts_of(converted);
   if (folder) {
-    TENON_TRY(const structure::StructuredAsset asset, structured_robot(converted, diagnostics));
+    TENON_TRY(const structure::StructuredAsset asset,
+              structured_robot(converted, diagnostics, structure_options(options)));
     TENON_CHECK(write_asset(asset.package, options.output, {.force = options.force}));
   } else {
     TENON_TRY(NotedFiles made, robot_files(std::move(converted), options.output, diagnostics));
@@ -168,6 +188,13 @@ int run_convert(const Globals& globals, const ConvertArguments& options) {
 }
 
 void add_robot_options(const Command& verb, ConvertArguments& options) {
+  verb.add_option("--name", options.name,
+                  "Name of the robot, and of the file that opens it in a folder; that of the "
+                  "description if not given");
+  verb.add_option("--names", options.names,
+                  "Files, names and attributes in a folder: those of Isaac Sim 6, or those of its "
+                  "tutorial, with links side by side and variants for PhysX and MuJoCo")
+      .one_of({"current", "tutorial"});
   verb.add_flag("--fix-base", options.fix_base, "Hold the root link in the world");
   verb.add_flag("--float-base", options.float_base,
                 "A root link without mass is free to move, as that of a walking robot; else it "
@@ -189,7 +216,8 @@ void add_drive_options(const Command& verb, ConvertArguments& options) {
                   "(N/m and N s/m); or a JSON file {\"joint\": [K, D], \"*\": [K, D]}");
   verb.add_option("--schema", options.schema,
                   "Vendors' schemas for joints: current (Newton, PhysX joint axes), legacy (PhysX "
-                  "joints and mimics of Isaac Sim 5, MuJoCo) or both")
+                  "joints and mimics of Isaac Sim 5, MuJoCo) or both; current if not given, both "
+                  "with --names tutorial")
       .one_of({"current", "legacy", "both"});
 }
 
@@ -217,6 +245,7 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
   verb.footer(
       "Examples:\n  tenon convert hand.urdf hand.usda\n"
       "  tenon convert hand.urdf hand/     one file for each concern, as tenon structure makes it\n"
+      "  tenon convert X.urdf hand/ --name inspire_hand --names tutorial\n"
       "  tenon convert arm.urdf arm.usdc --fix-base --gains 400,40\n"
       "  tenon convert humanoid.xml humanoid.usda\n  tenon convert hand.usda hand.xml\n"
       "  tenon convert hand.usda hand.urdf\n"

@@ -105,6 +105,9 @@ Result<ConvertedFile> convert_file(const std::string& path, const ConvertFileOpt
                                    Diagnostics& diagnostics) {
   bytes::ReadPolicy policy = policy_of(path, options);
   TENON_TRY(robot::RobotModel model, read_model(path, options, policy, diagnostics));
+  if (!options.name.empty()) {
+    model.name = options.name;
+  }
   for (const std::string& folder : model.parts_folders) {
     policy.add_found(folder);
   }

@@ -16,6 +16,7 @@ namespace tenon {
 
 struct ConvertFileOptions {
   convert::ConvertOptions robot;
+  std::string name;  ///< of the robot, in the place of the description's; empty: that
   std::map<std::string, std::string> packages;  ///< folders of ROS packages by name
   /// Of these files, sandbox, search paths and what may be read count; `robot.reading` is made of
   /// them.

@@ -3,6 +3,7 @@
 #include "tenon/convert/bodies.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "tenon/math/inertia.h"
@@ -17,10 +18,20 @@ namespace {
 /// Of the mass of what a root without mass carries; solvers still hold it.
 constexpr double kRootShare = 1e-6;
 
+/// What adding poses up the tree leaves behind a number's last digit.
+Vec3d without_sum_errors(Vec3d metres) {
+  constexpr double kSteps = 1e15;  // per metre: as far as a double of about 1 goes
+  for (double& part : metres.v) {
+    part = std::round(part * kSteps) / kSteps;
+  }
+  return metres;
+}
+
 void write_mass(LayerBuilder& builder, Path path, const robot::Inertial& inertial) {
   builder.apply(path, "PhysicsMassAPI");
   builder.set_number(path, "PhysicsMassAPI", "physics:mass", inertial.mass);
-  builder.set_vector(path, "PhysicsMassAPI", "physics:centerOfMass", inertial.center_of_mass);
+  builder.set_vector(path, "PhysicsMassAPI", "physics:centerOfMass",
+                     without_noise(inertial.center_of_mass));
   const Mat3d inertia = inertial.inertia_in_link();
   if (inertia == Mat3d{}) {
     return;  // a mass without inertia: from the colliders
@@ -83,7 +94,15 @@ void write_body(const Source& source, const LinkPrims& links, Index number, Robo
   const robot::Link& link = model.links[number];
   const std::optional<Index> above = source.tree.joint_to_parent[number];
   const bool relative = above && !(source.options.flat && prim.role != LinkRole::Frame);
-  layer.set_pose(prim.path, relative ? model.joints[*above].origin : prim.in_robot);
+  Pose pose = relative ? model.joints[*above].origin : prim.in_robot;
+  if (above && !relative) {
+    pose.position = without_sum_errors(pose.position);
+  }
+  if (source.options.tutorial) {
+    layer.set_tutorial_pose(prim.path, pose);
+  } else {
+    layer.set_pose(prim.path, pose);
+  }
   if (prim.role != LinkRole::Body) {
     write_frame(layer, prim, link, !above);
     return;

@@ -47,7 +47,7 @@ Result<LayerAndImages> write_robot(const Source& source, Diagnostics& diagnostic
   write_mujoco_parts(model.mujoco, joints, shapes.prims(), physics);
   write_sensors(source, links, joints, shapes.prims(), layer);
   write_scene(source, physics);
-  write_robot_metadata(source.tree, links, joints, layer);
+  write_robot_metadata(source, links, joints, layer);
   return LayerAndImages{layer.take(), materials.take_images()};
 }
 

@@ -38,6 +38,9 @@ struct ConvertOptions {
   bool scene = false;        ///< the model's world too: gravity, time step, options of MuJoCo
   bool merge_fixed = false;  ///< links on fixed joints become parts of their parents
   SchemaGeneration schema = SchemaGeneration::Current;
+  /// What the tutorial of Asset Structure 3.0 has beyond: three operations for each link's pose,
+  /// places for texts on the robot and its joints, urdf:limit:* as floats, soft mimics in PhysX.
+  bool tutorial = false;
   std::optional<Gains> gains;                ///< a drive for each joint that leads
   std::map<std::string, Gains> joint_gains;  ///< by joint, before `gains`
   bytes::ReadPolicy reading;                 ///< where meshes and images may lie

@@ -14,6 +14,14 @@ namespace tenon::convert {
 
 using layer::Value;
 
+namespace {
+
+/// The softness of the tutorial's mimics: natural frequency [rad/s], share of critical damping.
+constexpr double kTutorialFrequency = 25;
+constexpr double kTutorialDampingRatio = 0.005;
+
+}  // namespace
+
 void JointPrinter::print() {
   print_limits();
   print_drive();
@@ -27,6 +35,9 @@ void JointPrinter::print() {
   }
   print_mujoco();
   print_description();
+  if (tutorial_) {
+    print_tutorial();
+  }
 }
 
 void JointPrinter::print_passive() {
@@ -156,12 +167,37 @@ void JointPrinter::print_description() {
     set("urdf:calibration:falling", joint_.calibration->falling);
     set("urdf:calibration:rising", joint_.calibration->rising);
   }
-  set("urdf:limit:effort", joint_.effort_limit);
+  if (!tutorial_) {
+    set("urdf:limit:effort", joint_.effort_limit);
+  }
   if (joint_.safety) {
     set("urdf:safety:kPosition", joint_.safety->position_gain);
     set("urdf:safety:kVelocity", joint_.safety->velocity_gain);
     set("urdf:safety:softLowerLimit", joint_.safety->soft_lower);
     set("urdf:safety:softUpperLimit", joint_.safety->soft_upper);
+  }
+}
+
+/// Limits as floats, and places for what people say of the joint.
+void JointPrinter::print_tutorial() {
+  const auto limit = [&](const char* name, double value) {
+    if (std::isfinite(value)) {
+      builder_.set_custom(path_, name, "float", Value(static_cast<float>(value)));
+    }
+  };
+  limit("urdf:limit:effort", joint_.effort_limit);
+  limit("urdf:limit:velocity", joint_.velocity_limit);
+  struct Row {
+    const char* name;
+    const char* shown;
+  };
+  constexpr Row kRows[] = {{"isaac:actuator", "Actuator"},
+                           {"isaac:NameOverride", "Joint Name Override"},
+                           {"isaac:physics:DofOffsetOpOrder", "Dof Offset Op Order"}};
+  for (const Row& row : kRows) {
+    builder_.declare_of(path_, "IsaacJointAPI", row.name);
+    builder_.set_property_metadata(path_.property(row.name), layer::fields::displayName,
+                                   Value(std::string(row.shown)));
   }
 }
 
@@ -186,6 +222,10 @@ void JointPrinter::print_mimic(const robot::Joint& leader, Path leader_path,
     const Token api("PhysxMimicJointAPI:" + instance);
     const std::string prefix = "physxMimicJoint:" + instance + ":";
     builder_.apply(path_, api);
+    if (tutorial_) {
+      builder_.set_number(path_, api, prefix + "dampingRatio", kTutorialDampingRatio);
+      builder_.set_number(path_, api, prefix + "naturalFrequency", kTutorialFrequency);
+    }
     builder_.set_number(path_, api, prefix + "gearing", -multiplier);
     builder_.set_number(path_, api, prefix + "offset", -offset);
     builder_.set_targets(path_, api, prefix + "referenceJoint", {leader_path});

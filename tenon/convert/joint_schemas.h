@@ -16,12 +16,13 @@ class JointPrinter {
  public:
   /// `axis` is the token of physics:axis.
   JointPrinter(LayerBuilder& builder, Path path, const robot::Joint& joint, std::string axis,
-               SchemaGeneration generation)
+               const ConvertOptions& options)
       : builder_(builder),
         path_(path),
         joint_(joint),
         axis_(std::move(axis)),
-        generation_(generation) {}
+        generation_(options.schema),
+        tutorial_(options.tutorial) {}
 
   /// Limits, drive, state and settings.
   void print();
@@ -54,12 +55,14 @@ class JointPrinter {
   void print_physx_joint();
   void print_mujoco();
   void print_description();
+  void print_tutorial();
 
   LayerBuilder& builder_;
   Path path_;
   const robot::Joint& joint_;
   std::string axis_;
   SchemaGeneration generation_;
+  bool tutorial_;
 };
 
 }  // namespace tenon::convert

@@ -38,7 +38,7 @@ void write_side(LayerBuilder& builder, Path joint, int side, Path body, const Po
   if (!body.empty()) {
     builder.set_targets(joint, type, "physics:body" + end, {body});
   }
-  builder.set_vector(joint, type, "physics:localPos" + end, frame.position);
+  builder.set_vector(joint, type, "physics:localPos" + end, without_noise(frame.position));
   builder.set_rotation(joint, type, "physics:localRot" + end, frame.orientation);
 }
 
@@ -73,13 +73,13 @@ Pose joint_frame(const robot::Joint& joint) {
 
 /// What may move: one axis, all rotations, or of a planar joint what is not locked.
 void write_dofs(LayerBuilder& builder, Path path, const robot::Joint& joint,
-                SchemaGeneration generation) {
+                const ConvertOptions& options) {
   const std::string axis = axis_turn(joint.axis).token;
   if (joint.has_one_axis()) {
     builder.set_value(path, type_of(joint.kind), "physics:axis", Value(Token(axis)));
-    JointPrinter(builder, path, joint, axis, generation).print();
+    JointPrinter(builder, path, joint, axis, options).print();
   } else if (joint.kind == JointKind::Ball) {
-    JointPrinter(builder, path, joint, axis, generation).print_passive();
+    JointPrinter(builder, path, joint, axis, options).print_passive();
   } else if (joint.kind == JointKind::Planar) {
     for (const std::string other : {"X", "Y", "Z"}) {
       // A lower limit above the upper one locks (UsdPhysics).
@@ -122,7 +122,7 @@ Path write_joint(const Source& source, const LinkPrims& links, const robot::Join
   write_side(physics.builder(), path, 0, links.host(joint.parent).path,
              links[joint.parent].in_host * joint.origin * frame);
   write_side(physics.builder(), path, 1, links[joint.child].path, frame);
-  write_dofs(physics.builder(), path, joint, source.options.schema);
+  write_dofs(physics.builder(), path, joint, source.options);
   return path;
 }
 
@@ -136,8 +136,7 @@ Path write_fixed_base(Path root, PhysicsScope& physics) {
 /// What a joint follows, or what drives it.
 void write_motion(const Source& source, const robot::Joint& joint, Path path,
                   const JointPrims& prims, PhysicsScope& physics) {
-  JointPrinter printer(physics.builder(), path, joint, axis_turn(joint.axis).token,
-                       source.options.schema);
+  JointPrinter printer(physics.builder(), path, joint, axis_turn(joint.axis).token, source.options);
   if (joint.mimic) {
     const robot::Joint& leader = source.model.joints[joint.mimic->leader];
     printer.print_mimic(leader, prims.joints[joint.mimic->leader], axis_turn(leader.axis).token);

@@ -22,6 +22,22 @@ using layer::SpecKind;
 using layer::Value;
 namespace fields = layer::fields;
 
+Vec3d without_noise(Vec3d metres) {
+  constexpr double kNoise = 1e-15;
+  for (double& part : metres.v) {
+    part = std::fabs(part) < kNoise ? 0.0 : part;
+  }
+  return metres;
+}
+
+Quatd without_noise(const Quatd& rotation) {
+  // What some products of unit quaternions leave of a 0: each adds up to half of the last digit
+  // of 1.
+  constexpr double kNoise = 1e-15;
+  const auto plain = [](double part) { return std::fabs(part) < kNoise ? 0.0 : part; };
+  return {plain(rotation.x), plain(rotation.y), plain(rotation.z), plain(rotation.w)};
+}
+
 LayerBuilder::LayerBuilder(std::string identifier) : layer_(std::move(identifier)) {}
 
 Path LayerBuilder::define(Path parent, Token name, Token type) {
@@ -119,6 +135,7 @@ std::int32_t whole_number(double value) {
 void LayerBuilder::set_number(Path prim, Token schema, std::string_view property, double value) {
   const schema::PropertyDefinition& definition = declared(schema, property);
   const Token type = definition.type_name;
+  value += 0.0;  // no -0
   Value typed(value);
   if (type == "float") {
     typed = Value(static_cast<float>(value));
@@ -161,12 +178,12 @@ void LayerBuilder::set_numbers(Path prim, Token schema, std::string_view propert
 
 void LayerBuilder::set_vector(Path prim, Token schema, std::string_view property,
                               const Vec3d& value) {
-  set_value(prim, schema, property, Value(to_float(value)));
+  set_value(prim, schema, property, Value(to_float(value + Vec3d{})));  // no -0
 }
 
 void LayerBuilder::set_rotation(Path prim, Token schema, std::string_view property,
                                 const Quatd& value) {
-  set_value(prim, schema, property, Value(to_float(value)));
+  set_value(prim, schema, property, Value(to_float(without_noise(value))));
 }
 
 void LayerBuilder::set_targets(Path prim, Token schema, std::string_view property,
@@ -184,6 +201,16 @@ void LayerBuilder::set_relationship(Path prim, Token name, std::vector<Path> tar
 
 void LayerBuilder::declare(Path prim, Token name, Token type_name) {
   property_spec(prim, name, SpecKind::Attribute).set(fields::typeName, Value(type_name));
+}
+
+void LayerBuilder::declare_of(Path prim, Token schema, std::string_view property) {
+  declare(prim, Token(property), declared(schema, property).type_name);
+}
+
+void LayerBuilder::set_property_metadata(Path property, Token field, Value value) {
+  layer::Spec* spec = layer_.find(property);
+  TENON_ASSERT(spec != nullptr);
+  spec->set(field, std::move(value));
 }
 
 layer::Layer LayerBuilder::take() {

@@ -12,6 +12,11 @@
 
 namespace tenon::convert {
 
+/// A unit quaternion without the rounding errors that stand in the place of zeros, -0 too.
+Quatd without_noise(const Quatd& rotation);
+/// The same of a place: nothing that anybody could measure is lost.
+Vec3d without_noise(Vec3d metres);
+
 /// Makes a layer of `def` prims whose properties have the types that their schemas declare.
 class LayerBuilder {
  public:
@@ -44,6 +49,10 @@ class LayerBuilder {
   /// An attribute without a value.
   void declare(Path prim, Token name, Token type_name);
   void set_connection(Path prim, Token name, Token type_name, Path source);
+  /// Of a property that is there.
+  void set_property_metadata(Path property, Token field, layer::Value value);
+  /// An attribute that `schema` declares, without a value.
+  void declare_of(Path prim, Token schema, std::string_view property);
 
   /// The layer, with the lists of children in place.
   layer::Layer take();

@@ -35,11 +35,12 @@ void RobotLayer::show_name(Path prim, const std::string& wanted) {
 void RobotLayer::set_pose(Path prim, const Pose& pose, const Vec3d& scale) {
   std::vector<Token> order;
   if (!(pose.position == Vec3d{})) {
-    builder_.set_attribute(prim, "xformOp:translate", "double3", Value(pose.position));
+    builder_.set_attribute(prim, "xformOp:translate", "double3",
+                           Value(pose.position + Vec3d{}));  // no -0
     order.emplace_back("xformOp:translate");
   }
   if (!(pose.orientation == kIdentityRotation)) {
-    builder_.set_attribute(prim, "xformOp:orient", "quatd", Value(pose.orientation));
+    builder_.set_attribute(prim, "xformOp:orient", "quatd", Value(without_noise(pose.orientation)));
     order.emplace_back("xformOp:orient");
   }
   if (!(scale == Vec3d{{1, 1, 1}})) {
@@ -50,6 +51,17 @@ void RobotLayer::set_pose(Path prim, const Pose& pose, const Vec3d& scale) {
     builder_.set_attribute(prim, "xformOpOrder", "token[]", Value(std::move(order)),
                            Variability::Uniform);
   }
+}
+
+void RobotLayer::set_tutorial_pose(Path prim, const Pose& pose) {
+  builder_.set_attribute(prim, "xformOp:orient", "quatf",
+                         Value(to_float(without_noise(pose.orientation))));
+  builder_.set_attribute(prim, "xformOp:scale", "float3", Value(Vec3f{{1, 1, 1}}));
+  builder_.set_attribute(prim, "xformOp:translate", "double3", Value(pose.position + Vec3d{}));
+  builder_.set_attribute(
+      prim, "xformOpOrder", "token[]",
+      Value(std::vector<Token>{"xformOp:translate", "xformOp:orient", "xformOp:scale"}),
+      Variability::Uniform);
 }
 
 void RobotLayer::report(const robot::Place& place, Severity severity, const char* rule,

@@ -39,6 +39,8 @@ class RobotLayer {
   void show_name(Path prim, const std::string& wanted);
   /// Transforms a prim: `scale`, then `pose` in its parent [m].
   void set_pose(Path prim, const Pose& pose, const Vec3d& scale = {{1, 1, 1}});
+  /// The same with all three operations and the types that the tutorial has.
+  void set_tutorial_pose(Path prim, const Pose& pose);
 
   /// Adds a finding about a place in the description.
   void report(const robot::Place& place, Severity severity, const char* rule, std::string message,

@@ -6,9 +6,37 @@ namespace tenon::convert {
 
 using robot::Index;
 
-void write_robot_metadata(const robot::KinematicTree& tree, const LinkPrims& link_prims,
+namespace {
+
+/// Places for what people say of the robot, as Isaac Sim shows them.
+void declare_texts(Path robot, LayerBuilder& builder) {
+  struct Row {
+    const char* name;
+    const char* shown;
+    const char* doc;
+  };
+  constexpr Row kRows[] = {{"isaac:changelog", "Changelog", ""},
+                           {"isaac:description", "Description", ""},
+                           {"isaac:license", "License", ""},
+                           {"isaac:namespace", "Namespace", "Namespace of the prim in Isaac Sim"}};
+  for (const Row& row : kRows) {
+    builder.declare_of(robot, "IsaacRobotAPI", row.name);
+    const Path property = robot.property(row.name);
+    builder.set_property_metadata(property, layer::fields::displayName,
+                                  layer::Value(std::string(row.shown)));
+    if (*row.doc != '\0') {
+      builder.set_property_metadata(property, layer::fields::documentation,
+                                    layer::Value(std::string(row.doc)));
+    }
+  }
+}
+
+}  // namespace
+
+void write_robot_metadata(const Source& source, const LinkPrims& link_prims,
                           const JointPrims& joint_prims, RobotLayer& layer) {
   LayerBuilder& builder = layer.builder();
+  const robot::KinematicTree& tree = source.tree;
   std::vector<Path> links;
   std::vector<Path> joints;
   if (joint_prims.base) {
@@ -33,6 +61,15 @@ void write_robot_metadata(const robot::KinematicTree& tree, const LinkPrims& lin
   builder.set_targets(layer.robot(), "IsaacRobotAPI", "isaac:physics:robotLinks", std::move(links));
   builder.set_targets(layer.robot(), "IsaacRobotAPI", "isaac:physics:robotJoints",
                       std::move(joints));
+  if (source.options.tutorial) {
+    declare_texts(layer.robot(), builder);
+    for (const char* list : {"isaac:physics:robotJoints", "isaac:physics:robotLinks"}) {
+      builder.set_property_metadata(
+          layer.robot().property(list), layer::fields::displayName,
+          layer::Value(std::string(list).ends_with("Joints") ? std::string("Robot Joints")
+                                                             : std::string("Robot Links")));
+    }
+  }
 }
 
 }  // namespace tenon::convert

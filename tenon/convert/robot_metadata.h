@@ -10,7 +10,7 @@ namespace tenon::convert {
 
 /// Writes what makes the prim a robot: the root of one articulation, and its links and joints in
 /// kinematic order.
-void write_robot_metadata(const robot::KinematicTree& tree, const LinkPrims& link_prims,
+void write_robot_metadata(const Source& source, const LinkPrims& link_prims,
                           const JointPrims& joint_prims, RobotLayer& layer);
 
 }  // namespace tenon::convert

@@ -159,6 +159,67 @@ class IntoAFolder(unittest.TestCase):
         self.assertEqual(tenon("convert", ROBOT, f"{target}/", "--flat")[0], 2)
         self.assertEqual(files_of(target), {**first, "notes.txt": b"mine"})
 
+    def test_gives_what_the_tutorial_has(self):
+        hand, module = self.folder / "hand", self.folder / "Plastic_ABS.mdl"
+        module.write_text("mdl 1.7;\nexport material Plastic_ABS() = material();\n")
+        inertial = ('<inertial><origin xyz="-0.0 0 1e-18"/><mass value="1"/><inertia ixx="1" '
+                    'iyy="1" izz="1"/></inertial>')
+        look = ('<visual><geometry><box size="1 1 1"/></geometry><material name="Plastic_ABS">'
+                '<texture filename="Plastic_ABS.mdl"/></material></visual>')
+        links = "".join(f'<link name="{name}">{inertial}{look}</link>' for name in "abc")
+        joints = "".join(
+            f'<joint name="j{c}" type="revolute"><parent link="{p}"/><child link="{c}"/>'
+            f'<origin xyz="0.1 -0.0 0.2" rpy="1.5707963267948966 0 {z}"/><axis xyz="0 0 1"/>'
+            f'<limit lower="-0.0" upper="1" effort="1.5" velocity="2"/>{mimic}</joint>'
+            for p, c, z, mimic in (("a", "b", 3.141592653589793, ""),
+                                   ("b", "c", 0, '<mimic joint="jb" multiplier="0.5"/>')))
+        robot = self.folder / "X.urdf"
+        robot.write_text(f'<robot name="Lhand">{links}{joints}</robot>')
+        code, answer = tenon("convert", robot, f"{hand}/", "--name", "inspire_hand", "--names",
+                             "tutorial")
+        self.assertEqual((code, [d for d in answer["diagnostics"] if d["severity"] != "info"]),
+                         (0, []))
+        files = {name: text.decode() for name, text in files_of(hand).items()}
+        self.assertEqual(set(files), {
+            "inspire_hand.usda", "Materials/Plastic_ABS.mdl", "payloads/base.usda",
+            "payloads/material.usda", "payloads/robot.usda", "payloads/Physics/physics.usda",
+            "payloads/Physics/physx.usda", "payloads/Physics/mujoco.usda"})
+        for variant in ("none", "physics", "physx", "mujoco"):
+            self.assertIn(f'"{variant}"', files["inspire_hand.usda"])
+        for line in ('string[] isaac:changelog (\n        displayName = "Changelog"',
+                     'string isaac:description (\n        displayName = "Description"',
+                     'token isaac:license (\n        displayName = "License"',
+                     'string isaac:namespace (\n        displayName = "Namespace"\n'
+                     '        doc = "Namespace of the prim in Isaac Sim"',
+                     'rel isaac:physics:robotJoints (\n        displayName = "Robot Joints"'):
+            self.assertIn(line, files["payloads/robot.usda"])
+        for line in ("custom float urdf:limit:effort = 1.5", "custom float urdf:limit:velocity = 2",
+                     "rel physics:body0 = </inspire_hand/b>", 'displayName = "Actuator"',
+                     'string isaac:NameOverride (', 'token[] isaac:physics:DofOffsetOpOrder ('):
+            self.assertIn(line, files["payloads/Physics/physics.usda"])
+        for line in ("dampingRatio = 0.005", "gearing = -0.5", "naturalFrequency = 25",
+                     "offset = 0\n"):
+            self.assertIn(line, files["payloads/Physics/physx.usda"])
+        base = files["payloads/base.usda"]
+        for line in ("quatf xformOp:orient = (0, 0, 0.70710677, 0.70710677)",
+                     "float3 xformOp:scale = (1, 1, 1)", "translate = (0.1, 0, 0.2)",
+                     '["xformOp:translate", "xformOp:orient", "xformOp:scale"]'):
+            self.assertIn(line, base)
+        for line in ("asset info:mdl:sourceAsset = @../Materials/Plastic_ABS.mdl@",
+                     'token info:mdl:sourceAsset:subIdentifier = "Plastic_ABS"',
+                     'token info:implementationSource = "sourceAsset"', 'renderType = "material"',
+                     "token outputs:mdl:surface.connect = "
+                     "</Materials/Plastic_ABS/Shader.outputs:out>"):
+            self.assertIn(line, files["payloads/material.usda"])
+        for name, text in files.items():
+            self.assertNotRegex(text, r"[(= ]-0[,)\n]|\de-1[5-9]", name)
+        again = self.folder / "again"
+        self.assertEqual(tenon("structure", hand / "inspire_hand.usda", "-o", again, "--names",
+                               "tutorial")[0], 0)
+        self.assertEqual(files_of(again), files_of(hand))
+        self.assertEqual(tenon("convert", robot, self.folder / "x.usda", "--names",
+                               "tutorial")[0], 2)
+
     def test_a_format_that_is_none_is_no_folder(self):
         self.assertEqual(tenon("convert", ROBOT, self.folder / "robot.step")[0], 2)
         self.assertEqual(list(self.folder.iterdir()), [])

@@ -149,7 +149,8 @@ Result<NotedFiles> robot_files(ConvertedFile converted, const std::string& outpu
 }
 
 Result<structure::StructuredAsset> structured_robot(const ConvertedFile& converted,
-                                                    Diagnostics& diagnostics) {
+                                                    Diagnostics& diagnostics,
+                                                    const structure::StructureOptions& options) {
   const convert::InnerImages& images = converted.images;
   structure::AssetSource source = asset_source(converted.layer, converted.reading);
   const auto resolve = source.resolve_asset;
@@ -165,7 +166,7 @@ Result<structure::StructuredAsset> structured_robot(const ConvertedFile& convert
     }
     return bytes::FileBytes::own(image->second);
   };
-  return structure::make_package(source, {}, diagnostics);
+  return structure::make_package(source, options, diagnostics);
 }
 
 }  // namespace tenon

@@ -27,7 +27,8 @@ Result<NotedFiles> robot_files(ConvertedFile converted, const std::string& outpu
                                Diagnostics& diagnostics);
 
 /// As `tenon structure` would make it of the same asset in a file, proven in the same way.
-Result<structure::StructuredAsset> structured_robot(const ConvertedFile& converted,
-                                                    Diagnostics& diagnostics);
+Result<structure::StructuredAsset> structured_robot(
+    const ConvertedFile& converted, Diagnostics& diagnostics,
+    const structure::StructureOptions& options = {});
 
 }  // namespace tenon

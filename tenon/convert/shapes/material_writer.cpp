@@ -11,6 +11,7 @@
 #include "tenon/base/text/text_number.h"
 #include "tenon/base/text/unicode.h"
 #include "tenon/bytes/file_kind.h"
+#include "tenon/convert/shapes/mdl_material.h"
 #include "tenon/convert/shapes/surface_network.h"
 
 namespace tenon::convert {
@@ -74,9 +75,10 @@ std::optional<Error> refusal_of(const std::string& image, const InnerImages& inn
   if (!bytes) {
     return bytes::not_read(image, bytes.error());
   }
-  return bytes::kind_of((*bytes)->text()) == bytes::FileKind::Image
-             ? std::nullopt
-             : std::optional(bytes::not_media(image));
+  const bytes::FileKind wanted =
+      names_mdl(image) ? bytes::FileKind::Shader : bytes::FileKind::Image;
+  return bytes::kind_of((*bytes)->text()) == wanted ? std::nullopt
+                                                    : std::optional(bytes::not_media(image));
 }
 
 void write_surface(LayerBuilder& builder, Path path, const robot::Surface& surface) {
@@ -147,7 +149,11 @@ Path MaterialWriter::look_path(Entry& entry) {
     const robot::Material look = with_usable_images(entry.look);
     entry.path =
         layer_.define(scope(), names_, look.name.empty() ? "material" : look.name, "Material");
-    write_preview(layer_.builder(), entry.path, look, entry.linear);
+    if (names_mdl(look.texture)) {
+      write_mdl(layer_.builder(), entry.path, look);
+    } else {
+      write_preview(layer_.builder(), entry.path, look, entry.linear);
+    }
   }
   return entry.path;
 }

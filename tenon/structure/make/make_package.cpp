@@ -217,6 +217,8 @@ class Maker {
       const std::string variant(role_name(role));
       const SourceView* view = sources_.find(variant);
       view = view != nullptr ? view : view_with(role);
+      const bool wanted = options_.all_engines && (role == Role::Physx || role == Role::Mujoco);
+      view = view == nullptr && wanted ? view_with(Role::Physics) : view;
       if (view != nullptr) {
         add_view(variant, role, view->content);
       }

@@ -55,6 +55,8 @@ struct StructureOptions {
   std::string name;
   /// Meshes that collide are no instances, so that every engine's layer may tune them.
   bool overridable_colliders = false;
+  /// Variants for PhysX and MuJoCo also where nothing is for them alone.
+  bool all_engines = false;
   SchemaGeneration schema = SchemaGeneration::AsAuthored;
   LinkNesting links = LinkNesting::AsAuthored;
 };
