@@ -197,8 +197,8 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
       .one_of({"current", "tutorial"});
   verb.add_flag("--fix-base", options.fix_base, "Hold the root link in the world");
   verb.add_flag("--float-base", options.float_base,
-                "A root link without mass is free to move, as that of a walking robot; else it "
-                "stands still");
+                "The root link is free to move, as that of a walking robot; else it stands still "
+                "where it has no mass, or is called world or base_link and no joint floats");
   verb.add_flag("--merge-fixed", options.merge_fixed,
                 "Make links on fixed joints parts of the links that hold them");
   verb.add_option("--physics", options.physics,

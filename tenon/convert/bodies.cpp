@@ -15,7 +15,7 @@ using robot::Index;
 
 namespace {
 
-/// Of the mass of what a root without mass carries; solvers still hold it.
+/// Of the mass of a neighbour, for a link without mass; solvers still hold it.
 constexpr double kRootShare = 1e-6;
 
 /// What adding poses up the tree leaves behind a number's last digit.
@@ -38,7 +38,9 @@ void write_mass(LayerBuilder& builder, Path path, const robot::Inertial& inertia
   }
   const PrincipalInertia principal = principal_inertia(inertia);
   builder.set_vector(path, "PhysicsMassAPI", "physics:diagonalInertia", principal.moments);
-  builder.set_rotation(path, "PhysicsMassAPI", "physics:principalAxes", principal.axes);
+  // The moments are about these very axes, so all but signs of zeros stays.
+  builder.set_value(path, "PhysicsMassAPI", "physics:principalAxes",
+                    Value(to_float(with_plain_zeros(principal.axes))));
   // Floats and a turned frame round; Newton's form keeps the numbers.
   builder.apply(path, "NewtonMassAPI");
   builder.set_value(path, "NewtonMassAPI", "newton:inertia",
@@ -60,6 +62,39 @@ void write_root_share(RobotLayer& layer, Path path, const robot::Link& root,
                "the root \"" + root.name + "\" has no mass: it gets a millionth of that of \"" +
                    carried.name + "\"",
                "");
+}
+
+/// A moving link without mass: engines would weigh it as one unit. So it gets a millionth of a
+/// neighbour's mass, as round as can be, which changes no motion and lets solvers go on.
+void write_share(RobotLayer& layer, const LinkPrim& prim, const robot::Link& link,
+                 const robot::Link& neighbour) {
+  const robot::Inertial& whole = *neighbour.inertial;
+  const Vec3d moments = principal_inertia(whole.inertia).moments;
+  const double mean = (moments[0] + moments[1] + moments[2]) / 3;
+  robot::Inertial share;
+  share.mass = whole.mass * kRootShare;
+  share.inertia = diagonal_matrix(Vec3d{{1, 1, 1}} * (mean * kRootShare));
+  write_mass(layer.builder(), prim.path, share);
+  layer.report(link.place, prim.carries_mass ? Severity::Warning : Severity::Error,
+               "convert.massless",
+               "the link \"" + link.name + "\" moves and has no mass" +
+                   (prim.carries_mass ? "" : ", nor has anything that it carries") +
+                   ": it gets a millionth of that of \"" + neighbour.name + "\"",
+               "give it an inertial");
+}
+
+/// A moving link that the description gives no mass.
+void write_no_mass(RobotLayer& layer, const robot::RobotModel& model, const LinkPrim& prim,
+                   const robot::Link& link) {
+  if (prim.mass_of && link.colliders.empty()) {
+    write_share(layer, prim, link, model.links[*prim.mass_of]);
+    return;
+  }
+  const std::string weighed =
+      link.colliders.empty() ? "weigh it 1 kg" : "take that of its colliders";
+  layer.report(link.place, Severity::Warning, "convert.no-mass",
+               "the link \"" + link.name + "\" moves and has no mass; engines " + weighed,
+               "give it an inertial");
 }
 
 /// A link that is no body.
@@ -110,13 +145,10 @@ void write_body(const Source& source, const LinkPrims& links, Index number, Robo
   layer.builder().apply(prim.path, "PhysicsRigidBodyAPI");
   if (has_mass(link)) {
     write_own_mass(layer, prim.path, link);
-  } else if (!above) {
+  } else if (!above && links.carried) {
     write_root_share(layer, prim.path, link, model.links[*links.carried]);
   } else {
-    layer.report(link.place, Severity::Warning, "convert.no-mass",
-                 "the link \"" + link.name +
-                     "\" moves and has no mass; engines take that of its colliders, or 1 kg",
-                 "give it an inertial");
+    write_no_mass(layer, model, prim, link);
   }
   layer.builder().apply(prim.path, "IsaacLinkAPI");
 }

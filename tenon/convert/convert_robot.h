@@ -32,9 +32,11 @@ struct Gains {
 };
 
 struct ConvertOptions {
-  bool flat = false;         ///< links side by side below the robot, not nested
-  bool float_base = false;   ///< a root without mass moves too, with a millionth of what it carries
-  bool fix_base = false;     ///< the root is held by the world
+  bool flat = false;  ///< links side by side below the robot, not nested
+  /// The root moves: one called "world" or "base_link", which is held else, and one without mass,
+  /// with that of its colliders or a millionth of what it carries.
+  bool float_base = false;
+  bool fix_base = false;     ///< the root is held by the world, whatever its name
   bool scene = false;        ///< the model's world too: gravity, time step, options of MuJoCo
   bool merge_fixed = false;  ///< links on fixed joints become parts of their parents
   SchemaGeneration schema = SchemaGeneration::Current;
@@ -61,11 +63,12 @@ using InnerImages = std::map<std::string, std::string>;
 /// With `scene` a PhysicsScene stands among the joints; else what is not usual of the model's world
 /// is listed ("convert.scene").
 /// A link without inertial is no body: at the root it stands still, on a fixed joint it is a frame
-/// (IsaacSiteAPI) of the link that holds it. Mesh files are read; texture paths are those of the
-/// model; those inside of mesh files are in `images` and are no files yet. Files from outside of
-/// `reading` are left out, so are textures that are no images: errors of `diagnostics` say so.
-/// Faults that leave something out go to `diagnostics`. Errors: what is no tree (Invalid), a chain
-/// too long to be nested (Limit).
+/// (IsaacSiteAPI) of the link that holds it, else it gets a millionth of a neighbour's mass where
+/// it has no colliders. Mesh files are read; texture paths are those of the model; those inside of
+/// mesh files are in `images` and are no files yet. Files from outside of `reading` are left out,
+/// so are textures that are no images: errors of `diagnostics` say so. Faults that leave something
+/// out go to `diagnostics`. Errors: what is no tree (Invalid), a chain too long to be nested
+/// (Limit).
 Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions& options,
                                    Diagnostics& diagnostics, InnerImages* images = nullptr);
 

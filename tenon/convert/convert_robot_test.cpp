@@ -265,6 +265,43 @@ TEST(ConvertRobot, LetsARobotFloatWhoseRootIsEmptyWhereAsked) {
   EXPECT_TRUE(standing.scene.articulations.at(0).fixed_base);
 }
 
+TEST(ConvertRobot, KeepsTheTotalMassWhereMovingLinksHaveNone) {
+  const std::string slide = "<limit lower='-1' upper='1' effort='10' velocity='1'/>";
+  const Converted chain = convert(
+      "<link name='root'/><link name='x'/><link name='y'/>" + link("palm") + "<link name='tip'/>" +
+      joint("jx", "prismatic", "root", "x", slide) + joint("jy", "prismatic", "x", "y", slide) +
+      joint("jz", "prismatic", "y", "palm", slide) + joint("jt", "continuous", "palm", "tip", ""));
+  double total = 0;
+  for (const scene::Body& body : chain.scene.bodies) {
+    total += body.mass;
+  }
+  EXPECT_NEAR(total, 2, 1e-5);
+  EXPECT_NEAR(chain.body("x").mass, 2e-6, 1e-12);
+  EXPECT_EQ(chain.rules(),
+            "convert.static-root;convert.massless;convert.massless;convert.massless;");
+  EXPECT_EQ(chain.findings.items()[1].severity, Severity::Warning);
+  EXPECT_EQ(chain.findings.items()[3].severity, Severity::Error);  // nothing on it has a mass
+}
+
+TEST(ConvertRobot, HoldsRootsThatAreCalledSoUnlessTheyAreToFloat) {
+  const std::string arm =
+      link("base_link") + link("a") + joint("j", "continuous", "base_link", "a", "");
+  const Converted held = convert(arm);
+  EXPECT_EQ(held.rules(), "convert.fixed-root;");
+  EXPECT_TRUE(held.scene.articulations.at(0).fixed_base);
+  ConvertOptions options;
+  options.float_base = true;
+  EXPECT_FALSE(convert(arm, options).scene.articulations.at(0).fixed_base);
+  const Converted cart = convert(link("base_link") + link("a") +
+                                 joint("j", "planar", "base_link", "a", "<axis xyz='0 0 1'/>"));
+  EXPECT_EQ(cart.rules(), "");
+  // A root that only colliders could weigh floats, too.
+  const Converted cube = convert(
+      link("cube", "<collision><geometry><box size='1 1 1'/></geometry></collision>"), options);
+  EXPECT_EQ(cube.rules(), "convert.no-mass;");
+  EXPECT_EQ(cube.scene.bodies.size(), 1u);
+}
+
 TEST(ConvertRobot, MakesFramesOfLinksWithoutMass) {
   const std::string text =
       link("base") +

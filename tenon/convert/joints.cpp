@@ -7,6 +7,8 @@
 // for they refer to them.
 #include "tenon/convert/joints.h"
 
+#include <algorithm>
+
 #include "tenon/convert/joint_schemas.h"
 
 namespace tenon::convert {
@@ -126,6 +128,16 @@ Path write_joint(const Source& source, const LinkPrims& links, const robot::Join
   return path;
 }
 
+/// Robots whose root is called so stand somewhere, unless a joint says that they do not.
+bool stands_by_its_name(const Source& source) {
+  const robot::RobotModel& model = source.model;
+  const std::string& name = model.links[source.tree.root].name;
+  const bool moves = std::any_of(model.joints.begin(), model.joints.end(), [](const auto& joint) {
+    return joint.kind == JointKind::Floating || joint.kind == JointKind::Planar;
+  });
+  return !source.options.float_base && !moves && (name == "world" || name == "base_link");
+}
+
 Path write_fixed_base(Path root, PhysicsScope& physics) {
   const Path path = physics.define("fixed_base", "PhysicsFixedJoint");
   write_side(physics.builder(), path, 0, {}, {});
@@ -151,8 +163,16 @@ JointPrims write_joints(const Source& source, const LinkPrims& links, PhysicsSco
   const std::vector<robot::Joint>& joints = source.model.joints;
   const LinkPrim& root = links[source.tree.root];
   JointPrims prims;
-  if (source.options.fix_base && root.role == LinkRole::Body) {
+  const bool by_name = !source.options.fix_base && stands_by_its_name(source);
+  if (root.role == LinkRole::Body && (source.options.fix_base || by_name)) {
     prims.base = write_fixed_base(root.path, physics);
+    if (by_name) {
+      const robot::Link& link = source.model.links[source.tree.root];
+      physics.layer().report(
+          link.place, Severity::Info, "convert.fixed-root",
+          "the root \"" + link.name + "\" is held in the world, as its name says",
+          "convert with --float-base where the robot is free to move");
+    }
   }
   for (const robot::Joint& joint : joints) {
     prims.joints.push_back(write_joint(source, links, joint, physics));

@@ -30,6 +30,10 @@ Vec3d without_noise(Vec3d metres) {
   return metres;
 }
 
+Quatd with_plain_zeros(const Quatd& rotation) {
+  return {rotation.x + 0.0, rotation.y + 0.0, rotation.z + 0.0, rotation.w + 0.0};
+}
+
 Quatd without_noise(const Quatd& rotation) {
   // What some products of unit quaternions leave of a 0: each adds up to half of the last digit
   // of 1.

@@ -12,6 +12,8 @@
 
 namespace tenon::convert {
 
+/// The same without -0.
+Quatd with_plain_zeros(const Quatd& rotation);
 /// A unit quaternion without the rounding errors that stand in the place of zeros, -0 too.
 Quatd without_noise(const Quatd& rotation);
 /// The same of a place: nothing that anybody could measure is lost.

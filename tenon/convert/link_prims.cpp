@@ -37,14 +37,38 @@ std::optional<Index> find_carried(const Source& source) {
 }
 
 LinkRole role_of(const Source& source, Index link, bool root_moves) {
-  if (has_mass(source.model.links[link])) {
+  const robot::Link& described = source.model.links[link];
+  if (has_mass(described)) {
     return LinkRole::Body;
   }
   const std::optional<Index> above = source.tree.joint_to_parent[link];
   if (!above) {
-    return root_moves ? LinkRole::Body : LinkRole::Static;
+    const bool weighs = source.options.float_base && !described.colliders.empty();
+    return root_moves || weighs ? LinkRole::Body : LinkRole::Static;
   }
   return source.model.joints[*above].kind == JointKind::Fixed ? LinkRole::Frame : LinkRole::Body;
+}
+
+/// Whose mass each link shares (LinkPrim::mass_of): upward for what hangs on it, then downward.
+void find_shares(const Source& source, LinkPrims& links) {
+  const auto& [model, tree, options] = source;
+  for (auto at = tree.order.rbegin(); at != tree.order.rend(); ++at) {
+    LinkPrim& prim = links.prims[*at];
+    if (has_mass(model.links[*at])) {
+      prim.mass_of = *at;
+    }
+    if (const std::optional<Index> above = tree.joint_to_parent[*at]; above && prim.mass_of) {
+      links.prims[model.joints[*above].parent].mass_of = prim.mass_of;
+    }
+  }
+  for (const Index link : tree.order) {
+    LinkPrim& prim = links.prims[link];
+    const std::optional<Index> above = tree.joint_to_parent[link];
+    prim.carries_mass = prim.mass_of.has_value();
+    if (!prim.mass_of && above) {
+      prim.mass_of = links[model.joints[*above].parent].mass_of;
+    }
+  }
 }
 
 /// A link but for its path; `links` has those above it.
@@ -98,6 +122,7 @@ Result<LinkPrims> place_links(const Source& source, Path robot) {
     prim.path = parent.child(names.make(model.links[link].name));
     links.prims[link] = prim;
   }
+  find_shares(source, links);
   return links;
 }
 

@@ -26,6 +26,10 @@ struct LinkPrim {
   robot::Index host = 0;  ///< the link itself, or the one that a frame is a part of
   Pose in_host;           ///< of the link
   Pose in_robot;
+  /// Of a link without mass and colliders: whose mass it gets a share of, the first that it carries
+  /// or else the one that carries it.
+  std::optional<robot::Index> mass_of{};
+  bool carries_mass = true;  ///< it, or something that hangs on it
 };
 
 /// Where the links of a robot are on the stage.

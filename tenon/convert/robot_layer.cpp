@@ -40,7 +40,8 @@ void RobotLayer::set_pose(Path prim, const Pose& pose, const Vec3d& scale) {
     order.emplace_back("xformOp:translate");
   }
   if (!(pose.orientation == kIdentityRotation)) {
-    builder_.set_attribute(prim, "xformOp:orient", "quatd", Value(without_noise(pose.orientation)));
+    builder_.set_attribute(prim, "xformOp:orient", "quatd",
+                           Value(with_plain_zeros(pose.orientation)));
     order.emplace_back("xformOp:orient");
   }
   if (!(scale == Vec3d{{1, 1, 1}})) {
