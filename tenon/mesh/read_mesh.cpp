@@ -44,11 +44,11 @@ Result<MeshScene> read_mesh(const std::string& path, const MeshReading& reading,
                             Diagnostics& diagnostics) {
   const std::string ending = ending_of(path);
   const bool by_assimp = ending == "dae" || ending == "gltf" || ending == "glb";
-  if (!by_assimp && ending != "stl" && ending != "obj") {
+  if (!by_assimp && ending != "stl" && ending != "obj" && ending != "ply") {
     return Error(ErrorCode::Unsupported, "meshes of the kind \"" + ending + "\" are not read")
         .in_file(path)
         .with_rule("mesh.format")
-        .with_fix("export the mesh as .stl, .obj, .dae, .gltf or .glb");
+        .with_fix("export the mesh as .stl, .obj, .ply, .dae, .gltf or .glb");
   }
   TENON_TRY(const auto bytes, reading.policy.open(path));
   TENON_CHECK(bytes::check_no_lfs_pointer(bytes->text(), path));
@@ -58,6 +58,9 @@ Result<MeshScene> read_mesh(const std::string& path, const MeshReading& reading,
       TENON_CHECK(check_gltf_files(bytes->text(), path, reading.policy));
     }
     return read_elsewhere(path, reading, diagnostics);
+  }
+  if (ending == "ply") {
+    return read_ply(bytes->text(), path);
   }
   return ending == "stl" ? read_stl(bytes->text(), path)
                          : read_obj(bytes->text(), path, reading.policy, diagnostics);

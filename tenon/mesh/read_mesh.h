@@ -19,8 +19,8 @@ struct MeshReading {
   const bytes::ReadPolicy& policy;
 };
 
-/// Reads .stl (binary or text) and .obj with every number rounded once to float, and .dae, .gltf
-/// and .glb by assimp in tenon-worker, where both are installed. What is left out goes to
+/// Reads .stl and .ply (binary or text) and .obj with every number rounded once to float, and .dae,
+/// .gltf and .glb by assimp in tenon-worker, where both are installed. What is left out goes to
 /// `diagnostics`. Errors, with the file and in text with the line: NotFound, Io, Parse, Corrupt,
 /// Limit (kMeshCorners, those of the worker), Unsupported for other endings, Missing without
 /// assimp or worker. Collada's unit of length is applied, its up axis is not, as other readers of
@@ -33,6 +33,7 @@ Result<MeshScene> read_mesh(const std::string& path, const MeshReading& reading,
 
 /// The readers of this process. `path` is for messages and for files beside it.
 Result<MeshScene> read_stl(std::string_view bytes, const std::string& path);
+Result<MeshScene> read_ply(std::string_view bytes, const std::string& path);
 Result<MeshScene> read_obj(std::string_view text, const std::string& path,
                            const bytes::ReadPolicy& policy, Diagnostics& diagnostics);
 

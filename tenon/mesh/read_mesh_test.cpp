@@ -45,6 +45,53 @@ class ReadMesh : public testing::Test {
   fs::path folder_;
 };
 
+TEST_F(ReadMesh, TakesPlyAsTextAndInBothOrdersOfBytes) {
+  const auto header = [](const std::string& form) {
+    return "ply\nformat " + form +
+           " 1.0\ncomment a square\nelement vertex 4\nproperty float x\nproperty float y\n"
+           "property double z\nproperty uchar red\nelement face 2\n"
+           "property list uchar int vertex_indices\nproperty short mark\nend_header\n";
+  };
+  const auto packed = [&](bool little) {
+    std::string bytes = header(little ? "binary_little_endian" : "binary_big_endian");
+    const auto put = [&](const auto& value) {
+      std::string part(reinterpret_cast<const char*>(&value), sizeof(value));
+      bytes += little ? part : std::string(part.rbegin(), part.rend());
+    };
+    for (const Vec2f& at : {Vec2f{{0, 0}}, Vec2f{{1, 0}}, Vec2f{{1, 1}}, Vec2f{{0, 1}}}) {
+      put(at[0]);
+      put(at[1]);
+      put(0.5);
+      put(static_cast<unsigned char>(200));
+    }
+    for (const std::vector<std::int32_t>& face : {std::vector<std::int32_t>{0, 1, 2, 3}, {3, 1}}) {
+      put(static_cast<unsigned char>(face.size()));
+      for (const std::int32_t point : face) {
+        put(point);
+      }
+      put(static_cast<std::int16_t>(-1));
+    }
+    return bytes;
+  };
+  const std::string text = header("ascii") +
+                           "0 0 0.5 200\n1 0 .5 200\n1 1 0.5 200\n0 1 0.5 200\n"
+                           "4 0 1 2 3 -1\n2 3 1 -1\n";
+  for (const std::string& contents : {text, packed(true), packed(false)}) {
+    const auto scene = read(write("a.ply", contents), findings_);
+    ASSERT_TRUE(scene) << scene.error().to_string();
+    const PolygonMesh& mesh = scene->meshes.at(0);
+    EXPECT_EQ(mesh.points.at(2), (Vec3f{{1, 1, 0.5}}));
+    EXPECT_EQ(mesh.face_counts, std::vector<std::int32_t>{4});
+    EXPECT_EQ(mesh.face_points, (std::vector<std::int32_t>{0, 1, 2, 3}));
+    for (std::size_t size = 0; size < contents.size() - 4; ++size) {  // cut anywhere: no crash
+      EXPECT_FALSE(read(write("b.ply", contents.substr(0, size)), findings_)) << size;
+    }
+  }
+  std::string huge = text;
+  huge.replace(huge.find("vertex 4"), 8, "vertex 4000000000");
+  EXPECT_EQ(read(write("c.ply", huge), findings_).error().diagnostic().rule, "mesh.ply");
+}
+
 /// A binary STL whose triangles have these corners.
 std::string binary_stl(const std::vector<Vec3f>& corners, std::uint32_t count,
                        const std::string& header) {

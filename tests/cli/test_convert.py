@@ -220,6 +220,20 @@ class IntoAFolder(unittest.TestCase):
         self.assertEqual(tenon("convert", robot, self.folder / "x.usda", "--names",
                                "tutorial")[0], 2)
 
+    def test_check_has_nothing_against_links_below_links(self):
+        inertial = ('<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial>'
+                    '<collision><geometry><sphere radius="0.1"/></geometry></collision>')
+        robot = self.folder / "r.urdf"
+        robot.write_text(
+            f'<robot name="r"><link name="a">{inertial}</link><link name="b">{inertial}</link>'
+            '<joint name="j" type="revolute"><parent link="a"/><child link="b"/>'
+            '<limit lower="0" upper="1" effort="100" velocity="1"/></joint></robot>')
+        self.assertEqual(tenon("convert", robot, self.folder / "r/")[0], 0)
+        code, answer = tenon("check", self.folder / "r/r.usda")
+        found = {d["rule"]: d["severity"] for d in answer["diagnostics"]}
+        self.assertEqual((code, found["body.nested"]), (0, "info"))
+        self.assertEqual({rule for rule, how in found.items() if how != "info"}, set(), found)
+
     def test_a_format_that_is_none_is_no_folder(self):
         self.assertEqual(tenon("convert", ROBOT, self.folder / "robot.step")[0], 2)
         self.assertEqual(list(self.folder.iterdir()), [])

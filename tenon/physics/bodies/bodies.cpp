@@ -185,9 +185,11 @@ Body read_body(const ReadState& state, const PhysicsPrim& found, Index scene) {
   return body;
 }
 
-/// Nested bodies are bodies of their own (S-24); one warning per outermost body.
+/// Nested bodies are bodies of their own (S-24); one finding per outermost body. Links of a robot
+/// stand below each other on purpose, as Isaac Sim's importers write them.
 void report_nesting(const ReadState& state) {
   std::vector<std::uint32_t> nested(state.walk.prims.size(), 0);
+  std::vector<bool> all_links(state.walk.prims.size(), true);
   for (const PhysicsPrim& found : state.walk.prims) {
     if (!found.is_body || found.outer_body == kNone || found.resets_below_body) {
       continue;
@@ -197,11 +199,13 @@ void report_nesting(const ReadState& state) {
       outermost = state.walk.prims[outermost].outer_body;
     }
     ++nested[outermost];
+    all_links[outermost] = all_links[outermost] && found.prim.has_api("IsaacLinkAPI");
   }
   for (std::size_t i = 0; i < nested.size(); ++i) {
     if (nested[i] > 0) {
       state.report(
-          state.walk.prims[i].prim, Severity::Warning, "body.nested",
+          state.walk.prims[i].prim, all_links[i] ? Severity::Info : Severity::Warning,
+          "body.nested",
           std::to_string(nested[i]) + " rigid bodies lie below this one; each moves on its own",
           "author !resetXformStack! on them, or place them beside each other, for engines "
           "that reject nested bodies");
