@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Engines weigh a body that nothing gives a mass as one unit, which makes hands of 0.5 kg weigh 6.
+// A link without mass is therefore no body where that can be, has its colliders' mass where it has
+// some, and else a share of a neighbour's mass that is too small to change a motion.
 #include "tenon/convert/bodies.h"
 
 #include <algorithm>

@@ -321,6 +321,14 @@ bool exists(const stage::Stage& stage, Token property, Path target) {
   return false;
 }
 
+/// What a variant of another set brings along has its physics with it: the structure has no file
+/// for a variant of two sets.
+bool is_of_other_set(const Diagnostic& finding) {
+  const std::size_t place = finding.file.rfind("payloads/");
+  return place != std::string::npos &&
+         role_of_file_name(std::string_view(finding.file).substr(place)) == Role::Variant;
+}
+
 }  // namespace
 
 Diagnostics check_files(const AssetFiles& files) { return FileChecker(files).run(); }
@@ -350,7 +358,9 @@ Diagnostics check_variant(const stage::Stage& stage, const std::string& variant)
       Diagnostic live = prim.located(Severity::Error, "structure.live-collider",
                                      "the collider is live without physics");
       live.fix = "switch it off in the base (active = false) and on in physics";
-      found.add(std::move(live));
+      if (!is_of_other_set(live)) {
+        found.add(std::move(live));
+      }
     }
   });
   return found;

@@ -172,14 +172,19 @@ robot::Index UrdfReader::mesh_number(const std::string& written, pugi::xml_node 
       refusals_.emplace(written, file.error());
     }
     if (file && paths_.is_guess(written)) {
-      xml_.warn(element, "urdf.mesh-nearby",
-                "the mesh \"" + written + "\" is not at its place; \"" + *file +
-                    "\", whose name ends like it, is taken",
-                paths_.advice(written), Severity::Info);
+      report_guess("mesh", written, *file, element);
     }
     model_.meshes.push_back({written, file.value_or(""), xml_.place_of(element), {}, {}});
   }
   return at->second;
+}
+
+void UrdfReader::report_guess(const std::string& what, const std::string& written,
+                              const std::string& file, pugi::xml_node element) {
+  xml_.warn(element, "urdf.mesh-nearby",
+            "the " + what + " \"" + written + "\" is not at its place; \"" + file +
+                "\", whose name ends like it, is taken",
+            paths_.advice(written), Severity::Info);
 }
 
 void UrdfReader::report_missing_mesh(const std::string& written, pugi::xml_node element) {

@@ -48,6 +48,9 @@ Result<robot::Material> UrdfReader::read_material(pugi::xml_node element) {
                 "the texture \"" + written + "\" cannot be found; it is left out",
                 paths_.advice(written), Severity::Error);
     }
+    if (file && paths_.is_guess(written)) {
+      report_guess("texture", written, *file, texture);
+    }
     material.texture = file.value_or("");
   }
   return material;

@@ -29,6 +29,8 @@ class UrdfReader {
   /// None for a mesh that cannot be found and for unknown shapes, which is reported.
   Result<std::optional<robot::Geometry>> read_geometry(pugi::xml_node element);
   Result<std::optional<robot::Geometry>> read_mesh(pugi::xml_node element);
+  void report_guess(const std::string& what, const std::string& written, const std::string& file,
+                    pugi::xml_node element);
   void report_missing_mesh(const std::string& written, pugi::xml_node element);
   robot::Index mesh_number(const std::string& written, pugi::xml_node element);
 

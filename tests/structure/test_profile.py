@@ -107,6 +107,30 @@ class Profile(unittest.TestCase):
         self.assertEqual([d["rule"] for d in found], ["structure.orphan-file"])
         self.assertTrue(found[0]["file"].endswith("payloads/Physics/spare.usda"))
 
+    def test_a_gripper_in_a_variant_of_its_own_set_keeps_to_it(self):
+        body = 'prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"]'
+        source = self.folder / "arm.usda"
+        source.write_text(f"""#usda 1.0
+(
+    defaultPrim = "Arm"
+)
+def Xform "Arm" (
+    variants = {{ string Gripper = "two" }}
+    prepend variantSets = "Gripper"
+)
+{{
+    def Cube "base" ({body}) {{ }}
+    variantSet "Gripper" = {{
+        "none" {{ }}
+        "two" {{
+            def Cube "finger" ({body}) {{ }}
+        }}
+    }}
+}}
+""", encoding="utf-8")
+        self.assertEqual(run("structure", source, "-o", self.folder / "made").returncode, 0)
+        self.assertEqual(breaches(self.folder / "made/Arm.usda"), [])
+
     def test_what_has_no_such_structure(self):
         path = self.folder / "plain.usda"
         path.write_text('#usda 1.0\n(defaultPrim = "r")\ndef Xform "r" { }\n', encoding="utf-8")
