@@ -12,6 +12,13 @@ namespace tenon::urdf {
 using robot::Geometry;
 using robot::GeometryKind;
 
+void report_guess(XmlReader& xml, pugi::xml_node element, const std::string& what,
+                  const std::string& file, std::string advice) {
+  xml.warn(element, "urdf.mesh-nearby",
+           what + " is not at its place; \"" + file + "\", whose name ends like it, is taken",
+           std::move(advice), Severity::Info);
+}
+
 Result<void> UrdfReader::read_link(pugi::xml_node element) {
   xml_.list_unknown(element, {"name"}, {"inertial", "visual", "collision"});
   robot::Link link;
@@ -172,19 +179,11 @@ robot::Index UrdfReader::mesh_number(const std::string& written, pugi::xml_node 
       refusals_.emplace(written, file.error());
     }
     if (file && paths_.is_guess(written)) {
-      report_guess("mesh", written, *file, element);
+      report_guess(xml_, element, "the mesh \"" + written + "\"", *file, paths_.advice(written));
     }
     model_.meshes.push_back({written, file.value_or(""), xml_.place_of(element), {}, {}});
   }
   return at->second;
-}
-
-void UrdfReader::report_guess(const std::string& what, const std::string& written,
-                              const std::string& file, pugi::xml_node element) {
-  xml_.warn(element, "urdf.mesh-nearby",
-            "the " + what + " \"" + written + "\" is not at its place; \"" + file +
-                "\", whose name ends like it, is taken",
-            paths_.advice(written), Severity::Info);
 }
 
 void UrdfReader::report_missing_mesh(const std::string& written, pugi::xml_node element) {

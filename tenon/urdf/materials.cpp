@@ -49,7 +49,7 @@ Result<robot::Material> UrdfReader::read_material(pugi::xml_node element) {
                 paths_.advice(written), Severity::Error);
     }
     if (file && paths_.is_guess(written)) {
-      report_guess("texture", written, *file, texture);
+      report_guess(xml_, texture, "the texture \"" + written + "\"", *file, paths_.advice(written));
     }
     material.texture = file.value_or("");
   }

@@ -12,6 +12,10 @@
 /// Internal to this folder.
 namespace tenon::urdf {
 
+/// Says that `file` stands for `what`, which is not at its place.
+void report_guess(XmlReader& xml, pugi::xml_node element, const std::string& what,
+                  const std::string& file, std::string advice);
+
 /// One reading of a description: passes over the elements below <robot>.
 class UrdfReader {
  public:
@@ -29,8 +33,6 @@ class UrdfReader {
   /// None for a mesh that cannot be found and for unknown shapes, which is reported.
   Result<std::optional<robot::Geometry>> read_geometry(pugi::xml_node element);
   Result<std::optional<robot::Geometry>> read_mesh(pugi::xml_node element);
-  void report_guess(const std::string& what, const std::string& written, const std::string& file,
-                    pugi::xml_node element);
   void report_missing_mesh(const std::string& written, pugi::xml_node element);
   robot::Index mesh_number(const std::string& written, pugi::xml_node element);
 
