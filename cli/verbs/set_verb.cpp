@@ -5,10 +5,13 @@
 // whether it counts there, is decided in tenon/asset/edit_asset.h. Reading, editing and writing are
 // repeated together when a file changed meanwhile. In a dry run standard output is the difference
 // alone.
+#include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "cli/output.h"
 #include "cli/report.h"
+#include "cli/text/difference_text.h"
 #include "cli/text/terminal_text.h"
 #include "cli/verb.h"
 #include "tenon/asset/answers/edited_json.h"
@@ -86,6 +89,35 @@ void print_files(const Report& report, const EditedAsset& asset, bool dry_run) {
   }
 }
 
+/// What engines receive otherwise: each difference once, with the variants that have it.
+void print_physics(const Report& report, const EditedAsset& asset, bool dry_run) {
+  constexpr std::size_t kShown = 40;
+  std::vector<std::pair<std::string, std::string>> lines;  // difference, variants
+  for (const PhysicsEffect& effect : asset.physics) {
+    for (const scene::SceneDifference& difference : effect.differences) {
+      const std::string text = difference_text(difference);
+      const auto known = std::find_if(lines.begin(), lines.end(),
+                                      [&](const auto& line) { return line.first == text; });
+      if (known == lines.end()) {
+        lines.emplace_back(text, effect.variant);
+      } else {
+        known->second += ", " + effect.variant;
+      }
+    }
+  }
+  const auto say = [&](const std::string& line) {
+    dry_run ? say_aside(terminal_text(line, false)) : print("%s\n", line.c_str());
+  };
+  const std::size_t shown = report.verbose() ? lines.size() : std::min(lines.size(), kShown);
+  for (std::size_t i = 0; i < shown; ++i) {
+    say("  " + lines[i].first +
+        (lines[i].second.empty() ? "" : "  (Physics=" + lines[i].second + ")"));
+  }
+  if (shown < lines.size()) {
+    say("  and " + std::to_string(lines.size() - shown) + " more differences (-v shows them)");
+  }
+}
+
 /// Reads the asset, edits it and writes it back; `edits` are those that were made.
 Result<EditedAsset> edit(const SetArguments& options, Report& report,
                          std::vector<AssetEdit>& edits) {
@@ -93,7 +125,7 @@ Result<EditedAsset> edit(const SetArguments& options, Report& report,
     TENON_TRY(edits, read_edits(options.asset, options.request, edit_options(options)));
     TENON_TRY(EditedAsset asset,
               edit_asset(options.asset, edits, edit_options(options), report.diagnostics));
-    if (!options.dry_run) {
+    if (!options.dry_run && asset.without_effect.empty()) {
       TENON_CHECK(write_edits(asset.files));
     }
     return asset;
@@ -107,11 +139,18 @@ int run_set(const Globals& globals, const SetArguments& options) {
   if (!asset) {
     return report.fail(asset.error());
   }
+  const bool useful = asset->without_effect.empty();
+  const bool aside = options.dry_run || !useful;
   if (!report.json()) {
-    print_places(edits, *asset, options.dry_run);
-    print_files(report, *asset, options.dry_run);
+    print_places(edits, *asset, aside);
+    print_physics(report, *asset, aside);
+    if (useful) {
+      print_files(report, *asset, options.dry_run);
+    } else {
+      report.note("nothing is written");
+    }
   }
-  return report.finish(kOk, edited_json(edits, *asset, options.dry_run));
+  return report.finish(useful ? kOk : kNo, edited_json(edits, *asset, options.dry_run));
 }
 
 constexpr const char* kSetFooter =
@@ -124,12 +163,17 @@ constexpr const char* kSetFooter =
     "in the root layer. Comments and layout of text stay. What was asked for is composed and "
     "compared\n"
     "before anything is written; files are replaced whole.\n\n"
+    "What engines receive otherwise is told under each variant of \"Physics\". An edit of physics\n"
+    "that changes nothing there is not written (exit code 1), and the reason is told.\n\n"
     "Examples:\n"
     "  tenon set hand.usda /hand/Physics/thumb_joint.physics:upperLimit=60 --dry-run\n"
     "  tenon set hand.usda --drive /hand/Physics/thumb_joint=stiffness:2,damping:0.1\n"
     "  tenon set hand.usda /hand/Physics/j.physxMimicJoint:rotX:naturalFrequency=30\n"
-    "  tenon set hand.usda --engine mujoco /hand/Physics/j.drive:angular:physics:damping=0.2\n"
+    "  tenon set hand.usda --engine mujoco /hand/Physics/j.physics:upperLimit=55\n"
     "  tenon set hand.usda --mass /hand/palm=0.2 --collider /hand/palm/mesh=convexDecomposition\n"
+    "  tenon set hand.usda --drive /hand/Physics/j=stiffness:2 --all-engines\n"
+    "  tenon set hand.usda --filter /hand/palm,/hand/thumb\n"
+    "  tenon set hand.usda /hand/palm.physics:filteredPairs-=/hand/thumb\n"
     "  tenon set hand.usda --apply /hand/palm=PhysxRigidBodyAPI\n"
     "Units of the typed edits: kilograms; else those of the schema, degrees for angles.";
 
@@ -144,6 +188,8 @@ void add_edit_options(const Command& verb, EditRequest& options) {
   verb.add_option("--mimic", options.mimic, "FOLLOWER=LEADER,MULTIPLIER[,OFFSET]").repeatable();
   verb.add_option("--collider", options.collider, "PRIM=APPROXIMATION, or PRIM=on").repeatable();
   verb.add_option("--material", options.material, "PRIM=MATERIAL: physics material").repeatable();
+  verb.add_option("--filter", options.filter, "A,B: these two, and what is below, do not touch")
+      .repeatable();
 }
 
 }  // namespace
@@ -154,12 +200,16 @@ void add_set(const Command& parent, const Globals& globals, Chosen& chosen) {
   auto options = std::make_shared<SetArguments>();
   verb.add_option("asset", options->asset, "A .usd, .usda or .usdc file").required().file_only();
   verb.add_option("assignments", options->request.assignments,
-                  "PATH.attr=VALUE as text layers print it; PATH.rel=/a,/b for relationships");
+                  "PATH.attr=VALUE as text layers print it; PATH.rel=/a,/b for relationships, "
+                  "+= and -= to add to their lists and take from them");
   add_edit_options(verb, options->request);
   verb.add_option("--type", options->request.type, "The type of attributes that this creates");
   verb.add_option("--in", options->layer, "Edit this file, whichever owns the property");
   verb.add_option("--engine", options->engine,
                   "The file of this engine alone: physx, mujoco, newton");
+  verb.add_flag("--all-engines", options->request.all_engines,
+                "Edit each engine's own form, too: gains of actuators, each schema of a mimic, "
+                "values that an engine's file has of its own");
   verb.add_option("--physics", options->physics,
                   "The variant of \"Physics\" in which the value has to count");
   verb.add_flag("--dry-run", options->dry_run, "Print the difference, write nothing");

@@ -25,6 +25,7 @@
 
 #include "tenon/asset/edit_file_choice.h"
 #include "tenon/asset/edit_value.h"
+#include "tenon/asset/editing/edit_effects.h"
 #include "tenon/edit/api_schemas.h"
 #include "tenon/edit/apply_list_edit.h"
 #include "tenon/edit/edit_target.h"
@@ -94,6 +95,26 @@ Result<void> remove_api(edit::StageEditor& editor, Path prim, Path spec, Token a
                                          : editor.remove_applied_schema(prim, api);
 }
 
+Result<void> edit_target_list(edit::StageEditor& editor, const AssetEdit& edit,
+                              const PropertyValue& typed) {
+  if (!typed.is_relationship) {
+    return Error(ErrorCode::Invalid, "<" + edit.object.str() +
+                                         "> is no relationship: += and -= are for lists of targets")
+        .with_prim(edit.object.prim().str())
+        .with_rule("edit.type-mismatch")
+        .with_fix("write the whole value: =VALUE");
+  }
+  return editor.as_one_step([&]() -> Result<void> {
+    TENON_CHECK(editor.create_relationship(edit.object, typed.custom));
+    for (const Path target : typed.targets) {
+      TENON_CHECK(editor.edit_targets(edit.object, edit.kind == Kind::AddTargets
+                                                       ? edit::ListEdit<Path>::add(target)
+                                                       : edit::ListEdit<Path>::remove(target)));
+    }
+    return {};
+  });
+}
+
 /// Authors the edit at the editor's target, as one step; `spec` is the object there.
 Result<void> author(edit::StageEditor& editor, const AssetEdit& edit, Path spec,
                     const PropertyValue& typed) {
@@ -108,6 +129,9 @@ Result<void> author(edit::StageEditor& editor, const AssetEdit& edit, Path spec,
         TENON_CHECK(editor.withdraw_applied_schema(object, edit.api));  // a deletion, too
         return editor.apply_api(object, edit.api);
       });
+    case Kind::AddTargets:
+    case Kind::RemoveTargets:
+      return edit_target_list(editor, edit, typed);
     case Kind::SetProperty:
       break;
   }
@@ -187,6 +211,15 @@ class AssetEditor::State {
     std::vector<EditedPlace> places = std::exchange(places_, {});
     work_ = stage::WorkAccount(options_.open.max_work);
     return done ? Result<std::vector<EditedPlace>>(std::move(places)) : done.error();
+  }
+
+  Result<std::vector<View>> views() {
+    TENON_CHECK(settle());
+    std::vector<View> views;
+    for (const Selection& selection : selections_) {
+      views.push_back({selection.shown, selection.stage});
+    }
+    return views;
   }
 
   edit::StageEditor& history() { return selections_.front().editor; }
@@ -486,6 +519,8 @@ bool AssetEditor::redo() { return state_->history().redo(); }
 
 Result<std::vector<EditedFile>> AssetEditor::files() const { return state_->files(); }
 
+Result<std::vector<AssetEditor::View>> AssetEditor::views() { return state_->views(); }
+
 layer::LayerPtr AssetEditor::layer(const std::string& identifier) const {
   return state_->layer(identifier);
 }
@@ -494,7 +529,10 @@ Result<EditedAsset> edit_asset(const std::string& path, const std::vector<AssetE
                                const EditOptions& options, Diagnostics& diagnostics) {
   TENON_TRY(AssetEditor editor, AssetEditor::open(path, options, diagnostics));
   EditedAsset asset;
+  EditEffects effects(editor, edits);
+  TENON_CHECK(effects.look_before());
   TENON_TRY(asset.places, editor.edit(edits, diagnostics));
+  TENON_CHECK(effects.judge(asset, diagnostics));
   TENON_TRY(asset.files, editor.files());
   TENON_CHECK(find_lines(editor, asset));
   return asset;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,20 +14,34 @@
 #include "tenon/base/result.h"
 #include "tenon/layer/layer.h"
 #include "tenon/open_stage.h"
+#include "tenon/scene/fields/scene_difference.h"
+#include "tenon/stage/stage.h"
 
 /// Edits of assets in files: each lands in the file that owns what it changes.
 namespace tenon {
 
 /// One edit of something of the composed scene.
 struct AssetEdit {
-  enum class Kind : unsigned char { SetProperty, ClearProperty, ApplyApi, RemoveApi };
+  enum class Kind : unsigned char {
+    SetProperty,
+    ClearProperty,
+    ApplyApi,
+    RemoveApi,
+    AddTargets,     ///< to what a relationship has
+    RemoveTargets,  ///< of a relationship, also from weaker layers
+  };
 
   Kind kind = Kind::SetProperty;
   Path object;        ///< a property; for API schemas a prim
   std::string value;  ///< of an attribute as text layers print it, quotes and @ may be left out,
-                      ///< "None" blocks; of a relationship: paths, all that it has then
+                      ///< "None" blocks; of a relationship: paths, all that it has then, or those
+                      ///< to add or remove
   Token api;          ///< "PhysicsMassAPI", "PhysicsDriveAPI:angular"
   Token type_name;    ///< of an attribute that no schema and no layer knows: makes it
+  std::string engine{};  ///< its file alone, whatever EditOptions::engine says
+  /// Edits of one number are one wish, which has an effect when one of them has; none: a wish of
+  /// its own.
+  std::optional<std::size_t> wish{};
 
   bool is_about_api() const { return kind == Kind::ApplyApi || kind == Kind::RemoveApi; }
 };
@@ -46,12 +61,24 @@ struct EditedPlace {
   std::string why;         ///< this file and no other
   std::string before;      ///< composed value, as text; empty when there was none
   std::string after;
-  std::vector<std::string> variants;  ///< of "Physics" in which it counts; empty: no such set
+  /// Of "Physics" in which it counts: for what engines receive those where they receive something
+  /// else now, for all else those where it is composed. Empty: no such set.
+  std::vector<std::string> variants;
+};
+
+/// What engines receive otherwise under one variant of "Physics".
+struct PhysicsEffect {
+  std::string variant;  ///< empty: there is no such set
+  std::vector<scene::SceneDifference> differences;
 };
 
 struct EditedAsset {
-  std::vector<EditedPlace> places;  ///< one for each edit; none for schemas applied already
-  std::vector<EditedFile> files;    ///< that differ, sorted by path
+  std::vector<EditedPlace> places;     ///< one for each edit; none for schemas applied already
+  std::vector<EditedFile> files;       ///< that differ, sorted by path
+  std::vector<PhysicsEffect> physics;  ///< the variant in which the asset opens first
+  /// Edits of the physics that change nothing that engines receive, under no variant. Why is told
+  /// by findings of the rule "edit.no-effect".
+  std::vector<std::size_t> without_effect;
 };
 
 /// Edits of an asset in its files, with undo. Composes the asset under every selection of
@@ -83,6 +110,13 @@ class AssetEditor {
 
   /// What all edits in force make of the files, those that differ alone, sorted by path.
   Result<std::vector<EditedFile>> files() const;
+  /// The scene under one selection of "Physics", with all edits in force.
+  struct View {
+    std::string variant;  ///< empty: there is no such set
+    std::shared_ptr<const stage::Stage> stage;
+  };
+  /// As the asset opens, then under the other selections.
+  Result<std::vector<View>> views();
   /// A layer as it is now; null when the asset has none of that identifier.
   layer::LayerPtr layer(const std::string& identifier) const;
 
@@ -92,8 +126,9 @@ class AssetEditor {
   std::unique_ptr<State> state_;
 };
 
-/// What the edits make of the asset's files, as one call: open, edit, files. `write_files` of
-/// edited_file.h writes them.
+/// What the edits make of the asset's files, as one call: open, edit, files, and what engines
+/// receive before and after under every variant of "Physics". `write_files` of edited_file.h writes
+/// them. Diagnostics also: "edit.no-effect", an error, and "edit.no-effect-in-variant".
 Result<EditedAsset> edit_asset(const std::string& path, const std::vector<AssetEdit>& edits,
                                const EditOptions& options, Diagnostics& diagnostics);
 

@@ -124,7 +124,7 @@ structure::Ownership ownership(const FileQuestion& q) {
 }
 
 Result<FileChoice> engine_file(const FileQuestion& q) {
-  const std::string& engine = q.options.engine;
+  const std::string& engine = q.edit.engine.empty() ? q.options.engine : q.edit.engine;
   if (q.roles.empty()) {
     return no_file(q, "the asset has no files for single engines", "name the file with --in");
   }
@@ -188,7 +188,7 @@ Result<FileChoice> choose_file(const FileQuestion& question) {
   if (!question.options.layer.empty()) {
     return named_file(question);
   }
-  if (!question.options.engine.empty()) {
+  if (!question.options.engine.empty() || !question.edit.engine.empty()) {
     return engine_file(question);
   }
   return question.roles.empty() ? strongest_file(question) : owning_file(question);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "tenon/asset/editing/engine_forms.h"
 #include "tenon/asset/typed_edits.h"
 #include "tenon/base/assignment.h"
 #include "tenon/open_stage.h"
@@ -25,9 +26,16 @@ Result<Path> read_path(const std::string& text, const std::string& kind) {
   return not_a_path(text, kind);
 }
 
-Result<AssetEdit> assigned(const std::string& text, const std::string& type) {
-  TENON_TRY(const PropertyAssignment parts, read_assignment(text));
+/// "PATH.rel+=/a" and "PATH.rel-=/a" edit the list, "=" replaces it.
+Result<AssetEdit> assigned(std::string text, const std::string& type) {
   AssetEdit edit;
+  const std::size_t equals = text.find('=');
+  const char before = equals == std::string::npos || equals == 0 ? '\0' : text[equals - 1];
+  if (before == '+' || before == '-') {
+    edit.kind = before == '+' ? AssetEdit::Kind::AddTargets : AssetEdit::Kind::RemoveTargets;
+    text.erase(equals - 1, 1);
+  }
+  TENON_TRY(const PropertyAssignment parts, read_assignment(text));
   edit.object = parts.property;
   edit.value = parts.value;
   edit.type_name = Token(type);
@@ -66,11 +74,16 @@ Result<stage::Stage> scene_with_physics(const std::string& asset, OpenOptions op
 
 using ReadEdits = std::function<Result<std::vector<AssetEdit>>(const std::string&)>;
 
+/// What one argument asks for is one wish.
 Result<void> add_typed(const std::vector<std::string>& texts, const ReadEdits& read,
                        std::vector<AssetEdit>& edits) {
   for (const std::string& text : texts) {
-    TENON_TRY(const std::vector<AssetEdit> more, read(text));
-    edits.insert(edits.end(), more.begin(), more.end());
+    TENON_TRY(std::vector<AssetEdit> more, read(text));
+    const std::size_t wish = edits.size();
+    for (AssetEdit& edit : more) {
+      edit.wish = wish;
+      edits.push_back(std::move(edit));
+    }
   }
   return {};
 }
@@ -79,6 +92,7 @@ Result<void> add_typed(const std::string& asset, const EditRequest& request,
                        const EditOptions& options, std::vector<AssetEdit>& edits) {
   TENON_CHECK(add_typed(request.collider, collider_edits, edits));
   TENON_CHECK(add_typed(request.material, material_edits, edits));
+  TENON_CHECK(add_typed(request.filter, filter_edits, edits));
   TENON_CHECK(add_typed(
       request.mimic, [&](const std::string& text) { return mimic_edits(text, options.engine); },
       edits));
@@ -118,6 +132,9 @@ Result<std::vector<AssetEdit>> read_edits(const std::string& asset, const EditRe
   }
   if (edits.empty()) {
     return Error(ErrorCode::Invalid, "nothing to set").with_fix("name a property: PATH.attr=VALUE");
+  }
+  if (request.all_engines) {
+    return with_engine_forms(asset, std::move(edits), options);
   }
   return edits;
 }

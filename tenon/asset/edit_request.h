@@ -12,7 +12,7 @@ namespace tenon {
 
 /// What is asked for of an asset, as people write it (`tenon set`).
 struct EditRequest {
-  std::vector<std::string> assignments;  ///< PATH.property=VALUE
+  std::vector<std::string> assignments;  ///< PATH.property=VALUE; of relationships += and -=, too
   std::vector<std::string> clear;        ///< PATH.property
   std::vector<std::string> apply;        ///< PRIM=SCHEMA
   std::vector<std::string> remove;       ///< PRIM=SCHEMA
@@ -21,7 +21,9 @@ struct EditRequest {
   std::vector<std::string> material;
   std::vector<std::string> drive;
   std::vector<std::string> mimic;
-  std::string type;  ///< of attributes that assignments create
+  std::vector<std::string> filter;
+  bool all_engines = false;  ///< what one engine has a form of its own for is edited there, too
+  std::string type;          ///< of attributes that assignments create
 };
 
 /// The edits in a fixed order: schemas are removed and applied first, so that the properties that

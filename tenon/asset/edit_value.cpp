@@ -39,6 +39,14 @@ bool is_as_asked(const stage::Prim& prim, const AssetEdit& edit, const PropertyV
     }
     case AssetEdit::Kind::ClearProperty:
       return true;
+    case AssetEdit::Kind::AddTargets:
+    case AssetEdit::Kind::RemoveTargets: {
+      const std::vector<Path> targets = prim.relationship(name).targets();
+      return std::all_of(typed.targets.begin(), typed.targets.end(), [&](Path target) {
+        const bool there = std::find(targets.begin(), targets.end(), target) != targets.end();
+        return there == (edit.kind == AssetEdit::Kind::AddTargets);
+      });
+    }
     case AssetEdit::Kind::SetProperty:
       break;
   }

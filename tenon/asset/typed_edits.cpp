@@ -158,4 +158,19 @@ Result<Edits> mimic_edits(const std::string& text, const std::string& engine) {
                set(mimic.prim, "newton:mimicCoef0", number(*offset))};
 }
 
+Result<Edits> filter_edits(const std::string& text) {
+  const std::vector<std::string> parts = split(text, ',');
+  const auto first = Path::parse(parts.front());
+  const auto second = Path::parse(parts.back());
+  const auto is_prim = [](const Result<Path>& path) {
+    return path && path->is_absolute() && path->is_prim();
+  };
+  if (parts.size() != 2 || !is_prim(first) || !is_prim(second) || *first == *second) {
+    return bad(text, "write two prims: /hand/palm,/hand/thumb");
+  }
+  AssetEdit pairs = set(*first, "physics:filteredPairs", parts.back());
+  pairs.kind = AssetEdit::Kind::AddTargets;
+  return Edits{applied(*first, "PhysicsFilteredPairsAPI"), std::move(pairs)};
+}
+
 }  // namespace tenon

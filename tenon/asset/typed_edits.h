@@ -28,4 +28,8 @@ Result<std::vector<AssetEdit>> drive_edits(const stage::Stage& stage, const std:
 /// PhysxMimicJointAPI, whose signs are the other way round.
 Result<std::vector<AssetEdit>> mimic_edits(const std::string& text, const std::string& engine);
 
+/// "A,B": the two, and what is below them, do not touch each other. A gets PhysicsFilteredPairsAPI
+/// with B among its pairs.
+Result<std::vector<AssetEdit>> filter_edits(const std::string& text);
+
 }  // namespace tenon

@@ -42,7 +42,8 @@ def Xform "W" (
 }
 """
 GOOD = [
-    "/W/box.physics:mass=2", "/W/box.physics:mass=None", "/W/box.physics:density=7",
+    "/W/box.physics:mass=2", "/W/box.physics:mass=None",
+    "/W/box.physics:centerOfMass=(0, 0, 1)",
     "/W/box.note=a \"b\" \\ c", "/W/box.note='x'", "/W/box.file=a.png", "/W/box.file=@a.png@",
     "/W/box.to=</W>", "/W/box.to=/W, /W/box", "/W/box.to=[</W>, </W/box>]",
     "/W/box.visibility=invisible", "/W/box.list=[1, 2]", "/W/box.list=[]",

@@ -10,6 +10,7 @@ The hand of ../shared joins in where it is there.
 
 import difflib
 import json
+import math
 import os
 import pathlib
 import shutil
@@ -137,22 +138,22 @@ class Edits(Case):
             self.assertEqual(self.value(f"{JOINT}.physics:upperLimit"), "60")
 
     def test_an_engine_has_values_of_its_own(self):
-        path = f"{JOINT}.drive:angular:physics:damping"
-        answer = self.set("--engine", "mujoco", f"{path}=0.2")
+        path = f"{JOINT}.physics:upperLimit"
+        answer = self.set("--engine", "mujoco", f"{path}=55")
         self.assertEqual(list(self.changed()), [MUJOCO])
         self.assertEqual(answer["edits"][0]["variants"], ["mujoco"])
-        self.assertEqual(self.value(path, "mujoco"), "0.2")
-        self.assertEqual(self.value(path, "physx"), "0.0015")
+        self.assertEqual(self.value(path, "mujoco"), "55")
+        self.assertEqual(self.value(path, "physx"), "75")
         # The neutral value goes to its file and does not count where the engine has its own.
-        answer = self.set(f"{path}=0.3")
+        answer = self.set(f"{path}=60")
         self.assertEqual([d["rule"] for d in answer["diagnostics"]], ["edit.hidden-in-variant"])
-        self.assertEqual((self.value(path), self.value(path, "mujoco")), ("0.3", "0.2"))
+        self.assertEqual((self.value(path), self.value(path, "mujoco")), ("60", "55"))
 
     def test_a_value_that_would_not_count_is_refused(self):
-        path = f"{JOINT}.drive:angular:physics:damping"
-        self.set("--engine", "mujoco", f"{path}=0.2")
+        path = f"{JOINT}.physics:upperLimit"
+        self.set("--engine", "mujoco", f"{path}=55")
         self.original = self.files()
-        text = self.refused("--physics", "mujoco", f"{path}=0.3")
+        text = self.refused("--physics", "mujoco", f"{path}=60")
         self.assertIn("mujoco.usda", text)
         self.assertIn("edit.hidden", text)
 
@@ -229,16 +230,19 @@ class Kinds(Case):
         self.assertEqual(self.value(f"{FOLLOWER}.physxMimicJoint:rotX:gearing", "physx"), "-0.5")
 
     def test_a_material_is_bound_within_what_instances_share(self):
-        link = f"{R}/r_base_link/r_base_link"
-        self.set("--material", f"{link}/r_base_link={link}/Materials/Rubber_Smooth")
-        self.assertEqual(self.changed(), {"payloads/instances.usda": [
-            "+             rel material:binding:physics = "
-            "</Instances/r_base_link/Materials/Rubber_Smooth>"]})
-        self.assertEqual(self.value(f"{link}/r_base_link.material:binding:physics"),
-                         [f"{link}/Materials/Rubber_Smooth"])
+        instances, binding = self.home / "payloads/instances.usda", (
+            "            rel material:binding:physics = "
+            "</Instances/r_base_link_1/Materials/Rubber_Contact>")
+        instances.write_text(instances.read_text().replace(binding + "\n", ""))
+        self.original = self.files()
+        link = f"{R}/r_base_link/r_base_link_1"
+        self.set("--material", f"{COLLIDER}={link}/Materials/Rubber_Contact")
+        self.assertEqual(self.changed(), {"payloads/instances.usda": ["+ " + binding]})
+        self.assertEqual(self.value(f"{COLLIDER}.material:binding:physics"),
+                         [f"{link}/Materials/Rubber_Contact"])
         self.original = self.files()
         self.assertIn("no name in this file",
-                      self.refused("--material", f"{link}/r_base_link={R}/elsewhere"))
+                      self.refused("--material", f"{COLLIDER}={R}/elsewhere"))
 
     def test_an_asset_without_the_structure(self):
         weak = self.folder / "weak.usdc"
@@ -275,6 +279,198 @@ class Kinds(Case):
             self.set(*arguments)
             self.assertEqual(list(self.changed()), [file], arguments)
             (self.home / file).write_bytes(self.original[file])
+
+ACTUATED = """#usda 1.0
+(
+    defaultPrim = "R"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "R" ( prepend apiSchemas = ["PhysicsArticulationRootAPI"] )
+{
+    def Cube "a" ( prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"] )
+    {
+        double size = 0.1
+        float physics:mass = 1
+    }
+    def Cube "b" ( prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"] )
+    {
+        double size = 0.1
+        float physics:mass = 1
+    }
+    def PhysicsRevoluteJoint "j" ( prepend apiSchemas = ["PhysicsDriveAPI:angular"] )
+    {
+        rel physics:body0 = </R/a>
+        rel physics:body1 = </R/b>
+        uniform token physics:axis = "Z"
+        float drive:angular:physics:stiffness = 1
+        float drive:angular:physics:damping = 0.1
+    }
+    def MjcActuator "act"
+    {
+        uniform double[] mjc:biasPrm = [0, -2, -0.1]
+        uniform token mjc:biasType = "affine"
+        uniform double[] mjc:gainPrm = [2]
+        uniform token mjc:gainType = "fixed"
+        rel mjc:target = </R/j>
+    }
+}
+"""
+
+
+class Effects(Case):
+    """What engines receive before and after, under every variant."""
+
+    def take_text(self, text):
+        self.home = self.folder / "plain"
+        self.home.mkdir()
+        self.hand = self.home / "a.usda"
+        self.hand.write_text(text)
+        self.original = self.files()
+
+    def vain(self, *arguments):
+        answer = self.set(*arguments, code=1)
+        self.assertEqual(self.files(), self.original)
+        self.assertFalse(answer["ok"])
+        findings = [d for d in answer["diagnostics"] if d["rule"] == "edit.no-effect"]
+        self.assertTrue(findings, answer["diagnostics"])
+        return f"{findings[0]['message']}; {findings[0]['fix']}"
+
+    @staticmethod
+    def effect(answer):
+        """Variant -> object, what, before, after."""
+        return {one["variant"]: [(row["path"], row["what"], row["before"], row["after"])
+                                 for row in one["differences"]] for one in answer["physics"]}
+
+    def test_old_and_new_are_told_under_every_variant(self):
+        effect = self.effect(self.set("--mass", f"{R}/right_thumb_1=0.25"))
+        self.assertEqual(set(effect), {"physics", "physx", "mujoco", "none"})
+        self.assertEqual(effect["none"], [])
+        for variant in ("physics", "physx", "mujoco"):
+            (path, what, _, after), = effect[variant]
+            self.assertEqual((path, what, after), (f"{R}/right_thumb_1", "mass", 0.25))
+        text = tenon("set", self.hand, "--mass", f"{R}/right_thumb_1=0.5").stdout
+        self.assertIn(f"body {R}/right_thumb_1  mass 0.25 kg -> 0.5 kg  "
+                      "(Physics=physics, mujoco, physx)", text)
+
+    def test_an_actuator_that_replaces_the_drive_is_told(self):
+        answer = self.set("--drive", f"{JOINT}=stiffness:3")
+        effect = self.effect(answer)
+        self.assertEqual([row[1] for row in effect["physx"]], ["drive rotZ stiffness"])
+        self.assertEqual(effect["mujoco"], [])
+        self.assertEqual(answer["edits"][0]["variants"], ["physics", "physx"])
+        finding, = [d for d in answer["diagnostics"] if d["rule"] == "edit.no-effect-in-variant"]
+        self.assertIn("under Physics=mujoco", finding["message"])
+        self.assertIn(f"{R}/Physics/right_thumb_1_actuator", finding["message"])
+        self.assertIn("--all-engines", finding["fix"])
+
+    def test_a_mimic_that_another_schema_says_as_well_is_told(self):
+        answer = self.set("--mimic", f"{FOLLOWER}={JOINT},0.5,2")
+        self.assertEqual(answer["edits"][0]["variants"], ["physics", "mujoco"])
+        finding, = [d for d in answer["diagnostics"] if d["rule"] == "edit.no-effect-in-variant"]
+        self.assertIn("PhysxMimicJointAPI counts", finding["message"])
+
+    def test_all_engines_edits_each_form(self):
+        self.take_text(ACTUATED)
+        answer = self.set("--drive", "/R/j=stiffness:3,damping:0.5,maxForce:7", "--all-engines")
+        effect = {row[1]: row[3] for row in self.effect(answer)[None]}
+        self.assertEqual(list(effect), ["drive rotZ stiffness", "drive rotZ damping",
+                                        "drive rotZ maximum force"])
+        for got, want in zip(effect.values(), (540 / math.pi, 90 / math.pi, 7)):
+            self.assertAlmostEqual(got, want, 12)
+        # The gain of the control and the stiffness stay the same number.
+        self.assertEqual(self.value("/R/act.mjc:gainPrm"), "[171.88733853924697]")
+
+    def test_all_engines_edits_the_file_of_each(self):
+        effect = self.effect(self.set("--drive", f"{JOINT}=stiffness:0.2", "--all-engines"))
+        self.assertEqual(set(self.changed()), {PHYSICS, MUJOCO})
+        for variant in ("physics", "physx", "mujoco"):
+            self.assertAlmostEqual(effect[variant][0][3], 36 / math.pi, 6)
+
+    def test_all_engines_edits_each_schema_of_a_mimic(self):
+        answer = self.set("--mimic", f"{FOLLOWER}={JOINT},0.5,2", "--all-engines")
+        self.assertEqual(set(self.changed()), {PHYSICS, PHYSX})
+        self.assertEqual([d for d in answer["diagnostics"] if d["severity"] == "warning"
+                          and d["rule"].startswith("edit.")], [])
+        effect = self.effect(answer)
+        self.assertEqual([row[2:] for row in effect["physx"]],
+                         [row[2:] for row in effect["mujoco"]])
+        self.assertEqual(self.value(f"{FOLLOWER}.physxMimicJoint:rotX:gearing", "physx"), "-0.5")
+
+    def test_all_engines_edits_what_an_engine_has_of_its_own(self):
+        path = f"{JOINT}.physics:upperLimit"
+        self.set("--engine", "mujoco", f"{path}=55")
+        answer = self.set(f"{path}=60", "--all-engines")
+        self.assertNotIn("edit.hidden-in-variant", {d["rule"] for d in answer["diagnostics"]})
+        self.assertEqual((self.value(path), self.value(path, "mujoco")), ("60", "60"))
+        answer = self.set(f"{path}=61", "--all-engines", "--engine", "mujoco", code=2)
+        self.assertEqual(answer["diagnostics"][-1]["rule"], "usage.conflict")
+
+    def test_pairs_are_filtered(self):
+        one, other = f"{R}/right_thumb_4", f"{R}/right_index_2"
+        effect = self.effect(self.set("--filter", f"{one},{other}"))
+        self.assertEqual(set(self.changed()), {PHYSICS})
+        self.assertEqual(self.value(f"{one}.physics:filteredPairs"), [other])
+        self.assertEqual(len(effect["physx"]), 3)
+        self.original = self.files()
+        # Links of one joint do not touch anyway.
+        self.assertIn("could touch", self.vain("--filter", f"{one},{R}/right_thumb_3"))
+
+    def test_lists_are_added_to_and_taken_from(self):
+        one = f"{R}/right_thumb_4"
+        pairs = f"{one}.physics:filteredPairs"
+        self.set("--filter", f"{one},{R}/right_index_2", f"{pairs}+={R}/right_ring_2")
+        self.assertEqual(self.value(pairs), [f"{R}/right_index_2", f"{R}/right_ring_2"])
+        effect = self.effect(self.set(f"{pairs}-={R}/right_index_2"))
+        self.assertEqual(self.value(pairs), [f"{R}/right_ring_2"])
+        self.assertEqual(len(effect["physics"]), 3)
+        self.original = self.files()
+        self.assertIn("is no relationship", self.refused(f"{JOINT}.physics:upperLimit+=5"))
+
+    def test_many_edits_at_once_are_judged_one_by_one(self):
+        scene = json.loads(tenon("physics", self.hand, "--json").stdout)
+        joints = [row["path"] for row in scene["joints"] if row["type"] != "fixed"]
+        bodies = [row["path"] for row in scene["bodies"]]
+        edits = [f"{path}.{edit}" for path in joints for edit in (
+            "physics:upperLimit=65", "physics:lowerLimit=-3", "physics:breakForce=1e5",
+            "physics:breakTorque=1e4", "physics:collisionEnabled=true",
+            "physics:localPos0=(0.01, 0, 0)", "physics:localPos1=(0, 0.01, 0)")]
+        edits += [f"{path}.{edit}" for path in bodies for edit in (
+            "physics:mass=0.07", "physics:velocity=(0, 0, 1)", "physics:startsAsleep=true",
+            "physics:angularVelocity=(0, 10, 0)", "physics:centerOfMass=(0, 0, 0.002)")]
+        answer = self.set(*edits)
+        self.assertEqual(len(answer["edits"]), len(edits))
+        self.assertTrue(all(edit["variants"] == ["physics", "mujoco", "physx"]
+                            for edit in answer["edits"]))
+
+    def test_without_an_effect_nothing_is_written(self):
+        self.take_text(ACTUATED)
+        self.assertIn("</R/act>: the actuator's gains", self.vain("--drive", "/R/j=stiffness:3"))
+        self.assertIn("of type Xform, which is no shape that touches; choose a shape below it: "
+                      "--collider /R/a=convexHull", self.vain("--collider", "/R=convexHull"))
+        self.assertIn("belongs to no body", self.vain("--mass", "/R=2"))
+        self.assertIn("does not change; tenon set --clear /R/a.physics:mass",
+                      self.vain("/R/a.physics:density=7"))
+        self.set("--collider", "/R/a=on")
+        self.original = self.files()
+        self.assertIn("meshes alone are approximated", self.vain("--collider", "/R/a=convexHull"))
+
+    def test_one_vain_edit_among_others_is_found(self):
+        self.take_text(ACTUATED)
+        good = ["/R/a.physics:mass=2", "/R/b.physics:mass=3", "/R/j.physics:upperLimit=5",
+                "/R/j.physics:lowerLimit=-5", "/R/a.physics:velocity=(0, 0, 1)",
+                "/R/act.mjc:biasPrm=[0, -3, -0.1]"]
+        text = self.vain(*good[:3], "/R/j.drive:angular:physics:damping=7", *good[3:])
+        self.assertIn("drive:angular:physics:damping", text)
+        answer = self.set(*good)
+        self.assertEqual(len(self.effect(answer)[None]), 8)
+
+    def test_what_is_so_already_and_what_is_no_physics_is_no_fault(self):
+        self.take_text(ACTUATED)
+        self.set("/R/a.physics:mass=1")
+        self.set("/R/j.drive:angular:physics:stiffness=1")
+        self.set("/R/a.visibility=invisible", "--clear", "/R/j.drive:angular:physics:damping")
+        self.set("/R/a.size=0.2")
 
 
 if __name__ == "__main__":

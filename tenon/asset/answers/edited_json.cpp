@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/asset/answers/edited_json.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "tenon/answers/difference_json.h"
 #include "tenon/answers/or_null.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/diff/unified_diff.h"
@@ -21,6 +25,18 @@ Json place_json(const AssetEdit& edit, const EditedPlace& place) {
   return row;
 }
 
+Json physics_json(const EditedAsset& asset) {
+  Json effects = Json::array();
+  for (const PhysicsEffect& effect : asset.physics) {
+    Json rows = Json::array();
+    for (const scene::SceneDifference& difference : effect.differences) {
+      rows.push_back(answers::difference_json(difference));
+    }
+    effects.push_back({{"variant", or_null(effect.variant)}, {"differences", std::move(rows)}});
+  }
+  return effects;
+}
+
 }  // namespace
 
 Json text_difference_json(const std::string& name, const std::string& before,
@@ -31,7 +47,10 @@ Json text_difference_json(const std::string& name, const std::string& before,
 Json edited_json(const std::vector<AssetEdit>& edits, const EditedAsset& asset, bool dry_run) {
   Json places = Json::array();
   for (const EditedPlace& place : asset.places) {
-    places.push_back(place_json(edits[place.edit], place));
+    Json row = place_json(edits[place.edit], place);
+    row["hasEffect"] = std::find(asset.without_effect.begin(), asset.without_effect.end(),
+                                 place.edit) == asset.without_effect.end();
+    places.push_back(std::move(row));
   }
   Json files = Json::array();
   for (const EditedFile& file : asset.files) {
@@ -40,7 +59,10 @@ Json edited_json(const std::vector<AssetEdit>& edits, const EditedAsset& asset, 
                      {"diff", text_difference_json(name, file.before, file.after, file.text)},
                      {"keptLayout", file.kept_layout}});
   }
-  return {{"dryRun", dry_run}, {"edits", std::move(places)}, {"files", std::move(files)}};
+  return {{"dryRun", dry_run},
+          {"edits", std::move(places)},
+          {"physics", physics_json(asset)},
+          {"files", std::move(files)}};
 }
 
 }  // namespace tenon

@@ -11,8 +11,9 @@
 namespace tenon {
 
 /// What edits did, or with `dry_run` would do: {"dryRun", "edits": [{"object", "api", "file",
-/// "line", "spec", "why", "before", "after", "variants"}], "files": [{"file", "diff",
-/// "keptLayout"}]}. "diff" is null for what is no text.
+/// "line", "spec", "why", "before", "after", "variants", "hasEffect"}], "physics": [{"variant",
+/// "differences": rows of answers::difference_json}], "files": [{"file", "diff", "keptLayout"}]}.
+/// "diff" is null for what is no text, "variant" where there is no set "Physics".
 answers::Json edited_json(const std::vector<AssetEdit>& edits, const EditedAsset& asset,
                           bool dry_run);
 
