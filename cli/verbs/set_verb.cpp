@@ -83,6 +83,9 @@ void print_files(const Report& report, const EditedAsset& asset, bool dry_run) {
     } else if (dry_run) {
       report.note("would change " + name + ", which is not text");
     }
+    if (!dry_run && file.text && file.before.empty()) {
+      report.note("made " + name);
+    }
     if (!file.kept_layout) {
       report.note("comments and layout of " + name + " are not kept");
     }
@@ -206,7 +209,8 @@ void add_set(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option("--type", options->request.type, "The type of attributes that this creates");
   verb.add_option("--in", options->layer, "Edit this file, whichever owns the property");
   verb.add_option("--engine", options->engine,
-                  "The file of this engine alone: physx, mujoco, newton");
+                  "The file of this engine alone: physx, mujoco, newton; made with its variant "
+                  "where the asset has none");
   verb.add_flag("--all-engines", options->request.all_engines,
                 "Edit each engine's own form, too: gains of actuators, each schema of a mimic, "
                 "values that an engine's file has of its own");

@@ -4,6 +4,7 @@
 // Reads the options, looks at the folder before the work, and prints which files were made or would
 // be. structure_asset makes the package in memory and proves it, write_asset puts it into the
 // folder.
+#include <algorithm>
 #include <filesystem>
 
 #include "cli/output.h"
@@ -15,6 +16,7 @@
 #include "tenon/asset/structure_asset.h"
 #include "tenon/asset_policy.h"
 #include "tenon/base/text/shown_path.h"
+#include "tenon/structure/layout.h"
 
 namespace tenon::cli {
 namespace {
@@ -104,8 +106,20 @@ void add_form_options(const Command& verb, StructureArguments& options) {
                   "Rigid bodies of a robot: as-authored, flat (side by side) or nested (each below "
                   "the one that carries it by a joint)")
       .one_of({"as-authored", "flat", "nested"});
+  verb.add_option("--engine", options.structure.engines,
+                  "Give this engine a variant and a layer over physics.usda, where it has none: "
+                  "physx, mujoco, newton or another one")
+      .repeatable();
   verb.add_flag("--overridable-colliders", options.structure.overridable_colliders,
                 "Meshes that collide are no instances: each engine's layer may tune them");
+}
+
+/// Of a variant and a file.
+bool is_engine_name(const std::string& name) {
+  const bool word = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  return word && !name.empty() && name != structure::kNoVariant && name != "physics";
 }
 
 int run(const Globals& globals, StructureArguments& options) {
@@ -116,6 +130,14 @@ int run(const Globals& globals, StructureArguments& options) {
   if (options.output.empty() && !options.dry_run) {
     return report.fail(Error(ErrorCode::Invalid, "say where to write the result")
                            .with_fix("give -o FOLDER, --in-place or --dry-run"));
+  }
+  for (const std::string& engine : options.structure.engines) {
+    if (!is_engine_name(engine)) {
+      return report.fail(
+          Error(ErrorCode::Invalid, "\"" + engine + "\" is no name of a layer for an engine")
+              .with_rule("usage.value")
+              .with_fix("use letters, digits and '_', as in newton; none and physics are taken"));
+    }
   }
   options.structure.names =
       options.names == "tutorial" ? structure::Names::Tutorial : structure::Names::Current;
@@ -139,6 +161,7 @@ void add_structure(const Command& parent, const Globals& globals, Chosen& chosen
       "same scene and has the same physics, or nothing is written.\n\n"
       "Examples:\n"
       "  tenon structure robot.usda -o robot\n"
+      "  tenon structure robot.usda -o robot --engine newton\n"
       "  tenon structure robot.usda --dry-run --json");
   choose(verb, chosen, [&globals, options] { return run(globals, *options); });
 }

@@ -26,6 +26,7 @@
 #include "tenon/asset/edit_file_choice.h"
 #include "tenon/asset/edit_value.h"
 #include "tenon/asset/editing/edit_effects.h"
+#include "tenon/asset/editing/engine_layer.h"
 #include "tenon/edit/api_schemas.h"
 #include "tenon/edit/apply_list_edit.h"
 #include "tenon/edit/edit_target.h"
@@ -235,8 +236,17 @@ class AssetEditor::State {
 
   Result<std::vector<EditedFile>> files() {
     const bytes::AssetResolver resolver(resolver_options(options_.open));
+    std::map<std::string, layer::LayerPtr> layers = history().edited_layers();
+    for (const layer::LayerPtr& made : made_) {
+      layers.emplace(made->identifier(), made);
+    }
     std::vector<EditedFile> files;
-    for (const auto& [identifier, layer] : history().edited_layers()) {
+    for (const auto& [identifier, layer] : layers) {
+      if (is_new(identifier)) {
+        TENON_TRY(EditedFile file, new_file(*layer));
+        files.push_back(std::move(file));
+        continue;
+      }
       TENON_TRY(const auto bytes, resolver.open(identifier));
       TENON_TRY(EditedFile file, edited_file(*bytes, *layer));
       if (file.differs()) {
@@ -267,13 +277,37 @@ class AssetEditor::State {
     open.session_path.clear();
     TENON_TRY(sources, open_sources(path, open));
     root_ = sources.root;
+    compose::LayerOpener opener = sources.opener();
+    TENON_CHECK(make_engine_layer(opener));
     stage::StageOptions stage_options;
     TENON_TRY(stage_options.compose, compose_options(options_.open, *root_));
     selections_.push_back({options_.open.physics_variant,
-                           edit::StageEditor::over(root_, sources.session, sources.opener(),
+                           edit::StageEditor::over(root_, sources.session, std::move(opener),
                                                    std::move(stage_options)),
                            nullptr});
     return compose(selections_.front());
+  }
+
+  /// Adds the variant and the file of the engine that is asked for where the asset has none.
+  Result<void> make_engine_layer(compose::LayerOpener& opener) {
+    TENON_TRY(auto missing, missing_engine_layer(*root_, options_.engine));
+    if (!missing) {
+      return {};
+    }
+    root_ = std::make_shared<const layer::Layer>(std::move(missing->interface));
+    made_.push_back(root_);
+    const auto file = std::make_shared<const layer::Layer>(std::move(missing->file));
+    const std::string name = file->identifier();
+    if (!opener(name, *root_)) {
+      made_.push_back(file);
+    }
+    opener = [file, inner = std::move(opener)](const std::string& asset, const layer::Layer& at) {
+      Result<layer::LayerPtr> opened = inner(asset, at);
+      return !opened && structure::target_of(asset, at) == file->identifier()
+                 ? Result<layer::LayerPtr>(file)
+                 : opened;
+    };
+    return {};
   }
 
   Result<void> open_variants(const stage::Prim& root) {
@@ -308,6 +342,12 @@ class AssetEditor::State {
       TENON_CHECK(prove(*one.edit, one.typed, places_.back()));
     }
     return {};
+  }
+
+  bool is_new(const std::string& identifier) const {
+    return std::any_of(made_.begin(), made_.end(), [&](const layer::LayerPtr& made) {
+      return made != root_ && made->identifier() == identifier;
+    });
   }
 
   std::vector<Unproved> forget_unproved() {
@@ -486,6 +526,7 @@ class AssetEditor::State {
   EditOptions options_;
   Diagnostics* diagnostics_ = nullptr;  // of the call
   layer::LayerPtr root_;
+  std::vector<layer::LayerPtr> made_;  // for an engine: the interface with its variant, its file
   std::vector<Selection> selections_;  // first: as the asset opens
   stage::WorkAccount work_;
   std::vector<std::string> names_;

@@ -47,9 +47,11 @@ struct AssetEdit {
 };
 
 struct EditOptions {
-  OpenOptions open;    ///< with a physics_variant the edit has to count there
-  std::string layer;   ///< this file alone, by its path or the end of it
-  std::string engine;  ///< "physx", "mujoco", "newton" or another variant: its file
+  OpenOptions open;   ///< with a physics_variant the edit has to count there
+  std::string layer;  ///< this file alone, by its path or the end of it
+  /// "physx", "mujoco", "newton" or another variant: its file. For these three the file and the
+  /// variant are made where an asset of the structure 3.0 has none.
+  std::string engine;
 };
 
 /// Where an edit went.

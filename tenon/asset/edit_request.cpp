@@ -130,7 +130,7 @@ Result<std::vector<AssetEdit>> read_edits(const std::string& asset, const EditRe
     TENON_TRY(edit.object, read_path(text, "property"));
     edits.push_back(std::move(edit));
   }
-  if (edits.empty()) {
+  if (edits.empty() && options.engine.empty()) {
     return Error(ErrorCode::Invalid, "nothing to set").with_fix("name a property: PATH.attr=VALUE");
   }
   if (request.all_engines) {

@@ -28,7 +28,8 @@ struct EditRequest {
 
 /// The edits in a fixed order: schemas are removed and applied first, so that the properties that
 /// they declare are known, then typed edits, assignments, and last what is cleared. Errors:
-/// Invalid, what cannot be read, and a request for nothing; those of opening the asset, which some
+/// Invalid, what cannot be read, and a request for nothing without an engine, whose file
+/// may have to be made; those of opening the asset, which some
 /// typed edits look at.
 Result<std::vector<AssetEdit>> read_edits(const std::string& asset, const EditRequest& request,
                                           const EditOptions& options);

@@ -27,6 +27,14 @@ Result<EditedFile> edited_file(const bytes::FileBytes& bytes, const layer::Layer
   return file;
 }
 
+Result<EditedFile> new_file(const layer::Layer& layer) {
+  EditedFile file;
+  file.path = layer.identifier();
+  file.text = true;
+  TENON_TRY(file.after, formats::encode_layer(layer, formats::LayerFormat::Text));
+  return file;
+}
+
 Result<void> write_files(const std::vector<EditedFile>& files) {
   bytes::FileTransaction transaction;
   for (const EditedFile& file : files) {

@@ -26,6 +26,9 @@ struct EditedFile {
 /// its name says; text keeps its layout. Errors: those of formats::encode_layer.
 Result<EditedFile> edited_file(const bytes::FileBytes& bytes, const layer::Layer& layer);
 
+/// The text of a layer that is in no file yet, under its identifier.
+Result<EditedFile> new_file(const layer::Layer& layer);
+
 /// Writes all files in one step, also when the process is killed (bytes/write/file_transaction.h).
 Result<void> write_files(const std::vector<EditedFile>& files);
 

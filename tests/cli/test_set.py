@@ -279,6 +279,36 @@ class Kinds(Case):
             self.set(*arguments)
             self.assertEqual(list(self.changed()), [file], arguments)
             (self.home / file).write_bytes(self.original[file])
+    def test_an_engine_without_a_layer_gets_one(self):
+        path = f"{JOINT}.physics:upperLimit"
+        dry = self.set("--engine", "newton", f"{path}=50", "--dry-run")
+        self.assertEqual(self.files(), self.original)
+        self.assertEqual(len(dry["files"]), 2)
+        answer = self.set("--engine", "newton", f"{path}=50")
+        self.assertEqual(answer["edits"][0]["variants"], ["newton"])
+        new = set(self.files()) - set(self.original)
+        self.assertEqual(new, {"payloads/Physics/newton.usda"})
+        for name, data in self.original.items():
+            self.assertEqual(self.files()[name] == data, name != "inspire_hand.usda", name)
+        self.assertEqual((self.value(path, "newton"), self.value(path)), ("50", "75"))
+        check = tenon("check", self.hand, "--profile", "isaac-3.0", "--json")
+        self.assertEqual(check.returncode, 0, check.stdout)
+        self.set("--engine", "newton", f"{path}=51")
+        self.assertEqual(self.value(path, "newton"), "51")
+
+    def test_a_layer_for_an_engine_can_be_made_without_an_edit(self):
+        self.assertEqual(len(self.set("--engine", "newton")["files"]), 2)
+        process = tenon("structure", self.hand, "-o", self.folder / "again")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertTrue((self.folder / "again/payloads/Physics/newton.usda").exists())
+
+    def test_a_layer_that_no_variant_loads_is_taken(self):
+        (self.home / "payloads/Physics/newton.usda").write_text(
+            (self.home / MUJOCO).read_text().split("over ")[0])
+        self.set("--engine", "newton", f"{JOINT}.physics:upperLimit=50")
+        self.assertIn("MuJoCo only", (self.home / "payloads/Physics/newton.usda").read_text())
+        self.assertEqual(self.value(f"{JOINT}.physics:upperLimit", "newton"), "50")
+
 
 ACTUATED = """#usda 1.0
 (

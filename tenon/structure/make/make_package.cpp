@@ -168,6 +168,7 @@ class Maker {
 
   Result<StructuredAsset> run() {
     TENON_TRY(sources_, read_views(source_, diagnostics_));
+    add_engines();
     TENON_CHECK(change_generation(sources_, options_.schema, physics_, diagnostics_));
     TENON_TRY(links_, move_links(sources_, options_.links, physics_, diagnostics_));
     make_views();
@@ -208,6 +209,18 @@ class Maker {
       }
     }
     return nullptr;
+  }
+
+  /// Engines that are asked for start with what is for all of them.
+  void add_engines() {
+    for (const std::string& engine : options_.engines) {
+      if (sources_.find(engine) == nullptr) {
+        Layer content = chosen().content;
+        const Role role = role_of_physics_variant(engine);
+        keep_roles(content, role == Role::Engine ? RoleSet(Role::Physics) : roles_in(role));
+        sources_.physics.push_back({engine, std::move(content)});
+      }
+    }
   }
 
   void make_views() {
@@ -293,7 +306,7 @@ class Maker {
       Layer over = difference(view.role == Role::Physics || physics == nullptr ? base_ : neutral,
                               view.content, identifier_in_package(file_of(view)));
       note_touched(over);
-      if (!prims_below(over).empty()) {
+      if (!prims_below(over).empty() || has_own_file(view)) {
         view.over = std::move(over);
       }
       if (view.role == Role::Physics) {
@@ -301,6 +314,13 @@ class Maker {
         add_sleeping(neutral, base_);
       }
     }
+  }
+
+  /// Engines of the source keep a layer, so that there is one to edit.
+  bool has_own_file(const View& view) {
+    const View* physics = find(role_name(Role::Physics));
+    return is_engine(view.role) && sources_.find(view.variant) != nullptr && physics != nullptr &&
+           physics->over;
   }
 
   void note_touched(const Layer& over) {
@@ -434,7 +454,7 @@ class Maker {
     }
     for (const char* name : {"physx", "mujoco", "newton", "physics"}) {
       const View* view = find(name);
-      if (view != nullptr && view->over) {
+      if (view != nullptr && view->over && !prims_below(*view->over).empty()) {
         return name;
       }
     }

@@ -59,6 +59,9 @@ struct StructureOptions {
   bool all_engines = false;
   SchemaGeneration schema = SchemaGeneration::AsAuthored;
   LinkNesting links = LinkNesting::AsAuthored;
+  /// Engines that get a variant and a layer over physics.usda, also where nothing is for them
+  /// alone.
+  std::vector<std::string> engines = {};
 };
 
 struct StructuredAsset {
