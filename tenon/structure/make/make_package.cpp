@@ -306,7 +306,10 @@ class Maker {
       Layer over = difference(view.role == Role::Physics || physics == nullptr ? base_ : neutral,
                               view.content, identifier_in_package(file_of(view)));
       note_touched(over);
-      if (!prims_below(over).empty() || has_own_file(view)) {
+      // Engines of the source keep a layer, so that there is one to edit.
+      const bool kept = is_engine(view.role) && sources_.find(view.variant) != nullptr &&
+                        physics != nullptr && physics->over;
+      if (kept || !prims_below(over).empty()) {
         view.over = std::move(over);
       }
       if (view.role == Role::Physics) {
@@ -314,13 +317,6 @@ class Maker {
         add_sleeping(neutral, base_);
       }
     }
-  }
-
-  /// Engines of the source keep a layer, so that there is one to edit.
-  bool has_own_file(const View& view) {
-    const View* physics = find(role_name(Role::Physics));
-    return is_engine(view.role) && sources_.find(view.variant) != nullptr && physics != nullptr &&
-           physics->over;
   }
 
   void note_touched(const Layer& over) {
