@@ -150,10 +150,8 @@ Result<SimulatedAsset> simulate(const SimulateArguments& arguments, Report& repo
 
 Result<void> put_bake(const SimulatedAsset& simulated, const SimulateArguments& arguments,
                       const std::string& output, Outputs& outputs, Report& report) {
-  const layer::Layer layer =
-      motion_layer(simulated, arguments.asset.asset, output,
-                   {.physics_variant = arguments.asset.physics, .uninstance = arguments.uninstance},
-                   report.diagnostics);
+  const layer::Layer layer = motion_layer(simulated, arguments.asset.asset, output,
+                                          {.uninstance = arguments.uninstance}, report.diagnostics);
   TENON_TRY(std::string contents, new_contents(layer, output));
   outputs.put(output, std::move(contents));
   return {};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/verb.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <stdexcept>
@@ -30,6 +31,20 @@ std::shared_ptr<const bytes::FileBytes> standard_input() {
 
 bytes::Files disk_and_standard_input() { return bytes::Files().with({{"-", standard_input()}}); }
 
+void select_physics(const std::string& text, OpenOptions& options) {
+  options.physics_below = true;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string part = text.substr(begin, end - begin);
+    if (part.find('=') == std::string::npos) {
+      options.physics_variant = part;
+    } else {
+      options.physics_of.push_back(part);
+    }
+    begin = end + 1;
+  }
+}
+
 void AssetArguments::add_to(const Command& verb) {
   verb.add_option("asset", asset, "A .usd, .usda, .usdc or .usdz file").required().file_only();
   add_options_to(verb);
@@ -48,9 +63,7 @@ void AssetArguments::add_several_to(const Command& verb, std::vector<std::string
 }
 
 void AssetArguments::add_options_to(const Command& verb) {
-  verb.add_option("--physics", physics,
-                  "Select this variant of the default prim's variant set \"Physics\"; no file is "
-                  "touched");
+  verb.add_option("--physics", physics, kPhysicsHelp);
   verb.add_option("--mask", mask, "Only these prims, with what is above and below them")
       .split_at_commas();
   verb.add_flag("--unloaded", unloaded, "Leave payloads out");
@@ -71,7 +84,7 @@ bool AssetArguments::selects() const {
 
 OpenOptions AssetArguments::open_options() const {
   OpenOptions options;
-  options.physics_variant = physics;
+  select_physics(physics, options);
   options.overrides = overrides;
   const bool none = load == std::vector<std::string>{"none"};
   const bool all = load.empty() || load == std::vector<std::string>{"all"};

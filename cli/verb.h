@@ -38,10 +38,18 @@ std::shared_ptr<const bytes::FileBytes> standard_input();
 /// The disk, with standard input in the place of a file named "-".
 bytes::Files disk_and_standard_input();
 
+/// Help of --physics where prims below the default prim are meant, too.
+inline constexpr const char* kPhysicsHelp =
+    "Select this variant of the variant set \"Physics\" of the default prim and of all prims below "
+    "that have it, or with PRIM=VARIANT of one prim (several with commas between); no file is "
+    "touched";
+/// `text` is what --physics says.
+void select_physics(const std::string& text, OpenOptions& options);
+
 /// The asset and how it is to be composed: shared by the verbs that open a stage.
 struct AssetArguments {
   std::string asset;
-  std::string physics;                 ///< --physics V
+  std::string physics;                 ///< --physics V, --physics PRIM=V
   std::vector<std::string> overrides;  ///< --set PATH.attr=value
   std::vector<std::string> mask;
   bool unloaded = false;

@@ -5,7 +5,6 @@
 // attributes) becomes opinions of a session layer in memory; no file changes.
 #include "tenon/open_stage.h"
 
-#include <algorithm>
 #include <memory>
 
 #include "tenon/formats/open_layer.h"
@@ -14,6 +13,7 @@
 #include "tenon/layer/finding_place.h"
 #include "tenon/pack_asset.h"
 #include "tenon/physics/layer_units.h"
+#include "tenon/physics_selection.h"
 #include "tenon/session_opinions.h"
 #include "tenon/stage_sources.h"
 
@@ -58,32 +58,20 @@ Result<void> convert_layers(const StageSources& sources, const OpenOptions& opti
   return {};
 }
 
-/// The variant that was asked for must exist; a stage without the set says so and opens as it is.
-Result<void> check_physics_variant(const stage::Stage& stage, const std::string& variant,
-                                   Diagnostics& diagnostics) {
-  const stage::Prim prim = stage.default_prim();
-  const auto sets = prim.variant_set_names();
-  if (std::find(sets.begin(), sets.end(), "Physics") == sets.end()) {
-    Diagnostic finding = prim.located(
-        Severity::Warning, "variant.no-physics-set",
-        "the default prim has no variant set \"Physics\" to select \"" + variant + "\" in");
-    finding.file = stage.root_layer().identifier();
-    diagnostics.add(std::move(finding));
-    return {};
+/// Selects the variant on prims below as well, and on those that come with it.
+Result<void> select_below(StageSources& sources, const OpenOptions& options, stage::Stage& stage) {
+  constexpr int kRounds = 32;  // of references within variants; each adds selections
+  for (int i = 0; i < kRounds; ++i) {
+    const std::vector<Path> prims = prims_to_select(stage, options);
+    if (prims.empty()) {
+      break;
+    }
+    for (const Path prim : prims) {
+      sources.session = with_variant(sources.session, prim, "Physics", options.physics_variant);
+    }
+    TENON_TRY(stage, compose_stage(sources, options));
   }
-  const auto names = prim.variant_names("Physics");
-  if (std::find(names.begin(), names.end(), variant) != names.end()) {
-    return {};
-  }
-  std::string known;
-  for (const std::string& name : names) {
-    known += (known.empty() ? "" : ", ") + name;
-  }
-  return Error(ErrorCode::NotFound, "variant set \"Physics\" has no variant \"" + variant + "\"")
-      .in_file(stage.root_layer().identifier())
-      .with_prim(prim.path().str())
-      .with_fix("choose one of: " + known)
-      .with_rule("variant.unknown");
+  return {};
 }
 
 /// Says which files that asset values name may not be read. What arcs name composition reports.
@@ -130,6 +118,9 @@ Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& opti
                                 Diagnostics& diagnostics) {
   TENON_TRY(StageSources sources, open_sources(path, options));
   TENON_TRY(auto stage, compose_stage(sources, options));
+  if (!options.physics_variant.empty() && options.physics_below) {
+    TENON_CHECK(select_below(sources, options, stage));
+  }
   if (!options.overrides.empty()) {
     // The types of the attributes are known only once the stage is composed.
     TENON_TRY(sources.session, with_overrides(sources.session, stage, options.overrides));
@@ -143,9 +134,7 @@ Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& opti
   if (!options.sandbox_roots.empty()) {
     check_assets(stage, sources.registry->resolver(), diagnostics);
   }
-  if (!options.physics_variant.empty()) {
-    TENON_CHECK(check_physics_variant(stage, options.physics_variant, diagnostics));
-  }
+  TENON_CHECK(check_physics_selection(stage, options, diagnostics));
   return stage;
 }
 

@@ -19,6 +19,11 @@ namespace tenon {
 struct OpenOptions {
   /// Variant of the default prim's variant set "Physics", selected in the session layer.
   std::string physics_variant{};
+  /// The same variant of every other prim that has the set, such as robots that a scene references,
+  /// as far as it has the variant.
+  bool physics_below = false;
+  /// "PRIM=VARIANT": variants of "Physics" of these prims, which count before the two above.
+  std::vector<std::string> physics_of{};
   /// "PATH.attr=value" in text form of the attribute's type: opinions in the session layer.
   std::vector<std::string> overrides{};
   /// Where every file is read from that the asset and its layers name: the disk, memory, unsaved

@@ -75,12 +75,17 @@ Result<layer::LayerPtr> with_variant(const layer::LayerPtr& session, const layer
         .in_file(root.identifier())
         .with_fix("set defaultPrim in the layer's metadata");
   }
+  return with_variant(session, *path, set, variant);
+}
+
+layer::LayerPtr with_variant(const layer::LayerPtr& session, Path prim, const std::string& set,
+                             const std::string& variant) {
   layer::Layer layer = copy_of(session);
-  layer::Spec& prim = over(layer, *path);
-  auto selections = prim.get_or(fields::variantSelection, layer::VariantSelections());
+  layer::Spec& spec = over(layer, prim);
+  auto selections = spec.get_or(fields::variantSelection, layer::VariantSelections());
   selections.items[set] = variant;
-  prim.set(fields::variantSelection, std::move(selections));
-  return layer::LayerPtr(std::make_shared<const layer::Layer>(std::move(layer)));
+  spec.set(fields::variantSelection, std::move(selections));
+  return std::make_shared<const layer::Layer>(std::move(layer));
 }
 
 Result<layer::LayerPtr> with_overrides(const layer::LayerPtr& session, const stage::Stage& stage,

@@ -17,6 +17,10 @@ namespace tenon {
 Result<layer::LayerPtr> with_variant(const layer::LayerPtr& session, const layer::Layer& root,
                                      const std::string& set, const std::string& variant);
 
+/// The same on any prim of the stage.
+layer::LayerPtr with_variant(const layer::LayerPtr& session, Path prim, const std::string& set,
+                             const std::string& variant);
+
 /// A copy of `session` with "PATH.property=VALUE" written into it, as property_value.h reads it.
 /// Errors: those of that, and NotFound (edit.no-prim).
 Result<layer::LayerPtr> with_overrides(const layer::LayerPtr& session, const stage::Stage& stage,

@@ -59,9 +59,15 @@ Result<StageSources> open_sources(const std::string& path, const OpenOptions& op
   if (!options.session_path.empty()) {
     TENON_TRY(sources.session, sources.registry->open(options.session_path, nullptr));
   }
-  if (!options.physics_variant.empty()) {
+  const bool has_default_prim = !sources.root->default_prim().empty();
+  if (!options.physics_variant.empty() && (has_default_prim || !options.physics_below)) {
     TENON_TRY(sources.session,
               with_variant(sources.session, *sources.root, "Physics", options.physics_variant));
+  }
+  for (const std::string& text : options.physics_of) {
+    TENON_TRY(const auto wanted, split_assignment(text));
+    TENON_TRY(const Path prim, parse_prim_path(wanted.first, "the prim of the variant"));
+    sources.session = with_variant(sources.session, prim, "Physics", wanted.second);
   }
   return sources;
 }

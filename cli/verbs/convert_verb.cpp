@@ -123,7 +123,7 @@ Result<RobotCounts> convert_and_write(const ConvertArguments& options, Diagnosti
 
 OpenOptions open_options(const ConvertArguments& options) {
   OpenOptions open = options.files.open_options();
-  open.physics_variant = options.physics;
+  select_physics(options.physics, open);
   return open;
 }
 

@@ -40,7 +40,7 @@ CompareOptions compare_options(const DiffArguments& options) {
                                     : CompareMode::Files;
   compare.tolerance = options.tolerance;
   compare.open = options.files.open_options();
-  compare.open.physics_variant = options.variant;
+  select_physics(options.variant, compare.open);
   return compare;
 }
 

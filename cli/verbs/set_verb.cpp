@@ -36,7 +36,7 @@ struct SetArguments {
 
 EditOptions edit_options(const SetArguments& options) {
   EditOptions edit;
-  edit.open.physics_variant = options.physics;
+  select_physics(options.physics, edit.open);
   options.files.apply_to(edit.open);
   edit.layer = options.layer;
   edit.engine = options.engine;
@@ -215,7 +215,7 @@ void add_set(const Command& parent, const Globals& globals, Chosen& chosen) {
                 "Edit each engine's own form, too: gains of actuators, each schema of a mimic, "
                 "values that an engine's file has of its own");
   verb.add_option("--physics", options->physics,
-                  "The variant of \"Physics\" in which the value has to count");
+                  "The variant of \"Physics\" in which the value has to count, or PRIM=VARIANT");
   verb.add_flag("--dry-run", options->dry_run, "Print the difference, write nothing");
   options->files.add_to(verb);
   verb.footer(kSetFooter);

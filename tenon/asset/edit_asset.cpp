@@ -25,14 +25,13 @@
 
 #include "tenon/asset/edit_file_choice.h"
 #include "tenon/asset/edit_value.h"
-#include "tenon/asset/editing/edit_effects.h"
 #include "tenon/asset/editing/engine_layer.h"
 #include "tenon/edit/api_schemas.h"
 #include "tenon/edit/apply_list_edit.h"
 #include "tenon/edit/edit_target.h"
 #include "tenon/edit/stage_editor.h"
-#include "tenon/formats/text/reader.h"
 #include "tenon/layer/fields.h"
+#include "tenon/physics_selection.h"
 #include "tenon/session_opinions.h"
 #include "tenon/stage/sources/opinion_sources.h"
 #include "tenon/stage/work_account.h"
@@ -144,25 +143,6 @@ Result<void> author(edit::StageEditor& editor, const AssetEdit& edit, Path spec,
     TENON_CHECK(editor.create_attribute(object, typed.type_name, typed.custom, typed.variability));
     return editor.set_value(object, typed.value);
   });
-}
-
-/// The lines of the places in the new texts.
-Result<void> find_lines(const AssetEditor& editor, EditedAsset& asset) {
-  std::map<std::string, layer::LayerPtr> read;
-  for (const EditedFile& file : asset.files) {
-    Diagnostics ignored;
-    if (file.text) {
-      TENON_TRY(layer::Layer again, formats::read_text(file.after, file.path, ignored));
-      read[file.path] = std::make_shared<const layer::Layer>(std::move(again));
-    }
-  }
-  for (EditedPlace& place : asset.places) {
-    const auto known = read.find(place.file);
-    const layer::LayerPtr layer = known == read.end() ? editor.layer(place.file) : known->second;
-    const layer::Spec* spec = layer == nullptr ? nullptr : layer->find(place.spec);
-    place.line = spec == nullptr ? 0 : spec->line;
-  }
-  return {};
 }
 
 }  // namespace
@@ -281,11 +261,30 @@ class AssetEditor::State {
     TENON_CHECK(make_engine_layer(opener));
     stage::StageOptions stage_options;
     TENON_TRY(stage_options.compose, compose_options(options_.open, *root_));
-    selections_.push_back({options_.open.physics_variant,
-                           edit::StageEditor::over(root_, sources.session, std::move(opener),
-                                                   std::move(stage_options)),
-                           nullptr});
-    return compose(selections_.front());
+    constexpr int kRounds = 32;  // each may bring prims below with a set of their own
+    for (int i = 0; i < kRounds; ++i) {
+      selections_.clear();
+      selections_.push_back({options_.open.physics_variant,
+                             edit::StageEditor::over(root_, sources.session, opener, stage_options),
+                             nullptr});
+      TENON_CHECK(compose(selections_.front()));
+      const std::vector<Path> below = prims_below();
+      if (below.empty()) {
+        break;
+      }
+      for (const Path prim : below) {
+        sources.session =
+            with_variant(sources.session, prim, kVariantSet, options_.open.physics_variant);
+      }
+    }
+    return {};
+  }
+
+  /// That have to select the variant as well.
+  std::vector<Path> prims_below() const {
+    const bool wanted = options_.open.physics_below && !options_.open.physics_variant.empty();
+    return wanted ? prims_to_select(*selections_.front().stage, options_.open)
+                  : std::vector<Path>();
   }
 
   /// Adds the variant and the file of the engine that is asked for where the asset has none.
@@ -564,19 +563,6 @@ Result<std::vector<AssetEditor::View>> AssetEditor::views() { return state_->vie
 
 layer::LayerPtr AssetEditor::layer(const std::string& identifier) const {
   return state_->layer(identifier);
-}
-
-Result<EditedAsset> edit_asset(const std::string& path, const std::vector<AssetEdit>& edits,
-                               const EditOptions& options, Diagnostics& diagnostics) {
-  TENON_TRY(AssetEditor editor, AssetEditor::open(path, options, diagnostics));
-  EditedAsset asset;
-  EditEffects effects(editor, edits);
-  TENON_CHECK(effects.look_before());
-  TENON_TRY(asset.places, editor.edit(edits, diagnostics));
-  TENON_CHECK(effects.judge(asset, diagnostics));
-  TENON_TRY(asset.files, editor.files());
-  TENON_CHECK(find_lines(editor, asset));
-  return asset;
 }
 
 }  // namespace tenon

@@ -47,16 +47,14 @@ void write_metadata(const stage::Stage& stage, const scene::PhysicsScene& scene,
   }
 }
 
-void write_selections(const stage::Stage& stage, const BakeOptions& options, layer::Layer& layer) {
-  const stage::Prim prim = stage.default_prim();
-  if (options.variant_selections.empty() || !prim.is_valid()) {
-    return;
+void write_selections(const BakeOptions& options, layer::Layer& layer) {
+  for (const auto& [prim, variants] : options.variant_selections) {
+    layer::VariantSelections selections;
+    for (const auto& [set, variant] : variants) {
+      selections.items.emplace(set, variant);
+    }
+    over_prim(layer, prim).set("variantSelection", Value(std::move(selections)));
   }
-  layer::VariantSelections selections;
-  for (const auto& [set, variant] : options.variant_selections) {
-    selections.items.emplace(set, variant);
-  }
-  over_prim(layer, prim.path()).set("variantSelection", Value(std::move(selections)));
 }
 
 /// All samples of one body; false when its op stack cannot hold them.
@@ -98,7 +96,7 @@ layer::Layer write_time_samples(const stage::Stage& stage, const scene::PhysicsS
   layer::Layer layer("bake.usda");
   layer.set_may_lack_text();  // the stage may, and so may the name of its file
   write_metadata(stage, scene, recording, options, layer);
-  write_selections(stage, options, layer);
+  write_selections(options, layer);
   const BodyTransforms transforms(stage, scene);
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
     const stage::Prim prim = stage.prim(scene.bodies[body].path);

@@ -15,9 +15,9 @@ namespace tenon::bake {
 
 struct BakeOptions {
   std::string asset_path;  ///< how the overlay names the asset: written into its subLayers
-  /// Variant selections of the default prim that were in force through the session layer; the
+  /// Variant selections that were in force through the session layer, set and variant by prim; the
   /// overlay repeats them, so that it plays what was simulated.
-  std::map<std::string, std::string> variant_selections;
+  std::map<Path, std::map<std::string, std::string>> variant_selections;
   /// Instances that bodies lie in become ordinary prims in the overlay: `instanceable = false`
   /// (S-123).
   bool uninstance = false;

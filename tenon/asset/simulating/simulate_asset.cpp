@@ -300,6 +300,32 @@ Result<std::string> end_state(const SimulatedAsset& simulated) {
   return simulated.simulation->save_state();
 }
 
+namespace {
+
+/// Variants of "Physics" that the session layer selects.
+std::map<Path, std::map<std::string, std::string>> physics_selections(const stage::Stage& stage) {
+  std::map<Path, std::map<std::string, std::string>> found;
+  if (stage.session_layer() == nullptr) {
+    return found;
+  }
+  for (const auto& entry : stage.session_layer()->entries()) {
+    const auto* selections =
+        entry.spec.get<layer::VariantSelections>(layer::fields::variantSelection);
+    const auto physics = selections == nullptr ? decltype(selections->items.end())()
+                                               : selections->items.find("Physics");
+    if (selections == nullptr || physics == selections->items.end()) {
+      continue;
+    }
+    const auto sets = stage.prim(entry.path).variant_set_names();
+    if (std::find(sets.begin(), sets.end(), "Physics") != sets.end()) {
+      found[entry.path].insert(*physics);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
 layer::Layer motion_layer(const SimulatedAsset& simulated, const std::string& path,
                           const std::string& output, const MotionOptions& options,
                           Diagnostics& diagnostics) {
@@ -308,9 +334,7 @@ layer::Layer motion_layer(const SimulatedAsset& simulated, const std::string& pa
   const fs::path folder = fs::path(bytes::absolute_file_path(output)).parent_path();
   bake.uninstance = options.uninstance;
   bake.asset_path = relative_asset_path(bytes::absolute_file_path(path), folder);
-  if (!options.physics_variant.empty()) {
-    bake.variant_selections["Physics"] = options.physics_variant;
-  }
+  bake.variant_selections = physics_selections(*simulated.stage);
   return bake::write_time_samples(*simulated.stage, *simulated.scene,
                                   simulated.run.recording.poses(), bake, diagnostics);
 }

@@ -77,12 +77,12 @@ Result<SimulatedAsset> simulate_asset(const std::string& path, const SimulateAss
 Result<std::string> end_state(const SimulatedAsset& simulated);
 
 struct MotionOptions {
-  std::string physics_variant;  ///< that ran; empty: the asset's own selection
-  bool uninstance = false;      ///< instances with moving bodies inside become ordinary prims
+  bool uninstance = false;  ///< instances with moving bodies inside become ordinary prims
 };
 
 /// The layer that plays the run over the asset at `path`, for a file at `output` ("-": in the
-/// current folder), from where it names the asset.
+/// current folder), from where it names the asset. It repeats the variants of "Physics" that ran by
+/// the options.
 layer::Layer motion_layer(const SimulatedAsset& simulated, const std::string& path,
                           const std::string& output, const MotionOptions& options,
                           Diagnostics& diagnostics);
