@@ -10,6 +10,7 @@
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/file_kind.h"
 #include "tenon/describe/describe_visuals.h"
+#include "tenon/layer/fields.h"
 #include "tenon/mjcf/write_model.h"
 #include "tenon/physics/vendors/read_mujoco_parts.h"
 #endif
@@ -70,6 +71,20 @@ class ImageCopier {
   std::map<std::string, std::string> images_;
 };
 
+/// Display names where prims have such, as descriptions have names that prims cannot have.
+mjcf::NameOf names_on(const stage::Stage& stage) {
+  return [&stage](std::string_view path) {
+    const Path at = Path::from(path);
+    if (const stage::Prim prim = stage.prim(at)) {
+      const layer::Value shown = prim.metadata(layer::fields::displayName);
+      if (const auto* text = shown.get<std::string>(); text != nullptr && !text->empty()) {
+        return *text;
+      }
+    }
+    return at.name().str();
+  };
+}
+
 }  // namespace
 
 Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const scene::PhysicsScene& scene,
@@ -87,10 +102,13 @@ Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const scene::Physics
     std::erase_if(material.images,
                   [](const robot::MaterialImage& image) { return image.file.empty(); });
   }
+  const stage::Prim root = stage.default_prim();
+  visuals.name = root ? names_on(stage)(root.path().str()) : std::string();
   ExportedMjcf result;
   result.images = copier.take();
   TENON_TRY(result.text, mjcf::write_model(scene, visuals, result.images,
-                                           physics::read_mujoco_parts(stage, scene), diagnostics));
+                                           physics::read_mujoco_parts(stage, scene),
+                                           names_on(stage), diagnostics));
   return result;
 }
 #else

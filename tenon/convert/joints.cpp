@@ -153,7 +153,10 @@ void write_motion(const Source& source, const robot::Joint& joint, Path path,
     const robot::Joint& leader = source.model.joints[joint.mimic->leader];
     printer.print_mimic(leader, prims.joints[joint.mimic->leader], axis_turn(leader.axis).token);
   } else if (joint.drive) {
-    printer.print_actuator(physics.path(), physics.free_name(joint.name + "_actuator"));
+    const std::string& own = joint.drive->name;
+    const Token name = physics.free_name(own.empty() ? joint.name + "_actuator" : own);
+    printer.print_actuator(physics.path(), name);
+    physics.layer().show_name(physics.path().child(name), own);
   }
 }
 

@@ -164,7 +164,8 @@ class ActuatorReader {
   }
 
   void add_drive(int number) {
-    const JointDrive drive = read_drive(source_.model(), tree_, number);
+    JointDrive drive = read_drive(source_.model(), tree_, number);
+    drive.drive.name = source_.written_name(mjOBJ_ACTUATOR, number);
     if (has_drive_[drive.joint] || !tree_.joints[drive.joint].has_one_axis()) {
       left_out(number, has_drive_[drive.joint] ? "the second one of its joint" : "about a ball");
       return;

@@ -5,7 +5,8 @@
 // only its first fault, so after a refusal they are taken out and put back one by one, with a
 // compile for each. Those that fail are left out, with MuJoCo's words, and the others stay. A site
 // that an actuator needs is named after its prim and made once, placed in MuJoCo's frame of its
-// body. Actuators that are drives of joints are in the model already.
+// body. An actuator that runs take as the drive of a joint is written all the same, with its own
+// gains, ranges and name; the model is made without that drive.
 #include "tenon/mjcf/write_actuators.h"
 
 #include <algorithm>
@@ -168,9 +169,6 @@ Result<std::vector<mjsActuator*>> write_actuators(const scene::PhysicsScene& sce
   std::vector<mjsActuator*> made(actuators.size(), nullptr);
   std::vector<std::size_t> added;
   for (std::size_t i = 0; i < actuators.size(); ++i) {
-    if (actuators[i].drive) {
-      continue;
-    }
     const std::string why = writer.add(actuators[i], made[i]);
     if (!why.empty()) {
       report_left_out(diagnostics, actuators[i].path, "mjc:target",

@@ -13,10 +13,10 @@
 /// Internal to this folder.
 namespace tenon::mjcf {
 
-/// Adds to the spec of a scene's model the actuators that are no drives of it, named after their
-/// prims, and compiles it. Actuators without a target and those that MuJoCo refuses are left out
-/// and listed. -> the elements, nullptr for each that is not there (actuator_count). Errors: those
-/// of MuJoCo.
+/// Adds to the spec of a scene's model the actuators, named after their prims, and compiles it. The
+/// model has no drives that stand for them. Actuators without a target and those that MuJoCo
+/// refuses are left out and listed. -> the elements, nullptr for each that is not there
+/// (actuator_count). Errors: those of MuJoCo.
 Result<std::vector<mjsActuator*>> write_actuators(
     const scene::PhysicsScene& scene, const std::vector<scene::MujocoActuator>& actuators,
     const engines::mujoco::Model& model, mjSpec& spec, Diagnostics& diagnostics);

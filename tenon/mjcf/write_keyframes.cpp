@@ -4,9 +4,8 @@
 // Numbers of a keyframe follow the asset: down the tree, and among siblings the one whose subtree
 // the stage meets first. MuJoCo's model has an order of its own, so each joint gets a slot with its
 // addresses in the compiled model. Free bodies are carried from the prim's frame B to MuJoCo's
-// frame E: X_WE = X_WB X_BE and v_E = v_B + R_WB (w x p_BE), with w about the axes of B. An
-// actuator that has become a drive gets the target at which its force is zero. What a keyframe does
-// not set stays as at the start.
+// frame E: X_WE = X_WB X_BE and v_E = v_B + R_WB (w x p_BE), with w about the axes of B.
+// What a keyframe does not set stays as at the start.
 #include "tenon/mjcf/write_keyframes.h"
 
 #include <algorithm>
@@ -241,32 +240,9 @@ class KeyframeWriter {
       if (made_[i] != nullptr) {
         const int actuator = mjs_getId(made_[i]->element);
         result[static_cast<std::size_t>(compiled_.actuator_ctrladr[actuator])] = frame.controls[i];
-      } else if (parts_.actuators[i].drive) {
-        set_drive(parts_.actuators[i], frame.controls[i], result);
       }
     }
     return result;
-  }
-
-  /// A drive is asked for the position at which the actuator would be at rest, or for its velocity.
-  void set_drive(const MujocoActuator& actuator, double control,
-                 std::vector<double>& controls) const {
-    const auto map = std::find_if(model_.drives.begin(), model_.drives.end(), [&](const auto& m) {
-      return m.joint == actuator.target && m.drive == *actuator.drive;
-    });
-    if (map == model_.drives.end() || map->actuator < 0 || actuator.gear[0] == 0) {
-      return;
-    }
-    if (actuator.control_range) {
-      control = std::clamp(control, (*actuator.control_range)[0], (*actuator.control_range)[1]);
-    }
-    const double force = actuator.gain[0] * control + actuator.bias[0];
-    double* targets = controls.data() + map->control;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const double slope = -actuator.bias[i + 1] * actuator.gear[0];
-      const bool counts = slope != 0 && (i == 0 || actuator.bias[1] == 0);
-      targets[i] = counts ? force / slope : 0;
-    }
   }
 
   const scene::PhysicsScene& scene_;

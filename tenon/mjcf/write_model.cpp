@@ -5,6 +5,13 @@
 // geoms that touch nothing and weigh nothing. When MuJoCo refuses the whole, it is written again
 // without them, so that a bad picture or mesh never costs the physics. Images go to the compiler
 // from memory under the names that the text has. Meshes that are alike become one.
+//
+// The exporter has no builder of its own: what a scene means for MuJoCo stands in one place, the
+// passes of engines/mujoco, which know that text is wanted (Purpose::Text) where a run needs
+// something that no other reader has. An actuator of the asset that runs take as a drive of its
+// joint is written as it is, in the drive's place. MuJoCo's writer makes the text, and what it does
+// not do (names, digits) is done to the text (text/finished_text.h): so a new element of MuJoCo
+// comes out with its first line in a pass.
 #include "tenon/mjcf/write_model.h"
 
 #include <algorithm>
@@ -17,6 +24,7 @@
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/engines/mujoco/writable_model.h"
+#include "tenon/mjcf/text/finished_text.h"
 #include "tenon/mjcf/write_actuators.h"
 #include "tenon/mjcf/write_keyframes.h"
 #include "tenon/mjcf/write_sensors.h"
@@ -274,20 +282,42 @@ class VisualWriter {
   std::vector<robot::Index> made_;  // meshes, by the number in their names
 };
 
+/// The scene without what is written by itself, in the order of the stage: actuators, and the
+/// drives that stand for them.
+scene::PhysicsScene without_actuators(const scene::PhysicsScene& scene,
+                                      const scene::MujocoParts& parts) {
+  scene::PhysicsScene result = scene;
+  result.actuators.clear();
+  for (const scene::MujocoActuator& actuator : parts.actuators) {
+    if (actuator.drive) {
+      scene::Drive& drive = result.joints[actuator.target].drives[*actuator.drive];
+      drive.stiffness = 0;
+      drive.damping = 0;
+      drive.max_force = scene::kUnlimited;
+    }
+  }
+  return result;
+}
+
+Result<engines::mujoco::SpecAndModel> make_model(const scene::PhysicsScene& scene,
+                                                 const scene::MujocoParts& parts,
+                                                 Diagnostics& diagnostics) {
+  if (parts.actuators.empty() && scene.actuators.empty()) {
+    return engines::mujoco::writable_model(scene, {}, diagnostics);
+  }
+  return engines::mujoco::writable_model(without_actuators(scene, parts), {}, diagnostics);
+}
+
 }  // namespace
 
 Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::RobotModel& visuals,
                                 const std::map<std::string, std::string>& images,
-                                const scene::MujocoParts& parts, Diagnostics& diagnostics) {
-  // Actuators are written below, in the order of the stage.
-  scene::PhysicsScene without;
-  const bool has_actuators = !scene.actuators.empty();
-  if (has_actuators) {
-    without = scene;
-    without.actuators.clear();
+                                const scene::MujocoParts& parts, const NameOf& name_of,
+                                Diagnostics& diagnostics) {
+  TENON_TRY(engines::mujoco::SpecAndModel built, make_model(scene, parts, diagnostics));
+  if (!visuals.name.empty()) {
+    mjs_setString(built.spec->modelname, visuals.name.c_str());
   }
-  TENON_TRY(engines::mujoco::SpecAndModel built,
-            engines::mujoco::writable_model(has_actuators ? without : scene, {}, diagnostics));
   TENON_TRY(const std::vector<mjsActuator*> made,
             write_actuators(scene, parts.actuators, built.model, *built.spec, diagnostics));
   write_sensors(scene, built.model, *built.spec, diagnostics);
@@ -303,7 +333,8 @@ Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::R
   if (compiled != nullptr) {
     mj_deleteModel(compiled);
     diagnostics.append(seen);
-    return engines::mujoco::text_of(*built.spec);
+    TENON_TRY(const std::string text, engines::mujoco::text_of(*built.spec));
+    return finished_text(text, name_of);
   }
   if (!sees) {
     return Error(ErrorCode::Invalid, mjs_getError(built.spec.get())).with_rule("mujoco.write");
@@ -314,7 +345,9 @@ Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::R
                        mjs_getError(built.spec.get()),
                    "", 0));
   Diagnostics again;
-  return write_model(scene, {}, {}, parts, again);
+  robot::RobotModel nothing;
+  nothing.name = visuals.name;
+  return write_model(scene, nothing, {}, parts, name_of, again);
 }
 
 }  // namespace tenon::mjcf

@@ -7,6 +7,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/mjcf/text/finished_text.h"
 #include "tenon/robot/robot_model.h"
 #include "tenon/scene/mujoco_actuators.h"
 #include "tenon/scene/physics_scene.h"
@@ -19,11 +20,12 @@ namespace tenon::mjcf {
 /// weigh nothing; colliders are in group 3. Files of images have the names that the text is to
 /// have, `images` their bytes. Shapes and materials that MuJoCo has no word for go to `diagnostics`
 /// as "mjcf.left-out", all that is seen where MuJoCo refuses it. Of
-/// `parts`, of the same stage, actuators that are no drives are added after the drives, and
-/// keyframes. Errors:
+/// `parts`, of the same stage, actuators are added after drives that are none of them, and
+/// keyframes. Things are called as `name_of` says. Errors:
 /// those of making a model.
 Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::RobotModel& visuals,
                                 const std::map<std::string, std::string>& images,
-                                const scene::MujocoParts& parts, Diagnostics& diagnostics);
+                                const scene::MujocoParts& parts, const NameOf& name_of,
+                                Diagnostics& diagnostics);
 
 }  // namespace tenon::mjcf

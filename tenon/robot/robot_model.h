@@ -217,6 +217,7 @@ struct Drive {
   double target = 0;     ///< [rad or m]
   /// What a controller may ask for [rad or m; rad/s or m/s without stiffness].
   std::optional<std::array<double, 2>> control_range{};
+  std::string name{};  ///< of the actuator; empty: it has none of its own
 
   /// Effort for one unit of what a controller asks for.
   double control_gain() const { return stiffness != 0 ? stiffness : damping; }

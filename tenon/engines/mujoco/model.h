@@ -75,6 +75,11 @@ struct DriveMap {
   scene::Index drive = 0;  ///< into Joint::drives
   int actuator = -1;       ///< -1: not expressible
   int control = -1;        ///< first of two controls: position and velocity target
+  /// Of a model for other readers (Purpose::Text): `control` is a position target, or a velocity
+  /// target where nothing pulls to a position; the velocity target beside a position has an
+  /// actuator and a control of its own, else -1.
+  bool is_plain = false;
+  int velocity_control = -1;
   int dof = -1;
 };
 

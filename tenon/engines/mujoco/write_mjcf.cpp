@@ -8,10 +8,12 @@
 #include "tenon/engines/mujoco/write_mjcf.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/build/option_fields.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/engines/mujoco/writable_model.h"
 
 namespace tenon::engines::mujoco {
@@ -42,8 +44,7 @@ void report_lost(const Path& prim, const char* property, const char* what,
   diagnostics.add(std::move(finding));
 }
 
-/// What runs of tenon do from step to step, beside the model.
-void report_what_runs_do(const scene::PhysicsScene& scene, Diagnostics& diagnostics) {
+void report_bodies(const scene::PhysicsScene& scene, Diagnostics& diagnostics) {
   for (const scene::Body& body : scene.bodies) {
     const scene::BodySettings& settings = body.settings;
     if (!settings.forces.empty()) {
@@ -56,11 +57,23 @@ void report_what_runs_do(const scene::PhysicsScene& scene, Diagnostics& diagnost
     if ((settings.locked_translation | settings.locked_rotation) != 0) {
       report_lost(body.path, "lockedTranslation", "locked axes are", diagnostics);
     }
+    if (body.linear_damping > 0 || body.angular_damping > 0) {
+      report_lost(body.path, "linearDamping", "the damping of bodies is", diagnostics);
+    }
     if (!settings.gyroscopic) {
       report_lost(body.path, "gyroscopic", "bodies without gyroscopic torque are", diagnostics);
     }
   }
+}
+
+/// What runs of tenon do from step to step, beside the model.
+void report_what_runs_do(const scene::PhysicsScene& scene, Diagnostics& diagnostics) {
+  report_bodies(scene, diagnostics);
   for (const scene::Joint& joint : scene.joints) {
+    const auto by_mass = [](const scene::Drive& drive) { return drive.acceleration; };
+    if (std::any_of(joint.drives.begin(), joint.drives.end(), by_mass)) {
+      report_lost(joint.path, "physics:type", "gains by unit of effective mass are", diagnostics);
+    }
     if (joint.velocity_limit < scene::kUnlimited) {
       report_lost(joint.path, "velocityLimit", "limits of velocity are", diagnostics);
     }
@@ -124,11 +137,38 @@ Result<void> restore_options(const scene::PhysicsScene& scene, mjSpec& spec) {
 
 }  // namespace
 
+/// MuJoCo writes six digits unless it is told otherwise, by a function without a place in its
+/// headers. One text is written at a time, as the number is one for the whole process.
+class FullPrecision {
+ public:
+  FullPrecision() : lock_(mutex()) { set(kDigits); }
+  FullPrecision(const FullPrecision&) = delete;
+  FullPrecision& operator=(const FullPrecision&) = delete;
+  ~FullPrecision() { set(kUsual); }
+
+ private:
+  static constexpr int kDigits = 17;  // enough for every double
+  static constexpr int kUsual = 6;
+
+  static std::mutex& mutex() {
+    static std::mutex held;
+    return held;
+  }
+  static void set(int digits) {
+    void* const found = find_mujoco_function("_mjPRIVATE__set_xml_precision");
+    if (found != nullptr) {
+      reinterpret_cast<void (*)(int)>(found)(digits);
+    }
+  }
+  std::lock_guard<std::mutex> lock_;
+};
+
 /// MuJoCo answers how much room the text needs where it is given too little.
 Result<std::string> text_of(const mjSpec& spec) {
   char words[kWordsSize] = "";
   std::string text(std::size_t{1} << 20u, '\0');
   int missing = 0;
+  const FullPrecision precision;
   const auto save = [&] {
     missing =
         mj_saveXMLString(&spec, text.data(), static_cast<int>(text.size()), words, kWordsSize);
@@ -152,7 +192,7 @@ Result<SpecAndModel> writable_model(const scene::PhysicsScene& scene,
   if (exact.time_step <= 0 && !scene.scenes.empty()) {
     exact.time_step = scene.scenes.front().time_step.value_or(0);
   }
-  TENON_TRY(SpecAndModel built, build_spec(scene, exact, diagnostics));
+  TENON_TRY(SpecAndModel built, build_spec(scene, exact, diagnostics, Begin::Start, Purpose::Text));
   report_not_mapped(built.model, diagnostics);
   report_what_runs_do(scene, diagnostics);
   TENON_CHECK(restore_options(scene, *built.spec));

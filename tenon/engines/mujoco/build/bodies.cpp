@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A free body's MuJoCo frame is its principal inertia frame: the free joint then moves the centre
-// of mass, whose path MuJoCo integrates without the error of a point that circles around it. Bodies
-// on joints keep our body frame, in which the joint frames are given. Parents come before children.
-// Mass and inertia are always explicit, raised where MuJoCo could not move so little.
+// In runs a free body's MuJoCo frame is its principal inertia frame: the free joint then moves the
+// centre of mass, whose path MuJoCo integrates without the error of a point that circles around it.
+// Bodies on joints keep our body frame, in which the joint frames are given. Parents come before
+// children. Mass and inertia are always explicit, raised where MuJoCo could not move so little.
 #include <algorithm>
 #include <cmath>
 
@@ -23,6 +23,26 @@ struct Inertial {
   Vec3d moments;
 };
 
+/// MuJoCo's compiler refuses text in which one principal moment is larger than the others together.
+/// What rounding has raised above is put down to it without a word, all else with one.
+void obey_triangle(Build& build, const scene::Body& body, Vec3d& moments) {
+  constexpr double kFloatRounding = 1e-6;  // relative
+  const auto largest = std::max_element(moments.v.begin(), moments.v.end());
+  double others = 0;
+  for (auto at = moments.v.begin(); at != moments.v.end(); ++at) {
+    others += at == largest ? 0 : *at;
+  }
+  if (*largest <= others) {
+    return;
+  }
+  if (*largest > others * (1 + kFloatRounding)) {
+    build.report(body.path, "physics:diagonalInertia",
+                 "one principal moment of inertia is larger than the other two together, which no "
+                 "body has and MuJoCo's compiler refuses; it is lowered to their sum");
+  }
+  *largest = others;
+}
+
 Inertial inertial_of(Build& build, const scene::Body& body) {
   const PrincipalInertia principal = principal_inertia(body.inertia);
   Inertial result{body.mass, {body.center_of_mass, principal.axes}, principal.moments};
@@ -39,6 +59,9 @@ Inertial inertial_of(Build& build, const scene::Body& body) {
     build.report(
         body.path, "physics:diagonalInertia",
         "MuJoCo cannot turn a body without inertia; principal moments are raised to 1e-13");
+  }
+  if (build.purpose == Purpose::Text) {
+    obey_triangle(build, body, result.moments);
   }
   return result;
 }
@@ -78,6 +101,14 @@ void report_locks(Build& build, const scene::Body& body) {
 void add_free_body(Build& build, scene::Index index) {
   const scene::Body& body = build.scene.bodies[index];
   Inertial inertial = inertial_of(build, body);
+  if (build.purpose == Purpose::Text) {
+    mjsBody* target = mjs_addBody(mjs_findBody(build.spec.get(), "world"), nullptr);
+    place(target, body.path.str(), body.pose);
+    set_inertial(target, inertial);
+    add_free_joint(target, body.path.str() + ".free");
+    build.bodies[index] = target;
+    return;
+  }
   build.engine_frames[index] = inertial.frame;
   Quatd principal = kIdentityRotation;  // in the frame of the MuJoCo body
   if (body.settings.locked_rotation != 0) {

@@ -18,6 +18,14 @@ namespace tenon::engines::mujoco {
 
 inline constexpr double kAuxiliaryMassRatio = 1e-3;  ///< mass of an auxiliary body to that of body1
 
+/// What a model is for: tenon's own runs, or text for other readers.
+///
+/// Text has the frames of the asset, where runs move free bodies by their centre of mass; actuators
+/// that every MuJoCo, MJX and MuJoCo Warp know, where runs have one of two inputs; efforts as
+/// limits of joints where no drive acts that runs would limit; inertias that compilers take as they
+/// are; and nothing of what only a run needs (room for contacts, no restarts).
+enum class Purpose : std::uint8_t { Run, Text };
+
 /// The auxiliary body of a loop joint.
 struct AuxiliaryBody {
   mjsBody* body = nullptr;
@@ -49,6 +57,7 @@ struct Build {
   Diagnostics& diagnostics;
   SpecPtr spec;
   double time_step = 0.002;  ///< [s]
+  Purpose purpose = Purpose::Run;
   DriveTerms drive_terms = DriveTerms::Engine;
   Methods methods;
   TreePlan plan;
@@ -62,6 +71,8 @@ struct Build {
   std::vector<std::vector<mjsJoint*>> joints;        ///< (joint_count), in the order of dofs.free
   std::vector<mjsJoint*> balls;                      ///< (joint_count), nullptr where there is none
   std::vector<std::vector<mjsActuator*>> actuators;  ///< (joint_count), one per drive or nullptr
+  /// (joint_count) beside them, for target velocities, of text; one per drive or nullptr.
+  std::vector<std::vector<mjsActuator*>> velocity_actuators;
   std::vector<AuxiliaryBody> auxiliary_bodies;
   std::vector<SoftBound> soft_bounds;
   std::vector<NotMapped> not_mapped;
@@ -123,7 +134,8 @@ struct SpecAndModel {
 
 /// All passes. A part that MuJoCo refuses is left out with a warning.
 Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const SimulationOptions& options,
-                                Diagnostics& diagnostics, Begin begin = Begin::Start);
+                                Diagnostics& diagnostics, Begin begin = Begin::Start,
+                                Purpose purpose = Purpose::Run);
 /// The same where only the model is wanted.
 Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOptions& options,
                           Diagnostics& diagnostics, Begin begin = Begin::Start);

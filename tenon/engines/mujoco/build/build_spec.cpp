@@ -130,7 +130,7 @@ void append_untold(const Diagnostics& findings, Diagnostics& diagnostics) {
 }  // namespace
 
 Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const SimulationOptions& options,
-                                Diagnostics& diagnostics, Begin begin) {
+                                Diagnostics& diagnostics, Begin begin, Purpose purpose) {
   TENON_CHECK(open_mujoco());
   const double time_step = time_step_of(scene, options, diagnostics);
   std::set<Path> refused;
@@ -138,6 +138,7 @@ Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const Simulati
     Diagnostics findings;
     Build build(scene, findings);
     build.time_step = time_step;
+    build.purpose = purpose;
     build.drive_terms = options.drives;
     build.methods = options.methods;
     build.refused = refused;

@@ -81,7 +81,11 @@ void map_drives(const Build& build, Model& result) {
   const mjModel& m = *result.model;
   for (scene::Index j = 0; j < build.actuators.size(); ++j) {
     for (scene::Index i = 0; i < build.actuators[j].size(); ++i) {
-      DriveMap map{j, i, -1, -1, -1};
+      DriveMap map{j, i};
+      map.is_plain = build.purpose == Purpose::Text;
+      if (const mjsActuator* actuator = build.velocity_actuators[j][i]; actuator != nullptr) {
+        map.velocity_control = m.actuator_ctrladr[mjs_getId(actuator->element)];
+      }
       if (const mjsActuator* actuator = build.actuators[j][i]; actuator != nullptr) {
         map.actuator = mjs_getId(actuator->element);
         map.control = m.actuator_ctrladr[map.actuator];

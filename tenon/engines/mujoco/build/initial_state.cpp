@@ -137,8 +137,17 @@ void set_controls(const PhysicsScene& scene, Model& model) {
   for (const DriveMap& map : model.drives) {
     if (map.actuator >= 0) {
       const scene::Drive& drive = scene.joints[map.joint].drives[map.drive];
-      model.data->ctrl[map.control] = drive.target_position;
-      model.data->ctrl[map.control + 1] = drive.target_velocity;
+      mjtNum* const controls = model.data->ctrl;
+      if (map.is_plain) {
+        controls[map.control] =
+            drive.stiffness != 0 ? drive.target_position : drive.target_velocity;
+        if (map.velocity_control >= 0) {
+          controls[map.velocity_control] = drive.target_velocity;
+        }
+        continue;
+      }
+      controls[map.control] = drive.target_position;
+      controls[map.control + 1] = drive.target_velocity;
     }
   }
 }

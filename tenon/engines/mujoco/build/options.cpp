@@ -97,8 +97,11 @@ void add_options(Build& build) {
   // The inertia of the asset is used as it is; compile() writes it again over the balanced one.
   spec.compiler.balanceinertia = 1;
   // MuJoCo's own guess of its working memory grows with the square of the bodies.
-  spec.memory = static_cast<mjtSize>(
-      std::min(kMaxMemory, kMinMemory + kMemoryPerBody * build.scene.bodies.size()));
+  const bool is_run = build.purpose == Purpose::Run;
+  if (is_run) {
+    spec.memory = static_cast<mjtSize>(
+        std::min(kMaxMemory, kMinMemory + kMemoryPerBody * build.scene.bodies.size()));
+  }
   mjOption& option = spec.option;
   option.timestep = build.time_step;
   write_vector(option.gravity, build.scene.scenes.front().gravity);
@@ -107,7 +110,9 @@ void add_options(Build& build) {
   option.impratio = kFrictionToNormal;
   apply_settings(build);
   apply_methods(build.methods, option);
-  option.disableflags |= mjDSBL_AUTORESET;  // an unstable step is an error, not a silent restart
+  if (is_run) {
+    option.disableflags |= mjDSBL_AUTORESET;  // an unstable step is an error, not a silent restart
+  }
 }
 
 void report_unmapped(Build& build) {
