@@ -6,6 +6,7 @@
 #include "tenon/base/text/text_number.h"
 #include "tenon/describe/describe_robot.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/urdf/plain_urdf.h"
 #include "tenon/urdf/write_urdf.h"
 
 namespace tenon {
@@ -29,6 +30,7 @@ Result<ExportedUrdf> export_urdf(const stage::Stage& stage, const std::string& f
                                  Diagnostics& diagnostics) {
   const scene::PhysicsScene scene = physics::read_physics(stage, read_options(), diagnostics);
   TENON_TRY(robot::RobotModel model, describe::describe_robot(stage, scene, diagnostics));
+  urdf::make_plain(model, diagnostics);
   ExportedUrdf result;
   std::map<std::string, std::string> name_of;  // by content
   for (robot::MeshFile& mesh : model.meshes) {

@@ -1,20 +1,21 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The text is written in one pass, in the order of the model. Numbers are the shortest text that
-// reads back as the same bits, and -0 becomes 0. URDF has no quaternions: roll, pitch and yaw
+// The text is written in one pass, in the order of the model. Numbers are those that the asset had
+// before they became floats (source_number.h). URDF has no quaternions: roll, pitch and yaw
 // follow from entries of the rotation matrix. With pitch straight up or down only the sum or the
 // difference of the other two has a meaning, so yaw is 0 and roll has all of it. An inertia is
 // written in the axes of its link.
 #include "tenon/urdf/write_urdf.h"
 
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "tenon/base/text/text_number.h"
+#include "tenon/base/text/source_number.h"
 
 namespace tenon::urdf {
 
@@ -46,12 +47,16 @@ std::string escaped(std::string_view text) {
 std::string text_of(std::initializer_list<double> numbers) {
   std::string out;
   for (const double number : numbers) {
-    out += (out.empty() ? "" : " ") + shortest(number + 0.0);
+    out += (out.empty() ? "" : " ") + source_number(number);
   }
   return out;
 }
 
-std::string text_of(const Vec3d& v) { return text_of({v[0], v[1], v[2]}); }
+/// Of places [m], directions and angles [rad].
+std::string text_of(Vec3d v) {
+  drop_noise(v.v);
+  return text_of({v[0], v[1], v[2]});
+}
 
 /// Elements in order, with attributes; indents by depth.
 class Writer {
@@ -129,15 +134,17 @@ class UrdfWriter {
 
   void write_inertial(const robot::Inertial& inertial) {
     const Mat3d i = inertial.inertia_in_link();
+    std::array<double, 6> tensor = {i[0][0], i[0][1], i[0][2], i[1][1], i[1][2], i[2][2]};
+    drop_noise(tensor, 0);
     out_.open("inertial");
     write_origin({inertial.center_of_mass, kIdentityRotation});
     out_.empty("mass", {{"value", text_of({inertial.mass})}});
-    out_.empty("inertia", {{"ixx", text_of({i[0][0]})},
-                           {"ixy", text_of({i[0][1]})},
-                           {"ixz", text_of({i[0][2]})},
-                           {"iyy", text_of({i[1][1]})},
-                           {"iyz", text_of({i[1][2]})},
-                           {"izz", text_of({i[2][2]})}});
+    out_.empty("inertia", {{"ixx", text_of({tensor[0]})},
+                           {"ixy", text_of({tensor[1]})},
+                           {"ixz", text_of({tensor[2]})},
+                           {"iyy", text_of({tensor[3]})},
+                           {"iyz", text_of({tensor[4]})},
+                           {"izz", text_of({tensor[5]})}});
     out_.close("inertial");
   }
 

@@ -8,7 +8,8 @@
 
 namespace tenon::urdf {
 
-/// A robot as URDF text (version 1.0, with the capsules of 1.2), numbers to their last bit.
+/// A robot as URDF text, version 1.0 after make_plain() (plain_urdf.h), which turns capsules and
+/// balls into what that has; numbers are those of the asset (base/text/source_number.h).
 /// Orientations are roll, pitch and yaw [rad]; meshes are named by MeshFile::written. Written are
 /// links, joints, limits, mimics of a multiplier and an offset, damping, friction, safety limits,
 /// calibration and materials. All else of the model is left out, ellipsoids and planes among it;

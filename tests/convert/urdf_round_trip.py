@@ -187,10 +187,30 @@ def compare_laws(found, wanted):
         near(f"{name}: law", law, wanted_law)
 
 
+def with_balls(robot, balls):
+    """Three hinges about x, y and z are put together as the ball that they are written for."""
+    joints = {joint.get("name"): joint for joint in robot.findall("joint")}
+    links = {link.get("name"): link for link in robot.findall("link")}
+    for name in balls:
+        first, second, last = (joints[f"{name}_{axis}"] for axis in "xyz")
+        expect(f"{name}: axes", [hinge.find("axis").get("xyz") for hinge in (first, second, last)],
+               ["1 0 0", "0 1 0", "0 0 1"])
+        for before, after in ((first, second), (second, last)):
+            between = before.find("child").get("link")
+            expect(f"{name}: chain", after.find("parent").get("link"), between)
+            robot.remove(links[between])
+            robot.remove(after)
+        first.set("name", name)
+        first.set("type", "spherical")
+        first.find("child").set("link", last.find("child").get("link"))
+
+
 def compare(found_file, wanted_file, replaced=None):
     """`replaced`: joints that have another name, as floating ones, which are no prims."""
     found, wanted = (xml.etree.ElementTree.parse(path).getroot()
                      for path in (found_file, wanted_file))
+    with_balls(found, [joint.get("name") for joint in wanted.findall("joint")
+                       if joint.get("type") == "spherical"])
     folders = (found_file.parent, wanted_file.parent)
     expect(f"{found_file.name}: robot", found.get("name"), wanted.get("name"))
     for kind, same in (("link", lambda *a: compare_link(*a, folders)), ("joint", compare_joint)):

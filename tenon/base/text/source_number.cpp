@@ -20,7 +20,7 @@ constexpr int kTyped = 6;              // digits that people give to an angle in
 constexpr int kShort = 9;              // digits of a number that nobody wants shorter
 constexpr int kShortBesideNoise = 12;  // leaves four digits to tell noise by
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kNoise = 1e-15;  // relative; of places [m] and turns also absolute
+constexpr double kNoise = 1e-15;  // relative
 
 int digits_of(const std::string& text) {
   const std::size_t end = std::min(text.find('e'), text.size());
@@ -85,8 +85,8 @@ std::string source_number(double value) {
   return exact;
 }
 
-void drop_noise(std::span<double> numbers) {
-  double largest = 1;
+void drop_noise(std::span<double> numbers, double least) {
+  double largest = least;
   for (const double number : numbers) {
     largest = std::max(largest, std::fabs(number));
   }

@@ -14,8 +14,8 @@ namespace tenon {
 /// (layer_text()). So nothing moves by more than a float's own rounding, 6e-8 of it. -0 becomes 0.
 std::string source_number(double value);
 
-/// What sums of places and turns leave where nothing should be (1e-17 beside 0.3, or alone)
-/// becomes 0.
-void drop_noise(std::span<double> numbers);
+/// What sums leave where nothing should be becomes 0: less than 1e-15 of the largest, which counts
+/// as `least` where it is smaller: 1 for places [m] and turns.
+void drop_noise(std::span<double> numbers, double least = 1);
 
 }  // namespace tenon
