@@ -37,6 +37,7 @@ class VisualWalk {
 
   void enter(Place& place);
   void add_site(Place& place);
+  void note_site(const Place& place);
   void add_visual(const stage::Prim& prim, std::optional<Index> link);
 
   SceneSource& source_;
@@ -67,8 +68,8 @@ Looks VisualWalk::run() {
 void VisualWalk::enter(Place& place) {
   if (const std::optional<Index> link = tree_.link_at(place.prim.path())) {
     place.link = link;
-  } else if (!source_.is_mjcf() && place.prim.has_api("IsaacSiteAPI")) {
-    add_site(place);
+  } else if (place.prim.has_api("IsaacSiteAPI")) {
+    source_.is_mjcf() ? note_site(place) : add_site(place);
   }
   place.seen = place.seen && (place.prim.is_pseudo_root() || !is_unseen(place.prim));
   if (place.seen && place.prim.is_a("Gprim")) {
@@ -89,6 +90,14 @@ void VisualWalk::add_site(Place& place) {
   const Index site = tree_.add_link(path, source_.name_of(path, "world"), pose, in_body);
   tree_.add_joint(*parent, site, robot::JointKind::Fixed);
   place.link = site;
+}
+
+/// A named frame is a site of its link, called by its path as others refer to it.
+void VisualWalk::note_site(const Place& place) {
+  if (const std::optional<Index> link = place.link ? place.link : tree_.world()) {
+    const Pose pose = inverse(tree_.pose(*link)) * source_.placed(place.prim).pose;
+    tree_.links()[*link].sites.push_back({place.prim.path().str(), pose});
+  }
 }
 
 void VisualWalk::add_visual(const stage::Prim& prim, std::optional<Index> link) {

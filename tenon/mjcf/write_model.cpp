@@ -33,6 +33,7 @@ namespace tenon::mjcf {
 namespace {
 
 using engines::mujoco::guarded;
+using engines::mujoco::read_quaternion;
 using engines::mujoco::write_quaternion;
 using engines::mujoco::write_vector;
 using robot::GeometryKind;
@@ -87,6 +88,9 @@ class VisualWriter {
   VisualWriter(const robot::RobotModel& visuals, const engines::mujoco::Model& model, mjSpec& spec,
                Diagnostics& diagnostics)
       : visuals_(visuals), model_(model), spec_(spec), diagnostics_(diagnostics) {}
+
+  /// Other names for geoms, by theirs: of what they show.
+  const std::map<std::string, std::string, std::less<>>& names() const { return names_; }
 
   void run(const scene::PhysicsScene& scene) {
     for (mjsElement* at = mjs_firstElement(&spec_, mjOBJ_GEOM); at != nullptr;
@@ -273,14 +277,72 @@ class VisualWriter {
     if (visual.material) {
       mjs_setString(geom->material, visuals_.materials[*visual.material].name.c_str());
     }
+    if (!is_mesh) {
+      show_collider(body, visual, geom);
+    }
+  }
+
+  /// A collider of the same shape in the same place is what is seen itself, as models have it.
+  void show_collider(mjsBody* body, const robot::Visual& visual, mjsGeom* seen) {
+    for (mjsElement* at = mjs_firstChild(body, mjOBJ_GEOM, 0); at != nullptr;
+         at = mjs_nextChild(body, at, 0)) {
+      mjsGeom* geom = mjs_asGeom(at);
+      if (geom->group != kColliderGroup || !is_same_shape(*geom, *seen)) {
+        continue;
+      }
+      geom->group = 0;
+      std::copy_n(seen->size, geom->type == mjGEOM_PLANE ? 3 : 0, geom->size);
+      if (visual.material) {
+        mjs_setString(geom->material, visuals_.materials[*visual.material].name.c_str());
+      }
+      names_.emplace(mjs_getString(mjs_getName(at)), visual.name);
+      mjs_delete(&spec_, seen->element);
+      return;
+    }
+  }
+
+  static bool is_same_shape(const mjsGeom& a, const mjsGeom& b) {
+    constexpr double kSame = 1e-9;  // [m], and of a turn
+    const auto near = [](const double* x, const double* y, int count) {
+      return std::equal(x, x + count, y,
+                        [](double p, double q) { return std::fabs(p - q) <= kSame; });
+    };
+    const double turn = std::fabs(dot(read_quaternion(a.quat), read_quaternion(b.quat)));
+    const int sizes = a.type == mjGEOM_PLANE                               ? 0
+                      : a.type == mjGEOM_SPHERE                            ? 1
+                      : a.type == mjGEOM_BOX || a.type == mjGEOM_ELLIPSOID ? 3
+                                                                           : 2;
+    return a.type == b.type && near(a.pos, b.pos, 3) && near(a.size, b.size, sizes) &&
+           turn >= 1 - kSame * kSame;
   }
 
   const robot::RobotModel& visuals_;
   const engines::mujoco::Model& model_;
   mjSpec& spec_;
   Diagnostics& diagnostics_;
+  std::map<std::string, std::string, std::less<>> names_;
   std::vector<robot::Index> made_;  // meshes, by the number in their names
 };
+
+/// Named frames that nothing in the physics has made a site of.
+void add_sites(const robot::RobotModel& visuals, const scene::PhysicsScene& scene,
+               const engines::mujoco::Model& model, mjSpec& spec) {
+  for (std::size_t i = 0; i < visuals.links.size(); ++i) {
+    const bool is_body = i < scene.bodies.size();
+    mjsBody* body = mjs_findBody(&spec, is_body ? scene.bodies[i].path.str().c_str() : "world");
+    const Pose frame = is_body ? inverse(model.bodies[i].engine_frame) : Pose{};
+    for (const robot::Site& site : visuals.links[i].sites) {
+      if (body == nullptr || mjs_findElement(&spec, mjOBJ_SITE, site.name.c_str()) != nullptr) {
+        continue;
+      }
+      mjsSite* made = mjs_addSite(body, nullptr);
+      mjs_setName(made->element, site.name.c_str());
+      const Pose pose = frame * site.pose;
+      write_vector(made->pos, pose.position);
+      write_quaternion(made->quat, normalized(pose.orientation));
+    }
+  }
+}
 
 /// The scene without what is written by itself, in the order of the stage: actuators, and the
 /// drives that stand for them.
@@ -321,11 +383,13 @@ Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::R
   TENON_TRY(const std::vector<mjsActuator*> made,
             write_actuators(scene, parts.actuators, built.model, *built.spec, diagnostics));
   write_sensors(scene, built.model, *built.spec, diagnostics);
+  add_sites(visuals, scene, built.model, *built.spec);
   TENON_CHECK(write_keyframes(scene, parts, made, built.model, *built.spec, diagnostics));
   const bool sees = !visuals.links.empty();
   Diagnostics seen;
+  VisualWriter writer(visuals, built.model, *built.spec, seen);
   if (sees) {
-    VisualWriter(visuals, built.model, *built.spec, seen).run(scene);
+    writer.run(scene);
   }
   Files files(images);
   mjModel* compiled = nullptr;
@@ -334,7 +398,10 @@ Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::R
     mj_deleteModel(compiled);
     diagnostics.append(seen);
     TENON_TRY(const std::string text, engines::mujoco::text_of(*built.spec));
-    return finished_text(text, name_of);
+    return finished_text(text, [&](std::string_view prim) {
+      const auto shown = writer.names().find(prim);
+      return shown == writer.names().end() ? name_of(prim) : shown->second;
+    });
   }
   if (!sees) {
     return Error(ErrorCode::Invalid, mjs_getError(built.spec.get())).with_rule("mujoco.write");

@@ -106,7 +106,7 @@ def check_images(work):
     near("texrepeat", named["sheet"].texrepeat, [2, 3])
     near("metallic", after.mat_metallic[named["painted"].id], [0.25])
     near("wood", named["wood"].rgba, before.material("wood").rgba * [0.5, 0, 0.5, 1])
-    seen = sum(int(group) == 2 for group in after.geom_group)
+    seen = sum(int(group) in (0, 2) for group in after.geom_group)
     if seen != 5 or sorted(path.name for path in (
             back.parent / "images_images").iterdir()) != ["paint.png", "rough.png"]:
         faults.append(f"images: {seen} visuals, {list(back.parent.rglob('*'))}")
@@ -164,6 +164,30 @@ def check_sensors(work):
             near(f"sensor {key}", after[key], wanted)
 
 
+FRAMES = ("body_pos", "body_quat", "body_ipos", "body_mass", "geom_type", "geom_pos", "geom_contype",
+          "geom_conaffinity", "geom_solref", "geom_group", "site_pos", "site_quat", "jnt_type",
+          "jnt_axis", "jnt_range", "actuator_gainprm", "actuator_biasprm", "qpos0")
+
+
+def check_names_and_frames(work):
+    """A floating robot comes back thing by thing: names, frames, numbers, nothing beside them."""
+    source = ROOT / "tests/convert/mjcf/floating.xml"
+    run("convert", source, work / "f.usda", "--scene")
+    run("convert", work / "f.usda", work / "f.xml")
+    before, after = (mujoco.MjModel.from_xml_path(str(path)) for path in (source, work / "f.xml"))
+    for kind, count in (("BODY", "nbody"), ("GEOM", "ngeom"), ("SITE", "nsite"),
+                        ("ACTUATOR", "nactuator" if hasattr(before, "nactuator") else "nu")):
+        names = [[mujoco.mj_id2name(model, getattr(mujoco.mjtObj, f"mjOBJ_{kind}"), i)
+                  for i in range(getattr(model, count))] for model in (before, after)]
+        if names[0] != names[1]:
+            faults.append(f"{kind}: {names[1]}, before {names[0]}")
+            return
+    for field in FRAMES:
+        near(f"floating: {field}", getattr(after, field), getattr(before, field))
+    if after.actuator_forcerange[0].tolist() != [-25, 25] or after.nexclude != 0:
+        faults.append(f"floating: {after.actuator_forcerange} {after.nexclude}")
+
+
 def check_left_out(work):
     """Unless asked for, the world stays out, and that is said."""
     answer = run("convert", ROOT / "tests/convert/mjcf/world.xml", work / "robot.usda")
@@ -175,4 +199,5 @@ def check_left_out(work):
 
 
 if __name__ == "__main__":
-    sys.exit(round_trip.main(check_world, check_left_out, check_images, check_sensors))
+    sys.exit(round_trip.main(check_world, check_left_out, check_images, check_sensors,
+                             check_names_and_frames))

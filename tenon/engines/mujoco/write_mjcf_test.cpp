@@ -104,5 +104,44 @@ TEST(WriteMjcf, NumbersHaveAllTheirDigitsAndInertiasPassTheCompiler) {
   EXPECT_EQ((*findings.begin()).property, "physics:diagonalInertia");
 }
 
+TEST(WriteMjcf, WhatStandsStillIsInTheWorldAndTouchesByTheUsualBits) {
+  TestScene scene;
+  const auto ball = scene.add_body("Ball", {{0, 0, 1}});
+  scene.add_collider("Shape", ball, sphere(0.1));
+  scene.add_collider("Floor", {}, ground());
+  scene.scenes[0].parts.mujoco.emplace();  // it speaks of MuJoCo: contacts are its own
+  Diagnostics findings;
+  const std::string text = text_of_scene(scene, findings);
+  EXPECT_FALSE(has(text, "Floor.static")) << text;
+  EXPECT_FALSE(has(text, "contype")) << text;
+  EXPECT_FALSE(has(text, "conaffinity")) << text;
+  EXPECT_FALSE(has(text, "solref")) << text;
+  scene.scenes[0].parts.mujoco.reset();
+  EXPECT_TRUE(has(text_of_scene(scene, findings), "solref"));
+}
+
+/// An arm of two links with shapes that are kept apart where `apart` says so.
+TestScene linked_arm(bool apart) {
+  TestScene scene;
+  const auto upper = scene.add_body("Upper", {});
+  const auto lower = scene.add_body("Lower", {});
+  scene.add_joint("Shoulder", JointKind::Revolute, {}, upper, Axis::Y);
+  scene.add_joint("Elbow", JointKind::Revolute, upper, lower, Axis::Y);
+  const auto a = scene.add_collider("A", upper, sphere(0.1));
+  const auto b = scene.add_collider("B", lower, sphere(0.1));
+  if (apart) {
+    scene.filter.pairs_off.emplace_back(a, b);
+  }
+  return scene;
+}
+
+TEST(WriteMjcf, WhatHangsOnAnotherIsKeptApartByMujocoItself) {
+  Diagnostics findings;
+  const std::string text = text_of_scene(linked_arm(true), findings);
+  EXPECT_FALSE(has(text, "exclude")) << text;
+  EXPECT_FALSE(has(text, "filterparent")) << text;
+  EXPECT_TRUE(has(text_of_scene(linked_arm(false), findings), "filterparent=\"disable\""));
+}
+
 }  // namespace
 }  // namespace tenon::engines::mujoco

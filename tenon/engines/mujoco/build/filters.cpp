@@ -73,12 +73,15 @@ struct Classes {
   std::vector<char> off;
 };
 
-Classes classify(const scene::PhysicsScene& scene) {
+/// `statics_apart`: what stands still is of other classes than what moves.
+Classes classify(const scene::PhysicsScene& scene, bool statics_apart) {
   Classes classes;
   std::map<ClassKey, int> numbers;
   for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
+    ClassKey key = key_of(scene, i);
+    key.moves = key.moves || !statics_apart;
     const auto [entry, is_new] =
-        numbers.try_emplace(key_of(scene, i), static_cast<int>(classes.keys.size()));
+        numbers.try_emplace(std::move(key), static_cast<int>(classes.keys.size()));
     if (is_new) {
       classes.keys.push_back(entry->first);
     }
@@ -90,6 +93,15 @@ Classes classify(const scene::PhysicsScene& scene) {
     }
   }
   return classes;
+}
+
+/// MuJoCo itself keeps apart what stands in the world. Only a kinematic body, or what follows a
+/// track, is for it something that moves.
+bool all_but_statics_move(const scene::PhysicsScene& scene) {
+  return std::none_of(scene.bodies.begin(), scene.bodies.end(),
+                      [](const scene::Body& body) { return body.kinematic; }) &&
+         std::none_of(scene.pose_tracks.begin(), scene.pose_tracks.end(),
+                      [](const scene::PoseTrack& track) { return track.collider.has_value(); });
 }
 
 void set_bits(Build& build, const Classes& classes) {
@@ -161,8 +173,10 @@ std::map<BodyKey, std::size_t> active_colliders(const Build& build) {
   return counts;
 }
 
-// Excludes whole body pairs; returns the collider pairs that are left.
-std::vector<std::pair<Index, Index>> exclude_bodies(Build& build) {
+using Excludes = std::map<std::pair<BodyKey, BodyKey>, mjsExclude*>;
+
+// Excludes whole body pairs, into `excludes`; returns the collider pairs that are left.
+std::vector<std::pair<Index, Index>> exclude_bodies(Build& build, Excludes& excludes) {
   std::map<std::pair<BodyKey, BodyKey>, std::vector<std::pair<Index, Index>>> by_bodies;
   for (const auto& [a, b] : explicit_pairs(build.scene)) {
     if (build.geoms[a].empty() || build.geoms[b].empty()) {
@@ -186,8 +200,61 @@ std::vector<std::pair<Index, Index>> exclude_bodies(Build& build) {
                   mjs_getString(mjs_getName(body_of(build, bodies.first)->element)));
     mjs_setString(exclude->bodyname2,
                   mjs_getString(mjs_getName(body_of(build, bodies.second)->element)));
+    excludes.emplace(bodies, exclude);
   }
   return left;
+}
+
+/// What a body moves with: itself where it has freedom, else what holds it; none for the world.
+std::vector<std::optional<Index>> moving_bodies(const Build& build) {
+  std::vector<std::optional<Index>> result(build.scene.bodies.size());
+  for (const Index body : build.plan.forest.order) {  // parents first
+    const scene::ForestBody& link = build.plan.forest.bodies[body];
+    const BodyBase base = build.plan.bases[body];
+    const bool is_free = base == BodyBase::Free || base == BodyBase::Driven ||
+                         (base == BodyBase::Jointed && build.dofs[*link.joint].count() > 0);
+    if (is_free) {
+      result[body] = body;
+    } else if (base == BodyBase::Jointed && link.parent) {
+      result[body] = result[*link.parent];
+    }
+  }
+  return result;
+}
+
+/// Pairs of bodies with shapes that MuJoCo keeps apart by itself, as one hangs on the other.
+std::set<std::pair<BodyKey, BodyKey>> apart_by_parent(const Build& build) {
+  const std::vector<std::optional<Index>> moving = moving_bodies(build);
+  std::map<Index, std::vector<BodyKey>> groups;
+  for (const auto& [key, count] : active_colliders(build)) {
+    if (!key.first && moving[key.second]) {
+      groups[*moving[key.second]].push_back(key);
+    }
+  }
+  std::set<std::pair<BodyKey, BodyKey>> result;
+  for (const auto& [body, keys] : groups) {
+    const std::optional<Index>& parent = build.plan.forest.bodies[body].parent;
+    const auto above = parent && moving[*parent] ? groups.find(*moving[*parent]) : groups.end();
+    for (std::size_t i = 0; above != groups.end() && i < keys.size(); ++i) {
+      for (const BodyKey& other : above->second) {
+        result.insert(std::minmax(keys[i], other));
+      }
+    }
+  }
+  return result;
+}
+
+/// In text: where all pairs that MuJoCo would keep apart by itself are apart, it does.
+void leave_parents_to_mujoco(Build& build, const Excludes& excludes) {
+  const auto apart = apart_by_parent(build);
+  const auto is_excluded = [&](const auto& pair) { return excludes.contains(pair); };
+  if (!std::all_of(apart.begin(), apart.end(), is_excluded)) {
+    return;
+  }
+  build.spec->option.disableflags &= ~static_cast<int>(mjDSBL_FILTERPARENT);
+  for (const auto& pair : apart) {
+    mjs_delete(build.spec.get(), excludes.at(pair)->element);
+  }
 }
 
 }  // namespace
@@ -195,7 +262,8 @@ std::vector<std::pair<Index, Index>> exclude_bodies(Build& build) {
 ContactFilter add_filters(Build& build) {
   // Which joints are near is said by the scene's pairs (S-92), not by MuJoCo's tree.
   build.spec->option.disableflags |= mjDSBL_FILTERPARENT;
-  const Classes classes = classify(build.scene);
+  const bool is_run = build.purpose == Purpose::Run;
+  const Classes classes = classify(build.scene, is_run || !all_but_statics_move(build.scene));
   ContactFilter filter;
   filter.class_off = classes.off;
   filter.class_count = classes.keys.size();
@@ -205,9 +273,18 @@ ContactFilter add_filters(Build& build) {
   } else {
     filter.needed = true;
   }
-  for (const auto& [a, b] : exclude_bodies(build)) {
+  Excludes excludes;
+  for (const auto& [a, b] : exclude_bodies(build, excludes)) {
     filter.needed = true;
     filter.pairs_off.push_back((std::uint64_t{a} << 32u) | b);
+  }
+  if (!is_run) {
+    leave_parents_to_mujoco(build, excludes);
+  }
+  if (filter.needed && !is_run) {
+    build.report(build.scene.scenes.front().path, "filteredPairs",
+                 "some pairs of colliders are kept apart by tenon's runs alone: MuJoCo's models "
+                 "have 31 classes of them and pairs of whole bodies");
   }
   return filter;
 }

@@ -3,9 +3,10 @@
 //
 // Colliders become geoms of their body's MuJoCo body. A static collider gets a MuJoCo body of its
 // own without joints, so that body pairs can be excluded one by one and animated ones can move. Of
-// more than 1000, only those that need it get one, as the search for contacts takes room for every
-// pair of bodies. Shapes that MuJoCo does not have become convex pieces. Geoms and mesh points are
-// counted as they are made, and the pass ends where a model would become too large.
+// more than 1000, and in text, only those that need it get one, as the search for contacts takes
+// room for every pair of bodies, and models of others have them in the world. Shapes that MuJoCo
+// does not have become convex pieces. Geoms and mesh points are counted as they are made, and the
+// pass ends where a model would become too large.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -106,11 +107,11 @@ constexpr std::size_t kRoomPerPair = 8;  // [bytes]
 
 /// Which static colliders have a body of their own: pairs that are switched off are told by their
 /// bodies, and what moves along a track is one.
-std::vector<char> own_static_bodies(const scene::PhysicsScene& scene) {
+std::vector<char> own_static_bodies(const scene::PhysicsScene& scene, Purpose purpose) {
   std::vector<char> own(scene.colliders.size(), 1);
   const auto is_static = [](const Collider& c) { return c.enabled && !c.body.has_value(); };
   const auto count = std::count_if(scene.colliders.begin(), scene.colliders.end(), is_static);
-  if (static_cast<std::size_t>(count) <= kOwnStaticBodies) {
+  if (purpose == Purpose::Run && static_cast<std::size_t>(count) <= kOwnStaticBodies) {
     return own;
   }
   std::fill(own.begin(), own.end(), 0);
@@ -405,7 +406,7 @@ Result<void> add_geoms(Build& build) {
   build.geoms.assign(count, {});
   build.geom_materials.assign(count, {});
   build.static_bodies.assign(count, nullptr);
-  const std::vector<char> own_body = own_static_bodies(build.scene);
+  const std::vector<char> own_body = own_static_bodies(build.scene, build.purpose);
   ModelSize size;
   std::size_t own_bodies = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -418,7 +419,7 @@ Result<void> add_geoms(Build& build) {
       own_bodies += build.static_bodies[i] == nullptr ? 0 : 1;
     }
   }
-  if (own_bodies > kOwnStaticBodies) {
+  if (build.purpose == Purpose::Run && own_bodies > kOwnStaticBodies) {
     const std::size_t bodies = own_bodies + build.scene.bodies.size();
     build.spec->memory += static_cast<mjtSize>(kRoomPerPair * bodies * bodies / 2);
   }

@@ -146,6 +146,11 @@ std::array<double, 2> contact_solref(double restitution, double time_step) {
   return {-stiffness * kHighImpedance * kHighImpedance, -(low + high) / 2 * kHighImpedance};
 }
 
+/// In text of an asset that speaks of MuJoCo, what it does not say is MuJoCo's default.
+bool keeps_defaults(const Build& build) {
+  return build.purpose == Purpose::Text && build.scene.scenes.front().parts.mujoco.has_value();
+}
+
 Surfaces add_surfaces(Build& build) {
   Surfaces surfaces;
   surfaces.time_step = build.time_step;
@@ -173,8 +178,10 @@ Surfaces add_surfaces(Build& build) {
       if (!decides) {
         geom.friction[0] = friction_of(kind, kind);
       }
-      const std::array<double, 2> solref = solref_of(surfaces, kind, kind);
-      std::copy(solref.begin(), solref.end(), geom.solref);
+      if (kind.restitution > 0 || !keeps_defaults(build)) {
+        const std::array<double, 2> solref = solref_of(surfaces, kind, kind);
+        std::copy(solref.begin(), solref.end(), geom.solref);
+      }
       std::copy(contact.solref.begin(), contact.solref.end(), geom.solref);
       if (decides) {
         surfaces.of_collider[i][g] = -1;  // MuJoCo does not mix where one has priority
