@@ -110,10 +110,9 @@ class FourBar(unittest.TestCase):
 
     def by_mjcf(self):
         model = xml.etree.ElementTree.fromstring(self.convert("bar.xml"))
-        closed = {part.get("name").split("/")[-1].split(".")[0]
-                  for part in model.find("equality") or []}
-        carried = {part.get("name").split("/")[-1].split(".")[0] for part in model.iter("joint")
-                   if not part.get("name").endswith(".free")}
+        closed = {part.get("name").split("_")[0] for part in model.find("equality") or []}
+        carried = {part.get("name").split("_")[0] for part in model.iter("joint")
+                   if not part.get("name").endswith("_free")}
         self.assertEqual(closed | carried, set(RING))
         return closed
 

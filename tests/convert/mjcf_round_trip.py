@@ -164,9 +164,10 @@ def check_sensors(work):
             near(f"sensor {key}", after[key], wanted)
 
 
-FRAMES = ("body_pos", "body_quat", "body_ipos", "body_mass", "geom_type", "geom_pos", "geom_contype",
-          "geom_conaffinity", "geom_solref", "geom_group", "site_pos", "site_quat", "jnt_type",
-          "jnt_axis", "jnt_range", "actuator_gainprm", "actuator_biasprm", "qpos0")
+FRAMES = ("body_pos", "body_quat", "body_ipos", "body_mass", "geom_type", "geom_pos",
+          "geom_contype", "geom_conaffinity", "geom_solref", "geom_group", "site_pos",
+          "site_quat", "jnt_type", "jnt_axis", "jnt_range", "actuator_gainprm",
+          "actuator_biasprm", "qpos0")
 
 
 def check_names_and_frames(work):
