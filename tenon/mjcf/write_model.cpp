@@ -10,7 +10,7 @@
 // passes of engines/mujoco, which know that text is wanted (Purpose::Text) where a run needs
 // something that no other reader has. An actuator of the asset that runs take as a drive of its
 // joint is written as it is, in the drive's place. MuJoCo's writer makes the text, and what it does
-// not do (names, digits) is done to the text (text/finished_text.h): so a new element of MuJoCo
+// not do (names, digits) is done to the text (text/write_text.h): so a new element of MuJoCo
 // comes out with its first line in a pass.
 #include "tenon/mjcf/write_model.h"
 
@@ -24,7 +24,7 @@
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/engines/mujoco/writable_model.h"
-#include "tenon/mjcf/text/finished_text.h"
+#include "tenon/mjcf/text/write_text.h"
 #include "tenon/mjcf/write_actuators.h"
 #include "tenon/mjcf/write_keyframes.h"
 #include "tenon/mjcf/write_sensors.h"

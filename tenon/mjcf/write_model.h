@@ -7,7 +7,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
-#include "tenon/mjcf/text/finished_text.h"
+#include "tenon/mjcf/text/write_text.h"
 #include "tenon/robot/robot_model.h"
 #include "tenon/scene/mujoco_actuators.h"
 #include "tenon/scene/physics_scene.h"

@@ -8,7 +8,7 @@
 // name in both. What follows the dot is left out where there is only one such thing.
 //
 // Any attribute of numbers may be rewritten, but not a name that reads as a number.
-#include "tenon/mjcf/text/finished_text.h"
+#include "tenon/mjcf/text/write_text.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/mjcf/text/finished_text.h"
+#include "tenon/mjcf/text/write_text.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ std::string world(const std::string& inside, const std::string& after = "") {
          "</mujoco>\n";
 }
 
-TEST(FinishedText, ThingsHaveTheNamesOfTheirPrims) {
+TEST(WriteText, ThingsHaveTheNamesOfTheirPrims) {
   EXPECT_EQ(
       finished_text(
           world("    <body name=\"/r/base\">\n      <joint name=\"/r/base.free\" type=\"free\"/>\n"
@@ -38,7 +38,7 @@ TEST(FinishedText, ThingsHaveTheNamesOfTheirPrims) {
             "  <actuator>\n    <general name=\"k\" joint=\"k\"/>\n  </actuator>\n"));
 }
 
-TEST(FinishedText, EqualNamesOfAKindAreNumberedAndTheWorldStaysTheWorld) {
+TEST(WriteText, EqualNamesOfAKindAreNumberedAndTheWorldStaysTheWorld) {
   EXPECT_EQ(finished_text(world("    <body name=\"/r/world\"/>\n    <body name=\"/r/a/link\"/>\n"
                                 "    <body name=\"/r/b/link\"/>\n    <site name=\"/r/c/link\"/>\n",
                                 "  <contact>\n    <exclude body1=\"/r/a/link\" "
@@ -49,7 +49,7 @@ TEST(FinishedText, EqualNamesOfAKindAreNumberedAndTheWorldStaysTheWorld) {
                   "  <contact>\n    <exclude body1=\"link\" body2=\"link_1\"/>\n  </contact>\n"));
 }
 
-TEST(FinishedText, NumbersAreThoseOfTheAssetAndWholeOnesStayWhole) {
+TEST(WriteText, NumbersAreThoseOfTheAssetAndWholeOnesStayWhole) {
   EXPECT_EQ(
       finished_text(world("    <geom name=\"1.50\" pos=\"0.10000000149011612 1e-17 -0\" "
                           "range=\"-1.2345678449565942 0.24999999999999997\" mass=\"200000\"/>\n"
@@ -60,7 +60,7 @@ TEST(FinishedText, NumbersAreThoseOfTheAssetAndWholeOnesStayWhole) {
             "    <geom material=\"1.50\" gap=\"0.3333333333333333\"/>\n"));
 }
 
-TEST(FinishedText, SolverParametersAreWhole) {
+TEST(WriteText, SolverParametersAreWhole) {
   EXPECT_EQ(finished_text(world("    <joint solreflimit=\"0.005\" solimplimit=\"0.99 0.999\" "
                                 "solreffriction=\"-1 -2\"/>\n"),
                           shown),
@@ -68,7 +68,7 @@ TEST(FinishedText, SolverParametersAreWhole) {
                   "solreffriction=\"-1 -2\"/>\n"));
 }
 
-TEST(FinishedText, ShorterMomentsStillMakeABody) {
+TEST(WriteText, ShorterMomentsStillMakeABody) {
   // 0.7000000000000001 would become 0.7, the last moment would not.
   const std::string line =
       world("    <inertial diaginertia=\"0.3 0.7000000000000001 1.0000000000000002\"/>\n");
