@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/stage_sources.h"
 
+#include "tenon/base/assignment.h"
 #include "tenon/session_opinions.h"
 
 namespace tenon {

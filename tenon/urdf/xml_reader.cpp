@@ -160,7 +160,7 @@ void XmlReader::list_unknown(pugi::xml_node element,
 }
 
 Result<std::string> XmlReader::text(pugi::xml_node element, const char* attribute) const {
-  const std::string value = element.attribute(attribute).value();
+  std::string value = element.attribute(attribute).value();
   if (value.empty()) {
     return fault(element, "urdf.missing", std::string("needs the attribute ") + attribute,
                  std::string("write ") + attribute + "=\"...\"");

@@ -212,7 +212,8 @@ class Comparison:
         dof, start = model.jnt_dofadr[number], model.qpos0[model.jnt_qposadr[number]]
         limits = [-math.inf, math.inf]
         if model.jnt_limited[number]:
-            limits = list(model.jnt_range[number] - start)
+            limits = [end if abs(end) < 1e8 else math.copysign(math.inf, end)
+                      for end in model.jnt_range[number] - start]  # URDF has no endless slides
         self.near(f"{name}: limits", [open_end(joint["lower"], -math.inf),
                                       open_end(joint["upper"], math.inf)], limits)
         for word, wanted in (("damping", model.dof_damping[dof]),

@@ -23,7 +23,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 DOCUMENT = os.path.join(ROOT, "docs/dependencies.md")
 # Of the C library and the kernel only the interface is used, and not shipped.
 INTERFACES = re.compile(r"^(libc6|libc6-dev|linux-libc-dev|libcrypt-dev)$")
-FETCHED = re.compile(r"build/_deps/([a-z]+)-[^/]*/")
+FETCHED = re.compile(r"(?:build/_deps|tenon/engines)/([a-z]+)-[^/]*/")
 
 
 def lines_of(*command):
@@ -45,7 +45,7 @@ def files_used(build):
                 if re.search(r"\.(a|so(\.[0-9]+)*)$", word) and os.path.isabs(word):
                     used.add(os.path.realpath(word))
     own = (ROOT + "/", os.path.realpath(build) + "/")
-    return {path for path in used if not path.startswith(own) or "/build/_deps/" in path}
+    return {path for path in used if not path.startswith(own) or FETCHED.search(path)}
 
 
 def packages_of(paths):
@@ -75,7 +75,7 @@ def installed_texts(prefix):
 def faults_of(build, prefix):
     used = files_used(build)
     fetched = {found[1] for found in map(FETCHED.search, used) if found}
-    owners, orphans = packages_of({path for path in used if "/build/_deps/" not in path})
+    owners, orphans = packages_of({path for path in used if not FETCHED.search(path)})
     texts = installed_texts(prefix)
     for path in orphans:
         yield f"{path}: used by the build, and of no package; say where its licence is"

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "tenon/base/change.h"
+#include "tenon/base/function.h"
 #include "tenon/base/path.h"
 #include "tenon/scene/physics_scene.h"
 
@@ -48,7 +48,7 @@ struct CompareOptions {
   /// mimic may differ.
   bool motion_alone = false;
   /// Where a collider of `before` is in `after`; none: where it was.
-  std::function<Path(Path)> moved = {};
+  Function<Path(Path)> moved = {};
 };
 
 /// Everything that differs: lists of objects in the order of the table of PhysicsScene, each by

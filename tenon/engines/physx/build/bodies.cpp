@@ -23,7 +23,7 @@ float speed_bound(double bound) {
 }
 
 void* number_of(Index index) {
-  return reinterpret_cast<void*>(static_cast<std::uintptr_t>(index) + 1);
+  return reinterpret_cast<void*>(static_cast<std::uintptr_t>(index) + 1);  // NOLINT: a number
 }
 
 // PhysX locks axes of the world on bodies that stand alone.

@@ -46,8 +46,8 @@ struct Build {
     return static_cast<px::PxU32>(
         std::min(asked > 0 ? asked : kPositionIterations, kMostIterations));
   }
-  void report(const Path& prim, std::string property, std::string why) {
-    model.not_mapped.push_back({prim, std::move(property), std::move(why)});
+  void report(const Path& prim, const std::string& property, const std::string& why) {
+    model.not_mapped.push_back({prim, property, why});
   }
 };
 

@@ -233,7 +233,8 @@ Result<void> add_constraints(Build& build) {
       map.role = JointRole::None;
       continue;
     }
-    map.constraint->userData = reinterpret_cast<void*>(static_cast<std::uintptr_t>(j) + 1);
+    map.constraint->userData =
+        reinterpret_cast<void*>(static_cast<std::uintptr_t>(j) + 1);  // NOLINT: a number
     map.constraint->setConstraintFlag(px::PxConstraintFlag::eCOLLISION_ENABLED, true);
     map.constraint->setConstraintFlag(px::PxConstraintFlag::eDRIVE_LIMITS_ARE_FORCES, true);
     map.constraint->setBreakForce(break_bound(joint.break_force), break_bound(joint.break_torque));

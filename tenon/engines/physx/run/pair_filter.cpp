@@ -22,7 +22,7 @@ px::PxFilterFlags filter_pair(px::PxFilterObjectAttributes attributes0, px::PxFi
                               px::PxFilterObjectAttributes attributes1, px::PxFilterData data1,
                               px::PxPairFlags& flags, const void* constants, px::PxU32 /*size*/) {
   const PairRules* rules = nullptr;
-  std::memcpy(&rules, constants, sizeof rules);
+  std::memcpy(static_cast<void*>(&rules), constants, sizeof(void*));
   const scene::PhysicsScene& scene = *rules->scene;
   if (!scene.may_meet(data0.word0, data1.word0)) {
     return px::PxFilterFlag::eSUPPRESS;

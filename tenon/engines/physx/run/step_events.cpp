@@ -9,6 +9,7 @@
 
 #include "tenon/engines/physx/convert.h"
 
+// NOLINTBEGIN(readability-identifier-naming): names of PhysX
 namespace tenon::engines::physx {
 namespace {
 
@@ -55,7 +56,10 @@ void StepEvents::onContact(const px::PxContactPairHeader& header, const px::PxCo
                            px::PxU32 count) {
   const bool gone = header.flags & (px::PxContactPairHeaderFlag::eREMOVED_ACTOR_0 |
                                     px::PxContactPairHeaderFlag::eREMOVED_ACTOR_1);
-  for (px::PxU32 i = 0; i < count && !gone; ++i) {
+  if (gone) {
+    return;
+  }
+  for (px::PxU32 i = 0; i < count; ++i) {
     add_contacts(pairs[i]);
   }
 }
@@ -110,3 +114,4 @@ void SurfaceMotion::onContactModify(px::PxContactModifyPair* const pairs, px::Px
 }
 
 }  // namespace tenon::engines::physx
+// NOLINTEND(readability-identifier-naming)
