@@ -118,7 +118,7 @@ robot::Place XmlReader::place_of(pugi::xml_node element, std::string_view attrib
           static_cast<std::uint32_t>(line_at(range.end)), column(range.end)};
 }
 
-Error XmlReader::fault(pugi::xml_node element, const char* rule, std::string message,
+Error XmlReader::fault(pugi::xml_node element, const char* rule, const std::string& message,
                        std::string fix, std::string_view attribute) const {
   Diagnostic finding =
       file_finding(Severity::Error, rule, "<" + std::string(element.name()) + ">: " + message,
@@ -126,8 +126,8 @@ Error XmlReader::fault(pugi::xml_node element, const char* rule, std::string mes
   return {ErrorCode::Parse, robot::at_place(std::move(finding), place_of(element, attribute))};
 }
 
-void XmlReader::warn(pugi::xml_node element, const char* rule, std::string message, std::string fix,
-                     Severity severity, std::string_view attribute) {
+void XmlReader::warn(pugi::xml_node element, const char* rule, const std::string& message,
+                     std::string fix, Severity severity, std::string_view attribute) {
   if (++findings_ > limits::kLayerFindings) {
     return;
   }
