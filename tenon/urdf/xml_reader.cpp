@@ -126,8 +126,8 @@ Error XmlReader::fault(pugi::xml_node element, const char* rule, const std::stri
   return {ErrorCode::Parse, robot::at_place(std::move(finding), place_of(element, attribute))};
 }
 
-void XmlReader::warn(pugi::xml_node element, const char* rule, const std::string& message,
-                     std::string fix, Severity severity, std::string_view attribute) {
+void XmlReader::warn(pugi::xml_node element, const char* rule, std::string message, std::string fix,
+                     Severity severity, std::string_view attribute) {
   if (++findings_ > limits::kLayerFindings) {
     return;
   }

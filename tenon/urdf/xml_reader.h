@@ -33,7 +33,7 @@ class XmlReader {
   /// At the start tag of the element, or at one attribute of it.
   Error fault(pugi::xml_node element, const char* rule, const std::string& message, std::string fix,
               std::string_view attribute = {}) const;
-  void warn(pugi::xml_node element, const char* rule, const std::string& message, std::string fix,
+  void warn(pugi::xml_node element, const char* rule, std::string message, std::string fix,
             Severity severity = Severity::Warning, std::string_view attribute = {});
 
   /// Lists attributes and child elements of `element` that are in neither list.
