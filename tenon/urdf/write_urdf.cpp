@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "tenon/base/text/source_number.h"
+#include "tenon/base/text/xml_text.h"
 
 namespace tenon::urdf {
 
@@ -23,26 +24,6 @@ using robot::GeometryKind;
 using robot::JointKind;
 
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string text_of(std::initializer_list<double> numbers) {
   std::string out;
@@ -82,7 +63,7 @@ class Writer {
   void start(const char* name, const AttributeList& attributes) {
     text_ += std::string(2 * depth_, ' ') + "<" + name;
     for (const auto& [key, value] : attributes) {
-      text_ += std::string(" ") + key + "=\"" + escaped(value) + "\"";
+      text_ += std::string(" ") + key + "=\"" + xml_text(value) + "\"";
     }
   }
   std::string text_ = "<?xml version=\"1.0\"?>\n";

@@ -21,34 +21,15 @@
 
 #include "tenon/base/text/source_number.h"
 #include "tenon/base/text/text_number.h"
+#include "tenon/base/text/xml_text.h"
 
 namespace tenon::mjcf {
 namespace {
 
 constexpr std::string_view kFreeJoint = ".free";
 
-std::string escaped_name(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
+// No bare ">", so that elements end where one stands.
+std::string escaped_name(std::string_view text) { return xml_text(text, "&<>\""); }
 
 /// Calls `with(tag, attribute, value)` for each attribute of a text in turn and puts what it
 /// answers in the value's place. `section` is the element of the first level that it stands in.
