@@ -41,20 +41,11 @@ Error no_variant(const stage::Stage& stage, const stage::Prim& prim, const std::
       .with_rule("variant.unknown");
 }
 
-/// Every prim with the set but the default prim; of instances also what is in them.
-std::vector<stage::Prim> prims_with_set(const stage::Stage& stage) {
-  std::vector<stage::Prim> found;
-  std::vector<stage::Prim> open{stage.pseudo_root()};
+/// Those of all but the default prim.
+std::vector<stage::Prim> prims_below(const stage::Stage& stage) {
+  std::vector<stage::Prim> found = prims_with_physics_set(stage);
   const Path first = stage.default_prim().path();
-  while (!open.empty()) {
-    const stage::Prim prim = open.back();
-    open.pop_back();
-    if (prim.path().is_prim() && prim.path() != first && has_set(prim)) {
-      found.push_back(prim);
-    }
-    const std::vector<stage::Prim> children = prim.children();
-    open.insert(open.end(), children.rbegin(), children.rend());
-  }
+  std::erase_if(found, [&](const stage::Prim& prim) { return prim.path() == first; });
   return found;
 }
 
@@ -112,10 +103,25 @@ void report_in_instances(const std::vector<stage::Prim>& prims, const std::strin
 
 }  // namespace
 
+std::vector<stage::Prim> prims_with_physics_set(const stage::Stage& stage) {
+  std::vector<stage::Prim> found;
+  std::vector<stage::Prim> open{stage.pseudo_root()};
+  while (!open.empty()) {
+    const stage::Prim prim = open.back();
+    open.pop_back();
+    if (prim.path().is_prim() && has_set(prim)) {
+      found.push_back(prim);
+    }
+    const std::vector<stage::Prim> children = prim.children();
+    open.insert(open.end(), children.rbegin(), children.rend());
+  }
+  return found;
+}
+
 std::vector<Path> prims_to_select(const stage::Stage& stage, const OpenOptions& options) {
   const std::set<Path> named = named_prims(options);
   std::vector<Path> found;
-  for (const stage::Prim& prim : prims_with_set(stage)) {
+  for (const stage::Prim& prim : prims_below(stage)) {
     if (!prim.is_instance_proxy() && !named.contains(prim.path()) &&
         has_variant(prim, options.physics_variant) &&
         prim.variant_selection(kPhysicsSet) != options.physics_variant) {
@@ -139,7 +145,7 @@ Result<void> check_physics_selection(const stage::Stage& stage, const OpenOption
     TENON_CHECK(has_variant(first, variant) ? Result<void>()
                                             : Result<void>(no_variant(stage, first, variant)));
   }
-  const auto below = options.physics_below ? prims_with_set(stage) : std::vector<stage::Prim>();
+  const auto below = options.physics_below ? prims_below(stage) : std::vector<stage::Prim>();
   report_in_instances(below, variant, diagnostics);
   const bool any = std::any_of(below.begin(), below.end(),
                                [&](const stage::Prim& prim) { return has_variant(prim, variant); });

@@ -13,6 +13,9 @@
 /// Variants of "Physics" that options ask for, beside that of the default prim.
 namespace tenon {
 
+/// Every prim with a variant set "Physics", depth first; of instances also what is in them.
+std::vector<stage::Prim> prims_with_physics_set(const stage::Stage& stage);
+
 /// Prims of a stage that has been composed with the options, whose variant set "Physics" has
 /// `options.physics_variant` and selects another one, and that `options.physics_of` does not name.
 /// Prims below instances are left out: opinions of session layers do not reach them.

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/asset/simulating/engine_choice.h"
 
-#include <algorithm>
 #include <map>
 #include <vector>
 
 #include "tenon/make_simulation.h"
+#include "tenon/physics_selection.h"
 
 namespace tenon {
 namespace {
@@ -16,27 +16,13 @@ constexpr const char* kUsualEngine = "mujoco";
 /// Engines by the first prim whose variant names each.
 using NamedEngines = std::map<std::string, Path>;
 
-void add_engine_of(const stage::Prim& prim, NamedEngines& named) {
-  const std::vector<std::string> sets = prim.variant_set_names();
-  if (std::find(sets.begin(), sets.end(), "Physics") == sets.end()) {
-    return;
-  }
-  const std::string selected = prim.variant_selection("Physics");
-  if (selected == "none" || selected.empty()) {
-    return;
-  }
-  named.try_emplace(selected == "physx" ? "physx" : kUsualEngine, prim.path());
-}
-
 NamedEngines named_engines(const stage::Stage& stage) {
   NamedEngines named;
-  std::vector<stage::Prim> open = stage.pseudo_root().children();
-  while (!open.empty()) {
-    const stage::Prim prim = open.back();
-    open.pop_back();
-    add_engine_of(prim, named);
-    const std::vector<stage::Prim> children = prim.children();
-    open.insert(open.end(), children.begin(), children.end());
+  for (const stage::Prim& prim : prims_with_physics_set(stage)) {
+    const std::string selected = prim.variant_selection("Physics");
+    if (selected != "none" && !selected.empty()) {
+      named.try_emplace(selected == "physx" ? "physx" : kUsualEngine, prim.path());
+    }
   }
   return named;
 }
