@@ -55,10 +55,6 @@ def recorded():
         return file.read().strip()
 
 
-# The preset tidy has no PhysX, and so not its headers.
-NOT_COMPILED = ("tenon/engines/physx/", "thirdparty/physx/")
-
-
 def changed_since(commit):
     """Names that differ from a commit, new files too; None where the commit is not known."""
     tracked = git("diff", "--name-only", commit, "--")
@@ -103,9 +99,7 @@ def judge(clang_tidy, names, jobs, everywhere):
 
 def chosen(options):
     """The files to look at; None, and why on standard output, where it cannot be known."""
-    names = options.files or [name for name in source_files.project_files() if is_judged(name)
-                              and not name.startswith(NOT_COMPILED)]
-    print(f"not looked at, as the preset tidy does not compile it: {', '.join(NOT_COMPILED)}")
+    names = options.files or [name for name in source_files.project_files() if is_judged(name)]
     if options.changed:
         changed = changed_since(recorded())
         if changed is None:

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/engines/start_coordinates.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -63,16 +62,6 @@ void report_lost_energy(const PhysicsScene& scene, const scene::FittedVelocities
                      scene.joints[loss.joint].path.str(), "",
                      "give the bodies velocities with which the joint's frames stay together"});
   }
-}
-
-StepChoice choose_time_step(const PhysicsScene& scene, double usual, double largest) {
-  if (scene.scenes.empty() || !scene.scenes.front().time_step.has_value() ||
-      !(*scene.scenes.front().time_step > 0)) {
-    return {usual, 0, 1};
-  }
-  const double asked = *scene.scenes.front().time_step;
-  const double parts = std::max(std::ceil(asked / largest - 1e-9), 1.0);
-  return {asked / parts, asked, parts};
 }
 
 }  // namespace tenon::engines

@@ -25,12 +25,4 @@ std::vector<double> start_coordinates(const scene::PhysicsScene& scene, const sc
 void report_lost_energy(const scene::PhysicsScene& scene, const scene::FittedVelocities& fitted,
                         Diagnostics& diagnostics);
 
-/// The step that an asset asks for, divided until it is at most `largest`, else `usual` [s].
-struct StepChoice {
-  double time_step = 0;
-  double asked = 0;  ///< by the asset; 0: nothing
-  double parts = 1;  ///< steps for each that is asked for
-};
-StepChoice choose_time_step(const scene::PhysicsScene& scene, double usual, double largest);
-
 }  // namespace tenon::engines

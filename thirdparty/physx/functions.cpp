@@ -59,17 +59,6 @@ PxDistanceJoint* create_distance(PxPhysics& physics, PxRigidActor* actor0,
 
 void release_cache(PxArticulationCache* cache) { cache->release(); }
 
-PxGearJoint* create_gear(PxPhysics& physics, PxRigidActor* actor0, const PxTransform& frame0,
-                         PxRigidActor* actor1, const PxTransform& frame1) {
-  return PxGearJointCreate(physics, actor0, frame0, actor1, frame1);
-}
-
-PxRackAndPinionJoint* create_rack(PxPhysics& physics, PxRigidActor* actor0,
-                                  const PxTransform& frame0, PxRigidActor* actor1,
-                                  const PxTransform& frame1) {
-  return PxRackAndPinionJointCreate(physics, actor0, frame0, actor1, frame1);
-}
-
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const tenon::engines::physx_api::Functions*
@@ -88,8 +77,6 @@ tenon_physx() {
       release_solid,
       release_cache,
       create_d6,
-      create_distance,
-      create_gear,
-      create_rack};
+      create_distance};
   return &functions;
 }

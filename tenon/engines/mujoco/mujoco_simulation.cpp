@@ -20,6 +20,7 @@
 #include "tenon/engines/mujoco/run/carry_over.h"
 #include "tenon/engines/mujoco/run/control.h"
 #include "tenon/engines/mujoco/run/read_state.h"
+#include "tenon/engines/scene_timeline.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -29,17 +30,13 @@ using scene::PhysicsScene;
 constexpr std::size_t kMemoryOfMany = std::size_t{2} << 20u;  // [bytes]
 constexpr std::size_t kMemoryOfManyPerBody = std::size_t{128} << 10u;
 
-std::unique_ptr<scene::Timeline> make_timeline(const PhysicsScene& scene) {
-  return scene::Timeline::is_needed(scene) ? timeline_of(scene) : nullptr;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::make(const PhysicsScene& scene,
                                                                  const SimulationOptions& options,
                                                                  Diagnostics& diagnostics,
                                                                  std::size_t how_many) {
-  auto timeline = make_timeline(scene);
+  auto timeline = timeline_where_needed(scene);
   const PhysicsScene& now = timeline == nullptr ? scene : timeline->scene();
   TENON_TRY(Model model, build_model(now, options, diagnostics));
   auto start = std::make_shared<Start>();
@@ -86,7 +83,7 @@ Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::from_start(
     return Error(ErrorCode::Limit, "MuJoCo has no memory for the simulation");
   }
   TENON_CHECK(write_state(model, start->state, start->asleep));
-  auto timeline = make_timeline(*start->scene);
+  auto timeline = timeline_where_needed(*start->scene);
   return at_start(std::move(start), std::move(timeline), std::move(model));
 }
 

@@ -14,6 +14,7 @@
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 #include "tenon/engines/mujoco/run/advance.h"
 #include "tenon/engines/mujoco/run/carry_over.h"
+#include "tenon/engines/scene_timeline.h"
 #include "tenon/scene/fields/wire_form.h"
 
 namespace tenon::engines::mujoco {

@@ -9,6 +9,7 @@
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 #include "tenon/engines/mujoco/run/carry_over.h"
 #include "tenon/engines/mujoco/run/control.h"
+#include "tenon/engines/scene_timeline.h"
 
 namespace tenon::engines::mujoco {
 namespace {

@@ -65,8 +65,12 @@ bool Model::is_link(scene::Index body) const {
 
 scene::Index collider_of(const px::PxShape& shape) { return shape.getSimulationFilterData().word0; }
 
-std::optional<scene::Index> body_of(const px::PxActor& actor) {
-  const auto number = reinterpret_cast<std::uintptr_t>(actor.userData);
+void* number_of(scene::Index index) {
+  return reinterpret_cast<void*>(static_cast<std::uintptr_t>(index) + 1);  // NOLINT: a number
+}
+
+std::optional<scene::Index> index_of(const void* user_data) {
+  const auto number = reinterpret_cast<std::uintptr_t>(user_data);
   return number == 0 ? std::nullopt
                      : std::optional<scene::Index>(static_cast<scene::Index>(number - 1));
 }

@@ -91,6 +91,11 @@ struct PairRules {
   bool report_contacts = false;
 };
 
+/// What PhysX hands to its filter: it copies this, and so only the way to the rules.
+struct PairRulesLink {
+  const PairRules* rules = nullptr;
+};
+
 struct Model {
   Owned owned;
   std::vector<px::PxScene*> scenes;               ///< (scene_count)
@@ -109,7 +114,12 @@ struct Model {
 
 /// The collider that a shape belongs to.
 scene::Index collider_of(const px::PxShape& shape);
-/// The body or collider that an actor belongs to is in its userData as index + 1.
-std::optional<scene::Index> body_of(const px::PxActor& actor);
+/// Objects of PhysX have what they belong to in their userData; 0 there is nothing.
+void* number_of(scene::Index index);
+std::optional<scene::Index> index_of(const void* user_data);
+/// The body of an actor; none: it is not of the scene, or a static collider.
+inline std::optional<scene::Index> body_of(const px::PxActor& actor) {
+  return index_of(actor.userData);
+}
 
 }  // namespace tenon::engines::physx

@@ -9,7 +9,7 @@
 namespace tenon::engines::physx_api {
 
 /// Goes up with every change of Functions.
-inline constexpr unsigned kFunctionsVersion = 2;
+inline constexpr unsigned kFunctionsVersion = 3;
 
 struct Functions {
   unsigned version;        ///< kFunctionsVersion of the library
@@ -46,15 +46,6 @@ struct Functions {
                                                const ::physx::PxTransform& frame0,
                                                ::physx::PxRigidActor* actor1,
                                                const ::physx::PxTransform& frame1);
-  ::physx::PxGearJoint* (*create_gear)(::physx::PxPhysics& physics, ::physx::PxRigidActor* actor0,
-                                       const ::physx::PxTransform& frame0,
-                                       ::physx::PxRigidActor* actor1,
-                                       const ::physx::PxTransform& frame1);
-  ::physx::PxRackAndPinionJoint* (*create_rack)(::physx::PxPhysics& physics,
-                                                ::physx::PxRigidActor* actor0,
-                                                const ::physx::PxTransform& frame0,
-                                                ::physx::PxRigidActor* actor1,
-                                                const ::physx::PxTransform& frame1);
 };
 
 /// The one symbol of the library.

@@ -31,8 +31,6 @@
 #include <extensions/PxD6Joint.h>
 #include <extensions/PxDefaultCpuDispatcher.h>
 #include <extensions/PxDistanceJoint.h>
-#include <extensions/PxGearJoint.h>
-#include <extensions/PxRackAndPinionJoint.h>
 #include <foundation/PxFoundation.h>
 #include <foundation/PxPhysicsVersion.h>
 #include <geometry/PxCustomGeometry.h>

@@ -14,26 +14,14 @@
 #include "tenon/engines/physx/build/build.h"
 #include "tenon/engines/physx/convert.h"
 #include "tenon/engines/physx/run/read_state.h"
-#include "tenon/engines/start_coordinates.h"
+#include "tenon/engines/scene_timeline.h"
+#include "tenon/engines/time_step.h"
 
 namespace tenon::engines::physx {
 namespace {
 
 using scene::Index;
 using scene::PhysicsScene;
-
-constexpr double kUsualTimeStep = 0.002;    // [s]
-constexpr double kLargestTimeStep = 0.004;  // [s] an asset's own step is divided until it is below
-
-scene::BodyMass least_mass() {
-  scene::BodyMass least;
-  least.mass = 1e-9;
-  least.inertia = {};
-  for (std::size_t i = 0; i < 3; ++i) {
-    least.inertia[i][i] = 1e-13;
-  }
-  return least;
-}
 
 Error unstable(double time, const std::string& why, const Path& prim) {
   char text[64];
@@ -68,10 +56,10 @@ Result<std::unique_ptr<PhysxSimulation>> PhysxSimulation::make(const PhysicsScen
                                                                const SimulationOptions& options,
                                                                Diagnostics& diagnostics) {
   TENON_CHECK(check_methods(options.methods));
-  const StepChoice choice = choose_time_step(scene, kUsualTimeStep, kLargestTimeStep);
+  const double time_step =
+      choose_time_step(scene, options, "PhysX", "physx.time-step", diagnostics);
   std::unique_ptr<PhysxSimulation> made(new PhysxSimulation(scene, options));
-  TENON_CHECK(
-      made->begin(options.time_step > 0 ? options.time_step : choice.time_step, diagnostics));
+  TENON_CHECK(made->begin(time_step, diagnostics));
   return made;
 }
 
@@ -79,9 +67,7 @@ PhysxSimulation::PhysxSimulation(const PhysicsScene& scene, const SimulationOpti
     : asset_(&scene), options_(options), scene_(&scene) {}
 
 Result<void> PhysxSimulation::begin(double time_step, Diagnostics& diagnostics) {
-  timeline_ = scene::Timeline::is_needed(*asset_)
-                  ? std::make_unique<scene::Timeline>(*asset_, least_mass())
-                  : nullptr;
+  timeline_ = timeline_where_needed(*asset_);
   scene_ = timeline_ == nullptr ? asset_ : &timeline_->scene();
   TENON_TRY(model_, build_model(*scene_, options_, time_step, diagnostics, Begin::Start));
   connect();
@@ -97,7 +83,7 @@ void PhysxSimulation::connect() {
   }
   told_ = std::move(told);
   surfaces_ = std::move(surfaces);
-  inputs_ = StepInputs(*scene_, model_);
+  inputs_ = StepInputs(*scene_);
   stale_ = true;
 }
 
@@ -196,9 +182,7 @@ void PhysxSimulation::bring_up_to_date() const {
   }
 }
 
-BodyState PhysxSimulation::body_state(Index body) const {
-  return read_body_state(*scene_, model_, body);
-}
+BodyState PhysxSimulation::body_state(Index body) const { return read_body_state(model_, body); }
 
 JointState PhysxSimulation::joint_state(Index joint) const {
   bring_up_to_date();

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "tenon/engines/mujoco/build/build.h"
-#include "tenon/engines/mujoco/build/min_inertia.h"
+#include "tenon/engines/scene_timeline.h"
 #include "tenon/math/inertia.h"
 
 namespace tenon::engines::mujoco {

@@ -5,40 +5,20 @@
 // made, so bodies come first, then joints and what acts on them, then geoms, then filters and
 // surfaces, which look at the geoms. MuJoCo refuses whole models. The part that its words name is
 // left out (of a joint, its limits), and all passes run again on a fresh spec, at most 100 times.
-#include <algorithm>
-#include <cmath>
 #include <set>
 #include <string_view>
 
 #include "tenon/base/limits/limits.h"
-#include "tenon/base/text/text_number.h"
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/build/model_size.h"
 #include "tenon/engines/mujoco/build/surfaces.h"
 #include "tenon/engines/mujoco/error_hook.h"
-#include "tenon/engines/start_coordinates.h"
+#include "tenon/engines/time_step.h"
 
 namespace tenon::engines::mujoco {
 namespace {
 
-constexpr double kDefaultTimeStep = 0.002;  // [s]
-constexpr std::size_t kMaxRefused = 100;    // parts that are left out before the model is given up
-constexpr double kLargestTimeStep = 0.004;  // [s] an asset's own step is divided until it is below
-
-double time_step_of(const scene::PhysicsScene& scene, const SimulationOptions& options,
-                    Diagnostics& diagnostics) {
-  if (options.time_step > 0) {
-    return options.time_step;
-  }
-  const StepChoice choice = choose_time_step(scene, kDefaultTimeStep, kLargestTimeStep);
-  if (choice.parts > 1) {
-    diagnostics.add({Severity::Info, "mujoco.time-step",
-                     "the scene asks for steps of " + std::to_string(choice.asked) +
-                         " s; MuJoCo takes " + shortest(choice.parts) + " steps for each",
-                     "", 0, 0, scene.scenes.front().path.str(), "", ""});
-  }
-  return choice.time_step;
-}
+constexpr std::size_t kMaxRefused = 100;  // parts that are left out before the model is given up
 
 Result<void> check_sizes(const Build& build) {
   if (build.plan.forest.depth > limits::kKinematicChain) {
@@ -132,7 +112,8 @@ void append_untold(const Diagnostics& findings, Diagnostics& diagnostics) {
 Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const SimulationOptions& options,
                                 Diagnostics& diagnostics, Begin begin, Purpose purpose) {
   TENON_CHECK(open_mujoco());
-  const double time_step = time_step_of(scene, options, diagnostics);
+  const double time_step =
+      choose_time_step(scene, options, "MuJoCo", "mujoco.time-step", diagnostics);
   std::set<Path> refused;
   while (true) {
     Diagnostics findings;

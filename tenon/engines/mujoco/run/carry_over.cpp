@@ -6,7 +6,6 @@
 #include <cstddef>
 
 #include "tenon/engines/mujoco/build/build.h"
-#include "tenon/engines/mujoco/build/min_inertia.h"
 
 namespace tenon::engines::mujoco {
 
@@ -15,16 +14,6 @@ Result<Model> model_in_the_middle(const scene::PhysicsScene& scene, SimulationOp
   options.time_step = time_step;
   Diagnostics silent;  // what there is to say was said at the start
   return build_model(scene, options, silent, Begin::Middle);
-}
-
-std::unique_ptr<scene::Timeline> timeline_of(const scene::PhysicsScene& scene) {
-  scene::BodyMass least;
-  least.mass = kMinMass;
-  least.inertia = {};
-  for (std::size_t i = 0; i < 3; ++i) {
-    least.inertia[i][i] = kMinMoment;
-  }
-  return std::make_unique<scene::Timeline>(scene, least);
 }
 
 bool same_coordinates(const scene::JointDofs& a, const scene::JointDofs& b) {

@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
 #include "tenon/base/result.h"
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/simulation.h"
-#include "tenon/scene/timeline/timeline.h"
 
 /// What goes from one model of a scene to the next, when the scene changed so much that the model
 /// is made anew. Poses and velocities of bodies go through the scene, where a joint or a merged
@@ -20,9 +17,6 @@ void carry_joints_over(const Model& last, Model& next);
 /// The model of a scene as it is in the middle of a run, said nothing about.
 Result<Model> model_in_the_middle(const scene::PhysicsScene& scene, SimulationOptions options,
                                   double time_step);
-
-/// A timeline whose merged bodies get what MuJoCo still moves.
-std::unique_ptr<scene::Timeline> timeline_of(const scene::PhysicsScene& scene);
 
 /// The two give a joint the same coordinates.
 bool same_coordinates(const scene::JointDofs& a, const scene::JointDofs& b);

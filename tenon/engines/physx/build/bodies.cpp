@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "tenon/engines/physx/build/build.h"
+#include "tenon/engines/scene_timeline.h"
 #include "tenon/math/inertia.h"
 
 namespace tenon::engines::physx {
@@ -15,15 +16,8 @@ namespace {
 
 using scene::Index;
 
-constexpr double kLeastMass = 1e-9;     // [kg]
-constexpr double kLeastMoment = 1e-13;  // [kg m^2]
-
 float speed_bound(double bound) {
   return static_cast<float>(std::min(bound, static_cast<double>(kNoBound)));
-}
-
-void* number_of(Index index) {
-  return reinterpret_cast<void*>(static_cast<std::uintptr_t>(index) + 1);  // NOLINT: a number
 }
 
 // PhysX locks axes of the world on bodies that stand alone.
@@ -47,12 +41,8 @@ px::PxRigidDynamic* make_free_body(Build& build, Index index) {
   return made;
 }
 
-/// The trees of links while they are made: each body's own.
-struct Trees {
-  explicit Trees(std::size_t body_count) : of_body(body_count, kNone) {}
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> of_body;
-};
+/// The tree of each body that is a link (body_count).
+using Trees = std::vector<std::size_t>;
 
 std::size_t new_tree(Build& build, Index body, bool fixed) {
   px::PxArticulationReducedCoordinate* made =
@@ -98,27 +88,27 @@ void add_link(Build& build, Index body, Trees& trees) {
   const scene::ForestBody& place = build.forest.bodies[body];
   const JointMap* map = place.joint ? &build.model.joints[*place.joint] : nullptr;
   if (map != nullptr && map->role == JointRole::Root) {
-    trees.of_body[body] = new_tree(build, body, true);
-    new_link(build, trees.of_body[body], nullptr, body);
+    trees[body] = new_tree(build, body, true);
+    new_link(build, trees[body], nullptr, body);
     return;
   }
   if (map == nullptr || map->role != JointRole::Reduced) {  // it floats, others hang on it
-    trees.of_body[body] = new_tree(build, body, false);
-    new_link(build, trees.of_body[body], nullptr, body);
+    trees[body] = new_tree(build, body, false);
+    new_link(build, trees[body], nullptr, body);
     return;
   }
   JointMap& joint = build.model.joints[*place.joint];
   px::PxArticulationLink* parent = nullptr;
   if (place.parent.has_value()) {
-    trees.of_body[body] = trees.of_body[*place.parent];
+    trees[body] = trees[*place.parent];
     parent = link_of(build, *place.parent);
   } else {
-    trees.of_body[body] = new_tree(build, body, true);
+    trees[body] = new_tree(build, body, true);
     const scene::Joint& source = build.scene.joints[*place.joint];
-    parent = new_anchor(build, trees.of_body[body], joint.reversed ? source.frame1 : source.frame0);
+    parent = new_anchor(build, trees[body], joint.reversed ? source.frame1 : source.frame0);
   }
-  px::PxArticulationLink* link = new_link(build, trees.of_body[body], parent, body);
-  joint.tree = trees.of_body[body];
+  px::PxArticulationLink* link = new_link(build, trees[body], parent, body);
+  joint.tree = trees[body];
   joint.link_joint = link == nullptr ? nullptr : link->getInboundJoint();
 }
 
@@ -147,9 +137,9 @@ void set_mass(const scene::Body& body, px::PxRigidBody& made) {
   const PrincipalInertia principal = principal_inertia(body.inertia);
   px::PxVec3 moments;
   for (px::PxU32 i = 0; i < 3; ++i) {
-    moments[i] = to_px(std::max(principal.moments[i], kLeastMoment));
+    moments[i] = to_px(std::max(principal.moments[i], kMinMoment));
   }
-  made.setMass(to_px(std::max(body.mass, kLeastMass)));
+  made.setMass(to_px(std::max(body.mass, kMinMass)));
   made.setMassSpaceInertiaTensor(moments);
   made.setCMassLocalPose(to_px(Pose{body.center_of_mass, principal.axes}));
   made.setLinearDamping(to_px(body.linear_damping));
@@ -163,7 +153,7 @@ void set_mass(const scene::Body& body, px::PxRigidBody& made) {
 Result<void> add_bodies(Build& build) {
   build.model.bodies.assign(build.scene.bodies.size(), nullptr);
   const std::vector<char> is_link = links_of(build);
-  Trees trees(build.scene.bodies.size());
+  Trees trees(build.scene.bodies.size(), 0);
   for (const Index body : build.forest.order) {
     if (is_link[body] != 0) {
       add_link(build, body, trees);

@@ -64,26 +64,19 @@ void add_materials(Build& build);
 /// Free bodies and links, without shapes.
 Result<void> add_bodies(Build& build);
 /// Shapes of bodies, and static actors.
-Result<void> add_colliders(Build& build);
+void add_colliders(Build& build);
 /// Coordinates, bounds and drives of joints of trees.
 void set_reduced_joints(Build& build);
 /// Constraints for the other joints.
-Result<void> add_constraints(Build& build);
+void add_constraints(Build& build);
 void add_mimics(Build& build);
 void report_unmapped(Build& build);
 /// Puts everything into its scene, with the velocities and coordinates that it starts with.
-Result<void> start(Build& build, Begin begin);
+void start(Build& build, Begin begin);
 
 // What passes share.
 
 /// Mass, centre of mass, inertia, damping and speeds of a body.
 void set_mass(const scene::Body& body, px::PxRigidBody& made);
-/// The shapes of one collider on an actor.
-Result<void> add_shapes(Build& build, scene::Index collider, px::PxRigidActor& actor);
-/// The joint's frame of one side as PhysX has it, in the body.
-struct JointFrames {
-  px::PxTransform frame0;
-  px::PxTransform frame1;
-};
 
 }  // namespace tenon::engines::physx

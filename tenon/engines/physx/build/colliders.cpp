@@ -96,9 +96,7 @@ px::PxRigidActor* make_static_actor(Build& build, Index index) {
   return moved;
 }
 
-}  // namespace
-
-Result<void> add_shapes(Build& build, Index index, px::PxRigidActor& actor) {
+void add_shapes(Build& build, Index index, px::PxRigidActor& actor) {
   const Collider& collider = build.scene.colliders[index];
   const bool moves = collider.body.has_value() && !build.scene.bodies[*collider.body].kinematic;
   const Pose local = collider.body.has_value() ? collider.pose : Pose{};
@@ -120,10 +118,11 @@ Result<void> add_shapes(Build& build, Index index, px::PxRigidActor& actor) {
     shape->release();  // the actor keeps it
     build.model.shapes[index].push_back(shape);
   }
-  return {};
 }
 
-Result<void> add_colliders(Build& build) {
+}  // namespace
+
+void add_colliders(Build& build) {
   build.model.shapes.resize(build.scene.colliders.size());
   build.model.static_actors.assign(build.scene.colliders.size(), nullptr);
   for (Index c = 0; c < build.scene.colliders.size(); ++c) {
@@ -137,9 +136,8 @@ Result<void> add_colliders(Build& build) {
     } else {
       actor = build.model.static_actors[c] = make_static_actor(build, c);
     }
-    TENON_CHECK(add_shapes(build, c, *actor));
+    add_shapes(build, c, *actor);
   }
-  return {};
 }
 
 }  // namespace tenon::engines::physx

@@ -218,7 +218,7 @@ float break_bound(double bound) { return bound < scene::kUnlimited ? to_px(bound
 
 }  // namespace
 
-Result<void> add_constraints(Build& build) {
+void add_constraints(Build& build) {
   for (Index j = 0; j < build.model.joints.size(); ++j) {
     JointMap& map = build.model.joints[j];
     if (map.role != JointRole::Maximal) {
@@ -233,13 +233,11 @@ Result<void> add_constraints(Build& build) {
       map.role = JointRole::None;
       continue;
     }
-    map.constraint->userData =
-        reinterpret_cast<void*>(static_cast<std::uintptr_t>(j) + 1);  // NOLINT: a number
+    map.constraint->userData = number_of(j);
     map.constraint->setConstraintFlag(px::PxConstraintFlag::eCOLLISION_ENABLED, true);
     map.constraint->setConstraintFlag(px::PxConstraintFlag::eDRIVE_LIMITS_ARE_FORCES, true);
     map.constraint->setBreakForce(break_bound(joint.break_force), break_bound(joint.break_torque));
   }
-  return {};
 }
 
 }  // namespace tenon::engines::physx

@@ -49,14 +49,14 @@ Result<void> add_scenes(Build& build) {
   build.model.pairs = std::make_unique<PairRules>();
   build.model.pairs->scene = &build.scene;
   build.model.pairs->report_contacts = build.options.outputs.contacts;
-  const PairRules* rules = build.model.pairs.get();
+  const PairRulesLink link{build.model.pairs.get()};
   for (const scene::Scene& source : build.scene.scenes) {
     px::PxSceneDesc wanted(build.runtime.physics->getTolerancesScale());
     wanted.gravity = to_px(source.gravity);
     wanted.cpuDispatcher = build.runtime.dispatcher;
     wanted.filterShader = filter_pair;
-    wanted.filterShaderData = &rules;
-    wanted.filterShaderDataSize = sizeof rules;
+    wanted.filterShaderData = &link;
+    wanted.filterShaderDataSize = sizeof link;
     wanted.kineKineFilteringMode = px::PxPairFilteringMode::eKEEP;
     wanted.staticKineFilteringMode = px::PxPairFilteringMode::eKEEP;
     wanted.solverType = px::PxSolverType::ePGS;

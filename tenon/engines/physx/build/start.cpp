@@ -169,7 +169,7 @@ std::vector<scene::JointDofs> dofs_of(const Model& model) {
 
 }  // namespace
 
-Result<void> start(Build& build, Begin begin) {
+void start(Build& build, Begin begin) {
   insert(build);
   for (std::size_t t = 0; t < build.model.trees.size(); ++t) {
     place_tree(build, t);
@@ -189,7 +189,6 @@ Result<void> start(Build& build, Begin begin) {
   if (begin == Begin::Start) {
     put_to_sleep(build);
   }
-  return {};
 }
 
 }  // namespace tenon::engines::physx

@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the scene says and PhysX 5.1 here does not do; nothing is passed over in silence.
+#include <algorithm>
+
 #include "tenon/engines/physx/build/build.h"
 #include "tenon/engines/physx/run/drives.h"
 #include "tenon/engines/physx/slots.h"
+#include "tenon/engines/scene_timeline.h"
+#include "tenon/math/inertia.h"
 #include "tenon/scene/joint_freedom.h"
 
 namespace tenon::engines::physx {
@@ -15,6 +19,15 @@ using scene::Joint;
 
 void report_body(Build& build, Index index) {
   const scene::Body& body = build.scene.bodies[index];
+  if (!(body.mass >= kMinMass)) {
+    build.report(body.path, "physics:mass",
+                 "PhysX takes a massless body for an infinitely heavy one; 1e-9 kg is used");
+  }
+  const Vec3d moments = principal_inertia(body.inertia).moments;
+  if (!(std::min({moments[0], moments[1], moments[2]}) >= kMinMoment)) {
+    build.report(body.path, "physics:diagonalInertia",
+                 "PhysX never turns a body without inertia; principal moments are raised to 1e-13");
+  }
   const scene::BodySettings& settings = body.settings;
   const bool locks = settings.locked_translation != 0 || settings.locked_rotation != 0;
   if (locks && build.model.is_link(index)) {

@@ -18,12 +18,15 @@ bool has_surface_velocity(const scene::PhysicsScene& scene, scene::Index collide
 
 }  // namespace
 
+// NOLINTBEGIN(performance-unnecessary-value-param): PhysX says how it is called
 px::PxFilterFlags filter_pair(px::PxFilterObjectAttributes attributes0, px::PxFilterData data0,
                               px::PxFilterObjectAttributes attributes1, px::PxFilterData data1,
                               px::PxPairFlags& flags, const void* constants, px::PxU32 /*size*/) {
-  const PairRules* rules = nullptr;
-  std::memcpy(static_cast<void*>(&rules), constants, sizeof(void*));
-  const scene::PhysicsScene& scene = *rules->scene;
+  // NOLINTEND(performance-unnecessary-value-param)
+  PairRulesLink link;
+  std::memcpy(&link, constants, sizeof link);
+  const PairRules& rules = *link.rules;
+  const scene::PhysicsScene& scene = *rules.scene;
   if (!scene.may_meet(data0.word0, data1.word0)) {
     return px::PxFilterFlag::eSUPPRESS;
   }
@@ -38,7 +41,7 @@ px::PxFilterFlags filter_pair(px::PxFilterObjectAttributes attributes0, px::PxFi
   if (has_surface_velocity(scene, data0.word0) || has_surface_velocity(scene, data1.word0)) {
     flags |= px::PxPairFlag::eMODIFY_CONTACTS;
   }
-  if (rules->report_contacts) {
+  if (rules.report_contacts) {
     flags |= px::PxPairFlag::eNOTIFY_TOUCH_FOUND | px::PxPairFlag::eNOTIFY_TOUCH_PERSISTS |
              px::PxPairFlag::eNOTIFY_CONTACT_POINTS;
   }

@@ -46,7 +46,7 @@ void read_caches(const Model& model) {
   }
 }
 
-BodyState read_body_state(const scene::PhysicsScene& /*scene*/, const Model& model, Index body) {
+BodyState read_body_state(const Model& model, Index body) {
   const px::PxRigidBody& actor = *model.bodies[body];
   return {from_px(actor.getGlobalPose()), from_px(actor.getLinearVelocity()),
           from_px(actor.getAngularVelocity())};

@@ -13,7 +13,7 @@ namespace tenon::engines::physx {
 /// Brings the caches of all trees up to date with the last step.
 void read_caches(const Model& model);
 
-BodyState read_body_state(const scene::PhysicsScene& scene, const Model& model, scene::Index body);
+BodyState read_body_state(const Model& model, scene::Index body);
 /// read_caches() must have run.
 JointState read_joint_state(const scene::PhysicsScene& scene, const Model& model,
                             scene::Index joint);

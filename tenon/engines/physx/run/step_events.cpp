@@ -43,12 +43,13 @@ void StepEvents::onConstraintBreak(px::PxConstraintInfo* constraints, px::PxU32 
       continue;
     }
     const auto* joint = static_cast<const px::PxJoint*>(constraints[i].externalReference);
-    const auto number = reinterpret_cast<std::uintptr_t>(joint->userData);
     px::PxVec3 force(0);
     px::PxVec3 torque(0);
     constraints[i].constraint->getForce(force, torque);
-    broken.push_back({static_cast<scene::Index>(number - 1), static_cast<double>(force.magnitude()),
-                      static_cast<double>(torque.magnitude())});
+    if (const std::optional<scene::Index> index = index_of(joint->userData)) {
+      broken.push_back({*index, static_cast<double>(force.magnitude()),
+                        static_cast<double>(torque.magnitude())});
+    }
   }
 }
 

@@ -81,7 +81,7 @@ Wrench constant_wrench(const scene::Body& body, const px::PxRigidBody& actor) {
 
 }  // namespace
 
-StepInputs::StepInputs(const scene::PhysicsScene& scene, const Model& /*model*/) : scene_(&scene) {
+StepInputs::StepInputs(const scene::PhysicsScene& scene) : scene_(&scene) {
   for (const scene::ScalarTrack& track : scene.scalar_tracks) {
     if (!track.times.empty()) {
       tracked_.push_back(track.joint);

@@ -14,7 +14,7 @@ namespace tenon::engines::physx {
 class StepInputs {
  public:
   StepInputs() = default;
-  StepInputs(const scene::PhysicsScene& scene, const Model& model);
+  explicit StepInputs(const scene::PhysicsScene& scene);
 
   /// `now` [s] is the beginning of the step.
   void before_step(const Model& model, const Steering& steering, double now);
