@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "tenon/base/function.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/scene/fields/enum_names.h"
 #include "tenon/scene/fields/fact.h"
@@ -58,7 +58,7 @@ inline constexpr bool kHasNumbers = has_numbers<T>();
 
 struct Side {
   const PhysicsScene& scene;
-  std::function<Path(Path)> moved;  ///< of colliders; none: where they are
+  Function<Path(Path)> moved;  ///< of colliders; none: where they are
 
   /// Of the object that an index leads to.
   Path path(List list, Index index) const {
