@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,7 +40,7 @@ struct CompareOptions {
   /// Numbers are equal when |a - b| <= tolerance * max(smallest_size, |a|, |b|).
   double tolerance = 0;
   double smallest_size = 1;
-  std::size_t max_differences = std::numeric_limits<std::size_t>::max();  ///< it ends there
+  std::size_t max_differences = static_cast<std::size_t>(-1);  ///< it ends there
 
   /// Two scenes that shall move alike are compared: by the tolerance of each field, without
   /// provenance, materials and scenes by what they say and not by where they are. Schemas of one
