@@ -58,6 +58,7 @@ constexpr KindRow kKinds[] = {
     {OutputKind::Dump, "a dump", {".json"}, true, true},
     {OutputKind::Sarif, "a SARIF log", {".sarif", ".json"}, true, true},
     {OutputKind::Baseline, "a baseline", {".json"}, true, true},
+    {OutputKind::Comparison, "a comparison", {".html", ".json", ".csv"}, false, false},
 };
 
 const KindRow& row_of(OutputKind kind) {

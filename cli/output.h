@@ -35,6 +35,7 @@ enum class OutputKind : std::uint8_t {
   Dump,         ///< of a stage
   Sarif,
   Baseline,
+  Comparison,  ///< of motions
 };
 
 /// The files of one run. They are claimed before the work, so that nobody waits for what cannot be

@@ -23,6 +23,7 @@ constexpr std::array kVerbs{
     Verb{"bake", add_bake},
     Verb{"cat", add_cat},
     Verb{"check", add_check},
+    Verb{"compare", add_compare},
     Verb{"completion", add_completion},
     Verb{"convert", add_convert},
     Verb{"diff", add_diff},

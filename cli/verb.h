@@ -79,6 +79,7 @@ using AddVerb = void(const Command& parent, const Globals& globals, Chosen& chos
 AddVerb add_bake;
 AddVerb add_cat;
 AddVerb add_check;
+AddVerb add_compare;
 AddVerb add_completion;
 AddVerb add_convert;
 AddVerb add_diff;

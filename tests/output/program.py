@@ -150,6 +150,7 @@ PRINTING = {
     "manual": ["manual"],
     "physics": ["physics", "scene.usda"],
     "set": ["set", "scene.usda", "/World/box.size=1", "--dry-run"],
+    "compare": ["compare", "scene.usda", "--engines", "mujoco,mujoco", "--duration", "0.1"],
     "sim": ["sim", "scene.usda", "--duration", "0.1"],
     "strip": ["strip", "base.usda", "-o", "-"],
     "structure": ["structure", "scene.usda", "--dry-run"],
@@ -182,6 +183,8 @@ WRITING = {
     "manual": [],
     "physics": [],
     "set": [],  # in place alone
+    "compare": [["compare", "scene.usda", "--engines", "mujoco,mujoco", "--duration", "0.1", "-o",
+                 f"OUT.{ending}"] for ending in ("html", "csv", "json")],
     "sim": [["sim", "scene.usda", "--duration", "0.1", "-o", "OUT.csv"],
             ["sim", "scene.usda", "--duration", "0.1", "-o", "OUT.npz"],
             ["sim", "scene.usda", "--duration", "0.1", "-o", "OUT.csv", "--log", "contacts,energy"],

@@ -33,15 +33,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-double duration_of(const SimulateAssetOptions& options, const scene::PhysicsScene& scene) {
-  if (options.duration) {
-    return *options.duration;
-  }
-  const double authored =
-      (scene.end_time_code - scene.start_time_code) / scene.time_codes_per_second;
-  return authored > 0 && std::isfinite(authored) ? authored : 5.0;
-}
-
 /// How many values of the size of a state a frame has.
 double values_of_frame(const scene::PhysicsScene& scene, const engines::Outputs& outputs) {
   const auto bodies = static_cast<double>(scene.bodies.size());
@@ -63,14 +54,7 @@ Result<void> check_run(const bake::RunOptions& run, const engines::Simulation& s
   }
   const double states =
       (run.duration * run.frames_per_second + 2) * values_of_frame(scene, *run.outputs);
-  if (states > static_cast<double>(limits::kRecordedStates)) {
-    return Error(ErrorCode::Limit, "the run would record " + shortest(std::floor(states)) +
-                                       " states of bodies and joints; the limit is " +
-                                       std::to_string(limits::kRecordedStates))
-        .with_rule("sim.record-too-long")
-        .with_fix("give a lower --fps or a shorter --duration");
-  }
-  return {};
+  return check_recorded_states(states);
 }
 
 /// MuJoCo prepares a model in a time that grows with the square of its bodies: 10,000 that are free
@@ -190,7 +174,7 @@ Result<void> read_commands(const SimulateAssetOptions& options, SimulatedAsset& 
 /// What the run is asked for, of an asset that is ready.
 bake::RunOptions run_options(const SimulateAssetOptions& options, const SimulatedAsset& asset) {
   bake::RunOptions run;
-  run.duration = duration_of(options, *asset.scene);
+  run.duration = run_duration(options.duration, *asset.scene);
   run.frames_per_second = options.frames_per_second;
   run.outputs = options.outputs;
   run.commands = asset.commands ? &*asset.commands : nullptr;
@@ -268,6 +252,26 @@ void report_end(const SimulateAssetOptions& options, const SimulatedAsset& asset
 }
 
 }  // namespace
+
+double run_duration(const std::optional<double>& asked, const scene::PhysicsScene& scene) {
+  if (asked) {
+    return *asked;
+  }
+  const double authored =
+      (scene.end_time_code - scene.start_time_code) / scene.time_codes_per_second;
+  return authored > 0 && std::isfinite(authored) ? authored : 5.0;
+}
+
+Result<void> check_recorded_states(double states) {
+  if (states > static_cast<double>(limits::kRecordedStates)) {
+    return Error(ErrorCode::Limit, "the run would record " + shortest(std::floor(states)) +
+                                       " states of bodies and joints; the limit is " +
+                                       std::to_string(limits::kRecordedStates))
+        .with_rule("sim.record-too-long")
+        .with_fix("give a lower --fps or a shorter --duration");
+  }
+  return {};
+}
 
 Result<SimulatedAsset> simulate_asset(const std::string& path, const SimulateAssetOptions& options,
                                       Diagnostics& diagnostics) {

@@ -72,6 +72,13 @@ struct SimulatedAsset {
 Result<SimulatedAsset> simulate_asset(const std::string& path, const SimulateAssetOptions& options,
                                       Diagnostics& diagnostics);
 
+/// What is asked for; else what the stage's time range says, else 5 [s].
+double run_duration(const std::optional<double>& asked, const scene::PhysicsScene& scene);
+
+/// Refuses a recording of so many states of bodies and joints that no memory holds it: Limit
+/// (sim.record-too-long).
+Result<void> check_recorded_states(double states);
+
 /// The full state at the end, for SimulateAssetOptions::state_in. Errors: Unsupported where the
 /// engine saves none; why the run failed where it did, because nothing could go on from there.
 Result<std::string> end_state(const SimulatedAsset& simulated);

@@ -21,7 +21,7 @@ bool near_numbers(const Numbers& a, const Numbers& b, double scale = 0) {
     scale = std::max({scale, std::fabs(a[i]), std::fabs(b[i])});
   }
   for (std::size_t i = 0; i < a.size(); ++i) {
-    if (!(a[i] == b[i] || std::fabs(a[i] - b[i]) <= kNear * scale)) {
+    if (!(a[i] == b[i] || (std::isfinite(scale) && std::fabs(a[i] - b[i]) <= kNear * scale))) {
       return false;
     }
   }
@@ -54,7 +54,8 @@ template <class T>
 bool near_fields(const T& a, const T& b) {
   return fields_agree(a, b, []<class Leaf>(const Leaf& x, const Leaf& y) {
     if constexpr (std::is_floating_point_v<Leaf>) {
-      return x == y || std::fabs(x - y) <= kNear * std::max(std::fabs(x), std::fabs(y)) ||
+      const auto scale = std::max(std::fabs(x), std::fabs(y));
+      return x == y || (std::isfinite(scale) && std::fabs(x - y) <= kNear * scale) ||
              (std::isnan(x) && std::isnan(y));
     } else if constexpr (std::is_same_v<Leaf, Pose>) {
       return near_poses(x, y);
