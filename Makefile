@@ -10,17 +10,17 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 help:
 	@echo "make demo    build tenon, let the example hand grasp, say what to look at"
 	@echo "make test    build with sanitizers and run every test"
-	@echo "make build   only the program: build/release/bin/tenon; ENGINES=all: PhysX too"
+	@echo "make build   only the program: build/release/bin/tenon; ENGINES=all: PhysX and Jolt too"
 	@echo "make docs    the reference of the C++ headers: build/docs/html"
 	@echo "make bench   measure, beside usd-core; BASE=<commit>: beside that commit"
 	@echo "make judge   the long runs, hours of them; ONLY=\"NAME...\" chooses, tools/judge.py --list"
 	@echo "make tidy    clang-tidy over the whole program, half an hour of processor time"
 	@echo "make clean   remove build/"
 
-# ENGINES=all: with every engine, PhysX too; a build folder that has them keeps them.
+# ENGINES=all: with every engine, PhysX and Jolt too; a build folder that has them keeps them.
 ifeq ($(ENGINES),all)
 build: engine-packages packages
-	@cmake --preset release -DTENON_WITH_PHYSX=ON
+	@cmake --preset release -DTENON_WITH_PHYSX=ON -DTENON_WITH_JOLT=ON
 else
 build: packages
 endif
@@ -35,7 +35,7 @@ demo: build
 
 # Some tests are of the program that users run.
 test: test-packages oracle build/dev/build.ninja build/release/build.ninja
-	@cmake --preset release -DTENON_WITH_PHYSX=ON > /dev/null
+	@cmake --preset release -DTENON_WITH_PHYSX=ON -DTENON_WITH_JOLT=ON > /dev/null
 	@tools/quiet_build.sh dev $(JOBS) all
 	@tools/quiet_build.sh release $(JOBS) all
 	@tools/quiet_tests.sh dev -LE judge -j $(JOBS)

@@ -59,6 +59,10 @@ if(TENON_WITH_PHYSX)
   install(FILES ${tenon_physx_root}/licences/LICENSE.md
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon/physx)
 endif()
+if(TENON_WITH_JOLT)
+  install(FILES ${tenon_jolt_root}/licences/LICENSE
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tenon/jolt)
+endif()
 if(TARGET tenon_library)
   include(install_library)
 endif()

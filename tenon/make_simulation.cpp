@@ -8,6 +8,9 @@
 #include <utility>
 
 #include "tenon/engines/engines.h"
+#if TENON_WITH_JOLT
+#include "tenon/engines/jolt/jolt_engine.h"
+#endif
 #if TENON_WITH_MUJOCO
 #include "tenon/engines/mujoco/mujoco_engine.h"
 #endif
@@ -25,6 +28,9 @@ std::span<const engines::Engine> built_engines() {
 #endif
 #if TENON_WITH_PHYSX
       {engines::physx::info, engines::physx::make_simulation},
+#endif
+#if TENON_WITH_JOLT
+      {engines::jolt::info, engines::jolt::make_simulation},
 #endif
       {}};
   return std::span(kBuilt).first(std::size(kBuilt) - 1);

@@ -17,7 +17,7 @@ struct KnownEngine {
 };
 
 constexpr std::array<KnownEngine, 3> kKnownEngines{{
-    {"jolt", "This version of tenon has no Jolt adapter; use mujoco."},
+    {"jolt", "Build tenon with Jolt: make build ENGINES=all, or -DTENON_WITH_JOLT=ON."},
     {"mujoco", "Build tenon with -DTENON_WITH_MUJOCO=ON (the default of the presets)."},
     {"physx", "Build tenon with PhysX: make build ENGINES=all, or -DTENON_WITH_PHYSX=ON."},
 }};

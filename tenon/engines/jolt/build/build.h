@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/engines/jolt/convert.h"
+#include "tenon/engines/jolt/model.h"
+#include "tenon/engines/simulation_values.h"
+#include "tenon/scene/joint_forest.h"
+
+/// Neutral scene -> Jolt, pass by pass. Internal to the adapter.
+namespace tenon::engines::jolt {
+
+/// Where a model begins.
+enum class Begin : std::uint8_t {
+  Start,   ///< at the start of a run
+  Middle,  ///< in it: the bodies' poses and velocities are those of the run
+};
+
+/// Jolt's iterations of velocities and positions where bodies hang on joints, and its own
+/// elsewhere.
+inline constexpr JPH::uint kJointVelocitySteps = 100;
+inline constexpr JPH::uint kJointPositionSteps = 10;
+inline constexpr JPH::uint kMostSteps = 255;  ///< Jolt keeps them in a byte
+
+struct Build {
+  Build(const scene::PhysicsScene& the_scene, const SimulationOptions& the_options,
+        Diagnostics& findings)
+      : scene(the_scene), options(the_options), diagnostics(findings) {}
+
+  const scene::PhysicsScene& scene;
+  const SimulationOptions& options;
+  Diagnostics& diagnostics;
+  scene::JointForest forest;
+  std::vector<BodyState> states;  ///< where bodies are placed, and how they move (body_count)
+  Model model;
+
+  JPH::uint joint_steps() const {
+    const auto asked = static_cast<JPH::uint>(std::max(options.methods.iterations, 0));
+    return std::min(asked > 0 ? asked : kJointVelocitySteps, kMostSteps);
+  }
+  void report(const Path& prim, const std::string& property, const std::string& why) {
+    model.not_mapped.push_back({prim, property, why});
+  }
+};
+
+/// Errors: Invalid where Jolt refuses the scene.
+Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOptions& options,
+                          double time_step, Diagnostics& diagnostics, Begin begin);
+
+// The passes, in their order.
+
+/// Which joints act, and where bodies stand and how they move at the beginning.
+void plan(Build& build, Begin begin);
+void add_systems(Build& build);
+/// Bodies with their shapes, and static ones of colliders.
+Result<void> add_bodies(Build& build, Begin begin);
+/// What holds what joints lock.
+void add_holders(Build& build);
+/// What acts along coordinates.
+void add_laws(Build& build);
+void add_mimics(Build& build);
+void report_unmapped(Build& build);
+/// Puts constraints into their systems.
+void insert_constraints(Build& build);
+
+// What passes share.
+
+/// Mass and inertia of a body.
+void set_mass(const scene::Body& body, JPH::Body& made);
+/// Jolt's body on one side of a joint: the world's where it has none.
+JPH::Body& side_body(const Model& model, const std::optional<scene::Index>& body);
+/// The frame of one side of a joint in the frame of its body's centre of mass.
+Pose side_frame(const scene::PhysicsScene& scene, const std::optional<scene::Index>& body,
+                const Pose& frame);
+/// The coordinate `index` of a joint for a law.
+CoordinateOf coordinate_of(const Build& build, scene::Index joint, std::size_t index);
+/// Numbers of a drive, as its term has them.
+void write_drive(const scene::Drive& drive, LawTerm& term);
+
+}  // namespace tenon::engines::jolt
