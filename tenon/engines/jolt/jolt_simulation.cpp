@@ -109,7 +109,7 @@ Result<void> JoltSimulation::step() {
 
 Result<void> JoltSimulation::advance() {
   for (const System& system : model_.systems) {
-    system.listener->clear();
+    system.listener->begin_step(model_.bodies);
     const JPH::EPhysicsUpdateError error =
         system.system->Update(to_jolt(model_.time_step), 1, &memory_, &jobs_);
     if (error != JPH::EPhysicsUpdateError::None) {

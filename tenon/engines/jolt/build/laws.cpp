@@ -102,8 +102,9 @@ void add_law(Build& build, Index index, std::size_t coordinate) {
   } else {
     add_passive(joint, terms);
   }
-  if (terms.empty()) {
-    return;
+  const bool turns = coordinate < map.dofs.free.size() && is_angular(map.dofs.free[coordinate].dof);
+  if (terms.empty() && !turns) {
+    return;  // a law without terms counts turns
   }
   const JPH::Ref<CoordinateLaw> law = new CoordinateLaw({coordinate_of(build, index, coordinate)});
   law->terms = std::move(terms);
@@ -158,7 +159,7 @@ void insert_constraints(Build& build) {
   for (Index j = 0; j < build.model.joints.size(); ++j) {
     const JointMap& map = build.model.joints[j];
     for (const JPH::Ref<CoordinateLaw>& law : map.laws) {
-      if (law != nullptr) {
+      if (law != nullptr && !law->terms.empty()) {
         system_of(build.scene.joints[j]).AddConstraint(law);
       }
     }

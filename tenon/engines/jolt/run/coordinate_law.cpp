@@ -264,6 +264,13 @@ double CoordinateLaw::slope(std::size_t part) const {
   return slope;
 }
 
+void CoordinateLaw::count_turns() {
+  for (CoordinateOf& part : parts_) {
+    part.position =
+        now_at(part, mass_pose(*part.body0) * part.frame0, mass_pose(*part.body1) * part.frame1);
+  }
+}
+
 LawTerm* CoordinateLaw::own_term(Parameter what) {
   const auto is_it = [&](const LawTerm& term) {
     switch (what) {
@@ -284,6 +291,10 @@ LawTerm* CoordinateLaw::own_term(Parameter what) {
 void CoordinateLaw::prepare(double time_step) {
   shares_.clear();
   held_.clear();
+  if (terms.empty()) {
+    count_turns();
+    return;
+  }
   for (std::size_t part = 0; part < parts_.size(); ++part) {
     add_part(parts_[part], slope(part));
   }
@@ -440,10 +451,7 @@ bool CoordinateLaw::SolvePositionConstraint(float /*time_step*/, float baumgarte
       continue;
     }
     if (!looked) {
-      for (CoordinateOf& part : parts_) {
-        part.position = now_at(part, mass_pose(*part.body0) * part.frame0,
-                               mass_pose(*part.body1) * part.frame1);
-      }
+      count_turns();
       looked = true;
     }
     const double off = value() - term.target_position;

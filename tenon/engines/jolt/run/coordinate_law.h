@@ -124,6 +124,8 @@ class CoordinateLaw final : public JPH::Constraint {
   void add_share(JPH::Body* body, const Vec3d& linear, const Vec3d& angular);
   void add_held(JPH::Body* body, const Vec3d& linear, const Vec3d& angular, Direction& held);
   void add_part(CoordinateOf& part, double coefficient);
+  /// Brings the positions of all parts up to date.
+  void count_turns();
   void keep_joints_whole();
   void find_answers();
   double value() const;

@@ -30,12 +30,6 @@ bool exerts(const scene::PhysicsScene& scene, Index collider) {
          (!source.body.has_value() || scene.bodies[*source.body].settings.solves_contacts);
 }
 
-JPH::Vec3 speed_between(const JPH::Body& body1, const JPH::Body& body2,
-                        const JPH::ContactManifold& manifold) {
-  const JPH::RVec3 point = manifold.GetWorldSpaceContactPointOn1(0);
-  return body2.GetPointVelocity(point) - body1.GetPointVelocity(point);
-}
-
 /// Adds what the surface of a collider moves at, as Jolt counts it: about the first body's centre.
 void add_surface(const scene::PhysicsScene& scene, Index collider, const JPH::Body& body,
                  JPH::RVec3Arg center, float sign, JPH::ContactSettings& settings) {
@@ -101,9 +95,19 @@ bool BodyFilter::CanCollide(const JPH::CollisionGroup& a, const JPH::CollisionGr
 }
 
 PairListener::PairListener(const scene::PhysicsScene& scene, bool keeps_contacts)
-    : scene_(scene), keeps_contacts_(keeps_contacts) {}
+    : scene_(scene), keeps_contacts_(keeps_contacts) {
+  const auto more_at_rest = [](const scene::Material& material) {
+    return material.static_friction > material.dynamic_friction;
+  };
+  holds_at_rest_ = more_at_rest(scene.unbound) ||
+                   std::any_of(scene.materials.begin(), scene.materials.end(), more_at_rest);
+}
 
-void PairListener::clear() {
+void PairListener::begin_step(std::span<JPH::Body* const> bodies) {
+  motions_.clear();
+  for (std::size_t b = 0; holds_at_rest_ && b < bodies.size(); ++b) {
+    motions_.push_back({bodies[b]->GetLinearVelocity(), bodies[b]->GetAngularVelocity()});
+  }
   inside_.clear();
   manifolds_.clear();
   touching_ = 0;
@@ -133,6 +137,28 @@ const scene::Material& PairListener::material_of(const JPH::Body& body,
   return named(collider.material);
 }
 
+// Jolt asks when forces have already acted on the bodies: what they moved at before is kept.
+JPH::Vec3 PairListener::speed_before(const JPH::Body& body, JPH::RVec3Arg point) const {
+  const std::optional<Index> index = index_of(body.GetUserData());
+  if (!index.has_value() || body.IsKinematic()) {
+    return body.GetPointVelocity(point);
+  }
+  const Motion& motion = motions_[*index];
+  const JPH::Vec3 arm(point - body.GetCenterOfMassPosition());
+  return motion.linear + motion.angular.Cross(arm);
+}
+
+bool PairListener::at_rest(const JPH::Body& body1, const JPH::Body& body2,
+                           const JPH::ContactManifold& manifold) const {
+  if (!holds_at_rest_) {
+    return false;
+  }
+  const JPH::RVec3 point = manifold.GetWorldSpaceContactPointOn1(0);
+  const JPH::Vec3 speed = speed_before(body2, point) - speed_before(body1, point);
+  const JPH::Vec3 normal = manifold.mWorldSpaceNormal;
+  return (speed - normal * normal.Dot(speed)).Length() < kAtRest;
+}
+
 void PairListener::set_surface(const JPH::Body& body1, const JPH::Body& body2,
                                const JPH::ContactManifold& manifold,
                                JPH::ContactSettings& settings) const {
@@ -143,9 +169,7 @@ void PairListener::set_surface(const JPH::Body& body1, const JPH::Body& body2,
   const Index collider2 = collider_of(body2, manifold.mSubShapeID2);
   add_surface(scene_, collider1, body1, center, -1, settings);
   add_surface(scene_, collider2, body2, center, 1, settings);
-  const JPH::Vec3 speed = speed_between(body1, body2, manifold);
-  const JPH::Vec3 normal = manifold.mWorldSpaceNormal;
-  const bool rests = (speed - normal * normal.Dot(speed)).Length() < kAtRest;
+  const bool rests = at_rest(body1, body2, manifold);
   const auto friction = [&](const scene::Material& material, Index collider) {
     const auto set = friction_.find(collider);
     if (set != friction_.end()) {

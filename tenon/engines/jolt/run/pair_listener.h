@@ -70,8 +70,8 @@ class PairListener final : public JPH::ContactListener {
   PairListener(const scene::PhysicsScene& scene, bool keeps_contacts);
   /// Coefficient of a collider's surface, whatever its material says.
   void set_friction(scene::Index collider, double friction) { friction_[collider] = friction; }
-  /// Before each step.
-  void clear();
+  /// Before each step: how bodies (body_count) move, where some surface holds better at rest.
+  void begin_step(std::span<JPH::Body* const> bodies);
   /// Triggers and what was in them during the last step, by collider.
   using Inside = std::set<std::pair<scene::Index, scene::Index>>;
   const Inside& inside() const { return inside_; }
@@ -98,7 +98,17 @@ class PairListener final : public JPH::ContactListener {
   void keep(const JPH::Body& body1, const JPH::Body& body2, const JPH::ContactManifold& manifold);
 
   const scene::PhysicsScene& scene_;
+  struct Motion {
+    JPH::Vec3 linear;
+    JPH::Vec3 angular;
+  };
+  JPH::Vec3 speed_before(const JPH::Body& body, JPH::RVec3Arg point) const;
+  bool at_rest(const JPH::Body& body1, const JPH::Body& body2,
+               const JPH::ContactManifold& manifold) const;
+
   bool keeps_contacts_;
+  bool holds_at_rest_ = false;               ///< some material has more friction at rest
+  std::vector<Motion> motions_;              ///< before the step (body_count), where that counts
   std::map<scene::Index, double> friction_;  ///< that was set
   Inside inside_;
   std::size_t touching_ = 0;
