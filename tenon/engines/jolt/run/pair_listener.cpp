@@ -217,7 +217,7 @@ void PairListener::OnContactAdded(const JPH::Body& body1, const JPH::Body& body2
     passes(other, one);
     return;
   }
-  touching_ += touches ? 1 : 0;
+  touching_ += touches ? manifold.mRelativeContactPointsOn1.size() : 0;
   set_surface(body1, body2, manifold, settings);
   if (keeps_contacts_) {
     keep(body1, body2, manifold);
