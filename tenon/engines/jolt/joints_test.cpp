@@ -158,6 +158,53 @@ TEST(JoltJoints, AMimicHoldsWithPowersAcrossTrees) {
   EXPECT_NEAR(angle_of(*simulation), 1, 2e-3);
 }
 
+// Two wheels on one tendon, q0 + 2 q1: its spring rests at 0.3, its range ends at 0.5.
+TEST(JoltJoints, ATendonPullsAlongTheSumOfItsJoints) {
+  TestScene scene = wheel();
+  const Index other = scene.add_body("other", {{3, 0, 1}}, 2, {{0.3, 0.3, 0.5}});
+  scene.add_joint("other_axle", JointKind::Revolute, std::nullopt, other).frame0.position = {
+      {3, 0, 1}};
+  scene::Tendon tendon;
+  tendon.path = named("tendon");
+  tendon.joints = {0, 1};
+  tendon.coefficients = {1, 2};
+  tendon.stiffness = 20;
+  tendon.damping = 8;
+  tendon.spring_length = {0.3, 0.3};
+  scene.tendons = {tendon};
+  const auto simulation = make_run(scene);
+  EXPECT_TRUE(simulation->not_mapped().empty());
+  run_for(*simulation, 5);
+  const auto at = [](const Simulation& run, Index joint) {
+    return run.joint_state(joint).position.at(0);
+  };
+  EXPECT_NEAR(at(*simulation, 0), 0.3 / 5, 1e-4);  // equal wheels share it as 1 to 2
+  EXPECT_NEAR(at(*simulation, 1), 0.3 / 5 * 2, 1e-4);
+  scene.tendons[0].stiffness = scene.tendons[0].damping = 0;
+  scene.tendons[0].range = {{-1, 0.5}};
+  const auto bounded = make_run(scene);
+  const double effort = 1;
+  ASSERT_TRUE(bounded->set_joint_efforts(1, {&effort, 1}).has_value());
+  run_for(*bounded, 0.8);  // the first wheel is pulled back while the second goes on
+  EXPECT_NEAR(at(*bounded, 0) + 2 * at(*bounded, 1), 0.5, 2e-3);
+  EXPECT_LT(at(*bounded, 0), 0);
+}
+
+// A motor of 4 N m whose effort falls to nothing at 2 rad/s ends there, and not at its target
+// speed.
+TEST(JoltJoints, AMotorHasLessLeftAtASpeed) {
+  TestScene scene = wheel();
+  scene.joints[0].drives = {drive(Dof::RotZ, 0, 100)};
+  scene.joints[0].drives[0].target_velocity = 10;
+  scene.joints[0].drives[0].max_force = 4;
+  scene.joints[0].drives[0].envelope.velocity_resistance = 2;
+  const auto simulation = make_run(scene);
+  run_for(*simulation, 0.25);  // I w' = 4 - 2 w
+  EXPECT_NEAR(speed_of(*simulation), 2 * (1 - std::exp(-1.0)), 5e-3);
+  run_for(*simulation, 3);
+  EXPECT_NEAR(speed_of(*simulation), 2, 1e-3);
+}
+
 // The load at which it breaks is the weight below it, 2 kg.
 TEST(JoltJoints, BreakUnderTheirLoad) {
   for (const double bound : {2 * kG - 0.2, 2 * kG + 0.2}) {

@@ -80,6 +80,7 @@ Result<void> JoltSimulation::begin(double time_step, Diagnostics& diagnostics) {
   scene_ = timeline_ == nullptr ? asset_ : &timeline_->scene();
   TENON_TRY(model_, build_model(*scene_, options_, time_step, diagnostics, Begin::Start));
   inputs_ = StepInputs(*scene_, model_);
+  slow_turns_ = SlowTurns(model_);
   breakable_.clear();
   for (Index j = 0; j < scene_->joints.size(); ++j) {
     if (can_break(scene_->joints[j])) {
@@ -98,6 +99,7 @@ Result<void> JoltSimulation::step() {
   }
   inputs_.before_step(model_, steering_, time());
   TENON_CHECK(advance());
+  slow_turns_.after_step(model_);
   ++steps_;
   TENON_CHECK(check_step());
   if (options_.outputs.contacts) {
@@ -193,6 +195,7 @@ Result<void> JoltSimulation::rebuild() {
   Diagnostics silent;  // what there is to say was said at the start
   TENON_TRY(model_, build_model(*scene_, options_, model_.time_step, silent, Begin::Middle));
   inputs_ = StepInputs(*scene_, model_);
+  slow_turns_ = SlowTurns(model_);
   apply_steering();
   return {};
 }

@@ -7,6 +7,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/engines/jolt/model.h"
+#include "tenon/engines/jolt/run/slow_turns.h"
 #include "tenon/engines/jolt/run/step_inputs.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/engines/steering.h"
@@ -78,6 +79,7 @@ class JoltSimulation final : public Simulation {
   JPH::JobSystemSingleThreaded jobs_;
   Model model_;
   StepInputs inputs_;
+  SlowTurns slow_turns_;
   Steering steering_;
   std::vector<Event> events_;
   std::vector<Contact> contacts_;

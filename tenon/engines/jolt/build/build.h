@@ -37,6 +37,7 @@ struct Build {
   Diagnostics& diagnostics;
   scene::JointForest forest;
   std::vector<BodyState> states;  ///< where bodies are placed, and how they move (body_count)
+  std::vector<JPH::Ref<CoordinateLaw>> sums;  ///< laws of several joints
   Model model;
 
   JPH::uint joint_steps() const {
@@ -64,6 +65,7 @@ void add_holders(Build& build);
 /// What acts along coordinates.
 void add_laws(Build& build);
 void add_mimics(Build& build);
+void add_tendons(Build& build);
 void report_unmapped(Build& build);
 /// Puts constraints into their systems.
 void insert_constraints(Build& build);
@@ -79,6 +81,8 @@ Pose side_frame(const scene::PhysicsScene& scene, const std::optional<scene::Ind
                 const Pose& frame);
 /// The coordinate `index` of a joint for a law.
 CoordinateOf coordinate_of(const Build& build, scene::Index joint, std::size_t index);
+/// Which coordinate of a joint a degree of freedom is.
+std::optional<std::size_t> coordinate_number(const JointMap& map, scene::Dof dof);
 /// Numbers of a drive, as its term has them.
 void write_drive(const scene::Drive& drive, LawTerm& term);
 

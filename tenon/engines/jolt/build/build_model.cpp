@@ -23,6 +23,7 @@ Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOpti
   add_holders(build);
   add_laws(build);
   add_mimics(build);
+  add_tendons(build);
   report_unmapped(build);
   insert_constraints(build);
   build.model.forest = std::move(build.forest);

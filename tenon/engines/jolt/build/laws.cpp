@@ -121,6 +121,7 @@ void write_drive(const scene::Drive& drive, LawTerm& term) {
   term.acceleration = drive.acceleration;
   term.target_position = drive.target_position;
   term.target_velocity = drive.target_velocity;
+  term.envelope = drive.envelope;
 }
 
 CoordinateOf coordinate_of(const Build& build, Index joint, std::size_t index) {
@@ -167,14 +168,13 @@ void insert_constraints(Build& build) {
       system_of(build.scene.joints[j]).AddConstraint(map.holder);
     }
   }
+  for (const JPH::Ref<CoordinateLaw>& law : build.sums) {
+    system_of(build.scene.joints[law->parts().front().joint]).AddConstraint(law);
+    build.model.laws.push_back(law);
+  }
   for (const JPH::Ref<CoordinateLaw>& law : build.model.laws) {
     law->SetNumVelocityStepsOverride(build.joint_steps());
     law->SetNumPositionStepsOverride(kJointPositionSteps);
-    if (law->parts().size() > 1) {  // a mimic, of no joint alone
-      const JPH::Body& body = *law->parts()[0].body1;
-      const std::optional<Index> index = index_of(body.GetUserData());
-      build.model.systems[index ? build.scene.bodies[*index].scene : 0].system->AddConstraint(law);
-    }
   }
 }
 

@@ -9,17 +9,7 @@
 namespace tenon::engines::jolt {
 namespace {
 
-using scene::Dof;
 using scene::Index;
-
-std::optional<std::size_t> coordinate_number(const JointMap& map, Dof dof) {
-  for (std::size_t i = 0; i < map.dofs.free.size(); ++i) {
-    if (map.dofs.free[i].dof == dof) {
-      return i;
-    }
-  }
-  return std::nullopt;
-}
 
 void add_mimic(Build& build, Index index, const scene::Mimic& mimic) {
   const Path& path = build.scene.joints[index].path;
@@ -35,7 +25,8 @@ void add_mimic(Build& build, Index index, const scene::Mimic& mimic) {
                                   coordinate_of(build, mimic.leader, *other)};
   parts[1].coefficient = -mimic.multiplier;
   const JPH::Ref<CoordinateLaw> law = new CoordinateLaw(std::move(parts));
-  law->powers = {mimic.offset, mimic.higher[0], mimic.higher[1], mimic.higher[2]};
+  law->offset = mimic.offset;
+  law->powers = mimic.higher;
   LawTerm term;
   term.kind = TermKind::Equal;
   if (mimic.natural_frequency > 0) {
@@ -44,10 +35,19 @@ void add_mimic(Build& build, Index index, const scene::Mimic& mimic) {
     term.acceleration = true;
   }
   law->terms = {term};
-  build.model.laws.push_back(law);
+  build.sums.push_back(law);
 }
 
 }  // namespace
+
+std::optional<std::size_t> coordinate_number(const JointMap& map, scene::Dof dof) {
+  for (std::size_t i = 0; i < map.dofs.free.size(); ++i) {
+    if (map.dofs.free[i].dof == dof) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
 
 void add_mimics(Build& build) {
   for (Index j = 0; j < build.scene.joints.size(); ++j) {

@@ -54,15 +54,8 @@ void report_material(Build& build, const scene::Material& material) {
 }
 
 void report_joint(Build& build, const Joint& joint) {
-  for (const scene::Drive& drive : joint.drives) {
-    const scene::DriveEnvelope& envelope = drive.envelope;
-    if (envelope.max_velocity < scene::kUnlimited || envelope.velocity_resistance > 0) {
-      build.report(joint.path, "drive",
-                   "drives on Jolt bound their force, not what they have left at a speed");
-    }
-    if (joint.kind == scene::JointKind::Distance) {
-      build.report(joint.path, "drive", "distances are bounded on Jolt, not driven");
-    }
+  if (joint.kind == scene::JointKind::Distance && !joint.drives.empty()) {
+    build.report(joint.path, "drive", "distances are bounded on Jolt, not driven");
   }
 }
 
@@ -82,9 +75,6 @@ void report_unmapped(Build& build) {
     if (build.model.joints[j].acts) {
       report_joint(build, build.scene.joints[j]);
     }
-  }
-  for (const scene::Tendon& tendon : build.scene.tendons) {
-    build.report(tendon.path, "", "tendons are not simulated on Jolt here");
   }
   for (const scene::MujocoActuator& actuator : build.scene.actuators) {
     build.report(actuator.path, "", "an actuator of MuJoCo, which Jolt does not have");

@@ -78,6 +78,19 @@ std::vector<double> solved(std::vector<std::vector<double>> matrix, std::vector<
   return result;
 }
 
+/// The force that a term has left at a speed.
+double bound_at(const LawTerm& term, double speed) {
+  const scene::DriveEnvelope& envelope = term.envelope;
+  double most = term.max_force - envelope.velocity_resistance * speed;
+  if (speed >= envelope.max_velocity) {
+    return 0;
+  }
+  if (envelope.speed_effort_gradient > 0) {
+    most = std::min(most, (envelope.max_velocity - speed) / envelope.speed_effort_gradient);
+  }
+  return std::max(most, 0.0);
+}
+
 /// The speed of a coordinate is its direction's product with the difference of velocities: of
 /// several turns about axes that are not at right angles, each has to leave out the others.
 Vec3d turn_direction(const std::vector<Vec3d>& turns, std::size_t index) {
@@ -224,16 +237,14 @@ void CoordinateLaw::find_answers() {
 }
 
 double CoordinateLaw::value() const {
-  double sum = parts_.front().position;
-  if (parts_.size() < 2) {
-    return sum;
+  double sum = -offset;
+  for (const CoordinateOf& part : parts_) {
+    sum += part.coefficient * part.position;
   }
-  const double leader = parts_[1].position;
-  sum += parts_[1].coefficient * leader - powers[0];
-  double power = leader;
-  for (std::size_t i = 1; i < powers.size(); ++i) {
-    power *= leader;
-    sum -= powers[i] * power;
+  double power = parts_.size() > 1 ? parts_[1].position : 0;
+  for (const double coefficient : powers) {
+    power *= parts_.size() > 1 ? parts_[1].position : 0;
+    sum -= coefficient * power;
   }
   return sum;
 }
@@ -255,11 +266,11 @@ double CoordinateLaw::inertia() const {
 }
 
 double CoordinateLaw::slope(std::size_t part) const {
-  double slope = part == 0 ? 1 : parts_[part].coefficient;
+  double slope = parts_[part].coefficient;
   double power = 1;
-  for (std::size_t i = 1; part == 1 && i < powers.size(); ++i) {
+  for (std::size_t i = 0; part == 1 && i < powers.size(); ++i) {
     power *= parts_[1].position;
-    slope -= powers[i] * static_cast<double>(i + 1) * power;
+    slope -= powers[i] * static_cast<double>(i + 2) * power;
   }
   return slope;
 }
@@ -347,8 +358,9 @@ void CoordinateLaw::prepare_term(LawTerm& term, double time_step, double speed) 
   term.acts = true;
   term.softness = 0;
   term.wanted = 0;
-  term.least = -term.max_force * time_step;
-  term.most = term.max_force * time_step;
+  const double bound = bound_at(term, std::abs(speed));
+  term.least = -bound * time_step;
+  term.most = bound * time_step;
   switch (term.kind) {
     case TermKind::Spring:
       set_spring(term, time_step);
@@ -358,7 +370,7 @@ void CoordinateLaw::prepare_term(LawTerm& term, double time_step, double speed) 
       const double moved = term.acceleration ? inertia() : 1;
       const double force = moved * (term.stiffness * (term.target_position - position_) +
                                     term.damping * (term.target_velocity - speed));
-      term.least = term.most = time_step * std::clamp(force, -term.max_force, term.max_force);
+      term.least = term.most = time_step * std::clamp(force, -bound, bound);
       break;
     }
     case TermKind::Lower:

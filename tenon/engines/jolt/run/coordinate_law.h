@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -47,6 +48,7 @@ struct LawTerm {
   bool acceleration = false;  ///< stiffness and damping are per unit of the moved inertia
   double restitution = 0;     ///< of bounds
   double bounce_threshold = 0;
+  scene::DriveEnvelope envelope{};
   bool own = false;    ///< Spring: of the joint itself, no drive
   double inertia = 0;  ///< of Armature [kg m^2 or kg]
 
@@ -69,11 +71,17 @@ class CoordinateLaw final : public JPH::Constraint {
   explicit CoordinateLaw(std::vector<CoordinateOf> parts);
 
   std::vector<LawTerm> terms;
-  /// Of a mimic: coefficients of the second part's position, its powers 0 and 2 to 4.
-  std::vector<double> powers;
+  double offset = 0;  ///< what is taken off the sum
+  /// Of a mimic: coefficients of powers 2 to 4 of the second part's position.
+  std::array<double, 3> powers{};
 
   /// Before each step: where the coordinate is, and what each term is to do.
   void prepare(double time_step);
+  /// The sum as the bodies stand.
+  double length_now() {
+    count_turns();
+    return value();
+  }
   /// How the sum changes with the coordinate of a part.
   double slope(std::size_t part) const;
   /// What a force along the sum moves, by which accelerations are scaled; 0: as Jolt sees it.
