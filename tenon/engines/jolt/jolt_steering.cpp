@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/engines/drive_values.h"
 #include "tenon/engines/jolt/build/build.h"
 #include "tenon/engines/jolt/convert.h"
 #include "tenon/engines/jolt/jolt_simulation.h"
@@ -24,6 +25,10 @@ Error not_steerable(const Path& prim, const std::string& why) {
 bool is_of_drive(Parameter what) {
   return what == Parameter::DriveStiffness || what == Parameter::DriveDamping ||
          what == Parameter::DriveMaxForce;
+}
+
+bool exerts(const scene::Drive& drive) {
+  return (drive.stiffness != 0 || drive.damping != 0) && drive.max_force != 0;
 }
 
 /// A state that moves along with `from`, where that comes to `to`.
@@ -55,7 +60,9 @@ bool JoltSimulation::can(Ability ability) const {
 
 Result<void> JoltSimulation::set_drive_target(Index joint, Index drive, const DriveTarget& target) {
   TENON_CHECK(check_target(*scene_, joint, drive, target));
-  if (!model_.joints[joint].drives[drive].has_value()) {
+  const bool acts = model_.joints[joint].drives[drive].has_value() &&
+                    exerts(drives_at(*scene_, joint, steering_, time())[drive]);
+  if (!acts) {
     return not_steerable(scene_->joints[joint].path,
                          "the drive exerts no force on Jolt: its gains are 0, or it is disabled");
   }

@@ -35,7 +35,6 @@ JPH::BodyCreationSettings body_settings(const scene::Body& body, const BodyState
   wanted.mAngularVelocity = to_jolt(body.kinematic ? Vec3d{} : state.angular_velocity);
   wanted.mAllowedDOFs = body.kinematic ? JPH::EAllowedDOFs::All : freedom_of(body.settings);
   wanted.mCollideKinematicVsNonDynamic = body.kinematic;
-  wanted.mUseManifoldReduction = false;  // colliders of one body have surfaces of their own
   wanted.mApplyGyroscopicForce = body.settings.gyroscopic;
   wanted.mAllowSleeping = false;
   wanted.mLinearDamping = to_jolt(body.linear_damping);
@@ -79,7 +78,7 @@ Result<void> add_static_body(Build& build, Index index, const BodyFilter& filter
                                    moves ? JPH::EMotionType::Kinematic : JPH::EMotionType::Static,
                                    moves ? kMovingLayer : kStillLayer);
   wanted.mCollisionGroup = filter.group_of_collider(index);
-  wanted.mUseManifoldReduction = false;
+  wanted.mUseManifoldReduction = collider.face_materials.empty();
   wanted.mAllowSleeping = false;
   wanted.mOverrideMassProperties = JPH::EOverrideMassProperties::MassAndInertiaProvided;
   wanted.mMassPropertiesOverride.mMass = 1;
@@ -111,6 +110,8 @@ Result<void> add_moving_body(Build& build, Index index, const BodyFilter& filter
         .with_prim(body.path.str());
   }
   wanted.mCollisionGroup = filter.group_of_body(index);
+  // Contacts of several colliders stay apart: each has a surface of its own.
+  wanted.mUseManifoldReduction = colliders.size() <= 1;
   TENON_TRY(JPH::Body * made, add_body(build, body.scene, wanted, body.path));
   build.model.bodies[index] = made;
   if (!body.kinematic) {

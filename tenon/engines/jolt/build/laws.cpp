@@ -71,15 +71,12 @@ void add_passive(const Joint& joint, std::vector<LawTerm>& terms) {
   }
 }
 
-bool exerts(const scene::Drive& drive) {
-  return (drive.stiffness != 0 || drive.damping != 0) && drive.max_force != 0;
-}
-
+// One without gains has its place, too: samples or the user may give it some.
 void add_drives(const Build& build, const Joint& joint, Dof dof, std::size_t law, JointMap& map,
                 std::vector<LawTerm>& terms) {
   for (Index d = 0; d < joint.drives.size(); ++d) {
     const scene::Drive& drive = joint.drives[d];
-    if (drive.dof != dof || !exerts(drive)) {
+    if (drive.dof != dof) {
       continue;
     }
     LawTerm term;

@@ -48,6 +48,17 @@ JPH::PhysicsSettings settings_of(const Build& build) {
   return settings;
 }
 
+/// How many pairs of shapes may touch; each triangle of a mesh is one.
+JPH::uint room_for_contacts(const scene::PhysicsScene& scene, std::size_t bodies) {
+  const bool has_triangles =
+      std::any_of(scene.colliders.begin(), scene.colliders.end(), [](const scene::Collider& c) {
+        return c.shape.kind == scene::ShapeKind::Mesh;
+      });
+  constexpr std::size_t kMost = 2000000;
+  const std::size_t wanted = 256 + 24 * bodies + (has_triangles ? 16384 : 0);
+  return static_cast<JPH::uint>(std::min(wanted, kMost));
+}
+
 }  // namespace
 
 void add_systems(Build& build) {
@@ -55,7 +66,7 @@ void add_systems(Build& build) {
   static const LayersMeet layers_meet;
   static const ObjectsMeet objects_meet;
   const std::size_t bodies = build.scene.bodies.size() + build.scene.colliders.size() + 1;
-  const auto contacts = static_cast<JPH::uint>(std::min<std::size_t>(1024 + 16 * bodies, 2000000));
+  const JPH::uint contacts = room_for_contacts(build.scene, bodies);
   JPH::PhysicsSettings settings = settings_of(build);
   settings.mMaxInFlightBodyPairs =
       static_cast<int>(std::clamp<std::size_t>(4 * bodies, 1024, 65536));

@@ -217,6 +217,9 @@ void PairListener::OnContactAdded(const JPH::Body& body1, const JPH::Body& body2
     passes(other, one);
     return;
   }
+  if (!body1.IsDynamic() && !body2.IsDynamic()) {
+    return;  // both are moved by the asset
+  }
   touching_ += touches ? manifold.mRelativeContactPointsOn1.size() : 0;
   set_surface(body1, body2, manifold, settings);
   if (keeps_contacts_) {
