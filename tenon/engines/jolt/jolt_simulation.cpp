@@ -162,12 +162,14 @@ Result<void> JoltSimulation::break_joints() {
     if (!model_.joints[j].acts) {
       continue;
     }
-    const HolderLoad load = read_load(model_.joints[j], model_.time_step);
-    if (load.force <= joint.break_force && load.torque <= joint.break_torque) {
+    const Wrench load = read_holder(model_.joints[j], model_.time_step);
+    const double force = length(load.force);
+    const double torque = length(load.torque);
+    if (force <= joint.break_force && torque <= joint.break_torque) {
       continue;
     }
     char what[96];
-    std::snprintf(what, sizeof what, "broke under %.4g N and %.4g N m", load.force, load.torque);
+    std::snprintf(what, sizeof what, "broke under %.4g N and %.4g N m", force, torque);
     events_.push_back({time(), joint.path, what});
     timeline_->break_joint(j);
     broke = true;

@@ -52,6 +52,7 @@ class JoltSimulation final : public Simulation {
 
   Result<std::vector<Contact>> contacts() const override;
   Result<std::vector<double>> drive_efforts(scene::Index joint) const override;
+  Result<Wrench> joint_reaction(scene::Index joint) const override;
   Result<BodyAcceleration> body_acceleration(scene::Index body) const override;
   Result<std::vector<double>> joint_acceleration(scene::Index joint) const override;
 

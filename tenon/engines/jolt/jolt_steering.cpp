@@ -50,7 +50,6 @@ BodyState moved_along(const BodyState& state, const BodyState& from, const Vec3d
 bool JoltSimulation::can(Ability ability) const {
   switch (ability) {
     case Ability::SavedStates:
-    case Ability::JointReactions:
     case Ability::Work:
       return false;
     default:
@@ -282,6 +281,14 @@ Result<std::vector<double>> JoltSimulation::drive_efforts(Index joint) const {
     }
   }
   return efforts;
+}
+
+Result<Wrench> JoltSimulation::joint_reaction(Index joint) const {
+  if (!outputs().reactions) {
+    return output_off("reactions");
+  }
+  TENON_CHECK(check_joint(*scene_, joint));
+  return read_reaction(model_, joint);
 }
 
 Result<BodyAcceleration> JoltSimulation::body_acceleration(Index body) const {

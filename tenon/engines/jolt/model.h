@@ -8,6 +8,7 @@
 
 #include "tenon/engines/jolt/jolt_headers.h"
 #include "tenon/engines/jolt/run/coordinate_law.h"
+#include "tenon/engines/jolt/run/measured_holder.h"
 #include "tenon/engines/jolt/run/pair_listener.h"
 #include "tenon/engines/simulation_values.h"
 #include "tenon/scene/joint_dofs.h"
@@ -28,6 +29,7 @@ struct JointMap {
   bool acts = false;  ///< enabled, and between two different sides
   /// Holds what the joint locks; null: nothing.
   JPH::Ref<JPH::TwoBodyConstraint> holder;
+  JPH::Ref<MeasuredHolder> measured;  ///< the same where its load is asked for; else null
   /// What acts along its coordinates, in the order of JointState; null: nothing (coordinate_count).
   std::vector<JPH::Ref<CoordinateLaw>> laws;
   std::vector<std::optional<DriveAt>> drives;  ///< (drive_count); none: it exerts nothing

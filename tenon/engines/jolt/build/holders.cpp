@@ -200,6 +200,19 @@ JPH::TwoBodyConstraint* make_holder(Build& build, Index index) {
   return turns + slides < 6 ? make_six(dofs, sides) : nullptr;
 }
 
+// Of joints that may break, and of all where reactions are read.
+void measure(Build& build, Index index) {
+  const Joint& joint = build.scene.joints[index];
+  JointMap& map = build.model.joints[index];
+  if (!build.options.outputs.reactions && !can_break(joint)) {
+    return;
+  }
+  map.measured =
+      new MeasuredHolder(map.holder, side_frame(build.scene, joint.body1, joint.frame1).position);
+  map.measured->SetNumVelocityStepsOverride(build.joint_steps());
+  map.measured->SetNumPositionStepsOverride(kJointPositionSteps);
+}
+
 }  // namespace
 
 JPH::Body& side_body(const Model& model, const std::optional<Index>& body) {
@@ -222,6 +235,7 @@ void add_holders(Build& build) {
     if (map.holder != nullptr) {
       map.holder->SetNumVelocityStepsOverride(build.joint_steps());
       map.holder->SetNumPositionStepsOverride(kJointPositionSteps);
+      measure(build, j);
     }
   }
 }

@@ -161,7 +161,9 @@ void insert_constraints(Build& build) {
         system_of(build.scene.joints[j]).AddConstraint(law);
       }
     }
-    if (map.holder != nullptr) {
+    if (map.measured != nullptr) {
+      system_of(build.scene.joints[j]).AddConstraint(map.measured);
+    } else if (map.holder != nullptr) {
       system_of(build.scene.joints[j]).AddConstraint(map.holder);
     }
   }

@@ -51,9 +51,8 @@ JPH::PhysicsSettings settings_of(const Build& build) {
 /// How many pairs of shapes may touch; each triangle of a mesh is one.
 JPH::uint room_for_contacts(const scene::PhysicsScene& scene, std::size_t bodies) {
   const bool has_triangles =
-      std::any_of(scene.colliders.begin(), scene.colliders.end(), [](const scene::Collider& c) {
-        return c.shape.kind == scene::ShapeKind::Mesh;
-      });
+      std::any_of(scene.colliders.begin(), scene.colliders.end(),
+                  [](const scene::Collider& c) { return c.shape.kind == scene::ShapeKind::Mesh; });
   constexpr std::size_t kMost = 2000000;
   const std::size_t wanted = 256 + 24 * bodies + (has_triangles ? 16384 : 0);
   return static_cast<JPH::uint>(std::min(wanted, kMost));

@@ -152,7 +152,9 @@ void CoordinateLaw::add_held(JPH::Body* body, const Vec3d& linear, const Vec3d& 
   }
 }
 
-void CoordinateLaw::add_part(CoordinateOf& part, double coefficient) {
+void CoordinateLaw::add_part(std::size_t index) {
+  CoordinateOf& part = parts_[index];
+  const double coefficient = slope(index);
   const Pose place0 = mass_pose(*part.body0);
   const Pose place1 = mass_pose(*part.body1);
   const Pose frame0 = place0 * part.frame0;
@@ -166,17 +168,21 @@ void CoordinateLaw::add_part(CoordinateOf& part, double coefficient) {
     const Vec3d along = motion.slides[part.index] * coefficient;
     add_share(part.body0, -along, -cross(arm0, along));
     add_share(part.body1, along, cross(arm1, along));
+    part.push = {along, {}};
   } else {
     const Vec3d about = turn_direction(motion.turns, part.index - slides) * coefficient;
     add_share(part.body0, {}, -about);
     add_share(part.body1, {}, about);
+    part.push = {{}, about};
   }
   for (const Vec3d& along : scene::directions_across(motion.slides)) {
-    add_held(part.body0, -along, -cross(arm0, along), held_.emplace_back());
+    held_.push_back({index, {along, {}}, {}, {}});
+    add_held(part.body0, -along, -cross(arm0, along), held_.back());
     add_held(part.body1, along, cross(arm1, along), held_.back());
   }
   for (const Vec3d& about : scene::directions_across(motion.turns)) {
-    add_held(part.body0, {}, -about, held_.emplace_back());
+    held_.push_back({index, {{}, about}, {}, {}});
+    add_held(part.body0, {}, -about, held_.back());
     add_held(part.body1, {}, about, held_.back());
   }
 }
@@ -219,6 +225,9 @@ void CoordinateLaw::keep_joints_whole() {
   }
   const std::vector<double> impulses = solved(std::move(matrix), std::move(wanted));
   for (std::size_t r = 0; r < count; ++r) {
+    Wrench& push = parts_[held_[r].part].push;
+    push.force += held_[r].push.force * impulses[r];
+    push.torque += held_[r].push.torque * impulses[r];
     for (std::size_t i = 0; i < held_[r].linear.size(); ++i) {
       shares_[i].linear += held_[r].linear[i] * impulses[r];
       shares_[i].angular += held_[r].angular[i] * impulses[r];
@@ -247,6 +256,14 @@ double CoordinateLaw::value() const {
     sum -= coefficient * power;
   }
   return sum;
+}
+
+Wrench CoordinateLaw::impulse(std::size_t part) const {
+  double sum = 0;
+  for (const LawTerm& term : terms) {
+    sum += term.impulse;
+  }
+  return {parts_[part].push.force * sum, parts_[part].push.torque * sum};
 }
 
 double CoordinateLaw::speed() const {
@@ -307,7 +324,7 @@ void CoordinateLaw::prepare(double time_step) {
     return;
   }
   for (std::size_t part = 0; part < parts_.size(); ++part) {
-    add_part(parts_[part], slope(part));
+    add_part(part);
   }
   keep_joints_whole();
   find_answers();

@@ -23,6 +23,7 @@ struct CoordinateOf {
   std::size_t index = 0;   ///< as in JointState
   double coefficient = 1;  ///< what its speed counts in the sum
   double position = 0;     ///< at the beginning of the step, whole turns counted [m or rad]
+  Wrench push;             ///< on body1 about the joint's point, of a unit along the sum
 };
 
 /// What acts along a coordinate.
@@ -89,6 +90,9 @@ class CoordinateLaw final : public JPH::Constraint {
   /// The joint's own damper, friction or armature; null: it has none.
   LawTerm* own_term(Parameter what);
   double position() const { return parts_.front().position; }
+  /// What all terms together exerted on body1 of a part about its joint's point during the last
+  /// step, with what keeps the joint whole, as impulses [N s, N m s].
+  Wrench impulse(std::size_t part) const;
   /// Speed of the sum [m/s or rad/s].
   double speed() const;
   /// Inertia that a force along the sum moves [kg m^2 or kg]; infinite where it moves nothing.
@@ -123,15 +127,17 @@ class CoordinateLaw final : public JPH::Constraint {
     Vec3d linear_answer;
     Vec3d angular_answer;
   };
-  /// A direction in which bodies move, body by body as in shares_.
+  /// A direction in which bodies move, body by body as in shares_, that a part's joint locks.
   struct Direction {
+    std::size_t part = 0;
+    Wrench push;  ///< of a unit on body1 about the joint's point
     std::vector<Vec3d> linear;
     std::vector<Vec3d> angular;
   };
   std::size_t share_of(JPH::Body* body);
   void add_share(JPH::Body* body, const Vec3d& linear, const Vec3d& angular);
   void add_held(JPH::Body* body, const Vec3d& linear, const Vec3d& angular, Direction& held);
-  void add_part(CoordinateOf& part, double coefficient);
+  void add_part(std::size_t index);
   /// Brings the positions of all parts up to date.
   void count_turns();
   void keep_joints_whole();

@@ -2,20 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Jolt knows bodies alone. Coordinates of joints are read off how their frames stand; what a joint
-// carries is what its holder remembers of its impulses, kind by kind.
+// carries is the sum of what its holder and the laws of its coordinates have exerted.
 #include "tenon/engines/jolt/run/read_state.h"
 
 #include <cmath>
 
 #include "tenon/engines/jolt/convert.h"
-//
-#include <Jolt/Physics/Constraints/DistanceConstraint.h>
-#include <Jolt/Physics/Constraints/FixedConstraint.h>
-#include <Jolt/Physics/Constraints/HingeConstraint.h>
-#include <Jolt/Physics/Constraints/PointConstraint.h>
-#include <Jolt/Physics/Constraints/SixDOFConstraint.h>
-#include <Jolt/Physics/Constraints/SliderConstraint.h>
-#include <Jolt/Physics/Constraints/SwingTwistConstraint.h>
 
 namespace tenon::engines::jolt {
 namespace {
@@ -42,52 +34,6 @@ double kinetic(const JPH::Body& body) {
   };
   return share(static_cast<double>(motion.GetInverseMass()), length(linear)) +
          share(inverse[0], turn[0]) + share(inverse[1], turn[1]) + share(inverse[2], turn[2]);
-}
-
-double length_of(const JPH::Vector<2>& v) {
-  return std::hypot(static_cast<double>(v[0]), static_cast<double>(v[1]));
-}
-double length_of(JPH::Vec3Arg v) { return length(from_jolt(v)); }
-
-template <class Kind>
-const Kind& as(const JPH::TwoBodyConstraint& holder) {
-  return static_cast<const Kind&>(holder);
-}
-
-/// Impulses of the last step.
-HolderLoad impulses_of(const JPH::TwoBodyConstraint& holder) {
-  switch (holder.GetSubType()) {
-    case JPH::EConstraintSubType::Fixed: {
-      const auto& made = as<JPH::FixedConstraint>(holder);
-      return {length_of(made.GetTotalLambdaPosition()), length_of(made.GetTotalLambdaRotation())};
-    }
-    case JPH::EConstraintSubType::Hinge: {
-      const auto& made = as<JPH::HingeConstraint>(holder);
-      return {length_of(made.GetTotalLambdaPosition()), length_of(made.GetTotalLambdaRotation())};
-    }
-    case JPH::EConstraintSubType::Slider: {
-      const auto& made = as<JPH::SliderConstraint>(holder);
-      return {length_of(made.GetTotalLambdaPosition()), length_of(made.GetTotalLambdaRotation())};
-    }
-    case JPH::EConstraintSubType::Point:
-      return {length_of(as<JPH::PointConstraint>(holder).GetTotalLambdaPosition()), 0};
-    case JPH::EConstraintSubType::Distance:
-      return {std::abs(static_cast<double>(
-                  as<JPH::DistanceConstraint>(holder).GetTotalLambdaPosition())),
-              0};
-    case JPH::EConstraintSubType::SwingTwist: {
-      const auto& made = as<JPH::SwingTwistConstraint>(holder);
-      const JPH::Vec3 turn(made.GetTotalLambdaTwist(), made.GetTotalLambdaSwingY(),
-                           made.GetTotalLambdaSwingZ());
-      return {length_of(made.GetTotalLambdaPosition()), length_of(turn)};
-    }
-    case JPH::EConstraintSubType::SixDOF: {
-      const auto& made = as<JPH::SixDOFConstraint>(holder);
-      return {length_of(made.GetTotalLambdaPosition()), length_of(made.GetTotalLambdaRotation())};
-    }
-    default:
-      return {};
-  }
 }
 
 void add_joint_energy(const scene::Joint& joint, const JointState& state, Energy& energy) {
@@ -152,12 +98,26 @@ Energy read_energy(const scene::PhysicsScene& scene, const Model& model,
   return energy;
 }
 
-HolderLoad read_load(const JointMap& joint, double time_step) {
-  if (joint.holder == nullptr) {
+Wrench read_holder(const JointMap& joint, double time_step) {
+  if (joint.measured == nullptr) {
     return {};
   }
-  const HolderLoad impulses = impulses_of(*joint.holder);
-  return {impulses.force / time_step, impulses.torque / time_step};
+  const Wrench impulse = joint.measured->impulse();
+  return {impulse.force * (1 / time_step), impulse.torque * (1 / time_step)};
+}
+
+Wrench read_reaction(const Model& model, Index joint) {
+  Wrench total = read_holder(model.joints[joint], model.time_step);
+  for (const JPH::Ref<CoordinateLaw>& law : model.laws) {
+    for (std::size_t part = 0; part < law->parts().size(); ++part) {
+      if (law->parts()[part].joint == joint) {
+        const Wrench impulse = law->impulse(part);
+        total.force += impulse.force * (1 / model.time_step);
+        total.torque += impulse.torque * (1 / model.time_step);
+      }
+    }
+  }
+  return total;
 }
 
 }  // namespace tenon::engines::jolt

@@ -22,11 +22,10 @@ Vec3d read_center_of_mass(const Model& model, scene::Index body);
 Energy read_energy(const scene::PhysicsScene& scene, const Model& model,
                    std::span<const Vec3d> gravity);
 
-/// What holds a joint together has exerted during the last step.
-struct HolderLoad {
-  double force = 0;   ///< [N]
-  double torque = 0;  ///< [N m]
-};
-HolderLoad read_load(const JointMap& joint, double time_step);
+/// What holds a joint together has exerted on body 1 during the last step, about the joint's point,
+/// world axes; of joints that are measured.
+Wrench read_holder(const JointMap& joint, double time_step);
+/// The same with what acts along its coordinates.
+Wrench read_reaction(const Model& model, scene::Index joint);
 
 }  // namespace tenon::engines::jolt
