@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Imported target jolt::jolt, with which the adapter is built and linked. The sources come with the
 # crate joltc-sys (11 MB), which wraps Jolt for Rust and is where Jolt can be had from a package
-# client; they are built once, in 1 to 3 minutes, to
+# client; they are built once, in 2 to 5 minutes, to
 # <TENON_ENGINE_CACHE>/jolt-<version>-<what it was built from and with>.
 include(crate)
 include(wheel)
@@ -21,7 +21,7 @@ set(tenon_jolt_root ${TENON_ENGINE_CACHE}/jolt-${TENON_JOLT_VERSION}-${tenon_jol
 function(tenon_make_jolt destination)
   set(advice "Jolt is fetched with cargo (apt-get install cargo). Build without it: "
              "-DTENON_WITH_JOLT=OFF.")
-  message(STATUS "Fetching and building Jolt ${TENON_JOLT_VERSION} (1 to 3 minutes, once)")
+  message(STATUS "Fetching and building Jolt ${TENON_JOLT_VERSION} (2 to 5 minutes, once)")
   set(work ${TENON_ENGINE_CACHE}/jolt)  # the same for every key, so that ccache knows it again
   file(LOCK ${work}.lock GUARD FUNCTION TIMEOUT 1200)
   tenon_fetch_crate(joltc-sys 0.3.1+Jolt-5.0.0
