@@ -20,6 +20,7 @@ struct Verb {
 };
 
 constexpr std::array kVerbs{
+    Verb{"add", add_add},
     Verb{"bake", add_bake},
     Verb{"cat", add_cat},
     Verb{"check", add_check},
@@ -34,7 +35,10 @@ constexpr std::array kVerbs{
     Verb{"help", add_help},
     Verb{"info", add_info},
     Verb{"manual", add_manual},
+    Verb{"new", add_new},
     Verb{"physics", add_physics},
+    Verb{"remove", add_remove},
+    Verb{"rename", add_rename},
     Verb{"set", add_set},
     Verb{"sim", add_sim},
     Verb{"strip", add_strip},
@@ -58,6 +62,7 @@ constexpr const char* kProgramFooter =
     "  tenon sim hand.usda --duration 5        simulate it on MuJoCo\n"
     "  tenon bake hand.usda -o motion.usda     a layer that any USD viewer plays\n"
     "  tenon convert hand.urdf hand.usda       make an asset from a robot description\n"
+    "  tenon new scene.usda                    an empty scene, for tenon add to fill\n"
     "  tenon cat model.usdc                    a binary layer as text\n"
     "  tenon help sim                          all about one verb\n"
     "\n"

@@ -76,6 +76,7 @@ inline void choose(const Command& verb, Chosen& chosen, std::function<int()> run
 }
 
 using AddVerb = void(const Command& parent, const Globals& globals, Chosen& chosen);
+AddVerb add_add;
 AddVerb add_bake;
 AddVerb add_cat;
 AddVerb add_check;
@@ -90,7 +91,10 @@ AddVerb add_explain;
 AddVerb add_help;
 AddVerb add_info;
 AddVerb add_manual;
+AddVerb add_new;
 AddVerb add_physics;
+AddVerb add_remove;
+AddVerb add_rename;
 AddVerb add_set;
 AddVerb add_sim;
 AddVerb add_strip;

@@ -189,7 +189,9 @@ Result<PropertyValue> known_property(const stage::Prim& prim, Token name, Token 
                                  : prim.is_relationship(name) || type_name == "rel";
   // Bindings for one purpose are of MaterialBindingAPI, which declares the plain one alone.
   const bool binding = name.view().starts_with("material:binding:");
-  property.custom = definition == nullptr && !binding;
+  // Transforms are Xformable's, which declares their order alone.
+  const bool transform = name.view().starts_with("xformOp:");
+  property.custom = definition == nullptr && !binding && !transform;
   property.variability =
       definition == nullptr ? layer::Variability::Varying : definition->variability;
   if (property.is_relationship) {

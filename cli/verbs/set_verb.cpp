@@ -5,21 +5,13 @@
 // whether it counts there, is decided in tenon/asset/edit_asset.h. Reading, editing and writing are
 // repeated together when a file changed meanwhile. In a dry run standard output is the difference
 // alone.
-#include <algorithm>
-#include <cstdio>
-#include <utility>
-
+#include "cli/edits_report.h"
 #include "cli/output.h"
 #include "cli/report.h"
-#include "cli/text/difference_text.h"
-#include "cli/text/terminal_text.h"
 #include "cli/verb.h"
-#include "tenon/asset/answers/edited_json.h"
 #include "tenon/asset/edit_asset.h"
 #include "tenon/asset/edit_request.h"
 #include "tenon/asset/repeat_edit.h"
-#include "tenon/base/text/shown_path.h"
-#include "tenon/diff/unified_diff.h"
 
 namespace tenon::cli {
 namespace {
@@ -43,84 +35,6 @@ EditOptions edit_options(const SetArguments& options) {
   return edit;
 }
 
-std::string what(const AssetEdit& edit) {
-  const bool api = !edit.api.empty();
-  return edit.object.str() +
-         (api ? (edit.kind == AssetEdit::Kind::ApplyApi ? " + " : " - ") + edit.api.str() : "");
-}
-
-std::string place_line(const AssetEdit& edit, const EditedPlace& place) {
-  std::string text = shown_path(place.file);
-  text += place.line == 0 ? "" : ":" + std::to_string(place.line);
-  text += "  " + what(edit);
-  if (edit.api.empty()) {
-    text += "  " + (place.before.empty() ? "none" : place.before) + " -> " +
-            (place.after.empty() ? "none" : place.after);
-  }
-  text += "  (" + place.why;
-  if (!place.variants.empty()) {
-    text += "; counts with Physics=";
-    for (std::size_t i = 0; i < place.variants.size(); ++i) {
-      text += (i == 0 ? "" : ", ") + place.variants[i];
-    }
-  }
-  return text + ")";
-}
-
-/// In a dry run standard output is the difference.
-void print_places(const std::vector<AssetEdit>& edits, const EditedAsset& asset, bool dry_run) {
-  for (const EditedPlace& place : asset.places) {
-    const std::string line = place_line(edits[place.edit], place);
-    dry_run ? say_aside(terminal_text(line, false)) : print("%s\n", line.c_str());
-  }
-}
-
-void print_files(const Report& report, const EditedAsset& asset, bool dry_run) {
-  for (const EditedFile& file : asset.files) {
-    const std::string name = shown_path(file.path);
-    if (dry_run && file.text) {
-      print_data(diff::unified_diff(name, file.before, file.after));
-    } else if (dry_run) {
-      report.note("would change " + name + ", which is not text");
-    }
-    if (!dry_run && file.text && file.before.empty()) {
-      report.note("made " + name);
-    }
-    if (!file.kept_layout) {
-      report.note("comments and layout of " + name + " are not kept");
-    }
-  }
-}
-
-/// What engines receive otherwise: each difference once, with the variants that have it.
-void print_physics(const Report& report, const EditedAsset& asset, bool dry_run) {
-  constexpr std::size_t kShown = 40;
-  std::vector<std::pair<std::string, std::string>> lines;  // difference, variants
-  for (const PhysicsEffect& effect : asset.physics) {
-    for (const scene::SceneDifference& difference : effect.differences) {
-      const std::string text = difference_text(difference);
-      const auto known = std::find_if(lines.begin(), lines.end(),
-                                      [&](const auto& line) { return line.first == text; });
-      if (known == lines.end()) {
-        lines.emplace_back(text, effect.variant);
-      } else {
-        known->second += ", " + effect.variant;
-      }
-    }
-  }
-  const auto say = [&](const std::string& line) {
-    dry_run ? say_aside(terminal_text(line, false)) : print("%s\n", line.c_str());
-  };
-  const std::size_t shown = report.verbose() ? lines.size() : std::min(lines.size(), kShown);
-  for (std::size_t i = 0; i < shown; ++i) {
-    say("  " + lines[i].first +
-        (lines[i].second.empty() ? "" : "  (Physics=" + lines[i].second + ")"));
-  }
-  if (shown < lines.size()) {
-    say("  and " + std::to_string(lines.size() - shown) + " more differences (-v shows them)");
-  }
-}
-
 /// Reads the asset, edits it and writes it back; `edits` are those that were made.
 Result<EditedAsset> edit(const SetArguments& options, Report& report,
                          std::vector<AssetEdit>& edits) {
@@ -142,18 +56,7 @@ int run_set(const Globals& globals, const SetArguments& options) {
   if (!asset) {
     return report.fail(asset.error());
   }
-  const bool useful = asset->without_effect.empty();
-  const bool aside = options.dry_run || !useful;
-  if (!report.json()) {
-    print_places(edits, *asset, aside);
-    print_physics(report, *asset, aside);
-    if (useful) {
-      print_files(report, *asset, options.dry_run);
-    } else {
-      report.note("nothing is written");
-    }
-  }
-  return report.finish(useful ? kOk : kNo, edited_json(edits, *asset, options.dry_run));
+  return finish_edits(report, edits, *asset, options.dry_run);
 }
 
 constexpr const char* kSetFooter =

@@ -25,9 +25,10 @@
 
 #include "tenon/asset/edit_file_choice.h"
 #include "tenon/asset/edit_value.h"
+#include "tenon/asset/editing/all_file_edits.h"
+#include "tenon/asset/editing/author_edit.h"
 #include "tenon/asset/editing/engine_layer.h"
 #include "tenon/edit/api_schemas.h"
-#include "tenon/edit/apply_list_edit.h"
 #include "tenon/edit/edit_target.h"
 #include "tenon/edit/stage_editor.h"
 #include "tenon/layer/fields.h"
@@ -65,11 +66,21 @@ Result<void> check_in_no_package(const std::string& identifier) {
 
 Result<void> check_object(const AssetEdit& edit) {
   const Path path = edit.object;
-  const bool fits = edit.is_about_api() ? path.is_prim() : path.kind() == PathKind::Property;
+  const bool of_prim = edit.is_about_api() || edit.is_about_prim();
+  const bool fits = of_prim ? path.is_prim() : path.kind() == PathKind::Property;
   if (fits && path.is_absolute() && !path.has_variants()) {
     return {};
   }
-  return not_a_path(path.str(), edit.is_about_api() ? "prim" : "property");
+  return not_a_path(path.str(), of_prim ? "prim" : "property");
+}
+
+Error already_there(const stage::Prim& prim) {
+  const std::string type = prim.type_name().empty() ? "without a type" : prim.type_name().str();
+  return Error(ErrorCode::Invalid, "<" + prim.path().str() + "> is there already, a prim " +
+                                       (prim.type_name().empty() ? type : "of type " + type))
+      .with_prim(prim.path().str())
+      .with_rule("edit.prim-exists")
+      .with_fix("choose another path, or remove it first: tenon remove ASSET " + prim.path().str());
 }
 
 /// What helps where files are edited.
@@ -80,69 +91,6 @@ Error with_file_fix(Error error) {
   }
   return rule == "edit.outside-target" ? std::move(error).with_fix("name another file with --in")
                                        : std::move(error);
-}
-
-/// Takes back what the file itself says where that suffices, so that adding and removing leave
-/// nothing behind; else deletes the schema from weaker layers.
-Result<void> remove_api(edit::StageEditor& editor, Path prim, Path spec, Token api) {
-  layer::ListOp<Token> op;
-  if (const layer::LayerPtr layer = editor.layer(editor.target().layer);
-      layer && layer->has(spec)) {
-    op = layer->find(spec)->get_or(fields::apiSchemas, std::move(op));
-  }
-  const bool deletes = std::find(op.deleted.begin(), op.deleted.end(), api) != op.deleted.end();
-  return edit::adds(op, api) && !deletes ? editor.withdraw_applied_schema(prim, api)
-                                         : editor.remove_applied_schema(prim, api);
-}
-
-Result<void> edit_target_list(edit::StageEditor& editor, const AssetEdit& edit,
-                              const PropertyValue& typed) {
-  if (!typed.is_relationship) {
-    return Error(ErrorCode::Invalid, "<" + edit.object.str() +
-                                         "> is no relationship: += and -= are for lists of targets")
-        .with_prim(edit.object.prim().str())
-        .with_rule("edit.type-mismatch")
-        .with_fix("write the whole value: =VALUE");
-  }
-  return editor.as_one_step([&]() -> Result<void> {
-    TENON_CHECK(editor.create_relationship(edit.object, typed.custom));
-    for (const Path target : typed.targets) {
-      TENON_CHECK(editor.edit_targets(edit.object, edit.kind == Kind::AddTargets
-                                                       ? edit::ListEdit<Path>::add(target)
-                                                       : edit::ListEdit<Path>::remove(target)));
-    }
-    return {};
-  });
-}
-
-/// Authors the edit at the editor's target, as one step; `spec` is the object there.
-Result<void> author(edit::StageEditor& editor, const AssetEdit& edit, Path spec,
-                    const PropertyValue& typed) {
-  const Path object = edit.object;
-  switch (edit.kind) {
-    case Kind::ClearProperty:
-      return editor.remove_property(object);
-    case Kind::RemoveApi:
-      return remove_api(editor, object, spec, edit.api);
-    case Kind::ApplyApi:
-      return editor.as_one_step([&]() -> Result<void> {
-        TENON_CHECK(editor.withdraw_applied_schema(object, edit.api));  // a deletion, too
-        return editor.apply_api(object, edit.api);
-      });
-    case Kind::AddTargets:
-    case Kind::RemoveTargets:
-      return edit_target_list(editor, edit, typed);
-    case Kind::SetProperty:
-      break;
-  }
-  return editor.as_one_step([&]() -> Result<void> {
-    if (typed.is_relationship) {
-      TENON_CHECK(editor.create_relationship(object, typed.custom));
-      return editor.edit_targets(object, edit::ListEdit<Path>::set(typed.targets));
-    }
-    TENON_CHECK(editor.create_attribute(object, typed.type_name, typed.custom, typed.variability));
-    return editor.set_value(object, typed.value);
-  });
 }
 
 }  // namespace
@@ -232,6 +180,11 @@ class AssetEditor::State {
       if (file.differs()) {
         files.push_back(std::move(file));
       }
+    }
+    gone_.erase("");
+    for (const std::string& identifier : gone_) {
+      TENON_TRY(const auto bytes, resolver.open(identifier));
+      files.push_back({identifier, std::string(bytes->text()), "", true, true, true});
     }
     return files;
   }
@@ -357,6 +310,11 @@ class AssetEditor::State {
 
   Result<void> edit_one(std::size_t number, const AssetEdit& edit) {
     TENON_CHECK(check_object(edit));
+    if (edit.is_about_specs()) {
+      TENON_CHECK(settle());
+      TENON_CHECK(edit_specs(number, edit));
+      return settle();
+    }
     Result<bool> done = try_edit(number, edit);
     if (!(done && *done) && !unproved_.empty()) {
       TENON_CHECK(settle());
@@ -365,20 +323,56 @@ class AssetEditor::State {
     return done ? Result<void>() : with_file_fix(done.error());
   }
 
+  /// In all files at once; looks whether it is composed as asked.
+  Result<void> edit_specs(std::size_t number, const AssetEdit& edit) {
+    AllFiles files{roles_, {}, [this](const std::string& layer) { return editor_of(layer); }};
+    for (const Selection& selection : selections_) {
+      files.stages.push_back(selection.stage);
+    }
+    if (edit.tidy) {
+      TENON_TRY(const std::string gone, file_that_goes(files, edit));
+      gone_.insert(gone);
+    }
+    TENON_TRY(std::vector<EditedPlace> places, edit_in_all_files(files, edit));
+    for (EditedPlace& place : places) {
+      TENON_CHECK(check_in_no_package(place.file));
+      place.edit = number;
+      places_.push_back(std::move(place));
+    }
+    for (Selection& selection : selections_) {
+      TENON_CHECK(compose(selection));
+      TENON_CHECK(check_done_in_all_files(*selection.stage, edit));
+    }
+    return {};
+  }
+
+  /// An editor whose scene has the layer; null: none has.
+  edit::StageEditor* editor_of(const std::string& layer) {
+    for (Selection& selection : selections_) {
+      if (selection.editor.layer(layer) != nullptr) {
+        return &selection.editor;
+      }
+    }
+    return nullptr;
+  }
+
   /// False, and nothing is done, when the edit depends on one that is not proved.
   Result<bool> try_edit(std::size_t number, const AssetEdit& edit) {
     const Path prim_path = edit.object.prim();
     const auto has_prim = [&](const Selection& selection) {
-      return bool(selection.stage->prim(prim_path));
+      return bool(prim_for(*selection.stage, edit));
     };
     const auto first = std::find_if(selections_.begin(), selections_.end(), has_prim);
     if (first == selections_.end()) {
-      return no_prim(prim_path);
+      return no_prim(edit.kind == Kind::DefinePrim ? prim_path.parent() : prim_path);
     }
     if (reads_what_is_written(edit)) {
       return false;
     }
-    const stage::Prim prim = first->stage->prim(prim_path);
+    const stage::Prim prim = prim_for(*first->stage, edit);
+    if (edit.kind == Kind::DefinePrim) {
+      TENON_CHECK(check_free(prim, prim_path));
+    }
     if (edit.kind == Kind::ApplyApi) {
       TENON_CHECK(edit::check_api(prim, edit.api));
     }
@@ -386,7 +380,7 @@ class AssetEditor::State {
               choose_file({*first->stage, prim, edit, roles_, names_, options_}));
     TENON_CHECK(check_in_no_package(file.layer));
     for (Selection& selection : selections_) {
-      const auto site = stage::site_in_layer(*selection.stage, prim_path, file.layer);
+      const auto site = site_for(*selection.stage, edit, file.layer);
       if (has_prim(selection) && site) {
         const bool there =
             edit.kind == Kind::ApplyApi && is_as_asked(selection.stage->prim(prim_path), edit, {});
@@ -402,6 +396,21 @@ class AssetEditor::State {
                                            : "tenon where names the files that count");
   }
 
+  Result<void> check_free(const stage::Prim& above, Path prim) const {
+    if (above.is_instance() || above.is_instance_proxy()) {
+      return Error(ErrorCode::Invalid, "<" + prim.str() + "> would be inside an instance")
+          .with_prim(prim.str())
+          .with_rule("edit.instance-proxy")
+          .with_fix("add it to the file that the instances share, or outside of them");
+    }
+    for (const Selection& selection : selections_) {
+      if (const stage::Prim there = selection.stage->prim(prim)) {
+        return already_there(there);
+      }
+    }
+    return {};
+  }
+
   Result<bool> author_in(Selection& selection, const stage::LayerSite& site, std::size_t number,
                          const AssetEdit& edit, const FileChoice& file) {
     edit::EditTarget target = edit::site_target(site, file.layer);
@@ -410,14 +419,14 @@ class AssetEditor::State {
       return false;
     }
     Unproved made{&edit, {}, {}};
-    if (!edit.is_about_api()) {
+    if (!edit.is_about_api() && !edit.is_about_prim()) {
       const stage::Prim prim = selection.stage->prim(edit.object.prim());
       const layer::LayerPtr layer = selection.editor.layer(file.layer);
       TENON_TRY(made.typed, typed_edit(prim, edit, layer->find(spec)));
       made.place.before = composed_text(prim, edit.object.name());
     }
     TENON_CHECK(selection.editor.set_target(std::move(target)));
-    TENON_CHECK(author(selection.editor, edit, spec, made.typed));
+    TENON_CHECK(author_edit(selection.editor, edit, spec, made.typed));
     written_.insert(spec);
     sites_.insert(spec);
     for (const Path at : sites_of(edit)) {
@@ -466,7 +475,9 @@ class AssetEditor::State {
         if (!selection.shown.empty()) {
           place.variants.push_back(selection.shown);
         }
-        if (first && !edit.is_about_api()) {
+        if (first && edit.kind == Kind::DefinePrim) {
+          place.after = edit.type_name.str();
+        } else if (first && !edit.is_about_api() && !edit.is_about_prim()) {
           place.after = composed_text(prim, edit.object.name());
           warn_of_samples(prim, edit, typed);
         }
@@ -496,7 +507,8 @@ class AssetEditor::State {
   }
 
   static Error hidden(const Selection& selection, const AssetEdit& edit, const std::string& file) {
-    const Token property = edit.is_about_api() ? Token() : edit.object.name();
+    const bool of_prim = edit.is_about_api() || edit.is_about_prim();
+    const Token property = of_prim ? Token() : edit.object.name();
     std::string stronger = "another layer";
     std::uint32_t line = 0;
     for (const auto& source :
@@ -531,8 +543,9 @@ class AssetEditor::State {
   std::vector<std::string> names_;
   structure::RolesOfFiles roles_;
   std::vector<Unproved> unproved_;
-  std::set<Path> written_;  // by unproved edits
-  std::set<Path> sites_;    // of what these are about
+  std::set<std::string> gone_;  // files that go with their variants
+  std::set<Path> written_;      // by unproved edits
+  std::set<Path> sites_;        // of what these are about
   std::vector<EditedPlace> places_;
 };
 

@@ -20,6 +20,13 @@
 /// Edits of assets in files: each lands in the file that owns what it changes.
 namespace tenon {
 
+/// What a prim that is made brings in.
+struct AssetArc {
+  bool payload = false;  ///< else a reference
+  std::string file;      ///< absolute; the layer names it from its own folder
+  Path prim;             ///< empty: the default prim of the file
+};
+
 /// One edit of something of the composed scene.
 struct AssetEdit {
   enum class Kind : unsigned char {
@@ -29,21 +36,35 @@ struct AssetEdit {
     RemoveApi,
     AddTargets,     ///< to what a relationship has
     RemoveTargets,  ///< of a relationship, also from weaker layers
+    DefinePrim,     ///< of type `type_name`, below a prim that is there, with what `arc` brings
+    AddVariant,     ///< `value` is SET=VARIANT
+    RemoveVariant,  ///< the same, from all own files; a set goes with its last one
+    RemovePrim,     ///< from all own files, and from every list of targets in them
+    RenamePrim,     ///< `value` is the new name, also for all that names the prim in own files
   };
 
   Kind kind = Kind::SetProperty;
-  Path object;        ///< a property; for API schemas a prim
+  Path object;        ///< a property; for API schemas, prims and variants a prim
   std::string value;  ///< of an attribute as text layers print it, quotes and @ may be left out,
                       ///< "None" blocks; of a relationship: paths, all that it has then, or those
                       ///< to add or remove
   Token api;          ///< "PhysicsMassAPI", "PhysicsDriveAPI:angular"
-  Token type_name;    ///< of an attribute that no schema and no layer knows: makes it
+  Token type_name;    ///< of an attribute that no schema and no layer knows: makes it; of a prim
   std::string engine{};  ///< its file alone, whatever EditOptions::engine says
+  std::string layer{};   ///< this file alone, by its identifier
   /// Edits of one number are one wish, which has an effect when one of them has; none: a wish of
   /// its own.
   std::optional<std::size_t> wish{};
 
+  std::optional<AssetArc> arc{};
+  bool tidy = false;      ///< removing takes specs along that say nothing then
+  bool may_rest = false;  ///< nothing that engines receive has to change by it alone
+
   bool is_about_api() const { return kind == Kind::ApplyApi || kind == Kind::RemoveApi; }
+  /// About a prim or its variants as a whole.
+  bool is_about_prim() const { return kind >= Kind::DefinePrim; }
+  /// In all files of the asset at once.
+  bool is_about_specs() const { return kind >= Kind::RemoveVariant; }
 };
 
 struct EditOptions {
@@ -75,7 +96,8 @@ struct PhysicsEffect {
 };
 
 struct EditedAsset {
-  std::vector<EditedPlace> places;     ///< one for each edit; none for schemas applied already
+  std::vector<EditedPlace> places;     ///< one for each edit; none for schemas applied already, of
+                                       ///< edits in all files one for each file
   std::vector<EditedFile> files;       ///< that differ, sorted by path
   std::vector<PhysicsEffect> physics;  ///< the variant in which the asset opens first
   /// Edits of the physics that change nothing that engines receive, under no variant. Why is told

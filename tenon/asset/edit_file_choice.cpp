@@ -22,6 +22,12 @@ namespace fields = layer::fields;
 using structure::Role;
 
 std::string subject(const AssetEdit& edit) {
+  if (edit.kind == AssetEdit::Kind::AddVariant) {
+    return "a variant";
+  }
+  if (edit.is_about_prim()) {
+    return "a prim of type " + edit.type_name.str();
+  }
   return edit.is_about_api() ? edit.api.str() : edit.object.name().str();
 }
 
@@ -63,6 +69,9 @@ Result<FileChoice> named_file(const FileQuestion& q) {
 
 /// An opinion on the property, or on the list of API schemas.
 bool speaks(const stage::OpinionSource& source, const AssetEdit& edit) {
+  if (edit.is_about_prim()) {
+    return false;
+  }
   if (!edit.is_about_api()) {
     return source.spec->has(fields::default_value) || source.spec->has(fields::timeSamples) ||
            source.spec->has(fields::targetPaths) || source.spec->has(fields::spline);
@@ -117,6 +126,12 @@ std::vector<std::string> files_with(const FileQuestion& q, Role role) {
 }
 
 structure::Ownership ownership(const FileQuestion& q) {
+  if (q.edit.kind == AssetEdit::Kind::AddVariant) {
+    return structure::owner_of_metadata(fields::variantSetNames);
+  }
+  if (q.edit.is_about_prim()) {
+    return structure::owner_of_type(q.edit.type_name);
+  }
   return q.edit.is_about_api()
              ? structure::owner_of_api(q.edit.api)
              : structure::owner_of_property(q.edit.object.name(), q.prim.type_name(),
@@ -154,6 +169,27 @@ Result<FileChoice> engine_file(const FileQuestion& q) {
                  "its variants of \"Physics\" are those that tenon variant lists");
 }
 
+/// The first of the owners, or else of the files that may hold it, that has a place for the path.
+Result<FileChoice> file_of_prim(const FileQuestion& q, const structure::Ownership& owner) {
+  std::vector<Role> roles{owner.owner};
+  for (const Role role : {Role::Base, Role::Physics}) {
+    if (owner.also.contains(role)) {
+      roles.push_back(role);
+    }
+  }
+  for (const Role role : roles) {
+    for (const std::string& file : files_with(q, role)) {
+      if (site_for(q.stage, q.edit, file)) {
+        return FileChoice{file, std::string(structure::role_name(role)) + " is where " +
+                                    subject(q.edit) + " belongs"};
+      }
+    }
+  }
+  return no_file(
+      q, "no file for " + subject(q.edit) + " has a place for <" + q.edit.object.str() + ">",
+      "name the file with --in");
+}
+
 Result<FileChoice> owning_file(const FileQuestion& q) {
   const structure::Ownership owner = ownership(q);
   const Role role = structure::file_for(owner.owner, q.prim.is_instance_proxy());
@@ -170,6 +206,9 @@ Result<FileChoice> owning_file(const FileQuestion& q) {
                                    subject(q.edit) + " already"};
     }
   }
+  if (q.edit.is_about_prim()) {
+    return file_of_prim(q, owner);
+  }
   for (const std::string& file : files_with(q, role)) {
     return FileChoice{
         file, q.prim.is_instance_proxy() ? why(role) + ": the prim is in an instance" : why(role)};
@@ -182,9 +221,32 @@ Result<FileChoice> owning_file(const FileQuestion& q) {
 
 }  // namespace
 
+stage::Prim prim_for(const stage::Stage& stage, const AssetEdit& edit) {
+  if (edit.kind != AssetEdit::Kind::DefinePrim) {
+    return stage.prim(edit.object.prim());
+  }
+  const Path above = edit.object.parent();
+  return above.is_absolute_root() ? stage.pseudo_root() : stage.prim(above);
+}
+
+std::optional<stage::LayerSite> site_for(const stage::Stage& stage, const AssetEdit& edit,
+                                         const std::string& layer) {
+  if (edit.kind != AssetEdit::Kind::DefinePrim) {
+    return stage::site_in_layer(stage, edit.object.prim(), layer);
+  }
+  auto site = stage::site_in_layer(stage, edit.object.parent(), layer);
+  if (site) {
+    site->path = site->path.child(edit.object.name());
+  }
+  return site;
+}
+
 std::string file_part(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 Result<FileChoice> choose_file(const FileQuestion& question) {
+  if (!question.edit.layer.empty()) {
+    return FileChoice{question.edit.layer, "it says so"};
+  }
   if (!question.options.layer.empty()) {
     return named_file(question);
   }

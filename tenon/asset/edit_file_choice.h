@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tenon/asset/edit_asset.h"
 #include "tenon/base/result.h"
+#include "tenon/stage/sources/opinion_sources.h"
 #include "tenon/stage/stage.h"
 #include "tenon/structure/layout.h"
 
@@ -30,6 +32,14 @@ struct FileQuestion {
 /// The file that is named by the options, that owns the thing under the structure, or that has the
 /// strongest opinion on it. Errors: ErrorCode::NotFound, Invalid, with what can be done.
 Result<FileChoice> choose_file(const FileQuestion& question);
+
+/// The prim that has to be there for an edit: of one that is made the prim above it; an invalid one
+/// where it is not there.
+stage::Prim prim_for(const stage::Stage& stage, const AssetEdit& edit);
+
+/// The strongest place where an opinion of `layer` would count for what `edit` is about.
+std::optional<stage::LayerSite> site_for(const stage::Stage& stage, const AssetEdit& edit,
+                                         const std::string& layer);
 
 /// "physx.usda" of "/a/b/physx.usda".
 std::string file_part(const std::string& path);

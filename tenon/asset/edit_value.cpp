@@ -47,6 +47,17 @@ bool is_as_asked(const stage::Prim& prim, const AssetEdit& edit, const PropertyV
         return there == (edit.kind == AssetEdit::Kind::AddTargets);
       });
     }
+    case AssetEdit::Kind::DefinePrim:
+      return prim.is_defined() && prim.type_name() == edit.type_name;
+    case AssetEdit::Kind::AddVariant: {
+      const std::size_t equals = edit.value.find('=');
+      const auto names = prim.variant_names(edit.value.substr(0, equals));
+      return std::find(names.begin(), names.end(), edit.value.substr(equals + 1)) != names.end();
+    }
+    case AssetEdit::Kind::RemoveVariant:
+    case AssetEdit::Kind::RemovePrim:
+    case AssetEdit::Kind::RenamePrim:
+      return true;  // looked at where they are made
     case AssetEdit::Kind::SetProperty:
       break;
   }

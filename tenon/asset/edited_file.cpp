@@ -38,7 +38,8 @@ Result<EditedFile> new_file(const layer::Layer& layer) {
 Result<void> write_files(const std::vector<EditedFile>& files) {
   bytes::FileTransaction transaction;
   for (const EditedFile& file : files) {
-    transaction.put(file.path, file.after);
+    file.removed ? transaction.remove(file.path, file.path.substr(0, file.path.rfind('/')))
+                 : transaction.put(file.path, file.after);
   }
   return transaction.commit({.in_place = true});
 }

@@ -18,6 +18,7 @@ struct EditedFile {
   std::string after;   ///< text, or the bytes of a binary layer
   bool text = false;
   bool kept_layout = true;  ///< comments and layout of text stay
+  bool removed = false;     ///< it goes
 
   bool differs() const { return !text || before != after; }
 };

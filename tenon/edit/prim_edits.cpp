@@ -48,6 +48,19 @@ Result<void> check_comes_over_no_arc(const FoundPrim& found, Path prim) {
   return {};
 }
 
+/// An over without anything in it.
+bool says_nothing(const layer::Layer& layer, Path prim) {
+  const layer::Spec* spec = layer.find(prim);
+  if (spec == nullptr || spec->get_or(fields::specifier, Specifier::Over) != Specifier::Over) {
+    return false;
+  }
+  const layer::FieldList list = spec->field_list();
+  return std::all_of(list.items().begin(), list.items().end(), [](const layer::Field& field) {
+    const auto* names = field.value.get<std::vector<Token>>();
+    return field.name == fields::specifier || (names != nullptr && names->empty());
+  });
+}
+
 }  // namespace
 
 Result<FoundPrim> StageEditor::find_prim(Path prim) {
@@ -178,6 +191,16 @@ Result<void> StageEditor::remove_prim(Path prim) {
         .with_fix("remove it through an edit target above it");
   }
   return edit([&](LayerEditor& editor) { return editor.remove_prim(path); });
+}
+
+Result<void> StageEditor::remove_silent_prim(Path prim) {
+  TENON_TRY(const Path path, place(prim));
+  return edit([&](LayerEditor& editor) -> Result<void> {
+    for (Path at = path; at.is_prim() && says_nothing(editor.layer(), at); at = at.parent()) {
+      TENON_CHECK(editor.remove_prim(at));
+    }
+    return {};
+  });
 }
 
 Result<void> StageEditor::move_prim(Path from, Path to) {

@@ -66,6 +66,11 @@ class StageEditor {
   /// Makes a layer known that is in no file; arcs and sublayers name it by its identifier.
   void add_layer(layer::Layer layer);
 
+  /// Edits specs of a layer of the scene, whichever prims they are composed into; a step of the
+  /// history.
+  Result<void> edit_layer(const std::string& identifier,
+                          const Function<Result<void>(LayerEditor&)>& work);
+
   // Edit target; at first the root layer.
   const EditTarget& target() const { return target_; }
   /// A layer of the root layer stack.
@@ -94,6 +99,9 @@ class StageEditor {
   Result<void> create_class(Path prim);
   /// Removes the prim's spec at the edit target with all below; other layers may still have some.
   Result<void> remove_prim(Path prim);
+  /// Removes the prim's spec at the edit target where it says nothing at all, and then those above
+  /// it likewise. Nothing is done where it says something, or where there is none.
+  Result<void> remove_silent_prim(Path prim);
   /// Moves a prim in all layers of the root layer stack, and with it the targets, connections and
   /// arcs there that name it. Invalid when it comes over an arc: that takes a relocate.
   Result<void> move_prim(Path from, Path to);
@@ -167,8 +175,6 @@ class StageEditor {
   ComposedView& view();
   /// Runs an edit of the target layer; its changes become (part of) a step.
   Result<void> edit(const Function<Result<void>(LayerEditor&)>& work);
-  Result<void> edit_layer(const std::string& identifier,
-                          const Function<Result<void>(LayerEditor&)>& work);
 
   Result<void> check_editable(Path prim);
   Result<FoundPrim> find_prim(Path prim);

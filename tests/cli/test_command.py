@@ -374,7 +374,8 @@ class Command(unittest.TestCase):
                 "zip": ["-o", "p.usdz"], "strip": ["-o", "s.usda"], "sim": ["--duration", "0.01"],
                 "cat": ["--flatten"], "diff": [broken, "--composed"], "structure": ["-o", "st"],
                 "convert": ["out.xml"], "set": ["/World/ball.radius=2", "--dry-run"],
-                "variant": []}
+                "add": ["/World/x=cube", "--dry-run"], "remove": ["/World/mesh", "--dry-run"],
+                "rename": ["/World/mesh", "m", "--dry-run"], "variant": []}
         for name in self.verbs:
             if name in NOTHING:
                 continue

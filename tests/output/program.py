@@ -135,6 +135,7 @@ def verbs():
 
 # What each verb prints on standard output. None: it is a verb about something else.
 PRINTING = {
+    "add": ["add", "scene.usda", "/World/ball=sphere", "--dry-run"],
     "bake": ["bake", "scene.usda", "-o", "-", "--duration", "0.1"],
     "cat": ["cat", "scene.usda"],
     "check": ["check", "fixable.usda"],
@@ -148,7 +149,10 @@ PRINTING = {
     "help": ["help"],
     "info": ["info", "scene.usda"],
     "manual": ["manual"],
+    "new": ["new", "made.usda", "--json"],
     "physics": ["physics", "scene.usda"],
+    "remove": ["remove", "scene.usda", "/World/box", "--dry-run"],
+    "rename": ["rename", "scene.usda", "/World/box", "crate", "--dry-run"],
     "set": ["set", "scene.usda", "/World/box.size=1", "--dry-run"],
     "compare": ["compare", "scene.usda", "--engines", "mujoco,mujoco", "--duration", "0.1"],
     "sim": ["sim", "scene.usda", "--duration", "0.1"],
@@ -164,6 +168,7 @@ PRINTING = {
 
 # How each verb writes a file or folder, OUT. An empty list: it writes none.
 WRITING = {
+    "add": [],  # this and the next like it: in place alone
     "bake": [(["bake", "scene.usda", "-o", "OUT.usda", "--duration", "0.1"])],
     "cat": [["cat", "scene.usda", "-o", "OUT.usdc"], ["cat", "scene.usda", "-f", "-o", "OUT.usda"],
             ["cat", "scene.usda", "-o", "OUT.usdz"]],
@@ -181,7 +186,10 @@ WRITING = {
     "help": [],
     "info": [],
     "manual": [],
+    "new": [["new", "OUT.usda"], ["new", "OUT.usdc"]],
     "physics": [],
+    "remove": [],
+    "rename": [],
     "set": [],  # in place alone
     "compare": [["compare", "scene.usda", "--engines", "mujoco,mujoco", "--duration", "0.1", "-o",
                  f"OUT.{ending}"] for ending in ("html", "csv", "json")],
@@ -207,6 +215,12 @@ EDITS = {
              ["set", "base.usda", "/World/box.physics:density=7"]),
             (["set", "scene.usda", "/World/box.size=1", "/World/box.physics:rigidBodyEnabled=0"],
              ["set", "base.usda", "/World/box.physics:density=7"])],
+    "add": [(["add", "base.usda", "/World/ball=sphere,collider"],
+             ["add", "base.usda", "/World/box=filtered-pair", "--with", "/World"])],
+    "remove": [(["remove", "scene.usda", "/World/box=mass"],
+                ["set", "base.usda", "/World/box.size=2"])],
+    "rename": [(["rename", "scene.usda", "/World/box", "crate"],
+                ["set", "base.usda", "/World.visibility=invisible"])],
     "strip": [(["strip", "hand/inspire_hand.usda", "--in-place"],) * 2],
     "check": [(["check", "fixable.usda", "--fix"],) * 2],
     "variant": [(["variant", "base.usda", "Physics=none", "--in-place"],) * 2],

@@ -20,10 +20,11 @@ OPTIONS = ("--sandbox", "--search-path", "--allow-read")
 MARK = "CANARY"
 
 # What reads no asset.
-WITHOUT = {"doctor", "help", "version", "completion", "manual",
+WITHOUT = {"doctor", "help", "version", "completion", "manual", "new",
            "test-runner list-op", "test-runner schemas"}
 # Verb -> its arguments behind the asset; OUT is a folder.
 ROWS = {
+    "add": ["/A/new=scope", "--dry-run"],
     "bake": ["-o", "OUT/b.usda", "--duration", "0.01"],
     "cat": ["--flatten"],
     "check": [],
@@ -34,6 +35,8 @@ ROWS = {
     "explain": ["/A"],
     "info": [],
     "physics": [],
+    "remove": ["/A", "--dry-run"],
+    "rename": ["/A", "B", "--dry-run"],
     "set": ["/A.visibility=inherited", "--dry-run"],
     "sim": ["--duration", "0.01"],
     "strip": ["-o", "OUT/s.usda"],

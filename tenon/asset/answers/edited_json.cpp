@@ -44,6 +44,14 @@ Json text_difference_json(const std::string& name, const std::string& before,
   return is_text ? Json(diff::unified_diff(name, before, after)) : Json(nullptr);
 }
 
+Json new_json(const std::string& file, const NewAsset& made) {
+  return {{"file", shown_path(file)},
+          {"upAxis", made.up_axis},
+          {"metersPerUnit", made.meters_per_unit},
+          {"kilogramsPerUnit", made.kilograms_per_unit},
+          {"defaultPrim", made.default_prim}};
+}
+
 Json edited_json(const std::vector<AssetEdit>& edits, const EditedAsset& asset, bool dry_run) {
   Json places = Json::array();
   for (const EditedPlace& place : asset.places) {

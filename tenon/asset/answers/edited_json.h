@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tenon/answers/json.h"
+#include "tenon/asset/authoring/author_asset.h"
 #include "tenon/asset/edit_asset.h"
 
 namespace tenon {
@@ -16,6 +17,10 @@ namespace tenon {
 /// "diff" is null for what is no text, "variant" where there is no set "Physics".
 answers::Json edited_json(const std::vector<AssetEdit>& edits, const EditedAsset& asset,
                           bool dry_run);
+
+/// What was made by new_asset: {"file", "upAxis", "metersPerUnit", "kilogramsPerUnit",
+/// "defaultPrim"}.
+answers::Json new_json(const std::string& file, const NewAsset& made);
 
 /// The difference of a text as JSON, as patch(1) reads it; null for what is no text.
 answers::Json text_difference_json(const std::string& name, const std::string& before,

@@ -82,6 +82,9 @@ Result<void> EditEffects::look_before() {
 /// Vendors' attributes that are listed as not read, or are known to have no influence, are no
 /// wishes about what engines receive; nor is all that belongs to no physics, nor tidying up.
 bool EditEffects::is_about_physics(const AssetEdit& edit) const {
+  if (edit.is_about_prim() || edit.may_rest) {
+    return false;
+  }
   if (edit.is_about_api()) {
     return edit.kind == AssetEdit::Kind::ApplyApi && makes_an_object(edit.api);
   }

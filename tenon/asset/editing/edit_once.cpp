@@ -17,7 +17,7 @@ Result<void> find_lines(const AssetEditor& editor, EditedAsset& asset) {
   std::map<std::string, layer::LayerPtr> read;
   for (const EditedFile& file : asset.files) {
     Diagnostics ignored;
-    if (file.text) {
+    if (file.text && !file.removed) {
       TENON_TRY(layer::Layer again, formats::read_text(file.after, file.path, ignored));
       read[file.path] = std::make_shared<const layer::Layer>(std::move(again));
     }

@@ -209,6 +209,42 @@ TEST(LayoutEdit, NoChangeKeepsEveryByte) {
   EXPECT_EQ(edited.text, kLaidOut);
 }
 
+TEST(LayoutEdit, ItemsOfListsComeAndGoAlone) {
+  const std::string original =
+      "#usda 1.0\n"
+      "def \"A\" (prepend apiSchemas = [\"X\",   # first\n"
+      "    \"Y\"])\n{\n    rel r = [ </A>,\n        </B> ]\n}\n";
+  Diagnostics findings;
+  Layer layer = *read_text(original, "a.usda", findings);
+  Spec& prim = *layer.find(Path::from("/A"));
+  Spec& rel = *layer.find(Path::from("/A.r"));
+  const Spec prim_before = prim;
+  const Spec rel_before = rel;
+  auto apis = prim.get_or(fields::apiSchemas, layer::ListOp<Token>{});
+  apis.prepended.emplace_back("Z");
+  prim.set(fields::apiSchemas, Value(apis));
+  rel.set(fields::targetPaths, Value(layer::ListOp<Path>::make_explicit(
+                                   {Path::from("/A"), Path::from("/B"), Path::from("/C")})));
+  const EditedText more = edit_text(original, layer);
+  EXPECT_NE(more.text.find("\"X\",   # first\n    \"Y\", \"Z\"])"), std::string::npos) << more.text;
+  EXPECT_NE(more.text.find("[ </A>,\n        </B>, </C> ]"), std::string::npos) << more.text;
+  prim = prim_before;
+  rel = rel_before;
+  EXPECT_EQ(edit_text(more.text, layer).text, original);
+}
+
+TEST(LayoutEdit, ParenthesesGoWithTheLastStatementInThem) {
+  const std::string original = "#usda 1.0\n\ndef \"A\"\n{\n}\n";
+  Diagnostics findings;
+  Layer layer = *read_text(original, "a.usda", findings);
+  Spec& prim = *layer.find(Path::from("/A"));
+  prim.set(fields::kind, Token("component"));
+  const EditedText more = edit_text(original, layer);
+  EXPECT_NE(more.text.find("kind"), std::string::npos);
+  prim.erase(fields::kind);
+  EXPECT_EQ(edit_text(more.text, layer).text, original);
+}
+
 TEST(LayoutEdit, WhatCannotBeDoneInPlaceIsToldAndWrittenAnew) {
   Layer layer = read_text_layer(kLaidOut);
   spec(layer, "/A{look=red}").set("typeName", Token("Cube"));  // which no text can say

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tenon/formats/text/layout/layout_state.h"
+#include "tenon/formats/text/layout/list_layout.h"
 #include "tenon/formats/text/metadata_word.h"
 #include "tenon/formats/text/text_scanner.h"
 #include "tenon/formats/text/write/metadata_writer.h"
@@ -148,7 +149,11 @@ class MetadataLayout {
         statements_[field_of(text, before_.kind)].push_back(statement);
       }
     }
-    for (const Token field : changed_fields()) {
+    const std::set<Token> changed = changed_fields();
+    if (!changed.empty() && remove_block()) {
+      return;
+    }
+    for (const Token field : changed) {
       edit_field(field);
     }
     if (!added_.empty()) {
@@ -168,6 +173,37 @@ class MetadataLayout {
       }
     }
     return changed;
+  }
+
+  /// Takes the parentheses away when nothing is left in them, comments included; false: they stay.
+  bool remove_block() {
+    const auto stands = [&](const layer::Field& field) {
+      return stands_in_parentheses(field.name, after_.kind) && after_.has(field.name);
+    };
+    const auto left = after_.fields();
+    if (block_ == nullptr || block_->statements.empty() ||
+        std::any_of(left.begin(), left.end(), stands)) {
+      return false;
+    }
+    const std::string_view text = patch_.text();
+    std::size_t at = block_->range.begin + 1;
+    for (const SourceRange statement : block_->statements) {
+      if (text.substr(at, statement.begin - at).find_first_not_of(" \t\r\n;") != text.npos) {
+        return false;
+      }
+      at = statement.end;
+    }
+    if (text.substr(at, block_->range.end - 1 - at).find_first_not_of(" \t\r\n;") != text.npos) {
+      return false;
+    }
+    SourceRange range = block_->range;
+    if (before_.kind == SpecKind::PseudoRoot) {
+      range.end += text.substr(range.end).starts_with('\n') ? 1 : 0;
+    } else {
+      range.begin = text.find_last_not_of(" \t\r\n", range.begin - 1) + 1;
+    }
+    patch_.replace(range, {});
+    return true;
   }
 
   std::string lines(const std::string& text) const {
@@ -203,7 +239,9 @@ class MetadataLayout {
       std::string by = lines(text);
       by.erase(0, statement_indent().size());
       by.pop_back();
-      patch_.replace(old.front(), by);
+      if (old.size() != 1 || !edit_list_items(patch_, old.front(), by)) {
+        patch_.replace(old.front(), by);
+      }
     }
   }
 

@@ -6,6 +6,7 @@
 
 #include "tenon/base/text/text_number.h"
 #include "tenon/formats/text/layout/layout_state.h"
+#include "tenon/formats/text/layout/list_layout.h"
 #include "tenon/formats/text/write/value_text.h"
 #include "tenon/formats/text/write/writer.h"
 #include "tenon/layer/field_values.h"
@@ -104,7 +105,9 @@ class PropertyLayout {
     std::string by = canonical();
     by.erase(0, patch_.indent_at(first.begin).size());
     by.pop_back();
-    patch_.replace(first, by);
+    if (statements_->size() != 1 || !edit_list_items(patch_, first, by)) {
+      patch_.replace(first, by);
+    }
   }
 
   void edit_default() {

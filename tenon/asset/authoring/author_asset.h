@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tenon/asset/authoring/add_edits.h"
+#include "tenon/asset/edit_asset.h"
+#include "tenon/asset/made_file.h"
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+
+/// Scenes made of kinds (kinds.h): new files, what is added, taken away and renamed.
+namespace tenon {
+
+struct NewAsset {
+  std::string up_axis = "Z";
+  double meters_per_unit = 1;
+  double kilograms_per_unit = 1;
+  std::string default_prim = "World";
+};
+
+/// A file with the units and an empty Xform as its default prim, in the format of its name. Errors:
+/// Invalid (edit.bad-name).
+Result<MadeFile> new_asset(const std::string& file, const NewAsset& wanted);
+
+/// What was edited, and the edits that the places count.
+struct AuthoredAsset {
+  std::vector<AssetEdit> edits;
+  EditedAsset asset;
+};
+
+/// Each edit lands in the file that owns it, is proved, and its effect on the physics is told, as
+/// edit_asset does it. No file is touched. Errors: those of add_edits, remove_edits and edit_asset.
+Result<AuthoredAsset> add_to_asset(const std::string& path, const AuthoringRequest& request,
+                                   const EditOptions& options, Diagnostics& diagnostics);
+Result<AuthoredAsset> remove_from_asset(const std::string& path, const AuthoringRequest& request,
+                                        const EditOptions& options, Diagnostics& diagnostics);
+/// Renames a prim in all files of the asset, with all that names it there.
+Result<AuthoredAsset> rename_in_asset(const std::string& path, const std::string& prim,
+                                      const std::string& name, const EditOptions& options,
+                                      Diagnostics& diagnostics);
+
+}  // namespace tenon

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/asset/authoring/requested_kinds.h"
+
+#include <algorithm>
+
+#include "tenon/base/text/nearest_name.h"
+#include "tenon/property_value.h"
+#include "tenon/schema/registry.h"
+
+namespace tenon {
+namespace {
+
+std::string listed_kinds() {
+  std::string text;
+  for (const std::string& name : kind_names()) {
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
+}
+
+Error unknown_kind(const std::string& name) {
+  const std::vector<std::string> names = kind_names();
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  const std::string near(nearest_name(name, views));
+  return Error(ErrorCode::Invalid, "nothing that can be added is called \"" + name + "\"" +
+                                       (near.empty() ? "" : "; did you mean " + near + "?"))
+      .with_rule("edit.unknown-kind")
+      .with_fix("the kinds are: " + listed_kinds());
+}
+
+std::string options_of(const Kind& kind) {
+  std::string text;
+  for (const AuthoringOption& option : authoring_options()) {
+    if (kind.takes(option.name)) {
+      text += (text.empty() ? "--" : ", --") + std::string(option.name);
+    }
+  }
+  return text.empty() ? "no options" : text;
+}
+
+}  // namespace
+
+Result<RequestedKinds> read_requested(const std::string& text, bool kinds_needed) {
+  const std::size_t equals = text.find('=');
+  const std::string place = text.substr(0, equals);
+  const auto path = Path::parse(place);
+  if (!path || !path->is_absolute() || !path->is_prim() || path->has_variants()) {
+    return not_a_path(place, "prim");
+  }
+  RequestedKinds requested{*path, {}};
+  if (equals == std::string::npos) {
+    if (!kinds_needed) {
+      return requested;
+    }
+    return Error(ErrorCode::Invalid, "\"" + text + "\" does not say what to add")
+        .with_rule("edit.bad-argument")
+        .with_fix("write PATH=KIND, as in /World/box=cube; the kinds are: " + listed_kinds());
+  }
+  for (std::size_t begin = equals + 1; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string name = text.substr(begin, end - begin);
+    const Kind* kind = find_kind(name);
+    if (kind == nullptr) {
+      return unknown_kind(name);
+    }
+    requested.kinds.push_back(kind);
+    begin = end + 1;
+  }
+  return requested;
+}
+
+Result<void> check_options(const AuthoringRequest& request,
+                           const std::vector<RequestedKinds>& requested) {
+  std::vector<const Kind*> kinds;
+  for (const RequestedKinds& one : requested) {
+    kinds.insert(kinds.end(), one.kinds.begin(), one.kinds.end());
+  }
+  for (const auto& [name, value] : request.options) {
+    const bool taken =
+        std::any_of(kinds.begin(), kinds.end(),
+                    [&, &option = name](const Kind* kind) { return kind->takes(option); });
+    if (!taken) {
+      const std::string kind = kinds.empty() ? "" : std::string(kinds.front()->name);
+      return Error(ErrorCode::Invalid, "--" + name + " is no option of " + kind)
+          .with_rule("edit.bad-argument")
+          .with_fix(kinds.empty() ? "leave it out" : kind + " takes " + options_of(*kinds.front()));
+    }
+  }
+  for (const Kind* kind : kinds) {
+    for (const std::string_view need : kind->needs) {
+      if (!request.options.contains(std::string(need))) {
+        return Error(ErrorCode::Invalid, std::string(kind->name) + " needs --" + std::string(need))
+            .with_rule("edit.bad-argument")
+            .with_fix("it takes " + options_of(*kind));
+      }
+    }
+  }
+  return {};
+}
+
+stage::Prim find_in(const Stages& stages, Path prim) {
+  for (const auto& stage : stages) {
+    if (const stage::Prim found = stage->prim(prim)) {
+      return found;
+    }
+  }
+  return {};
+}
+
+Result<stage::Prim> need_in(const Stages& stages, Path prim) {
+  if (const stage::Prim found = find_in(stages, prim)) {
+    return found;
+  }
+  return Error(ErrorCode::NotFound, "there is no prim <" + prim.str() + ">, in no variant")
+      .with_prim(prim.str())
+      .with_rule("edit.no-prim")
+      .with_fix("tenon tree lists all prims");
+}
+
+bool has_own_limits(Token joint) {
+  const schema::Registry& registry = schema::Registry::instance();
+  return registry.is_a(joint, Token("PhysicsRevoluteJoint")) ||
+         registry.is_a(joint, Token("PhysicsPrismaticJoint"));
+}
+
+std::string instance_of(Token joint, const Kind& kind,
+                        const std::map<std::string, std::string>& options) {
+  if (const auto given = options.find("dof"); given != options.end()) {
+    return given->second;
+  }
+  const schema::Registry& registry = schema::Registry::instance();
+  if (kind.name == "limit") {
+    return registry.is_a(joint, Token("PhysicsDistanceJoint")) ? "distance" : "";
+  }
+  return registry.is_a(joint, Token("PhysicsRevoluteJoint"))    ? "angular"
+         : registry.is_a(joint, Token("PhysicsPrismaticJoint")) ? "linear"
+                                                                : "";
+}
+
+std::string with_instance(std::string_view name, const std::string& instance) {
+  std::string text(name);
+  const std::size_t star = text.find('*');
+  return star == std::string::npos ? text : text.replace(star, 1, instance);
+}
+
+}  // namespace tenon

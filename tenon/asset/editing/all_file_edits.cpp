@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every file that may speak of a prim has it at one path (prim_sites.h), so that its specs are
+// edited layer by layer, whichever variants are selected; the scenes are composed afterwards and
+// show whether another file, which is not the asset's own, still has it.
+#include "tenon/asset/editing/all_file_edits.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "tenon/asset/editing/prim_sites.h"
+#include "tenon/asset/editing/spec_edits.h"
+#include "tenon/layer/fields.h"
+
+namespace tenon {
+namespace {
+
+using Kind = AssetEdit::Kind;
+
+Result<std::vector<Path>> edit_specs(edit::LayerEditor& editor, Path site, const AssetEdit& edit) {
+  switch (edit.kind) {
+    case Kind::RemovePrim:
+      return remove_prim_specs(editor, site);
+    case Kind::RenamePrim:
+      return rename_prim_specs(editor, site, Token(edit.value));
+    default:
+      break;
+  }
+  const std::size_t equals = edit.value.find('=');
+  return remove_variant_specs(editor, site, edit.value.substr(0, equals),
+                              edit.value.substr(equals + 1));
+}
+
+Error nothing_to_edit(const AssetEdit& edit) {
+  const std::string what =
+      edit.kind == Kind::RemoveVariant ? "has the variant " + edit.value : "says anything about it";
+  return Error(ErrorCode::NotFound,
+               "no file of the asset's own " + what + ": <" + edit.object.str() + ">")
+      .with_prim(edit.object.str())
+      .with_rule("edit.no-spec")
+      .with_fix("tenon where names the files that do");
+}
+
+/// A name that is free under every selection.
+Result<void> check_new_name(const AllFiles& files, const AssetEdit& edit) {
+  if (!is_identifier(edit.value)) {
+    return Error(ErrorCode::Invalid, "\"" + edit.value + "\" is no name of a prim")
+        .with_prim(edit.object.str())
+        .with_rule("edit.bad-name")
+        .with_fix("use letters, digits and '_', no digit in front");
+  }
+  const Path to = edit.object.parent().child(Token(edit.value));
+  for (const auto& stage : files.stages) {
+    if (stage->prim(to)) {
+      return Error(ErrorCode::Invalid, "<" + to.str() + "> is there already")
+          .with_prim(edit.object.str())
+          .with_rule("edit.prim-exists")
+          .with_fix("choose another name");
+    }
+  }
+  return {};
+}
+
+std::string type_of(const AllFiles& files, Path prim) {
+  for (const auto& stage : files.stages) {
+    if (const stage::Prim found = stage->prim(prim)) {
+      return found.type_name().empty() ? "prim" : found.type_name().str();
+    }
+  }
+  return {};
+}
+
+EditedPlace place_of(const AllFiles& files, const AssetEdit& edit, const std::string& file,
+                     Path spec) {
+  EditedPlace place;
+  place.file = file;
+  place.spec = spec;
+  const bool of_target = spec.kind() == PathKind::Property;
+  const bool removes = edit.kind == Kind::RemovePrim;
+  if (!of_target) {
+    place.before = removes                            ? type_of(files, edit.object)
+                   : edit.kind == Kind::RemoveVariant ? edit.value
+                                                      : edit.object.name().str();
+    place.after = edit.kind == Kind::RenamePrim ? edit.value : "";
+  }
+  place.why = of_target ? "it named what is gone" : "the file speaks of it";
+  if (removes && !of_target) {
+    place.spec = spec.parent();  // what is there to be shown
+  }
+  return place;
+}
+
+}  // namespace
+
+Result<std::vector<EditedPlace>> edit_in_all_files(const AllFiles& files, const AssetEdit& edit) {
+  if (edit.kind == Kind::RenamePrim) {
+    TENON_CHECK(check_new_name(files, edit));
+  }
+  TENON_TRY(const PrimSites sites, own_sites(files.stages, files.roles, edit.object));
+  std::vector<EditedPlace> places;
+  for (const auto& [layer, site] : sites) {
+    edit::StageEditor* editor = files.editor_of(layer);
+    if (editor == nullptr) {
+      continue;
+    }
+    TENON_CHECK(editor->edit_layer(
+        layer, [&, at = site, &file = layer](edit::LayerEditor& specs) -> Result<void> {
+          TENON_TRY(const std::vector<Path> changed, edit_specs(specs, at, edit));
+          for (const Path spec : changed) {
+            places.push_back(place_of(files, edit, file, spec));
+          }
+          return {};
+        }));
+  }
+  return places.empty() ? Result<std::vector<EditedPlace>>(nothing_to_edit(edit))
+                        : Result<std::vector<EditedPlace>>(std::move(places));
+}
+
+Result<std::string> file_that_goes(const AllFiles& files, const AssetEdit& edit) {
+  const std::string set = std::string(structure::kPhysicsSet) + "=";
+  const bool of_engine = edit.kind == Kind::RemoveVariant && edit.value.starts_with(set);
+  const structure::Role role =
+      of_engine ? structure::role_of_physics_variant(edit.value.substr(set.size()))
+                : structure::Role::Other;
+  if (!structure::is_engine(role) || role == structure::Role::Engine) {
+    return std::string();
+  }
+  for (const auto& [file, has] : files.roles) {
+    edit::StageEditor* editor = has == role ? files.editor_of(file) : nullptr;
+    const layer::LayerPtr layer = editor == nullptr ? nullptr : editor->layer(file);
+    if (layer == nullptr) {
+      continue;
+    }
+    if (!layer->children(Path::absolute_root(), layer::fields::primChildren).empty()) {
+      return Error(ErrorCode::Invalid, "the file of the variant " + edit.value + " says something")
+          .in_file(file)
+          .with_rule("edit.in-use")
+          .with_fix("remove that first, or take the variant alone: =variant --variant " +
+                    edit.value);
+    }
+    return file;
+  }
+  return std::string();
+}
+
+Result<void> check_done_in_all_files(const stage::Stage& stage, const AssetEdit& edit) {
+  const stage::Prim prim = stage.prim(edit.object);
+  const bool gone = !prim || edit.kind == Kind::RemoveVariant;
+  if (gone) {
+    return {};
+  }
+  return Error(ErrorCode::Invalid,
+               "<" + edit.object.str() +
+                   "> is still there: a file that is not the asset's own has it")
+      .with_prim(edit.object.str())
+      .with_rule("edit.hidden")
+      .with_fix("tenon where names the files that speak of it");
+}
+
+}  // namespace tenon

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tenon/asset/edit_asset.h"
+#include "tenon/base/result.h"
+#include "tenon/edit/stage_editor.h"
+#include "tenon/stage/stage.h"
+#include "tenon/structure/layout.h"
+
+/// Edits of prims in every file that speaks of them. Internal to the wiring.
+namespace tenon {
+
+struct AllFiles {
+  const structure::RolesOfFiles& roles;
+  std::vector<std::shared_ptr<const stage::Stage>> stages;  ///< under all selections
+  std::function<edit::StageEditor*(const std::string& layer)> editor_of;
+};
+
+/// Makes the edit; a place for each file, and for each list of targets that lost one. Errors: those
+/// of prim_sites.h and spec_edits.h; NotFound (edit.no-spec) where no own file speaks of it.
+Result<std::vector<EditedPlace>> edit_in_all_files(const AllFiles& files, const AssetEdit& edit);
+
+/// The file of an engine whose variant the edit removes, which goes with it; empty where none does.
+/// Errors: Invalid (edit.in-use) where the file has opinions.
+Result<std::string> file_that_goes(const AllFiles& files, const AssetEdit& edit);
+
+/// Looks whether the scene is as asked. Errors: Invalid (edit.hidden).
+Result<void> check_done_in_all_files(const stage::Stage& stage, const AssetEdit& edit);
+
+}  // namespace tenon

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A prim may have a spec in each variant of the prims above it: all that have its path without
+// variant selections are edited. Targets and arcs never hold selections, so that they are compared
+// with that path.
+#include "tenon/asset/editing/spec_edits.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "tenon/layer/arcs.h"
+#include "tenon/layer/fields.h"
+
+namespace tenon {
+namespace {
+
+namespace fields = layer::fields;
+
+std::vector<Path> prim_specs(const layer::Layer& layer, Path prim) {
+  std::vector<Path> found;
+  for (const layer::Layer::Entry& entry : layer.entries()) {
+    if (entry.path.is_prim() && entry.path.strip_variants() == prim) {
+      found.push_back(entry.path);
+    }
+  }
+  return found;
+}
+
+template <class T>
+std::vector<std::vector<T>*> all_lists(layer::ListOp<T>& op) {
+  return {&op.explicit_items, &op.prepended, &op.appended, &op.deleted, &op.added, &op.ordered};
+}
+
+/// The arcs of a spec that lead to the prim or below, within its layer stack.
+template <class Arc>
+bool leads_to(const layer::Spec& spec, Token field, Path prim) {
+  const auto* op = spec.get<layer::ListOp<Arc>>(field);
+  if (op == nullptr) {
+    return false;
+  }
+  layer::ListOp<Arc> copy = *op;
+  for (const auto* list : all_lists(copy)) {
+    for (const Arc& arc : *list) {
+      if constexpr (std::is_same_v<Arc, Path>) {
+        if (arc.has_prefix(prim)) {
+          return true;
+        }
+      } else if (arc.asset_path.empty() && arc.prim_path.has_prefix(prim)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+Result<void> check_no_arc_leads_to(const layer::Layer& layer, Path prim) {
+  for (const layer::Layer::Entry& entry : layer.entries()) {
+    const layer::Spec* spec = entry.path.is_prim_or_variant() ? layer.find(entry.path) : nullptr;
+    if (spec == nullptr || entry.path.strip_variants().has_prefix(prim)) {
+      continue;
+    }
+    if (leads_to<layer::Reference>(*spec, fields::references, prim) ||
+        leads_to<layer::Payload>(*spec, fields::payload, prim) ||
+        leads_to<Path>(*spec, fields::inheritPaths, prim) ||
+        leads_to<Path>(*spec, fields::specializes, prim)) {
+      return Error(ErrorCode::Invalid,
+                   "<" + entry.path.str() + "> is made of <" + prim.str() + "> by an arc")
+          .in_file(layer.identifier())
+          .at(spec->line, 1)
+          .with_prim(prim.str())
+          .with_rule("edit.in-use")
+          .with_fix("remove that prim first, or let its arc lead elsewhere");
+    }
+  }
+  return {};
+}
+
+/// Takes all that begins with `prim` out of the lists of a field; nothing changes where none does.
+bool drop_from(edit::LayerEditor& editor, Path property, Token field, Path prim) {
+  auto op = editor.get_or(property, field, layer::ListOp<Path>{});
+  bool changed = false;
+  for (std::vector<Path>* list : all_lists(op)) {
+    changed = std::erase_if(*list, [&](Path path) { return path.has_prefix(prim); }) > 0 || changed;
+  }
+  if (changed) {
+    const bool nothing = op.empty() || (op.is_explicit && op.explicit_items.empty());
+    nothing ? editor.erase(property, field)
+            : editor.set(property, field, layer::Value(std::move(op)));
+  }
+  return changed;
+}
+
+/// A property that was there for its targets and has none now.
+bool is_done(const edit::LayerEditor& editor, Path property) {
+  const layer::Spec* spec = editor.layer().find(property);
+  return spec != nullptr && spec->kind == layer::SpecKind::Relationship &&
+         !spec->has(fields::targetPaths);
+}
+
+}  // namespace
+
+Result<std::vector<Path>> remove_prim_specs(edit::LayerEditor& editor, Path prim) {
+  TENON_CHECK(check_no_arc_leads_to(editor.layer(), prim));
+  std::vector<Path> changed = prim_specs(editor.layer(), prim);
+  for (const Path spec : changed) {
+    TENON_CHECK(editor.remove_prim(spec));
+  }
+  std::vector<Path> properties;
+  for (const layer::Layer::Entry& entry : editor.layer().entries()) {
+    if (entry.path.kind() == PathKind::Property) {
+      properties.push_back(entry.path);
+    }
+  }
+  for (const Path property : properties) {
+    const bool targets = drop_from(editor, property, fields::targetPaths, prim);
+    const bool connections = drop_from(editor, property, fields::connectionPaths, prim);
+    if (targets || connections) {
+      changed.push_back(property);
+    }
+    if (targets && is_done(editor, property)) {
+      TENON_CHECK(editor.remove_property(property));
+    }
+  }
+  return changed;
+}
+
+Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, Path prim, Token name) {
+  const Path to = prim.parent().child(name);
+  std::vector<Path> changed;
+  for (const Path spec : prim_specs(editor.layer(), prim)) {
+    const Path moved = spec.parent().child(name);
+    TENON_CHECK(editor.move_prim(spec, moved));
+    changed.push_back(moved);
+  }
+  editor.retarget(prim, to);
+  return changed;
+}
+
+Result<std::vector<Path>> remove_variant_specs(edit::LayerEditor& editor, Path prim,
+                                               const std::string& set, const std::string& variant) {
+  std::vector<Path> changed;
+  for (const Path spec : prim_specs(editor.layer(), prim)) {
+    const Path place = spec.variant_selection(Token(set), Token(variant));
+    if (!editor.layer().has(place)) {
+      continue;
+    }
+    TENON_CHECK(editor.remove_prim(place));
+    changed.push_back(spec);
+    const Path of_set = spec.variant_selection(Token(set), Token());
+    if (editor.layer().children(of_set, fields::variantChildren).empty()) {
+      TENON_CHECK(editor.remove_prim(of_set));
+      editor.edit_list(spec, fields::variantSetNames, edit::ListEdit<std::string>::withdraw(set));
+      editor.clear_selection(spec, set);
+    }
+  }
+  return changed;
+}
+
+}  // namespace tenon

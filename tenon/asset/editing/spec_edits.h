@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tenon/base/path.h"
+#include "tenon/base/result.h"
+#include "tenon/base/token.h"
+#include "tenon/edit/layer_editor.h"
+
+/// Edits of all specs that one layer has of a prim, those inside of variants included. `prim` is
+/// its path there, without variant selections. Each returns the specs that changed. Internal to
+/// the wiring.
+namespace tenon {
+
+/// Removes them, and takes the prim and all below it out of targets and connections, whose
+/// properties go when nothing is left in them. Errors: Invalid (edit.in-use) where an arc leads
+/// there.
+Result<std::vector<Path>> remove_prim_specs(edit::LayerEditor& editor, Path prim);
+
+/// Renames them, and the prim in all targets, connections and arcs of the layer.
+Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, Path prim, Token name);
+
+/// Removes a variant with all in it, and the set when it was its last one.
+Result<std::vector<Path>> remove_variant_specs(edit::LayerEditor& editor, Path prim,
+                                               const std::string& set, const std::string& variant);
+
+}  // namespace tenon
