@@ -10,6 +10,7 @@ set(TENON_PHYSX_VERSION 5.1.3)
 
 set(tenon_physx_key ${CMAKE_CXX_COMPILER_ID}${CMAKE_CXX_COMPILER_VERSION}${CMAKE_SYSTEM_PROCESSOR})
 foreach(file thirdparty/physx/CMakeLists.txt thirdparty/physx/functions.cpp
+        thirdparty/physx/friction.cpp thirdparty/physx/friction.h
         tenon/engines/physx/physx_functions.h tenon/engines/physx/physx_headers.h)
   file(READ ${PROJECT_SOURCE_DIR}/${file} tenon_physx_text)
   string(APPEND tenon_physx_key "${tenon_physx_text}")

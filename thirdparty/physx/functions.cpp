@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <new>
 
+#include "friction.h"
 #include <extensions/PxCustomGeometryExt.h>
 
 #include "tenon/engines/physx/physx_functions.h"
@@ -15,7 +16,9 @@ PxFoundation* create_foundation(PxAllocatorCallback& allocator, PxErrorCallback&
 }
 
 PxPhysics* create_physics(PxFoundation& foundation, const PxTolerancesScale& scale) {
-  return PxCreatePhysics(PX_PHYSICS_VERSION, foundation, scale);
+  PxPhysics* physics = PxCreatePhysics(PX_PHYSICS_VERSION, foundation, scale);
+  tenon_friction::listen_to_solver();  // which knows of articulations by now
+  return physics;
 }
 
 PxCpuDispatcher* create_dispatcher(unsigned threads) {
@@ -77,6 +80,8 @@ tenon_physx() {
       release_solid,
       release_cache,
       create_d6,
-      create_distance};
+      create_distance,
+      tenon_friction::watch,
+      tenon_friction::kept};
   return &functions;
 }

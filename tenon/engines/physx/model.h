@@ -11,6 +11,7 @@
 #include "tenon/engines/physx/physx_library.h"
 #include "tenon/engines/simulation_values.h"
 #include "tenon/scene/joint_dofs.h"
+#include "tenon/scene/joint_forest.h"
 #include "tenon/scene/physics_scene.h"
 
 /// A scene as PhysX has it, and what connects PhysX's objects with those of the neutral scene.
@@ -106,12 +107,19 @@ struct Model {
   std::vector<ReducedTree> trees;
   std::vector<PassiveForce> passive;
   std::vector<NotMapped> not_mapped;
+  scene::JointForest forest;
+  /// The body that a joint hangs on the rest of its tree (joint_count); none: it closes a loop.
+  std::vector<std::optional<scene::Index>> child_of_joint;
   std::unique_ptr<PairRules> pairs;  ///< where PhysX's filter finds it
   double time_step = 0;              ///< [s]
 
   bool is_link(scene::Index body) const;
 };
 
+/// Contacts are asked for, or what else is worked out needs them.
+inline bool needs_contacts(const Outputs& outputs) {
+  return outputs.contacts || outputs.reactions || outputs.work || outputs.efforts;
+}
 /// The collider that a shape belongs to.
 scene::Index collider_of(const px::PxShape& shape);
 /// Objects of PhysX have what they belong to in their userData; 0 there is nothing.

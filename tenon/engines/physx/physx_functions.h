@@ -9,7 +9,15 @@
 namespace tenon::engines::physx_api {
 
 /// Goes up with every change of Functions.
-inline constexpr unsigned kFunctionsVersion = 3;
+inline constexpr unsigned kFunctionsVersion = 4;
+
+/// What friction did at one patch of a pair of shapes during a step. The pair is the one whose
+/// report has its impulses there (PxContactPair::contactImpulses).
+struct FrictionImpulse {
+  const float* pair;
+  ::physx::PxVec3 normal;   ///< of the patch; it says which of the two actors is pushed
+  ::physx::PxVec3 impulse;  ///< on the actor that the normal points to [N s]
+};
 
 struct Functions {
   unsigned version;        ///< kFunctionsVersion of the library
@@ -46,6 +54,12 @@ struct Functions {
                                                const ::physx::PxTransform& frame0,
                                                ::physx::PxRigidActor* actor1,
                                                const ::physx::PxTransform& frame1);
+
+  /// From now on what friction does in steps of this thread is kept (true), from nothing on, or
+  /// not. Of the solver by projected Gauss-Seidel alone.
+  void (*watch_friction)(bool on);
+  /// What was kept, until the next call of watch_friction().
+  const FrictionImpulse* (*friction)(unsigned& count);
 };
 
 /// The one symbol of the library.

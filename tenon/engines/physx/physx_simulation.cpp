@@ -70,12 +70,13 @@ Result<void> PhysxSimulation::begin(double time_step, Diagnostics& diagnostics) 
   timeline_ = timeline_where_needed(*asset_);
   scene_ = timeline_ == nullptr ? asset_ : &timeline_->scene();
   TENON_TRY(model_, build_model(*scene_, options_, time_step, diagnostics, Begin::Start));
+  outputs_ = StepOutputs(options_.outputs);
   connect();
   return {};
 }
 
 void PhysxSimulation::connect() {
-  auto told = std::make_unique<StepEvents>(*scene_, model_.time_step);
+  auto told = std::make_unique<StepEvents>(*scene_, **open_physx(), model_.time_step);
   auto surfaces = std::make_unique<SurfaceMotion>(*scene_);
   for (px::PxScene* scene : model_.scenes) {
     scene->setSimulationEventCallback(told.get());
@@ -92,22 +93,34 @@ Result<void> PhysxSimulation::step() {
   if (timeline_ != nullptr) {
     TENON_CHECK(follow_changes());
   }
-  if (options_.outputs.accelerations) {
-    keep_velocities();
+  if (outputs_.follows_motion()) {
+    bring_up_to_date();
+    outputs_.begin(*scene_, model_);
   }
   inputs_.before_step(model_, steering_, time());
-  told_->clear();
-  stale_ = true;
-  for (px::PxScene* scene : model_.scenes) {
-    scene->simulate(to_px(model_.time_step));
-    scene->fetchResults(true);
-  }
-  ++steps_;
+  advance();
   if (!messages.errors().empty()) {
     return unstable(time(), "PhysX says: " + messages.errors().front(), {});
   }
   TENON_CHECK(check_step());
+  contacts_ = std::move(told_->contacts);
+  if (outputs_.follows_motion()) {
+    bring_up_to_date();
+    outputs_.end(*scene_, model_, inputs_, steering_, contacts_, time() - model_.time_step);
+  }
   return take_events();
+}
+
+void PhysxSimulation::advance() {
+  told_->clear();
+  stale_ = true;
+  for (px::PxScene* scene : model_.scenes) {
+    told_->begin_scene(needs_contacts(options_.outputs));
+    scene->simulate(to_px(model_.time_step));
+    scene->fetchResults(true);
+  }
+  told_->begin_scene(false);
+  ++steps_;
 }
 
 Result<void> PhysxSimulation::check_step() const {
@@ -120,7 +133,6 @@ Result<void> PhysxSimulation::check_step() const {
 }
 
 Result<void> PhysxSimulation::take_events() {
-  contacts_ = std::move(told_->contacts);
   for (const StepEvents::Passed& passed : told_->passed) {
     const std::optional<Index>& body = scene_->colliders[passed.other].body;
     const Path& other = body ? scene_->bodies[*body].path : scene_->colliders[passed.other].path;
@@ -141,7 +153,9 @@ Result<void> PhysxSimulation::take_events() {
 }
 
 Result<void> PhysxSimulation::follow_changes() {
+  const double before = energy_to_compare();
   const scene::SceneChange changed = timeline_->advance(time());
+  outputs_.add_change(energy_to_compare() - before);
   if (changed.gravity) {
     const std::vector<Vec3d> gravity = steering_.gravity_of(*scene_);
     for (std::size_t s = 0; s < model_.scenes.size(); ++s) {
@@ -156,23 +170,14 @@ Result<void> PhysxSimulation::rebuild() {
   for (Index b = 0; b < scene_->bodies.size(); ++b) {
     states.push_back(body_state(b));
   }
+  const double before = energy_to_compare();
   timeline_->restart(states);
   Diagnostics silent;  // what there is to say was said at the start
   TENON_TRY(model_, build_model(*scene_, options_, model_.time_step, silent, Begin::Middle));
   connect();
   apply_steering();
+  outputs_.add_change(energy_to_compare() - before);
   return {};
-}
-
-void PhysxSimulation::keep_velocities() {
-  bodies_at_begin_.clear();
-  joints_at_begin_.clear();
-  for (Index b = 0; b < scene_->bodies.size(); ++b) {
-    bodies_at_begin_.push_back(body_state(b));
-  }
-  for (Index j = 0; j < scene_->joints.size(); ++j) {
-    joints_at_begin_.push_back(joint_state(j));
-  }
 }
 
 void PhysxSimulation::bring_up_to_date() const {
@@ -225,6 +230,7 @@ Result<void> PhysxSimulation::reset() {
   steering_ = {};
   events_.clear();
   contacts_.clear();
+  log_ = {};
   steps_ = 0;
   return begin(model_.time_step, silent);
 }

@@ -7,9 +7,12 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/engines/physx/model.h"
+#include "tenon/engines/physx/run/input_log.h"
 #include "tenon/engines/physx/run/step_events.h"
 #include "tenon/engines/physx/run/step_inputs.h"
+#include "tenon/engines/physx/run/step_outputs.h"
 #include "tenon/engines/simulation.h"
+#include "tenon/engines/state_bytes.h"
 #include "tenon/engines/steering.h"
 #include "tenon/scene/timeline/timeline.h"
 
@@ -49,11 +52,15 @@ class PhysxSimulation final : public Simulation {
   Result<void> set_joint_state(scene::Index joint, const JointState& state) override;
   Result<void> set_body_state(scene::Index body, const BodyState& state) override;
   Result<void> reset() override;
+  Result<std::string> save_state() const override;
+  Result<void> restore_state(std::string_view bytes) override;
 
   Result<std::vector<Contact>> contacts() const override;
   Result<std::vector<double>> drive_efforts(scene::Index joint) const override;
+  Result<Wrench> joint_reaction(scene::Index joint) const override;
   Result<BodyAcceleration> body_acceleration(scene::Index body) const override;
   Result<std::vector<double>> joint_acceleration(scene::Index joint) const override;
+  Result<Work> work() const override;
 
  private:
   PhysxSimulation(const scene::PhysicsScene& scene, const SimulationOptions& options);
@@ -63,9 +70,15 @@ class PhysxSimulation final : public Simulation {
   Result<void> rebuild();
   Result<void> take_events();
   Result<void> check_step() const;
-  void keep_velocities();
+  void advance();
   Result<void> write_parameter(const ParameterKey& key, double value);
+  Result<void> write_joint_parameter(const ParameterKey& key);
   void apply_steering();
+  double energy_to_compare() const;
+  void set_from_outside(Input input, double energy_before);
+  Result<void> repeat(const Input& input);
+  StateOwner owner() const;
+  void take(PhysxSimulation& other);
   void bring_up_to_date() const;
 
   const scene::PhysicsScene* asset_;  ///< as it was given
@@ -79,8 +92,8 @@ class PhysxSimulation final : public Simulation {
   Steering steering_;
   std::vector<Event> events_;
   std::vector<Contact> contacts_;
-  std::vector<BodyState> bodies_at_begin_;  ///< of the last step, where accelerations are asked for
-  std::vector<JointState> joints_at_begin_;
+  StepOutputs outputs_;
+  InputLog log_;
   std::uint64_t steps_ = 0;
   mutable bool stale_ = true;  ///< caches are of an earlier step
 };

@@ -4,6 +4,7 @@
 // What is set is checked, given to PhysX and remembered, so that a model that is made anew gets it
 // again.
 #include <algorithm>
+#include <initializer_list>
 
 #include "tenon/engines/physx/build/build.h"
 #include "tenon/engines/physx/convert.h"
@@ -24,21 +25,43 @@ bool is_of_drive(Parameter what) {
          what == Parameter::DriveMaxForce;
 }
 
+std::vector<double> numbers_of(std::initializer_list<Vec3d> vectors) {
+  std::vector<double> numbers;
+  for (const Vec3d& vector : vectors) {
+    numbers.insert(numbers.end(), vector.v.begin(), vector.v.end());
+  }
+  return numbers;
+}
+
+std::vector<double> numbers_of(const Pose& pose) {
+  std::vector<double> numbers = numbers_of({pose.position});
+  const Quatd& q = pose.orientation;
+  numbers.insert(numbers.end(), {q.x, q.y, q.z, q.w});
+  return numbers;
+}
+
+std::vector<double> numbers_of(const BodyState& state) {
+  std::vector<double> numbers = numbers_of(state.pose);
+  const std::vector<double> speeds = numbers_of({state.linear_velocity, state.angular_velocity});
+  numbers.insert(numbers.end(), speeds.begin(), speeds.end());
+  return numbers;
+}
+
 bool is_free(const Model& model, const scene::PhysicsScene& scene, Index body) {
   return !model.is_link(body) && !scene.bodies[body].kinematic;
 }
 
 }  // namespace
 
-bool PhysxSimulation::can(Ability ability) const {
-  switch (ability) {
-    case Ability::SavedStates:
-    case Ability::JointReactions:
-    case Ability::Work:
-      return false;
-    default:
-      return true;
-  }
+bool PhysxSimulation::can(Ability /*ability*/) const { return true; }
+
+double PhysxSimulation::energy_to_compare() const { return outputs().work ? energy().total() : 0; }
+
+// Every function that sets something ends here.
+void PhysxSimulation::set_from_outside(Input input, double energy_before) {
+  input.step = steps_;
+  log_.add(input);
+  outputs_.add_change(energy_to_compare() - energy_before);
 }
 
 Result<void> PhysxSimulation::set_drive_target(Index joint, Index drive,
@@ -52,6 +75,11 @@ Result<void> PhysxSimulation::set_drive_target(Index joint, Index drive,
   }
   steering_.targets[{joint, drive}] = target;
   inputs_.steer_drive(joint, model_, steering_, time());
+  set_from_outside({.kind = InputKind::DriveTarget,
+                    .object = joint,
+                    .part = drive,
+                    .numbers = {target.position, target.velocity}},
+                   energy_to_compare());
   return {};
 }
 
@@ -59,37 +87,58 @@ Result<void> PhysxSimulation::set_joint_efforts(Index joint, std::span<const dou
   TENON_CHECK(check_joint(*scene_, joint));
   TENON_CHECK(check_efforts(*scene_, joint, efforts, joint_state(joint).position.size()));
   steering_.efforts[joint].assign(efforts.begin(), efforts.end());
+  set_from_outside({.kind = InputKind::JointEfforts,
+                    .object = joint,
+                    .numbers = {efforts.begin(), efforts.end()}},
+                   energy_to_compare());
   return {};
 }
 
 Result<void> PhysxSimulation::set_body_wrench(Index body, const Wrench& wrench) {
   TENON_CHECK(check_wrench(*scene_, body, wrench));
   steering_.wrenches[body] = wrench;
+  set_from_outside({.kind = InputKind::BodyWrench,
+                    .object = body,
+                    .numbers = numbers_of({wrench.force, wrench.torque})},
+                   energy_to_compare());
   return {};
 }
 
 Result<void> PhysxSimulation::move_kinematic(Index body, const Pose& pose) {
   TENON_CHECK(check_pose(*scene_, body, pose));
   steering_.poses[body] = {pose.position, normalized(pose.orientation)};
+  set_from_outside({.kind = InputKind::KinematicPose, .object = body, .numbers = numbers_of(pose)},
+                   energy_to_compare());
   return {};
 }
 
 Result<void> PhysxSimulation::set_gravity(Index scene, const Vec3d& gravity) {
   TENON_CHECK(check_gravity(*scene_, scene, gravity));
+  const double before = energy_to_compare();
   steering_.gravity[scene] = gravity;
   model_.scenes[scene]->setGravity(to_px(gravity));
+  set_from_outside({.kind = InputKind::Gravity, .object = scene, .numbers = numbers_of({gravity})},
+                   before);
   return {};
 }
 
 Result<void> PhysxSimulation::set_parameter(const ParameterKey& key, double value) {
   TENON_CHECK(check_parameter(*scene_, key, value));
+  const double energy_before = energy_to_compare();
   Steering before = steering_;
   steering_.parameters[key] = value;
   Result<void> done = write_parameter(key, value);
   if (!done) {
     steering_ = std::move(before);
+    return done;
   }
-  return done;
+  set_from_outside({.kind = InputKind::Parameter,
+                    .what = key.what,
+                    .object = key.object,
+                    .part = key.part,
+                    .numbers = {value}},
+                   energy_before);
+  return {};
 }
 
 Result<void> PhysxSimulation::write_parameter(const ParameterKey& key, double value) {
@@ -109,15 +158,44 @@ Result<void> PhysxSimulation::write_parameter(const ParameterKey& key, double va
     set_mass(body, *model_.bodies[key.object]);
     return {};
   }
-  const JointMap* map =
-      key.what == Parameter::ColliderFriction ? nullptr : &model_.joints[key.object];
-  if (key.what == Parameter::JointArmature && map->role == JointRole::Reduced &&
-      map->dofs.free.size() == 1) {
-    map->link_joint->setArmature(map->axis, to_px(value));
+  if (key.what == Parameter::ColliderFriction) {
+    return set_friction(*scene_, key.object, value, model_)
+               ? Result<void>()
+               : not_steerable(scene_->colliders[key.object].path, "PhysX has no such shape");
+  }
+  return write_joint_parameter(key);
+}
+
+Result<void> PhysxSimulation::write_joint_parameter(const ParameterKey& key) {
+  JointMap& map = model_.joints[key.object];
+  const scene::Joint joint = inputs_.joint_now(key.object, steering_, time());
+  const auto refused = [&](const std::string& why) {
+    return not_steerable(joint.path,
+                         std::string(parameter_name(key.what)) + " acts on PhysX " + why);
+  };
+  const bool coordinate = map.role == JointRole::Reduced && map.dofs.free.size() == 1;
+  if (key.what == Parameter::JointArmature) {
+    if (!coordinate) {
+      return refused("on coordinates of articulations only");
+    }
+    map.link_joint->setArmature(map.axis, to_px(joint.armature));
     return {};
   }
-  return not_steerable({}, std::string(parameter_name(key.what)) +
-                               " cannot be changed on PhysX while the simulation runs");
+  const bool driven = std::any_of(joint.drives.begin(), joint.drives.end(),
+                                  [&](const auto& drive) { return is_driven(joint, drive.dof); });
+  if (key.what == Parameter::JointFriction && (driven || has_spring(joint))) {
+    return refused("where the joint has neither drive nor spring");
+  }
+  if (!coordinate && (map.d6 == nullptr || driven)) {
+    return refused("on coordinates of articulations, and on joints without a drive");
+  }
+  std::erase_if(model_.passive,
+                [&](const PassiveForce& passive) { return passive.joint == key.object; });
+  if (const auto passive = passive_force(joint, key.object, map)) {
+    model_.passive.push_back(*passive);
+  }
+  inputs_.steer_drive(key.object, model_, steering_, time());
+  return {};
 }
 
 // Into a model that knows nothing of it.
@@ -141,22 +219,34 @@ Result<void> PhysxSimulation::set_joint_state(Index joint, const JointState& sta
     return not_steerable(scene_->joints[joint].path,
                          "only joints of articulations with one axis have a state on PhysX");
   }
+  const double before = energy_to_compare();
   map.link_joint->setJointPosition(map.axis, to_px(state.position.front()));
   map.link_joint->setJointVelocity(map.axis, to_px(state.velocity.front()));
   model_.trees[map.tree].articulation->updateKinematic(px::PxArticulationKinematicFlag::ePOSITION |
                                                        px::PxArticulationKinematicFlag::eVELOCITY);
   stale_ = true;
+  set_from_outside({.kind = InputKind::JointState,
+                    .object = joint,
+                    .numbers = {state.position.front(), state.velocity.front()}},
+                   before);
   return {};
 }
 
 Result<void> PhysxSimulation::set_body_state(Index body, const BodyState& state) {
   TENON_CHECK(check_body_state(*scene_, body, state));
+  const double before = energy_to_compare();
+  const auto done = [&] {
+    stale_ = true;
+    set_from_outside({.kind = InputKind::BodyState, .object = body, .numbers = numbers_of(state)},
+                     before);
+    return Result<void>();
+  };
   if (is_free(model_, *scene_, body)) {
     auto& actor = static_cast<px::PxRigidDynamic&>(*model_.bodies[body]);
     actor.setGlobalPose(to_px(state.pose));
     actor.setLinearVelocity(to_px(state.linear_velocity));
     actor.setAngularVelocity(to_px(state.angular_velocity));
-    return {};
+    return done();
   }
   for (const ReducedTree& tree : model_.trees) {
     px::PxArticulationLink* root = nullptr;
@@ -167,71 +257,11 @@ Result<void> PhysxSimulation::set_body_state(Index body, const BodyState& state)
       tree.articulation->setRootGlobalPose(to_px(state.pose));
       tree.articulation->setRootLinearVelocity(to_px(state.linear_velocity));
       tree.articulation->setRootAngularVelocity(to_px(state.angular_velocity));
-      stale_ = true;
-      return {};
+      return done();
     }
   }
   return not_steerable(scene_->bodies[body].path,
                        "the body hangs on a joint or is moved by the asset");
-}
-
-Result<std::vector<Contact>> PhysxSimulation::contacts() const {
-  if (!outputs().contacts) {
-    return output_off("contacts");
-  }
-  return contacts_;
-}
-
-// What the law gives at the end of the step, as PhysX takes drives there.
-Result<std::vector<double>> PhysxSimulation::drive_efforts(Index joint) const {
-  if (!outputs().efforts) {
-    return output_off("efforts");
-  }
-  TENON_CHECK(check_joint(*scene_, joint));
-  const scene::Joint& source = scene_->joints[joint];
-  const JointState state = joint_state(joint);
-  const scene::JointDofs& dofs = model_.joints[joint].dofs;
-  std::vector<double> efforts(source.drives.size(), 0);
-  for (Index d = 0; d < source.drives.size() && steps_ > 0; ++d) {
-    for (std::size_t i = 0; i < dofs.free.size() && i < state.position.size(); ++i) {
-      if (dofs.free[i].dof != source.drives[d].dof) {
-        continue;
-      }
-      scene::Drive drive = inputs_.drive_now(joint, d, steering_, time());
-      const double force = drive.stiffness * (drive.target_position - state.position[i]) +
-                           drive.damping * (drive.target_velocity - state.velocity[i]);
-      efforts[d] = std::clamp(force, -drive.max_force, drive.max_force);
-    }
-  }
-  return efforts;
-}
-
-Result<BodyAcceleration> PhysxSimulation::body_acceleration(Index body) const {
-  if (!outputs().accelerations) {
-    return output_off("accelerations");
-  }
-  TENON_CHECK(check_body(*scene_, body));
-  if (body >= bodies_at_begin_.size()) {
-    return BodyAcceleration{};
-  }
-  const BodyState now = body_state(body);
-  const BodyState& before = bodies_at_begin_[body];
-  return BodyAcceleration{(now.linear_velocity - before.linear_velocity) * (1 / time_step()),
-                          (now.angular_velocity - before.angular_velocity) * (1 / time_step())};
-}
-
-Result<std::vector<double>> PhysxSimulation::joint_acceleration(Index joint) const {
-  if (!outputs().accelerations) {
-    return output_off("accelerations");
-  }
-  TENON_CHECK(check_joint(*scene_, joint));
-  std::vector<double> result = joint_state(joint).velocity;
-  const bool known =
-      joint < joints_at_begin_.size() && joints_at_begin_[joint].velocity.size() == result.size();
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i] = known ? (result[i] - joints_at_begin_[joint].velocity[i]) / time_step() : 0;
-  }
-  return result;
 }
 
 }  // namespace tenon::engines::physx

@@ -78,5 +78,9 @@ void start(Build& build, Begin begin);
 
 /// Mass, centre of mass, inertia, damping and speeds of a body.
 void set_mass(const scene::Body& body, px::PxRigidBody& made);
+/// Another coefficient of friction, static and dynamic, for the surface of a collider; false: it
+/// has no shape.
+bool set_friction(const scene::PhysicsScene& scene, scene::Index collider, double coefficient,
+                  Model& model);
 
 }  // namespace tenon::engines::physx

@@ -38,6 +38,13 @@ Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOpti
     diagnostics.add(
         {Severity::Warning, "physx.message", "PhysX says: " + words, "", 0, 0, "", "", ""});
   }
+  build.model.child_of_joint.resize(scene.joints.size());
+  for (scene::Index b = 0; b < build.forest.bodies.size(); ++b) {
+    if (const std::optional<scene::Index>& joint = build.forest.bodies[b].joint) {
+      build.model.child_of_joint[*joint] = b;
+    }
+  }
+  build.model.forest = std::move(build.forest);
   return std::move(build.model);
 }
 

@@ -41,6 +41,18 @@ px::PxMaterial* make_material(Build& build, const scene::Material& source) {
   return made;
 }
 
+/// For one collider alone; the model owns it.
+px::PxMaterial* copy_of(const px::PxMaterial& source, Model& model) {
+  px::PxPhysics& physics = *(*open_physx())->physics;
+  px::PxMaterial* made = model.owned.add(
+      physics.createMaterial(source.getStaticFriction(), source.getDynamicFriction(), 0));
+  made->setRestitution(source.getRestitution());
+  made->setFrictionCombineMode(source.getFrictionCombineMode());
+  made->setRestitutionCombineMode(source.getRestitutionCombineMode());
+  made->setDamping(source.getDamping());
+  return made;
+}
+
 constexpr float kBounceThreshold = 0.2F;  // [m/s] slower impacts do not rebound
 
 }  // namespace
@@ -48,7 +60,7 @@ constexpr float kBounceThreshold = 0.2F;  // [m/s] slower impacts do not rebound
 Result<void> add_scenes(Build& build) {
   build.model.pairs = std::make_unique<PairRules>();
   build.model.pairs->scene = &build.scene;
-  build.model.pairs->report_contacts = build.options.outputs.contacts;
+  build.model.pairs->report_contacts = needs_contacts(build.options.outputs);
   const PairRulesLink link{build.model.pairs.get()};
   for (const scene::Scene& source : build.scene.scenes) {
     px::PxSceneDesc wanted(build.runtime.physics->getTolerancesScale());
@@ -69,6 +81,30 @@ Result<void> add_scenes(Build& build) {
     build.model.scenes.push_back(made);
   }
   return {};
+}
+
+bool set_friction(const scene::PhysicsScene& scene, scene::Index collider, double coefficient,
+                  Model& model) {
+  const std::vector<px::PxShape*>& shapes = model.shapes[collider];
+  for (px::PxShape* shape : shapes) {
+    std::vector<px::PxMaterial*> materials(shape->getNbMaterials());
+    shape->getMaterials(materials.data(), static_cast<px::PxU32>(materials.size()));
+    for (px::PxMaterial*& material : materials) {
+      if (material->userData != shape) {
+        material = copy_of(*material, model);
+        material->userData = shape;
+      }
+      material->setStaticFriction(to_px(coefficient));
+      material->setDynamicFriction(to_px(coefficient));
+    }
+    shape->setMaterials(materials.data(), static_cast<px::PxU16>(materials.size()));
+  }
+  if (!shapes.empty()) {  // pairs that touch already look at their materials again
+    px::PxRigidActor& actor = *shapes.front()->getActor();
+    model.scenes[scene.colliders[collider].scene]->resetFiltering(
+        actor, shapes.data(), static_cast<px::PxU32>(shapes.size()));
+  }
+  return !shapes.empty();
 }
 
 void add_materials(Build& build) {

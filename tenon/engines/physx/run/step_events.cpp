@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// PhysX gives the normal impulse of each contact point and none of its friction. Its normals point
-// from the second shape to the first; ours go from the collider of the lower index to the other.
+// PhysX's normals point from the second shape to the first; ours go from the collider of the lower
+// index to the other. Friction acts on patches of points with one normal, and is shared out among
+// them as the normal forces are.
 #include "tenon/engines/physx/run/step_events.h"
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <utility>
 
 #include "tenon/engines/physx/convert.h"
@@ -14,6 +18,7 @@ namespace tenon::engines::physx {
 namespace {
 
 constexpr px::PxU32 kMostPoints = 256;
+constexpr double kSameNormal = 0.999;  // cosine between those of a patch and of its points
 
 Vec3d carried_velocity(const scene::PhysicsScene& scene, scene::Index collider,
                        const px::PxTransform& pose, const px::PxVec3& point) {
@@ -35,6 +40,11 @@ void StepEvents::clear() {
   contacts.clear();
   broken.clear();
   passed.clear();
+}
+
+void StepEvents::begin_scene(bool with_contacts) {
+  runtime_->functions->watch_friction(with_contacts);
+  sorted_ = false;
 }
 
 void StepEvents::onConstraintBreak(px::PxConstraintInfo* constraints, px::PxU32 count) {
@@ -85,6 +95,43 @@ void StepEvents::add_contacts(const px::PxContactPair& pair) {
     contact.depth = -static_cast<double>(points[i].separation);
     contact.normal_force = dot(from_px(points[i].impulse), normal) / time_step_;
     contacts.push_back(contact);
+  }
+  add_friction(pair, std::span(contacts).last(count));
+}
+
+void StepEvents::sort_friction() {
+  unsigned count = 0;
+  const physx_api::FrictionImpulse* first = runtime_->functions->friction(count);
+  friction_.assign(first, first + count);
+  std::stable_sort(friction_.begin(), friction_.end(),
+                   [](const auto& a, const auto& b) { return std::less<>()(a.pair, b.pair); });
+  sorted_ = true;
+}
+
+void StepEvents::add_friction(const px::PxContactPair& pair, std::span<Contact> points) {
+  if (!sorted_) {
+    sort_friction();
+  }
+  auto patch = std::lower_bound(
+      friction_.begin(), friction_.end(), pair.contactImpulses,
+      [](const auto& kept, const float* wanted) { return std::less<>()(kept.pair, wanted); });
+  for (; patch != friction_.end() && patch->pair == pair.contactImpulses; ++patch) {
+    const Vec3d normal = from_px(patch->normal);
+    const auto of_patch = [&](const Contact& contact) {
+      return std::abs(dot(contact.normal, normal)) > kSameNormal;
+    };
+    double total = 0;
+    for (const Contact& contact : points) {
+      total += of_patch(contact) ? contact.normal_force : 0;
+    }
+    for (Contact& contact : points) {
+      if (of_patch(contact) && total > 0) {
+        // On collider 1: where the normal of the patch, turned as ours are, points to it.
+        const double sign = dot(contact.normal, normal) > 0 ? 1 : -1;
+        contact.friction_force +=
+            from_px(patch->impulse) * (sign * contact.normal_force / total / time_step_);
+      }
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,11 @@ class StepEvents final : public px::PxSimulationEventCallback {
     bool inside = false;
   };
 
-  StepEvents(const scene::PhysicsScene& scene, double time_step)
-      : scene_(&scene), time_step_(time_step) {}
+  StepEvents(const scene::PhysicsScene& scene, const Runtime& runtime, double time_step)
+      : scene_(&scene), runtime_(&runtime), time_step_(time_step) {}
   void clear();
+  /// Before each scene that steps: contacts will be asked for, or not.
+  void begin_scene(bool with_contacts);
 
   std::vector<Contact> contacts;
   std::vector<Broken> broken;
@@ -42,8 +45,13 @@ class StepEvents final : public px::PxSimulationEventCallback {
 
  private:
   void add_contacts(const px::PxContactPair& pair);
+  void add_friction(const px::PxContactPair& pair, std::span<Contact> points);
+  void sort_friction();
 
   const scene::PhysicsScene* scene_;
+  const Runtime* runtime_;
+  std::vector<physx_api::FrictionImpulse> friction_;  ///< of the step, by pair
+  bool sorted_ = false;                               ///< friction_ is that of this step
   double time_step_;
 };
 

@@ -42,19 +42,23 @@ void write_sample(const scene::ScalarTrack& track, double now, scene::Drive& dri
   }
 }
 
-void write_steering(const Steering& steering, Index joint, std::vector<scene::Drive>& drives) {
+void write_steering(const Steering& steering, Index joint, scene::Joint& source) {
+  const auto set = [&](Parameter what, Index part, double& number) {
+    const auto found = steering.parameters.find({what, joint, part});
+    number = found == steering.parameters.end() ? number : found->second;
+  };
+  set(Parameter::JointDamping, 0, source.damping);
+  set(Parameter::JointFriction, 0, source.friction);
+  set(Parameter::JointArmature, 0, source.armature);
+  std::vector<scene::Drive>& drives = source.drives;
   for (Index d = 0; d < drives.size(); ++d) {
     if (const auto target = steering.targets.find({joint, d}); target != steering.targets.end()) {
       drives[d].target_position = target->second.position;
       drives[d].target_velocity = target->second.velocity;
     }
-    const auto set = [&](Parameter what, double& number) {
-      const auto found = steering.parameters.find({what, joint, d});
-      number = found == steering.parameters.end() ? number : found->second;
-    };
-    set(Parameter::DriveStiffness, drives[d].stiffness);
-    set(Parameter::DriveDamping, drives[d].damping);
-    set(Parameter::DriveMaxForce, drives[d].max_force);
+    set(Parameter::DriveStiffness, d, drives[d].stiffness);
+    set(Parameter::DriveDamping, d, drives[d].damping);
+    set(Parameter::DriveMaxForce, d, drives[d].max_force);
   }
 }
 
@@ -81,7 +85,8 @@ Wrench constant_wrench(const scene::Body& body, const px::PxRigidBody& actor) {
 
 }  // namespace
 
-StepInputs::StepInputs(const scene::PhysicsScene& scene) : scene_(&scene) {
+StepInputs::StepInputs(const scene::PhysicsScene& scene)
+    : scene_(&scene), applied_(scene.bodies.size()), joint_pushes_(scene.joints.size()) {
   for (const scene::ScalarTrack& track : scene.scalar_tracks) {
     if (!track.times.empty()) {
       tracked_.push_back(track.joint);
@@ -98,6 +103,11 @@ StepInputs::StepInputs(const scene::PhysicsScene& scene) : scene_(&scene) {
 }
 
 void StepInputs::before_step(const Model& model, const Steering& steering, double now) {
+  if (has_pushes_) {
+    std::fill(applied_.begin(), applied_.end(), Wrench{});
+    std::fill(joint_pushes_.begin(), joint_pushes_.end(), Wrench{});
+    has_pushes_ = false;
+  }
   follow_drive_tracks(model, steering, now);
   move_bodies(model, steering, now + model.time_step);
   push_bodies(model, steering);
@@ -111,7 +121,7 @@ scene::Joint StepInputs::joint_now(Index joint, const Steering& steering, double
       write_sample(track, now, source.drives[track.drive]);
     }
   }
-  write_steering(steering, joint, source.drives);
+  write_steering(steering, joint, source);
   return source;
 }
 
@@ -156,26 +166,34 @@ void StepInputs::push(const Model& model, Index body, const Wrench& wrench) cons
   model.bodies[body]->addTorque(to_px(wrench.torque));
 }
 
-void StepInputs::push_bodies(const Model& model, const Steering& steering) const {
+void StepInputs::apply(const Model& model, Index body, const Wrench& wrench) {
+  push(model, body, wrench);
+  applied_[body].force += wrench.force;
+  applied_[body].torque += wrench.torque;
+  has_pushes_ = true;
+}
+
+void StepInputs::push_bodies(const Model& model, const Steering& steering) {
   for (const Index b : pushed_) {
     const scene::Body& body = scene_->bodies[b];
-    Wrench wrench = constant_wrench(body, *model.bodies[b]);
+    if (!body.settings.forces.empty()) {
+      apply(model, b, constant_wrench(body, *model.bodies[b]));
+    }
     if (has_scaled_gravity(body)) {
       const Vec3d gravity = from_px(model.scenes[body.scene]->getGravity());
-      wrench.force +=
-          gravity * (static_cast<double>(model.bodies[b]->getMass()) * (body.gravity_scale - 1));
+      const double mass = model.bodies[b]->getMass();
+      push(model, b, {gravity * (mass * (body.gravity_scale - 1)), {}});
     }
-    push(model, b, wrench);
   }
   for (const auto& [body, wrench] : steering.wrenches) {
     if (!scene_->bodies[body].kinematic) {
-      push(model, body, wrench);
+      apply(model, body, wrench);
     }
   }
 }
 
 void StepInputs::push_constraint(const Model& model, Index joint,
-                                 const std::vector<double>& efforts) const {
+                                 const std::vector<double>& efforts) {
   const scene::Joint& source = scene_->joints[joint];
   const auto frame = [&](const std::optional<Index>& body, const Pose& local) {
     return body ? from_px(model.bodies[*body]->getGlobalPose()) * local : local;
@@ -202,6 +220,8 @@ void StepInputs::push_constraint(const Model& model, Index joint,
   };
   act(source.body1, 1);
   act(source.body0, -1);
+  joint_pushes_[joint] = {force, torque};
+  has_pushes_ = true;
 }
 
 void StepInputs::push_coordinates(const Model& model, const Steering& steering) {

@@ -23,20 +23,31 @@ class StepInputs {
   /// One drive with what samples and the user say of it.
   scene::Drive drive_now(scene::Index joint, scene::Index drive, const Steering& steering,
                          double now) const;
+  /// A joint with what samples and the user say of its drives, springs and friction.
+  scene::Joint joint_now(scene::Index joint, const Steering& steering, double now) const;
+
+  // What was given for the last step.
+
+  /// Forces and torques from outside, at the centres of mass (body_count).
+  const std::vector<Wrench>& applied() const { return applied_; }
+  /// Efforts of joints that are no coordinates, on body 1 about frame 1 (joint_count).
+  const std::vector<Wrench>& joint_pushes() const { return joint_pushes_; }
 
  private:
-  scene::Joint joint_now(scene::Index joint, const Steering& steering, double now) const;
   void follow_drive_tracks(const Model& model, const Steering& steering, double now);
   void move_bodies(const Model& model, const Steering& steering, double at) const;
-  void push_bodies(const Model& model, const Steering& steering) const;
+  void push_bodies(const Model& model, const Steering& steering);
   void push_coordinates(const Model& model, const Steering& steering);
-  void push_constraint(const Model& model, scene::Index joint,
-                       const std::vector<double>& efforts) const;
+  void push_constraint(const Model& model, scene::Index joint, const std::vector<double>& efforts);
   void push(const Model& model, scene::Index body, const Wrench& wrench) const;
+  void apply(const Model& model, scene::Index body, const Wrench& wrench);
 
   const scene::PhysicsScene* scene_ = nullptr;
   std::vector<scene::Index> tracked_;  ///< joints whose drives follow samples, ascending
   std::vector<scene::Index> pushed_;
+  std::vector<Wrench> applied_;
+  std::vector<Wrench> joint_pushes_;
+  bool has_pushes_ = false;  ///< something of the two lists above is not 0
   bool has_forces_ = false;  ///< forces of coordinates hold until they are set anew
 };
 
