@@ -189,7 +189,7 @@ class Reader {
       if (!json.is_null()) {
         read(json, refers, info, value.emplace(), at);
       }
-    } else if constexpr (std::is_same_v<T, std::vector<scene::MujocoSetting>>) {
+    } else if constexpr (std::is_same_v<T, std::vector<scene::VendorSetting>>) {
       settings(json, value, at);
     } else if constexpr (scene::HasTable<T>) {
       object(json, value, at);
@@ -325,13 +325,13 @@ class Reader {
     value = found->second;
   }
 
-  void settings(const Parsed& json, std::vector<scene::MujocoSetting>& all, const std::string& at) {
+  void settings(const Parsed& json, std::vector<scene::VendorSetting>& all, const std::string& at) {
     if (!json.is_object()) {
       fault(at, "is no object");
       return;
     }
     for (const auto& [name, setting] : json.items()) {
-      scene::MujocoSetting& made = all.emplace_back();
+      scene::VendorSetting& made = all.emplace_back();
       made.name = name;
       if (setting.is_string()) {
         made.token = setting.get<std::string>();

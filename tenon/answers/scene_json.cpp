@@ -63,9 +63,9 @@ void add_pose(const Pose& pose, Json& row) {
   append(row, "orientation", rotation(pose.orientation));
 }
 
-Json settings(const std::vector<scene::MujocoSetting>& all) {
+Json settings(const std::vector<scene::VendorSetting>& all) {
   Json rows = Json::object();
-  for (const scene::MujocoSetting& setting : all) {
+  for (const scene::VendorSetting& setting : all) {
     Json list = Json::array();
     for (const double x : setting.numbers) {
       list.push_back(number(x));
@@ -222,7 +222,7 @@ class Writer {
       return value.empty() ? Json(nullptr) : Json(value.str());
     } else if constexpr (wire::kIsOptional<T>) {
       return value ? json(refers, info, *value) : Json(nullptr);
-    } else if constexpr (std::is_same_v<T, std::vector<scene::MujocoSetting>>) {
+    } else if constexpr (std::is_same_v<T, std::vector<scene::VendorSetting>>) {
       return settings(value);
     } else if constexpr (wire::kIsPair<T>) {
       return {json(refers, info, value.first), json(refers, info, value.second)};

@@ -135,7 +135,7 @@ class SchemaWriter {
       return of_type("string");
     } else if constexpr (wire::kIsOptional<T>) {
       return schema_of<typename T::value_type>(info);
-    } else if constexpr (std::is_same_v<T, std::vector<scene::MujocoSetting>>) {
+    } else if constexpr (std::is_same_v<T, std::vector<scene::VendorSetting>>) {
       return {{"type", "object"}, {"additionalProperties", {{"type", {"array", "string"}}}}};
     } else {
       return schema_of_many<T>(info);

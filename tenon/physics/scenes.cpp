@@ -16,6 +16,7 @@
 #include "tenon/base/text/text_number.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/vendors/mujoco_settings.h"
+#include "tenon/physics/vendors/physx_settings.h"
 
 namespace tenon::physics {
 namespace {
@@ -107,11 +108,11 @@ std::optional<double> read_time_step(const ReadState& state, const stage::Prim& 
 }
 
 /// Options and flags of MuJoCo's solver, in the order of their names.
-std::optional<std::vector<MujocoSetting>> read_mujoco(const stage::Prim& prim, const Roles& roles) {
+std::optional<std::vector<VendorSetting>> read_mujoco(const stage::Prim& prim, const Roles& roles) {
   if (!roles.has(Api::MjcScene)) {
     return std::nullopt;
   }
-  std::vector<MujocoSetting> settings;
+  std::vector<VendorSetting> settings;
   for (const Token& name : prim.authored_property_names()) {
     const std::string_view text = name.view();
     if (!text.starts_with("mjc:option:") && !text.starts_with("mjc:flag:")) {
@@ -122,7 +123,7 @@ std::optional<std::vector<MujocoSetting>> read_mujoco(const stage::Prim& prim, c
     }
   }
   std::sort(settings.begin(), settings.end(),
-            [](const MujocoSetting& a, const MujocoSetting& b) { return a.name < b.name; });
+            [](const VendorSetting& a, const VendorSetting& b) { return a.name < b.name; });
   return settings;
 }
 
@@ -154,6 +155,9 @@ void read_scenes(ReadState& state) {
     scene.gravity = read_gravity(state, found.prim, found.roles);
     scene.time_step = read_time_step(state, found.prim, found.roles);
     scene.parts.mujoco = read_mujoco(found.prim, found.roles);
+    if (found.roles.has(Api::PhysxScene)) {
+      scene.parts.physx = read_physx_settings(found.prim, "physxScene:", state.units);
+    }
     state.scene.scenes.push_back(std::move(scene));
   }
   if (prims.empty()) {

@@ -10,16 +10,10 @@
 
 #include "tenon/base/path.h"
 #include "tenon/math/transform.h"
+#include "tenon/scene/vendor_setting.h"
 
 /// What MuJoCo's schemas say that has no neutral meaning, for engines that have it.
 namespace tenon::scene {
-
-/// An authored attribute of these schemas without its "mjc:", as MuJoCo counts (SI, radians).
-struct MujocoSetting {
-  std::string name;             ///< for example "option:iterations"
-  std::vector<double> numbers;  ///< one for each component; flags 0 or 1
-  std::string token;            ///< of settings that are words
-};
 
 /// What MjcCollisionAPI says of a collider's contacts; none, empty: not authored.
 struct MujocoContact {
@@ -80,7 +74,7 @@ struct Tendon {
   std::array<double, 2> spring_length{-1, -1};  ///< no force between the two; -1: as it stands
   std::optional<std::array<double, 2>> range;
   double limit_stiffness = 0;           ///< of the range as a spring; 0: hard
-  std::vector<MujocoSetting> settings;  ///< others: limits of force, solver
+  std::vector<VendorSetting> settings;  ///< others: limits of force, solver
 };
 
 /// A MjcActuator. It pushes with gear * (gain * input + bias), where gain and bias may depend on

@@ -67,6 +67,7 @@ struct Body {
   double angular_damping = 0;  ///< [1/s]
   double gravity_scale = 1;
   BodySettings settings{};
+  BodyParts parts{};
   std::optional<InstanceSource> instance;
 };
 
@@ -288,6 +289,7 @@ struct Articulation {
   std::vector<Index> joints;
   std::vector<Index> loop_joints;  ///< closed by constraints, not part of the tree
   bool self_collision = true;
+  ArticulationParts parts{};
 };
 
 /// Pairs of colliders that one joint keeps apart while it is enabled (S-91, S-92).

@@ -16,13 +16,17 @@ namespace tenon::scene {
 
 inline void make_sound(Collider& collider) { collider.shape.kind = ShapeKind::Mesh; }
 inline void make_sound(Joint& joint) { joint.mimics[1].dof = Dof::RotZ; }
-inline void make_sound(Tendon& tendon) {
-  for (MujocoSetting& setting : tendon.settings) {
+/// Settings are numbers or a word.
+inline void make_words(std::vector<VendorSetting>& settings) {
+  for (VendorSetting& setting : settings) {
     setting.numbers.clear();
   }
 }
+inline void make_sound(Tendon& tendon) { make_words(tendon.settings); }
+inline void make_sound(Body& body) { make_words(body.parts.physx); }
 inline void make_sound(Scene& scene) {
-  for (MujocoSetting& setting : *scene.parts.mujoco) {
+  make_words(scene.parts.physx);
+  for (VendorSetting& setting : *scene.parts.mujoco) {
     setting.token.clear();
   }
 }
@@ -49,6 +53,10 @@ inline PhysicsScene filled_scene() {
     state.group_pair_off = {1, 0, 0, 1};
   }
   make_sound(scene.colliders, scene.collider_tracks);
+  make_sound(scene.bodies, scene.body_tracks);
+  for (Articulation& articulation : scene.articulations) {
+    make_words(articulation.parts.physx);
+  }
   make_sound(scene.joints, scene.joint_tracks);
   make_sound(scene.tendons, scene.tendon_tracks);
   make_sound(scene.scenes, scene.scene_tracks);

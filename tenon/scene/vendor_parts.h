@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tenon/scene/mujoco_parts.h"
+#include "tenon/scene/vendor_setting.h"
 
 /// What the schemas of single vendors say of an object beside its neutral fields: one member for
 /// each vendor, of a type of that vendor's own header (mujoco_parts.h). Other engines pass over it.
@@ -16,7 +17,16 @@ namespace tenon::scene {
 
 struct SceneParts {
   /// What MjcSceneAPI authors, but for the time step; none without that API.
-  std::optional<std::vector<MujocoSetting>> mujoco{};
+  std::optional<std::vector<VendorSetting>> mujoco{};
+  std::vector<VendorSetting> physx{};  ///< how PhysxSceneAPI wants it solved, by name
+};
+
+struct BodyParts {
+  std::vector<VendorSetting> physx{};  ///< how PhysxRigidBodyAPI wants it solved, by name
+};
+
+struct ArticulationParts {
+  std::vector<VendorSetting> physx{};  ///< how PhysxArticulationAPI wants it solved, by name
 };
 
 struct ColliderParts {

@@ -128,7 +128,7 @@ Result<void> restore_options(const scene::PhysicsScene& scene, mjSpec& spec) {
   mj_defaultOption(&option);
   option.timestep = spec.option.timestep;
   std::copy_n(spec.option.gravity, 3, option.gravity);
-  for (const scene::MujocoSetting& setting : *scene.scenes.front().parts.mujoco) {
+  for (const scene::VendorSetting& setting : *scene.scenes.front().parts.mujoco) {
     apply_setting(setting, option);  // what it does not take is reported by now
   }
   spec.option = option;

@@ -13,6 +13,7 @@ Owned& Owned::operator=(Owned&& other) noexcept {
   scenes_ = std::exchange(other.scenes_, {});
   caches_ = std::exchange(other.caches_, {});
   solids_ = std::exchange(other.solids_, {});
+  couplings_ = std::exchange(other.couplings_, {});
   return *this;
 }
 
@@ -40,6 +41,11 @@ px::PxCustomGeometryCallbacks* Owned::add_solid(const Runtime& runtime,
   return solid;
 }
 
+Coupling* Owned::add_coupling(std::unique_ptr<Coupling> coupling) {
+  couplings_.push_back(std::move(coupling));
+  return couplings_.back().get();
+}
+
 void Owned::release() {
   for (px::PxArticulationCache* cache : caches_) {
     runtime_->functions->release_cache(cache);
@@ -54,6 +60,7 @@ void Owned::release() {
   for (px::PxCustomGeometryCallbacks* solid : solids_) {
     runtime_->functions->release_solid(solid);
   }
+  couplings_.clear();  // constraints call them when they end
   objects_.clear();
   scenes_.clear();
   solids_.clear();

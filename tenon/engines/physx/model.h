@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tenon/engines/physx/physx_library.h"
+#include "tenon/engines/physx/run/coupling.h"
 #include "tenon/engines/simulation_values.h"
 #include "tenon/scene/joint_dofs.h"
 #include "tenon/scene/joint_forest.h"
@@ -36,6 +37,7 @@ class Owned {
   px::PxArticulationCache* add_cache(const Runtime& runtime, px::PxArticulationCache* cache);
   px::PxCustomGeometryCallbacks* add_solid(const Runtime& runtime,
                                            px::PxCustomGeometryCallbacks* solid);
+  Coupling* add_coupling(std::unique_ptr<Coupling> coupling);
 
  private:
   void release();
@@ -45,6 +47,7 @@ class Owned {
   std::vector<px::PxScene*> scenes_;
   std::vector<px::PxArticulationCache*> caches_;
   std::vector<px::PxCustomGeometryCallbacks*> solids_;
+  std::vector<std::unique_ptr<Coupling>> couplings_;
 };
 
 /// A tree of bodies in joint coordinates.
@@ -90,6 +93,7 @@ struct PassiveForce {
 struct PairRules {
   const scene::PhysicsScene* scene = nullptr;
   bool report_contacts = false;
+  bool sweeps = false;  ///< fast bodies are looked for on their way (CCD)
 };
 
 /// What PhysX hands to its filter: it copies this, and so only the way to the rules.
@@ -106,6 +110,7 @@ struct Model {
   std::vector<JointMap> joints;                   ///< (joint_count)
   std::vector<ReducedTree> trees;
   std::vector<PassiveForce> passive;
+  std::vector<Coupling*> couplings;  ///< `owned` has them
   std::vector<NotMapped> not_mapped;
   scene::JointForest forest;
   /// The body that a joint hangs on the rest of its tree (joint_count); none: it closes a loop.

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tenon/physics/read_state.h"
+#include "tenon/physics/vendors/physx_settings.h"
 #include "tenon/physics/world_pose.h"
 
 namespace tenon::physics {
@@ -68,6 +69,7 @@ class RigidBodyReader {
     body_.settings.locked_rotation = axes("physxRigidBody:lockedRotAxis");
     body_.settings.gyroscopic = flag("physxRigidBody:enableGyroscopicForces");
     body_.settings.solves_contacts = flag("physxRigidBody:solveContact");
+    body_.parts.physx = read_physx_settings(found_.prim, "physxRigidBody:", state_.units);
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "tenon/physics/read_state.h"
+#include "tenon/physics/vendors/physx_settings.h"
 #include "tenon/scene/articulation_tree.h"
 #include "tenon/scene/joint_freedom.h"
 
@@ -215,6 +216,10 @@ class ArticulationReader {
     articulation.joints = std::move(tree.joints);
     articulation.loop_joints = std::move(tree.loops);
     articulation.self_collision = self_collision(found);
+    if (found.roles.has(Api::PhysxArticulation)) {
+      articulation.parts.physx =
+          read_physx_settings(found.prim, "physxArticulation:", state_.units);
+    }
     report_loops(articulation);
     const auto index = static_cast<Index>(state_.scene.articulations.size());
     for (const Index i : articulation.joints) {

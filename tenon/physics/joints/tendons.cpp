@@ -252,7 +252,7 @@ class TendonReader {
       }
     }
     std::sort(tendon_.settings.begin(), tendon_.settings.end(),
-              [](const MujocoSetting& a, const MujocoSetting& b) { return a.name < b.name; });
+              [](const VendorSetting& a, const VendorSetting& b) { return a.name < b.name; });
   }
 
   ReadState& state_;

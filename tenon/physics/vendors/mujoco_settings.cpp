@@ -53,8 +53,8 @@ std::vector<double> numbers_of(const stage::Prim& prim, Token name) {
   return numbers;
 }
 
-std::optional<MujocoSetting> read_mujoco_setting(const stage::Prim& prim, Token name) {
-  MujocoSetting setting;
+std::optional<VendorSetting> read_mujoco_setting(const stage::Prim& prim, Token name) {
+  VendorSetting setting;
   setting.name = name.view().substr(kSpace.size());
   if (const auto token = prim.attribute(name).get_as<Token>()) {
     setting.token = token->str();

@@ -15,6 +15,6 @@ namespace tenon::physics {
 std::vector<double> numbers_of(const stage::Prim& prim, Token name);
 
 /// An authored attribute whose name begins with "mjc:"; nullopt for one without a usable value.
-std::optional<MujocoSetting> read_mujoco_setting(const stage::Prim& prim, Token name);
+std::optional<VendorSetting> read_mujoco_setting(const stage::Prim& prim, Token name);
 
 }  // namespace tenon::physics

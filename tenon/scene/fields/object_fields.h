@@ -13,20 +13,25 @@
 namespace tenon::scene {
 
 template <>
-struct Table<MujocoSetting> {
+struct Table<VendorSetting> {
   static constexpr std::string_view kWord = "setting";
   static constexpr Rows kFields{
-      field<&MujocoSetting::name>(
+      field<&VendorSetting::name>(
           {.name = "name", .meaning = "of the setting", .role = Role::Identity}),
-      field<&MujocoSetting::numbers>(
+      field<&VendorSetting::numbers>(
           {.name = "numbers", .meaning = "one for each component; flags are 0 or 1"}),
-      field<&MujocoSetting::token>({.name = "token", .meaning = "of settings that are words"}),
+      field<&VendorSetting::token>({.name = "token", .meaning = "of settings that are words"}),
   };
 };
 
 /// The row of what single vendors say of an object.
 inline constexpr FieldInfo kPartsField{
     .name = "parts", .meaning = "of single vendors", .inlined = true, .of_vendor = true};
+
+inline constexpr FieldInfo kPhysxField{.name = "physx",
+                                       .meaning = "how PhysX's schema wants it solved",
+                                       .presence = Presence::WhenSet,
+                                       .words = "PhysX"};
 
 template <>
 struct Table<SceneParts> {
@@ -36,7 +41,20 @@ struct Table<SceneParts> {
                                   .meaning = "what MjcSceneAPI authors, but for the time step",
                                   .presence = Presence::WhenSet,
                                   .words = "MuJoCo"}),
+      field<&SceneParts::physx>(kPhysxField),
   };
+};
+
+template <>
+struct Table<BodyParts> {
+  static constexpr std::string_view kWord = "parts of vendors";
+  static constexpr Rows kFields{field<&BodyParts::physx>(kPhysxField)};
+};
+
+template <>
+struct Table<ArticulationParts> {
+  static constexpr std::string_view kWord = "parts of vendors";
+  static constexpr Rows kFields{field<&ArticulationParts::physx>(kPhysxField)};
 };
 
 template <>
@@ -120,6 +138,7 @@ struct Table<Body> {
                                      .unit = Unit::PerSecond}),
       field<&Body::gravity_scale>({.name = "gravityScale", .meaning = "times gravity"}),
       field<&Body::settings>(kSettingsField),
+      field<&Body::parts>(kPartsField),
       field<&Body::instance>({.name = "instance",
                               .meaning = "the instance of a point instancer that it comes from",
                               .presence = Presence::WhenSet,
@@ -534,6 +553,7 @@ struct Table<Articulation> {
       field<&Articulation::self_collision>({.name = "selfCollision",
                                             .meaning = "its links touch each other",
                                             .words = "self-collision"}),
+      field<&Articulation::parts>(kPartsField),
   };
 };
 

@@ -116,7 +116,7 @@ const Field* find(const Field (&fields)[count], std::string_view name) {
   return found == std::end(fields) ? nullptr : found;
 }
 
-bool apply_whole(const WholeField& field, const scene::MujocoSetting& setting, int& value) {
+bool apply_whole(const WholeField& field, const scene::VendorSetting& setting, int& value) {
   if (!field.words.empty()) {
     const auto word = std::find(field.words.begin(), field.words.end(), setting.token);
     value = word == field.words.end() ? value : static_cast<int>(word - field.words.begin());
@@ -141,7 +141,7 @@ bool apply_groups(const std::vector<double>& groups, mjOption& option) {
 
 }  // namespace
 
-bool apply_setting(const scene::MujocoSetting& setting, mjOption& option) {
+bool apply_setting(const scene::VendorSetting& setting, mjOption& option) {
   if (const NumberField* field = find(kNumbers, setting.name)) {
     if (setting.numbers.size() != static_cast<std::size_t>(field->count)) {
       return false;
@@ -174,7 +174,7 @@ class Differences {
     mj_defaultOption(&usual_);
   }
 
-  std::vector<scene::MujocoSetting> run() {
+  std::vector<scene::VendorSetting> run() {
     add_numbers();
     add_whole();
     add_flags();
@@ -239,12 +239,12 @@ class Differences {
   mjOption option_;
   mjOption usual_;
   std::vector<std::string>& unnamed_;
-  std::vector<scene::MujocoSetting> settings_;
+  std::vector<scene::VendorSetting> settings_;
 };
 
 }  // namespace
 
-std::vector<scene::MujocoSetting> settings_of(const mjOption& option,
+std::vector<scene::VendorSetting> settings_of(const mjOption& option,
                                               std::vector<std::string>& unnamed) {
   return Differences(option, unnamed).run();
 }

@@ -12,11 +12,11 @@
 namespace tenon::engines::mujoco {
 
 /// Sets the field that the setting names; false where there is none, or not of that many numbers.
-bool apply_setting(const scene::MujocoSetting& setting, mjOption& option);
+bool apply_setting(const scene::VendorSetting& setting, mjOption& option);
 
 /// The fields that are not MuJoCo's defaults, sorted by name; without gravity and time step. What
 /// the schema has no name for goes to `unnamed` in MuJoCo's words.
-std::vector<scene::MujocoSetting> settings_of(const mjOption& option,
+std::vector<scene::VendorSetting> settings_of(const mjOption& option,
                                               std::vector<std::string>& unnamed);
 
 }  // namespace tenon::engines::mujoco

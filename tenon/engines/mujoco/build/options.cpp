@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "tenon/engines/foreign_settings.h"
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/build/option_fields.h"
 #include "tenon/scene/joint_freedom.h"
@@ -58,7 +59,7 @@ void apply_settings(Build& build) {
   if (!scene.parts.mujoco) {
     return;
   }
-  for (const scene::MujocoSetting& setting : *scene.parts.mujoco) {
+  for (const scene::VendorSetting& setting : *scene.parts.mujoco) {
     if (!apply_setting(setting, build.spec->option)) {
       build.report(scene.path, "mjc:" + setting.name, "MuJoCo has no such setting or value");
     }
@@ -116,6 +117,7 @@ void add_options(Build& build) {
 }
 
 void report_unmapped(Build& build) {
+  report_physx_settings(build.scene, build.not_mapped);
   for (const scene::Joint& joint : build.scene.joints) {
     if (!joint.enabled) {
       continue;

@@ -46,7 +46,7 @@ class TendonPass {
     if (tendon.range && tendon.limit_stiffness > 0) {
       build_.soft_bounds.push_back({nullptr, result, tendon.limit_stiffness, 0});
     }
-    for (const scene::MujocoSetting& setting : tendon.settings) {
+    for (const scene::VendorSetting& setting : tendon.settings) {
       if (!apply(setting, *result)) {
         build_.report(tendon.path, "mjc:" + setting.name, "MuJoCo has no such setting or value");
       }
@@ -121,7 +121,7 @@ class TendonPass {
     return true;
   }
 
-  static bool apply(const scene::MujocoSetting& setting, mjsTendon& tendon) {
+  static bool apply(const scene::VendorSetting& setting, mjsTendon& tendon) {
     const std::string_view name = setting.name;
     const std::vector<double>& numbers = setting.numbers;
     if (name == "actuatorfrclimited") {

@@ -94,7 +94,7 @@ TEST(Options, AreReadBackUnderTheirNames) {
   ASSERT_EQ(settings.size(), 6u);
   mjOption again;
   mj_defaultOption(&again);
-  for (const scene::MujocoSetting& setting : settings) {
+  for (const scene::VendorSetting& setting : settings) {
     EXPECT_TRUE(apply_setting(setting, again)) << setting.name;
   }
   EXPECT_EQ(again.integrator, mjINT_RK4);

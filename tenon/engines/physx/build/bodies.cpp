@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tenon/engines/physx/build/build.h"
+#include "tenon/engines/physx/build/settings.h"
 #include "tenon/engines/scene_timeline.h"
 #include "tenon/math/inertia.h"
 
@@ -35,8 +35,7 @@ px::PxRigidDynamic* make_free_body(Build& build, Index index) {
   }
   set_mass(body, *made);
   made->setRigidBodyFlag(px::PxRigidBodyFlag::eKINEMATIC, body.kinematic);
-  made->setSolverIterationCounts(build.position_iterations(), kVelocityIterations);
-  made->setSleepThreshold(0);
+  set_body_settings(build, index, *made);
   made->setRigidDynamicLockFlags(locks_of(body.settings));
   return made;
 }
@@ -49,9 +48,14 @@ std::size_t new_tree(Build& build, Index body, bool fixed) {
       build.model.owned.add(build.runtime.physics->createArticulationReducedCoordinate());
   made->setArticulationFlag(px::PxArticulationFlag::eFIX_BASE, fixed);
   made->setArticulationFlag(px::PxArticulationFlag::eDRIVE_LIMITS_ARE_FORCES, true);
-  made->setSolverIterationCounts(build.position_iterations(), kVelocityIterations);
-  made->setSleepThreshold(0);
-  made->setStabilizationThreshold(0);
+  const scene::Articulation* source = articulation_of(build, body);
+  const Settings settings = source == nullptr ? Settings() : source->parts.physx;
+  const Index scene = build.scene.bodies[body].scene;
+  const Iterations iterations = iterations_of(build, scene, settings);
+  made->setSolverIterationCounts(iterations.positions, iterations.velocities);
+  made->setSleepThreshold(sleep_threshold_of(build, scene, settings));
+  made->setStabilizationThreshold(
+      to_px(std::max(number_of(settings, "stabilizationThreshold").value_or(0), 0.0)));
   made->setMaxCOMLinearVelocity(kNoBound);
   made->setMaxCOMAngularVelocity(kNoBound);
   build.model.trees.push_back({made, nullptr, build.scene.bodies[body].scene});
@@ -64,6 +68,7 @@ px::PxArticulationLink* new_link(Build& build, std::size_t tree, px::PxArticulat
       parent, to_px(build.scene.bodies[body].pose));
   if (link != nullptr) {
     set_mass(build.scene.bodies[body], *link);
+    set_body_settings(build, body, *link);
     build.model.bodies[body] = link;
   }
   return link;

@@ -23,9 +23,6 @@ enum class Begin : std::uint8_t {
 };
 
 /// PhysX's own numbers where the asset says none.
-inline constexpr int kPositionIterations = 16;
-inline constexpr int kMostIterations = 255;  ///< PhysX keeps them in a byte
-inline constexpr px::PxU32 kVelocityIterations = 1;
 inline constexpr float kNoBound = 1e16F;  ///< of speeds, whose squares PhysX forms
 
 struct Build {
@@ -41,11 +38,6 @@ struct Build {
   std::vector<px::PxMaterial*> materials;  ///< (material_count + 1), the last for the unbound
   Model model;
 
-  px::PxU32 position_iterations() const {
-    const int asked = options.methods.iterations;
-    return static_cast<px::PxU32>(
-        std::min(asked > 0 ? asked : kPositionIterations, kMostIterations));
-  }
   void report(const Path& prim, const std::string& property, const std::string& why) {
     model.not_mapped.push_back({prim, property, why});
   }
@@ -70,6 +62,7 @@ void set_reduced_joints(Build& build);
 /// Constraints for the other joints.
 void add_constraints(Build& build);
 void add_mimics(Build& build);
+void add_tendons(Build& build);
 void report_unmapped(Build& build);
 /// Puts everything into its scene, with the velocities and coordinates that it starts with.
 void start(Build& build, Begin begin);

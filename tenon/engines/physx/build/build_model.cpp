@@ -17,6 +17,7 @@ Result<void> run_passes(Build& build, Begin begin) {
   set_reduced_joints(build);
   add_constraints(build);
   add_mimics(build);
+  add_tendons(build);
   report_unmapped(build);
   start(build, begin);
   return {};

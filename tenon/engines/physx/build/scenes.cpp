@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One PxScene for each scene of the asset: they share nothing. Solved by projected Gauss-Seidel
-// with 16 iterations. The other solver, TGS, applies drives of trees once more per iteration of
-// velocities, and a box that falls 5 m with 2 cm/s sideways then slides by 12 cm. Steps run on the
-// thread that asks for them, in an order that bodies elsewhere do not change.
-#include "tenon/engines/physx/build/build.h"
+// One PxScene for each scene of the asset: they share nothing. Steps run on the thread that asks
+// for them, in an order that bodies elsewhere do not change.
+#include "tenon/engines/physx/build/settings.h"
 #include "tenon/engines/physx/run/pair_filter.h"
 
 namespace tenon::engines::physx {
@@ -32,6 +30,7 @@ px::PxMaterial* make_material(Build& build, const scene::Material& source) {
   made->setFrictionCombineMode(mode_of(source.friction_combine));
   made->setRestitutionCombineMode(mode_of(source.restitution_combine));
   if (source.compliance.stiffness > 0 && !source.compliance.acceleration) {
+    made->setFlag(px::PxMaterialFlag::eCOMPLIANT_CONTACT, true);
     made->setRestitution(-to_px(source.compliance.stiffness));
     made->setDamping(to_px(source.compliance.damping));
   } else if (source.compliance.stiffness > 0) {
@@ -46,14 +45,13 @@ px::PxMaterial* copy_of(const px::PxMaterial& source, Model& model) {
   px::PxPhysics& physics = *(*open_physx())->physics;
   px::PxMaterial* made = model.owned.add(
       physics.createMaterial(source.getStaticFriction(), source.getDynamicFriction(), 0));
+  made->setFlags(source.getFlags());
   made->setRestitution(source.getRestitution());
   made->setFrictionCombineMode(source.getFrictionCombineMode());
   made->setRestitutionCombineMode(source.getRestitutionCombineMode());
   made->setDamping(source.getDamping());
   return made;
 }
-
-constexpr float kBounceThreshold = 0.2F;  // [m/s] slower impacts do not rebound
 
 }  // namespace
 
@@ -71,9 +69,7 @@ Result<void> add_scenes(Build& build) {
     wanted.filterShaderDataSize = sizeof link;
     wanted.kineKineFilteringMode = px::PxPairFilteringMode::eKEEP;
     wanted.staticKineFilteringMode = px::PxPairFilteringMode::eKEEP;
-    wanted.solverType = px::PxSolverType::ePGS;
-    wanted.bounceThresholdVelocity = kBounceThreshold;
-    wanted.flags |= px::PxSceneFlag::eENABLE_ENHANCED_DETERMINISM;
+    set_solver(build, static_cast<scene::Index>(build.model.scenes.size()), wanted);
     px::PxScene* made = build.model.owned.add_scene(build.runtime.physics->createScene(wanted));
     if (made == nullptr) {
       return Error(ErrorCode::Invalid, "PhysX makes no scene").with_rule("physx.refused");

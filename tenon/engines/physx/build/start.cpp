@@ -132,6 +132,14 @@ std::vector<scene::BodyState> placed_states(const Build& build, Begin begin) {
   return states;
 }
 
+/// A vector without the world axes of a mask: 1 x, 2 y, 4 z.
+Vec3d without(Vec3d vector, int axes) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    vector[i] = (axes >> i & 1) != 0 ? 0 : vector[i];
+  }
+  return vector;
+}
+
 void start_free_bodies(Build& build, const scene::FittedVelocities& fitted) {
   for (Index b = 0; b < build.model.bodies.size(); ++b) {
     const scene::Body& body = build.scene.bodies[b];
@@ -139,8 +147,12 @@ void start_free_bodies(Build& build, const scene::FittedVelocities& fitted) {
       continue;
     }
     auto& actor = static_cast<px::PxRigidDynamic&>(*build.model.bodies[b]);
-    actor.setLinearVelocity(to_px(fitted.bodies[b].linear_velocity));
-    actor.setAngularVelocity(to_px(fitted.bodies[b].angular_velocity));
+    // PhysX holds what is locked against forces, and lets it keep the velocity that it has.
+    const scene::BodySettings& settings = body.settings;
+    actor.setLinearVelocity(
+        to_px(without(fitted.bodies[b].linear_velocity, settings.locked_translation)));
+    actor.setAngularVelocity(
+        to_px(without(fitted.bodies[b].angular_velocity, settings.locked_rotation)));
   }
 }
 

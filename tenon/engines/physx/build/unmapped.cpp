@@ -4,6 +4,7 @@
 // What the scene says and PhysX 5.1 here does not do; nothing is passed over in silence.
 #include <algorithm>
 
+#include "tenon/engines/foreign_settings.h"
 #include "tenon/engines/physx/build/build.h"
 #include "tenon/engines/physx/run/drives.h"
 #include "tenon/engines/physx/slots.h"
@@ -82,6 +83,10 @@ void report_joint(Build& build, Index index) {
                    "PhysX 5.1 bounds the force of a drive, not what it has left at a speed");
     }
   }
+  if (map.role == JointRole::Maximal && (joint.initial_position || joint.initial_velocity)) {
+    build.report(joint.path, "state",
+                 "joints outside of articulations start where their bodies stand and as they move");
+  }
   if (map.role == JointRole::Maximal && joint.armature > 0) {
     build.report(joint.path, "armature", "joints outside of articulations have none in PhysX");
   }
@@ -93,20 +98,27 @@ void report_joint(Build& build, Index index) {
 }  // namespace
 
 void report_unmapped(Build& build) {
+  report_mujoco_settings(build.scene, build.model.not_mapped);
   for (Index b = 0; b < build.scene.bodies.size(); ++b) {
     report_body(build, b);
   }
   for (Index j = 0; j < build.scene.joints.size(); ++j) {
     report_joint(build, j);
   }
+  for (const scene::Collider& collider : build.scene.colliders) {
+    const bool has_patch =
+        collider.settings.torsional_patch > 0 || collider.settings.min_torsional_patch > 0;
+    if (has_patch &&
+        build.model.scenes[collider.scene]->getSolverType() == px::PxSolverType::ePGS) {
+      build.report(collider.path, "physxCollision:torsionalPatchRadius",
+                   "only PhysX's solver TGS (physxScene:solverType) has it");
+    }
+  }
   for (const scene::Material& material : build.scene.materials) {
     if (material.torsional_friction.value_or(0) > 0 || material.rolling_friction.value_or(0) > 0) {
       build.report(material.path, "torsionalFriction, rollingFriction",
                    "PhysX has friction against sliding, and of patches of a size alone");
     }
-  }
-  for (const scene::Tendon& tendon : build.scene.tendons) {
-    build.report(tendon.path, "", "tendons are not simulated on PhysX here");
   }
   for (const scene::MujocoActuator& actuator : build.scene.actuators) {
     build.report(actuator.path, "", "an actuator of MuJoCo, which PhysX does not have");

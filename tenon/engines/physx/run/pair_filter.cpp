@@ -41,6 +41,9 @@ px::PxFilterFlags filter_pair(px::PxFilterObjectAttributes attributes0, px::PxFi
   if (has_surface_velocity(scene, data0.word0) || has_surface_velocity(scene, data1.word0)) {
     flags |= px::PxPairFlag::eMODIFY_CONTACTS;
   }
+  if (rules.sweeps) {
+    flags |= px::PxPairFlag::eDETECT_CCD_CONTACT;
+  }
   if (rules.report_contacts) {
     flags |= px::PxPairFlag::eNOTIFY_TOUCH_FOUND | px::PxPairFlag::eNOTIFY_TOUCH_PERSISTS |
              px::PxPairFlag::eNOTIFY_CONTACT_POINTS;

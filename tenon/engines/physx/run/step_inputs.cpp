@@ -112,6 +112,12 @@ void StepInputs::before_step(const Model& model, const Steering& steering, doubl
   move_bodies(model, steering, now + model.time_step);
   push_bodies(model, steering);
   push_coordinates(model, steering);
+  if (!model.couplings.empty()) {
+    read_caches(model);
+    for (Coupling* coupling : model.couplings) {
+      coupling->update(model);
+    }
+  }
 }
 
 scene::Joint StepInputs::joint_now(Index joint, const Steering& steering, double now) const {

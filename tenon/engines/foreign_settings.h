@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "tenon/engines/simulation_values.h"
+
+/// Settings that one vendor's engine has, for the others to name: nothing is passed over in
+/// silence.
+namespace tenon::engines {
+
+/// Of PhysX's solver, for engines that are not PhysX.
+void report_physx_settings(const scene::PhysicsScene& scene, std::vector<NotMapped>& list);
+
+/// Of MuJoCo's solver and contacts, for engines that are not MuJoCo; of its actuators and tendons
+/// they speak themselves.
+void report_mujoco_settings(const scene::PhysicsScene& scene, std::vector<NotMapped>& list);
+
+}  // namespace tenon::engines
