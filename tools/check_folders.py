@@ -58,6 +58,7 @@ DISK_USERS = {
     "tenon/guard/worker_place.cpp": "finds the worker's program",
     "tenon/guard/workers.cpp": "tells the worker where files lie",
     "tenon/mjcf/read_mjcf.cpp": "runs in the worker",
+    "tenon/mjcf/keep_source.cpp": "runs in the worker",
     "tenon/mjcf/shapes/textures.cpp": "runs in the worker",
     "tenon/structure/write_folder.cpp": "writes",
     "tenon/structure/written_note.cpp": "looks at what is to be written over",

@@ -12,6 +12,7 @@
 #include <initializer_list>
 
 #include "tenon/bytes/read_policy.h"
+#include "tenon/bytes/shape_file.h"
 
 namespace tenon::bytes {
 namespace {
@@ -218,7 +219,10 @@ FileKind kind_of(std::string_view bytes) {
   if (is_package(bytes)) {
     return FileKind::Package;
   }
-  return is_mdl(bytes) || is_materialx(bytes) ? FileKind::Shader : FileKind::Unknown;
+  if (is_mdl(bytes) || is_materialx(bytes)) {
+    return FileKind::Shader;
+  }
+  return is_shape_file(bytes) ? FileKind::Shape : FileKind::Unknown;
 }
 
 Error not_read(const std::string& path, Error error) {
@@ -233,7 +237,7 @@ Error not_read(const std::string& path, Error error) {
 Error not_media(const std::string& path) {
   return wrong_kind(path,
                     "neither an image nor a sound, a volume, a module of a material, a light "
-                    "profile or a layer",
+                    "profile, a mesh or a layer",
                     "name a file that is what the asset uses it as");
 }
 

@@ -19,6 +19,7 @@ enum class FileKind : std::uint8_t {
   Volume,   ///< OpenVDB
   Shader,   ///< MDL, MaterialX, glslfx, compiled OSL
   Light,    ///< IES LM-63
+  Shape,    ///< STL, OBJ, MuJoCo's meshes, height fields and skins
   Layer,    ///< a layer of USD, text or crate
   Package,  ///< a zip file with a layer in front
 };

@@ -51,6 +51,25 @@ TEST(FileKind, OtherFilesOfScenesAreKnown) {
   EXPECT_EQ(kind_of("// by us\n/* all\nrights */ mdl 1.7;\nimport ::df::*;"), FileKind::Shader);
 }
 
+/// A whole number as files have it, in four bytes.
+std::string number(unsigned value) { return {static_cast<char>(value), '\0', '\0', '\0'}; }
+
+TEST(FileKind, ShapesAreToldByTheirCountsAndWords) {
+  const std::string stl = std::string(80, ' ') + number(2) + std::string(100, 'x');
+  const std::string mesh =
+      number(3) + number(0) + number(1) + number(1) + std::string(3 * 12 + 8 + 12, 'x');
+  const std::string skin = number(1) + number(0) + number(1) + number(1) + std::string(24, 'x') +
+                           std::string(68, 'b') + number(1) + std::string(8, 'w');
+  for (const std::string& shape :
+       {stl, mesh, skin, number(2) + number(3) + std::string(24, 'h'),
+        "solid a\n facet normal 0 0 1\n"s, "# by us\nmtllib a.mtl\no box\nv 0 0 1\nf 1 1 1\n"s}) {
+    EXPECT_EQ(kind_of(shape), FileKind::Shape) << shape.substr(0, 12);
+  }
+  EXPECT_EQ(kind_of(stl.substr(1)), FileKind::Unknown);
+  EXPECT_EQ(kind_of(skin + "x"), FileKind::Unknown);
+  EXPECT_EQ(kind_of("v is a word\nand so is this\n"), FileKind::Unknown);
+}
+
 TEST(FileKind, CommentsInFrontMayBeManyAndHaveToEnd) {
   EXPECT_EQ(kind_of("\xef\xbb\xbf <!DOCTYPE m><!-- <svg> --><?a?>\n<materialx>"), FileKind::Shader);
   EXPECT_EQ(kind_of("<!-- > <materialx>"), FileKind::Unknown);

@@ -15,6 +15,7 @@
 #include "tenon/convert/sensors.h"
 #include "tenon/convert/shapes/material_writer.h"
 #include "tenon/convert/shapes/shape_writer.h"
+#include "tenon/convert/source/record.h"
 #include "tenon/robot/merge_fixed.h"
 
 namespace tenon::convert {
@@ -64,6 +65,7 @@ Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions
   }
   prepare_joints(options, model, diagnostics);
   TENON_TRY(LayerAndImages written, write_robot({model, tree, options}, diagnostics));
+  write_source(model, options, written.layer, diagnostics);
   if (images != nullptr) {
     *images = std::move(written.images);
   }

@@ -13,6 +13,7 @@
 #include "tenon/mjcf/contact_classes.h"
 #include "tenon/mjcf/equalities.h"
 #include "tenon/mjcf/excluded_pairs.h"
+#include "tenon/mjcf/keep_source.h"
 #include "tenon/mjcf/keyframes.h"
 #include "tenon/mjcf/left_out.h"
 #include "tenon/mjcf/mjcf_source.h"
@@ -117,6 +118,7 @@ Result<robot::RobotModel> read_mjcf(const std::string& path, Diagnostics& diagno
     return Error(ErrorCode::NotFound, "there is no such file").in_file(path);
   }
   TENON_TRY(const SpecPtr spec, parse(path));
+  const Simplified simplified{spec->compiler.fusestatic != 0, spec->compiler.discardvisual != 0};
   TENON_TRY(const ModelPtr model, compile(*spec, path));
   std::string name = mjs_getString(spec->modelname);
   if (name.empty() || name == "MuJoCo Model") {
@@ -124,6 +126,7 @@ Result<robot::RobotModel> read_mjcf(const std::string& path, Diagnostics& diagno
   }
   MjcfSource source(*spec, *model, path, diagnostics);
   robot::RobotModel robot = read_model(source);
+  robot.mujoco.source = keep_source(source, *spec, simplified);
   robot.name = std::move(name);
   robot.file = path;
   return robot;

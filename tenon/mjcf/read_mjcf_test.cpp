@@ -326,6 +326,34 @@ TEST_F(ReadMjcf, TakesTheWorldThatTheModelBrings) {
   EXPECT_EQ(found(), "");
 }
 
+TEST_F(ReadMjcf, KeepsWhatMJCFAloneHas) {
+  const auto model = read(
+      "<option timestep='0.001'/><custom><numeric name='n' data='1 2'/></custom>"
+      "<worldbody><light pos='0 0 3'/><camera name='c' fovy='20.123456789012345'/>"
+      "<body name='a'><joint name='j' ref='0.1'/><joint name='k' type='slide'/>"
+      "<geom name='g' size='0.1' group='4'/><site name='s' size='0.001 0.002 0.003'/></body>"
+      "</worldbody><actuator><position name='p' joint='j' kp='5'/></actuator>"
+      "<sensor><rangefinder site='s'/></sensor>");
+  ASSERT_TRUE(model) << model.error().to_string();
+  const std::string& text = model->mujoco.source.text;
+  for (const char* part :
+       {"timestep=\"0.001\"", "<numeric name=\"n\"", "<light ", "fovy=\"20.123456789012344\"",
+        "name=\"k\" type=\"slide\"", "group=\"4\"", "size=\"0.001 0.002 0.003\"",
+        "<position name=\"p\" joint=\"j\" kp=\"5\"/>", "<rangefinder "}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+  }
+  EXPECT_TRUE(model->mujoco.source.files.empty());
+}
+
+TEST_F(ReadMjcf, KeepsTheModelThatMuJoCoMakes) {
+  const auto model = read(
+      "<compiler fusestatic='true'/><worldbody><body name='a'><freejoint/><geom size='0.1'/>"
+      "<body name='b' pos='0 0 1'><geom name='g' size='0.1'/></body></body></worldbody>");
+  ASSERT_TRUE(model) << model.error().to_string();
+  EXPECT_EQ(model->links.size(), 3u);
+  EXPECT_EQ(model->mujoco.source.text.find("<body name=\"b\""), std::string::npos);
+}
+
 TEST_F(ReadMjcf, SaysWhatMuJoCoRefuses) {
   const auto bad = read("<worldbody>\n<geom type='blob'/></worldbody>");
   ASSERT_FALSE(bad);

@@ -102,11 +102,21 @@ struct MujocoKeyframe {
   std::vector<double> controls;     ///< ctrl (nu)
 };
 
+/// The whole description as MuJoCo writes it, for the way back.
+struct MujocoSource {
+  /// Files stand in it by their numbers in `files`, behind the mark ("?0"); empty: none is kept.
+  std::string text;
+  std::vector<std::string> files;  ///< absolute
+
+  static constexpr char kFileMark = '?';
+};
+
 struct MujocoParts {
   std::vector<MujocoActuator> actuators;
   std::vector<MujocoTendon> tendons;
   std::vector<MujocoKeyframe> keyframes;
   std::optional<MujocoScene> scene;
+  MujocoSource source;
 };
 
 }  // namespace tenon::robot

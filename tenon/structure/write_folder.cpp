@@ -28,7 +28,8 @@ namespace fs = std::filesystem;
 using Contents = std::map<std::string, std::string_view>;
 
 bool is_known_place(const std::string& name) {
-  if (name.starts_with("Textures/") || name.starts_with("Materials/")) {
+  if (name.starts_with("Textures/") || name.starts_with("Materials/") ||
+      name.starts_with("Meshes/")) {
     return true;
   }
   return role_of_file_name(name) != Role::Other;

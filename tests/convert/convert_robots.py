@@ -177,7 +177,7 @@ def check_mjcf_images(work):
     expect("images: findings", (code, rules), (0, ["mjcf.left-out"] * 3))
     expect("images: lines", [finding["line"] for finding in answer["diagnostics"]], [12, 13, 20])
     expect("images: files", sorted(path.name for path in (package / "Textures").iterdir()),
-           ["paint.png", "rough.png"])
+           ["paint.png", "rough.png", "wrapped.png"])
     text = (package / "payloads/materials.usda").read_text()
     for wanted in ("inputs:file = @../Textures/paint.png@", "inputs:scale = (2, 3)",
                    "ColorTexture.outputs:rgb>", "RoughnessTexture.outputs:r>",

@@ -9,12 +9,14 @@ MuJoCo's reader is that of tests/robot_requirements.txt; without it the test ski
 """
 
 import functools
+import re
 import shutil
+import subprocess
 import sys
 
 import picture
 import round_trip
-from round_trip import ROOT, faults, mujoco, numpy, run
+from round_trip import ROOT, TENON, faults, mujoco, numpy, run
 
 ROUNDING = 1e-7  # relative, of the floats that USD has
 
@@ -75,6 +77,7 @@ def check_world(work):
     rules = sorted(finding["rule"] for finding in answer["diagnostics"])
     if rules != ["convert.floating", "mjcf.reference"]:
         faults.append(f"findings {rules}: {answer['diagnostics']}")
+    round_trip.without_source(package / "payloads/base.usda")
     run("convert", package / "world.usda", back, "--physics", "mujoco")
     before = mujoco.MjModel.from_xml_path(str(source))
     compare(before, mujoco.MjModel.from_xml_path(str(back)))
@@ -90,6 +93,7 @@ def check_images(work):
     for name in ("paint", "rough", "wrapped"):
         picture.png(source / "pictures" / f"{name}.png", 4)
     run("convert", source / "textured.xml", first)
+    round_trip.without_source(first)
     run("convert", first, back)
     after = mujoco.MjModel.from_xml_path(str(back))
     before = mujoco.MjModel.from_xml_path(str(source / "textured.xml"))
@@ -155,6 +159,7 @@ def check_sensors(work):
     rules = {finding["rule"] for finding in answer["diagnostics"]}
     if "mjcf.left-out" in rules or "mjcf.touch" not in rules:
         faults.append(f"sensors: {sorted(rules)}")
+    round_trip.without_source(first)
     run("convert", first, back)
     before, after = sensordata(source), sensordata(back)
     for key, wanted in before.items():
@@ -174,6 +179,7 @@ def check_names_and_frames(work):
     """A floating robot comes back thing by thing: names, frames, numbers, nothing beside them."""
     source = ROOT / "tests/convert/mjcf/floating.xml"
     run("convert", source, work / "f.usda", "--scene")
+    round_trip.without_source(work / "f.usda")
     run("convert", work / "f.usda", work / "f.xml")
     before, after = (mujoco.MjModel.from_xml_path(str(path)) for path in (source, work / "f.xml"))
     for kind, count in (("BODY", "nbody"), ("GEOM", "ngeom"), ("SITE", "nsite"),
@@ -189,6 +195,53 @@ def check_names_and_frames(work):
         faults.append(f"floating: {after.actuator_forcerange} {after.nexclude}")
 
 
+def check_kept(work):
+    """A model that nobody changed comes back as it was, of all fields that MuJoCo compiles."""
+    for name, flags in (("everything", ()), ("floating", ("--scene",)), ("world", ())):
+        source = ROOT / f"tests/convert/mjcf/{name}.xml"
+        before = mujoco.MjModel.from_xml_path(str(source))
+        for form in (f"kept_{name}/", f"kept_{name}.usda"):
+            # A height field is an error, as robots in USD have none.
+            subprocess.run([TENON, "convert", source, f"{work}/{form}", "-q", *flags], check=False)
+            asset = work / (f"{form}{name}.usda" if form.endswith("/") else form)
+            for variant in ("mujoco", "physics") if form.endswith("/") else ("",):
+                run("convert", asset, work / "kept.xml", "--force",
+                    *(("--physics", variant) if variant else ()))
+                after = mujoco.MjModel.from_xml_path(str(work / "kept.xml"))
+                for field in round_trip.model_differences(before, after):
+                    faults.append(f"kept: {form} {variant}: {field}")
+
+
+def check_changed(work):
+    """One that was changed is made anew of what the asset says, and that is told."""
+    asset, back = work / "kept_floating.usda", work / "changed.xml"
+    run("set", asset, "/floating/Geometry/world/base/arm.physics:mass=2.5")
+    answer = run("convert", asset, back)
+    said = [finding for finding in answer["diagnostics"] if finding["rule"] == "mjcf.written-anew"]
+    if len(said) != 1 or "physics:mass" not in said[0]["message"]:
+        faults.append(f"changed: {answer['diagnostics']}")
+    near("changed: mass", mujoco.MjModel.from_xml_path(str(back)).body("arm").mass, 2.5)
+
+
+def check_files(work):
+    """Files of the source come along, but nothing else that an asset names as one of them."""
+    asset, back = work / "images.usda", work / "files" / "images.xml"
+    back.parent.mkdir()
+    run("convert", work / "images" / "textured.xml", asset, "--force")
+    run("convert", asset, back)
+    before = mujoco.MjModel.from_xml_path(str(work / "images" / "textured.xml"))
+    for field in round_trip.model_differences(before, mujoco.MjModel.from_xml_path(str(back))):
+        faults.append(f"files: {field}")
+    (work / "images" / "secret.txt").write_text("nobody else's business")
+    text = asset.read_text()
+    asset.write_text(re.sub("(asset tenon:mjcf:file0 = )@.*@", r"\1@images/secret.txt@", text))
+    answer = run("convert", asset, back, "--force")
+    if "mjcf.written-anew" not in [finding["rule"] for finding in answer["diagnostics"]]:
+        faults.append(f"files: {answer['diagnostics']}")
+    if any(path.name == "secret.txt" for path in back.parent.rglob("*")):
+        faults.append("files: an asset named a file that is no shape and got it")
+
+
 def check_left_out(work):
     """Unless asked for, the world stays out, and that is said."""
     answer = run("convert", ROOT / "tests/convert/mjcf/world.xml", work / "robot.usda")
@@ -201,4 +254,4 @@ def check_left_out(work):
 
 if __name__ == "__main__":
     sys.exit(round_trip.main(check_world, check_left_out, check_images, check_sensors,
-                             check_names_and_frames))
+                             check_names_and_frames, check_kept, check_changed, check_files))

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "tenon/asset/converting/kept_mjcf.h"
 #include "tenon/asset/export_mjcf.h"
 #include "tenon/asset/export_urdf.h"
 #include "tenon/asset/physics_options.h"
@@ -39,6 +40,12 @@ std::string folder_beside(const std::string& output, const char* ending) {
 Result<AssetDescription> as_mjcf(const stage::Stage& stage, const bytes::ReadPolicy& policy,
                                  const std::string& output, Diagnostics& diagnostics) {
   const scene::PhysicsScene scene = physics::read_physics(stage, read_options(), diagnostics);
+  std::optional<ExportedMjcf> kept =
+      kept_mjcf(stage, fs::path(output).stem().string(), policy, diagnostics);
+  if (kept) {
+    return AssetDescription{noted(kept->text, kept->images, output), DescriptionFormat::Mjcf,
+                            scene.bodies.size(), scene.joints.size(), kept->images.size()};
+  }
   TENON_TRY(const ExportedMjcf model,
             export_mjcf(stage, scene, folder_beside(output, "_images"), policy, diagnostics));
   return AssetDescription{noted(model.text, model.images, output), DescriptionFormat::Mjcf,

@@ -22,6 +22,7 @@
 #include "tenon/base/text/source_number.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/base/text/xml_text.h"
+#include "tenon/mjcf/text/walk_text.h"
 
 namespace tenon::mjcf {
 namespace {
@@ -30,46 +31,6 @@ constexpr std::string_view kFreeJoint = ".free";
 
 // No bare ">", so that elements end where one stands.
 std::string escaped_name(std::string_view text) { return xml_text(text, "&<>\""); }
-
-/// Calls `with(tag, attribute, value)` for each attribute of a text in turn and puts what it
-/// answers in the value's place. `section` is the element of the first level that it stands in.
-template <class With>
-std::string walk(std::string_view text, const With& with) {
-  std::string out;
-  std::string_view section;
-  int depth = 0;
-  std::size_t at = 0;
-  while (true) {
-    const std::size_t open = text.find('<', at);
-    const std::size_t close = open == std::string_view::npos ? open : text.find('>', open);
-    if (close == std::string_view::npos) {
-      out += text.substr(at);
-      return out;
-    }
-    const std::string_view tag =
-        text.substr(open + 1, text.find_first_of(" />\n", open + 2) - open - 1);
-    const bool closes = tag.starts_with('/');
-    section = depth == 1 && !closes ? tag : section;
-    std::size_t from = open;  // what is not copied yet
-    out += text.substr(at, open - at);
-    for (std::size_t search = open;;) {
-      const std::size_t quote = text.substr(0, close).find('"', search);
-      const std::size_t end = quote == std::string_view::npos ? quote : text.find('"', quote + 1);
-      if (end == std::string_view::npos) {
-        break;
-      }
-      const std::size_t name = text.rfind(' ', quote) + 1;
-      out += text.substr(from, quote + 1 - from);
-      out += with(section, tag, text.substr(name, quote - 1 - name),
-                  text.substr(quote + 1, end - quote - 1));
-      from = end;
-      search = end + 1;
-    }
-    out += text.substr(from, close + 1 - from);
-    depth += closes ? -1 : text[close - 1] == '/' || tag.starts_with('?') ? 0 : 1;
-    at = close + 1;
-  }
-}
 
 /// The kinds of things that have names of their own: by the element, but all actuators, all sensors
 /// and so on are of one kind.
@@ -83,7 +44,7 @@ std::string_view kind_of(std::string_view section, std::string_view tag) {
 class NameTable {
  public:
   NameTable(const std::string& text, const NameOf& name_of) : name_of_(name_of) {
-    walk(text, [&](auto section, auto tag, auto attribute, auto value) {
+    walk_text(text, [&](auto section, auto tag, auto attribute, auto value) {
       if (attribute == "name") {
         take(kind_of(section, tag), std::string(value));
       }
@@ -217,7 +178,7 @@ std::string number_text(std::string_view attribute, std::vector<double> numbers)
 
 std::string finished_text(const std::string& text, const NameOf& name_of) {
   const NameTable names(text, name_of);
-  return walk(text, [&](auto, auto, auto attribute, auto value) -> std::string {
+  return walk_text(text, [&](auto, auto, auto attribute, auto value) -> std::string {
     if (const std::string* name = names.find(value)) {
       return *name;
     }

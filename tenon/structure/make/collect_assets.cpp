@@ -196,7 +196,9 @@ class Collector {
   std::string free_place(const std::string& name, const Files& files) const {
     const fs::path path(name);
     const bool module = path.extension() == ".mdl" && names_ == Names::Tutorial;
-    const std::string folder = module ? "Materials/" : "Textures/";
+    const bool shape =
+        !files.empty() && bytes::kind_of(files.begin()->second->text()) == bytes::FileKind::Shape;
+    const std::string folder = module ? "Materials/" : shape ? "Meshes/" : "Textures/";
     std::string place = folder + name;
     for (int i = 2; !is_free(place, files); ++i) {
       place = folder + path.stem().string() + "_" + std::to_string(i) + path.extension().string();

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The seal of the asset at hand is held against that of its conversion. The text is given out as it
+// is, and nobody here reads it: it is as much the asset's own as a texture. Only the numbers of
+// files in it are replaced, by places beside the output, and their bytes come from where the asset
+// may read.
+#include "tenon/asset/converting/kept_mjcf.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "tenon/answers/prim_walk.h"
+#include "tenon/base/file_finding.h"
+#include "tenon/base/number_from_text.h"
+#include "tenon/bytes/asset_resolver.h"
+#include "tenon/bytes/file_kind.h"
+#include "tenon/convert/source/record.h"
+#include "tenon/convert/source/seal.h"
+#include "tenon/robot/mujoco_parts.h"
+
+namespace tenon {
+namespace {
+
+convert::Seal seal_of_stage(const stage::Stage& stage) {
+  convert::SealMaker maker(stage.default_prim().path());
+  answers::walk_prims(stage.pseudo_root(), [&](const stage::Prim& prim) {
+    if (prim.is_pseudo_root() || !prim.is_active() || !prim.is_defined()) {
+      return;
+    }
+    const Token type = prim.type_name();
+    maker.add_prim(prim.path(), type, prim.authored_api_schemas());
+    for (const Token name : prim.authored_property_names()) {
+      if (prim.is_relationship(name)) {
+        maker.add_targets(prim.path(), type, name, prim.relationship(name).targets());
+      } else {
+        maker.add_value(prim.path(), type, name, prim.attribute(name).get());
+      }
+    }
+  });
+  return maker.take();
+}
+
+void report_written_anew(Diagnostics& diagnostics, const std::string& why) {
+  diagnostics.add(file_finding(
+      Severity::Warning, "mjcf.written-anew",
+      "what MJCF alone has is left out, because the model is made anew: " + why, "", 0));
+}
+
+std::string named_few(const std::vector<std::string>& words) {
+  constexpr std::size_t kNamed = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(words.size(), kNamed); ++i) {
+    text += (i == 0 ? "" : ", ") + words[i];
+  }
+  return words.size() > kNamed ? text + " and " + std::to_string(words.size() - kNamed) + " more"
+                               : text;
+}
+
+/// Puts the files of a source in folders beside its text.
+class FilePlacer {
+ public:
+  FilePlacer(const stage::Prim& robot, const std::string& stem, const bytes::ReadPolicy& policy)
+      : robot_(robot), stem_(stem), policy_(policy) {}
+
+  /// The place of a file by its number; empty where it cannot be read.
+  std::string place(const std::string& number) {
+    const auto [at, is_new] = places_.try_emplace(number);
+    if (is_new) {
+      at->second = read(number);
+    }
+    return at->second;
+  }
+  std::map<std::string, std::string> take() { return std::move(files_); }
+  const std::string& missing() const { return missing_; }
+
+ private:
+  std::string read(const std::string& number) {
+    const auto file =
+        robot_.attribute(Token(convert::kSourceFile + number)).get_as<layer::AssetPath>();
+    const std::string& path = file ? file->resolved : number;
+    const auto contents = policy_.open(path);
+    const bytes::FileKind kind =
+        contents ? bytes::kind_of((*contents)->text()) : bytes::FileKind::Unknown;
+    if (kind != bytes::FileKind::Shape && kind != bytes::FileKind::Image) {
+      missing_ = file ? file->authored : number;
+      return {};
+    }
+    const std::string_view text = (*contents)->text();
+    const bool shape = kind == bytes::FileKind::Shape;
+    const std::string inner = bytes::split_package_path(path).inner;
+    const std::filesystem::path name =
+        std::filesystem::path(inner.empty() ? path : inner).filename();
+    std::string place = stem_ + (shape ? "_meshes/" : "_images/");
+    const std::string folder = place;
+    place += name.string();
+    for (int i = 2; files_.contains(place); ++i) {
+      place = folder + name.stem().string() + "_" + std::to_string(i) + name.extension().string();
+    }
+    files_.emplace(place, std::string(text));
+    return place;
+  }
+
+  const stage::Prim& robot_;
+  std::string stem_;
+  const bytes::ReadPolicy& policy_;
+  std::map<std::string, std::string> places_;  // by number
+  std::map<std::string, std::string> files_;
+  std::string missing_;
+};
+
+/// The text with the places of its files where their numbers stand.
+std::string with_files(std::string_view text, FilePlacer& files) {
+  const std::string mark = {'"', robot::MujocoSource::kFileMark};
+  std::string out;
+  std::size_t at = 0;
+  for (std::size_t found = text.find(mark); found != std::string_view::npos;
+       found = text.find(mark, at)) {
+    const std::size_t end = std::min(text.find('"', found + mark.size()), text.size());
+    const std::string number(text.substr(found + mark.size(), end - found - mark.size()));
+    const bool is_number =
+        !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+    out += text.substr(at, found + 1 - at);
+    out += is_number ? files.place(number) : mark.substr(1) + number;
+    at = end;
+  }
+  return out + std::string(text.substr(at));
+}
+
+}  // namespace
+
+std::optional<ExportedMjcf> kept_mjcf(const stage::Stage& stage, const std::string& stem,
+                                      const bytes::ReadPolicy& policy, Diagnostics& diagnostics) {
+  const stage::Prim robot = stage.default_prim();
+  if (!robot) {
+    return std::nullopt;
+  }
+  const auto text = robot.attribute(convert::kSourceText).get_as<std::string>();
+  const auto seal = robot.attribute(convert::kSourceSeal).get_as<layer::Array<std::string>>();
+  if (!text || !seal) {
+    return std::nullopt;
+  }
+  const std::vector<std::string> changed =
+      convert::changed_since({seal->begin(), seal->end()}, seal_of_stage(stage));
+  if (!changed.empty()) {
+    report_written_anew(diagnostics,
+                        "the asset says something else than its source of " + named_few(changed));
+    return std::nullopt;
+  }
+  FilePlacer files(robot, stem, policy);
+  ExportedMjcf result;
+  result.text = with_files(*text, files);
+  if (!files.missing().empty()) {
+    report_written_anew(diagnostics, "the file @" + files.missing() +
+                                         "@ cannot be read, or is neither a shape nor an image");
+    return std::nullopt;
+  }
+  result.images = files.take();
+  return result;
+}
+
+}  // namespace tenon

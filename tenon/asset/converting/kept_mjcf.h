@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tenon/asset/export_mjcf.h"
+
+namespace tenon {
+
+/// The MJCF model that an asset was converted from, as long as the asset says the same
+/// (convert/source/record.h), with its files in the folders "<stem>_images" and "<stem>_meshes".
+/// None, and a finding where there was one, when something was changed since, or when a file is
+/// not there any more.
+std::optional<ExportedMjcf> kept_mjcf(const stage::Stage& stage, const std::string& stem,
+                                      const bytes::ReadPolicy& policy, Diagnostics& diagnostics);
+
+}  // namespace tenon

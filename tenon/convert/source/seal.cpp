@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The structure of Asset Structure 3.0 moves things: meshes go one level down and take the names of
+// equal ones, materials go into scopes of their own and are written once. So a digest goes without
+// paths, without names where a name may change, and materials count as a set.
+#include "tenon/convert/source/seal.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <type_traits>
+
+#include "tenon/base/content_digest.h"
+#include "tenon/layer/list_op.h"
+
+namespace tenon::convert {
+namespace {
+
+using layer::AssetPath;
+using layer::Duration;
+using layer::PathExpression;
+using layer::TimeCode;
+using layer::Value;
+namespace fields = layer::fields;
+
+/// Of engines that need not be there under every variant.
+constexpr std::string_view kEngines[] = {"mjc", "newton"};
+
+bool starts_with_any(std::string_view text, std::initializer_list<std::string_view> starts) {
+  return std::any_of(starts.begin(), starts.end(),
+                     [&](std::string_view start) { return text.starts_with(start); });
+}
+
+/// Properties about which MuJoCo's format has nothing to say, or which structures change.
+bool is_skipped(std::string_view property) {
+  return starts_with_any(property, {"physx", "isaac", "urdf", "ui:", "omni", "tenon:mjcf:",
+                                    "material:binding", "info:", "outputs:", "collection:"}) ||
+         property == "xformOpOrder" || property == "extent" || property == "visibility" ||
+         property == "purpose";
+}
+
+bool is_look(Token type) { return type == "Material" || type == "Shader"; }
+
+template <class T>
+void append_bytes(const T& value, std::string& out) {
+  if constexpr (std::is_same_v<T, std::string>) {
+    out += value + '\0';
+  } else if constexpr (std::is_same_v<T, Token>) {
+    out += value.str() + '\0';
+  } else if constexpr (std::is_trivially_copyable_v<T>) {
+    out.append(reinterpret_cast<const char*>(&value), sizeof(T));
+  }
+}
+
+template <class T>
+bool append_if(const Value& value, std::string& out) {
+  if (const T* one = value.get<T>()) {
+    append_bytes(*one, out);
+    return true;
+  }
+  if (const auto* many = value.get<layer::Array<T>>()) {
+    for (auto&& one : *many) {
+      append_bytes<T>(one, out);
+    }
+    return true;
+  }
+  return false;
+}
+
+std::string bytes_of(const Value& value) {
+  std::string out;
+#define TENON_SCALAR(enumerator, type, name, crate_id) \
+  if (append_if<type>(value, out)) {                   \
+    return out;                                        \
+  }
+#include "tenon/layer/value_types.def"
+  return out;
+}
+
+/// "mjc" of "mjc:solref" and "api:MjcJointAPI"; empty: of all engines.
+std::string_view engine_of(std::string_view key) {
+  std::string_view name = key;
+  for (const std::string_view what : {"api:", "type:"}) {
+    name = name.starts_with(what) ? name.substr(what.size()) : name;
+  }
+  if (starts_with_any(name, {"mjc", "Mjc"})) {
+    return kEngines[0];
+  }
+  return starts_with_any(name, {"newton", "Newton"}) ? kEngines[1] : std::string_view();
+}
+
+std::string digits_of(std::uint64_t digest) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text(16, '0');
+  for (std::size_t i = text.size(); i-- > 0; digest >>= 4u) {
+    text[i] = kDigits[digest & 15u];
+  }
+  return text;
+}
+
+}  // namespace
+
+void SealMaker::add(Path prim, Token type, const std::string& key, const std::string& contents) {
+  const bool named = prim != root_ && type != "Mesh" && !is_look(type) && !key.starts_with("xform");
+  const std::uint64_t digest =
+      content_digest((named ? prim.name().str() : std::string()) + '\0' + contents);
+  if (is_look(type)) {
+    looks_[key].insert(digest);
+  } else {
+    seal_[key] += digest;
+  }
+}
+
+void SealMaker::add_prim(Path prim, Token type, const std::vector<Token>& apis) {
+  const std::string_view word = type.view();
+  if (starts_with_any(word, {"Physics", "Mjc", "Newton"})) {
+    add(prim, type, "type:" + type.str(), "");
+  }
+  for (const Token api : apis) {
+    if (starts_with_any(api.view(), {"Physics", "Mjc", "Newton"})) {
+      add(prim, type, "api:" + api.str(), "");
+    }
+  }
+}
+
+void SealMaker::add_value(Path prim, Token type, Token property, const Value& value) {
+  if (!is_skipped(property.view()) && !value.holds<layer::AssetPath>() && !value.empty()) {
+    add(prim, type, property.str(), bytes_of(value));
+  }
+}
+
+void SealMaker::add_targets(Path prim, Token type, Token relationship,
+                            const std::vector<Path>& targets) {
+  if (is_skipped(relationship.view()) || relationship == "physics:filteredPairs") {
+    return;
+  }
+  std::string names;
+  for (const Path target : targets) {
+    names += target.name().str() + '\0';
+  }
+  add(prim, type, relationship.str(), names);
+}
+
+Seal SealMaker::take() {
+  for (const auto& [key, digests] : looks_) {
+    for (const std::uint64_t digest : digests) {
+      seal_[key] += digest;
+    }
+  }
+  looks_.clear();
+  return std::move(seal_);
+}
+
+Seal seal_of(const layer::Layer& layer) {
+  SealMaker maker(Path::absolute_root().child(layer.default_prim()));
+  for (const layer::Layer::Entry& entry : layer.entries()) {
+    const Path path = entry.path;
+    if (path.empty() || path.is_absolute_root()) {
+      continue;
+    }
+    const layer::Spec* prim = layer.find(path.prim());
+    const auto* type = prim == nullptr ? nullptr : prim->get<Token>(fields::typeName);
+    const Token type_name = type == nullptr ? Token() : *type;
+    if (!path.is_property()) {
+      const auto* apis = entry.spec.get<layer::ListOp<Token>>(fields::apiSchemas);
+      std::vector<Token> list;
+      if (apis != nullptr) {
+        apis->apply_to(list);
+      }
+      maker.add_prim(path, type_name, list);
+    } else if (const auto* targets = entry.spec.get<layer::ListOp<Path>>(fields::targetPaths)) {
+      std::vector<Path> list;
+      targets->apply_to(list);
+      maker.add_targets(path.prim(), type_name, path.name(), list);
+    } else if (const Value* value = entry.spec.find(fields::default_value)) {
+      maker.add_value(path.prim(), type_name, path.name(), *value);
+    }
+  }
+  return maker.take();
+}
+
+std::vector<std::string> seal_words(const Seal& seal) {
+  std::vector<std::string> words;
+  for (const auto& [key, digest] : seal) {
+    words.push_back(key + " " + digits_of(digest));
+  }
+  return words;
+}
+
+std::vector<std::string> changed_since(const std::vector<std::string>& words, const Seal& now) {
+  std::set<std::string_view> engines;  // of which something is there
+  for (const auto& [key, digest] : now) {
+    engines.insert(engine_of(key));
+  }
+  std::set<std::string> changed;
+  std::set<std::string_view> known;
+  for (const std::string& word : words) {
+    const std::size_t space = std::min(word.rfind(' '), word.size());
+    const std::string key = word.substr(0, space);
+    known.insert(std::string_view(word).substr(0, space));
+    const auto at = now.find(key);
+    const std::string_view engine = engine_of(key);
+    const bool is_absent = at == now.end() && !engine.empty() && !engines.contains(engine);
+    if (!is_absent && (at == now.end() || word != key + " " + digits_of(at->second))) {
+      changed.insert(key);
+    }
+  }
+  for (const auto& [key, digest] : now) {
+    if (!known.contains(key)) {
+      changed.insert(key);
+    }
+  }
+  return {changed.begin(), changed.end()};
+}
+
+}  // namespace tenon::convert
