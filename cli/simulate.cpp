@@ -85,7 +85,7 @@ void SimulateArguments::add_to(const Command& verb) {
   verb.add_option(
           "--iterations", iterations, {1, 1e6, false, true, ""},
           "How often the solver tries, at most; without it the asset's, else 100 (MuJoCo), 16 "
-          "(PhysX), 100 where bodies hang on joints and 10 elsewhere (Jolt)")
+          "(PhysX), 20 for trees of joints and 10 for free bodies (Jolt)")
       .value_name("COUNT");
   verb.add_option("--fps", frames_per_second, {0, 1e5, true, false, "per second"},
                   "Frames of logs and baked layers");

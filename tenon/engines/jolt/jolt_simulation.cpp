@@ -56,7 +56,8 @@ Result<void> check_methods(const Methods& methods) {
 bool is_bounded(const JPH::Body& body) {
   const Vec3d place = from_jolt(body.GetCenterOfMassPosition());
   return is_finite(place) && length(place) < kFar && !body.GetRotation().IsNaN() &&
-         !body.GetLinearVelocity().IsNaN() && !body.GetAngularVelocity().IsNaN();
+         is_finite(from_jolt(body.GetLinearVelocity())) &&
+         is_finite(from_jolt(body.GetAngularVelocity()));
 }
 
 }  // namespace
@@ -79,7 +80,7 @@ Result<void> JoltSimulation::begin(double time_step, Diagnostics& diagnostics) {
   timeline_ = timeline_where_needed(*asset_);
   scene_ = timeline_ == nullptr ? asset_ : &timeline_->scene();
   TENON_TRY(model_, build_model(*scene_, options_, time_step, diagnostics, Begin::Start));
-  inputs_ = StepInputs(*scene_, model_);
+  inputs_ = StepInputs(*scene_);
   slow_turns_ = SlowTurns(model_);
   breakable_.clear();
   for (Index j = 0; j < scene_->joints.size(); ++j) {
@@ -100,6 +101,11 @@ Result<void> JoltSimulation::step() {
   inputs_.before_step(model_, steering_, time());
   TENON_CHECK(advance());
   slow_turns_.after_step(model_);
+  if (options_.outputs.reactions) {
+    for (const JPH::Ref<CoordinateLaw>& law : model_.laws) {
+      law->note_impulse();
+    }
+  }
   ++steps_;
   TENON_CHECK(check_step());
   if (options_.outputs.contacts) {
@@ -196,7 +202,7 @@ Result<void> JoltSimulation::rebuild() {
   timeline_->restart(states);
   Diagnostics silent;  // what there is to say was said at the start
   TENON_TRY(model_, build_model(*scene_, options_, model_.time_step, silent, Begin::Middle));
-  inputs_ = StepInputs(*scene_, model_);
+  inputs_ = StepInputs(*scene_);
   slow_turns_ = SlowTurns(model_);
   apply_steering();
   return {};

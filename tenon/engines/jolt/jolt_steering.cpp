@@ -123,6 +123,9 @@ Result<void> JoltSimulation::write_parameter(const ParameterKey& key, double val
     }
     if (!body.kinematic) {
       set_mass(body, *model_.bodies[key.object]);
+      for (const JPH::Ref<TreeHolder>& tree : model_.trees) {
+        tree->set_mass(key.object, body.mass, body.inertia);
+      }
     }
     return {};
   }

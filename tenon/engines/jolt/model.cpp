@@ -15,6 +15,7 @@ Model& Model::operator=(Model&& other) noexcept {
   static_bodies = std::exchange(other.static_bodies, {});
   joints = std::exchange(other.joints, {});
   laws = std::exchange(other.laws, {});
+  trees = std::exchange(other.trees, {});
   forest = std::move(other.forest);
   not_mapped = std::move(other.not_mapped);
   time_step = other.time_step;
@@ -25,6 +26,7 @@ Model& Model::operator=(Model&& other) noexcept {
 void Model::release() {
   joints.clear();
   laws.clear();
+  trees.clear();
   bodies.clear();
   static_bodies.clear();
   systems.clear();

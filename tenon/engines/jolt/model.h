@@ -10,6 +10,7 @@
 #include "tenon/engines/jolt/run/coordinate_law.h"
 #include "tenon/engines/jolt/run/measured_holder.h"
 #include "tenon/engines/jolt/run/pair_listener.h"
+#include "tenon/engines/jolt/run/tree_holder.h"
 #include "tenon/engines/simulation_values.h"
 #include "tenon/scene/joint_dofs.h"
 #include "tenon/scene/joint_forest.h"
@@ -26,7 +27,8 @@ struct DriveAt {
 
 struct JointMap {
   scene::JointDofs dofs;
-  bool acts = false;  ///< enabled, and between two different sides
+  TreeHolder* tree = nullptr;  ///< that holds it; null: `holder` does
+  bool acts = false;           ///< enabled, and between two different sides
   /// Holds what the joint locks; null: nothing.
   JPH::Ref<JPH::TwoBodyConstraint> holder;
   JPH::Ref<MeasuredHolder> measured;  ///< the same where its load is asked for; else null
@@ -52,6 +54,7 @@ struct Model {
   std::vector<JPH::Body*> static_bodies;      ///< (collider_count), null: of a body
   std::vector<JointMap> joints;               ///< (joint_count)
   std::vector<JPH::Ref<CoordinateLaw>> laws;  ///< all: of joints and of mimics
+  std::vector<JPH::Ref<TreeHolder>> trees;
   scene::JointForest forest;
   std::vector<NotMapped> not_mapped;
   double time_step = 0;  ///< [s]

@@ -23,6 +23,8 @@ enum class Begin : std::uint8_t {
 
 /// Jolt's iterations of velocities and positions where bodies hang on joints, and its own
 /// elsewhere.
+inline constexpr JPH::uint kTreeVelocitySteps = 20;
+inline constexpr JPH::uint kTreePositionSteps = 4;
 inline constexpr JPH::uint kJointVelocitySteps = 100;
 inline constexpr JPH::uint kJointPositionSteps = 10;
 inline constexpr JPH::uint kMostSteps = 255;  ///< Jolt keeps them in a byte
@@ -40,9 +42,14 @@ struct Build {
   std::vector<JPH::Ref<CoordinateLaw>> sums;  ///< laws of several joints
   Model model;
 
-  JPH::uint joint_steps() const {
+  JPH::uint velocity_steps(JPH::uint usual) const {
     const auto asked = static_cast<JPH::uint>(std::max(options.methods.iterations, 0));
-    return std::min(asked > 0 ? asked : kJointVelocitySteps, kMostSteps);
+    return std::min(asked > 0 ? asked : usual, kMostSteps);
+  }
+  void set_steps(JPH::Constraint& constraint, bool in_tree) const {
+    constraint.SetNumVelocityStepsOverride(
+        velocity_steps(in_tree ? kTreeVelocitySteps : kJointVelocitySteps));
+    constraint.SetNumPositionStepsOverride(in_tree ? kTreePositionSteps : kJointPositionSteps);
   }
   void report(const Path& prim, const std::string& property, const std::string& why) {
     model.not_mapped.push_back({prim, property, why});
@@ -60,7 +67,9 @@ void plan(Build& build, Begin begin);
 void add_systems(Build& build);
 /// Bodies with their shapes, and static ones of colliders.
 Result<void> add_bodies(Build& build, Begin begin);
-/// What holds what joints lock.
+/// Joints that are held together as trees.
+void add_trees(Build& build);
+/// What holds what the other joints lock.
 void add_holders(Build& build);
 /// What acts along coordinates.
 void add_laws(Build& build);

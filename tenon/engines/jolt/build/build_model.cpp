@@ -20,6 +20,7 @@ Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOpti
   plan(build, begin);
   add_systems(build);
   TENON_CHECK(add_bodies(build, begin));
+  add_trees(build);
   add_holders(build);
   add_laws(build);
   add_mimics(build);

@@ -209,8 +209,7 @@ void measure(Build& build, Index index) {
   }
   map.measured =
       new MeasuredHolder(map.holder, side_frame(build.scene, joint.body1, joint.frame1).position);
-  map.measured->SetNumVelocityStepsOverride(build.joint_steps());
-  map.measured->SetNumPositionStepsOverride(kJointPositionSteps);
+  build.set_steps(*map.measured, false);
 }
 
 }  // namespace
@@ -228,13 +227,12 @@ Pose side_frame(const scene::PhysicsScene& scene, const std::optional<Index>& bo
 void add_holders(Build& build) {
   for (Index j = 0; j < build.scene.joints.size(); ++j) {
     JointMap& map = build.model.joints[j];
-    if (!map.acts) {
+    if (!map.acts || map.tree != nullptr) {
       continue;
     }
     map.holder = make_holder(build, j);
     if (map.holder != nullptr) {
-      map.holder->SetNumVelocityStepsOverride(build.joint_steps());
-      map.holder->SetNumPositionStepsOverride(kJointPositionSteps);
+      build.set_steps(*map.holder, false);
       measure(build, j);
     }
   }

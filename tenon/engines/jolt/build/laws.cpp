@@ -149,11 +149,26 @@ void add_laws(Build& build) {
   }
 }
 
+/// The tree that has all joints of a law.
+TreeHolder* tree_of(const Model& model, const CoordinateLaw& law) {
+  TreeHolder* tree = model.joints[law.parts().front().joint].tree;
+  for (const CoordinateOf& part : law.parts()) {
+    tree = model.joints[part.joint].tree == tree ? tree : nullptr;
+  }
+  return tree;
+}
+
 void insert_constraints(Build& build) {
   const auto system_of = [&](const Joint& joint) -> JPH::PhysicsSystem& {
     const std::optional<Index> body = joint.body1.has_value() ? joint.body1 : joint.body0;
     return *build.model.systems[body ? build.scene.bodies[*body].scene : 0].system;
   };
+  // Trees first: contacts have pushed single bodies, and a law can only judge the speed of its
+  // coordinate once the tree has taken that up.
+  for (const JPH::Ref<TreeHolder>& tree : build.model.trees) {
+    system_of(build.scene.joints[tree->first_joint()]).AddConstraint(tree);
+    build.set_steps(*tree, true);
+  }
   for (Index j = 0; j < build.model.joints.size(); ++j) {
     const JointMap& map = build.model.joints[j];
     for (const JPH::Ref<CoordinateLaw>& law : map.laws) {
@@ -172,8 +187,9 @@ void insert_constraints(Build& build) {
     build.model.laws.push_back(law);
   }
   for (const JPH::Ref<CoordinateLaw>& law : build.model.laws) {
-    law->SetNumVelocityStepsOverride(build.joint_steps());
-    law->SetNumPositionStepsOverride(kJointPositionSteps);
+    TreeHolder* tree = tree_of(build.model, *law);
+    law->set_tree(tree);
+    build.set_steps(*law, tree != nullptr);
   }
 }
 

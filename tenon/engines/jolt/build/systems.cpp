@@ -43,7 +43,7 @@ JPH::PhysicsSettings settings_of(const Build& build) {
   settings.mBodyPairCacheCosMaxDeltaRotationDiv2 = 0.99999999F;
   settings.mUseLargeIslandSplitter = false;  // one thread, one order
   if (build.options.methods.iterations > 0) {
-    settings.mNumVelocitySteps = build.joint_steps();
+    settings.mNumVelocitySteps = build.velocity_steps(settings.mNumVelocitySteps);
   }
   return settings;
 }

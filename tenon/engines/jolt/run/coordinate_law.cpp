@@ -175,6 +175,9 @@ void CoordinateLaw::add_part(std::size_t index) {
     add_share(part.body1, {}, about);
     part.push = {{}, about};
   }
+  if (tree_ != nullptr) {
+    return;  // which holds it
+  }
   for (const Vec3d& along : scene::directions_across(motion.slides)) {
     held_.push_back({index, {along, {}}, {}, {}});
     add_held(part.body0, -along, -cross(arm0, along), held_.back());
@@ -245,6 +248,34 @@ void CoordinateLaw::find_answers() {
   }
 }
 
+void CoordinateLaw::find_tree_answers() {
+  std::vector<Along> sum;
+  for (std::size_t part = 0; part < parts_.size(); ++part) {
+    sum.push_back({parts_[part].joint, parts_[part].index, slope(part)});
+  }
+  in_tree_ = tree_->answer(sum);
+  answer_ = in_tree_.speed;
+  for (std::size_t i = 0; i < in_tree_.bodies.size(); ++i) {
+    Share& share = shares_[share_of(in_tree_.bodies[i])];
+    share.linear_answer = in_tree_.velocities[i].move;
+    share.angular_answer = in_tree_.velocities[i].turn;
+  }
+}
+
+double CoordinateLaw::total_impulse() const {
+  double sum = 0;
+  for (const LawTerm& term : terms) {
+    sum += term.impulse;
+  }
+  return sum;
+}
+
+void CoordinateLaw::note_impulse() const {
+  if (tree_ != nullptr && !shares_.empty()) {
+    tree_->note(in_tree_, total_impulse());
+  }
+}
+
 double CoordinateLaw::value() const {
   double sum = -offset;
   for (const CoordinateOf& part : parts_) {
@@ -259,16 +290,14 @@ double CoordinateLaw::value() const {
 }
 
 Wrench CoordinateLaw::impulse(std::size_t part) const {
-  double sum = 0;
-  for (const LawTerm& term : terms) {
-    sum += term.impulse;
-  }
+  const double sum = total_impulse();
   return {parts_[part].push.force * sum, parts_[part].push.torque * sum};
 }
 
 double CoordinateLaw::speed() const {
   double sum = 0;
-  for (const Share& share : shares_) {
+  for (std::size_t i = 0; i < speaking_; ++i) {
+    const Share& share = shares_[i];
     sum += dot(share.linear, from_jolt(share.body->GetLinearVelocity())) +
            dot(share.angular, from_jolt(share.body->GetAngularVelocity()));
   }
@@ -276,10 +305,11 @@ double CoordinateLaw::speed() const {
 }
 
 double CoordinateLaw::inertia() const {
-  if (moved_ > 0) {
-    return moved_;
+  double armature = 0;
+  for (const LawTerm& term : terms) {
+    armature += term.kind == TermKind::Armature ? term.inertia : 0;
   }
-  return answer_ > kNothing ? 1 / answer_ : scene::kUnlimited;
+  return answer_ > kNothing ? 1 / answer_ + armature : scene::kUnlimited;
 }
 
 double CoordinateLaw::slope(std::size_t part) const {
@@ -326,8 +356,13 @@ void CoordinateLaw::prepare(double time_step) {
   for (std::size_t part = 0; part < parts_.size(); ++part) {
     add_part(part);
   }
-  keep_joints_whole();
-  find_answers();
+  speaking_ = shares_.size();
+  if (tree_ != nullptr) {
+    find_tree_answers();
+  } else {
+    keep_joints_whole();
+    find_answers();
+  }
   position_ = value();
   const double now = speed();
   for (LawTerm& term : terms) {

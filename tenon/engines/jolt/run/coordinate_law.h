@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tenon/engines/jolt/convert.h"
+#include "tenon/engines/jolt/run/tree_holder.h"
 #include "tenon/engines/simulation_values.h"
 #include "tenon/scene/joint_dofs.h"
 
@@ -85,8 +86,10 @@ class CoordinateLaw final : public JPH::Constraint {
   }
   /// How the sum changes with the coordinate of a part.
   double slope(std::size_t part) const;
-  /// What a force along the sum moves, by which accelerations are scaled; 0: as Jolt sees it.
-  void set_moved_inertia(double inertia) { moved_ = inertia; }
+  /// The tree that has all joints of the sum; without one each joint is seen by itself.
+  void set_tree(TreeHolder* tree) { tree_ = tree; }
+  /// Tells its tree what all terms together have exerted during the last step.
+  void note_impulse() const;
   /// The joint's own damper, friction or armature; null: it has none.
   LawTerm* own_term(Parameter what);
   double position() const { return parts_.front().position; }
@@ -142,6 +145,8 @@ class CoordinateLaw final : public JPH::Constraint {
   void count_turns();
   void keep_joints_whole();
   void find_answers();
+  void find_tree_answers();
+  double total_impulse() const;
   double value() const;
   void prepare_term(LawTerm& term, double time_step, double speed);
   void prepare_bound(LawTerm& term, double time_step, double speed);
@@ -151,7 +156,9 @@ class CoordinateLaw final : public JPH::Constraint {
   std::vector<CoordinateOf> parts_;
   std::vector<Share> shares_;
   std::vector<Direction> held_;  ///< what the parts' joints lock
-  double moved_ = 0;
+  std::size_t speaking_ = 0;     ///< the first of the shares: those with a part in the speed
+  TreeHolder* tree_ = nullptr;
+  TreeHolder::Answer in_tree_;
   double answer_ = 0;    ///< speed by impulse
   double position_ = 0;  ///< of the sum
 };

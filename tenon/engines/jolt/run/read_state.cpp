@@ -107,7 +107,12 @@ Wrench read_holder(const JointMap& joint, double time_step) {
 }
 
 Wrench read_reaction(const Model& model, Index joint) {
-  Wrench total = read_holder(model.joints[joint], model.time_step);
+  const JointMap& map = model.joints[joint];
+  if (map.tree != nullptr) {
+    const Wrench impulse = map.tree->impulse(joint);
+    return {impulse.force * (1 / model.time_step), impulse.torque * (1 / model.time_step)};
+  }
+  Wrench total = read_holder(map, model.time_step);
   for (const JPH::Ref<CoordinateLaw>& law : model.laws) {
     for (std::size_t part = 0; part < law->parts().size(); ++part) {
       if (law->parts()[part].joint == joint) {

@@ -30,8 +30,8 @@ void stop(JPH::Body* body) {
 
 }  // namespace
 
-StepInputs::StepInputs(const scene::PhysicsScene& scene, const Model& model)
-    : scene_(&scene), tracked_(joints_with_tracks(scene)), inertia_(scene, model) {
+StepInputs::StepInputs(const scene::PhysicsScene& scene)
+    : scene_(&scene), tracked_(joints_with_tracks(scene)) {
   for (Index b = 0; b < scene.bodies.size(); ++b) {
     if (scene.bodies[b].kinematic) {
       kinematics_.push_back(b);
@@ -48,7 +48,9 @@ void StepInputs::before_step(const Model& model, const Steering& steering, doubl
   move_bodies(model, steering, now + model.time_step);
   push_bodies(model, steering);
   push_coordinates(model, steering);
-  inertia_.find(model);
+  for (const JPH::Ref<TreeHolder>& tree : model.trees) {
+    tree->prepare();
+  }
   for (const JPH::Ref<CoordinateLaw>& law : model.laws) {
     law->prepare(model.time_step);
   }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "tenon/engines/jolt/model.h"
-#include "tenon/engines/jolt/run/moved_inertia.h"
 #include "tenon/engines/steering.h"
 
 namespace tenon::engines::jolt {
@@ -15,7 +14,7 @@ namespace tenon::engines::jolt {
 class StepInputs {
  public:
   StepInputs() = default;
-  StepInputs(const scene::PhysicsScene& scene, const Model& model);
+  explicit StepInputs(const scene::PhysicsScene& scene);
 
   /// `now` [s] is the beginning of the step.
   void before_step(const Model& model, const Steering& steering, double now) const;
@@ -33,7 +32,6 @@ class StepInputs {
   std::vector<scene::Index> tracked_;     ///< joints whose drives follow samples
   std::vector<scene::Index> pushed_;      ///< bodies with constant forces
   std::vector<scene::Index> kinematics_;  ///< bodies
-  MovedInertia inertia_;
 };
 
 }  // namespace tenon::engines::jolt
