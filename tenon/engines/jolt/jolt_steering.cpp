@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/engines/applied_forces.h"
 #include "tenon/engines/drive_values.h"
 #include "tenon/engines/jolt/build/build.h"
 #include "tenon/engines/jolt/convert.h"
@@ -291,7 +292,17 @@ Result<Wrench> JoltSimulation::joint_reaction(Index joint) const {
     return output_off("reactions");
   }
   TENON_CHECK(check_joint(*scene_, joint));
-  return read_reaction(model_, joint);
+  Wrench reaction = read_reaction(model_, joint);
+  const auto set = steering_.efforts.find(joint);
+  if (set != steering_.efforts.end() && steps_ > 0 && model_.joints[joint].acts) {
+    const scene::Joint& source = scene_->joints[joint];
+    const Wrench effort = effort_wrench(
+        source, model_.joints[joint].dofs, read_side(model_, source.body0, source.frame0).frame,
+        read_side(model_, source.body1, source.frame1).frame, set->second);
+    reaction.force += effort.force;
+    reaction.torque += effort.torque;
+  }
+  return reaction;
 }
 
 Result<BodyAcceleration> JoltSimulation::body_acceleration(Index body) const {

@@ -4,6 +4,7 @@
 // What the scene says and Jolt 5.0 here does not do; nothing is passed over in silence.
 #include <algorithm>
 
+#include "tenon/engines/foreign_settings.h"
 #include "tenon/engines/jolt/build/build.h"
 #include "tenon/engines/scene_timeline.h"
 #include "tenon/math/inertia.h"
@@ -76,6 +77,8 @@ void report_unmapped(Build& build) {
       report_joint(build, build.scene.joints[j]);
     }
   }
+  report_physx_settings(build.scene, build.model.not_mapped);
+  report_mujoco_settings(build.scene, build.model.not_mapped);
   for (const scene::MujocoActuator& actuator : build.scene.actuators) {
     build.report(actuator.path, "", "an actuator of MuJoCo, which Jolt does not have");
   }
