@@ -7,10 +7,11 @@
 
 #include <algorithm>
 
+#include "tenon/engines/applied_forces.h"
+#include "tenon/engines/drive_values.h"
 #include "tenon/engines/physx/convert.h"
 #include "tenon/engines/physx/run/drives.h"
 #include "tenon/engines/physx/run/read_state.h"
-#include "tenon/scene/motion/joint_motion.h"
 
 namespace tenon::engines::physx {
 namespace {
@@ -21,79 +22,23 @@ bool has_scaled_gravity(const scene::Body& body) {
   return body.gravity_scale != 0 && body.gravity_scale != 1;
 }
 
-void write_sample(const scene::ScalarTrack& track, double now, scene::Drive& drive) {
-  const double value = track.at(now);
-  switch (track.what) {
-    case scene::Animated::DriveTargetPosition:
-      drive.target_position = value;
-      break;
-    case scene::Animated::DriveTargetVelocity:
-      drive.target_velocity = value;
-      break;
-    case scene::Animated::DriveStiffness:
-      drive.stiffness = value;
-      break;
-    case scene::Animated::DriveDamping:
-      drive.damping = value;
-      break;
-    case scene::Animated::DriveMaxForce:
-      drive.max_force = value;
-      break;
-  }
-}
-
 void write_steering(const Steering& steering, Index joint, scene::Joint& source) {
-  const auto set = [&](Parameter what, Index part, double& number) {
-    const auto found = steering.parameters.find({what, joint, part});
+  const auto set = [&](Parameter what, double& number) {
+    const auto found = steering.parameters.find({what, joint, 0});
     number = found == steering.parameters.end() ? number : found->second;
   };
-  set(Parameter::JointDamping, 0, source.damping);
-  set(Parameter::JointFriction, 0, source.friction);
-  set(Parameter::JointArmature, 0, source.armature);
-  std::vector<scene::Drive>& drives = source.drives;
-  for (Index d = 0; d < drives.size(); ++d) {
-    if (const auto target = steering.targets.find({joint, d}); target != steering.targets.end()) {
-      drives[d].target_position = target->second.position;
-      drives[d].target_velocity = target->second.velocity;
-    }
-    set(Parameter::DriveStiffness, d, drives[d].stiffness);
-    set(Parameter::DriveDamping, d, drives[d].damping);
-    set(Parameter::DriveMaxForce, d, drives[d].max_force);
-  }
-}
-
-Wrench constant_wrench(const scene::Body& body, const px::PxRigidBody& actor) {
-  const Pose pose = from_px(actor.getGlobalPose());
-  Wrench total;
-  for (const scene::BodyForce& push : body.settings.forces) {
-    const auto turned = [&](const Vec3d& v) {
-      return push.body_axes ? rotate(pose.orientation, v) : v;
-    };
-    Vec3d force = turned(push.force);
-    Vec3d torque = turned(push.torque);
-    if (push.acceleration) {
-      force = force * body.mass;
-      const Vec3d own = rotate(conjugate(pose.orientation), torque);
-      torque = rotate(pose.orientation, own * body.inertia);
-    }
-    const Vec3d arm = rotate(pose.orientation, push.point - body.center_of_mass);
-    total.force += force;
-    total.torque += torque + cross(arm, force);
-  }
-  return total;
+  set(Parameter::JointDamping, source.damping);
+  set(Parameter::JointFriction, source.friction);
+  set(Parameter::JointArmature, source.armature);
 }
 
 }  // namespace
 
 StepInputs::StepInputs(const scene::PhysicsScene& scene)
-    : scene_(&scene), applied_(scene.bodies.size()), joint_pushes_(scene.joints.size()) {
-  for (const scene::ScalarTrack& track : scene.scalar_tracks) {
-    if (!track.times.empty()) {
-      tracked_.push_back(track.joint);
-    }
-  }
-  std::sort(tracked_.begin(), tracked_.end());
-  tracked_.erase(std::unique(tracked_.begin(), tracked_.end()), tracked_.end());
+    : scene_(&scene),
+      tracked_(joints_with_tracks(scene)),
+      applied_(scene.bodies.size()),
+      joint_pushes_(scene.joints.size()) {
   for (Index b = 0; b < scene.bodies.size(); ++b) {
     const scene::Body& body = scene.bodies[b];
     if (!body.kinematic && (has_scaled_gravity(body) || !body.settings.forces.empty())) {
@@ -122,11 +67,7 @@ void StepInputs::before_step(const Model& model, const Steering& steering, doubl
 
 scene::Joint StepInputs::joint_now(Index joint, const Steering& steering, double now) const {
   scene::Joint source = scene_->joints[joint];
-  for (const scene::ScalarTrack& track : scene_->scalar_tracks) {
-    if (track.joint == joint && !track.times.empty()) {
-      write_sample(track, now, source.drives[track.drive]);
-    }
-  }
+  source.drives = drives_at(*scene_, joint, steering, now);
   write_steering(steering, joint, source);
   return source;
 }
@@ -183,7 +124,7 @@ void StepInputs::push_bodies(const Model& model, const Steering& steering) {
   for (const Index b : pushed_) {
     const scene::Body& body = scene_->bodies[b];
     if (!body.settings.forces.empty()) {
-      apply(model, b, constant_wrench(body, *model.bodies[b]));
+      apply(model, b, constant_wrench(body, from_px(model.bodies[b]->getGlobalPose())));
     }
     if (has_scaled_gravity(body)) {
       const Vec3d gravity = from_px(model.scenes[body.scene]->getGravity());
@@ -206,27 +147,16 @@ void StepInputs::push_constraint(const Model& model, Index joint,
   };
   const Pose frame0 = frame(source.body0, source.frame0);
   const Pose frame1 = frame(source.body1, source.frame1);
-  Vec3d force;
-  Vec3d torque;
-  if (source.kind == scene::JointKind::Distance) {
-    force = normalized(frame1.position - frame0.position) * efforts.front();
-  } else {
-    const scene::JointMotion motion = joint_motion(model.joints[joint].dofs, frame0, frame1);
-    const std::size_t slides = motion.slides.size();  // which come first
-    for (std::size_t i = 0; i < efforts.size(); ++i) {
-      force += i < slides ? motion.slides[i] * efforts[i] : Vec3d{};
-      torque += i < slides ? Vec3d{} : motion.turns[i - slides] * efforts[i];
-    }
-  }
+  const Wrench wrench = effort_wrench(source, model.joints[joint].dofs, frame0, frame1, efforts);
   const auto act = [&](const std::optional<Index>& body, double sign) {
     if (body && !scene_->bodies[*body].kinematic) {
       const Vec3d arm = frame1.position - read_center_of_mass(model, *body);
-      push(model, *body, {force * sign, (torque + cross(arm, force)) * sign});
+      push(model, *body, {wrench.force * sign, (wrench.torque + cross(arm, wrench.force)) * sign});
     }
   };
   act(source.body1, 1);
   act(source.body0, -1);
-  joint_pushes_[joint] = {force, torque};
+  joint_pushes_[joint] = wrench;
   has_pushes_ = true;
 }
 
