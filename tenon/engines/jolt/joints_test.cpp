@@ -269,6 +269,26 @@ TEST(JoltJoints, AStateThatIsSetTakesAlongWhatHangsOnIt) {
   EXPECT_NEAR(angle_of(*simulation), M_PI / 2 + 0.03, 2e-3);
 }
 
+// Two hinges that cross in a link without mass carry a bob as one joint of two axes would.
+TEST(JoltJoints, LinksWithoutMassHoldWhatHangsOnThem) {
+  TestScene scene;
+  const Index cross = scene.add_body("cross", {{0, 0, 1}}, 0, {});
+  scene.add_joint("first", JointKind::Revolute, std::nullopt, cross, scene::Axis::X)
+      .frame0.position = {{0, 0, 1}};
+  const Index bob = scene.add_body("bob", {{0, 0, 0.5}}, 2, {{0.02, 0.02, 0.02}});
+  scene.add_joint("second", JointKind::Revolute, cross, bob, scene::Axis::Y).frame1.position = {
+      {0, 0, 0.5}};
+  scene.bodies[bob].linear_velocity = {{0.3, 0.4, 0}};
+  const auto simulation = make_run(scene);
+  const double energy = simulation->energy().total();
+  for (int i = 0; i < 30; ++i) {
+    run_for(*simulation, 0.1);
+    const Pose pose = simulation->body_state(bob).pose;
+    EXPECT_NEAR(length(transform_point(pose, {{0, 0, 0.5}}) - Vec3d{{0, 0, 1}}), 0, 1e-4);
+  }
+  EXPECT_NEAR(simulation->energy().total(), energy, 0.02);
+}
+
 // A body that the asset holds by a joint whose frames are apart starts where they meet.
 TEST(JoltJoints, StartWhereTheirCoordinatesPutThem) {
   TestScene scene = wheel();
