@@ -97,7 +97,7 @@ void add_trees(Build& build) {
       member.parent = number[*build.forest.bodies[body].parent];
     }
     number[body] = members.size();
-    members.push_back(std::move(member));
+    members.push_back(member);
   }
   for (auto& [root, members] : trees) {
     const bool held = std::any_of(members.begin(), members.end(),
