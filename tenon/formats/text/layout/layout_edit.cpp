@@ -11,6 +11,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/formats/text/layout/layout_state.h"
+#include "tenon/formats/text/layout/rename_layout.h"
 #include "tenon/formats/text/reader.h"
 #include "tenon/formats/text/text_scanner.h"
 #include "tenon/formats/text/write/value_text.h"
@@ -378,6 +379,9 @@ EditedText edit_text(std::string_view original, const layer::Layer& edited) {
   text::SourceMap sources;
   const auto before = read_text_with_sources(original, edited.identifier(), ignored, sources);
   if (before) {
+    if (const auto renamed = text::with_new_names(original, sources, *before, edited)) {
+      return edit_text(*renamed, edited);
+    }
     text::LayoutState state{*before, edited, sources, text::TextPatch(original)};
     state.unit = text::detect_unit(sources, state.patch);
     text::BlockLayout(state).run();

@@ -245,6 +245,19 @@ TEST(LayoutEdit, ParenthesesGoWithTheLastStatementInThem) {
   EXPECT_EQ(edit_text(more.text, layer).text, original);
 }
 
+TEST(LayoutEdit, ARenamedPrimKeepsItsLayout) {
+  const std::string original =
+      "#usda 1.0\ndef \"A\" { # one\n  def \"B\"   # two\n  {\n    float x = 1e-07  # three\n  "
+      "}\n}\n";
+  Diagnostics findings;
+  std::string wanted = original;
+  wanted.replace(wanted.find("\"B\""), 3, "\"Other\"");
+  const Layer layer = *read_text(wanted, "a.usda", findings);
+  const EditedText edited = edit_text(original, layer);
+  EXPECT_EQ(edited.text, wanted);
+  EXPECT_TRUE(edited.kept_layout);
+}
+
 TEST(LayoutEdit, WhatCannotBeDoneInPlaceIsToldAndWrittenAnew) {
   Layer layer = read_text_layer(kLaidOut);
   spec(layer, "/A{look=red}").set("typeName", Token("Cube"));  // which no text can say
