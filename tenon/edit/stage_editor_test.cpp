@@ -171,6 +171,20 @@ TEST(StageEditor, RefusesWithAReasonAndChangesNothing) {
   EXPECT_FALSE(editor.undo());
 }
 
+TEST(StageEditor, OversThatSayNothingGoAndAllOthersStay) {
+  StageEditor editor = open_text(
+      {{"root",
+        "(\n subLayers = [@sub@]\n)\nover \"A\" {\n over \"B\" {\n over \"C\" {\n }\n }\n}\n"},
+       {"sub", "def \"A\" {\n def \"B\" {\n def \"C\" {\n }\n }\n}\n"}});
+  ASSERT_TRUE(editor.set_metadata(at("/A"), "documentation", Value(std::string("kept"))));
+  ASSERT_TRUE(editor.remove_silent_prim(at("/A/B/C")));
+  EXPECT_TRUE(editor.layer("root")->has(at("/A")));
+  EXPECT_FALSE(editor.layer("root")->has(at("/A/B")));
+  ASSERT_TRUE(editor.set_target("sub"));
+  ASSERT_TRUE(editor.remove_silent_prim(at("/A/B/C")));
+  EXPECT_TRUE(editor.layer("sub")->has(at("/A/B/C")));  // it defines the prim
+}
+
 TEST(StageEditor, RenamesWithAllThatNamesThePrim) {
   StageEditor editor = open_text(
       {{"root",

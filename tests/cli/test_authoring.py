@@ -234,6 +234,19 @@ class ThereAndBack(Case):
         with unittest.mock.patch.dict(ROWS, {"collider": [[]]}):
             self.go(asset, world)
 
+    def test_a_mimic_of_physx_alone(self):
+        shutil.copytree(HAND, self.folder / "hand")
+        for path in self.folder.rglob("*"):
+            path.chmod(0o755 if path.is_dir() else 0o644)
+        asset, joints = self.folder / "hand/inspire_hand.usda", "/inspire_hand/Physics"
+        before = self.files()
+        self.do("add", asset, f"{joints}/right_index_1_joint=mimic", "--leader",
+                f"{joints}/right_thumb_1_joint", "--engine", "physx")
+        changed = [name for name, text in self.files().items() if text != before[name]]
+        self.assertEqual(changed, ["hand/payloads/Physics/physx.usda"])
+        self.do("remove", asset, f"{joints}/right_index_1_joint=mimic")
+        self.assertEqual(self.files(), before)
+
     def test_every_kind_has_a_row(self):
         self.assertEqual(sorted(kinds()), sorted(ROWS))
 

@@ -186,7 +186,7 @@ WRITING = {
     "help": [],
     "info": [],
     "manual": [],
-    "new": [["new", "OUT.usda"], ["new", "OUT.usdc"]],
+    "new": [["new", "OUT.usda", "--force"], ["new", "OUT.usdc", "--force"]],
     "physics": [],
     "remove": [],
     "rename": [],
