@@ -92,10 +92,24 @@ def judgements():
                                              "docs/beside-other-engines.md"],
                         "release", ["tenon_cli", "tenon_worker"],
                         f"tests/engines_beside/requirements-{engine}.txt")
+    # Of a build with every engine (make build ENGINES=all, make test).
+    yield Judgement("own_physx", ["{python}", "-B", "tests/engines_beside/own_physx.py", "{engine}",
+                                  "build/release/bin/tenon", "docs/beside-other-engines.md"],
+                    "release", ["tenon_cli", "tenon_worker"],
+                    "tests/engines_beside/requirements-ovphysx.txt")
+    yield Judgement("robots_per_engine", ["{python}", "-B",
+                                          "tests/engines_beside/robots_per_engine.py", ".",
+                                          "build/release/bin/tenon", "docs/robots-per-engine.md"],
+                    "release", ["tenon_cli", "tenon_worker"])
     for source in sorted(glob.glob(os.path.join(ROOT, "fuzz/*_fuzz.cpp"))):
         target = os.path.basename(source)[:-len(".cpp")]
         yield Judgement(f"fuzz_{target[:-len('_fuzz')]}",
                         ["fuzz/run.sh", target, str(FUZZ_SECONDS)], "fuzz", [target])
+
+
+def environment_name(requirements):
+    """requirements-ovphysx.txt -> beside_ovphysx: one for all judgements that ask for it."""
+    return "beside_" + os.path.basename(requirements).split("-", 1)[1].split(".")[0]
 
 
 def environment_python(name, requirements):
@@ -153,7 +167,8 @@ def run(judgement, python, jobs):
     with open(path, "w", encoding="utf-8") as log:
         if not build(judgement, jobs, log):
             return False, f"not built: {os.path.relpath(path, ROOT)}", 0
-        engine = judgement.engine and environment_python(judgement.name, judgement.engine)
+        engine = judgement.engine and environment_python(environment_name(judgement.engine),
+                                                         judgement.engine)
         words = [word.format(jobs=jobs, python=python, engine=engine)
                  for word in judgement.command]
         environment = {**os.environ, "TENON_ORACLE_PYTHON": python,

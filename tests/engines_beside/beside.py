@@ -60,7 +60,7 @@ class Case:
         )
 
 
-def run_tenon(tenon, case):
+def run_tenon(tenon, case, more=()):
     """-> {path: [position and orientation (x, y, z, w) at each time]} or {"error": words}"""
     words = [
         tenon,
@@ -76,6 +76,7 @@ def run_tenon(tenon, case):
         "-",
         "--format",
         "jsonl",
+        *more,
     ]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     frames = [json.loads(line) for line in done.stdout.splitlines()]
@@ -91,7 +92,7 @@ def run_tenon(tenon, case):
     return found
 
 
-def run_engine(engine, python, cases, log):
+def run_engine(engine, python, cases, log, folder=None):
     """The answers of the engine; its process is started anew where it dies."""
     waiting = list(cases)
     while waiting:
@@ -103,7 +104,7 @@ def run_engine(engine, python, cases, log):
             stderr=log,
             check=False,
             timeout=SILENT,
-            cwd=cases[0].path.parent,  # engines write logs where they are started
+            cwd=folder or cases[0].path.parent,  # engines write logs where they are started
         )
         answers = [json.loads(line) for line in process.stdout.splitlines()]
         for case, answer in zip(waiting, answers):

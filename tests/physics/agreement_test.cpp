@@ -126,6 +126,47 @@ TEST_P(Agreement, ADrivenChainOfTwelveComesToRestAlike) {
   }
 }
 
+// By acceleration a drive looks at the inertia that its joint moves, the links behind it included.
+TEST_P(Agreement, ADriveByAccelerationMovesAChainAlike) {
+  TestScene scene = chain(2);
+  scene.scenes[0].gravity = {};
+  scene.joints[1].drives.clear();
+  scene.joints[0].drives[0] = drive(Dof::RotY, 57, 5.7);
+  scene.joints[0].drives[0].acceleration = true;
+  scene.joints[0].drives[0].target_position = 0.5;
+  const auto simulation = make(scene);
+  ASSERT_NE(simulation, nullptr);
+  run(*simulation, 0.25);
+  Diagnostics diagnostics;
+  auto other = make_simulation("mujoco", scene, {.time_step = kStep}, diagnostics);
+  ASSERT_TRUE(other.has_value());
+  run(**other, 0.25);
+  for (Index j = 0; j < 2; ++j) {
+    EXPECT_NEAR(angle(*simulation, j), angle(**other, j), 0.5 * M_PI / 180) << j;
+  }
+}
+
+// Two hinges whose angles a tendon sums up against its rest length, within one articulation.
+TEST_P(Agreement, AFixedTendonPullsItsJointsToItsLength) {
+  TestScene scene = chain(2);
+  scene.scenes[0].gravity = {};
+  scene.joints[0].drives[0].target_position = 0;
+  scene.joints[1].drives = {drive(scene.joints[1].dof(), 0, 0.05)};
+  scene::Tendon tendon;
+  tendon.path = engines::named("tendon");
+  tendon.joints = {0, 1};
+  tendon.coefficients = {1, -2};
+  tendon.stiffness = 5;
+  tendon.damping = 0.1;
+  tendon.spring_length = {-0.4, -0.4};
+  scene.tendons.push_back(tendon);
+  const auto simulation = make(scene);
+  ASSERT_NE(simulation, nullptr);
+  EXPECT_TRUE(simulation->not_mapped().empty());
+  run(*simulation, 3);
+  EXPECT_NEAR(angle(*simulation, 0) - 2 * angle(*simulation, 1), -0.4, 2e-3);
+}
+
 // Torques along the joints alone: k (x* - x) + d (v* - v) at rest against gravity.
 TEST_P(Agreement, DrivesPushAsTheirLawSays) {
   for (const bool articulated : {true, false}) {

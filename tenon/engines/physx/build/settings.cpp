@@ -154,9 +154,9 @@ void set_body_settings(Build& build, Index body, px::PxRigidBody& made) {
   made.setRigidBodyFlag(px::PxRigidBodyFlag::eENABLE_SPECULATIVE_CCD,
                         is_on(settings, "enableSpeculativeCCD"));
   if (made.getType() == px::PxActorType::eARTICULATION_LINK) {
-    set_positive(settings, "cfmScale", [&](float x) {
-      static_cast<px::PxArticulationLink&>(made).setCfmScale(std::min(x, 1.0F));
-    });
+    // PhysX's own 0.025 softens rows of joints, and drives by acceleration with them.
+    const double softness = number_of(settings, "cfmScale").value_or(0);
+    static_cast<px::PxArticulationLink&>(made).setCfmScale(to_px(std::clamp(softness, 0.0, 1.0)));
     report_link_settings(build, body);
     return;
   }

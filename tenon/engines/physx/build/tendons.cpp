@@ -92,7 +92,9 @@ struct TendonLaw {
 /// `start` is the length at the start [rad or m].
 TendonLaw law_of(Build& build, const Tendon& source, double start) {
   TendonLaw law;
-  const bool as_it_stands = source.spring_length[0] < 0 && source.spring_length[1] < 0;
+  constexpr double kAsItStands = -1;
+  const bool as_it_stands =
+      source.spring_length[0] == kAsItStands && source.spring_length[1] == kAsItStands;
   const double low = as_it_stands ? start : source.spring_length[0];
   const double high = as_it_stands ? start : source.spring_length[1];
   law.damping = source.damping;
