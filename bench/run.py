@@ -202,12 +202,12 @@ class Bench:
             if ours[key] != peer[key]:
                 self.failures.append(f"{name}: {key}: tenon {ours[key]:g}, usd-core {peer[key]:g}")
 
-    def measure_steps(self, name, *arguments):
-        """Steps through our interface and through plain C calls, in one process."""
+    def measure_steps(self, name, program, note, *arguments):
+        """Steps through our interface and through plain calls of an engine, in one process."""
         figures = Figures()
         tiny = ["--chunk", "5", "--chunks", "2"] if self.arguments.smoke else []
         for _ in range(self.arguments.rounds):
-            figures.add(run_lines([self.program("step_mujoco"), *arguments, *tiny], self.cpu))
+            figures.add(run_lines([self.program(program), *arguments, *tiny], self.cpu))
         steps = figures.counts["steps_per_lap"]
         clock = self.arguments.clock
         ours, plain = (figures.median(key, clock) / steps for key in ("tenon", "plain"))
@@ -215,7 +215,7 @@ class Bench:
         ratios = [a / b for our_lines, plain_lines in
                   zip(figures.phases["tenon"], figures.phases["plain"])
                   for a, b in zip(our_lines[clock], plain_lines[clock])]
-        self.add_row(name, "one step [us]", ours, plain, note="plain MuJoCo", unit=1e6)
+        self.add_row(name, "one step [us]", ours, plain, note=note, unit=1e6)
         self.rows[-1]["ratio"] = statistics.median(ratios)
         self.rows[-1]["steps_per_second"] = 1 / ours
 
@@ -334,10 +334,15 @@ def tasks(bench):
     for work in workloads(bench):
         yield work.name, lambda name, work=work: bench.measure(work)
     if os.path.exists(bench.program("step_mujoco")):
-        yield "step_hand", bench.measure_steps, HAND
-        yield "step_grasp", bench.measure_steps, GRASP
+        plain = ("step_mujoco", "plain MuJoCo")
+        yield "step_hand", bench.measure_steps, *plain, HAND
+        yield "step_grasp", bench.measure_steps, *plain, GRASP
         if os.path.exists(ISAAC_HAND):
-            yield "step_isaac_hand", bench.measure_steps, ISAAC_HAND
+            yield "step_isaac_hand", bench.measure_steps, *plain, ISAAC_HAND
+    if os.path.exists(bench.program("step_physx")):
+        plain = ("step_physx", "plain PhysX")
+        yield "step_physx_hand", bench.measure_steps, *plain, HAND
+        yield "step_physx_grasp", bench.measure_steps, *plain, GRASP
     yield from process_tasks(bench)
     yield from converters.tasks(bench, ROOT, SHARED)
 

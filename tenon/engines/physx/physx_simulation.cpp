@@ -114,12 +114,17 @@ Result<void> PhysxSimulation::step() {
 void PhysxSimulation::advance() {
   told_->clear();
   stale_ = true;
+  const bool with_contacts = needs_contacts(options_.outputs);
   for (px::PxScene* scene : model_.scenes) {
-    told_->begin_scene(needs_contacts(options_.outputs));
+    if (with_contacts) {
+      told_->begin_scene(true);
+    }
     scene->simulate(to_px(model_.time_step));
     scene->fetchResults(true);
   }
-  told_->begin_scene(false);
+  if (with_contacts) {
+    told_->begin_scene(false);
+  }
   ++steps_;
 }
 
