@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <set>
+#include <utility>
 #include <vector>
 
 #include "tenon/engines/physx/physx_library.h"
@@ -113,6 +113,7 @@ struct Model {
   std::vector<Coupling*> couplings;  ///< `owned` has them
   std::vector<NotMapped> not_mapped;
   scene::JointForest forest;
+  std::vector<std::pair<Pose, Pose>> joint_frames;  ///< frame0 and frame1 (joint_count)
   /// The body that a joint hangs on the rest of its tree (joint_count); none: it closes a loop.
   std::vector<std::optional<scene::Index>> child_of_joint;
   std::unique_ptr<PairRules> pairs;  ///< where PhysX's filter finds it

@@ -13,6 +13,7 @@
 
 #include "tenon/engines/physx/build/build.h"
 #include "tenon/engines/physx/convert.h"
+#include "tenon/engines/physx/run/follow_frames.h"
 #include "tenon/engines/physx/run/read_state.h"
 #include "tenon/engines/scene_timeline.h"
 #include "tenon/engines/time_step.h"
@@ -167,7 +168,14 @@ Result<void> PhysxSimulation::follow_changes() {
       model_.scenes[s]->setGravity(to_px(gravity[s]));
     }
   }
-  return changed.structure || changed.bounds ? rebuild() : Result<void>();
+  return changed.structure || (changed.bounds && !move_bounds()) ? rebuild() : Result<void>();
+}
+
+bool PhysxSimulation::move_bounds() {
+  return std::all_of(scene_->bounds_tracks.begin(), scene_->bounds_tracks.end(),
+                     [&](const scene::BoundsTrack& track) {
+                       return write_bounds(scene_->joints[track.joint], model_.joints[track.joint]);
+                     });
 }
 
 Result<void> PhysxSimulation::rebuild() {
@@ -175,6 +183,7 @@ Result<void> PhysxSimulation::rebuild() {
   for (Index b = 0; b < scene_->bodies.size(); ++b) {
     states.push_back(body_state(b));
   }
+  states = follow_joint_frames(*scene_, model_, std::move(states));
   const double before = energy_to_compare();
   timeline_->restart(states);
   Diagnostics silent;  // what there is to say was said at the start

@@ -67,6 +67,7 @@ class PhysxSimulation final : public Simulation {
   Result<void> begin(double time_step, Diagnostics& diagnostics);
   void connect();
   Result<void> follow_changes();
+  bool move_bounds();
   Result<void> rebuild();
   Result<void> take_events();
   Result<void> check_step() const;

@@ -173,6 +173,32 @@ TEST(PhysxSolver, OfMujocoAreNamed) {
 
 // Wheels on axles in the world follow each other: turns by turns, ways by turns, along a curve, and
 // down a chain of two.
+// Bounds that samples move are followed without a new model: a pendulum rests on one that goes up.
+TEST(PhysxBounds, FollowTheirSamplesInTheModelThatSteps) {
+  for (const bool articulated : {true, false}) {
+    TestScene scene;
+    const Index rod = scene.add_body("rod", {{0.5, 0, 3}}, 1, {{0.001, 1.0 / 12, 1.0 / 12}});
+    scene::Joint& hinge = scene.add_joint("hinge", JointKind::Revolute, {}, rod, scene::Axis::Y);
+    hinge.frame0.position = {{0, 0, 3}};
+    hinge.frame1.position = {{-0.5, 0, 0}};
+    hinge.lower = -1;
+    hinge.upper = 0.6;
+    if (articulated) {
+      hinge.articulation = 0;
+      scene.articulations.push_back({named("rod"), hinge.path, true, {rod}, {0}, {}, true, {}});
+    }
+    scene::BoundsTrack track;
+    track.times = {0, 2};
+    track.bounds = {{-1, 0.6, 0, 0, {}}, {-1, 0.2, 0, 0, {}}};
+    scene.bounds_tracks.push_back(track);
+    const auto simulation = made_of(scene, {.time_step = 0.001});
+    const void* at_start = simulation->engine_objects().model;
+    run(*simulation, 1.9);
+    EXPECT_NEAR(simulation->joint_state(0).position[0], 0.6 - 0.4 * 0.95, 0.01);
+    EXPECT_EQ(simulation->engine_objects().model, at_start);
+  }
+}
+
 TEST(PhysxMimics, CoupleJointsThatNoArticulationHolds) {
   for (const bool chained : {false, true}) {
     TestScene scene(0);

@@ -71,6 +71,10 @@ void start(Build& build, Begin begin);
 
 /// Mass, centre of mass, inertia, damping and speeds of a body.
 void set_mass(const scene::Body& body, px::PxRigidBody& made);
+/// Other bounds of a joint of one axis, or of a distance, in a model that steps; false: only a new
+/// model can have them, because something gets locked or free with them.
+bool write_bounds(const scene::Joint& joint, JointMap& map);
+px::PxArticulationLimit limits_of_coordinate(const scene::FreeDof& free);
 /// Another coefficient of friction, static and dynamic, for the surface of a collider; false: it
 /// has no shape.
 bool set_friction(const scene::PhysicsScene& scene, scene::Index collider, double coefficient,

@@ -46,6 +46,9 @@ Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOpti
     }
   }
   build.model.forest = std::move(build.forest);
+  for (const scene::Joint& joint : scene.joints) {
+    build.model.joint_frames.emplace_back(joint.frame0, joint.frame1);
+  }
   return std::move(build.model);
 }
 

@@ -171,6 +171,15 @@ px::PxRigidActor* actor_of(const Build& build, const std::optional<Index>& body)
   return body.has_value() ? build.model.bodies[*body] : nullptr;
 }
 
+void set_distances(const Joint& joint, px::PxDistanceJoint& made) {
+  const scene::Limit bounds = distance_limit(joint);
+  made.setMinDistance(to_px(std::max(std::min(bounds.lower, bounds.upper), 0.0)));
+  made.setMaxDistance(to_px(std::min(bounds.upper, 1e6)));
+  made.setDistanceJointFlag(px::PxDistanceJointFlag::eMIN_DISTANCE_ENABLED, bounds.lower > 0);
+  made.setDistanceJointFlag(px::PxDistanceJointFlag::eMAX_DISTANCE_ENABLED,
+                            bounds.upper < scene::kUnlimited);
+}
+
 px::PxJoint* make_distance(Build& build, const Joint& joint) {
   px::PxDistanceJoint* made = build.runtime.functions->create_distance(
       *build.runtime.physics, actor_of(build, joint.body0), to_px(joint.frame0),
@@ -178,14 +187,9 @@ px::PxJoint* make_distance(Build& build, const Joint& joint) {
   if (made == nullptr) {
     return nullptr;
   }
-  const scene::Limit bounds = distance_limit(joint);
   const px::PxSpring spring = spring_of(joint, Dof::Distance);
   made->setTolerance(0);
-  made->setMinDistance(to_px(std::max(std::min(bounds.lower, bounds.upper), 0.0)));
-  made->setMaxDistance(to_px(std::min(bounds.upper, 1e6)));
-  made->setDistanceJointFlag(px::PxDistanceJointFlag::eMIN_DISTANCE_ENABLED, bounds.lower > 0);
-  made->setDistanceJointFlag(px::PxDistanceJointFlag::eMAX_DISTANCE_ENABLED,
-                             bounds.upper < scene::kUnlimited);
+  set_distances(joint, *made);
   made->setDistanceJointFlag(px::PxDistanceJointFlag::eSPRING_ENABLED, spring.stiffness > 0);
   made->setStiffness(spring.stiffness);
   made->setDamping(spring.damping);
@@ -216,7 +220,47 @@ px::PxJoint* make_d6(Build& build, Index index, JointMap& map) {
 
 float break_bound(double bound) { return bound < scene::kUnlimited ? to_px(bound) : PX_MAX_F32; }
 
+/// Of a coordinate of a tree, whose motion cannot become another one.
+bool write_coordinate_bounds(const Joint& joint, JointMap& map) {
+  scene::FreeDof& free = map.dofs.free.front();
+  const scene::Limit bounds = limit_of(joint, free.dof);
+  const bool is_bounded = map.link_joint->getMotion(map.axis) == px::PxArticulationMotion::eLIMITED;
+  if (bounds.locked() || !is_bounded) {
+    return false;
+  }
+  free.lower = bounds.lower;
+  free.upper = bounds.upper;
+  map.link_joint->setLimitParams(map.axis, limits_of_coordinate(free));
+  return true;
+}
+
 }  // namespace
+
+px::PxArticulationLimit limits_of_coordinate(const scene::FreeDof& free) {
+  const double room = 1e6;  // [rad or m] beyond what single precision resolves
+  return {to_px(std::max(free.lower, -room)), to_px(std::min(free.upper, room))};
+}
+
+bool write_bounds(const Joint& joint, JointMap& map) {
+  if (map.role == JointRole::Reduced && map.dofs.free.size() == 1) {
+    return write_coordinate_bounds(joint, map);
+  }
+  if (joint.kind == scene::JointKind::Distance && map.constraint != nullptr) {
+    set_distances(joint, static_cast<px::PxDistanceJoint&>(*map.constraint));
+    return true;
+  }
+  const bool has_axis =
+      joint.kind == scene::JointKind::Revolute || joint.kind == scene::JointKind::Prismatic;
+  if (!has_axis || map.d6 == nullptr || map.dofs.free.size() != 1 ||
+      limit_of(joint, joint.dof()).locked()) {
+    return map.role == JointRole::None;
+  }
+  const Motions motions = motions_of(joint, map.main);
+  set_motions(motions, *map.d6);
+  set_slides(joint, motions, map.main, *map.d6);
+  set_twist(joint, motions, map.main, *map.d6);
+  return true;
+}
 
 void add_constraints(Build& build) {
   for (Index j = 0; j < build.model.joints.size(); ++j) {

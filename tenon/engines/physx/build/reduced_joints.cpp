@@ -62,9 +62,7 @@ void set_coordinate(Build& build, Index index, JointMap& map) {
   made.setMotion(map.axis,
                  bounded ? px::PxArticulationMotion::eLIMITED : px::PxArticulationMotion::eFREE);
   if (bounded) {
-    const double room = 1e6;  // [rad or m] beyond what single precision resolves
-    made.setLimitParams(map.axis, px::PxArticulationLimit(to_px(std::max(free.lower, -room)),
-                                                          to_px(std::min(free.upper, room))));
+    made.setLimitParams(map.axis, limits_of_coordinate(free));
   }
   write_drives(joint, map, build.model.time_step);
   if (const std::optional<PassiveForce> passive = passive_force(joint, index, map)) {
