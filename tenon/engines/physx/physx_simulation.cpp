@@ -37,7 +37,14 @@ bool is_bounded(const px::PxTransform& pose) {
   return pose.p.isFinite() && pose.q.isFinite() && pose.p.magnitude() < 1e9F;
 }
 
-Result<void> check_methods(const Methods& methods) {
+Result<void> check_methods(const SimulationOptions& options) {
+  if (options.drives == DriveTerms::Explicit) {
+    return Error(ErrorCode::Unsupported,
+                 "PhysX takes the dampers of drives at the end of the step, never at its beginning")
+        .with_rule("engine.method")
+        .with_fix("use DriveTerms::Engine, or set efforts instead of drives");
+  }
+  const Methods& methods = options.methods;
   if (methods.integrator == Integrator::Default || methods.integrator == Integrator::Euler) {
     if (methods.solver == ConstraintSolver::Default ||
         methods.solver == ConstraintSolver::ProjectedGaussSeidel) {
@@ -56,7 +63,7 @@ Result<void> check_methods(const Methods& methods) {
 Result<std::unique_ptr<PhysxSimulation>> PhysxSimulation::make(const PhysicsScene& scene,
                                                                const SimulationOptions& options,
                                                                Diagnostics& diagnostics) {
-  TENON_CHECK(check_methods(options.methods));
+  TENON_CHECK(check_methods(options));
   const double time_step =
       choose_time_step(scene, options, "PhysX", "physx.time-step", diagnostics);
   std::unique_ptr<PhysxSimulation> made(new PhysxSimulation(scene, options));

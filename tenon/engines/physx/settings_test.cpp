@@ -161,6 +161,14 @@ TEST(PhysxSolver, OfArticulationsAreTheirOwnAndLinksSayNothingOfThem) {
       mentions(simulation->not_mapped(), "/a", "physxRigidBody:solverPositionIterationCount"));
 }
 
+TEST(PhysxSolver, ForcesOfDrivesAtTheBeginningOfAStepAreRefused) {
+  const TestScene scene = one_box();
+  Diagnostics diagnostics;
+  const auto made = PhysxSimulation::make(scene, {.drives = DriveTerms::Explicit}, diagnostics);
+  ASSERT_FALSE(made.has_value());
+  EXPECT_EQ(made.error().code(), ErrorCode::Unsupported);
+}
+
 TEST(PhysxSolver, OfMujocoAreNamed) {
   TestScene scene = one_box();
   scene.scenes[0].parts.mujoco.emplace();
