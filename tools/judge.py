@@ -86,6 +86,8 @@ def judgements():
                                       "--scenes", "5000", "--show", "3", "--misses",
                                       "tests/differential/random_scenes_misses.txt"],
                     "bench", ["tenon_composition_dump"])
+    yield Judgement("mjcf_corpus", ["{python}", "-B", "tests/convert/corpus_round_trip.py", ".",
+                                    "build/release/bin/tenon", "--all", "--table"], "release")
     for engine in ("ovphysx", "newton"):
         yield Judgement(f"beside_{engine}", ["{python}", "-B", "tests/engines_beside/beside.py",
                                              engine, "{engine}", "build/release/bin/tenon",

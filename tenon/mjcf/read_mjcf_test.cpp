@@ -345,6 +345,19 @@ TEST_F(ReadMjcf, KeepsWhatMJCFAloneHas) {
   EXPECT_TRUE(model->mujoco.source.files.empty());
 }
 
+TEST_F(ReadMjcf, FindsFilesBehindComments) {
+  const std::filesystem::path file = std::filesystem::path(path_).replace_extension(".obj");
+  std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const auto model =
+      read("<!-- \"a\" > b --><asset><mesh name='m' file='" + file.filename().string() +
+           "'/></asset><worldbody><!-- c --><geom type='mesh' mesh='m'/></worldbody>");
+  std::filesystem::remove(file);
+  ASSERT_TRUE(model) << model.error().to_string();
+  const std::string& text = model->mujoco.source.text;
+  EXPECT_NE(text.find("file=\"?0\""), std::string::npos) << text;
+  EXPECT_EQ(model->mujoco.source.files.size(), 1u);
+}
+
 TEST_F(ReadMjcf, KeepsTheModelThatMuJoCoMakes) {
   const auto model = read(
       "<compiler fusestatic='true'/><worldbody><body name='a'><freejoint/><geom size='0.1'/>"

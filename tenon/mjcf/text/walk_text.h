@@ -18,6 +18,13 @@ std::string walk_text(std::string_view text, const With& with) {
   std::size_t at = 0;
   while (true) {
     const std::size_t open = text.find('<', at);
+    if (open != std::string_view::npos && text.substr(open).starts_with("<!--")) {
+      const std::size_t end = text.find("-->", open);
+      const std::size_t behind = end == std::string_view::npos ? text.size() : end + 3;
+      out += text.substr(at, behind - at);
+      at = behind;
+      continue;
+    }
     const std::size_t close = open == std::string_view::npos ? open : text.find('>', open);
     if (close == std::string_view::npos) {
       out += text.substr(at);
