@@ -22,6 +22,7 @@ struct Verb {
 constexpr std::array kVerbs{
     Verb{"add", add_add},
     Verb{"bake", add_bake},
+    Verb{"bench", add_bench},
     Verb{"cat", add_cat},
     Verb{"check", add_check},
     Verb{"compare", add_compare},

@@ -78,6 +78,7 @@ inline void choose(const Command& verb, Chosen& chosen, std::function<int()> run
 using AddVerb = void(const Command& parent, const Globals& globals, Chosen& chosen);
 AddVerb add_add;
 AddVerb add_bake;
+AddVerb add_bench;
 AddVerb add_cat;
 AddVerb add_check;
 AddVerb add_compare;

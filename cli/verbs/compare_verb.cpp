@@ -125,7 +125,7 @@ std::vector<std::string> metric_names() {
   return names;
 }
 
-constexpr const char* kFooter =
+constexpr const char* kCompareFooter =
     "Each engine gets the variant of \"Physics\" that is its own (physx: physx, mujoco: mujoco, "
     "else "
     "physics), unless --physics chooses one for all or ENGINE:VARIANT one for an engine. Why they "
@@ -194,7 +194,7 @@ void add_compare(const Command& parent, const Globals& globals, Chosen& chosen) 
                   "Write a report: .html (tables and plots, one file), .json or .csv")
       .value_name("FILE");
   verb.add_flag("--timing", options->timing, "Also say how long a step takes");
-  verb.footer(kFooter);
+  verb.footer(kCompareFooter);
   choose(verb, chosen, [&globals, options] { return run_compare(globals, *options); });
 }
 

@@ -34,26 +34,39 @@ Result<Simulations> make_simulations(const Engine& engine, const scene::PhysicsS
   return made;
 }
 
+Result<void> check_count(std::size_t count) {
+  if (count == 0 || count > limits::kEnvironments) {
+    return Error(ErrorCode::Limit, std::to_string(count) + " environments are not between 1 and " +
+                                       std::to_string(limits::kEnvironments))
+        .with_rule("engine.environments");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<Environments> Environments::make(const Engine& engine, const scene::PhysicsScene& scene,
                                         const EnvironmentOptions& options,
                                         Diagnostics& diagnostics) {
-  if (options.count == 0 || options.count > limits::kEnvironments) {
-    return Error(ErrorCode::Limit, std::to_string(options.count) +
-                                       " environments are not between 1 and " +
-                                       std::to_string(limits::kEnvironments))
-        .with_rule("engine.environments");
-  }
+  TENON_CHECK(check_count(options.count));
   TENON_TRY(Simulations made, make_simulations(engine, scene, options, diagnostics));
-  Environments result;
+  std::vector<World> worlds;
   for (std::unique_ptr<Simulation>& simulation : made) {
     TENON_TRY(World world, World::with_sensors(std::move(simulation), scene));
-    result.worlds_.push_back(std::move(world));
+    worlds.push_back(std::move(world));
   }
-  result.failures_.resize(options.count);
-  result.threads_ = std::clamp<std::size_t>(
-      options.threads == 0 ? usable_processors() : options.threads, 1, options.count);
+  return of_worlds(std::move(worlds), scene, options.threads);
+}
+
+Result<Environments> Environments::of_worlds(std::vector<World> worlds,
+                                             const scene::PhysicsScene& scene,
+                                             std::size_t threads) {
+  TENON_CHECK(check_count(worlds.size()));
+  Environments result;
+  result.worlds_ = std::move(worlds);
+  const std::size_t count = result.worlds_.size();
+  result.failures_.resize(count);
+  result.threads_ = std::clamp<std::size_t>(threads == 0 ? usable_processors() : threads, 1, count);
   result.joint_count_ = scene.joints.size();
   for (scene::Index j = 0; j < scene.joints.size(); ++j) {
     result.coordinate_count_ += result.worlds_.front().joint_state(j).position.size();

@@ -29,6 +29,11 @@ class Environments {
   static Result<Environments> make(const Engine& engine, const scene::PhysicsScene& scene,
                                    const EnvironmentOptions& options, Diagnostics& diagnostics);
 
+  /// Of worlds that were made one by one, of scenes with the same bodies, joints and drives as
+  /// `scene`. Errors: Limit as above, or for none. `threads` as in EnvironmentOptions.
+  static Result<Environments> of_worlds(std::vector<World> worlds, const scene::PhysicsScene& scene,
+                                        std::size_t threads);
+
   std::size_t size() const { return worlds_.size(); }
   /// Not while step() runs.
   World& operator[](std::size_t i) { return worlds_[i]; }

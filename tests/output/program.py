@@ -154,6 +154,7 @@ PRINTING = {
     "remove": ["remove", "scene.usda", "/World/box", "--dry-run"],
     "rename": ["rename", "scene.usda", "/World/box", "crate", "--dry-run"],
     "set": ["set", "scene.usda", "/World/box.size=1", "--dry-run"],
+    "bench": ["bench", "scene.usda", "--envs", "2", "--duration", "0.1"],
     "compare": ["compare", "scene.usda", "--engines", "mujoco,mujoco", "--duration", "0.1"],
     "sim": ["sim", "scene.usda", "--duration", "0.1"],
     "strip": ["strip", "base.usda", "-o", "-"],
@@ -191,6 +192,7 @@ WRITING = {
     "remove": [],
     "rename": [],
     "set": [],  # in place alone
+    "bench": [],
     "compare": [["compare", "scene.usda", "--engines", "mujoco,mujoco", "--duration", "0.1", "-o",
                  f"OUT.{ending}"] for ending in ("html", "csv", "json")],
     "sim": [["sim", "scene.usda", "--duration", "0.1", "-o", "OUT.csv"],

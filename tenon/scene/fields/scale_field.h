@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "tenon/base/path.h"
+#include "tenon/scene/physics_scene.h"
+
+namespace tenon::scene {
+
+/// Multiplies a number of the objects of a list, found by the names of the tables: "colliders",
+/// "shape.radius"; all components of vectors and matrices. `object`: one alone; empty: all.
+/// Unlimited stays unlimited. Gives how many objects have it.
+std::size_t scale_field(std::string_view list, std::string_view field, Path object, double factor,
+                        PhysicsScene& scene);
+
+}  // namespace tenon::scene
