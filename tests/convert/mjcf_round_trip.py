@@ -221,6 +221,47 @@ def check_changed(work):
     if len(said) != 1 or "physics:mass" not in said[0]["message"]:
         faults.append(f"changed: {answer['diagnostics']}")
     near("changed: mass", mujoco.MjModel.from_xml_path(str(back)).body("arm").mass, 2.5)
+    check_noticed(work)
+
+
+def check_noticed(work):
+    """Every kind of edit is noticed: of each property that the asset has, the first one that can be
+    changed, and of pairs of bodies what one has and the other gets."""
+    asset = work / "noticed.usda"
+    run("convert", ROOT / "tests/convert/mjcf/floating.xml", asset, "--scene", "--force")
+    text = asset.read_text()
+    seen, changed = set(), 0
+    for line in re.finditer(r"^ +(?:uniform )?(\S+) (\S+) = (.*)$", text, re.MULTILINE):
+        kind, name, value = line.groups()
+        if name in seen or not (new := other_value(kind, value)):
+            continue
+        seen.add(name)
+        asset.write_text(text[:line.start(3)] + new + text[line.end(3):])
+        answer = run("convert", asset, work / "noticed.xml", "--force")
+        rules = [finding["rule"] for finding in answer["diagnostics"]]
+        changed += 1
+        if ("mjcf.written-anew" in rules) == name.startswith(UNSEEN):
+            faults.append(f"{name}: {value} -> {new} is noticed otherwise: {rules}")
+    if changed < 40:
+        faults.append(f"only {changed} properties were changed")
+
+
+# What MuJoCo's format has no place for, and what carries the source itself.
+UNSEEN = ("tenon:mjcf:", "isaac:", "extent", "physx", "urdf:", "info:", "outputs:")
+
+
+def other_value(kind, value):
+    """Another value of the same kind; "" for kinds that are not changed here."""
+    number = re.search(r"-?\d+(\.\d+)?", value)
+    if kind in ("float", "double", "int") and number:
+        return "7.25" if kind != "int" else "3"
+    if kind.startswith(("float3", "point3", "vector3", "double3", "color3", "quat")) and number:
+        return value[:number.start()] + "7.25" + value[number.end():]
+    if kind == "bool":
+        return "0" if value in ("1", "true") else "1"
+    if kind == "rel" and value.startswith("<"):
+        return "</nothing>"
+    return ""
 
 
 def check_files(work):

@@ -10,6 +10,7 @@
 #include <array>
 #include <set>
 #include <type_traits>
+#include <utility>
 
 #include "tenon/base/content_digest.h"
 #include "tenon/layer/list_op.h"
@@ -34,10 +35,9 @@ bool starts_with_any(std::string_view text, std::initializer_list<std::string_vi
 
 /// Properties about which MuJoCo's format has nothing to say, or which structures change.
 bool is_skipped(std::string_view property) {
-  return starts_with_any(property, {"physx", "isaac", "urdf", "ui:", "omni", "tenon:mjcf:",
-                                    "material:binding", "info:", "outputs:", "collection:"}) ||
-         property == "xformOpOrder" || property == "extent" || property == "visibility" ||
-         property == "purpose";
+  return starts_with_any(property, {"physx", "isaac", "urdf", "ui:", "omni",
+                                    "tenon:mjcf:", "info:", "outputs:"}) ||
+         property == "extent";
 }
 
 bool is_look(Token type) { return type == "Material" || type == "Shader"; }
@@ -102,11 +102,18 @@ std::string digits_of(std::uint64_t digest) {
 }  // namespace
 
 void SealMaker::add(Path prim, Token type, const std::string& key, const std::string& contents) {
-  const bool named = prim != root_ && type != "Mesh" && !is_look(type) && !key.starts_with("xform");
+  // Where a mesh stands may have gone to a prim around it, of another name.
+  const bool of_mesh =
+      type == "Mesh" || (key.starts_with("xform") && type == "Xform" && !bodies_.contains(prim));
+  const bool named = prim != root_ && !of_mesh && !is_look(type);
   const std::uint64_t digest =
       content_digest((named ? prim.name().str() : std::string()) + '\0' + contents);
   if (is_look(type)) {
     looks_[key].insert(digest);
+    for (Path around = prim; !around.empty() && !around.is_absolute_root();
+         around = around.parent()) {
+      look_sums_[around] += content_digest(key + '\0' + contents);
+    }
   } else {
     seal_[key] += digest;
   }
@@ -118,6 +125,9 @@ void SealMaker::add_prim(Path prim, Token type, const std::vector<Token>& apis) 
     add(prim, type, "type:" + type.str(), "");
   }
   for (const Token api : apis) {
+    if (api == "PhysicsRigidBodyAPI") {
+      bodies_.insert(prim);
+    }
     if (starts_with_any(api.view(), {"Physics", "Mjc", "Newton"})) {
       add(prim, type, "api:" + api.str(), "");
     }
@@ -132,7 +142,13 @@ void SealMaker::add_value(Path prim, Token type, Token property, const Value& va
 
 void SealMaker::add_targets(Path prim, Token type, Token relationship,
                             const std::vector<Path>& targets) {
-  if (is_skipped(relationship.view()) || relationship == "physics:filteredPairs") {
+  if (is_skipped(relationship.view())) {
+    return;
+  }
+  if (relationship.view().starts_with("material:binding")) {
+    for (const Path target : targets) {
+      bindings_.push_back({prim, type, relationship, target});
+    }
     return;
   }
   std::string names;
@@ -143,6 +159,11 @@ void SealMaker::add_targets(Path prim, Token type, Token relationship,
 }
 
 Seal SealMaker::take() {
+  for (const Binding& binding : std::exchange(bindings_, {})) {
+    const auto look = look_sums_.find(binding.target);
+    add(binding.prim, binding.type, binding.relationship.str(),
+        look == look_sums_.end() ? std::string() : digits_of(look->second));
+  }
   for (const auto& [key, digests] : looks_) {
     for (const std::uint64_t digest : digests) {
       seal_[key] += digest;

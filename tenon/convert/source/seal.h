@@ -20,7 +20,7 @@ namespace tenon::convert {
 /// does where a mesh stands among others that are the same.
 using Seal = std::map<std::string, std::uint64_t>;
 
-/// Gathers a seal, prim by prim in any order.
+/// Gathers a seal, prim by prim in any order; of each the prim comes before its properties.
 class SealMaker {
  public:
   /// `root` is the robot's prim, whose name does not count.
@@ -37,6 +37,16 @@ class SealMaker {
   Path root_;
   Seal seal_;
   std::map<std::string, std::set<std::uint64_t>> looks_;  // of materials, each once
+  std::map<Path, std::uint64_t> look_sums_;  ///< of all that is said of looks at and below a path
+  std::set<Path> bodies_;
+  /// Which material counts by what it says, as its name and place may change.
+  struct Binding {
+    Path prim;
+    Token type;
+    Token relationship;
+    Path target;
+  };
+  std::vector<Binding> bindings_;
 };
 
 /// Of the layer of a converted robot.
