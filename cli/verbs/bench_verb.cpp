@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Rates and memory are those of this run on this machine; what does not depend on them (ends, drawn
+// numbers, the digest) is the same in every run. The text shows the first environments that failed.
 #include <optional>
 #include <string>
 #include <vector>

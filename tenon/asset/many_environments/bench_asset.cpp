@@ -13,17 +13,15 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <fstream>
 #include <memory>
 #include <utility>
-
-#include <unistd.h>
 
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset/simulating/engine_choice.h"
 #include "tenon/asset/simulating/simulate_asset.h"
 #include "tenon/base/content_digest.h"
 #include "tenon/base/parallel.h"
+#include "tenon/base/resident_memory.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/make_simulation.h"
 #include "tenon/physics/read_physics.h"
@@ -37,17 +35,6 @@ using Scenes = std::vector<std::unique_ptr<scene::PhysicsScene>>;
 
 double elapsed_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Memory of this process that is in use [B]; none where the system does not tell.
-std::optional<double> resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  double total = 0;
-  double resident = 0;
-  if (!(file >> total >> resident)) {
-    return std::nullopt;
-  }
-  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
 bool needs_models(const BenchOptions& options) {
@@ -192,7 +179,7 @@ Result<BenchedAsset> bench_asset(const std::string& path, const BenchOptions& op
       benched.environments[i].numbers.push_back(drawn(options.variations[v], options.seed, i, v));
     }
   }
-  const std::optional<double> before = resident_bytes();
+  const std::optional<double> before = resident_memory();
   const auto start = Clock::now();
   Scenes scenes;
   TENON_TRY(engines::Environments environments,
@@ -205,7 +192,7 @@ Result<BenchedAsset> bench_asset(const std::string& path, const BenchOptions& op
   benched.duration = run_duration(options.duration, scene);
   TENON_TRY(const std::size_t steps, steps_of(benched));
   step_all(options, steps, environments, benched);
-  if (const std::optional<double> after = resident_bytes(); before && after) {
+  if (const std::optional<double> after = resident_memory(); before && after) {
     benched.bytes_per_environment = (*after - *before) / static_cast<double>(options.environments);
   }
   benched.digest = digest_of(environments, scene);
