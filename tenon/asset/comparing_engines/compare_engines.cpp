@@ -75,7 +75,8 @@ std::vector<Wanted> wanted_engines(const CompareEnginesOptions& options) {
   if (wanted.empty()) {
     for (const engines::EngineInfo& info : list_engines()) {
       if (info.available) {
-        wanted.push_back({info.name, "", false});
+        const bool usual = info.name == "mujoco";  // what others are compared with
+        wanted.insert(usual ? wanted.begin() : wanted.end(), Wanted{info.name, "", false});
       }
     }
   }

@@ -33,8 +33,8 @@ struct CompareEnginesOptions {
   OpenOptions open;
   physics::Readings readings;
   /// "physx", or "physx:VARIANT" of the variant set "Physics"; without a variant, and where `open`
-  /// selects none, each engine gets the one of its name, else "physics". Empty: all of this build.
-  /// The first one is what the others are compared with.
+  /// selects none, each engine gets the one of its name, else "physics". Empty: all of this build,
+  /// MuJoCo first. The first one is what the others are compared with.
   std::vector<std::string> engines;
   std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5
   double time_step = 0;            ///< [s]; 0: the asset's, else the engine's
@@ -56,7 +56,7 @@ struct ComparedEngine {
 struct EnginePair {
   std::size_t second = 1;  ///< into ComparedEngines::engines
   std::vector<motions::Gap> gaps;
-  motions::Explanation explanation;
+  std::optional<motions::Explanation> explanation;  ///< none: reasons were not looked for
 };
 
 struct ComparedEngines {

@@ -167,8 +167,8 @@ std::string compared_engines_html(const std::string& asset, const ComparedEngine
   for (const EnginePair& pair : compared.pairs) {
     html += "<h2>" + html_text(compared.engines.front().setup.name) + " and " +
             html_text(compared.engines[pair.second].setup.name) + "</h2>\n" + gaps_table(pair);
-    if (pair.explanation.distance > motions::kNoDistance) {
-      html += "<h3>They differ because</h3>\n" + reasons_table(pair.explanation);
+    if (pair.explanation && pair.explanation->distance > motions::kNoDistance) {
+      html += "<h3>They differ because</h3>\n" + reasons_table(*pair.explanation);
     }
     for (const motions::Gap& gap : pair.gaps) {
       if (plotted.insert({gap.metric, gap.object}).second) {

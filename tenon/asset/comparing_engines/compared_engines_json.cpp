@@ -85,25 +85,31 @@ Json reason_json(const motions::Reason& reason) {
           {"share", reason.share ? Json(*reason.share) : Json(nullptr)}};
 }
 
-Json pair_json(const ComparedEngines& compared, const EnginePair& pair) {
-  Json gaps = Json::array();
-  for (const motions::Gap& gap : pair.gaps) {
-    gaps.push_back(gap_json(gap));
-  }
+Json explanation_json(const motions::Explanation& told) {
   Json reasons = Json::array();
-  for (const motions::Reason& reason : pair.explanation.reasons) {
+  for (const motions::Reason& reason : told.reasons) {
     reasons.push_back(reason_json(reason));
   }
-  const motions::Explanation& told = pair.explanation;
-  return {{"first", compared.engines.front().setup.name},
-          {"second", compared.engines[pair.second].setup.name},
-          {"gaps", std::move(gaps)},
-          {"distance", told.distance},
+  return {{"distance", told.distance},
           {"until", told.until},
           {"reasons", std::move(reasons)},
           {"noMatter", told.no_matter},
           {"untried", told.untried},
           {"together", told.together ? Json(*told.together) : Json(nullptr)}};
+}
+
+Json pair_json(const ComparedEngines& compared, const EnginePair& pair) {
+  Json gaps = Json::array();
+  for (const motions::Gap& gap : pair.gaps) {
+    gaps.push_back(gap_json(gap));
+  }
+  Json json = {{"first", compared.engines.front().setup.name},
+               {"second", compared.engines[pair.second].setup.name},
+               {"gaps", std::move(gaps)}};
+  if (pair.explanation) {
+    json.update(explanation_json(*pair.explanation));
+  }
+  return json;
 }
 
 /// In quotes where a comma or a quote stands in it.

@@ -15,8 +15,8 @@ namespace tenon {
 /// "deepest" [m], "notMapped": [{"prim", "property", "why"}], "secondsPerStep" (with `timing`)}],
 /// "pairs": [{"first", "second", "gaps": [{"metric", "unit", "object", "largest", "time" [s],
 /// "mean", "firstValue", "secondValue"}], "distance" [m], "until" [s], "reasons": [{"kind",
-/// "engine", "what", "property", "objects", "share"}], "noMatter", "untried", "together"}],
-/// "exceeded": [{"metric", "bound", "unit"}]}. SI.
+/// "engine", "what", "property", "objects", "share"}], "noMatter", "untried", "together"}] (from
+/// "distance" on where reasons were looked for), "exceeded": [{"metric", "bound", "unit"}]}. SI.
 answers::Json compared_engines_json(const ComparedEngines& compared, bool timing);
 
 /// Every gap as a row: first, second, metric, unit, object, largest, time, mean.

@@ -75,7 +75,7 @@ void announce_setup(const SimulateAssetOptions& options, const std::string& engi
   finding.message = "setting up " + grouped_digits(static_cast<std::size_t>(bodies)) +
                     " bodies on MuJoCo takes about " + std::to_string(std::llround(seconds)) +
                     " s; the time grows with the square of their number";
-  finding.fix = "simulate it with --engine physx, or a part of it with --mask";
+  finding.fix = "simulate it with --engine physx or jolt, or a part of it with --mask";
   if (options.listener.announce) {
     options.listener.announce(finding);
   } else {
