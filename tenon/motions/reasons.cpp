@@ -16,6 +16,7 @@
 #include "tenon/base/function.h"
 #include "tenon/motions/engine_choices.h"
 #include "tenon/motions/gaps.h"
+#include "tenon/scene/check_scene.h"
 #include "tenon/scene/fields/scene_difference.h"
 #include "tenon/scene/fields/scene_patch.h"
 
@@ -252,6 +253,9 @@ class Trials {
 
  private:
   bool run(const Setup& setup, std::optional<Motion>& motion) {
+    if (!scene::check_scene(setup.scene)) {
+      return false;  // what else belongs to the cause did not come along
+    }
     Diagnostics unheard;
     auto made = run_motion(setup, plan_, unheard);
     if (!made || made->run.failure || made->run.interrupted) {

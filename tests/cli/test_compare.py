@@ -258,6 +258,16 @@ class Compare(unittest.TestCase):
         self.assertIn("0.5 kg for mujoco:mujoco, 1 kg for mujoco:physx", reasons[0]["what"])
         self.assertAlmostEqual(reasons[0]["share"], 1, 6)
 
+    def test_drives_of_one_layer_alone_that_follow_samples(self):
+        driven = over(ELBOW, """float drive:angular:physics:stiffness = 1
+            float drive:angular:physics:targetPosition.timeSamples = { 0: 0, 24: 40 }""",
+                      '"PhysicsDriveAPI:angular"')
+        for layers in ((driven, ""), ("", driven)):
+            answer = self.compare(self.scene(*layers), "--engines", "mujoco,physx", "--duration", 1)
+            first = answer["pairs"][0]["reasons"][0]
+            self.assertEqual(first["property"], "joints.drives")
+            self.assertGreater(first["share"], 0.9)
+
     def test_reports(self):
         class Page(html.parser.HTMLParser):
             plots, links = 0, []

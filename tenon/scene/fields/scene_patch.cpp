@@ -329,6 +329,19 @@ bool take_over_objects(const FieldPatch& patch, std::vector<T>& a, std::vector<T
   return taken && !translation.failed();
 }
 
+/// What follows samples of drives counts them by number, and comes along where drives do.
+void take_over_drive_tracks(const FieldPatch& patch, const PhysicsScene& a, PhysicsScene& b,
+                            Translation& translation) {
+  if (patch.list == "joints" && patch.field == "drives") {
+    b.scalar_tracks = a.scalar_tracks;
+    for (ScalarTrack& track : b.scalar_tracks) {
+      each_field(track, [&](const FieldInfo& info, auto& value) {
+        translation.mend(track, info, value);
+      });
+    }
+  }
+}
+
 bool take_over_in(const FieldPatch& patch, PhysicsScene& a, PhysicsScene& b) {
   Translation translation(a, b);
   bool taken = false;
@@ -357,7 +370,8 @@ bool take_over_in(const FieldPatch& patch, PhysicsScene& a, PhysicsScene& b) {
       taken = true;
     }
   });
-  return taken;
+  take_over_drive_tracks(patch, a, b, translation);
+  return taken && !translation.failed();
 }
 
 }  // namespace
