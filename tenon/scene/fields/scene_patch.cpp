@@ -335,9 +335,8 @@ void take_over_drive_tracks(const FieldPatch& patch, const PhysicsScene& a, Phys
   if (patch.list == "joints" && patch.field == "drives") {
     b.scalar_tracks = a.scalar_tracks;
     for (ScalarTrack& track : b.scalar_tracks) {
-      each_field(track, [&](const FieldInfo& info, auto& value) {
-        translation.mend(track, info, value);
-      });
+      each_field(track,
+                 [&](const FieldInfo& info, auto& value) { translation.mend(track, info, value); });
     }
   }
 }
