@@ -48,8 +48,42 @@ TEST(SourceSeal, GoesOnWithoutEnginesThatAVariantLeavesOut) {
 TEST(SourceSeal, LeavesOtherEnginesAndFilesAside) {
   const Words words = seal_words(sealed("float physics:mass = 1"));
   EXPECT_EQ(changed_since(words, sealed("float physics:mass = 1\nfloat physxRigidBody:x = 1\n"
-                                        "asset a = @x.png@\ntoken visibility = \"invisible\"")),
+                                        "asset a = @x.png@")),
             Words{});
+}
+
+TEST(SourceSeal, NoticesWhatOnlyPlacesAndTargetsSay) {
+  const Words words = seal_words(sealed("", "rel physics:filteredPairs = </r>"));
+  EXPECT_EQ(changed_since(words, sealed("token visibility = \"invisible\"",
+                                        "rel physics:filteredPairs = </r/b>")),
+            (Words{"physics:filteredPairs", "visibility"}));
+  // What two bodies say, the other way round.
+  const auto two = [](const char* first, const char* second) {
+    return sealed(
+        "}\ndef Xform \"c\" (prepend apiSchemas = [\"PhysicsRigidBodyAPI\"]) {\n"
+        "double3 xformOp:translate = " +
+        std::string(first) +
+        "\n}\ndef Xform \"d\" (prepend apiSchemas = [\"PhysicsRigidBodyAPI\"]) {\n"
+        "double3 xformOp:translate = " +
+        second);
+  };
+  EXPECT_EQ(changed_since(seal_words(two("(1, 0, 0)", "(2, 0, 0)")), two("(2, 0, 0)", "(1, 0, 0)")),
+            Words{"xformOp:translate"});
+}
+
+TEST(SourceSeal, KnowsMaterialsByWhatTheySay) {
+  const auto bound = [](const std::string& name, const char* friction) {
+    return sealed("rel material:binding:physics = </r/b/" + name + ">\ndef Material \"" + name +
+                  "\" {\nfloat physics:dynamicFriction = " + friction + "\n}");
+  };
+  const Words words = seal_words(bound("rubber", "1"));
+  EXPECT_EQ(changed_since(words, bound("gum", "1")), Words{});
+  EXPECT_EQ(changed_since(words, bound("rubber", "0.5")),
+            (Words{"material:binding:physics", "physics:dynamicFriction"}));
+  EXPECT_EQ(
+      changed_since(words, sealed("rel material:binding:physics = </none>\ndef Material \"m\" "
+                                  "{\nfloat physics:dynamicFriction = 1\n}")),
+      Words{"material:binding:physics"});
 }
 
 }  // namespace
