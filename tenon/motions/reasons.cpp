@@ -122,7 +122,7 @@ std::string side_text(const scene::Fact& fact) {
 std::string patch_text(const scene::FieldPatch& patch, const Setup& a, const Setup& b,
                        const scene::PhysicsScene& patched) {
   const auto facts = scene::scene_differences(patched, b.scene, {.motion_alone = true});
-  const std::string field = patch.field.empty() ? patch.list : patch.list + " " + patch.field;
+  std::string field = patch.field.empty() ? patch.list : patch.list + " " + patch.field;
   if (facts.empty()) {
     return field;
   }

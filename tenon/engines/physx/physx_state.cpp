@@ -104,7 +104,7 @@ Result<void> PhysxSimulation::restore_state(std::string_view bytes) {
 
 Result<void> PhysxSimulation::repeat(const Input& input) {
   Numbers numbers(input.numbers);
-  const auto checked = [&](Result<void> done) {
+  const auto checked = [&](const Result<void>& done) {
     return done && numbers.is_done() ? Result<void>() : bad_state("what was set cannot be");
   };
   const Index object = input.object;

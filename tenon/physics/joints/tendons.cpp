@@ -190,7 +190,7 @@ class TendonReader {
         return false;
       }
     }
-    tendon_.wraps.push_back(std::move(wrap));
+    tendon_.wraps.push_back(wrap);
     return true;
   }
 
@@ -211,7 +211,7 @@ class TendonReader {
         TendonWrap pulley;
         pulley.kind = TendonWrap::Kind::Pulley;
         pulley.divisor = divisors[segment];
-        tendon_.wraps.push_back(std::move(pulley));
+        tendon_.wraps.push_back(pulley);
       }
       if (!read_wrap(i)) {
         return false;
