@@ -40,6 +40,15 @@ std::span<const engines::Engine> built_engines() {
 
 std::vector<engines::EngineInfo> list_engines() { return engines::list_engines(built_engines()); }
 
+engines::EngineInfo engine_info(const std::string& engine) {
+  for (engines::EngineInfo& info : list_engines()) {
+    if (info.name == engine) {
+      return std::move(info);
+    }
+  }
+  return {};
+}
+
 Result<std::unique_ptr<engines::Simulation>> make_simulation(
     const std::string& engine, const scene::PhysicsScene& scene,
     const engines::SimulationOptions& options, Diagnostics& diagnostics) {

@@ -19,6 +19,8 @@ namespace tenon {
 
 /// The engines of this build, sorted by name; those not built are listed as not available.
 std::vector<engines::EngineInfo> list_engines();
+/// The one of that name; of unknown names a row that says nothing.
+engines::EngineInfo engine_info(const std::string& engine);
 
 /// A simulation of `scene` (which must outlive it) on the engine of that name.
 Result<std::unique_ptr<engines::Simulation>> make_simulation(

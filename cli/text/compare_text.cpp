@@ -5,11 +5,11 @@
 // people.
 #include "cli/text/compare_text.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "cli/text/text_table.h"
 #include "tenon/base/text/rounded_text.h"
 #include "tenon/motions/gaps.h"
 #include "tenon/motions/reasons.h"
@@ -20,27 +20,7 @@ namespace {
 using answers::Json;
 using Rows = std::vector<std::vector<std::string>>;
 
-/// Columns as wide as their widest cell; the last one ends where it ends.
-std::string aligned(const Rows& rows) {
-  std::vector<std::size_t> widths;
-  for (const auto& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      widths[i] = std::max(widths[i], row[i].size());
-    }
-  }
-  std::string text;
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      line += row[i];
-      line += i + 1 < row.size() ? std::string(widths[i] - row[i].size() + 3, ' ') : "";
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
-}
+constexpr std::size_t kGap = 3;  ///< of columns
 
 const motions::MetricInfo& info_of(const Json& gap) {
   return motions::info_of(
@@ -76,7 +56,7 @@ std::string gaps_text(const Json& pair) {
                     "at " + rounded_text(gap["time"].get<double>(), 4) + " s" +
                         (object.empty() ? "" : "  " + object)});
   }
-  return aligned(rows);
+  return text_table(rows, kGap);
 }
 
 std::string drift_text(const Json& energy) {
@@ -101,7 +81,7 @@ std::string engines_text(const Json& engines) {
                             " us a step");
     }
   }
-  return aligned(rows);
+  return text_table(rows, kGap);
 }
 
 std::string reason_text(const Json& reason) {

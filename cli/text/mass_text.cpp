@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/text/opinions_text.h"
+#include "cli/text/text_table.h"
 #include "tenon/base/text/rounded_text.h"
 
 namespace tenon::cli {
@@ -35,29 +36,6 @@ std::string shown(const Json& value) {
                              : "(" + rounded_text(value[0].get<double>()) + ", " +
                                    rounded_text(value[4].get<double>()) + ", " +
                                    rounded_text(value[8].get<double>()) + ")";
-}
-
-/// Columns as wide as their widest cell.
-std::string columns(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths;
-  for (const auto& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      widths[i] = std::max(widths[i], row[i].size());
-    }
-  }
-  std::string text;
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      line += row[i];
-      if (i + 1 < row.size()) {
-        line += std::string(widths[i] - row[i].size() + 2, ' ');
-      }
-    }
-    text += line + "\n";
-  }
-  return text;
 }
 
 }  // namespace
@@ -104,7 +82,7 @@ std::string mass_table_text(const Json& table) {
                       row["reason"][key].get<std::string>()});
     }
   }
-  return columns(rows);
+  return text_table(rows);
 }
 
 }  // namespace tenon::cli

@@ -79,7 +79,7 @@ Result<void> write_output(const CompareArguments& arguments, const ComparedEngin
   return outputs.commit();
 }
 
-int exit_code_of(const ComparedEngines& compared) {
+int code_of(const ComparedEngines& compared) {
   if (const Error* failure = compared.failure()) {
     return failure->code() == ErrorCode::Unstable ? kUnstable : cli::exit_code_of(*failure);
   }
@@ -114,7 +114,7 @@ int run_compare(const Globals& globals, const CompareArguments& arguments) {
   if (!globals.json) {
     print_text(compare_text(json));
   }
-  return report.finish(exit_code_of(*compared), json);
+  return report.finish(code_of(*compared), json);
 }
 
 std::vector<std::string> metric_names() {

@@ -292,14 +292,14 @@ class Distance {
 
 const std::vector<MetricInfo>& metrics() {
   static const std::vector<MetricInfo> kMetrics = {
-      {Metric::Position, "position", "mm", 1e3, true},
-      {Metric::Orientation, "orientation", "deg", 180 / kPi, true},
-      {Metric::JointAngle, "jointAngle", "deg", 180 / kPi, true},
-      {Metric::JointTravel, "jointTravel", "mm", 1e3, true},
-      {Metric::Energy, "energy", "J", 1, false},
-      {Metric::Momentum, "momentum", "kg m/s", 1, false},
-      {Metric::Contacts, "contacts", "", 1, false},
-      {Metric::Penetration, "penetration", "mm", 1e3, false},
+      {Metric::Position, "position", "m", "mm", 1e3, true},
+      {Metric::Orientation, "orientation", "rad", "deg", 180 / kPi, true},
+      {Metric::JointAngle, "jointAngle", "rad", "deg", 180 / kPi, true},
+      {Metric::JointTravel, "jointTravel", "m", "mm", 1e3, true},
+      {Metric::Energy, "energy", "J", "J", 1, false},
+      {Metric::Momentum, "momentum", "kg m/s", "kg m/s", 1, false},
+      {Metric::Contacts, "contacts", "", "", 1, false},
+      {Metric::Penetration, "penetration", "m", "mm", 1e3, false},
   };
   return kMetrics;
 }

@@ -30,7 +30,8 @@ enum class Metric : std::uint8_t {
 
 struct MetricInfo {
   Metric metric;
-  std::string_view name;    ///< "position": in options, JSON and CSV
+  std::string_view name;  ///< "position": in options, JSON and CSV
+  std::string_view si_unit;
   std::string_view unit;    ///< for people: "mm", "deg"
   double shown_per_si = 1;  ///< so many of these units make one of SI
   bool of_objects = false;  ///< of bodies or joints; else of all together

@@ -11,13 +11,13 @@
 #include <utility>
 
 #include "tenon/asset/physics_options.h"
+#include "tenon/asset/simulating/engine_choice.h"
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/bytes/files.h"
 #include "tenon/make_simulation.h"
 #include "tenon/math/angle.h"
 #include "tenon/physics/read_physics.h"
-#include "tenon/physics_selection.h"
 
 namespace tenon {
 namespace {
@@ -75,23 +75,12 @@ std::vector<Wanted> wanted_engines(const CompareEnginesOptions& options) {
   if (wanted.empty()) {
     for (const engines::EngineInfo& info : list_engines()) {
       if (info.available) {
-        const bool usual = info.name == "mujoco";  // what others are compared with
+        const bool usual = info.name == kUsualEngine;  // what others are compared with
         wanted.insert(usual ? wanted.begin() : wanted.end(), Wanted{info.name, "", false});
       }
     }
   }
   return wanted;
-}
-
-/// The variant of an engine's own name, else "physics", where a set has it; "" else.
-std::string own_variant(const stage::Stage& stage, const std::string& engine) {
-  std::set<std::string> variants;
-  for (const stage::Prim& prim : prims_with_physics_set(stage)) {
-    for (const std::string& variant : prim.variant_names("Physics")) {
-      variants.insert(variant);
-    }
-  }
-  return variants.contains(engine) ? engine : variants.contains("physics") ? "physics" : "";
 }
 
 /// Adds what is not known yet.
@@ -118,7 +107,7 @@ Result<ComparedEngine> open_for(const std::string& path, const CompareEnginesOpt
   compared.variant = wanted.variant;
   const bool chosen = !open.physics_variant.empty() || !open.physics_of.empty();
   if (!wanted.has_variant) {
-    compared.variant = chosen ? open.physics_variant : own_variant(stage, wanted.engine);
+    compared.variant = chosen ? open.physics_variant : own_variant(wanted.engine, stage);
   }
   if (!compared.variant.empty() && compared.variant != open.physics_variant) {
     found = Diagnostics();
@@ -129,9 +118,7 @@ Result<ComparedEngine> open_for(const std::string& path, const CompareEnginesOpt
   compared.setup.engine = wanted.engine;
   compared.setup.options.time_step = options.time_step;
   compared.setup.scene = physics::read_physics(stage, read_options(options.readings), found);
-  for (const engines::EngineInfo& info : list_engines()) {
-    compared.version = info.name == wanted.engine ? info.version : compared.version;
-  }
+  compared.version = engine_info(wanted.engine).version;
   add_new(found, diagnostics);
   return compared;
 }

@@ -5,40 +5,13 @@
 #include "tenon/asset/comparing_engines/compared_engines_json.h"
 
 #include "tenon/answers/or_null.h"
+#include "tenon/asset/simulating/simulated_json.h"
 #include "tenon/base/text/text_number.h"
 
 namespace tenon {
 namespace {
 
 using answers::Json;
-using motions::Metric;
-
-std::string_view si_unit(Metric metric) {
-  switch (metric) {
-    case Metric::Position:
-    case Metric::JointTravel:
-    case Metric::Penetration:
-      return "m";
-    case Metric::Orientation:
-    case Metric::JointAngle:
-      return "rad";
-    case Metric::Energy:
-      return "J";
-    case Metric::Momentum:
-      return "kg m/s";
-    case Metric::Contacts:
-      break;
-  }
-  return "";
-}
-
-Json not_mapped_json(const ComparedEngine& one) {
-  Json items = Json::array();
-  for (const scene::NotRead& item : one.motion.not_mapped) {
-    items.push_back({{"prim", item.prim.str()}, {"property", item.property}, {"why", item.why}});
-  }
-  return items;
-}
 
 Json engine_json(const ComparedEngine& one, bool timing) {
   const motions::Figures figures = motions::figures_of(one.setup, one.motion);
@@ -54,7 +27,7 @@ Json engine_json(const ComparedEngine& one, bool timing) {
                {"energy", {{"start", figures.energy_start}, {"end", figures.energy_end}}},
                {"meanContacts", figures.mean_contacts},
                {"deepest", figures.deepest},
-               {"notMapped", not_mapped_json(one)}};
+               {"notMapped", not_mapped_json(one.motion.not_mapped)}};
   if (timing && run.steps > 0) {
     json["secondsPerStep"] = one.motion.wall_seconds / static_cast<double>(run.steps);
   }
@@ -63,7 +36,7 @@ Json engine_json(const ComparedEngine& one, bool timing) {
 
 Json gap_json(const motions::Gap& gap) {
   return {{"metric", motions::info_of(gap.metric).name},
-          {"unit", si_unit(gap.metric)},
+          {"unit", motions::info_of(gap.metric).si_unit},
           {"object", answers::or_null(gap.object)},
           {"largest", gap.largest},
           {"time", gap.time},
@@ -140,7 +113,7 @@ Json compared_engines_json(const ComparedEngines& compared, bool timing) {
   for (const GapBound& bound : compared.exceeded) {
     exceeded.push_back({{"metric", motions::info_of(bound.metric).name},
                         {"bound", bound.most},
-                        {"unit", si_unit(bound.metric)}});
+                        {"unit", motions::info_of(bound.metric).si_unit}});
   }
   return {{"duration", compared.duration},
           {"framesPerSecond", compared.frames_per_second},
@@ -156,8 +129,9 @@ std::string compared_engines_csv(const ComparedEngines& compared) {
       text += cell(compared.engines.front().setup.name) + "," +
               cell(compared.engines[pair.second].setup.name) + "," +
               std::string(motions::info_of(gap.metric).name) + "," +
-              std::string(si_unit(gap.metric)) + "," + cell(gap.object.str()) + "," +
-              shortest(gap.largest) + "," + shortest(gap.time) + "," + shortest(gap.mean) + "\n";
+              std::string(motions::info_of(gap.metric).si_unit) + "," + cell(gap.object.str()) +
+              "," + shortest(gap.largest) + "," + shortest(gap.time) + "," + shortest(gap.mean) +
+              "\n";
     }
   }
   return text;

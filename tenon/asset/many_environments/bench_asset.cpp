@@ -170,9 +170,7 @@ Result<BenchedAsset> bench_asset(const std::string& path, const BenchOptions& op
       physics::read_physics(stage, read_options(options.readings), diagnostics);
   BenchedAsset benched;
   benched.engine = choose_engine(options.engine, stage, diagnostics);
-  for (const engines::EngineInfo& info : list_engines()) {
-    benched.engine_version = info.name == benched.engine ? info.version : benched.engine_version;
-  }
+  benched.engine_version = engine_info(benched.engine).version;
   benched.environments.resize(options.environments);
   for (std::size_t i = 0; i < options.environments; ++i) {
     for (std::size_t v = 0; v < options.variations.size(); ++v) {

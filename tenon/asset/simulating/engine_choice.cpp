@@ -3,15 +3,13 @@
 #include "tenon/asset/simulating/engine_choice.h"
 
 #include <map>
-#include <vector>
+#include <set>
 
 #include "tenon/make_simulation.h"
 #include "tenon/physics_selection.h"
 
 namespace tenon {
 namespace {
-
-constexpr const char* kUsualEngine = "mujoco";
 
 /// Engines by the first prim whose variant names each.
 using NamedEngines = std::map<std::string, Path>;
@@ -29,12 +27,8 @@ NamedEngines named_engines(const stage::Stage& stage) {
 
 /// How to get the engine where this build has none; "" where it has.
 std::string missing(const std::string& engine) {
-  for (const engines::EngineInfo& info : list_engines()) {
-    if (info.name == engine) {
-      return info.available ? "" : info.how_to_get;
-    }
-  }
-  return "";
+  const engines::EngineInfo info = engine_info(engine);
+  return info.available ? "" : info.how_to_get;
 }
 
 Diagnostic warning(std::string rule, std::string message, const Path& prim, std::string fix) {
@@ -68,6 +62,16 @@ std::string choose_engine(const std::string& asked, const stage::Stage& stage,
     return kUsualEngine;
   }
   return engine;
+}
+
+std::string own_variant(const std::string& engine, const stage::Stage& stage) {
+  std::set<std::string> variants;
+  for (const stage::Prim& prim : prims_with_physics_set(stage)) {
+    for (const std::string& variant : prim.variant_names("Physics")) {
+      variants.insert(variant);
+    }
+  }
+  return variants.contains(engine) ? engine : variants.contains("physics") ? "physics" : "";
 }
 
 }  // namespace tenon

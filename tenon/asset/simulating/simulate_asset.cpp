@@ -123,11 +123,7 @@ Result<void> build_model(const SimulateAssetOptions& options, SimulatedAsset& as
   simulation.outputs = options.outputs;
   simulation.methods = options.methods;
   TENON_TRY(asset.simulation, make_simulation(asset.engine, *asset.scene, simulation, diagnostics));
-  for (const engines::EngineInfo& engine : list_engines()) {
-    if (engine.name == asset.engine) {
-      asset.engine_version = engine.version;
-    }
-  }
+  asset.engine_version = engine_info(asset.engine).version;
   return {};
 }
 

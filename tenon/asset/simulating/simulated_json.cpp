@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/asset/simulating/simulated_json.h"
 
+#include <utility>
+
 #include "tenon/bake/record_outputs.h"
 #include "tenon/bake/stage_values.h"
 
@@ -38,15 +40,12 @@ Json joints_json(const SimulatedAsset& s) {
   return joints;
 }
 
-Json not_mapped_json(const SimulatedAsset& s) {
-  Json items = Json::array();
-  const auto add = [&](const std::vector<scene::NotRead>& list) {
-    for (const scene::NotRead& item : list) {
-      items.push_back({{"prim", item.prim.str()}, {"property", item.property}, {"why", item.why}});
-    }
-  };
-  add(s.scene->not_read);
-  add(s.simulation->not_mapped());
+/// Of the reading and of the engine.
+Json all_not_mapped_json(const SimulatedAsset& s) {
+  Json items = not_mapped_json(s.scene->not_read);
+  for (Json& item : not_mapped_json(s.simulation->not_mapped())) {
+    items.push_back(std::move(item));
+  }
   return items;
 }
 
@@ -83,6 +82,14 @@ void add_request(const SimulatedAsset& s, Json& state) {
 
 }  // namespace
 
+Json not_mapped_json(const std::vector<scene::NotRead>& list) {
+  Json items = Json::array();
+  for (const scene::NotRead& item : list) {
+    items.push_back({{"prim", item.prim.str()}, {"property", item.property}, {"why", item.why}});
+  }
+  return items;
+}
+
 Json simulated_json(const SimulatedAsset& s, bool timing) {
   Json state = Json::object();
   state["engine"] = s.engine;
@@ -100,7 +107,7 @@ Json simulated_json(const SimulatedAsset& s, bool timing) {
                      {"final", s.run.final_energy.total()}};
   state["contacts"] = s.simulation->contact_count();
   state["events"] = events_json(s);
-  state["notMapped"] = not_mapped_json(s);
+  state["notMapped"] = all_not_mapped_json(s);
   add_request(s, state);
   return state;
 }

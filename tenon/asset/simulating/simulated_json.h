@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tenon/answers/json.h"
 #include "tenon/asset/simulating/simulate_asset.h"
@@ -17,6 +18,9 @@ namespace tenon {
 /// degrees. Of what was asked for: "begin" [s] and "stateIn", "commands": {"file", "rows",
 /// "columns"}, "rest": {"reached", "since" [s]}, "log": names of outputs.
 answers::Json simulated_json(const SimulatedAsset& simulated, bool timing);
+
+/// [{"prim", "property", "why"}]: what was not taken over.
+answers::Json not_mapped_json(const std::vector<scene::NotRead>& list);
 
 /// {"output", "frames", "bodies", "time"}: what a layer of motion holds.
 answers::Json motion_json(const SimulatedAsset& simulated, const std::string& output);
