@@ -464,7 +464,7 @@ TEST(Contacts, EqualMeshesAreMadeOnce) {
   scene.add_collider("Floor", {}, ground());
   auto sim = simulation(scene);
   EXPECT_EQ(sim->engine_model().nmesh, 1);
-  EXPECT_EQ(sim->engine_model().ngeom, 65);
+  EXPECT_EQ(sim->engine_model().ngeom, 129);
   run(*sim, 0.2);
   EXPECT_NEAR(sim->body_state(63).pose.position[2], 0.1, 1e-3);
   scene.colliders[5].max_hull_vertices = 4;

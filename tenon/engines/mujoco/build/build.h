@@ -98,6 +98,10 @@ void add_equalities(Build& build);
 void add_tendons(Build& build);
 /// Colliders. Errors: Limit for more than a model may have.
 Result<void> add_geoms(Build& build);
+/// A second geom that touches nothing for bodies with one mesh. MuJoCo looks at boxes around shapes
+/// before it looks for contacts, but not between two bodies of one geom each: the convex search
+/// then runs for each two spheres that meet. Contacts are the same. After add_tendons.
+void add_box_tests(Build& build);
 /// Drives.
 void add_actuators(Build& build);
 /// Actuators of MuJoCo that are no drives. After add_tendons.

@@ -81,6 +81,7 @@ Result<Model> build_once(Build& build, Begin begin) {
   add_actuators(build);
   TENON_CHECK(add_geoms(build));
   add_tendons(build);
+  add_box_tests(build);
   add_mujoco_actuators(build);
   ContactFilter filter = add_filters(build);
   Surfaces surfaces = add_surfaces(build);
