@@ -260,6 +260,7 @@ Result<void> JoltSimulation::reset() {
   inside_.clear();
   bodies_at_begin_.clear();
   joints_at_begin_.clear();
+  log_ = {};
   steps_ = 0;
   return begin(model_.time_step, silent);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/engines/input_log.h"
 #include "tenon/engines/jolt/model.h"
 #include "tenon/engines/jolt/run/slow_turns.h"
 #include "tenon/engines/jolt/run/step_inputs.h"
@@ -49,6 +50,8 @@ class JoltSimulation final : public Simulation {
   Result<void> set_joint_state(scene::Index joint, const JointState& state) override;
   Result<void> set_body_state(scene::Index body, const BodyState& state) override;
   Result<void> reset() override;
+  Result<std::string> save_state() const override;
+  Result<void> restore_state(std::string_view bytes) override;
 
   Result<std::vector<Contact>> contacts() const override;
   Result<std::vector<double>> drive_efforts(scene::Index joint) const override;
@@ -69,6 +72,9 @@ class JoltSimulation final : public Simulation {
   Result<void> write_parameter(const ParameterKey& key, double value);
   Result<void> write_joint_parameter(const ParameterKey& key, double value);
   void apply_steering();
+  void set_from_outside(Input input);
+  StateOwner owner() const;
+  void take(JoltSimulation& other);
   void write_state(scene::Index body, const BodyState& state);
   std::vector<scene::Index> bodies_behind(scene::Index body) const;
 
@@ -88,6 +94,7 @@ class JoltSimulation final : public Simulation {
   std::vector<scene::Index> breakable_;     ///< joints
   std::vector<BodyState> bodies_at_begin_;  ///< of the last step, where accelerations are asked for
   std::vector<JointState> joints_at_begin_;
+  InputLog log_;
   std::uint64_t steps_ = 0;
 };
 

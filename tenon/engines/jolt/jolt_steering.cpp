@@ -48,14 +48,12 @@ BodyState moved_along(const BodyState& state, const BodyState& from, const Vec3d
 
 }  // namespace
 
-bool JoltSimulation::can(Ability ability) const {
-  switch (ability) {
-    case Ability::SavedStates:
-    case Ability::Work:
-      return false;
-    default:
-      return true;
-  }
+bool JoltSimulation::can(Ability ability) const { return ability != Ability::Work; }
+
+// Every function that sets something ends here.
+void JoltSimulation::set_from_outside(Input input) {
+  input.step = steps_;
+  log_.add(input);
 }
 
 Result<void> JoltSimulation::set_drive_target(Index joint, Index drive, const DriveTarget& target) {
@@ -68,6 +66,7 @@ Result<void> JoltSimulation::set_drive_target(Index joint, Index drive, const Dr
   }
   steering_.targets[{joint, drive}] = target;
   inputs_.steer_drives(joint, model_, steering_, time());
+  set_from_outside(input_of(joint, drive, target));
   return {};
 }
 
@@ -75,18 +74,21 @@ Result<void> JoltSimulation::set_joint_efforts(Index joint, std::span<const doub
   TENON_CHECK(check_joint(*scene_, joint));
   TENON_CHECK(check_efforts(*scene_, joint, efforts, joint_state(joint).position.size()));
   steering_.efforts[joint].assign(efforts.begin(), efforts.end());
+  set_from_outside(input_of(joint, efforts));
   return {};
 }
 
 Result<void> JoltSimulation::set_body_wrench(Index body, const Wrench& wrench) {
   TENON_CHECK(check_wrench(*scene_, body, wrench));
   steering_.wrenches[body] = wrench;
+  set_from_outside(input_of(body, wrench));
   return {};
 }
 
 Result<void> JoltSimulation::move_kinematic(Index body, const Pose& pose) {
   TENON_CHECK(check_pose(*scene_, body, pose));
   steering_.poses[body] = {pose.position, normalized(pose.orientation)};
+  set_from_outside(input_of(body, pose));
   return {};
 }
 
@@ -94,6 +96,7 @@ Result<void> JoltSimulation::set_gravity(Index scene, const Vec3d& gravity) {
   TENON_CHECK(check_gravity(*scene_, scene, gravity));
   steering_.gravity[scene] = gravity;
   model_.systems[scene].system->SetGravity(to_jolt(gravity));
+  set_from_outside(input_of(scene, gravity));
   return {};
 }
 
@@ -104,8 +107,10 @@ Result<void> JoltSimulation::set_parameter(const ParameterKey& key, double value
   Result<void> done = write_parameter(key, value);
   if (!done) {
     steering_ = std::move(before);
+    return done;
   }
-  return done;
+  set_from_outside(input_of(key, value));
+  return {};
 }
 
 Result<void> JoltSimulation::write_parameter(const ParameterKey& key, double value) {
@@ -242,6 +247,7 @@ Result<void> JoltSimulation::set_joint_state(Index joint, const JointState& stat
       map.laws[i]->count_from(0, state.position[i]);
     }
   }
+  set_from_outside(input_of(joint, state));
   return {};
 }
 
@@ -261,6 +267,7 @@ Result<void> JoltSimulation::set_body_state(Index body, const BodyState& state) 
                                      : moved_along(body_state(other), from, from_center, to, center,
                                                    center_of_mass(other)));
   }
+  set_from_outside(input_of(body, state));
   return {};
 }
 

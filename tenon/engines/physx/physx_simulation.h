@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/engines/input_log.h"
 #include "tenon/engines/physx/model.h"
-#include "tenon/engines/physx/run/input_log.h"
 #include "tenon/engines/physx/run/step_events.h"
 #include "tenon/engines/physx/run/step_inputs.h"
 #include "tenon/engines/physx/run/step_outputs.h"
 #include "tenon/engines/simulation.h"
-#include "tenon/engines/state_bytes.h"
 #include "tenon/engines/steering.h"
 #include "tenon/scene/timeline/timeline.h"
 
@@ -77,7 +76,6 @@ class PhysxSimulation final : public Simulation {
   void apply_steering();
   double energy_to_compare() const;
   void set_from_outside(Input input, double energy_before);
-  Result<void> repeat(const Input& input);
   StateOwner owner() const;
   void take(PhysxSimulation& other);
   void bring_up_to_date() const;

@@ -4,7 +4,6 @@
 // What is set is checked, given to PhysX and remembered, so that a model that is made anew gets it
 // again.
 #include <algorithm>
-#include <initializer_list>
 
 #include "tenon/engines/physx/build/build.h"
 #include "tenon/engines/physx/convert.h"
@@ -23,28 +22,6 @@ Error not_steerable(const Path& prim, const std::string& why) {
 bool is_of_drive(Parameter what) {
   return what == Parameter::DriveStiffness || what == Parameter::DriveDamping ||
          what == Parameter::DriveMaxForce;
-}
-
-std::vector<double> numbers_of(std::initializer_list<Vec3d> vectors) {
-  std::vector<double> numbers;
-  for (const Vec3d& vector : vectors) {
-    numbers.insert(numbers.end(), vector.v.begin(), vector.v.end());
-  }
-  return numbers;
-}
-
-std::vector<double> numbers_of(const Pose& pose) {
-  std::vector<double> numbers = numbers_of({pose.position});
-  const Quatd& q = pose.orientation;
-  numbers.insert(numbers.end(), {q.x, q.y, q.z, q.w});
-  return numbers;
-}
-
-std::vector<double> numbers_of(const BodyState& state) {
-  std::vector<double> numbers = numbers_of(state.pose);
-  const std::vector<double> speeds = numbers_of({state.linear_velocity, state.angular_velocity});
-  numbers.insert(numbers.end(), speeds.begin(), speeds.end());
-  return numbers;
 }
 
 bool is_free(const Model& model, const scene::PhysicsScene& scene, Index body) {
@@ -75,11 +52,7 @@ Result<void> PhysxSimulation::set_drive_target(Index joint, Index drive,
   }
   steering_.targets[{joint, drive}] = target;
   inputs_.steer_drive(joint, model_, steering_, time());
-  set_from_outside({.kind = InputKind::DriveTarget,
-                    .object = joint,
-                    .part = drive,
-                    .numbers = {target.position, target.velocity}},
-                   energy_to_compare());
+  set_from_outside(input_of(joint, drive, target), energy_to_compare());
   return {};
 }
 
@@ -87,28 +60,21 @@ Result<void> PhysxSimulation::set_joint_efforts(Index joint, std::span<const dou
   TENON_CHECK(check_joint(*scene_, joint));
   TENON_CHECK(check_efforts(*scene_, joint, efforts, joint_state(joint).position.size()));
   steering_.efforts[joint].assign(efforts.begin(), efforts.end());
-  set_from_outside({.kind = InputKind::JointEfforts,
-                    .object = joint,
-                    .numbers = {efforts.begin(), efforts.end()}},
-                   energy_to_compare());
+  set_from_outside(input_of(joint, efforts), energy_to_compare());
   return {};
 }
 
 Result<void> PhysxSimulation::set_body_wrench(Index body, const Wrench& wrench) {
   TENON_CHECK(check_wrench(*scene_, body, wrench));
   steering_.wrenches[body] = wrench;
-  set_from_outside({.kind = InputKind::BodyWrench,
-                    .object = body,
-                    .numbers = numbers_of({wrench.force, wrench.torque})},
-                   energy_to_compare());
+  set_from_outside(input_of(body, wrench), energy_to_compare());
   return {};
 }
 
 Result<void> PhysxSimulation::move_kinematic(Index body, const Pose& pose) {
   TENON_CHECK(check_pose(*scene_, body, pose));
   steering_.poses[body] = {pose.position, normalized(pose.orientation)};
-  set_from_outside({.kind = InputKind::KinematicPose, .object = body, .numbers = numbers_of(pose)},
-                   energy_to_compare());
+  set_from_outside(input_of(body, pose), energy_to_compare());
   return {};
 }
 
@@ -117,8 +83,7 @@ Result<void> PhysxSimulation::set_gravity(Index scene, const Vec3d& gravity) {
   const double before = energy_to_compare();
   steering_.gravity[scene] = gravity;
   model_.scenes[scene]->setGravity(to_px(gravity));
-  set_from_outside({.kind = InputKind::Gravity, .object = scene, .numbers = numbers_of({gravity})},
-                   before);
+  set_from_outside(input_of(scene, gravity), before);
   return {};
 }
 
@@ -132,12 +97,7 @@ Result<void> PhysxSimulation::set_parameter(const ParameterKey& key, double valu
     steering_ = std::move(before);
     return done;
   }
-  set_from_outside({.kind = InputKind::Parameter,
-                    .what = key.what,
-                    .object = key.object,
-                    .part = key.part,
-                    .numbers = {value}},
-                   energy_before);
+  set_from_outside(input_of(key, value), energy_before);
   return {};
 }
 
@@ -225,10 +185,7 @@ Result<void> PhysxSimulation::set_joint_state(Index joint, const JointState& sta
   model_.trees[map.tree].articulation->updateKinematic(px::PxArticulationKinematicFlag::ePOSITION |
                                                        px::PxArticulationKinematicFlag::eVELOCITY);
   stale_ = true;
-  set_from_outside({.kind = InputKind::JointState,
-                    .object = joint,
-                    .numbers = {state.position.front(), state.velocity.front()}},
-                   before);
+  set_from_outside(input_of(joint, state), before);
   return {};
 }
 
@@ -237,8 +194,7 @@ Result<void> PhysxSimulation::set_body_state(Index body, const BodyState& state)
   const double before = energy_to_compare();
   const auto done = [&] {
     stale_ = true;
-    set_from_outside({.kind = InputKind::BodyState, .object = body, .numbers = numbers_of(state)},
-                     before);
+    set_from_outside(input_of(body, state), before);
     return Result<void>();
   };
   if (is_free(model_, *scene_, body)) {
