@@ -343,6 +343,8 @@ def tasks(bench):
         plain = ("step_physx", "plain PhysX")
         yield "step_physx_hand", bench.measure_steps, *plain, HAND
         yield "step_physx_grasp", bench.measure_steps, *plain, GRASP
+    if os.path.exists(bench.program("step_jolt")):
+        yield "step_jolt_hand", bench.measure_steps, "step_jolt", "plain Jolt", HAND
     yield from process_tasks(bench)
     yield from converters.tasks(bench, ROOT, SHARED)
 

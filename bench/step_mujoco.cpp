@@ -9,61 +9,20 @@
 // adapter writes what mj_step does not know, such as averaged friction.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <mujoco/mujoco.h>
 
-#include "bench/measure.h"
+#include "bench/step_beside.h"
 #include "tenon/engines/mujoco/mujoco_simulation.h"
-#include "tenon/make_simulation.h"
-#include "tenon/open_stage.h"
-#include "tenon/physics/read_physics.h"
 
 namespace tenon::bench {
 namespace {
 
-struct Options {
-  std::string file;
-  std::size_t chunk = 200;  // steps of one lap
-  std::size_t chunks = 40;
-};
-
-Options read_options(int count, char** values) {
-  Options options;
-  for (int i = 1; i < count; ++i) {
-    const std::string word = values[i];
-    if ((word == "--chunk" || word == "--chunks") && i + 1 < count) {
-      (word == "--chunk" ? options.chunk : options.chunks) = std::strtoul(values[++i], nullptr, 10);
-    } else {
-      options.file = word;
-    }
-  }
-  if (options.file.empty() || options.chunk == 0 || options.chunks == 0) {
-    fail("usage: step_mujoco FILE [--chunk STEPS] [--chunks N]");
-  }
-  return options;
-}
-
-using SimulationPtr = std::unique_ptr<engines::Simulation>;
-
 const engines::mujoco::MujocoSimulation& adapter(const engines::Simulation& simulation) {
   return static_cast<const engines::mujoco::MujocoSimulation&>(simulation);
-}
-
-SimulationPtr make(const scene::PhysicsScene& scene) {
-  Diagnostics diagnostics;
-  return value_or_fail(make_simulation("mujoco", scene, {}, diagnostics));
-}
-
-void step(engines::Simulation& simulation) {
-  if (auto done = simulation.step(); !done) {
-    fail(done.error().to_string());
-  }
 }
 
 // What a program sets before each step: controls and poses of kinematic bodies.
@@ -105,7 +64,7 @@ class Inputs {
 };
 
 Inputs record_inputs(const scene::PhysicsScene& scene, std::size_t steps) {
-  const SimulationPtr simulation = make(scene);
+  const SimulationPtr simulation = make("mujoco", scene);
   Inputs inputs(adapter(*simulation).engine_model());
   for (std::size_t i = 0; i < steps; ++i) {
     step(*simulation);
@@ -145,39 +104,26 @@ double difference(const Plain& plain, const engines::Simulation& simulation) {
   return largest;
 }
 
-void time_steps(Report& report, const scene::PhysicsScene& scene, const Options& options) {
+void time_steps(Report& report, const scene::PhysicsScene& scene, const StepOptions& options) {
   const Inputs inputs = record_inputs(scene, options.chunk * options.chunks);
   const bool animated = inputs.change();
-  const SimulationPtr simulation = make(scene);
+  const SimulationPtr simulation = make("mujoco", scene);
   Plain plain(*simulation);
   double apart = 0;
   std::size_t plain_step = 0;
-  const auto ours = [&] {
-    for (std::size_t i = 0; i < options.chunk; ++i) {
-      step(*simulation);
-    }
-    return true;
-  };
-  const auto theirs = [&] {
+  Laps laps;
+  laps.ours = [&] { steps(*simulation, options.chunk); };
+  laps.theirs = [&] {
     for (std::size_t i = 0; i < options.chunk; ++i, ++plain_step) {
       if (animated) {
         inputs.apply(plain_step, *plain.data);
       }
       mj_step(plain.model, plain.data);
     }
-    return true;
   };
-  for (std::size_t i = 0; i < options.chunks; ++i) {
-    plain.follow(*simulation);
-    if (i % 2 == 0) {  // neither side is always the first
-      report.time("tenon", ours);
-      report.time("plain", theirs);
-    } else {
-      report.time("plain", theirs);
-      report.time("tenon", ours);
-    }
-    apart = std::max(apart, difference(plain, *simulation));
-  }
+  laps.begin = [&] { plain.follow(*simulation); };
+  laps.end = [&] { apart = std::max(apart, difference(plain, *simulation)); };
+  time_in_turns(report, options.chunks, laps);
   report.count("difference", apart);
   report.count("animated", animated ? 1 : 0);
 }
@@ -186,16 +132,5 @@ void time_steps(Report& report, const scene::PhysicsScene& scene, const Options&
 }  // namespace tenon::bench
 
 int main(int count, char** values) {
-  using namespace tenon;
-  using namespace tenon::bench;
-  const Options options = read_options(count, values);
-  Diagnostics diagnostics;
-  const stage::Stage stage = value_or_fail(open_stage(options.file, {}, diagnostics));
-  const scene::PhysicsScene scene = physics::read_physics(stage, {}, diagnostics);
-  Report report("step_mujoco");
-  time_steps(report, scene, options);
-  report.count("steps_per_lap", static_cast<double>(options.chunk));
-  report.count("bodies", static_cast<double>(scene.bodies.size()));
-  report.print();
-  return 0;
+  return tenon::bench::step_beside("step_mujoco", count, values, tenon::bench::time_steps);
 }

@@ -7,50 +7,13 @@
 // before has recorded: what a program that calls PhysX itself would do. Count `difference`: largest
 // difference of a place at the end [m]. Zero: both did the same; it is not where the adapter writes
 // what PhysX does not know, such as springs beside drives.
-#include <algorithm>
-#include <cstdlib>
-#include <memory>
-#include <string>
 #include <vector>
 
-#include "bench/measure.h"
+#include "bench/step_beside.h"
 #include "tenon/engines/physx/physx_library.h"
-#include "tenon/engines/simulation.h"
-#include "tenon/make_simulation.h"
-#include "tenon/open_stage.h"
-#include "tenon/physics/read_physics.h"
 
 namespace tenon::bench {
 namespace {
-
-struct Options {
-  std::string file;
-  std::size_t chunk = 200;  // steps of one lap
-  std::size_t chunks = 40;
-};
-
-Options read_options(int count, char** values) {
-  Options options;
-  for (int i = 1; i < count; ++i) {
-    const std::string word = values[i];
-    if ((word == "--chunk" || word == "--chunks") && i + 1 < count) {
-      (word == "--chunk" ? options.chunk : options.chunks) = std::strtoul(values[++i], nullptr, 10);
-    } else {
-      options.file = word;
-    }
-  }
-  if (options.file.empty() || options.chunk == 0 || options.chunks == 0) {
-    fail("usage: step_physx FILE [--chunk STEPS] [--chunks N]");
-  }
-  return options;
-}
-
-using SimulationPtr = std::unique_ptr<engines::Simulation>;
-
-SimulationPtr make(const scene::PhysicsScene& scene) {
-  Diagnostics diagnostics;
-  return value_or_fail(make_simulation("physx", scene, {}, diagnostics));
-}
 
 ::physx::PxScene& scene_of(const engines::Simulation& simulation) {
   return *const_cast<::physx::PxScene*>(
@@ -127,12 +90,6 @@ class Inputs {
   std::vector<px::PxTransform> poses_;  // (step_count x body_count)
 };
 
-void step(engines::Simulation& simulation) {
-  if (auto done = simulation.step(); !done) {
-    fail(done.error().to_string());
-  }
-}
-
 Inputs record_inputs(const SimulationPtr& simulation, std::size_t steps) {
   Inputs inputs(scene_of(*simulation));
   for (std::size_t i = 0; i < steps; ++i) {
@@ -142,48 +99,25 @@ Inputs record_inputs(const SimulationPtr& simulation, std::size_t steps) {
   return inputs;
 }
 
-double difference(const scene::PhysicsScene& scene, const engines::Simulation& one,
-                  const engines::Simulation& other) {
-  double largest = 0;
-  for (scene::Index b = 0; b < scene.bodies.size(); ++b) {
-    const Vec3d apart = one.body_state(b).pose.position - other.body_state(b).pose.position;
-    largest = std::max(largest, length(apart));
-  }
-  return largest;
-}
-
-void time_steps(Report& report, const scene::PhysicsScene& scene, const Options& options) {
-  const SimulationPtr before = make(scene);
+void time_steps(Report& report, const scene::PhysicsScene& scene, const StepOptions& options) {
+  const SimulationPtr before = make("physx", scene);
   const Inputs recorded = record_inputs(before, options.chunk * options.chunks);
-  const SimulationPtr simulation = make(scene);
-  const SimulationPtr plain = make(scene);
+  const SimulationPtr simulation = make("physx", scene);
+  const SimulationPtr plain = make("physx", scene);
   px::PxScene& stepped = scene_of(*plain);
   const Inputs inputs(stepped);
   std::size_t plain_step = 0;
   const auto dt = static_cast<float>(plain->time_step());
-  const auto ours = [&] {
-    for (std::size_t i = 0; i < options.chunk; ++i) {
-      step(*simulation);
-    }
-    return true;
-  };
-  const auto theirs = [&] {
+  Laps laps;
+  laps.ours = [&] { steps(*simulation, options.chunk); };
+  laps.theirs = [&] {
     for (std::size_t i = 0; i < options.chunk; ++i, ++plain_step) {
       inputs.apply(recorded, plain_step);
       stepped.simulate(dt);
       stepped.fetchResults(true);
     }
-    return true;
   };
-  for (std::size_t i = 0; i < options.chunks; ++i) {
-    if (i % 2 == 0) {  // neither side is always the first
-      report.time("tenon", ours);
-      report.time("plain", theirs);
-    } else {
-      report.time("plain", theirs);
-      report.time("tenon", ours);
-    }
-  }
+  time_in_turns(report, options.chunks, laps);
   report.count("difference", difference(scene, *simulation, *plain));
 }
 
@@ -191,16 +125,5 @@ void time_steps(Report& report, const scene::PhysicsScene& scene, const Options&
 }  // namespace tenon::bench
 
 int main(int count, char** values) {
-  using namespace tenon;
-  using namespace tenon::bench;
-  const Options options = read_options(count, values);
-  Diagnostics diagnostics;
-  const stage::Stage stage = value_or_fail(open_stage(options.file, {}, diagnostics));
-  const scene::PhysicsScene scene = physics::read_physics(stage, {}, diagnostics);
-  Report report("step_physx");
-  time_steps(report, scene, options);
-  report.count("steps_per_lap", static_cast<double>(options.chunk));
-  report.count("bodies", static_cast<double>(scene.bodies.size()));
-  report.print();
-  return 0;
+  return tenon::bench::step_beside("step_physx", count, values, tenon::bench::time_steps);
 }
