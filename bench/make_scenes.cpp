@@ -26,6 +26,7 @@ void make_scenes(const std::filesystem::path& folder, std::size_t divisor) {
   std::filesystem::create_directories(folder);
   write(make_prim_scene(20000 / divisor, kSeed), folder / "prims.usda");
   write(make_physics_scene(10000 / divisor, kSeed), folder / "physics.usda");
+  write(make_pile_scene(200, kSeed), folder / "pile.usda");
   write(make_part_asset(), folder / "part.usda");
   write(make_fleet_scene(1000 / divisor, "./part.usda", false), folder / "fleet.usda");
   write(make_fleet_scene(1000 / divisor, "./part.usda", true), folder / "instances.usda");

@@ -333,6 +333,7 @@ def tasks(bench):
     """-> (name, function, arguments...)"""
     for work in workloads(bench):
         yield work.name, lambda name, work=work: bench.measure(work)
+    pile = os.path.join(bench.scenes, "pile.usda")
     if os.path.exists(bench.program("step_mujoco")):
         plain = ("step_mujoco", "plain MuJoCo")
         yield "step_hand", bench.measure_steps, *plain, HAND
@@ -343,8 +344,9 @@ def tasks(bench):
         plain = ("step_physx", "plain PhysX")
         yield "step_physx_hand", bench.measure_steps, *plain, HAND
         yield "step_physx_grasp", bench.measure_steps, *plain, GRASP
+        yield "step_physx_pile", bench.measure_steps, *plain, pile
     if os.path.exists(bench.program("step_jolt")):
-        yield "step_jolt_hand", bench.measure_steps, "step_jolt", "plain Jolt", HAND
+        yield "step_jolt_pile", bench.measure_steps, "step_jolt", "plain Jolt", pile
     yield from process_tasks(bench)
     yield from converters.tasks(bench, ROOT, SHARED)
 

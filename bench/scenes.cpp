@@ -230,6 +230,28 @@ layer::Layer make_physics_scene(std::size_t body_count, std::uint64_t seed) {
   return builder.finish();
 }
 
+layer::Layer make_pile_scene(std::size_t body_count, std::uint64_t seed) {
+  Random random(seed);
+  LayerBuilder builder("pile");
+  const Path world = add_world(builder);
+  builder.prim(world, "Gravity", "PhysicsScene");
+  const Path ground = builder.prim(world, "ground", "Plane");
+  builder.attribute(ground, "axis", "token", Token("Z"), Variability::Uniform);
+  builder.apply(ground, {"PhysicsCollisionAPI"});
+  for (std::size_t number = 0; number < body_count; ++number) {
+    const Path body = builder.prim(world, numbered("body", number), "Cube");
+    const auto aside = [&](std::size_t row) {
+      return 0.22 * static_cast<double>(row) + 0.02 * static_cast<double>(random.unit_float());
+    };
+    add_translate(builder, body,
+                  {{aside(number % 5), aside(number / 5 % 5),
+                    0.15 + 0.25 * static_cast<double>(number / 25)}});
+    builder.attribute(body, "size", "double", 0.2);
+    builder.apply(body, {"PhysicsRigidBodyAPI", "PhysicsCollisionAPI"});
+  }
+  return builder.finish();
+}
+
 namespace {
 
 constexpr const char* kColours[] = {"red", "green", "blue"};

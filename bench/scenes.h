@@ -19,6 +19,9 @@ layer::Layer make_prim_scene(std::size_t prim_count, std::uint64_t seed);
 /// next: revolute (half of them driven), prismatic, spherical, fixed in turn. Metres, kilograms.
 layer::Layer make_physics_scene(std::size_t body_count, std::uint64_t seed);
 
+/// Cubes of 0.2 m above a plane, 25 in a layer, not quite in rows: they fall on each other.
+layer::Layer make_pile_scene(std::size_t body_count, std::uint64_t seed);
+
 /// A small asset with a variant set, inherited classes and an internal reference: 18 composed
 /// prims.
 layer::Layer make_part_asset();

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // step_jolt FILE [--chunk STEPS] [--chunks N]: steps the asset through tenon's interface and a
-// second scene of Jolt like it through plain calls of PhysicsSystem::Update, chunk by chunk. Kept
-// for assets whose drives and kinematic bodies are not animated: the plain side sets nothing. Count
-// `difference`: largest difference of a place at the end [m]. Zero: both did the same.
+// second scene of Jolt like it through plain calls of PhysicsSystem::Update, chunk by chunk. For
+// assets without joints and without animation: the adapter readies its constraints before each
+// step, and the plain side sets nothing. Count `difference`: largest difference of a place at the
+// end [m]; the adapter notes contacts that a step begins with, so that it is not zero.
 #include "bench/step_beside.h"
 #include "tenon/engines/jolt/jolt_headers.h"
 

@@ -515,6 +515,19 @@ class Watch(Sim):
         self.assertTrue(found[0]["prim"].startswith("/link"), found)
         self.assertRegex(found[0]["message"], r"unstable at [0-9.]+ s")
 
+    def test_what_leaves_the_finite_numbers_is_exit_3_on_every_engine_with_the_log_until_then(self):
+        lost = self.write("lost.usda", BULLET.replace("(200, 0, 0)", "(1e12, 0, 0)"))
+        for engine in ("mujoco", "physx", "jolt"):
+            log = self.folder / f"{engine}.csv"
+            process = self.sim(lost, "--engine", engine, "--duration", 1, "-o", log, "--json")
+            self.assertEqual(process.returncode, 3, process.stderr)
+            answer = json.loads(process.stdout)
+            self.assertTrue(answer["unstable"])
+            found = [d for d in answer["diagnostics"] if d["rule"] == f"{engine}.unstable"]
+            self.assertEqual([d["prim"] for d in found], ["/ball"])
+            self.assertRegex(found[0]["message"], r"unstable at [0-9.]+ s")
+            self.assertEqual(len(self.rows(log.name)), answer["steps"] + 1)
+
     def test_a_ball_that_passes_a_wall_is_told(self):
         answer = self.json(self.write("bullet.usda", BULLET), "--duration", 0.1)
         found = [d for d in answer["diagnostics"] if d["rule"] == "sim.passed-through"]
