@@ -4,13 +4,15 @@
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build docs bench judge tidy clean packages test-packages judge-packages oracle engine-packages
+.PHONY: help demo test build docs bench judge tidy clean packages test-packages judge-packages oracle \
+        engine-packages wheel wheel-packages
 .DELETE_ON_ERROR:
 
 help:
 	@echo "make demo    build tenon, let the example hand grasp, say what to look at"
 	@echo "make test    build with sanitizers and run every test"
 	@echo "make build   only the program: build/release/bin/tenon; ENGINES=all: PhysX and Jolt too"
+	@echo "make wheel   the Python package with every engine: dist/tenon_usd-*.whl"
 	@echo "make docs    the reference of the C++ headers: build/docs/html"
 	@echo "make bench   measure, beside usd-core; BASE=<commit>: beside that commit"
 	@echo "make judge   the long runs, hours of them; ONLY=\"NAME...\" chooses, tools/judge.py --list"
@@ -25,6 +27,11 @@ else
 build: packages
 endif
 	@tools/quiet_build.sh release $(JOBS) all
+
+wheel: engine-packages wheel-packages
+	@cmake --preset release -DTENON_WITH_PHYSX=ON -DTENON_WITH_JOLT=ON > /dev/null
+	@tools/quiet_build.sh release $(JOBS) all
+	@JOBS=$(JOBS) tools/make_wheel.sh
 
 docs: build
 	@tools/bootstrap.sh docs
@@ -67,6 +74,9 @@ packages:
 
 engine-packages:
 	@tools/bootstrap.sh build engines
+
+wheel-packages:
+	@tools/bootstrap.sh build wheel
 
 test-packages:
 	@tools/bootstrap.sh build test

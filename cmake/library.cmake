@@ -35,3 +35,16 @@ target_include_directories(
   tenon_library
   INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>"
             "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+
+# The program over this library, for the Python package, which has the library anyway
+# (tools/make_wheel.sh).
+if(TARGET tenon_cli_parts)
+  add_executable(tenon_shared_cli EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/cli/main.cpp
+                                                   $<TARGET_OBJECTS:tenon_cli_parts>)
+  target_link_libraries(tenon_shared_cli PRIVATE tenon_flags tenon_library)
+  target_compile_definitions(tenon_shared_cli PRIVATE TENON_VERSION="${PROJECT_VERSION}")
+  set_target_properties(
+    tenon_shared_cli
+    PROPERTIES OUTPUT_NAME tenon RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/shared_bin
+               INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+endif()

@@ -4,6 +4,7 @@
 # Installs what the build needs and this machine lacks (Debian 12, Ubuntu 22.04 and later).
 #   tools/bootstrap.sh build        to build the program
 #   tools/bootstrap.sh build engines   with the engines that are built from sources
+#   tools/bootstrap.sh build wheel   to make the Python package
 #   tools/bootstrap.sh build test   to run the tests too
 #   tools/bootstrap.sh build test judge   and the long runs, some of which need clang
 #   tools/bootstrap.sh docs         to make the reference of the headers
@@ -57,10 +58,26 @@ need_for_build() {
     libeigen3-dev libqhull-dev libpugixml-dev libassimp-dev libmeshoptimizer-dev
 }
 
+# Headers of the Python that the package is built for (tools/make_wheel.sh), 3.11 or later.
+need_for_wheel() {
+  local python
+  for python in python3 python3.14 python3.13 python3.12 python3.11; do
+    if "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
+      "$python" -c 'import ensurepip, venv' 2>/dev/null || missing+=("$python-venv")
+      "$python" -c 'import os, sys, sysconfig as s
+sys.exit(not os.path.exists(os.path.join(s.get_paths()["include"], "Python.h")))' 2>/dev/null ||
+        missing+=("$python-dev")
+      return
+    fi
+  done
+  missing+=(python3-dev python3-venv)
+}
+
 need_for_engines() { need_tool cargo cargo --version; }
 
 need_for_test() {
   need_for_engines
+  need_for_wheel
   need_package libgtest-dev
   need_tool valgrind valgrind --version
   need_tool binutils readelf --version
@@ -108,11 +125,12 @@ for part in "${@:-build}"; do
   case "$part" in
     build) need_for_build ;;
     engines) need_for_engines ;;
+    wheel) need_for_wheel ;;
     test) need_for_test ;;
     judge) need_for_judge ;;
     docs) need_for_docs ;;
     *)
-      echo "bootstrap: unknown part '$part'; expected: build, engines, test, judge, docs" >&2
+      echo "bootstrap: unknown part '$part'; expected: build, engines, wheel, test, judge, docs" >&2
       exit 2
       ;;
   esac

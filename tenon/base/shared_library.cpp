@@ -56,4 +56,10 @@ std::string folder_of_this_code() {
   return file.starts_with('/') ? file.substr(0, file.rfind('/') + 1) : std::string();
 }
 
+std::string own_library(const std::string& name) {
+  const std::string folder = folder_of_this_code();
+  const std::string file = folder + "tenon/" + name;
+  return !folder.empty() && access(file.c_str(), R_OK) == 0 ? file : name;
+}
+
 }  // namespace tenon

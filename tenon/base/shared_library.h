@@ -40,4 +40,9 @@ class SharedLibrary {
 /// "" where the system cannot tell.
 std::string folder_of_this_code();
 
+/// Where an installed library keeps one of its own: the file of that name in the folder "tenon"
+/// beside this code, absolute; the name alone where there is none. By its path a library is another
+/// one than that of somebody else in the process who has the name.
+std::string own_library(const std::string& name);
+
 }  // namespace tenon

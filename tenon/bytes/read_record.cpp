@@ -67,14 +67,16 @@ std::optional<FileStamp> stamp_of(const std::string& path) {
   return stamp_from(info);
 }
 
-ReadRecord::~ReadRecord() {
-  ReadRecord* self = this;
-  installed.compare_exchange_strong(self, nullptr);
-}
+ReadRecord::~ReadRecord() { uninstall(); }
 
 ReadRecord* ReadRecord::current() { return installed.load(std::memory_order_acquire); }
 
 void ReadRecord::install() { installed.store(this, std::memory_order_release); }
+
+void ReadRecord::uninstall() {
+  ReadRecord* self = this;
+  installed.compare_exchange_strong(self, nullptr);
+}
 
 void ReadRecord::note(const std::string& path, FileStamp stamp, std::string_view contents) {
   const std::lock_guard<std::mutex> lock(mutex_);

@@ -54,6 +54,8 @@ class ReadRecord {
   static ReadRecord* current();
   /// Makes this one the current one, until it ends.
   void install();
+  /// None is from now on, where this one was.
+  void uninstall();
 
   void keep_digests() { digests_ = Digests::Yes; }
   /// `path` was opened, and `contents` are what it holds.

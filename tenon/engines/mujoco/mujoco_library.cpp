@@ -21,7 +21,7 @@ mjfConFilt* contact_filter = nullptr;
 
 const SharedLibrary& library() {
   static const SharedLibrary opened =
-      SharedLibrary::open({TENON_MUJOCO_SONAME, TENON_MUJOCO_LIBRARY});
+      SharedLibrary::open({own_library(TENON_MUJOCO_SONAME), TENON_MUJOCO_LIBRARY});
   return opened;
 }
 

@@ -46,7 +46,7 @@ class Memory final : public px::PxAllocatorCallback {
 
 const SharedLibrary& physx_file() {
   static const SharedLibrary opened =
-      SharedLibrary::open({TENON_PHYSX_SONAME, TENON_PHYSX_LIBRARY});
+      SharedLibrary::open({own_library(TENON_PHYSX_SONAME), TENON_PHYSX_LIBRARY});
   return opened;
 }
 

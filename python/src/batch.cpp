@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "batch.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "tenon/asset/physics_options.h"
+#include "tenon/asset/simulating/engine_choice.h"
+#include "tenon/base/limits/engine_limits.h"
+#include "tenon/make_simulation.h"
+#include "tenon/physics/read_physics.h"
+
+namespace tenon::python {
+namespace {
+
+/// A drive that pushes away from its target is nothing to simulate.
+Result<void> check_drives(const Diagnostics& found) {
+  for (const Diagnostic& finding : found) {
+    if (finding.rule == "drive.negative-gain") {
+      return Error(ErrorCode::Invalid, finding);
+    }
+  }
+  return {};
+}
+
+bool needs_models(const std::vector<Variation>& variations) {
+  return std::any_of(variations.begin(), variations.end(), [](const Variation& variation) {
+    return variation.place == VariationPlace::Field;
+  });
+}
+
+/// One model for each environment, of a scene of its own.
+Result<engines::Environments> make_each(Batch& batch, const BatchOptions& options) {
+  std::vector<engines::World> worlds;
+  for (std::size_t i = 0; i < options.count; ++i) {
+    auto own = std::make_unique<scene::PhysicsScene>(*batch.scene);
+    for (std::size_t v = 0; v < batch.variations.size(); ++v) {
+      if (batch.variations[v].place == VariationPlace::Field) {
+        TENON_CHECK(vary_scene(batch.variations[v], batch.drawn[i][v].front(), *own));
+      }
+    }
+    Diagnostics again;  // what there is to say the first one says
+    TENON_TRY(engines::World world, make_world(batch.engine, *own, options.simulation,
+                                               i == 0 ? batch.diagnostics : again));
+    batch.own_scenes.push_back(std::move(own));
+    worlds.push_back(std::move(world));
+  }
+  return engines::Environments::of_worlds(std::move(worlds), *batch.scene, options.threads);
+}
+
+Result<engines::Environments> make_all(Batch& batch, const BatchOptions& options) {
+  if (needs_models(batch.variations)) {
+    return make_each(batch, options);
+  }
+  return make_environments(
+      batch.engine, *batch.scene,
+      {.count = options.count, .threads = options.threads, .simulation = options.simulation},
+      batch.diagnostics);
+}
+
+Result<void> draw_all(Batch& batch, const BatchOptions& options) {
+  if (options.count == 0 || options.count > limits::kEnvironments) {
+    return Error(ErrorCode::Limit, std::to_string(options.count) +
+                                       " environments are not between 1 and " +
+                                       std::to_string(limits::kEnvironments))
+        .with_rule("engine.environments");
+  }
+  for (const std::string& text : options.variations) {
+    TENON_TRY(Variation variation, read_variation(text));
+    batch.variations.push_back(std::move(variation));
+  }
+  batch.drawn.resize(options.count);
+  for (std::size_t i = 0; i < options.count; ++i) {
+    for (std::size_t v = 0; v < batch.variations.size(); ++v) {
+      batch.drawn[i].push_back(tenon::drawn(batch.variations[v], options.seed, i, v));
+    }
+  }
+  return {};
+}
+
+void list_coordinates(Batch& batch) {
+  for (scene::Index j = 0; j < batch.scene->joints.size(); ++j) {
+    const std::size_t count = batch.world(0).joint_state(j).position.size();
+    for (std::size_t part = 0; part < count; ++part) {
+      batch.coordinates.push_back({j, part});
+    }
+    for (std::size_t drive = 0; drive < batch.scene->joints[j].drives.size(); ++drive) {
+      batch.drives.push_back({j, drive});
+    }
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Batch>> Batch::make(const std::string& path, const OpenOptions& open,
+                                           const physics::Readings& readings,
+                                           const BatchOptions& options) {
+  auto batch = std::make_unique<Batch>();
+  batch->path = path;
+  batch->open = with_readings(open, readings);
+  TENON_TRY(stage::Stage stage, open_stage(path, batch->open, batch->diagnostics));
+  batch->stage = std::make_unique<stage::Stage>(std::move(stage));
+  batch->scene = std::make_unique<scene::PhysicsScene>(
+      physics::read_physics(*batch->stage, read_options(readings), batch->diagnostics));
+  TENON_CHECK(check_drives(batch->diagnostics));
+  batch->engine = choose_engine(options.engine, *batch->stage, batch->diagnostics);
+  batch->engine_version = engine_info(batch->engine).version;
+  TENON_CHECK(draw_all(*batch, options));
+  TENON_TRY(batch->environments, make_all(*batch, options));
+  list_coordinates(*batch);
+  for (std::size_t i = 0; i < batch->size(); ++i) {
+    TENON_CHECK(batch->vary(i));
+  }
+  return batch;
+}
+
+Result<void> Batch::vary(std::size_t i) {
+  for (std::size_t v = 0; v < variations.size(); ++v) {
+    TENON_CHECK(vary_world(variations[v], drawn[i][v], *scene, world(i)));
+  }
+  return {};
+}
+
+Result<void> Batch::reset(std::size_t i) {
+  TENON_CHECK(environments->reset(i));
+  return vary(i);
+}
+
+}  // namespace tenon::python

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+
+#include "tenon/asset/many_environments/variation.h"
+#include "tenon/base/diagnostics.h"
+#include "tenon/engines/environments.h"
+#include "tenon/open_stage.h"
+#include "tenon/physics/readings.h"
+#include "tenon/scene/physics_scene.h"
+#include "tenon/stage/stage.h"
+
+namespace tenon::python {
+
+/// How many environments are made.
+struct BatchOptions {
+  std::string engine;  ///< empty: as choose_engine() decides
+  std::size_t count = 1;
+  std::size_t threads = 0;  ///< 0: as many as this process may use
+  std::uint64_t seed = 0;   ///< of what variations draw
+  std::vector<std::string> variations;
+  engines::SimulationOptions simulation{};
+};
+
+/// One coordinate of a joint.
+struct Coordinate {
+  scene::Index joint = 0;
+  std::size_t part = 0;  ///< of the joint's coordinates
+};
+
+/// Environments of one asset with all that they are made of. Whoever calls holds `mutex`, and not
+/// the interpreter.
+class Batch {
+ public:
+  static Result<std::unique_ptr<Batch>> make(const std::string& path, const OpenOptions& open,
+                                             const physics::Readings& readings,
+                                             const BatchOptions& options);
+
+  std::size_t size() const { return environments->size(); }
+  engines::World& world(std::size_t i) { return (*environments)[i]; }
+  Result<void> reset(std::size_t i);
+
+  std::mutex mutex;
+  Diagnostics diagnostics;
+  std::string engine;
+  std::string engine_version;
+  std::unique_ptr<stage::Stage> stage;
+  OpenOptions open;
+  std::string path;
+  std::unique_ptr<scene::PhysicsScene> scene;
+  std::vector<std::unique_ptr<scene::PhysicsScene>> own_scenes;  ///< of varied fields
+  std::optional<engines::Environments> environments;
+  std::vector<Coordinate> coordinates;  ///< (coordinate_count)
+  std::vector<Coordinate> drives;       ///< (drive_count), parts into Joint::drives
+  std::vector<Variation> variations;
+  std::vector<std::vector<std::vector<double>>> drawn;  ///< (size, variation_count, ...)
+
+ private:
+  Result<void> vary(std::size_t i);
+};
+
+void bind_batch(nanobind::module_& module);
+
+}  // namespace tenon::python

@@ -1,0 +1,475 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Stages and prims of Python. A prim is a stage and a path that is looked up each time, so that it
+// may be kept for as long as one likes, edits included; what is asked of a prim that is gone
+// raises.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "failure.h"
+#include "guarded_write.h"
+#include "json.h"
+#include "opened_stage.h"
+#include "options.h"
+#include "physics.h"
+#include "stage_answers.h"
+#include "values.h"
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "tenon/formats/save_layer.h"
+#include "tenon/stage/flatten/flatten.h"
+
+namespace tenon::python {
+namespace {
+
+using StagePtr = std::shared_ptr<OpenedStage>;
+using namespace nb::literals;
+
+stage::Time time_of(std::optional<double> time) {
+  return time ? stage::Time(*time) : stage::Time();
+}
+
+Path path_of(const std::string& written) { return or_raise(Path::parse(written)); }
+
+/// A prim as Python holds it.
+struct PrimOf {
+  StagePtr stage;
+  Path path;
+
+  bool operator==(const PrimOf&) const = default;
+};
+
+/// Calls with the prim; raises where it is not there any more.
+template <class Call>
+auto with_prim(const PrimOf& prim, const Call& call) {
+  const auto stage = prim.stage->access();
+  const stage::Prim found = stage->prim(prim.path);
+  if (!found) {
+    raise(Error(ErrorCode::NotFound, "there is no prim <" + prim.path.str() + ">")
+              .with_rule("edit.no-prim"));
+  }
+  return call(found);
+}
+
+PrimOf prim_of(const StagePtr& stage, const std::string& written) {
+  PrimOf prim{stage, path_of(written)};
+  with_prim(prim, [](const stage::Prim&) {});
+  return prim;
+}
+
+nb::list paths_of(const std::vector<Path>& paths) {
+  nb::list result;
+  for (const Path& path : paths) {
+    result.append(text(path.str()));
+  }
+  return result;
+}
+
+template <class Names>
+nb::list words_of(const Names& names) {
+  nb::list result;
+  for (const auto& name : names) {
+    if constexpr (requires { name.str(); }) {
+      result.append(text(name.str()));
+    } else {
+      result.append(text(name));
+    }
+  }
+  return result;
+}
+
+/// The value of an attribute at a time; of a relationship its targets.
+nb::object value_of(const PrimOf& prim, const std::string& name, std::optional<double> time) {
+  return with_prim(prim, [&](const stage::Prim& found) -> nb::object {
+    if (found.is_relationship(name)) {
+      return paths_of(found.relationship(name).targets());
+    }
+    const stage::Attribute attribute = found.attribute(name);
+    if (!attribute.is_defined()) {
+      raise(Error(ErrorCode::NotFound, "<" + prim.path.str() + "> has no property \"" + name + "\"")
+                .with_prim(prim.path.str())
+                .with_rule("edit.no-property"));
+    }
+    return to_python(attribute.get(time_of(time)));
+  });
+}
+
+nb::list edited(OpenedStage& stage, const std::vector<AssetEdit>& edits) {
+  const auto access = stage.access();
+  Diagnostics found;
+  auto places = or_raise(unlocked([&] { return stage.edit(edits, found); }), found);
+  nb::list rows;
+  for (const EditedPlace& place : places) {
+    nb::dict row;
+    row["file"] = text(place.file);
+    row["line"] = place.line;
+    row["spec"] = text(place.spec.str());
+    row["why"] = message(place.why);
+    row["before"] = text(place.before);
+    row["after"] = text(place.after);
+    row["variants"] = words_of(place.variants);
+    rows.append(row);
+  }
+  return rows;
+}
+
+/// A value of Python as text layers write it.
+std::string as_text(const char* function, const nb::object& value) {
+  return nb::cast<std::string>(nb::module_::import_("tenon_usd.text").attr(function)(value));
+}
+
+nb::list set_value(const PrimOf& prim, const std::string& name, const nb::object& value,
+                   const std::string& engine, const std::string& layer) {
+  const bool targets =
+      with_prim(prim, [&](const stage::Prim& found) { return found.is_relationship(name); });
+  AssetEdit edit;
+  edit.kind = AssetEdit::Kind::SetProperty;
+  edit.object = prim.path.property(name);
+  edit.value = as_text(targets ? "as_targets" : "as_text", value);
+  edit.engine = engine;
+  edit.layer = layer;
+  return edited(*prim.stage, {edit});
+}
+
+nb::list edit_api(const PrimOf& prim, const std::string& schema, AssetEdit::Kind kind) {
+  AssetEdit edit;
+  edit.kind = kind;
+  edit.object = prim.path;
+  edit.api = schema;
+  return edited(*prim.stage, {edit});
+}
+
+PrimOf define_prim(const StagePtr& stage, const std::string& path, const std::string& type) {
+  AssetEdit edit;
+  edit.kind = AssetEdit::Kind::DefinePrim;
+  edit.object = path_of(path);
+  edit.type_name = type;
+  edited(*stage, {edit});
+  return {stage, edit.object};
+}
+
+void remove_prim(const PrimOf& prim) {
+  AssetEdit edit;
+  edit.kind = AssetEdit::Kind::RemovePrim;
+  edit.object = prim.path;
+  edited(*prim.stage, {edit});
+}
+
+nb::list saved(OpenedStage& stage) {
+  const auto access = stage.access();
+  const auto files = or_raise(unlocked([&] { return stage.save(); }));
+  nb::list names;
+  for (const EditedFile& file : files) {
+    names.append(text(file.path));
+  }
+  return names;
+}
+
+nb::object flattened(OpenedStage& stage, const std::optional<std::filesystem::path>& output) {
+  const auto access = stage.access();
+  if (!output) {
+    return text(or_raise(unlocked([&] {
+      return formats::encode_layer(stage::flatten(*access), formats::LayerFormat::Text);
+    })));
+  }
+  or_raise(unlocked([&]() -> Result<void> {
+    TENON_TRY(const auto format, formats::layer_format_for(output->string()));
+    TENON_TRY(std::string bytes, formats::encode_layer(stage::flatten(*access), format));
+    GuardedRun guard;
+    guard.note(*access);
+    return write_made({{output->string(), std::move(bytes)}});
+  }));
+  return nb::none();
+}
+
+nb::list children_of(const PrimOf& prim) {
+  return with_prim(prim, [&](const stage::Prim& found) {
+    nb::list children;
+    for (const stage::Prim& child : found.children()) {
+      children.append(nb::cast(PrimOf{prim.stage, child.path()}));
+    }
+    return children;
+  });
+}
+
+/// Depth first, the prim itself first.
+nb::list walk(const PrimOf& top) {
+  return with_prim(top, [&](const stage::Prim& found) {
+    nb::list walked;
+    std::vector<stage::Prim> open{found};
+    while (!open.empty()) {
+      const stage::Prim prim = open.back();
+      open.pop_back();
+      if (!prim.is_pseudo_root()) {
+        walked.append(nb::cast(PrimOf{top.stage, prim.path()}));
+      }
+      const std::vector<stage::Prim> children = prim.children();
+      open.insert(open.end(), children.rbegin(), children.rend());
+    }
+    return walked;
+  });
+}
+
+void bind_prim_values(nb::class_<PrimOf>& prim) {
+  prim.def("get", &value_of, "name"_a, "time"_a = nb::none(),
+           "The resolved value of an attribute at a time code (the default time where none is "
+           "given), in the units of the stage: numbers, str, tuples of vectors, quaternions as "
+           "(w, x, y, z), matrices as tuples of rows, arrays of numbers as read-only NumPy views "
+           "(count, ...) without a copy; None where there is no value. Of a relationship: its "
+           "targets, a list of paths. Raises NotFoundError for an unknown name.");
+  prim.def(
+      "__getitem__",
+      [](const PrimOf& self, const std::string& name) { return value_of(self, name, {}); },
+      "name"_a, "The same at the default time, in the units of the stage.");
+  prim.def("set", &set_value, "name"_a, "value"_a, nb::kw_only(), "engine"_a = "", "layer"_a = "",
+           "Sets a property in the file that owns it, in memory until save(): a value in the units "
+           "of the stage, with the types of get(); None blocks it; of a relationship a list of "
+           "paths. `engine` (\"physx\", \"mujoco\") or `layer` name another file. Returns where it "
+           "went: a list of {\"file\", \"line\", \"spec\", \"why\", \"before\", \"after\", "
+           "\"variants\"}.");
+  prim.def(
+      "__setitem__",
+      [](const PrimOf& self, const std::string& name, const nb::object& value) {
+        set_value(self, name, value, "", "");
+      },
+      "name"_a, "value"_a, "The same, in the file that owns the property.");
+  prim.def(
+      "clear",
+      [](const PrimOf& self, const std::string& name) {
+        AssetEdit edit;
+        edit.kind = AssetEdit::Kind::ClearProperty;
+        edit.object = self.path.property(name);
+        return edited(*self.stage, {edit});
+      },
+      "name"_a, "Takes the strongest opinion about a property away. Returns what set() returns.");
+  prim.def(
+      "apply",
+      [](const PrimOf& self, const std::string& schema) {
+        return edit_api(self, schema, AssetEdit::Kind::ApplyApi);
+      },
+      "schema"_a,
+      "Applies an API schema: \"PhysicsMassAPI\", \"PhysicsDriveAPI:angular\". Returns what set() "
+      "returns.");
+  prim.def(
+      "unapply",
+      [](const PrimOf& self, const std::string& schema) {
+        return edit_api(self, schema, AssetEdit::Kind::RemoveApi);
+      },
+      "schema"_a, "Takes an API schema away. Returns what set() returns.");
+  prim.def("remove", &remove_prim, "Takes the prim away from all files of the asset.");
+}
+
+void bind_prim(nb::module_& module) {
+  nb::class_<PrimOf> prim(module, "Prim",
+                          "A prim of a composed stage, looked up by its path at each call.");
+  prim.def_prop_ro(
+      "path", [](const PrimOf& self) { return text(self.path.str()); },
+      "Absolute path: \"/hand/palm\".");
+  prim.def_prop_ro(
+      "name", [](const PrimOf& self) { return text(self.path.name().str()); },
+      "Last element of the path.");
+  prim.def_prop_ro(
+      "type_name",
+      [](const PrimOf& self) {
+        return with_prim(self, [](const stage::Prim& p) { return text(p.type_name().str()); });
+      },
+      "\"Xform\", \"PhysicsRevoluteJoint\"; empty where it has none.");
+  prim.def_prop_ro(
+      "stage", [](const PrimOf& self) { return self.stage; }, "The stage that it is of.");
+  prim.def_prop_ro(
+      "exists",
+      [](const PrimOf& self) {
+        const auto stage = self.stage->access();
+        return stage->prim(self.path).is_valid();
+      },
+      "False once it was removed.");
+  prim.def_prop_ro(
+      "parent",
+      [](const PrimOf& self) -> std::optional<PrimOf> {
+        const Path parent = self.path.parent();
+        return parent.is_prim() ? std::optional(PrimOf{self.stage, parent}) : std::nullopt;
+      },
+      "The prim above; None for those at the top.");
+  prim.def_prop_ro("children", &children_of, nb::sig("def children(self) -> list[Prim]"),
+                   "Prims right below, in order, also inactive ones and those in instances.");
+  prim.def("walk", &walk, nb::sig("def walk(self) -> list[Prim]"),
+           "This prim and all below it, depth first.");
+  prim.def_prop_ro(
+      "properties",
+      [](const PrimOf& self) {
+        return with_prim(self, [](const stage::Prim& p) { return words_of(p.property_names()); });
+      },
+      nb::sig("def properties(self) -> list[str]"), "Names, those that schemas declare included.");
+  prim.def_prop_ro(
+      "authored",
+      [](const PrimOf& self) {
+        return with_prim(
+            self, [](const stage::Prim& p) { return words_of(p.authored_property_names()); });
+      },
+      nb::sig("def authored(self) -> list[str]"), "Names of properties that layers author.");
+  prim.def_prop_ro(
+      "apis",
+      [](const PrimOf& self) {
+        return with_prim(self,
+                         [](const stage::Prim& p) { return words_of(p.authored_api_schemas()); });
+      },
+      nb::sig("def apis(self) -> list[str]"), "API schemas that are applied.");
+  prim.def_prop_ro(
+      "variants",
+      [](const PrimOf& self) {
+        return with_prim(self, [](const stage::Prim& p) {
+          nb::dict sets;
+          for (const std::string& set : p.variant_set_names()) {
+            sets[text(set)] =
+                nb::make_tuple(text(p.variant_selection(set)), words_of(p.variant_names(set)));
+          }
+          return sets;
+        });
+      },
+      nb::sig("def variants(self) -> dict[str, tuple[str, list[str]]]"),
+      "By variant set: the selection and what there is.");
+  prim.def(
+      "is_a",
+      [](const PrimOf& self, const std::string& type) {
+        return with_prim(self, [&](const stage::Prim& p) { return p.is_a(type); });
+      },
+      "type"_a, "Its type is this one or derived from it: \"PhysicsJoint\".");
+  prim.def(
+      "has_api",
+      [](const PrimOf& self, const std::string& schema) {
+        return with_prim(self, [&](const stage::Prim& p) { return p.has_api(schema); });
+      },
+      "schema"_a, "The API schema is applied: \"PhysicsRigidBodyAPI\".");
+  prim.def(
+      "metadata",
+      [](const PrimOf& self, const std::string& field) {
+        return with_prim(self, [&](const stage::Prim& p) { return to_python(p.metadata(field)); });
+      },
+      "field"_a, "Composed metadata: \"kind\", \"documentation\"; None where nothing is said.");
+  prim.def(
+      "times",
+      [](const PrimOf& self, const std::string& name) {
+        return with_prim(self, [&](const stage::Prim& p) {
+          nb::list times;
+          for (const double time : p.attribute(name).time_samples()) {
+            times.append(time);
+          }
+          return times;
+        });
+      },
+      nb::sig("def times(self, name: str) -> list[float]"),
+      "Times of the samples of an attribute [time codes].");
+  prim.def("__repr__",
+           [](const PrimOf& self) { return message("<Prim " + self.path.str() + ">"); });
+  prim.def("__eq__", [](const PrimOf& self, const nb::object& other) {
+    return nb::isinstance<PrimOf>(other) && nb::cast<const PrimOf&>(other) == self;
+  });
+  prim.def("__hash__", [](const PrimOf& self) { return std::hash<Path>()(self.path); });
+  bind_prim_values(prim);
+}
+
+void bind_stage_edits(nb::class_<OpenedStage>& stage) {
+  stage.def("define", &define_prim, "path"_a, "type_name"_a = "Xform",
+            "Makes a prim of a type below one that is there, in memory until save().");
+  stage.def(
+      "undo",
+      [](OpenedStage& self) {
+        const auto access = self.access();
+        return or_raise(unlocked([&] { return self.undo(); }));
+      },
+      "Takes the last edit back; False where there is none since the last save().");
+  stage.def(
+      "redo",
+      [](OpenedStage& self) {
+        const auto access = self.access();
+        return or_raise(unlocked([&] { return self.redo(); }));
+      },
+      "Does again what undo() took back; False where there is nothing.");
+  stage.def("save", &saved, nb::sig("def save(self) -> list[str]"),
+            "Writes the files that edits changed, all or none; their names. Comments and layout of "
+            "text layers stay.");
+  stage.def("flatten", &flattened, "path"_a = nb::none(),
+            nb::sig("def flatten(self, path: str | os.PathLike[str] | None = None) -> str | None"),
+            "The whole scene as one layer without composition: its text, or written to a file "
+            "(.usda, .usdc, .usd, .usdz), which is none of those that were read.");
+}
+
+void bind_stage_facts(nb::class_<OpenedStage>& stage) {
+  stage.def_prop_ro(
+      "path", [](const OpenedStage& self) { return text(self.path()); },
+      "The file that was opened.");
+  stage.def_prop_ro(
+      "diagnostics", [](const OpenedStage& self) { return to_list(self.diagnostics()); },
+      nb::sig("def diagnostics(self) -> list[Diagnostic]"),
+      "What opening found: missing references, values of wrong types.");
+  stage.def("prim", &prim_of, "path"_a,
+            "The prim at an absolute path. Raises NotFoundError where there is none.");
+  stage.def("__getitem__", &prim_of, "path"_a, "The same: stage[\"/hand/palm\"].");
+  stage.def(
+      "__contains__",
+      [](OpenedStage& self, const std::string& path) {
+        const auto access = self.access();
+        const Result<Path> parsed = Path::parse(path);
+        return parsed && access->prim(*parsed).is_valid();
+      },
+      "path"_a, "Whether there is a prim at the path.");
+  stage.def_prop_ro(
+      "default_prim",
+      [](const StagePtr& self) -> std::optional<PrimOf> {
+        const auto access = self->access();
+        const stage::Prim prim = access->default_prim();
+        return prim ? std::optional(PrimOf{self, prim.path()}) : std::nullopt;
+      },
+      "The default prim; None where there is none.");
+  stage.def_prop_ro(
+      "prims", [](const StagePtr& self) { return walk({self, Path::absolute_root()}); },
+      nb::sig("def prims(self) -> list[Prim]"), "All prims, depth first.");
+  stage.def(
+      "metadata",
+      [](OpenedStage& self, const std::string& field) {
+        const auto access = self.access();
+        return to_python(access->metadata(field));
+      },
+      "field"_a, "Metadata of the stage: \"metersPerUnit\" [m], \"upAxis\".");
+  stage.def_prop_ro(
+      "layers",
+      [](OpenedStage& self) {
+        const auto access = self.access();
+        nb::list names;
+        for (const layer::LayerPtr& layer : access->used_layers()) {
+          names.append(text(layer->identifier()));
+        }
+        return names;
+      },
+      nb::sig("def layers(self) -> list[str]"), "Files that were opened, sorted.");
+  stage.def("__repr__",
+            [](const OpenedStage& self) { return message("<Stage " + self.path() + ">"); });
+}
+
+StagePtr open(const std::filesystem::path& path, const OpenArguments& arguments) {
+  return OpenedStage::open(path.string(), arguments.open, readings_of(arguments));
+}
+
+}  // namespace
+
+void bind_stage(nb::module_& module) {
+  nb::class_<OpenedStage> stage(module, "Stage",
+                                "A composed asset, made by open(). Prims and values are in the "
+                                "units of the stage; physics is in SI and radians.");
+  bind_prim(module);
+  bind_stage_facts(stage);
+  bind_stage_edits(stage);
+  bind_stage_answers(stage);
+  module.def("open_stage", &open, "path"_a, "arguments"_a,
+             "Opens and composes an asset. tenon_usd.open() is the way in.");
+}
+
+}  // namespace tenon::python

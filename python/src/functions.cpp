@@ -1,0 +1,322 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The verbs on files. Each reads with the interpreter let go, gives the answer as values, and
+// writes behind the guard of guarded_write.h, so that no output goes over a file that was read.
+#include "functions.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "failure.h"
+#include "guarded_write.h"
+#include "json.h"
+#include "options.h"
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "tenon/asset/answers/parts_json.h"
+#include "tenon/asset/answers/structured_json.h"
+#include "tenon/asset/authoring/author_asset.h"
+#include "tenon/asset/checking/check_assets.h"
+#include "tenon/asset/checking/checked_json.h"
+#include "tenon/asset/comparing/compare_files.h"
+#include "tenon/asset/comparing_engines/compare_engines.h"
+#include "tenon/asset/comparing_engines/compared_engines_json.h"
+#include "tenon/asset/convert_file.h"
+#include "tenon/asset/converting/converted_json.h"
+#include "tenon/asset/converting/describe_asset.h"
+#include "tenon/asset/converting/read_gains.h"
+#include "tenon/asset/converting/robot_files.h"
+#include "tenon/asset/layers/output_place.h"
+#include "tenon/asset/structure_asset.h"
+#include "tenon/check/rule.h"
+#include "tenon/guard/worker_place.h"
+#include "tenon/make_simulation.h"
+#include "tenon/structure/written_note.h"
+
+namespace tenon::python {
+namespace {
+
+using namespace nb::literals;
+using answers::Json;
+using Files = std::vector<std::filesystem::path>;
+
+/// An answer with what was found on the way, as "diagnostics".
+nb::object answered(const Json& json, const Diagnostics& found) {
+  nb::object answer = to_python(json);
+  answer["diagnostics"] = to_list(found);
+  return answer;
+}
+
+nb::object check(const Files& paths, const OpenArguments& arguments, const std::string& profile,
+                 bool fix) {
+  CheckAssetsOptions options;
+  options.check.open = open_options_of(arguments);
+  options.check.readings = readings_of(arguments);
+  options.check.profile = profile;
+  options.correct = fix;
+  if (fix) {
+    options.write = [](const std::vector<EditedFile>& files) { return write_files(files); };
+  }
+  std::vector<std::string> names;
+  for (const std::filesystem::path& path : paths) {
+    names.push_back(path.string());
+  }
+  return to_python(or_raise(unlocked([&]() -> Result<Json> {
+    TENON_TRY(const CheckedAssets checked, check_assets(names, options));
+    return checked_json(checked, fix ? "corrected" : "");
+  })));
+}
+
+nb::object diff(const std::filesystem::path& before, const std::filesystem::path& after,
+                const OpenArguments& arguments, const std::string& mode, double tolerance) {
+  CompareOptions options;
+  options.open = open_options_of(arguments);
+  options.tolerance = tolerance;
+  options.mode = mode == "physics"    ? CompareMode::Physics
+                 : mode == "composed" ? CompareMode::Composed
+                                      : CompareMode::Files;
+  Diagnostics found;
+  const Json json =
+      or_raise(unlocked([&]() -> Result<Json> {
+                 TENON_TRY(const ComparedFiles compared,
+                           compare_files(before.string(), after.string(), options, found));
+                 return compared_json(before.string(), after.string(), compared);
+               }),
+               found);
+  return answered(json, found);
+}
+
+nb::object compare(const std::filesystem::path& path, const OpenArguments& arguments,
+                   const std::vector<std::string>& engines, std::optional<double> duration,
+                   double time_step, double frames, std::size_t trials,
+                   const std::filesystem::path& commands, const std::string& bounds) {
+  CompareEnginesOptions options;
+  options.open = open_options_of(arguments);
+  options.readings = readings_of(arguments);
+  options.engines = engines;
+  options.duration = duration;
+  options.time_step = time_step;
+  options.frames_per_second = frames;
+  options.trials = trials;
+  options.commands = commands.string();
+  if (!bounds.empty()) {
+    options.bounds = or_raise(gap_bounds(bounds));
+  }
+  Diagnostics found;
+  const Json json = or_raise(unlocked([&]() -> Result<Json> {
+                               TENON_TRY(const ComparedEngines compared,
+                                         compare_engines(path.string(), options, found));
+                               return compared_engines_json(compared, true);
+                             }),
+                             found);
+  return answered(json, found);
+}
+
+/// How a robot's description is to be read, as tenon_usd hands it over.
+ConvertFileOptions convert_options(const OpenArguments& arguments, const std::string& name,
+                                   const std::string& gains, bool fix_base, bool float_base,
+                                   bool merge_fixed, bool scene,
+                                   const std::map<std::string, std::string>& packages) {
+  ConvertFileOptions options;
+  options.open = arguments.open;
+  options.name = name;
+  options.packages = packages;
+  options.robot.fix_base = fix_base;
+  options.robot.float_base = float_base;
+  options.robot.merge_fixed = merge_fixed;
+  options.robot.scene = scene;
+  if (!gains.empty()) {
+    or_raise(read_gains(gains, options.open.files, options.robot));
+  }
+  return options;
+}
+
+/// What was edited since it was written stays, unless it is forced.
+Result<void> write_noted(const NotedFiles& made, const std::string& output, bool force) {
+  if (!force) {
+    TENON_CHECK(structure::check_not_edited(output, made.beside));
+  }
+  return write_made(made.files);
+}
+
+/// A description as an asset: a folder of Asset Structure 3.0, or a file.
+Result<Json> import_robot(const std::string& input, const std::string& output,
+                          const ConvertFileOptions& options, bool force, Diagnostics& found) {
+  GuardedRun guard;
+  const bool folder = names_folder(output);
+  TENON_CHECK(folder  ? structure::check_folder(output, {.force = force})
+              : force ? Result<void>()
+                      : structure::check_not_edited(output));
+  TENON_TRY(ConvertedFile converted, convert_file(input, options, found));
+  const RobotCounts counts = counts_of(converted);
+  if (folder) {
+    TENON_TRY(const structure::StructuredAsset asset, structured_robot(converted, found));
+    TENON_CHECK(structure::write_package(asset.package, output, {.force = force}));
+  } else {
+    TENON_TRY(const NotedFiles made, robot_files(std::move(converted), output, found));
+    TENON_CHECK(write_noted(made, output, force));
+  }
+  return converted_json(counts, output);
+}
+
+/// An asset as a description: MJCF or URDF.
+Result<Json> export_robot(const std::string& input, const std::string& output,
+                          const OpenOptions& open, bool force, Diagnostics& found) {
+  GuardedRun guard;
+  TENON_CHECK(force ? Result<void>() : structure::check_not_edited(output));
+  const DescriptionFormat format =
+      output.ends_with(".urdf") ? DescriptionFormat::Urdf : DescriptionFormat::Mjcf;
+  TENON_TRY(const AssetDescription description, describe_asset(input, open, format, output, found));
+  TENON_CHECK(write_noted(description.made, output, force));
+  return description_json(description, output);
+}
+
+bool is_asset(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) {
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  }
+  return ending == ".usd" || ending == ".usda" || ending == ".usdc" || ending == ".usdz";
+}
+
+nb::object convert(const std::filesystem::path& input, const std::filesystem::path& output,
+                   const OpenArguments& arguments, const std::string& name,
+                   const std::string& gains, bool fix_base, bool float_base, bool merge_fixed,
+                   bool scene, const std::map<std::string, std::string>& packages, bool force) {
+  const ConvertFileOptions options =
+      convert_options(arguments, name, gains, fix_base, float_base, merge_fixed, scene, packages);
+  Diagnostics found;
+  const Json json = or_raise(
+      unlocked([&] {
+        return is_asset(input)
+                   ? export_robot(input.string(), output.string(), options.open, force, found)
+                   : import_robot(input.string(), output.string(), options, force, found);
+      }),
+      found);
+  return answered(json, found);
+}
+
+nb::object structure(const std::filesystem::path& path, const std::filesystem::path& folder,
+                     const OpenArguments& arguments, const std::string& name, bool force,
+                     const std::vector<std::string>& engines) {
+  structure::StructureOptions options;
+  options.name = name;
+  options.engines = engines;
+  Diagnostics found;
+  const Json json = or_raise(
+      unlocked([&]() -> Result<Json> {
+        GuardedRun guard;
+        if (!folder.empty()) {
+          TENON_CHECK(structure::check_folder(folder.string(), {.force = force}));
+        }
+        TENON_TRY(const structure::StructuredAsset asset,
+                  structure_asset(path.string(), open_options_of(arguments), options, found));
+        if (!folder.empty()) {
+          TENON_CHECK(structure::write_package(asset.package, folder.string(), {.force = force}));
+        }
+        return structured_json(asset);
+      }),
+      found);
+  return answered(json, found);
+}
+
+void make_new(const std::filesystem::path& path, const std::string& up_axis, double meters_per_unit,
+              double kilograms_per_unit, const std::string& prim) {
+  or_raise(unlocked([&]() -> Result<void> {
+    if (bytes::stamp_of(path.string())) {
+      return Error(ErrorCode::Io, "there is a file of that name")
+          .in_file(path.string())
+          .with_rule("file.exists")
+          .with_fix("choose another name, or remove the file");
+    }
+    TENON_TRY(MadeFile made, new_asset(path.string(), {.up_axis = up_axis,
+                                                       .meters_per_unit = meters_per_unit,
+                                                       .kilograms_per_unit = kilograms_per_unit,
+                                                       .default_prim = prim}));
+    return write_made({std::move(made)});
+  }));
+}
+
+/// A file, and others whose names are relative to it.
+void write_files_beside(const std::filesystem::path& path, const nb::bytes& contents,
+                        const nb::dict& beside) {
+  MadeFiles files;
+  for (const auto& [name, bytes] : beside) {
+    const auto held = nb::cast<nb::bytes>(bytes);
+    files.push_back({(path.parent_path() / nb::cast<std::string>(name)).string(),
+                     std::string(held.c_str(), held.size())});
+  }
+  files.push_back({path.string(), std::string(contents.c_str(), contents.size())});
+  or_raise(unlocked([&] { return write_made(files); }));
+}
+
+nb::list engines() {
+  nb::list rows;
+  for (const engines::EngineInfo& engine : unlocked([] { return list_engines(); })) {
+    nb::dict row;
+    row["name"] = engine.name.c_str();
+    row["version"] = engine.version.c_str();
+    row["available"] = engine.available;
+    row["how_to_get"] = engine.how_to_get.c_str();
+    rows.append(row);
+  }
+  return rows;
+}
+
+void bind_checks(nb::module_& module) {
+  module.def("check", &check, "paths"_a, "arguments"_a, "profile"_a, "fix"_a,
+             nb::sig("def check(paths: Sequence[str | os.PathLike[str]], arguments: "
+                     "OpenArguments, profile: str, fix: bool) -> dict[str, Any]"));
+  module.def(
+      "rules", [] { return to_python(rules_json()); }, nb::sig("def rules() -> dict[str, Any]"));
+  module.def(
+      "rule_page", [](const std::string& rule) { return message(check::page_of(rule)); }, "rule"_a);
+  module.def("diff", &diff, "before"_a, "after"_a, "arguments"_a, "mode"_a, "tolerance"_a,
+             nb::sig("def diff(before: str | os.PathLike[str], after: str | os.PathLike[str], "
+                     "arguments: OpenArguments, mode: str, tolerance: float) -> dict[str, Any]"));
+  module.def("compare", &compare, "path"_a, "arguments"_a, "engines"_a, "duration"_a.none(),
+             "time_step"_a, "frames"_a, "trials"_a, "commands"_a, "bounds"_a,
+             nb::sig("def compare(path: str | os.PathLike[str], arguments: OpenArguments, "
+                     "engines: Sequence[str], duration: float | None, time_step: float, "
+                     "frames: float, trials: int, commands: str | os.PathLike[str], "
+                     "bounds: str) -> dict[str, Any]"));
+}
+
+}  // namespace
+
+void bind_functions(nb::module_& module) {
+  bind_checks(module);
+  module.def("convert", &convert, "input"_a, "output"_a, "arguments"_a, "name"_a, "gains"_a,
+             "fix_base"_a, "float_base"_a, "merge_fixed"_a, "scene"_a, "packages"_a, "force"_a,
+             nb::sig("def convert(input: str | os.PathLike[str], output: str | os.PathLike[str], "
+                     "arguments: OpenArguments, name: str, gains: str, fix_base: bool, "
+                     "float_base: bool, merge_fixed: bool, scene: bool, "
+                     "packages: Mapping[str, str], force: bool) -> dict[str, Any]"));
+  module.def("structure", &structure, "path"_a, "folder"_a, "arguments"_a, "name"_a, "force"_a,
+             "engines"_a,
+             nb::sig("def structure(path: str | os.PathLike[str], "
+                     "folder: str | os.PathLike[str], arguments: OpenArguments, name: str, "
+                     "force: bool, engines: Sequence[str]) -> dict[str, Any]"));
+  module.def("new_asset", &make_new, "path"_a, "up_axis"_a, "meters_per_unit"_a,
+             "kilograms_per_unit"_a, "default_prim"_a);
+  module.def("write_files", &write_files_beside, "path"_a, "contents"_a, "beside"_a,
+             nb::sig("def write_files(path: str | os.PathLike[str], contents: bytes, "
+                     "beside: dict[str, bytes]) -> None"));
+  module.def("engines", &engines, nb::sig("def engines() -> list[dict[str, Any]]"));
+  module.def(
+      "doctor", [] { return to_python(unlocked([] { return parts_json(optional_parts()); })); },
+      nb::sig("def doctor() -> dict[str, Any]"));
+  module.def(
+      "set_worker",
+      [](const std::filesystem::path& path) { guard::set_worker_program(path.string()); },
+      "path"_a);
+}
+
+}  // namespace tenon::python

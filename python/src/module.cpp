@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "batch.h"
+#include "failure.h"
+#include "functions.h"
+#include "opened_stage.h"
+#include "options.h"
+#include "physics.h"
+#include "values.h"
+#include <nanobind/nanobind.h>
+
+NB_MODULE(_tenon, module) {
+  module.doc() = "The library behind tenon_usd; use tenon_usd itself.";
+  module.attr("__version__") = TENON_VERSION;
+  tenon::python::bind_diagnostics(module);
+  tenon::python::bind_values(module);
+  tenon::python::bind_options(module);
+  tenon::python::bind_physics(module);
+  tenon::python::bind_stage(module);
+  tenon::python::bind_batch(module);
+  tenon::python::bind_functions(module);
+}

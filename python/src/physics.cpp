@@ -1,0 +1,502 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The classes of the neutral description are made of its tables of fields (tenon/scene/fields/
+// field.h) by the compiler: a class for each struct, a property for each row, the row's meaning and
+// unit as its text. What is inlined in JSON is inlined here, so that names are those of JSON in
+// snake case. An object of Python is a pointer into the scene, which it keeps alive; so are lists
+// (List) and arrays, which are views of the scene's own memory and cannot be written to.
+#include "physics.h"
+
+#include <cctype>
+#include <cstring>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "failure.h"
+#include "numbers.h"
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/typing.h>
+
+#include "tenon/answers/scene_json.h"
+#include "tenon/base/wire.h"
+#include "tenon/scene/fields/enum_names.h"
+#include "tenon/scene/fields/scene_fields.h"
+
+namespace tenon::python {
+namespace {
+
+using namespace nb::literals;
+using scene::FieldInfo;
+
+/// One property of a class.
+struct FieldRow {
+  std::string name;
+  std::string type;  ///< for signatures
+  std::string meaning;
+  nb::object (*get)(const void* object, nb::handle owner) = nullptr;
+  /// Of all objects of a list; null: it is asked of one after the other.
+  nb::object (*column)(const void* first, std::size_t count, nb::handle owner) = nullptr;
+};
+
+template <class T>
+const std::vector<FieldRow>& rows_of();
+template <class T>
+nb::object view(const T& value, nb::handle owner);
+
+// ---- names
+
+std::string snake_case(std::string_view camel) {
+  std::string snake;
+  for (const char c : camel) {
+    const bool upper = c >= 'A' && c <= 'Z';
+    snake += upper ? std::string("_") + static_cast<char>(c + 32) : std::string(1, c);
+  }
+  return snake;
+}
+
+/// "Body"; "BodyTrack" of ObjectTrack<Body>, "TendonWrapAttachment" of TendonWrap::Attachment.
+template <class T>
+std::string class_name() {
+  const std::string_view function = __PRETTY_FUNCTION__;
+  const std::size_t begin = function.find("T = ") + 4;
+  std::string name(function.substr(begin, function.find_first_of(";]", begin) - begin));
+  const bool track = name.find("ObjectTrack<") != std::string::npos;
+  for (const char* part : {"tenon::scene::", "tenon::", "ObjectTrack<", ">", "::"}) {
+    for (std::size_t at = name.find(part); at != std::string::npos; at = name.find(part)) {
+      name.erase(at, std::strlen(part));
+    }
+  }
+  return name + (track ? "Track" : "");
+}
+
+template <class T>
+inline constexpr bool kIsIndexPair = std::is_same_v<T, std::pair<scene::Index, scene::Index>>;
+
+/// How a type is written in signatures.
+template <class T>
+std::string type_text() {
+  if constexpr (wire::kIsOptional<T>) {
+    return type_text<typename T::value_type>() + " | None";
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return "bool";
+  } else if constexpr (std::is_enum_v<T> || std::is_same_v<T, std::string> ||
+                       std::is_same_v<T, Path>) {
+    return "str";
+  } else if constexpr (std::is_floating_point_v<T>) {
+    return "float";
+  } else if constexpr (std::is_integral_v<T>) {
+    return "int";
+  } else if constexpr (std::is_same_v<T, Quatd> || kHasNumbers<T>) {
+    return "NDArray[Any]";
+  } else if constexpr (wire::kIsVector<T>) {
+    using Item = typename T::value_type;
+    return kHasNumbers<Item> || kIsIndexPair<Item> ? "NDArray[Any]"
+                                                   : "List[" + type_text<Item>() + "]";
+  } else if constexpr (wire::kIsPair<T>) {
+    return "tuple[" + type_text<typename T::first_type>() + ", " +
+           type_text<typename T::second_type>() + "]";
+  } else {
+    return class_name<T>();
+  }
+}
+
+/// " (count, 3)" of arrays.
+template <class T>
+std::string shape_of() {
+  if constexpr (wire::kIsOptional<T>) {
+    return shape_of<typename T::value_type>();
+  } else if constexpr (std::is_same_v<T, Quatd>) {
+    return " (4): w, x, y, z";
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    return "";
+  } else if constexpr (wire::kIsVector<T>) {
+    using Item = typename T::value_type;
+    if constexpr (kIsIndexPair<Item>) {
+      return " (count, 2)";
+    } else if constexpr (kHasNumbers<Item>) {
+      constexpr auto& kShape = NumbersOf<Item>::kShape;
+      std::string text = " (count";
+      for (const std::size_t length : kShape) {
+        text += ", " + std::to_string(length);
+      }
+      return text + ")";
+    } else {
+      return "";
+    }
+  } else if constexpr (kHasNumbers<T>) {
+    std::string text;
+    for (const std::size_t length : NumbersOf<T>::kShape) {
+      text += (text.empty() ? " (" : ", ") + std::to_string(length);
+    }
+    return text + ")";
+  } else {
+    return "";
+  }
+}
+
+const char* list_name(scene::List list) {
+  constexpr const char* kNames[] = {"",
+                                    "scenes",
+                                    "bodies",
+                                    "colliders",
+                                    "meshes",
+                                    "materials",
+                                    "joints",
+                                    "articulations",
+                                    "tendons",
+                                    "actuators",
+                                    "bodies, colliders or joints"};
+  return kNames[static_cast<std::size_t>(list)];
+}
+
+std::string meaning_of(const FieldInfo& info, const std::string& shape) {
+  std::string meaning(info.meaning);
+  if (!meaning.empty()) {
+    meaning[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning[0])));
+  }
+  if (info.refers != scene::List::None) {
+    meaning += "; an index into " + std::string(list_name(info.refers));
+  }
+  const std::string angular(unit_text(info.unit, true));
+  const std::string linear(unit_text(info.unit, false));
+  if (!angular.empty()) {
+    meaning += " [" + angular + (angular == linear ? "" : " or " + linear) + "]";
+  }
+  return meaning + shape + ".";
+}
+
+// ---- lists
+
+/// A list of objects of the scene.
+struct List {
+  const void* first = nullptr;
+  std::size_t count = 0;
+  nb::object (*item)(const void* first, std::size_t at, nb::handle owner) = nullptr;
+  const std::vector<FieldRow>* rows = nullptr;  ///< null: its items are no objects
+  std::size_t stride = 0;
+  nb::object owner;
+};
+
+template <class T>
+nb::object list_of(const std::vector<T>& items, nb::handle owner) {
+  List list;
+  list.first = items.data();
+  list.count = items.size();
+  list.stride = sizeof(T);
+  list.item = [](const void* first, std::size_t at, nb::handle kept) {
+    return view(static_cast<const T*>(first)[at], kept);
+  };
+  if constexpr (scene::HasTable<T>) {
+    list.rows = &rows_of<T>();
+  }
+  list.owner = nb::borrow(owner);
+  return nb::cast(std::move(list));
+}
+
+nb::object item_of(const List& list, Py_ssize_t at) {
+  const auto count = static_cast<Py_ssize_t>(list.count);
+  if (at < -count || at >= count) {
+    throw nb::index_error();
+  }
+  return list.item(list.first, static_cast<std::size_t>(at < 0 ? at + count : at), list.owner);
+}
+
+nb::list items_of(const List& list) {
+  nb::list items;
+  for (std::size_t i = 0; i < list.count; ++i) {
+    items.append(list.item(list.first, i, list.owner));
+  }
+  return items;
+}
+
+nb::object column_of(const List& list, const std::string& name) {
+  if (list.rows != nullptr) {
+    for (const FieldRow& row : *list.rows) {
+      if (row.name != name) {
+        continue;
+      }
+      if (row.column != nullptr) {
+        return row.column(list.first, list.count, list.owner);
+      }
+      nb::list values;
+      for (std::size_t i = 0; i < list.count; ++i) {
+        values.append(row.get(static_cast<const char*>(list.first) + i * list.stride, list.owner));
+      }
+      return values;
+    }
+  }
+  throw nb::key_error(name.c_str());
+}
+
+// ---- values
+
+nb::object quaternion(const Quatd& q) {
+  NewArray<> made({4});
+  made.numbers = {q.w, q.x, q.y, q.z};
+  return made.take();
+}
+
+template <class T>
+nb::object view_of_many(const std::vector<T>& items, nb::handle owner) {
+  if constexpr (kHasNumbers<T>) {
+    return number_rows(items.data(), items.size(), owner);
+  } else if constexpr (kIsIndexPair<T>) {
+    static_assert(sizeof(T) == sizeof(std::array<scene::Index, 2>));
+    return number_rows(reinterpret_cast<const std::array<scene::Index, 2>*>(items.data()),
+                       items.size(), owner);
+  } else {
+    return list_of(items, owner);
+  }
+}
+
+/// What Python has of a value of the scene, which `owner` keeps alive.
+template <class T>
+nb::object view(const T& value, nb::handle owner) {
+  if constexpr (std::is_arithmetic_v<T>) {
+    return nb::cast(value);
+  } else if constexpr (std::is_enum_v<T>) {
+    return nb::cast(std::string(scene::name_of(value)));
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return text(value);
+  } else if constexpr (std::is_same_v<T, Path>) {
+    return text(value.str());
+  } else if constexpr (wire::kIsOptional<T>) {
+    return value ? view(*value, owner) : nb::none();
+  } else if constexpr (std::is_same_v<T, Quatd>) {
+    return quaternion(value);
+  } else if constexpr (kHasNumbers<T>) {
+    return numbers(value, owner);
+  } else if constexpr (wire::kIsVector<T>) {
+    return view_of_many(value, owner);
+  } else if constexpr (wire::kIsPair<T>) {
+    return nb::make_tuple(view(value.first, owner), view(value.second, owner));
+  } else {
+    nb::object made = nb::cast(&value, nb::rv_policy::reference);
+    nb::keep_alive_obj(made, owner);
+    return made;
+  }
+}
+
+// ---- rows
+
+template <class T>
+const T& member(const T& object) {
+  return object;
+}
+template <auto First, auto... Rest, class T>
+const auto& member(const T& object) {
+  if constexpr (sizeof...(Rest) == 0) {
+    return object.*First;
+  } else {
+    return member<Rest...>(object.*First);
+  }
+}
+
+/// Rows of the field of `T` that the chain of members leads to.
+template <class T, auto... Chain>
+FieldRow row_of(const FieldInfo& info) {
+  using Value = std::remove_cvref_t<decltype(member<Chain...>(std::declval<const T&>()))>;
+  FieldRow row;
+  row.name = snake_case(info.name);
+  row.type = type_text<Value>();
+  row.meaning = meaning_of(info, shape_of<Value>());
+  row.get = [](const void* object, nb::handle owner) {
+    return view(member<Chain...>(*static_cast<const T*>(object)), owner);
+  };
+  if constexpr (kHasNumbers<Value>) {
+    using Number = typename NumbersOf<Value>::Number;
+    if constexpr (sizeof(T) % sizeof(Number) == 0) {
+      row.column = [](const void* first, std::size_t count, nb::handle owner) {
+        const Value* at = count == 0 ? nullptr : &member<Chain...>(*static_cast<const T*>(first));
+        return number_rows(at, count, owner, sizeof(T));
+      };
+    }
+  }
+  return row;
+}
+
+template <class T, auto... Chain>
+void add_rows(const FieldInfo& info, std::vector<FieldRow>& rows);
+
+template <class T, auto... Chain, auto... Members>
+void add_table(const scene::Rows<Members...>& table, std::vector<FieldRow>& rows) {
+  const FieldInfo* info = table.infos;
+  (add_rows<T, Chain..., Members>(*info++, rows), ...);
+}
+
+template <class T, auto... Chain>
+void add_rows(const FieldInfo& info, std::vector<FieldRow>& rows) {
+  using Value = std::remove_cvref_t<decltype(member<Chain...>(std::declval<const T&>()))>;
+  if constexpr (std::is_same_v<Value, Pose>) {
+    const std::string prefix = info.inlined ? "" : std::string(info.name) + "_";
+    FieldInfo part = info;
+    const std::string position = prefix + "position";
+    const std::string orientation = prefix + "orientation";
+    part.unit = scene::Unit::Meter;
+    part.name = position;
+    rows.push_back(row_of<T, Chain..., &Pose::position>(part));
+    part.unit = scene::Unit::None;
+    part.name = orientation;
+    rows.push_back(row_of<T, Chain..., &Pose::orientation>(part));
+  } else if constexpr (scene::HasTable<Value>) {
+    if (info.inlined) {
+      add_table<T, Chain...>(scene::Table<Value>::kFields, rows);
+    } else {
+      rows.push_back(row_of<T, Chain...>(info));
+    }
+  } else {
+    rows.push_back(row_of<T, Chain...>(info));
+  }
+}
+
+template <class T>
+std::vector<FieldRow> make_rows() {
+  static_assert(scene::is_complete<T>(), "a member has no row in its table");
+  std::vector<FieldRow> rows;
+  add_table<T>(scene::Table<T>::kFields, rows);
+  return rows;
+}
+
+template <class T>
+const std::vector<FieldRow>& rows_of() {
+  static const std::vector<FieldRow> rows = make_rows<T>();
+  return rows;
+}
+
+// ---- classes
+
+/// What reads one property; the type of the object is known by the class that it stands in.
+struct Getter {
+  const FieldRow* row;
+  nb::handle type;
+
+  nb::object operator()(nb::handle self) const {
+    if (PyObject_TypeCheck(self.ptr(), reinterpret_cast<PyTypeObject*>(type.ptr())) == 0) {
+      throw nb::type_error("this is a property of another class");
+    }
+    return row->get(nb::inst_ptr<void>(self), self);
+  }
+};
+
+void add_property(nb::handle type, const FieldRow& row) {
+  const std::string signature = "def " + row.name + "(self) -> " + row.type;
+  const nb::object getter = nb::cpp_function(
+      Getter{&row, type}, nb::scope(type), nb::name(row.name.c_str()), nb::is_method(),
+      nb::is_getter(), nb::sig(signature.c_str()), row.meaning.c_str());
+  type.attr(row.name.c_str()) =
+      nb::module_::import_("builtins").attr("property")(getter, nb::none(), nb::none());
+}
+
+/// Binds `Bound`, at whose beginning a T lies, with the properties of T.
+template <class T, class Bound = T>
+nb::class_<Bound> bind_class(nb::module_& module) {
+  const std::string name = class_name<T>();
+  const std::string about =
+      "A " + std::string(scene::Table<T>::kWord) + " of the neutral description [SI, rad].";
+  nb::class_<Bound> bound(module, name.c_str(), about.c_str());
+  for (const FieldRow& row : rows_of<T>()) {
+    add_property(bound, row);
+  }
+  nb::list names;
+  for (const FieldRow& row : rows_of<T>()) {
+    names.append(row.name);
+  }
+  bound.attr("FIELDS") = nb::tuple(names);  // of the properties
+  return bound;
+}
+
+/// Binds every struct that is met below, once.
+class ClassBinder {
+ public:
+  explicit ClassBinder(nb::module_& module) : module_(module) {}
+
+  template <class T>
+  void bind_below() {
+    scene::each_field_type<T>(
+        [&](const FieldInfo&, auto type) { meet<typename decltype(type)::type>(); });
+  }
+
+ private:
+  template <class T>
+  void meet() {
+    if constexpr (wire::kIsOptional<T> || wire::kIsVector<T>) {
+      meet<typename T::value_type>();
+    } else if constexpr (wire::kIsPair<T>) {
+      meet<typename T::first_type>();
+      meet<typename T::second_type>();
+    } else if constexpr (scene::HasTable<T>) {
+      if (!nb::type<T>().is_valid()) {
+        bind_class<T>(module_);
+        bind_below<T>();
+      }
+    }
+  }
+
+  nb::module_& module_;
+};
+
+void bind_list(nb::module_& module) {
+  nb::class_<List> list(module, "List", nb::is_generic(), nb::sig("class List(Generic[T])"),
+                        "A list of objects of a scene, without a copy.");
+  list.def("__len__", [](const List& self) { return self.count; });
+  list.def("__getitem__", &item_of, "at"_a, nb::sig("def __getitem__(self, at: int, /) -> T"));
+  list.def(
+      "__iter__", [](const List& self) { return nb::iter(items_of(self)); },
+      nb::sig("def __iter__(self) -> Iterator[T]"));
+  list.def("column", &column_of, "name"_a, nb::sig("def column(self, name: str) -> Any"),
+           "One property of all objects, in its unit: of numbers a read-only NumPy view without a "
+           "copy (count, ...), else a list. Raises KeyError for an unknown name.");
+  list.def("__repr__",
+           [](const List& self) { return "<List of " + std::to_string(self.count) + ">"; });
+}
+
+bool may_collide(const ReadScene& read, std::size_t a, std::size_t b) {
+  const std::size_t count = read.scene.colliders.size();
+  if (a >= count || b >= count) {
+    throw nb::index_error();
+  }
+  return read.scene.may_collide(static_cast<scene::Index>(a), static_cast<scene::Index>(b));
+}
+
+std::shared_ptr<ReadScene> scene_of_json(const std::string& json) {
+  auto read = std::make_shared<ReadScene>();
+  read->scene = or_raise(unlocked([&] { return answers::read_scene_json(json); }));
+  return read;
+}
+
+}  // namespace
+
+void bind_physics(nb::module_& module) {
+  module.attr("T") = nb::type_var("T");
+  bind_list(module);
+  static_assert(offsetof(ReadScene, scene) == 0);
+  nb::class_<ReadScene> bound = bind_class<scene::PhysicsScene, ReadScene>(module);
+  ClassBinder(module).bind_below<scene::PhysicsScene>();
+  bound.def_prop_ro(
+      "diagnostics", [](const ReadScene& self) { return to_list(self.diagnostics); },
+      nb::sig("def diagnostics(self) -> list[Diagnostic]"), "What reading the physics found.");
+  bound.def("may_collide", &may_collide, "collider0"_a, "collider1"_a,
+            "Contacts between two colliders, given by index, are possible.");
+  bound.def(
+      "json",
+      [](const ReadScene& self, bool geometry) {
+        return message(unlocked([&] {
+          return answers::scene_json(
+              self.scene, geometry ? answers::Geometry::Inline : answers::Geometry::Hash);
+        }));
+      },
+      nb::kw_only(), "geometry"_a = false,
+      "As JSON text [SI, rad], as `tenon physics --json` prints it; with `geometry` points and "
+      "triangles of meshes [m], else a hash of them.");
+  bound.def_static("from_json", &scene_of_json, "json"_a,
+                   "The scene that JSON with geometry describes. Raises for faulty JSON.");
+}
+
+}  // namespace tenon::python

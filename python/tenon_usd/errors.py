@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is raised where something cannot be done."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ._tenon import Diagnostic
+
+
+class Error(Exception):
+    """Why something could not be done, with its place and what to do about it.
+
+    `diagnostics` is a list of findings: first the reason, then what else was found on the way.
+    """
+
+    diagnostics: list[Diagnostic]
+
+    def __init__(self, message: str, diagnostics: Sequence[Diagnostic] = ()) -> None:
+        super().__init__(message)
+        self.diagnostics = list(diagnostics)
+
+    def _first(self, name: str) -> str:
+        return str(getattr(self.diagnostics[0], name)) if self.diagnostics else ""
+
+    @property
+    def rule(self) -> str:
+        """Stable dotted name of the finding; empty where it has none."""
+        return self._first("rule")
+
+    @property
+    def file(self) -> str:
+        """The file; empty where it is unknown."""
+        return self._first("file")
+
+    @property
+    def line(self) -> int:
+        """In the file, counted from 1; 0 where it is unknown."""
+        return self.diagnostics[0].line if self.diagnostics else 0
+
+    @property
+    def prim(self) -> str:
+        """Path of the prim; empty where it is unknown."""
+        return self._first("prim")
+
+    @property
+    def fix(self) -> str:
+        """What can be done about it; empty where nothing is known."""
+        return self._first("fix")
+
+
+class FileError(Error, OSError):
+    """A file cannot be read or written."""
+
+
+class ParseError(Error, ValueError):
+    """Text breaks the grammar."""
+
+
+class CorruptError(Error, ValueError):
+    """Binary data contradict themselves or their size."""
+
+
+class UnsupportedError(Error, NotImplementedError):
+    """Valid, but not handled: a version, a type, something that an engine cannot do."""
+
+
+class LimitError(Error):
+    """A stated limit is exceeded (docs/limits.md)."""
+
+
+class InvalidError(Error, ValueError):
+    """An argument or a value that cannot be used."""
+
+
+class NotFoundError(Error, LookupError):
+    """A path, a layer, a prim or a variant that does not exist."""
+
+
+class MissingFileError(NotFoundError, FileNotFoundError):
+    """A file that does not exist."""
+
+
+class UnstableError(Error, ArithmeticError):
+    """A simulation left the finite numbers."""
+
+
+class MissingError(Error, RuntimeError):
+    """An engine or an optional part is not installed."""
+
+
+CLASSES: dict[str, type[Error]] = {
+    "io": FileError,
+    "parse": ParseError,
+    "corrupt": CorruptError,
+    "unsupported": UnsupportedError,
+    "limit": LimitError,
+    "invalid": InvalidError,
+    "notFound": NotFoundError,
+    "fileNotFound": MissingFileError,
+    "unstable": UnstableError,
+    "missing": MissingError,
+}

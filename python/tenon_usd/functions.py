@@ -1,0 +1,213 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is done with assets in files, a function each. docs/outputs.md lists the keys of answers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from . import _tenon
+from .options import OpenOptions, PathLike, arguments_of
+
+if TYPE_CHECKING:
+    from typing import Unpack
+
+
+def open(path: PathLike, **options: Unpack[OpenOptions]) -> _tenon.Stage:
+    """Opens and composes an asset: .usd, .usda, .usdc or .usdz.
+
+    `options` are those of tenon_usd.options.OpenOptions: physics="mujoco" selects that variant of
+    the variant sets "Physics". What is wrong but leaves a scene is in Stage.diagnostics. Raises
+    FileError, ParseError, CorruptError and other errors of tenon_usd.errors.
+    """
+    return _tenon.open_stage(path, arguments_of(options))
+
+
+def physics(path: PathLike, **options: Unpack[OpenOptions]) -> _tenon.PhysicsScene:
+    """What an engine receives of an asset, in metres, kilograms, seconds and radians."""
+    return open(path, **options).physics()
+
+
+def info(path: PathLike, **options: Unpack[OpenOptions]) -> dict[str, Any]:
+    """What an asset is: units, variants, counts of bodies and joints, mass [kg]."""
+    return open(path, **options).info()
+
+
+def explain(
+    path: PathLike, object: str, other: str | None = None, **options: Unpack[OpenOptions]
+) -> dict[str, Any]:
+    """Where numbers of "/prim" or "/prim.property" come from [SI, rad]; why two prims collide."""
+    return open(path, **options).explain(object, other)
+
+
+def where(
+    path: PathLike,
+    object: str,
+    time: float | None = None,
+    *,
+    variants: bool = False,
+    **options: Unpack[OpenOptions],
+) -> dict[str, Any]:
+    """Every file that speaks about "/prim.property" or "/prim", at a time [time codes]."""
+    return open(path, **options).where(object, time, variants=variants)
+
+
+def check(
+    *paths: PathLike, profile: str = "", fix: bool = False, **options: Unpack[OpenOptions]
+) -> dict[str, Any]:
+    """Checks assets, or all assets below folders, against the rules (docs/rules).
+
+    `profile` "isaac-3.0" holds the files to Asset Structure 3.0 as well. `fix` writes what has a
+    safe correction. Returns {"diagnostics": findings with file, line, prim and fix, "summary":
+    counts of errors, warnings, infos, "assets"}.
+    """
+    return _tenon.check(paths, arguments_of(options), profile, fix)
+
+
+def rules() -> list[dict[str, Any]]:
+    """All rules of check(): {"rule", "severity", "numbers", "autofix", "title"}."""
+    rows: list[dict[str, Any]] = _tenon.rules()["rules"]
+    return rows
+
+
+def rule(name: str) -> str:
+    """The page of a rule, as text: rule("joint.body-missing"). Raises KeyError for others."""
+    page = _tenon.rule_page(name)
+    if not page:
+        raise KeyError(name)
+    return page
+
+
+def diff(
+    before: PathLike,
+    after: PathLike,
+    *,
+    mode: str = "files",
+    tolerance: float = 0.0,
+    **options: Unpack[OpenOptions],
+) -> dict[str, Any]:
+    """What differs between two layers, packages or folders.
+
+    `mode` is "files", "composed" (the scenes that they compose to) or "physics" (what engines
+    receive [SI, rad]). Numbers a, b are equal when |a - b| <= tolerance max(1, |a|, |b|). Returns
+    {"equal", "differences", "mode", "diagnostics"}.
+    """
+    if mode not in ("files", "composed", "physics"):
+        raise ValueError(f"mode is {mode!r}; expected files, composed or physics")
+    return _tenon.diff(before, after, arguments_of(options), mode, tolerance)
+
+
+def compare(
+    path: PathLike,
+    engines: Sequence[str] = (),
+    *,
+    duration: float | None = None,
+    time_step: float = 0.0,
+    frames_per_second: float = 60.0,
+    reasons: bool = True,
+    commands: PathLike = "",
+    bounds: str = "",
+    **options: Unpack[OpenOptions],
+) -> dict[str, Any]:
+    """One motion of an asset on several engines: how far they are apart [SI, rad], and why.
+
+    `engines` are names as of engines(), "physx:VARIANT" with a variant; all where it is empty.
+    `duration` and `time_step` in seconds; 0 and None stand for what the asset says. `bounds` such
+    as "5mm" fills "exceeded". Returns {"engines", "pairs": gaps and reasons, "exceeded"}.
+    """
+    return _tenon.compare(
+        path,
+        arguments_of(options),
+        list(engines),
+        duration,
+        time_step,
+        frames_per_second,
+        100 if reasons else 0,
+        commands,
+        bounds,
+    )
+
+
+def convert(
+    input: PathLike,
+    output: PathLike,
+    *,
+    name: str = "",
+    gains: str | tuple[float, float] = "",
+    fix_base: bool = False,
+    float_base: bool = False,
+    merge_fixed: bool = False,
+    scene: bool = False,
+    packages: Mapping[str, PathLike] | None = None,
+    force: bool = False,
+    **options: Unpack[OpenOptions],
+) -> dict[str, Any]:
+    """A robot's description (URDF, MJCF) as an asset, or an asset as a description.
+
+    `output` is a file, or a folder for Asset Structure 3.0; of an asset an .xml or .urdf file.
+    `gains` are K, D of a drive for each joint [N m/rad, N m s/rad or N/m, N s/m], or a JSON file.
+    `packages` are folders of ROS packages by name. Files that were edited since they were written
+    stay, unless `force`. Returns {"output", "links", "joints", "diagnostics"}.
+    """
+    if not isinstance(gains, str):
+        gains = f"{float(gains[0])!r},{float(gains[1])!r}"
+    folders = {key: str(folder) for key, folder in (packages or {}).items()}
+    return _tenon.convert(
+        input,
+        output,
+        arguments_of(options),
+        name,
+        gains,
+        fix_base,
+        float_base,
+        merge_fixed,
+        scene,
+        folders,
+        force,
+    )
+
+
+def structure(
+    path: PathLike,
+    folder: PathLike | None = None,
+    *,
+    name: str = "",
+    engines: Sequence[str] = (),
+    force: bool = False,
+    **options: Unpack[OpenOptions],
+) -> dict[str, Any]:
+    """An asset in Asset Structure 3.0, proven to be the same and written to `folder`.
+
+    Without a folder nothing is written. `engines` get a variant and a layer of their own. Returns
+    {"interface", "files", "variants", "selection", "moved", "diagnostics"}.
+    """
+    return _tenon.structure(
+        path, "" if folder is None else folder, arguments_of(options), name, force, list(engines)
+    )
+
+
+def new(
+    path: PathLike,
+    *,
+    up_axis: str = "Z",
+    meters_per_unit: float = 1.0,
+    kilograms_per_unit: float = 1.0,
+    default_prim: str = "World",
+) -> _tenon.Stage:
+    """Writes a file with the units [m, kg] and an empty Xform as its default prim, and opens it.
+
+    Raises FileError where there is a file of that name.
+    """
+    _tenon.new_asset(path, up_axis, meters_per_unit, kilograms_per_unit, default_prim)
+    return open(path)
+
+
+def engines() -> list[dict[str, Any]]:
+    """The engines of this build: {"name", "version", "available", "how_to_get"}."""
+    return _tenon.engines()
+
+
+def doctor() -> dict[str, Any]:
+    """Engines, libraries and programs that tenon can do without, and how to get them."""
+    return _tenon.doctor()

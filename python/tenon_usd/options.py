@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""How assets are opened and read: the arguments that all functions on assets share."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, TypedDict
+
+from ._tenon import OpenArguments
+
+PathLike = str | os.PathLike[str]
+
+
+class OpenOptions(TypedDict, total=False):
+    """The arguments that open(), World() and the other functions on assets share."""
+
+    physics: str
+    """Variant of the variant sets "Physics": "mujoco", or "PRIM=VARIANT", several with commas."""
+    overrides: Sequence[str]
+    """"PATH.attribute=value" in text form, in the units of the stage: they win over the files."""
+    session: PathLike
+    """A session layer file."""
+    payloads: bool
+    """False: payloads are left out."""
+    load: Sequence[str]
+    """Prims whose payloads are loaded; all where it is empty."""
+    mask: Sequence[str]
+    """Prims that are composed, with what is above and below; all where it is empty."""
+    muted: Sequence[str]
+    """Layers that count as absent."""
+    variant_fallbacks: Mapping[str, Sequence[str]]
+    """Variants to select where none is, by variant set."""
+    search_paths: Sequence[PathLike]
+    """Folders that asset paths are looked up in."""
+    sandbox: Sequence[PathLike]
+    """Folders that files may be read from; all where it is empty."""
+    allow_read: Sequence[PathLike]
+    """Folders and files that may go into outputs beside those of the asset."""
+    readings: Mapping[str, str]
+    """Readings of the physics by name (docs/physics.md): {"nesting": "ignore"}."""
+
+
+def arguments_of(given: Mapping[str, Any]) -> OpenArguments:
+    """The arguments for the library. Raises TypeError for an unknown one."""
+    arguments = OpenArguments()
+    for name, value in given.items():
+        if value is None:
+            continue
+        if name == "physics":
+            _select_physics(arguments, value)
+        elif name == "session":
+            arguments.session = os.fspath(value)
+        elif name in ("search_paths", "sandbox", "allow_read"):
+            setattr(arguments, name, [os.fspath(path) for path in value])
+        elif name == "variant_fallbacks":
+            arguments.variant_fallbacks = {k: list(v) for k, v in value.items()}
+        elif name == "readings":
+            arguments.readings = dict(value)
+        elif name == "payloads":
+            arguments.payloads = bool(value)
+        elif name in OpenOptions.__annotations__:
+            setattr(arguments, name, list(value))
+        else:
+            raise TypeError(f"unexpected argument {name!r}; expected one of "
+                            + ", ".join(OpenOptions.__annotations__))
+    return arguments
+
+
+def _select_physics(arguments: OpenArguments, text: str) -> None:
+    arguments.physics_below = True
+    for part in filter(None, text.split(",")):
+        if "=" in part:
+            arguments.physics_of = [*arguments.physics_of, part]
+        else:
+            arguments.physics = part

@@ -1,0 +1,203 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Simulations from Python: arrays in and out, states, contacts, the same bits for all threads."""
+
+import threading
+
+import numpy as np
+import support
+
+import tenon_usd as tenon
+
+HAND = {"physics": "physics"}
+
+
+class Stepping(support.FilesTestCase):
+    def test_a_box_falls_as_it_should(self):
+        path = self.written("fall.usda", '''#usda 1.0
+(
+    defaultPrim = "W"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "W"
+{
+    def PhysicsScene "scene"
+    {
+    }
+    def Cube "box" (
+        prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"]
+    )
+    {
+        double size = 0.1
+        double3 xformOp:translate = (0, 0, 10)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+}
+''')
+        world = tenon.World(path, envs=3, time_step=0.001)
+        self.assertEqual(world.body_names, ["/W/box"])
+        self.assertEqual(world.dofs, 6)
+        self.assertEqual(world.step(1000), 0)
+        np.testing.assert_allclose(world.time, 1.0)
+        fall = 0.5 * 9.81
+        np.testing.assert_allclose(world.body_poses[:, 0, 2], 10 - fall, atol=0.01)
+        np.testing.assert_allclose(world.body_velocities[:, 0, 2], -9.81, atol=0.01)
+        world.reset([1])
+        np.testing.assert_array_equal(world.time == 0, [False, True, False])
+        world.reset(np.array([True, False, False]))
+        self.assertEqual(world.body_poses[0, 0, 2], 10)
+        world.gravity = [[0, 0, -1], [0, 0, -2], [0, 0, 0]]
+        np.testing.assert_array_equal(world.gravity[:, 2], [-1, -2, 0])
+        world.set_body("/W/box", [1, 2, 3, 1, 0, 0, 0], [0, 0, 0, 0, 0, 1])
+        np.testing.assert_allclose(world.body_poses[2, 0], [1, 2, 3, 1, 0, 0, 0])
+        with self.assertRaises(LookupError):
+            world.set_body("/W/none", [0, 0, 0, 1, 0, 0, 0])
+        with self.assertRaises(ValueError):
+            world.set_body("/W/box", [0, 0, 0])
+
+    def test_drives_reach_their_targets(self):
+        world = tenon.World(support.HAND, envs=4, outputs=["efforts"], **HAND)
+        joints, drives = len(world.joint_names), len(world.drive_names)
+        self.assertEqual(world.joint_positions.shape, (4, joints))
+        self.assertEqual(world.drive_targets.shape, (4, drives))
+        world.drive_targets = np.linspace(0, 0.3, 4)[:, None]
+        world.step(500)
+        at = [world.joint_names.index(name) for name in world.drive_names]
+        reached = world.joint_positions[:, at].mean(axis=1)
+        self.assertTrue(np.all(np.diff(reached) > 0.05), reached)
+        self.assertEqual(world.drive_efforts().shape, (4, drives))
+        with self.assertRaises(ValueError):
+            world.drive_targets = np.zeros(drives + 1)
+
+    def test_outputs_have_to_be_asked_for(self):
+        world = tenon.World(support.GRASP)
+        with self.assertRaises(tenon.InvalidError):
+            world.contacts()
+        with self.assertRaises(tenon.InvalidError):
+            tenon.World(support.GRASP, outputs=["nothing"])
+        world = tenon.World(support.GRASP, outputs=["contacts"])
+        world.step(20)
+        contacts = world.contacts()
+        count = len(contacts["depth"])
+        self.assertEqual(count, world.contact_counts[0])
+        self.assertGreater(count, 0)
+        self.assertEqual(contacts["force"].shape, (count, 3))
+        names = world.body_names
+        self.assertIn("/World/can", {names[i] for i in contacts["body1"].tolist() if i >= 0}
+                      | {names[i] for i in contacts["body0"].tolist() if i >= 0})
+
+    def test_states_continue_bit_for_bit(self):
+        world = tenon.World(support.GRASP, envs=2)
+        world.step(50)
+        states = world.save()
+        world.step(50)
+        wanted = world.body_poses
+        world.restore(states)
+        world.step(50)
+        np.testing.assert_array_equal(world.body_poses, wanted)
+        with self.assertRaises(tenon.CorruptError):
+            world.restore(b"no state")
+        with self.assertRaises(ValueError):
+            world.restore(states[:1])
+
+    def test_nothing_depends_on_threads(self):
+        def run(threads):
+            world = tenon.World(support.GRASP, envs=5, seed=3, threads=threads,
+                                vary=["bodyMass=0.5..1.5", "gravity=0.9..1.1"])
+            world.step(60)
+            return world.body_poses
+
+        one = run(1)
+        np.testing.assert_array_equal(one, run(2))
+        np.testing.assert_array_equal(one, run(5))
+        self.assertGreater(np.ptp(one, axis=0).max(), 0)
+
+    def test_what_is_drawn_survives_a_reset(self):
+        world = tenon.World(support.GRASP, envs=3, vary=["gravity=0.5..1.5"])
+        gravity = world.gravity
+        self.assertEqual(len({row[2] for row in gravity.tolist()}), 3)
+        world.step(5)
+        world.reset()
+        np.testing.assert_array_equal(world.gravity, gravity)
+
+    def test_parameters_of_each_environment(self):
+        world = tenon.World(support.HAND, envs=3, **HAND)
+        joint = world.drive_names[0]
+        world.set_parameter("driveStiffness", joint, [0.0, 1.0, 4.0])
+        world.drive_targets = 0.3
+        world.step(20)
+        moved = world.joint_positions[:, world.joint_names.index(joint)]
+        self.assertLess(moved[0], moved[1])
+        self.assertLess(moved[1], moved[2])
+        with self.assertRaises(tenon.NotFoundError):
+            world.set_parameter("nothing", joint, 1)
+
+    def test_two_threads_of_python_share_a_world(self):
+        world = tenon.World(support.HAND, envs=2, **HAND)
+        threads = [threading.Thread(target=lambda: [world.step(2) for _ in range(25)])
+                   for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for _ in range(20):
+            self.assertTrue(np.isfinite(world.joint_positions).all())
+        for thread in threads:
+            thread.join()
+        np.testing.assert_allclose(world.time, 150 * world.time_step)
+
+    def test_an_unstable_environment_stands_still(self):
+        world = tenon.World(support.HAND, envs=2, **HAND)
+        efforts = np.zeros((2, len(world.joint_names)))
+        efforts[1] = 1e13
+        world.set_efforts(efforts)
+        self.assertEqual(world.step(200), 1)
+        self.assertEqual([failure is None for failure in world.failures()], [True, False])
+        world.reset([1])
+        self.assertEqual(world.step(10), 0)
+        alone = tenon.World(support.HAND, **HAND)
+        alone.set_efforts(1e13)
+        with self.assertRaises(tenon.UnstableError):
+            alone.step(200)
+
+    def test_faulty_arguments(self):
+        with self.assertRaises(tenon.MissingFileError):
+            tenon.World(self.folder / "none.usda")
+        with self.assertRaises(tenon.LimitError):
+            tenon.World(support.HAND, envs=0)
+        with self.assertRaises(tenon.LimitError):
+            tenon.World(support.HAND, envs=10**15)
+        with self.assertRaises(tenon.NotFoundError):
+            tenon.World(support.HAND, engine="nothing")
+        with self.assertRaises(tenon.InvalidError):
+            tenon.World(support.HAND, vary=["nothing"])
+
+
+class Engines(support.FilesTestCase):
+    def test_every_engine_of_the_wheel_runs_the_grasp(self):
+        available = [row["name"] for row in tenon.engines() if row["available"]]
+        self.assertEqual(available, ["jolt", "mujoco", "physx"])
+        for engine in available:
+            world = tenon.World(support.GRASP, engine=engine, envs=2)
+            world.step(20)
+            self.assertEqual(world.engine, engine)
+            self.assertTrue(np.isfinite(world.body_poses).all(), engine)
+
+    def test_models_for_mujoco(self):
+        world = tenon.World(support.GRASP)
+        text = world.to_mjcf()
+        self.assertTrue(text.startswith("<mujoco"))
+        world.to_mjcf(self.folder / "grasp.xml")
+        self.assertEqual((self.folder / "grasp.xml").read_text()[:7], "<mujoco")
+        try:
+            import mujoco
+        except ImportError:
+            with self.assertRaises(tenon.MissingError):
+                world.model
+            return
+        model = world.model
+        self.assertIsInstance(model, mujoco.MjModel)
+        self.assertEqual(model.nv, world.dofs)
+
+
+if __name__ == "__main__":
+    support.main()

