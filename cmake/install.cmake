@@ -43,6 +43,9 @@ if(tenon_shell_files) # cli/CMakeLists.txt
           DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
 endif()
 
+if(TENON_PAGE_FOLDER)
+  install(DIRECTORY ${TENON_PAGE_FOLDER} DESTINATION ${CMAKE_INSTALL_DATADIR}/tenon)
+endif()
 if(tenon_coacd_library)
   install(DIRECTORY ${tenon_coacd_root}/coacd ${tenon_coacd_root}/coacd.libs
           DESTINATION ${CMAKE_INSTALL_LIBDIR}/tenon)

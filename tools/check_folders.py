@@ -40,7 +40,7 @@ LIBRARIES = {
     "pugixml.hpp": ["tenon/asset/mjcf_files.cpp", "tenon/urdf/*"],
     "assimp/*": ["tenon/mesh/assimp_scene.cpp"],
     "CLI/*": ["cli/command_line.cpp"],
-    "nlohmann/*": ["tenon/answers/*", "tests/*", "bench/*"],
+    "nlohmann/*": ["tenon/answers/*", "tenon/glb/*.cpp", "tests/*", "bench/*"],
 }
 
 # What asks the disk whatever files were handed over. Of std::filesystem only paths do not, and

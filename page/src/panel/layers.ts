@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is shown: a switch for each kind of thing, with a key.
+import type { OverlayName } from "../scene/overlays";
+import type { Viewer } from "../scene/viewer";
+import { h } from "./dom";
+
+interface Layer {
+  name: string;
+  label: string;
+  key: string;
+  shown: boolean;
+  set: (viewer: Viewer, visible: boolean) => void;
+}
+
+const overlay = (name: OverlayName, label: string, key: string): Layer => ({
+  name,
+  label,
+  key,
+  shown: false,
+  set: (viewer, visible) => viewer.showOverlay(name, visible),
+});
+
+const layers: Layer[] = [
+  {
+    name: "visuals",
+    label: "What is seen",
+    key: "v",
+    shown: true,
+    set: (viewer, visible) => viewer.show("visual", visible),
+  },
+  {
+    name: "colliders",
+    label: "Colliders",
+    key: "c",
+    shown: false,
+    set: (viewer, visible) => viewer.show("collider", visible),
+  },
+  overlay("joints", "Joint axes", "j"),
+  overlay("limits", "Joint limits", "l"),
+  overlay("masses", "Centres of mass", "m"),
+  overlay("inertia", "Inertia boxes", "i"),
+  overlay("frames", "Frames of bodies", "x"),
+  overlay("tree", "Articulation tree", "t"),
+  overlay("filtered", "Pairs of the selection that do not touch", "p"),
+  overlay("contacts", "Contacts and their forces", "o"),
+  {
+    name: "grid",
+    label: "Ground grid",
+    key: "g",
+    shown: true,
+    set: (viewer, visible) => viewer.showGrid(visible),
+  },
+];
+
+export class Layers {
+  readonly element = h("fieldset", { class: "layers" }, h("legend", {}, "What is shown"));
+  private readonly boxes = new Map<string, HTMLInputElement>();
+
+  constructor(private readonly viewer: Viewer) {
+    for (const layer of layers) {
+      const box = h("input", {
+        type: "checkbox",
+        name: layer.name,
+        checked: layer.shown,
+        onchange: () => layer.set(this.viewer, box.checked),
+      });
+      this.boxes.set(layer.name, box);
+      this.element.append(h("label", {}, box, ` ${layer.label} `, h("kbd", {}, layer.key)));
+    }
+    viewer.addEventListener("load", () => this.applyAll());
+  }
+
+  set(name: string, visible: boolean): void {
+    const layer = layers.find((one) => one.name === name);
+    const box = this.boxes.get(name);
+    if (layer && box) {
+      box.checked = visible;
+      layer.set(this.viewer, visible);
+    }
+  }
+
+  key(key: string): void {
+    const layer = layers.find((one) => one.key === key);
+    if (layer) {
+      this.set(layer.name, !this.boxes.get(layer.name)!.checked);
+    }
+  }
+
+  private applyAll(): void {
+    for (const layer of layers) {
+      layer.set(this.viewer, this.boxes.get(layer.name)!.checked);
+    }
+  }
+}

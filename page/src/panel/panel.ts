@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What stands around the picture: head, scene tree, tabs, and the bar of time. `live` and `report`
+// add tabs of their own.
+import type { Viewer } from "../scene/viewer";
+import { h } from "./dom";
+import { Inspector } from "./inspector";
+import { jointTable } from "./joints";
+import { Layers } from "./layers";
+import { TimeBar } from "./time_bar";
+import { Tree } from "./tree";
+
+export class Panel {
+  readonly tree: Tree;
+  readonly inspector: Inspector;
+  readonly layers: Layers;
+  readonly timeBar: TimeBar;
+  /** Left of the buttons in the head: for more of them. */
+  readonly tools = h("div", { class: "tools", role: "toolbar", "aria-label": "Tools" });
+  /** Below the picture: for bars. */
+  readonly foot = h("div", { class: "foot" });
+
+  private readonly title = h("h1", {}, "tenon");
+  private readonly tabs = h("div", { class: "tabs", role: "tablist", "aria-label": "Details" });
+  private readonly pages = h("div", { class: "pages" });
+  private readonly root: HTMLElement;
+
+  /** `picture` makes the viewer in the element that it is handed. */
+  constructor(parent: HTMLElement, makeViewer: (place: HTMLElement) => Viewer) {
+    const place = h("div", { class: "picture" });
+    const left = h("nav", { class: "left", "aria-label": "Scene" });
+    const right = h("aside", { class: "right", "aria-label": "Details" }, this.tabs, this.pages);
+    const theme = h("button", { type: "button", onclick: () => this.switchTheme() }, "Dark or light");
+    const frame = h(
+      "button",
+      { type: "button", title: "F", onclick: () => this.viewer.frame(this.viewer.selected) },
+      "Look at it",
+    );
+    this.root = h(
+      "div",
+      { class: "app" },
+      h("header", {}, this.title, this.tools, frame, theme),
+      left,
+      h("main", { class: "middle" }, place, this.foot),
+      right,
+    );
+    parent.append(this.root);
+    this.viewer = makeViewer(place);
+    this.tree = new Tree(this.viewer);
+    left.append(this.tree.element);
+    this.inspector = new Inspector(this.viewer);
+    this.layers = new Layers(this.viewer);
+    this.timeBar = new TimeBar(this.viewer);
+    this.foot.append(this.timeBar.element);
+    this.addTab("Selection", this.inspector.element);
+    this.addTab("Show", this.layers.element);
+    const joints = this.addTab("Joints");
+    this.viewer.addEventListener("load", () => joints.replaceChildren(jointTable(this.viewer)));
+    this.setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+    document.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  readonly viewer: Viewer;
+
+  setTitle(text: string): void {
+    this.title.textContent = text;
+    document.title = `${text} - tenon`;
+  }
+
+  /** A page with a name; the first one added is the one that is open. */
+  addTab(name: string, ...contents: (Node | string)[]): HTMLElement {
+    const id = `tab-${this.tabs.childElementCount}`;
+    const first = this.tabs.childElementCount === 0;
+    const page = h(
+      "div",
+      { role: "tabpanel", id: `${id}-page`, "aria-labelledby": id, tabindex: 0, hidden: !first },
+      ...contents,
+    );
+    const tab = h(
+      "button",
+      {
+        type: "button",
+        role: "tab",
+        id,
+        "aria-controls": page.id,
+        "aria-selected": String(first),
+        tabindex: first ? 0 : -1,
+        onclick: () => this.openTab(name),
+        onkeydown: (event: KeyboardEvent) => this.tabKey(event),
+      },
+      name,
+    );
+    this.tabs.append(tab);
+    this.pages.append(page);
+    return page;
+  }
+
+  openTab(name: string): void {
+    for (const tab of Array.from(this.tabs.children) as HTMLElement[]) {
+      const open = tab.textContent === name;
+      tab.setAttribute("aria-selected", String(open));
+      tab.tabIndex = open ? 0 : -1;
+      document.getElementById(`${tab.id}-page`)!.hidden = !open;
+    }
+  }
+
+  setTheme(theme: "light" | "dark"): void {
+    document.documentElement.dataset.theme = theme;
+    this.viewer.setTheme(theme);
+  }
+
+  private switchTheme(): void {
+    this.setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
+  }
+
+  private tabKey(event: KeyboardEvent): void {
+    const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
+    if (step === 0) {
+      return;
+    }
+    const tabs = Array.from(this.tabs.children) as HTMLElement[];
+    const at = tabs.indexOf(event.currentTarget as HTMLElement);
+    const next = tabs[(at + step + tabs.length) % tabs.length]!;
+    this.openTab(next.textContent ?? "");
+    next.focus();
+    event.preventDefault();
+  }
+
+  private key(event: KeyboardEvent): void {
+    const target = event.target as HTMLElement;
+    if (/^(INPUT|SELECT|TEXTAREA|BUTTON)$/.test(target.tagName) || event.ctrlKey || event.metaKey) {
+      return;
+    }
+    const motion = this.viewer.motion;
+    const actions: Record<string, () => void> = {
+      f: () => this.viewer.frame(this.viewer.selected),
+      a: () => this.viewer.frame(),
+      " ": () => this.timeBar.toggle(),
+      "/": () => this.tree.focusSearch(),
+      Escape: () => this.viewer.select(""),
+      ",": () => motion && this.timeBar.step(-1 / 30),
+      ".": () => motion && this.timeBar.step(1 / 30),
+    };
+    const action = actions[event.key];
+    if (action) {
+      action();
+      event.preventDefault();
+    } else {
+      this.layers.key(event.key);
+    }
+  }
+}

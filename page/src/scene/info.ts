@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the scene of a GLB by tenon says beside its shapes: `extras.tenon`, docs/glb.md. Metres,
+// kilograms, radians; poses are [x, y, z, qx, qy, qz, qw].
+
+export type Pose = [number, number, number, number, number, number, number];
+
+export interface BodyInfo {
+  path: string;
+  mass: number;
+  centerOfMass: [number, number, number];
+  principalAxes: [number, number, number, number];
+  principalMoments: [number, number, number];
+  inertiaBox: [number, number, number];
+  kinematic: boolean;
+  enabled: boolean;
+  articulation: number | null;
+}
+
+export interface LimitInfo {
+  dof: string;
+  lower: number | null;
+  upper: number | null;
+}
+
+export interface DriveInfo {
+  dof: string;
+  stiffness: number;
+  damping: number;
+  maxForce: number | null;
+  targetPosition: number;
+  targetVelocity: number;
+}
+
+export interface JointInfo {
+  path: string;
+  kind: string;
+  body0: number | null;
+  body1: number | null;
+  frame0: Pose;
+  frame1: Pose;
+  axis: "X" | "Y" | "Z";
+  limits: LimitInfo[];
+  drives: DriveInfo[];
+  articulation: number | null;
+  enabled: boolean;
+  closesLoop: boolean;
+}
+
+export interface ColliderInfo {
+  path: string;
+  body: number | null;
+  kind: string;
+  approximation: string;
+  enabled: boolean;
+  volume: number;
+  sourceVolume: number | null;
+  hullGap: number | null;
+}
+
+export interface ArticulationInfo {
+  path: string;
+  fixedBase: boolean;
+  links: number[];
+  joints: number[];
+}
+
+export interface NoteInfo {
+  prim: string;
+  what: string;
+}
+
+export interface SceneInfo {
+  version: 1;
+  up: [number, number, number];
+  bodies: BodyInfo[];
+  joints: JointInfo[];
+  colliders: ColliderInfo[];
+  articulations: ArticulationInfo[];
+  /** Pairs of bodies that do not touch; -1 for what stands still. */
+  filteredPairs: [number, number][];
+  notes: NoteInfo[];
+}
+
+export const noScene: SceneInfo = {
+  version: 1,
+  up: [0, 1, 0],
+  bodies: [],
+  joints: [],
+  colliders: [],
+  articulations: [],
+  filteredPairs: [],
+  notes: [],
+};
+
+/** The kinds of nodes, as their extras name them. */
+export type NodeKind = "world" | "body" | "visual" | "collider";

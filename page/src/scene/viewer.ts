@@ -1,0 +1,391 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The picture: a GLB of tenon, the camera, and what is laid over it. Draws only when something has
+// changed. Where the graphics are drawn by software, edges are not smoothed.
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
+import { type NodeKind, type SceneInfo, noScene } from "./info";
+import { Motion } from "./motion";
+import { Overlays, type OverlayName } from "./overlays";
+
+const themes = {
+  light: { background: 0xeef1f4, grid: 0xb9c2cb, axis: 0x8793a0 },
+  dark: { background: 0x16191d, grid: 0x343b43, axis: 0x5a6570 },
+};
+
+const highlight = new THREE.Color(0x2f7fe0);
+
+/** Whether pictures are computed by the processor. */
+function isSoftware(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  const names = context?.getExtension("WEBGL_debug_renderer_info");
+  const name = names ? String(context!.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
+export class Viewer extends EventTarget {
+  readonly scene = new THREE.Scene();
+  readonly camera = new THREE.PerspectiveCamera(35, 1, 0.001, 1000);
+  readonly renderer: THREE.WebGLRenderer;
+  readonly controls: OrbitControls;
+  readonly software = isSoftware();
+  readonly overlays = new Overlays(this);
+  info: SceneInfo = noScene;
+  /** What stands in the world's axes: its children are the bodies and the world's own node. */
+  root: THREE.Object3D = new THREE.Group();
+  /** Nodes of the bodies, in order. */
+  bodies: THREE.Object3D[] = [];
+  /** The baked motion; null: none. */
+  motion: Motion | null = null;
+  /** Middle and size of the scene, in glTF's axes [m]. */
+  readonly sphere = new THREE.Sphere(new THREE.Vector3(), 1);
+  selected = "";
+
+  private readonly grid = new THREE.Group();
+  private readonly kinds: Record<NodeKind, THREE.Object3D[]> = {
+    world: [],
+    body: [],
+    visual: [],
+    collider: [],
+  };
+  private readonly plain = new Map<THREE.Mesh, THREE.Material | THREE.Material[]>();
+  private dirty = true;
+  private frames = 0;
+  private theme: keyof typeof themes = "light";
+
+  constructor(readonly container: HTMLElement) {
+    super();
+    this.renderer = new THREE.WebGLRenderer({
+      antialias: !this.software,
+      preserveDrawingBuffer: true,
+    });
+    this.renderer.setPixelRatio(this.software ? 1 : Math.min(devicePixelRatio, 2));
+    this.renderer.toneMapping = THREE.NeutralToneMapping;
+    const canvas = this.renderer.domElement;
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", "The asset in three dimensions");
+    container.append(canvas);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener("change", () => this.invalidate());
+    this.addLights();
+    this.scene.add(this.grid);
+    this.setTheme("light");
+    this.listenToPointer(canvas);
+    new ResizeObserver(() => this.resize()).observe(container);
+    this.resize();
+    this.renderer.setAnimationLoop((time) => this.tick(time / 1000));
+  }
+
+  /** Shows another file; the camera stays where it is with `keepCamera`. */
+  async load(bytes: ArrayBuffer, keepCamera = false): Promise<void> {
+    const loader = new GLTFLoader();
+    loader.setMeshoptDecoder(MeshoptDecoder);
+    const file = await loader.parseAsync(bytes, "");
+    const selected = this.selected;
+    this.clear();
+    this.scene.add(file.scene);
+    this.root = file.scene.children[0] ?? file.scene;
+    this.info = { ...noScene, ...(file.scene.userData.tenon as Partial<SceneInfo> | undefined) };
+    file.scene.traverse((node) => {
+      const kind = node.userData.kind as NodeKind | undefined;
+      if (kind && kind in this.kinds) {
+        this.kinds[kind].push(node);
+        if (kind === "body") {
+          this.bodies[node.userData.index as number] = node;
+        }
+      }
+    });
+    this.prepareColliders();
+    this.motion = file.animations.length > 0 ? new Motion(file.scene, file.animations[0]!) : null;
+    this.measure();
+    this.makeGrid();
+    if (!keepCamera) {
+      this.frame();
+    }
+    this.overlays.rebuild();
+    this.select(selected);
+    this.dispatchEvent(new Event("load"));
+    this.invalidate();
+  }
+
+  /** Places all bodies: time [s], then x y z qx qy qz qw of each in the world's axes. */
+  setPoses(frame: Float32Array): void {
+    for (let i = 0; i < this.bodies.length; ++i) {
+      const at = 1 + 7 * i;
+      this.bodies[i]?.position.fromArray(frame, at);
+      this.bodies[i]?.quaternion.fromArray(frame, at + 3);
+    }
+    this.overlays.follow();
+    this.invalidate();
+  }
+
+  /** The object of a path: a body, or a visual or collider by its own. */
+  nodeAt(path: string): THREE.Object3D | undefined {
+    return this.nodes().find((node) => node.userData.path === path);
+  }
+
+  /** Selects a prim by its path; "" selects nothing. */
+  select(path: string): void {
+    this.unmark();
+    this.selected = path;
+    const node = path ? this.nodeAt(path) : undefined;
+    if (node) {
+      this.mark(node);
+    }
+    this.overlays.selectionChanged();
+    this.dispatchEvent(new CustomEvent("select", { detail: path }));
+    this.invalidate();
+  }
+
+  show(kind: "visual" | "collider", visible: boolean): void {
+    for (const node of this.kinds[kind]) {
+      node.visible = visible;
+    }
+    this.invalidate();
+  }
+
+  showOverlay(name: OverlayName, visible: boolean): void {
+    this.overlays.show(name, visible);
+    this.invalidate();
+  }
+
+  showGrid(visible: boolean): void {
+    this.grid.visible = visible;
+    this.invalidate();
+  }
+
+  setTheme(theme: "light" | "dark"): void {
+    this.theme = theme;
+    this.scene.background = new THREE.Color(themes[theme].background);
+    this.makeGrid();
+    this.invalidate();
+  }
+
+  /** Looks at the selection, or at everything, from where one sees it best. */
+  frame(path = ""): void {
+    const sphere = this.sphere.clone();
+    const node = path ? this.nodeAt(path) : undefined;
+    const box = node ? new THREE.Box3().setFromObject(node) : new THREE.Box3();
+    if (!box.isEmpty()) {
+      box.getBoundingSphere(sphere);
+    }
+    const away = new THREE.Vector3(1, 0.55, 1.1).normalize();
+    const half = THREE.MathUtils.degToRad(this.camera.fov / 2);
+    const narrow = Math.min(1, this.camera.aspect);
+    const distance = (sphere.radius / Math.sin(half) / narrow) * 1.02;
+    this.camera.position.copy(sphere.center).addScaledVector(away, distance);
+    this.camera.near = distance / 500;
+    this.camera.far = Math.max(distance, this.sphere.radius) * 50;
+    this.camera.updateProjectionMatrix();
+    this.controls.target.copy(sphere.center);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  /** Draws again before the next picture. */
+  invalidate(): void {
+    this.dirty = true;
+  }
+
+  /** How many pictures were drawn so far. */
+  get drawn(): number {
+    return this.frames;
+  }
+
+  /** Draws now. */
+  draw(): void {
+    this.dirty = false;
+    this.renderer.render(this.scene, this.camera);
+    this.frames += 1;
+  }
+
+  private nodes(): THREE.Object3D[] {
+    return [...this.kinds.body, ...this.kinds.visual, ...this.kinds.collider];
+  }
+
+  private clear(): void {
+    this.unmark();
+    this.overlays.clear();
+    this.root.parent?.remove(this.root);
+    this.scene.traverse((node) => {
+      if (node instanceof THREE.Mesh && node.userData.ofPage === undefined) {
+        node.geometry.dispose();
+      }
+    });
+    for (const child of [...this.scene.children]) {
+      if (child instanceof THREE.Group && child !== this.grid) {
+        this.scene.remove(child);
+      }
+    }
+    for (const list of Object.values(this.kinds)) {
+      list.length = 0;
+    }
+    this.bodies = [];
+  }
+
+  private addLights(): void {
+    const sky = new THREE.HemisphereLight(0xffffff, 0x9aa0a8, 1.9);
+    const key = new THREE.DirectionalLight(0xffffff, 2.2);
+    key.position.set(-0.6, 1, 0.8);
+    const rim = new THREE.DirectionalLight(0xffffff, 0.7);
+    rim.position.set(0.8, 0.3, -1);
+    this.camera.add(key, rim);
+    this.scene.add(sky, this.camera);
+  }
+
+  private resize(): void {
+    const width = Math.max(1, this.container.clientWidth);
+    const height = Math.max(1, this.container.clientHeight);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.renderer.setSize(width, height);
+    this.invalidate();
+  }
+
+  private tick(seconds: number): void {
+    if (this.motion?.advance(seconds)) {
+      this.overlays.follow();
+      this.dispatchEvent(new Event("time"));
+      this.dirty = true;
+    }
+    if (this.dirty) {
+      this.draw();
+    }
+  }
+
+  /** Colliders begin unseen and are drawn so that what they stand for shows through. */
+  private prepareColliders(): void {
+    const colors = [0x2c9f6b, 0xd9822b, 0x7a5fd0, 0xc0486f, 0x2a8fbd, 0x9a9330];
+    for (const node of this.kinds.collider) {
+      node.visible = false;
+      const color = colors[(node.userData.piece as number | undefined ?? 0) % colors.length]!;
+      node.traverse((part) => {
+        if (part instanceof THREE.Mesh) {
+          part.material = new THREE.MeshStandardMaterial({
+            color,
+            transparent: true,
+            opacity: 0.38,
+            depthWrite: false,
+            roughness: 0.8,
+            flatShading: true,
+            side: THREE.DoubleSide,
+          });
+        }
+      });
+    }
+  }
+
+  private measure(): void {
+    this.scene.updateMatrixWorld(true);
+    const box = new THREE.Box3();
+    const seen = this.kinds.visual.length > 0 ? this.kinds.visual : this.kinds.collider;
+    const part = new THREE.Box3();
+    const boxes = seen.map((node) => part.clone().setFromObject(node)).filter((b) => !b.isEmpty());
+    // Grounds are large beside what stands on them: what is twenty times the middle one is none.
+    const sizes = boxes.map((b) => b.getSize(new THREE.Vector3()).length()).sort((a, b) => a - b);
+    const middle = sizes[Math.floor(sizes.length / 2)] ?? 0;
+    for (const one of boxes) {
+      if (boxes.length === 1 || one.getSize(new THREE.Vector3()).length() <= 20 * middle) {
+        box.union(one);
+      }
+    }
+    if (box.isEmpty()) {
+      for (const body of this.bodies) {
+        box.expandByPoint(body.getWorldPosition(new THREE.Vector3()));
+      }
+    }
+    if (box.isEmpty()) {
+      box.set(new THREE.Vector3(-0.5, -0.5, -0.5), new THREE.Vector3(0.5, 0.5, 0.5));
+    }
+    box.getBoundingSphere(this.sphere);
+    this.sphere.radius = Math.max(this.sphere.radius, 1e-4);
+    this.grid.position.set(this.sphere.center.x, box.min.y, this.sphere.center.z);
+  }
+
+  private makeGrid(): void {
+    for (const child of [...this.grid.children]) {
+      this.grid.remove(child);
+      (child as THREE.GridHelper).dispose();
+    }
+    const step = 10 ** Math.round(Math.log10(this.sphere.radius / 3));
+    const colors = themes[this.theme];
+    const lines = new THREE.GridHelper(40 * step, 40, colors.axis, colors.grid);
+    lines.userData.ofPage = true;
+    this.grid.add(lines);
+  }
+
+  private mark(node: THREE.Object3D): void {
+    node.traverse((part) => {
+      if (part instanceof THREE.Mesh && part.userData.ofPage === undefined) {
+        this.plain.set(part, part.material);
+        const marked = (material: THREE.Material): THREE.Material => {
+          const copy = material.clone();
+          if (copy instanceof THREE.MeshStandardMaterial) {
+            copy.emissive.copy(highlight);
+            copy.emissiveIntensity = 0.55;
+            copy.emissiveMap = null;
+          }
+          return copy;
+        };
+        part.material = Array.isArray(part.material)
+          ? part.material.map(marked)
+          : marked(part.material);
+      }
+    });
+  }
+
+  private unmark(): void {
+    for (const [mesh, material] of this.plain) {
+      for (const marked of [mesh.material].flat()) {
+        marked.dispose();
+      }
+      mesh.material = material;
+    }
+    this.plain.clear();
+  }
+
+  private listenToPointer(canvas: HTMLCanvasElement): void {
+    let from: [number, number] = [0, 0];
+    canvas.addEventListener("pointerdown", (event) => {
+      from = [event.clientX, event.clientY];
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      const moved = Math.hypot(event.clientX - from[0], event.clientY - from[1]);
+      if (event.button === 0 && moved < 4) {
+        const hit = this.pick(event.clientX, event.clientY);
+        this.select(hit ? this.bodyPathOf(hit.object) : "");
+      }
+    });
+  }
+
+  /** What is drawn at a place of the window. */
+  pick(clientX: number, clientY: number): THREE.Intersection | undefined {
+    const box = this.renderer.domElement.getBoundingClientRect();
+    const at = new THREE.Vector2(
+      ((clientX - box.left) / box.width) * 2 - 1,
+      1 - ((clientY - box.top) / box.height) * 2,
+    );
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(at, this.camera);
+    const seen = [...this.kinds.visual, ...this.kinds.collider].filter((node) => node.visible);
+    return ray.intersectObjects(seen, true)[0];
+  }
+
+  /** The body that a part belongs to, else the part's own path. */
+  bodyPathOf(part: THREE.Object3D): string {
+    let own = "";
+    for (let node: THREE.Object3D | null = part; node; node = node.parent) {
+      const path = node.userData.path as string | undefined;
+      own ||= path ?? "";
+      if (node.userData.kind === "body") {
+        return path ?? "";
+      }
+    }
+    return own;
+  }
+}

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "tenon/bake/pose_recording.h"
+#include "tenon/base/result.h"
+#include "tenon/view/view_scene.h"
+
+/// Views as binary glTF 2.0, which browsers and most 3D programs read.
+namespace tenon::glb {
+
+struct GlbOptions {
+  /// A motion of the bodies of the view; nullptr: none. Frames are told apart to 1e-6.
+  const bake::PoseRecording* motion = nullptr;
+  /// EXT_meshopt_compression and KHR_mesh_quantization: an eighth of the size, points moved by less
+  /// than 1/60000 of the mesh's size. Not all programs read it.
+  bool compressed = false;
+  bool colliders = false;  ///< also shapes of colliders, which other programs show as if seen
+};
+
+/// One scene. Its root turns the world to glTF's Y-up; below it a node for each body of the view,
+/// in order, then one for what stands still ("world"), below each what is drawn of it. Every node's
+/// `extras` has {"kind": "body", "world", "visual" or "collider", "path", "index"}; those of the
+/// scene have {"tenon": {...}}, what docs/glb.md lists: bodies, joints, colliders, articulations.
+/// Errors: Limit where the file would be larger than glTF's 4 GiB; Invalid for a motion of other
+/// bodies; Missing without meshoptimizer where `compressed`.
+Result<std::string> write_glb(const view::ViewScene& view, const GlbOptions& options);
+
+}  // namespace tenon::glb

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "tenon/bytes/files.h"
+#include "tenon/scene/physics_scene.h"
+#include "tenon/stage/stage.h"
+#include "tenon/view/view_scene.h"
+
+namespace tenon::view {
+
+/// What a view may hold at most; what is beyond it is left out and noted.
+struct ViewLimits {
+  std::size_t shapes = 200'000;           ///< things drawn
+  std::size_t corners = 60'000'000;       ///< of triangles, of meshes that are kept
+  std::size_t image_bytes = 134'217'728;  ///< of all images
+  std::size_t pairs = 100'000;            ///< of bodies that do not touch
+};
+
+struct ViewOptions {
+  bytes::Files files;     ///< where images come from
+  bool colliders = true;  ///< also what is touched
+  ViewLimits limits{};
+};
+
+/// What one sees of `stage`, at the start, by the bodies of `scene`, which is read from it: gprims
+/// of purpose default and render that are visible, instances of point instancers among them. Never
+/// fails: what cannot be drawn is in `notes`.
+ViewScene make_view(const stage::Stage& stage, const scene::PhysicsScene& scene,
+                    const ViewOptions& options);
+
+}  // namespace tenon::view
