@@ -8,6 +8,7 @@
 #   tools/bootstrap.sh build test   to run the tests too
 #   tools/bootstrap.sh build test judge   and the long runs, some of which need clang
 #   tools/bootstrap.sh docs         to make the reference of the headers
+#   tools/bootstrap.sh deb          to make the Debian package
 # Says what it does; asks for root only to install; with all there it does nothing, offline too.
 set -euo pipefail
 
@@ -78,6 +79,7 @@ need_for_engines() { need_tool cargo cargo --version; }
 need_for_test() {
   need_for_engines
   need_for_wheel
+  need_for_deb
   need_package libgtest-dev
   need_tool valgrind valgrind --version
   need_tool binutils readelf --version
@@ -98,6 +100,8 @@ need_for_judge() {
 }
 
 need_for_docs() { need_tool doxygen doxygen --version; }
+
+need_for_deb() { need_tool dpkg-dev dpkg-shlibdeps --version; }
 
 install_missing() {
   local root=()
@@ -129,8 +133,9 @@ for part in "${@:-build}"; do
     test) need_for_test ;;
     judge) need_for_judge ;;
     docs) need_for_docs ;;
+    deb) need_for_deb ;;
     *)
-      echo "bootstrap: unknown part '$part'; expected: build, engines, wheel, test, judge, docs" >&2
+      echo "bootstrap: unknown part '$part'; expected: build, engines, wheel, test, judge, docs, deb" >&2
       exit 2
       ;;
   esac
