@@ -35,6 +35,7 @@ LIBRARIES = {
     "lz4*.h": ["tenon/bytes/*.cpp"],
     "mujoco/*": [
         "tenon/engines/mujoco/mujoco_library.h",
+        "tenon/engines/mujoco/set_up/*_test.cpp",
         "bench/step_mujoco.cpp",
     ],
     "pugixml.hpp": ["tenon/asset/mjcf_files.cpp", "tenon/urdf/*"],

@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A call is a kind, an object and a list of numbers, in the wire form. Making a run again steps a
+// simulation from its start and repeats each call before the step it was made before, so what comes
+// is the same bits; a call that the simulation then refuses was not made by it: the bytes are
+// damaged.
 #include "tenon/engines/input_log.h"
 
 #include "tenon/base/wire.h"

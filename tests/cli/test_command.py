@@ -364,8 +364,8 @@ class Command(unittest.TestCase):
             self.assertEqual(process.returncode, 0, process.stderr)
             return process.stderr
 
-        self.assertRegex(said(3700), r"setting up 3,70\d bodies on MuJoCo takes about \d+ s")
-        self.assertNotIn("setting up", said(500))
+        self.assertRegex(said(7100), r"setting up 7,10\d bodies on mujoco takes about 2 s")
+        self.assertNotIn("setting up", said(3700))
 
     def test_missing_input_is_no_in_every_verb_that_answers(self):
         broken = self.write("broken.usda", SCENE % (

@@ -57,23 +57,23 @@ Result<void> check_run(const bake::RunOptions& run, const engines::Simulation& s
   return check_recorded_states(states);
 }
 
-/// MuJoCo prepares a model in a time that grows with the square of its bodies: 10,000 that are free
-/// took 15.7 s on the machine of the benchmarks. Who has to wait for it is told before.
+/// Who has to wait for an engine to make its model is told before.
 void announce_setup(const SimulateAssetOptions& options, const std::string& engine,
                     const scene::PhysicsScene& scene, Diagnostics& diagnostics) {
-  constexpr double kSecondsPerPair = 1.5e-7;
   constexpr double kWorthTelling = 2;  // [s]
   const auto bodies = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                     [](const scene::Body& body) { return !body.kinematic; });
-  const double seconds = kSecondsPerPair * std::pow(static_cast<double>(bodies), 2);
-  if (engine != "mujoco" || seconds < kWorthTelling) {
+  const double seconds =
+      engine_info(engine).set_up_per_pair * std::pow(static_cast<double>(bodies), 2);
+  if (seconds < kWorthTelling) {
     return;
   }
   Diagnostic finding;
   finding.severity = Severity::Warning;
   finding.rule = "sim.slow-setup";
   finding.message = "setting up " + grouped_digits(static_cast<std::size_t>(bodies)) +
-                    " bodies on MuJoCo takes about " + std::to_string(std::llround(seconds)) +
+                    " bodies on " + engine + " takes about " +
+                    std::to_string(std::llround(seconds)) +
                     " s; the time grows with the square of their number";
   finding.fix = "simulate it with --engine physx or jolt, or a part of it with --mask";
   if (options.listener.announce) {

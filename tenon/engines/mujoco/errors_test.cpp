@@ -130,6 +130,26 @@ TEST(Errors, SceneWithoutSceneIsInvalid) {
   EXPECT_EQ(made.error().code(), ErrorCode::Invalid);
 }
 
+TEST(Errors, ChainsThatMujocoRefusesAreToldAtOnce) {
+  const auto chain = [](int count) {
+    TestScene scene;
+    for (int i = 0; i < count; ++i) {
+      const std::string number = std::to_string(i);
+      const auto body = scene.add_body("Link" + number, {{0.1 * i, 0, 0}});
+      scene::Joint& joint = scene.add_joint("Joint" + number, scene::JointKind::Revolute,
+                                            i == 0 ? std::nullopt : std::optional(body - 1), body);
+      joint.frame0.position = {{i == 0 ? 0 : 0.1, 0, 0}};
+    }
+    return scene;
+  };
+  Diagnostics findings;
+  EXPECT_TRUE(build_model(chain(1023), {}, findings).has_value());
+  const Result<Model> longer = build_model(chain(1024), {}, findings);
+  ASSERT_FALSE(longer.has_value());
+  EXPECT_EQ(longer.error().diagnostic().rule, "mujoco.chain-too-long");
+  EXPECT_NE(longer.error().diagnostic().fix.find("PhysX"), std::string::npos);
+}
+
 TEST(Errors, EmptySceneStepsOn) {
   TestScene scene;
   auto sim = simulation(scene);

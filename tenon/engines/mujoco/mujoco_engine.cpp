@@ -3,6 +3,7 @@
 #include "tenon/engines/mujoco/mujoco_engine.h"
 
 #include "tenon/engines/mujoco/mujoco_simulation.h"
+#include "tenon/engines/mujoco/set_up/set_const_groups.h"
 
 namespace tenon::engines::mujoco {
 
@@ -11,7 +12,7 @@ EngineInfo info() {
   if (!opened) {
     return {"mujoco", "", false, opened.error().diagnostic().fix};
   }
-  return {"mujoco", mj_versionString(), true, ""};
+  return {"mujoco", mj_versionString(), true, "", set_up_per_pair()};
 }
 
 Result<std::unique_ptr<Simulation>> make_simulation(const scene::PhysicsScene& scene,

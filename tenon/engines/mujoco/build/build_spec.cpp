@@ -19,13 +19,16 @@ namespace tenon::engines::mujoco {
 namespace {
 
 constexpr std::size_t kMaxRefused = 100;  // parts that are left out before the model is given up
+constexpr std::size_t kDeepest = 1023;    // bodies below each other that MuJoCo takes
+static_assert(kDeepest <= limits::kKinematicChain);
 
 Result<void> check_sizes(const Build& build) {
-  if (build.plan.forest.depth > limits::kKinematicChain) {
+  if (build.plan.forest.depth > kDeepest) {
     return Error(ErrorCode::Limit, "a chain of " + std::to_string(build.plan.forest.depth) +
-                                       " jointed bodies is longer than " +
-                                       std::to_string(limits::kKinematicChain))
-        .with_rule("mujoco.chain-too-long");
+                                       " jointed bodies is longer than the " +
+                                       std::to_string(kDeepest) + " that MuJoCo takes")
+        .with_rule("mujoco.chain-too-long")
+        .with_fix("simulate it on PhysX or Jolt (--engine physx)");
   }
   if (build.scene.scenes.empty()) {
     return Error(ErrorCode::Invalid, "the description has no scene").with_rule("mujoco.no-scene");
