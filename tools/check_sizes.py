@@ -21,7 +21,7 @@ FILE_LINES = 600
 ROOM_FILES = 40
 HEAD_LINES = 150  # from here on a file needs a head
 ROOMS = ("tenon/", "cli/", "worker/")
-PLACES = ("tenon/", "cli/", "tests/", "bench/", "fuzz/", "tools/")
+PLACES = ("tenon/", "cli/", "tests/", "bench/", "fuzz/", "tools/", "python/")
 SUFFIXES = (".h", ".cpp", ".py")
 SKIPPED = 77
 

@@ -72,4 +72,10 @@ CMAKE_BUILD_PARALLEL_LEVEL=$jobs PATH="$bin:$PATH" "$bin/python" -m pip wheel ./
 mkdir -p dist
 PATH="$bin:$PATH" "$bin/auditwheel" repair build/wheel/raw/*.whl --wheel-dir dist \
   >>build/wheel.log 2>&1 || { tail -n 20 build/wheel.log >&2; exit 1; }
-ls -l dist/tenon_usd-*.whl
+# What was made, and for which Python: for the tests.
+for raw in build/wheel/raw/*.whl; do
+  name=$(basename "$raw" | cut -d- -f1-3)
+  readlink -f "$(ls -t dist/"$name"-*.whl | head -n 1)" >build/wheel/made
+done
+command -v "$python" >build/wheel/python
+ls -l "$(cat build/wheel/made)"

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "batch.h"
+#include "batch_calls.h"
+#include "batch_outputs.h"
 #include "failure.h"
 #include "json.h"
 #include "numbers.h"
@@ -27,8 +29,6 @@
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
-#include "tenon/asset/export_mjcf.h"
-#include "tenon/asset_policy.h"
 #include "tenon/scene/fields/enum_names.h"
 #include "tenon/scene/joint_dofs.h"
 
@@ -50,21 +50,6 @@ std::span<const double> span_of(const Numbers& array, std::size_t count) {
   return span_of(array);
 }
 
-/// Calls with the batch to itself; what it returns is of C++.
-template <class Call>
-auto with(Batch& batch, const Call& call) {
-  return unlocked([&] {
-    const std::lock_guard<std::mutex> held(batch.mutex);
-    return call();
-  });
-}
-
-void check_environment(const Batch& batch, std::size_t i) {
-  if (i >= batch.size()) {
-    throw nb::index_error("there is no such environment");
-  }
-}
-
 /// Calls with each environment until one fails.
 template <class Call>
 Result<void> each(Batch& batch, const Call& call) {
@@ -74,12 +59,6 @@ Result<void> each(Batch& batch, const Call& call) {
   return {};
 }
 
-void put(const Vec3d& vector, double*& to) { to = std::copy(vector.v.begin(), vector.v.end(), to); }
-void put(const Quatd& q, double*& to) {
-  for (const double part : {q.w, q.x, q.y, q.z}) {
-    *to++ = part;
-  }
-}
 Vec3d vector_at(const double* from) { return {{from[0], from[1], from[2]}}; }
 Pose pose_at(const double* from) {
   return {vector_at(from), normalized(Quatd{from[4], from[5], from[6], from[3]})};
@@ -406,143 +385,6 @@ nb::object energies(Batch& batch) {
   return made.take();
 }
 
-// ---- one environment
-
-nb::bytes save_state(Batch& batch, std::size_t i) {
-  check_environment(batch, i);
-  const std::string state = or_raise(with(batch, [&] { return batch.world(i).save_state(); }));
-  return nb::bytes(state.data(), state.size());
-}
-
-void restore_state(Batch& batch, std::size_t i, const nb::bytes& state) {
-  check_environment(batch, i);
-  const std::string_view bytes(state.c_str(), state.size());
-  or_raise(with(batch, [&] { return batch.world(i).restore_state(bytes); }));
-}
-
-template <class Get>
-nb::object contact_vectors(const std::vector<engines::Contact>& contacts, const Get& get) {
-  NewArray<> made({contacts.size(), 3});
-  double* to = made.numbers.data();
-  for (const engines::Contact& contact : contacts) {
-    put(get(contact), to);
-  }
-  return made.take();
-}
-
-template <class Number, class Get>
-nb::object contact_numbers(const std::vector<engines::Contact>& contacts, const Get& get) {
-  NewArray<Number> made({contacts.size()});
-  std::transform(contacts.begin(), contacts.end(), made.numbers.begin(), get);
-  return made.take();
-}
-
-nb::dict contacts(Batch& batch, std::size_t i) {
-  using engines::Contact;
-  check_environment(batch, i);
-  const auto found = or_raise(with(batch, [&] { return batch.world(i).contacts(); }));
-  const auto index = [](const std::optional<scene::Index>& body) {
-    return body ? static_cast<std::int64_t>(*body) : -1;
-  };
-  nb::dict arrays;
-  arrays["collider0"] = contact_numbers<std::int64_t>(
-      found, [](const Contact& c) { return static_cast<std::int64_t>(c.collider0); });
-  arrays["collider1"] = contact_numbers<std::int64_t>(
-      found, [](const Contact& c) { return static_cast<std::int64_t>(c.collider1); });
-  arrays["body0"] =
-      contact_numbers<std::int64_t>(found, [&](const Contact& c) { return index(c.body0); });
-  arrays["body1"] =
-      contact_numbers<std::int64_t>(found, [&](const Contact& c) { return index(c.body1); });
-  arrays["depth"] = contact_numbers<double>(found, [](const Contact& c) { return c.depth; });
-  arrays["normal_force"] =
-      contact_numbers<double>(found, [](const Contact& c) { return c.normal_force; });
-  arrays["point"] = contact_vectors(found, [](const Contact& c) { return c.point; });
-  arrays["normal"] = contact_vectors(found, [](const Contact& c) { return c.normal; });
-  arrays["force"] = contact_vectors(found, [](const Contact& c) { return c.force(); });
-  arrays["friction_torque"] =
-      contact_vectors(found, [](const Contact& c) { return c.friction_torque; });
-  return arrays;
-}
-
-nb::object contact_counts(Batch& batch) {
-  NewArray<std::int64_t> made({batch.size()});
-  with(batch, [&] {
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      made.numbers[i] = static_cast<std::int64_t>(batch.world(i).contact_count());
-    }
-    return true;
-  });
-  return made.take();
-}
-
-nb::object vector_of(const Vec3d& vector) {
-  NewArray<> made({3});
-  std::copy(vector.v.begin(), vector.v.end(), made.numbers.begin());
-  return made.take();
-}
-
-nb::object numbers_of(const std::vector<double>& values) {
-  NewArray<> made({values.size()});
-  made.numbers = values;
-  return made.take();
-}
-
-nb::dict reading_of(const scene::Sensor& sensor, const engines::SensorReading& reading) {
-  nb::dict row;
-  row["path"] = text(sensor.path.str());
-  row["kind"] = std::string(scene::sensor_kind_name(sensor.kind)).c_str();
-  row["time"] = reading.time;
-  switch (sensor.kind) {
-    case scene::SensorKind::Contact:
-      row["in_contact"] = reading.in_contact;
-      row["normal_force"] = reading.normal_force;
-      break;
-    case scene::SensorKind::Imu: {
-      row["linear_acceleration"] = vector_of(reading.linear_acceleration);
-      row["angular_velocity"] = vector_of(reading.angular_velocity);
-      NewArray<> orientation({4});
-      double* to = orientation.numbers.data();
-      put(reading.orientation, to);
-      row["orientation"] = orientation.take();
-      break;
-    }
-    case scene::SensorKind::ForceTorque:
-      row["force"] = vector_of(reading.wrench.force);
-      row["torque"] = vector_of(reading.wrench.torque);
-      break;
-    case scene::SensorKind::Joint:
-      row["position"] = numbers_of(reading.joint.position);
-      row["velocity"] = numbers_of(reading.joint.velocity);
-      row["effort"] = numbers_of(reading.efforts);
-      break;
-  }
-  return row;
-}
-
-nb::list sensors(Batch& batch, std::size_t i) {
-  check_environment(batch, i);
-  const auto readings = or_raise(with(batch, [&] { return batch.world(i).sensors(); }));
-  nb::list rows;
-  for (std::size_t s = 0; s < readings.size() && s < batch.scene->sensors.size(); ++s) {
-    rows.append(reading_of(batch.scene->sensors[s], readings[s]));
-  }
-  return rows;
-}
-
-nb::list events(Batch& batch, std::size_t i) {
-  check_environment(batch, i);
-  const auto found = with(batch, [&] { return batch.world(i).events(); });
-  nb::list rows;
-  for (const engines::Event& event : found) {
-    nb::dict row;
-    row["time"] = event.time;
-    row["prim"] = text(event.prim.str());
-    row["what"] = message(event.what);
-    rows.append(row);
-  }
-  return rows;
-}
-
 nb::list not_mapped(Batch& batch) {
   const auto found = with(batch, [&] { return batch.world(0).not_mapped(); });
   nb::list rows;
@@ -554,26 +396,6 @@ nb::list not_mapped(Batch& batch) {
     rows.append(row);
   }
   return rows;
-}
-
-/// The model's text, the images that it names, and what MJCF has no word for.
-nb::tuple to_mjcf(Batch& batch, std::size_t i, const std::string& folder) {
-  check_environment(batch, i);
-  Diagnostics found;
-  const ExportedMjcf exported =
-      or_raise(with(batch,
-                    [&] {
-                      const scene::PhysicsScene& scene =
-                          batch.own_scenes.empty() ? *batch.scene : *batch.own_scenes[i];
-                      return export_mjcf(*batch.stage, scene, folder,
-                                         policy_for(batch.path, batch.open), found);
-                    }),
-               found);
-  nb::dict images;
-  for (const auto& [name, bytes] : exported.images) {
-    images[text(name)] = nb::bytes(bytes.data(), bytes.size());
-  }
-  return nb::make_tuple(text(exported.text), images, to_list(found));
 }
 
 std::shared_ptr<ReadScene> scene_of(const Batch& batch) {
@@ -663,7 +485,11 @@ void bind_facts(nb::class_<Batch>& batch) {
 void bind_batch(nb::module_& module) {
   nb::class_<Batch> batch(module, "Batch", "What World stands on.");
   module.def("make_batch", &make_batch, "path"_a, "arguments"_a, "engine"_a, "count"_a, "threads"_a,
-             "seed"_a, "time_step"_a, "outputs"_a, "variations"_a, "integrator"_a);
+             "seed"_a, "time_step"_a, "outputs"_a, "variations"_a, "integrator"_a,
+             nb::sig("def make_batch(path: str | os.PathLike[str], arguments: OpenArguments, "
+                     "engine: str, count: int, threads: int, seed: int, time_step: float, "
+                     "outputs: Sequence[str], variations: Sequence[str], "
+                     "integrator: str) -> Batch"));
   bind_facts(batch);
   batch.def("step", &step, "count"_a);
   batch.def("reset", &reset, "which"_a);
@@ -684,18 +510,7 @@ void bind_batch(nb::module_& module) {
   batch.def("gravity", &gravity, nb::sig("def gravity(self) -> NDArray[Any]"));
   batch.def("set_gravity", &set_gravity, "values"_a);
   batch.def("energies", &energies, nb::sig("def energies(self) -> NDArray[Any]"));
-  batch.def("save_state", &save_state, "environment"_a);
-  batch.def("restore_state", &restore_state, "environment"_a, "state"_a);
-  batch.def("contacts", &contacts, "environment"_a,
-            nb::sig("def contacts(self, environment: int) -> dict[str, NDArray[Any]]"));
-  batch.def("contact_counts", &contact_counts, nb::sig("def contact_counts(self) -> NDArray[Any]"));
-  batch.def("sensors", &sensors, "environment"_a,
-            nb::sig("def sensors(self, environment: int) -> list[dict[str, Any]]"));
-  batch.def("events", &events, "environment"_a,
-            nb::sig("def events(self, environment: int) -> list[dict[str, Any]]"));
-  batch.def("to_mjcf", &to_mjcf, "environment"_a, "folder"_a,
-            nb::sig("def to_mjcf(self, environment: int, folder: str) -> tuple[str, "
-                    "dict[str, bytes], list[Diagnostic]]"));
+  bind_outputs(batch);
 }
 
 }  // namespace tenon::python

@@ -110,7 +110,6 @@ nb::list edited(OpenedStage& stage, const std::vector<AssetEdit>& edits) {
   for (const EditedPlace& place : places) {
     nb::dict row;
     row["file"] = text(place.file);
-    row["line"] = place.line;
     row["spec"] = text(place.spec.str());
     row["why"] = message(place.why);
     row["before"] = text(place.before);
@@ -127,7 +126,8 @@ std::string as_text(const char* function, const nb::object& value) {
 }
 
 nb::list set_value(const PrimOf& prim, const std::string& name, const nb::object& value,
-                   const std::string& engine, const std::string& layer) {
+                   const std::string& engine, const std::string& layer,
+                   const std::string& type_name) {
   const bool targets =
       with_prim(prim, [&](const stage::Prim& found) { return found.is_relationship(name); });
   AssetEdit edit;
@@ -136,6 +136,9 @@ nb::list set_value(const PrimOf& prim, const std::string& name, const nb::object
   edit.value = as_text(targets ? "as_targets" : "as_text", value);
   edit.engine = engine;
   edit.layer = layer;
+  if (!type_name.empty()) {
+    edit.type_name = type_name;
+  }
   return edited(*prim.stage, {edit});
 }
 
@@ -230,15 +233,18 @@ void bind_prim_values(nb::class_<PrimOf>& prim) {
       [](const PrimOf& self, const std::string& name) { return value_of(self, name, {}); },
       "name"_a, "The same at the default time, in the units of the stage.");
   prim.def("set", &set_value, "name"_a, "value"_a, nb::kw_only(), "engine"_a = "", "layer"_a = "",
+           "type_name"_a = "",
+           nb::sig("def set(self, name: str, value: object, *, engine: str = '', layer: str = '', "
+                   "type_name: str = '') -> list[dict[str, Any]]"),
            "Sets a property in the file that owns it, in memory until save(): a value in the units "
            "of the stage, with the types of get(); None blocks it; of a relationship a list of "
-           "paths. `engine` (\"physx\", \"mujoco\") or `layer` name another file. Returns where it "
-           "went: a list of {\"file\", \"line\", \"spec\", \"why\", \"before\", \"after\", "
-           "\"variants\"}.");
+           "paths. `engine` (\"physx\", \"mujoco\") or `layer` name another file; `type_name` "
+           "(\"double3\") makes an attribute that nobody knows. Returns where it went: a list of "
+           "{\"file\", \"spec\", \"why\", \"before\", \"after\", \"variants\"}.");
   prim.def(
       "__setitem__",
       [](const PrimOf& self, const std::string& name, const nb::object& value) {
-        set_value(self, name, value, "", "");
+        set_value(self, name, value, "", "", "");
       },
       "name"_a, "value"_a, "The same, in the file that owns the property.");
   prim.def(
@@ -249,13 +255,14 @@ void bind_prim_values(nb::class_<PrimOf>& prim) {
         edit.object = self.path.property(name);
         return edited(*self.stage, {edit});
       },
-      "name"_a, "Takes the strongest opinion about a property away. Returns what set() returns.");
+      "name"_a, nb::sig("def clear(self, name: str) -> list[dict[str, Any]]"),
+      "Takes the strongest opinion about a property away. Returns what set() returns.");
   prim.def(
       "apply",
       [](const PrimOf& self, const std::string& schema) {
         return edit_api(self, schema, AssetEdit::Kind::ApplyApi);
       },
-      "schema"_a,
+      "schema"_a, nb::sig("def apply(self, schema: str) -> list[dict[str, Any]]"),
       "Applies an API schema: \"PhysicsMassAPI\", \"PhysicsDriveAPI:angular\". Returns what set() "
       "returns.");
   prim.def(
@@ -263,13 +270,12 @@ void bind_prim_values(nb::class_<PrimOf>& prim) {
       [](const PrimOf& self, const std::string& schema) {
         return edit_api(self, schema, AssetEdit::Kind::RemoveApi);
       },
-      "schema"_a, "Takes an API schema away. Returns what set() returns.");
+      "schema"_a, nb::sig("def unapply(self, schema: str) -> list[dict[str, Any]]"),
+      "Takes an API schema away. Returns what set() returns.");
   prim.def("remove", &remove_prim, "Takes the prim away from all files of the asset.");
 }
 
-void bind_prim(nb::module_& module) {
-  nb::class_<PrimOf> prim(module, "Prim",
-                          "A prim of a composed stage, looked up by its path at each call.");
+void bind_prim_place(nb::class_<PrimOf>& prim) {
   prim.def_prop_ro(
       "path", [](const PrimOf& self) { return text(self.path.str()); },
       "Absolute path: \"/hand/palm\".");
@@ -302,6 +308,9 @@ void bind_prim(nb::module_& module) {
                    "Prims right below, in order, also inactive ones and those in instances.");
   prim.def("walk", &walk, nb::sig("def walk(self) -> list[Prim]"),
            "This prim and all below it, depth first.");
+}
+
+void bind_prim_schemas(nb::class_<PrimOf>& prim) {
   prim.def_prop_ro(
       "properties",
       [](const PrimOf& self) {
@@ -336,6 +345,9 @@ void bind_prim(nb::module_& module) {
       },
       nb::sig("def variants(self) -> dict[str, tuple[str, list[str]]]"),
       "By variant set: the selection and what there is.");
+}
+
+void bind_prim_questions(nb::class_<PrimOf>& prim) {
   prim.def(
       "is_a",
       [](const PrimOf& self, const std::string& type) {
@@ -367,6 +379,14 @@ void bind_prim(nb::module_& module) {
       },
       nb::sig("def times(self, name: str) -> list[float]"),
       "Times of the samples of an attribute [time codes].");
+}
+
+void bind_prim(nb::module_& module) {
+  nb::class_<PrimOf> prim(module, "Prim",
+                          "A prim of a composed stage, looked up by its path at each call.");
+  bind_prim_place(prim);
+  bind_prim_schemas(prim);
+  bind_prim_questions(prim);
   prim.def("__repr__",
            [](const PrimOf& self) { return message("<Prim " + self.path.str() + ">"); });
   prim.def("__eq__", [](const PrimOf& self, const nb::object& other) {
@@ -469,6 +489,8 @@ void bind_stage(nb::module_& module) {
   bind_stage_edits(stage);
   bind_stage_answers(stage);
   module.def("open_stage", &open, "path"_a, "arguments"_a,
+             nb::sig("def open_stage(path: str | os.PathLike[str], "
+                     "arguments: OpenArguments) -> Stage"),
              "Opens and composes an asset. tenon_usd.open() is the way in.");
 }
 

@@ -104,7 +104,8 @@ void bind_diagnostics(nb::module_& module) {
   bound.def_ro("line", &Diagnostic::line, "In the file, counted from 1; 0 where it is unknown.");
   bound.def_ro("column", &Diagnostic::column, "In bytes, counted from 1; 0 where it is unknown.");
   add_text(bound, "prim", &Diagnostic::prim, "Path of the prim.");
-  add_text(bound, "property", &Diagnostic::property, "Its name, without the path of the prim.");
+  add_text(bound, "property_name", &Diagnostic::property,
+           "Its name, without the path of the prim.");
   add_text(bound, "fix", &Diagnostic::fix, "What can be done about it.");
   const auto shown = [](const Diagnostic& finding) { return message(finding.to_string()); };
   bound.def("__str__", shown);

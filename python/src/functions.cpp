@@ -305,7 +305,10 @@ void bind_functions(nb::module_& module) {
                      "folder: str | os.PathLike[str], arguments: OpenArguments, name: str, "
                      "force: bool, engines: Sequence[str]) -> dict[str, Any]"));
   module.def("new_asset", &make_new, "path"_a, "up_axis"_a, "meters_per_unit"_a,
-             "kilograms_per_unit"_a, "default_prim"_a);
+             "kilograms_per_unit"_a, "default_prim"_a,
+             nb::sig("def new_asset(path: str | os.PathLike[str], up_axis: str, "
+                     "meters_per_unit: float, kilograms_per_unit: float, "
+                     "default_prim: str) -> None"));
   module.def("write_files", &write_files_beside, "path"_a, "contents"_a, "beside"_a,
              nb::sig("def write_files(path: str | os.PathLike[str], contents: bytes, "
                      "beside: dict[str, bytes]) -> None"));
@@ -315,8 +318,8 @@ void bind_functions(nb::module_& module) {
       nb::sig("def doctor() -> dict[str, Any]"));
   module.def(
       "set_worker",
-      [](const std::filesystem::path& path) { guard::set_worker_program(path.string()); },
-      "path"_a);
+      [](const std::filesystem::path& path) { guard::set_worker_program(path.string()); }, "path"_a,
+      nb::sig("def set_worker(path: str | os.PathLike[str]) -> None"));
 }
 
 }  // namespace tenon::python

@@ -11,7 +11,7 @@
 
 NB_MODULE(_tenon, module) {
   module.doc() = "The library behind tenon_usd; use tenon_usd itself.";
-  module.attr("__version__") = TENON_VERSION;
+  module.attr("VERSION") = TENON_VERSION;
   tenon::python::bind_diagnostics(module);
   tenon::python::bind_values(module);
   tenon::python::bind_options(module);

@@ -58,7 +58,8 @@ std::string snake_case(std::string_view camel) {
     const bool upper = c >= 'A' && c <= 'Z';
     snake += upper ? std::string("_") + static_cast<char>(c + 32) : std::string(1, c);
   }
-  return snake;
+  // In a class body of a stub this name would hide what makes the others.
+  return snake == "property" ? "property_name" : snake;
 }
 
 /// "Body"; "BodyTrack" of ObjectTrack<Body>, "TendonWrapAttachment" of TendonWrap::Attachment.
@@ -442,6 +443,22 @@ class ClassBinder {
   nb::module_& module_;
 };
 
+void bind_pose(nb::module_& module) {
+  nb::class_<Pose> pose(module, "Pose", "Where a frame is, seen from another one.");
+  const auto part = [&pose](const char* name, auto get, const char* meaning) {
+    pose.def_prop_ro(
+        name, [get](nb::handle_t<Pose> self) { return get(*nb::inst_ptr<Pose>(self), self); },
+        nb::sig((std::string("def ") + name + "(self) -> NDArray[Any]").c_str()), meaning);
+  };
+  part(
+      "position", [](const Pose& self, nb::handle owner) { return view(self.position, owner); },
+      "Of the origin [m] (3).");
+  part(
+      "orientation",
+      [](const Pose& self, nb::handle owner) { return view(self.orientation, owner); },
+      "(4): w, x, y, z.");
+}
+
 void bind_list(nb::module_& module) {
   nb::class_<List> list(module, "List", nb::is_generic(), nb::sig("class List(Generic[T])"),
                         "A list of objects of a scene, without a copy.");
@@ -476,6 +493,7 @@ std::shared_ptr<ReadScene> scene_of_json(const std::string& json) {
 void bind_physics(nb::module_& module) {
   module.attr("T") = nb::type_var("T");
   bind_list(module);
+  bind_pose(module);
   static_assert(offsetof(ReadScene, scene) == 0);
   nb::class_<ReadScene> bound = bind_class<scene::PhysicsScene, ReadScene>(module);
   ClassBinder(module).bind_below<scene::PhysicsScene>();

@@ -22,7 +22,8 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from . import _tenon
-from ._tenon import AssetPath, Diagnostic, Prim, Stage, __version__
+from ._tenon import VERSION as __version__
+from ._tenon import AssetPath, Diagnostic, Prim, Stage
 from .errors import (
     CorruptError,
     Error,

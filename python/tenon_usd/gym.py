@@ -23,7 +23,7 @@ from gymnasium.vector.utils import batch_space
 from .options import PathLike
 from .world import World
 
-Array = npt.NDArray[np.float64]
+Array = npt.NDArray[Any]
 
 
 class AssetVectorEnv(VectorEnv[Array, Array, Array]):
@@ -107,7 +107,7 @@ class AssetVectorEnv(VectorEnv[Array, Array, Array]):
 
     def step(
         self, actions: Array
-    ) -> tuple[Array, Array, npt.NDArray[np.bool_], npt.NDArray[np.bool_], dict[str, Any]]:
+    ) -> tuple[Array, Array, Array, Array, dict[str, Any]]:
         """Actions of shape (envs, drives); observations, rewards, terminated, truncated, infos."""
         fresh = self._ended.copy()
         if fresh.any():
@@ -164,7 +164,8 @@ class GraspEnv(AssetVectorEnv):
 
     def fallen(self) -> Array:
         """How far each can has fallen [m], shape (envs,)."""
-        return np.maximum(self._start_height - self._height(), 0.0)
+        fallen: Array = np.maximum(self._start_height - self._height(), 0.0)
+        return fallen
 
     def started(self, envs: npt.NDArray[np.bool_]) -> None:
         """Remembers where the cans stand."""

@@ -67,16 +67,11 @@ class World:
             list(vary),
             integrator,
         )
-        self._targets = np.zeros((envs, len(self.drive_names)))
-        self._target_velocities = np.zeros_like(self._targets)
-        self._start_targets()
-
-    def _start_targets(self, which: Sequence[int] | None = None) -> None:
-        rows = slice(None) if which is None else list(which)
-        scene = self._batch.scene()
-        drives = [drive for joint in scene.joints for drive in joint.drives]
-        self._targets[rows] = [drive.target_position for drive in drives]
-        self._target_velocities[rows] = [drive.target_velocity for drive in drives]
+        drives = [drive for joint in self._batch.scene().joints for drive in joint.drives]
+        self._first_targets = np.array([drive.target_position for drive in drives])
+        self._first_velocities = np.array([drive.target_velocity for drive in drives])
+        self._targets = np.tile(self._first_targets, (envs, 1))
+        self._target_velocities = np.tile(self._first_velocities, (envs, 1))
 
     # ---- what there is
 
@@ -172,7 +167,8 @@ class World:
         """Back to the start, with what was drawn: all environments, some by number, or a mask."""
         which = self._which(envs)
         self._batch.reset(which)
-        self._start_targets(which)
+        self._targets[which] = self._first_targets
+        self._target_velocities[which] = self._first_velocities
 
     # ---- joints
 
@@ -232,9 +228,9 @@ class World:
         Drives that exert no force are passed over.
         """
         if positions is not None:
-            self._targets = _spread(positions, self._targets.shape)
+            self._targets[:] = positions
         if velocities is not None:
-            self._target_velocities = _spread(velocities, self._targets.shape)
+            self._target_velocities[:] = velocities
         self._batch.set_targets(self._targets, self._target_velocities)
 
     def set_efforts(self, efforts: npt.ArrayLike) -> None:
@@ -387,7 +383,7 @@ class World:
         Raises MissingError where mujoco is not installed.
         """
         try:
-            import mujoco
+            import mujoco  # type: ignore[import-not-found, import-untyped, unused-ignore]
         except ImportError as reason:
             from .errors import MissingError
 

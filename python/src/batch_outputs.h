@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "batch.h"
+#include <nanobind/nanobind.h>
+
+namespace tenon::python {
+
+/// States, contacts, sensors and models of single environments.
+void bind_outputs(nanobind::class_<Batch>& batch);
+
+}  // namespace tenon::python

@@ -1,0 +1,147 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""The verbs as functions, beside what the program in the wheel prints."""
+
+import json
+import os
+import shutil
+import subprocess
+import sysconfig
+
+import support
+
+import tenon_usd as tenon
+
+ROBOT = support.ROOT / "examples/cpp/robots/arm.urdf"
+PROGRAM = os.path.join(sysconfig.get_path("scripts"), "tenon")
+
+
+def printed(*arguments):
+    """The program's answer as JSON, without what stands around every answer."""
+    done = subprocess.run([PROGRAM, *map(str, arguments), "--json"], capture_output=True)
+    answer = json.loads(done.stdout)
+    for key in ("tool", "version", "schema", "asset", "ok", "diagnostics"):
+        answer.pop(key, None)
+    return answer
+
+
+class Answers(support.FilesTestCase):
+    def test_answers_are_those_of_the_program(self):
+        stage = tenon.open(support.HAND)
+        self.assertEqual(tenon.info(support.HAND), printed("info", support.HAND))
+        self.assertEqual({"prims": stage.tree()}, printed("tree", support.HAND))
+        for place in ("/inspire_hand/Geometry/right_base_link",
+                      "/inspire_hand/Physics/right_index_1_joint.physics:upperLimit"):
+            if place.partition(".")[0] not in stage:
+                place = stage.physics().bodies[0].path
+            self.assertEqual(tenon.explain(support.HAND, place),
+                             printed("explain", support.HAND, place))
+            self.assertEqual(tenon.where(support.HAND, place, variants=True),
+                             printed("where", support.HAND, place, "--variants"))
+        masses = {row["path"]: row["resolved"]["mass"] for row in stage.masses()}
+        self.assertEqual(masses, {body.path: body.mass for body in stage.physics().bodies})
+        self.assertEqual(len(stage.kinematic_tree()["links"]), len(masses))
+        with self.assertRaises(tenon.NotFoundError):
+            stage.explain("/nothing")
+        with self.assertRaises(tenon.NotFoundError):
+            stage.where("/inspire_hand.nothing")
+
+    def test_checks(self):
+        path = self.copied_hand()
+        self.assertEqual(tenon.check(path)["summary"]["errors"], 0)
+        bad = self.written("bad.usda", """#usda 1.0
+(
+    defaultPrim = "W"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "W"
+{
+    def Cube "box" (
+        prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI", "PhysicsMassAPI"]
+    )
+    {
+        float physics:mass = 1
+        float3 physics:diagonalInertia = (1, 1, 100)
+    }
+}
+""")
+        findings = tenon.check(bad)["diagnostics"]
+        inertia = [row for row in findings if row["rule"].startswith("mass.")]
+        self.assertTrue(inertia, findings)
+        self.assertEqual(os.path.abspath(inertia[0]["file"]), str(bad))
+        self.assertEqual(inertia[0]["prim"], "/W/box")
+        names = [row["rule"] for row in tenon.rules()]
+        self.assertIn(inertia[0]["rule"], names)
+        self.assertIn(inertia[0]["rule"], tenon.rule(inertia[0]["rule"]))
+        with self.assertRaises(KeyError):
+            tenon.rule("no.such-rule")
+
+    def test_differences(self):
+        path = self.copied_hand()
+        other = self.folder / "other"
+        shutil.copytree(path.parent, other)
+        self.assertTrue(tenon.diff(path, other / path.name, mode="physics")["equal"])
+        stage = tenon.open(other / path.name)
+        joint = stage.physics().joints[3].path
+        stage[joint]["physics:upperLimit"] = 5.0
+        stage.save()
+        answer = tenon.diff(path, other / path.name, mode="physics")
+        self.assertFalse(answer["equal"])
+        self.assertIn(joint, [row["path"] for row in answer["differences"]])
+        with self.assertRaises(ValueError):
+            tenon.diff(path, path, mode="nothing")
+
+    def test_engines_are_compared(self):
+        answer = tenon.compare(support.SCENES / "box_on_box.usda", ["mujoco", "jolt"],
+                               duration=0.2, reasons=False, bounds="10m")
+        self.assertEqual([row["engine"] for row in answer["engines"]], ["mujoco", "jolt"])
+        self.assertEqual(len(answer["pairs"]), 1)
+        self.assertEqual(answer["exceeded"], [])
+
+
+class Files(support.FilesTestCase):
+    def test_robots_go_in_and_out(self):
+        answer = tenon.convert(ROBOT, self.folder / "arm", gains=(10, 1))
+        self.assertGreater(answer["joints"], 0)
+        (interface,) = (self.folder / "arm").glob("*.usda")
+        scene = tenon.physics(interface, physics="physics")
+        stiffness = {round(drive.stiffness, 4) for joint in scene.joints for drive in joint.drives}
+        self.assertEqual(stiffness, {10.0})
+        tenon.convert(interface, self.folder / "arm.xml", physics="physics")
+        tenon.convert(interface, self.folder / "arm.urdf", physics="physics")
+        self.assertIn("<robot", (self.folder / "arm.urdf").read_text())
+        with self.assertRaises(tenon.InvalidError):
+            tenon.convert(ROBOT, self.folder / "arm.usda", gains="many")
+
+    def test_nothing_is_written_over_an_input(self):
+        robot = self.folder / "arm.urdf"
+        shutil.copytree(ROBOT.parent, self.folder, dirs_exist_ok=True)
+        before = robot.read_bytes()
+        with self.assertRaises(tenon.Error):
+            tenon.convert(robot, robot, force=True)
+        self.assertEqual(robot.read_bytes(), before)
+        edited = self.folder / "out.usda"
+        tenon.convert(robot, edited)
+        edited.write_text(edited.read_text() + "\n# by hand\n")
+        with self.assertRaises(tenon.InvalidError) as caught:
+            tenon.convert(robot, edited)
+        self.assertEqual(caught.exception.rule, "output.edited")
+        tenon.convert(robot, edited, force=True)
+
+    def test_an_asset_is_structured(self):
+        path = self.copied_hand()
+        dry = tenon.structure(path)
+        answer = tenon.structure(path, self.folder / "structured")
+        self.assertEqual(dry["files"], answer["files"])
+        self.assertTrue((self.folder / "structured" / answer["interface"]).exists())
+        with self.assertRaises(tenon.InvalidError):
+            tenon.structure(path, path.parent)
+
+    def test_what_is_there(self):
+        self.assertEqual({row["name"] for row in tenon.engines()}, {"jolt", "mujoco", "physx"})
+        self.assertTrue(all(row["available"] for row in tenon.doctor()["engines"]))
+
+
+if __name__ == "__main__":
+    support.main()
