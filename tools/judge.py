@@ -103,6 +103,11 @@ def judgements():
                                           "tests/engines_beside/robots_per_engine.py", ".",
                                           "build/release/bin/tenon", "docs/robots-per-engine.md"],
                     "release", ["tenon_cli", "tenon_worker"])
+    # The Python package: memory after 100,000 openings, and its benchmark once, tiny.
+    yield Judgement("python_opens", ["bash", "-c", "python/tests/install.sh && "
+                                     "python3 -B bench/python_package.py --smoke && "
+                                     "python/tests/run.sh build/wheel/clean "
+                                     "python/tests/many_opens.py"], "release")
     for source in sorted(glob.glob(os.path.join(ROOT, "fuzz/*_fuzz.cpp"))):
         target = os.path.basename(source)[:-len(".cpp")]
         yield Judgement(f"fuzz_{target[:-len('_fuzz')]}",
