@@ -126,7 +126,8 @@ def stepping_rows(envs, steps, rounds):
                           loop=f"for _ in range({steps}): world.step()")
     read = STEPS.format(
         path=HAND, envs=envs, steps=steps,
-        loop=f"for _ in range({steps}):\n    world.step()\n    world.joints()\n    world.body_poses")
+        loop=f"for _ in range({steps}):\n    world.step()\n    world.joints()\n"
+             "    world.body_poses")
     plain = ROLLOUT.format(path=HAND, envs=envs, steps=steps)
     time_step = run(f"import tenon_usd\nprint(tenon_usd.World({HAND!r}).time_step)")
     rates = {name: [] for name in ("all", "one", "read", "program", "rollout")}

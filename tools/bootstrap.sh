@@ -135,7 +135,8 @@ for part in "${@:-build}"; do
     docs) need_for_docs ;;
     deb) need_for_deb ;;
     *)
-      echo "bootstrap: unknown part '$part'; of build, engines, wheel, test, judge, docs, deb" >&2
+      echo "bootstrap: unknown part '$part'; expected:" \
+        "build, engines, wheel, test, judge, docs, deb" >&2
       exit 2
       ;;
   esac

@@ -108,6 +108,9 @@ def judgements():
                                      "python3 -B bench/python_package.py --smoke && "
                                      "python/tests/run.sh build/wheel/clean "
                                      "python/tests/many_opens.py"], "release")
+    yield Judgement("python_sanitized", ["bash", "-c", "python/tests/install.sh && "
+                                         "python/tests/sanitized.sh"], "dev",
+                    ["tenon_asset", "tenon_worker"])
     for source in sorted(glob.glob(os.path.join(ROOT, "fuzz/*_fuzz.cpp"))):
         target = os.path.basename(source)[:-len(".cpp")]
         yield Judgement(f"fuzz_{target[:-len('_fuzz')]}",

@@ -78,4 +78,5 @@ for raw in build/wheel/raw/*.whl; do
   readlink -f "$(ls -t dist/"$name"-*.whl | head -n 1)" >build/wheel/made
 done
 command -v "$python" >build/wheel/python
+echo "$bin" >build/wheel/tools
 ls -l "$(cat build/wheel/made)"

