@@ -25,6 +25,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "tenon/asset/updating/base_copy.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/posix_files.h"
 #include "tenon/bytes/write/file_transaction.h"
@@ -226,7 +227,8 @@ Result<void> check_layer_name(const std::string& path, LayerFormat format) {
 
 Result<void> write_asset(const structure::Package& package, const std::string& folder,
                          const structure::WriteOptions& options) {
-  return structure::write_package(package, folder, options);
+  TENON_TRY(const structure::Package whole, with_base(package));
+  return structure::write_package(whole, folder, options);
 }
 
 Result<void> write_edits(const std::vector<EditedFile>& files) { return write_files(files); }

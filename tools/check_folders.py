@@ -38,7 +38,8 @@ LIBRARIES = {
         "tenon/engines/mujoco/set_up/*_test.cpp",
         "bench/step_mujoco.cpp",
     ],
-    "pugixml.hpp": ["tenon/asset/mjcf_files.cpp", "tenon/urdf/*"],
+    "pugixml.hpp": ["tenon/asset/mjcf_files.cpp", "tenon/asset/converting/model_text.h",
+                    "tenon/urdf/*"],
     "assimp/*": ["tenon/mesh/assimp_scene.cpp"],
     "CLI/*": ["cli/command_line.cpp"],
     "nlohmann/*": ["tenon/answers/*", "tenon/glb/*.cpp", "tests/*", "bench/*"],
@@ -61,6 +62,8 @@ DISK_USERS = {
     "tenon/mjcf/read_mjcf.cpp": "runs in the worker",
     "tenon/mjcf/keep_source.cpp": "runs in the worker",
     "tenon/mjcf/shapes/textures.cpp": "runs in the worker",
+    "tenon/asset/updating/base_copy.cpp": "looks at what is to be written over",
+    "tenon/asset/updating/update_asset.cpp": "looks at what is to be written over",
     "tenon/structure/write_folder.cpp": "writes",
     "tenon/structure/written_note.cpp": "looks at what is to be written over",
 }

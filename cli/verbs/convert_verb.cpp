@@ -7,10 +7,12 @@
 // before the work and once more when nobody else can write.
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/update.h"
 #include "cli/verb.h"
 #include "tenon/asset/convert_file.h"
 #include "tenon/asset/converting/converted_json.h"
@@ -18,6 +20,9 @@
 #include "tenon/asset/converting/read_gains.h"
 #include "tenon/asset/converting/robot_files.h"
 #include "tenon/asset/layers/output_place.h"
+#include "tenon/asset/repeat_edit.h"
+#include "tenon/asset/updating/base_copy.h"
+#include "tenon/asset/updating/updated_json.h"
 #include "tenon/asset_policy.h"
 #include "tenon/base/assignment.h"
 #include "tenon/base/text/shown_path.h"
@@ -44,6 +49,7 @@ struct ConvertArguments {
   bool scene = false;
   bool flat = false;
   bool force = false;
+  UpdateArguments update;
 };
 
 Result<ConvertFileOptions> convert_options(const ConvertArguments& options) {
@@ -83,6 +89,14 @@ structure::StructureOptions structure_options(const ConvertArguments& options) {
 /// What was edited since it was written stays, without --force; what is not known to have been
 /// written, too.
 Result<void> write(NotedFiles made, const ConvertArguments& options, Outputs& outputs) {
+  if (made.layer != nullptr) {
+    TENON_TRY(const structure::Package package, package_of(made, options.output));
+    TENON_TRY(std::string copy, encode_base(package));
+    const fs::path folder = fs::path(options.output).parent_path();
+    made.files.insert(
+        made.files.begin(),
+        {(folder / structure::copy_place(package.interface)).string(), std::move(copy)});
+  }
   outputs.put_all(std::move(made.files));
   if (!options.force) {
     outputs.check_before_commit([&options, beside = std::move(made.beside)] {
@@ -98,27 +112,66 @@ Result<void> claim(const ConvertArguments& options, OutputKind kind, Outputs& ou
   return options.force ? Result<void>() : structure::check_not_edited(options.output);
 }
 
-Result<RobotCounts> convert_and_write(const ConvertArguments& options, Diagnostics& diagnostics) {
-  TENON_TRY(const ConvertFileOptions wanted, convert_options(options));
-  const bool folder = names_folder(options.output);  // straight into Asset Structure 3.0
+bool ends_in(const std::string& path, std::initializer_list<const char*> endings) {
+  std::string ending = fs::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+struct Conversion {
+  RobotCounts counts;
+  std::optional<UpdateOutcome> updated;
+};
+
+Result<void> check_options(const ConvertArguments& options, bool folder) {
   if (!folder && options.names == "tutorial") {
     return Error(ErrorCode::Invalid, "--names is about the files of a folder")
         .with_fix("name a folder as the output, with a / at its end");
   }
+  if (options.update.update && !folder && ends_in(options.output, {".usdz"})) {
+    return Error(ErrorCode::Unsupported, "a package cannot be updated")
+        .with_fix("convert into a folder, or give --force to make the package anew");
+  }
+  return {};
+}
+
+Result<Conversion> convert_and_write(const ConvertArguments& options, Diagnostics& diagnostics) {
+  TENON_TRY(const ConvertFileOptions wanted, convert_options(options));
+  const bool folder = names_folder(options.output);  // straight into Asset Structure 3.0
+  const bool updates = options.update.update;
+  TENON_CHECK(check_options(options, folder));
   Outputs outputs;
-  TENON_CHECK(folder ? structure::check_folder(options.output, {.force = options.force})
-                     : claim(options, OutputKind::Layer, outputs));
+  if (!updates) {
+    TENON_CHECK(folder ? structure::check_folder(options.output, {.force = options.force})
+                       : claim(options, OutputKind::Layer, outputs));
+  }
   TENON_TRY(ConvertedFile converted, convert_file(options.input, wanted, diagnostics));
-  const RobotCounts counts = counts_of(converted);
+  Conversion done;
+  done.counts = counts_of(converted);
   if (folder) {
     TENON_TRY(const structure::StructuredAsset asset,
               structured_robot(converted, diagnostics, structure_options(options)));
-    TENON_CHECK(write_asset(asset.package, options.output, {.force = options.force}));
-  } else {
-    TENON_TRY(NotedFiles made, robot_files(std::move(converted), options.output, diagnostics));
+    if (updates) {
+      TENON_TRY(done.updated,
+                update(asset.package, options.output, options.update, false, diagnostics));
+    }
+    if (!done.updated) {
+      TENON_CHECK(write_asset(asset.package, options.output, {.force = options.force}));
+    }
+    return done;
+  }
+  TENON_TRY(NotedFiles made, robot_files(std::move(converted), options.output, diagnostics));
+  if (updates) {
+    TENON_TRY(const structure::Package package, package_of(made, options.output));
+    const fs::path parent = fs::absolute(options.output).parent_path();
+    TENON_TRY(done.updated, update(package, parent.string(), options.update, false, diagnostics));
+  }
+  if (!done.updated) {
+    TENON_CHECK(updates ? claim(options, OutputKind::Layer, outputs) : Result<void>());
     TENON_CHECK(write(std::move(made), options, outputs));
   }
-  return counts;
+  return done;
 }
 
 OpenOptions open_options(const ConvertArguments& options) {
@@ -156,11 +209,22 @@ int run_export(Report& report, const ConvertArguments& options, DescriptionForma
                        description_json(*description, options.output));
 }
 
-bool ends_in(const std::string& path, std::initializer_list<const char*> endings) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+int run_conversion(Report& report, const ConvertArguments& options) {
+  const auto converted = repeat_edit(
+      report.diagnostics, [&] { return convert_and_write(options, report.diagnostics); });
+  if (!converted) {
+    return report.fail(converted.error());
+  }
+  Json body = converted_json(converted->counts, options.output);
+  int code = report.diagnostics.has_errors() ? kNo : kOk;
+  if (converted->updated) {
+    code = std::max(code, tell_update(report, *converted->updated, options.update, options.output));
+    body = with_updated(std::move(body), converted->updated->asset, options.update.keep());
+  } else {
+    note_counts(report, options.output, converted->counts.links, converted->counts.joints,
+                converted->counts.meshes);
+  }
+  return report.finish(code, body);
 }
 
 int run_convert(const Globals& globals, const ConvertArguments& options) {
@@ -178,13 +242,7 @@ int run_convert(const Globals& globals, const ConvertArguments& options) {
     }
     return run_export(report, options, DescriptionFormat::Mjcf);
   }
-  const auto converted = convert_and_write(options, report.diagnostics);
-  if (!converted) {
-    return report.fail(converted.error());
-  }
-  note_counts(report, options.output, converted->links, converted->joints, converted->meshes);
-  return report.finish(report.diagnostics.has_errors() ? kNo : kOk,
-                       converted_json(*converted, options.output));
+  return run_conversion(report, options);
 }
 
 void add_robot_options(const Command& verb, ConvertArguments& options) {
@@ -208,6 +266,7 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
   verb.add_flag("--flat", options.flat, "Links side by side, not nested");
   verb.add_flag("--force", options.force,
                 "Overwrite an asset or a description that was edited since it was written");
+  options.update.add_to(verb);
 }
 
 void add_drive_options(const Command& verb, ConvertArguments& options) {
@@ -247,10 +306,13 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
       "  tenon convert hand.urdf hand/     one file for each concern, as tenon structure makes it\n"
       "  tenon convert X.urdf hand/ --name inspire_hand --names tutorial\n"
       "  tenon convert arm.urdf arm.usdc --fix-base --gains 400,40\n"
+      "  tenon convert hand.urdf hand/ --update    after a change of hand.urdf; edits of hand/ "
+      "stay\n"
       "  tenon convert humanoid.xml humanoid.usda\n  tenon convert hand.usda hand.xml\n"
       "  tenon convert hand.usda hand.urdf\n"
       "  tenon convert ur5.urdf ur5.usdz --package ur_description=../ur_description\n"
-      "Exit code 1: written, but something of the robot is left out; each case is listed.");
+      "Exit code 1: written, but something of the robot is left out, or an edit and the source\n"
+      "changed the same thing (--update); each case is listed.");
   choose(verb, chosen, [&globals, options] { return run_convert(globals, *options); });
 }
 

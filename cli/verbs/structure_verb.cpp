@@ -6,14 +6,17 @@
 // folder.
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/update.h"
 #include "cli/verb.h"
 #include "tenon/asset/answers/structured_json.h"
 #include "tenon/asset/repeat_edit.h"
 #include "tenon/asset/structure_asset.h"
+#include "tenon/asset/updating/updated_json.h"
 #include "tenon/asset_policy.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/structure/layout.h"
@@ -30,6 +33,12 @@ struct StructureArguments {
   std::string links = "as-authored";
   bool dry_run = false;
   structure::WriteOptions write;
+  UpdateArguments update;
+};
+
+struct Structured {
+  structure::StructuredAsset asset;
+  std::optional<UpdateOutcome> updated;
 };
 
 structure::SchemaGeneration generation_of(const std::string& name) {
@@ -47,26 +56,37 @@ structure::LinkNesting nesting_of(const std::string& name) {
                             : LinkNesting::AsAuthored;
 }
 
-Result<structure::StructuredAsset> make(const StructureArguments& options, Report& report) {
-  TENON_TRY(structure::StructuredAsset asset,
-            structure_asset(options.asset.asset, options.asset.open_options(), options.structure,
-                            report.diagnostics));
-  if (!options.dry_run) {
-    TENON_CHECK(write_asset(asset.package, options.output, options.write));
+Result<Structured> make(const StructureArguments& options, Report& report) {
+  Structured made;
+  TENON_TRY(made.asset, structure_asset(options.asset.asset, options.asset.open_options(),
+                                        options.structure, report.diagnostics));
+  if (options.update.update) {
+    TENON_TRY(made.updated, update(made.asset.package, options.output, options.update,
+                                   options.dry_run, report.diagnostics));
   }
-  return asset;
+  if (!options.dry_run && !made.updated) {
+    TENON_CHECK(write_asset(made.asset.package, options.output, options.write));
+  }
+  return made;
 }
 
 int run_structure(Report& report, const StructureArguments& options) {
-  if (!options.dry_run && !options.write.in_place) {
+  if (!options.dry_run && !options.write.in_place && !options.update.update) {
     if (auto claimed = structure::check_folder(options.output, options.write); !claimed) {
       return report.fail(claimed.error());
     }
   }
   const Progress progress(report.globals(), "structuring " + shown_path(options.asset.asset));
-  const auto asset = repeat_edit(report.diagnostics, [&] { return make(options, report); });
-  if (!asset) {
-    return report.fail(asset.error());
+  const auto made = repeat_edit(report.diagnostics, [&] { return make(options, report); });
+  if (!made) {
+    return report.fail(made.error());
+  }
+  const structure::StructuredAsset* asset = &made->asset;
+  if (made->updated) {
+    const int code = tell_update(report, *made->updated, options.update, options.output);
+    return report.finish(
+        left_out(report.diagnostics) ? kNo : code,
+        with_updated(structured_json(*asset), made->updated->asset, options.update.keep()));
   }
   const std::vector<PackageFile> files = package_files(asset->package);
   if (options.dry_run && !report.json()) {
@@ -88,6 +108,7 @@ void add_output_options(const Command& verb, StructureArguments& options) {
                 "Overwrite an asset that was edited since it was written");
   verb.add_flag("--in-place", options.write.in_place,
                 "The folder may be that of the asset itself, which it is without -o");
+  options.update.add_to(verb);
   options.write.can_be_in_place = true;
 }
 
@@ -124,6 +145,12 @@ bool is_engine_name(const std::string& name) {
 
 int run(const Globals& globals, StructureArguments& options) {
   Report report(globals, "structure", options.asset.asset);
+  if (options.update.update && (options.output.empty() || options.write.in_place)) {
+    return report.fail(Error(ErrorCode::Invalid,
+                             "--update is about a folder that was made of "
+                             "another asset")
+                           .with_fix("give -o FOLDER, without --in-place"));
+  }
   if (options.output.empty() && options.write.in_place) {
     options.output = std::filesystem::absolute(options.asset.asset).parent_path().string();
   }

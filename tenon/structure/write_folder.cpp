@@ -29,7 +29,7 @@ using Contents = std::map<std::string, std::string_view>;
 
 bool is_known_place(const std::string& name) {
   if (name.starts_with("Textures/") || name.starts_with("Materials/") ||
-      name.starts_with("Meshes/")) {
+      name.starts_with("Meshes/") || is_copy_place(name)) {
     return true;
   }
   return role_of_file_name(name) != Role::Other;
@@ -131,7 +131,7 @@ class OldFolder {
       if (read && !options_.in_place) {
         return holds_input(folder_ + "/" + name, options_.can_be_in_place);
       }
-      const bool known = read || written.contains(name);
+      const bool known = read || written.contains(name) || is_copy_place(name);
       if (read) {
         edited_names.erase(name);  // the edit is in the new files
       } else if (!known && !edited_names.contains(name)) {

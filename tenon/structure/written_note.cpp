@@ -227,6 +227,29 @@ void seal(std::string& contents, const std::string& own) {
   }
 }
 
+std::optional<std::uint64_t> noted_own_digest(std::string_view contents, const std::string& own) {
+  const std::optional<Place> place = place_of_digest(contents, own);
+  if (!place) {
+    return std::nullopt;
+  }
+  if (place->size == kDigestDigits) {
+    return digest_from(contents.substr(place->at, place->size));
+  }
+  std::uint64_t digest = 0;
+  std::memcpy(&digest, contents.data() + place->at, sizeof digest);
+  return digest;
+}
+
+void copy_note(const layer::Layer& from, layer::Layer& layer) {
+  const Dictionary* note = note_of(from);
+  change_note(layer, [&](Dictionary& tool) {
+    tool.items.erase(kWritten);
+    if (note != nullptr) {
+      tool.items.insert_or_assign(kWritten, Value(*note));
+    }
+  });
+}
+
 WrittenState written_state(const std::string& file) {
   WrittenState state;
   const auto contents = contents_of(file);
@@ -254,6 +277,12 @@ std::string noted_description(std::string text, const Digests& others) {
   std::string contents = with_xml_note(std::move(text), others);
   seal(contents, {});
   return contents;
+}
+
+std::string copy_place(const std::string& opening) { return ".tenon/" + opening + ".base"; }
+
+bool is_copy_place(std::string_view name) {
+  return name.starts_with(".tenon/") && name.ends_with(".base");
 }
 
 Result<void> check_not_edited(const std::string& file, const Digests& beside) {

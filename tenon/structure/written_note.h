@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,10 @@ void remove_note(layer::Layer& layer);
 void seal(std::string& contents, const std::string& own);
 /// The digest of a file's contents but for the place of its own digest.
 std::uint64_t own_digest(std::string_view contents, const std::string& own);
+/// The digest of its own that a file's note has; nothing for a file without a note. Packages aside.
+std::optional<std::uint64_t> noted_own_digest(std::string_view contents, const std::string& own);
+/// Takes the note of `from` over, as it is there; without one there is none.
+void copy_note(const layer::Layer& from, layer::Layer& layer);
 /// The same in a layer of a package.
 void set_own_digest(layer::Layer& layer, std::uint64_t digest);
 
@@ -55,6 +60,11 @@ struct WrittenState {
 };
 /// Of the asset that `file` opens; of a file that is none, or has no note, nothing is said.
 WrittenState written_state(const std::string& file);
+
+/// Where the copy lies that tells edits of the asset that `opening` opens from what was written, in
+/// the asset's folder; and whether a file in that folder is such a copy. No note speaks of copies.
+std::string copy_place(const std::string& opening);
+bool is_copy_place(std::string_view name);
 
 /// Error with rule "output.edited" that names what was edited since; nothing when `file` does not
 /// exist or is as it was written. For files that say nothing about themselves, too.

@@ -145,7 +145,23 @@ Result<NotedFiles> robot_files(ConvertedFile converted, const std::string& outpu
   TENON_TRY(std::string contents, formats::encode_layer(layer, format));
   structure::seal(contents, name);
   made.files.push_back({output, std::move(contents)});
+  made.layer = std::make_shared<const layer::Layer>(std::move(layer));
   return made;
+}
+
+Result<structure::Package> package_of(const NotedFiles& made, const std::string& output) {
+  const fs::path folder = fs::path(bytes::absolute_file_path(output)).parent_path();
+  structure::Package package;
+  for (const MadeFile& file : made.files) {
+    const std::string name =
+        fs::path(bytes::absolute_file_path(file.path)).lexically_relative(folder).generic_string();
+    package.files[name].bytes = bytes::FileBytes::own(file.contents);
+    package.interface = name;  // the last one
+  }
+  structure::PackageFile& opening = package.files[package.interface];
+  opening.layer = made.layer;
+  TENON_TRY(opening.format, formats::layer_format_for(output));
+  return package;
 }
 
 Result<structure::StructuredAsset> structured_robot(const ConvertedFile& converted,

@@ -16,9 +16,12 @@ namespace tenon {
 
 /// Files that say what was written, for the next time (structure/written_note.h).
 struct NotedFiles {
-  MadeFiles files;            ///< the asset or description last
-  structure::Digests beside;  ///< of the others, by their names from there
+  MadeFiles files;                  ///< the asset or description last
+  structure::Digests beside;        ///< of the others, by their names from there
+  layer::LayerPtr layer = nullptr;  ///< what the asset says; null for descriptions and packages
 };
+/// The same as files of the folder of `output`, for assets that are no packages.
+Result<structure::Package> package_of(const NotedFiles& made, const std::string& output);
 
 /// One layer or package for a file at `output`, and images beside it: those that are in no file of
 /// their own, and those outside of the folders of the output. No file is touched. Errors: those of

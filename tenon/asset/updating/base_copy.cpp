@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Layers are kept in binary form, whatever form they have in the asset: small, and without a writer
+// of its own. Meshes would double an asset, so of long arrays a digest stands in their place, as a
+// string that begins with a mark; when the copy is read, arrays that are still known come back.
+#include "tenon/asset/updating/base_copy.h"
+
+#include <algorithm>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "tenon/base/content_digest.h"
+#include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/zip/zip_archive.h"
+#include "tenon/formats/open_layer.h"
+#include "tenon/formats/save_layer.h"
+#include "tenon/layer/field_values.h"
+#include "tenon/layer/fields.h"
+#include "tenon/structure/digest_text.h"
+
+namespace tenon {
+namespace {
+
+using layer::AssetPath;
+using layer::Duration;
+using layer::PathExpression;
+using layer::TimeCode;
+using layer::Value;
+namespace fields = layer::fields;
+
+/// Longer arrays of numbers are kept as digests.
+constexpr std::size_t kKeptElements = 32;
+constexpr std::string_view kArrayMark = "tenon:array ";
+constexpr const char* kDigestsName = "digests";
+constexpr const char* kLayerEnding = ".usdc";
+
+template <class T>
+bool append_numbers(const Value& value, std::string& out) {
+  if constexpr (std::is_trivially_copyable_v<T> && !std::is_same_v<T, Token>) {
+    if (const auto* array = value.get<layer::Array<T>>()) {
+      out.reserve(array->size() * sizeof(T));
+      for (auto&& element : *array) {
+        const T number = element;
+        out.append(reinterpret_cast<const char*>(&number), sizeof(T));
+      }
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The digest that stands for a long array of numbers; empty for other values.
+std::string array_mark(const Value& value) {
+  if (!value.is_array() || value.size() <= kKeptElements) {
+    return {};
+  }
+  std::string numbers;
+#define TENON_SCALAR(enumerator, type, name, crate_id)                    \
+  if (append_numbers<type>(value, numbers)) {                             \
+    return std::string(kArrayMark) + std::to_string(value.size()) + ' ' + \
+           structure::hex_of(content_digest(numbers));                    \
+  }
+#include "tenon/layer/value_types.def"
+  return {};
+}
+
+bool is_array_mark(const Value& value) {
+  const auto* text = value.get<std::string>();
+  return text != nullptr && text->starts_with(kArrayMark);
+}
+
+layer::Layer without_arrays(layer::Layer layer) {
+  for (const layer::Layer::Entry& entry : layer.entries()) {
+    const Value* value = entry.path.empty() ? nullptr : entry.spec.find(fields::default_value);
+    if (value == nullptr) {
+      continue;
+    }
+    if (std::string mark = array_mark(*value); !mark.empty()) {
+      layer.find(entry.path)->set(fields::default_value, Value(std::move(mark)));
+    }
+  }
+  return layer;
+}
+
+/// "0123456789abcdef name" in each line.
+std::string digest_lines(const structure::Digests& digests) {
+  std::string text;
+  for (const auto& [name, digest] : digests) {
+    text += structure::hex_of(digest) + ' ' + name + '\n';
+  }
+  return text;
+}
+
+structure::Digests digests_from(std::string_view text) {
+  structure::Digests digests;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    const auto digest = structure::digest_from(line.substr(0, structure::kDigestDigits));
+    if (digest && line.size() > structure::kDigestDigits + 1) {
+      digests.emplace(line.substr(structure::kDigestDigits + 1), *digest);
+    }
+  }
+  return digests;
+}
+
+Result<BaseCopy> decode_base(std::shared_ptr<const bytes::FileBytes> bytes) {
+  TENON_TRY(const bytes::ZipArchive archive, bytes::ZipArchive::open(std::move(bytes)));
+  BaseCopy copy;
+  for (const bytes::ZipEntry& entry : archive.entries()) {
+    TENON_TRY(const auto contents, archive.read(entry));
+    if (entry.name == kDigestsName) {
+      copy.digests = digests_from(contents->text());
+    } else if (entry.name.ends_with(kLayerEnding)) {
+      const std::string name =
+          entry.name.substr(0, entry.name.size() - std::string_view(kLayerEnding).size());
+      Diagnostics ignored;
+      TENON_TRY(layer::Layer layer, formats::read_layer(contents, name, ignored));
+      copy.layers.emplace(name, std::move(layer));
+    }
+  }
+  return copy;
+}
+
+}  // namespace
+
+Result<std::string> encode_base(const structure::Package& package) {
+  structure::Digests digests;
+  std::vector<std::pair<std::string, std::string>> layers;
+  for (const auto& [name, file] : package.files) {
+    const std::string_view contents = file.bytes->text();
+    const bool opens = name == package.interface;
+    digests.emplace(name, opens ? structure::own_digest(contents, name) : content_digest(contents));
+    if (file.layer != nullptr) {
+      layer::Layer layer = without_arrays(*file.layer);
+      structure::remove_note(layer);
+      TENON_TRY(std::string encoded, formats::encode_layer(layer, formats::LayerFormat::Crate));
+      layers.emplace_back(name + kLayerEnding, std::move(encoded));
+    }
+  }
+  const std::string lines = digest_lines(digests);
+  std::vector<bytes::ZipFile> files{{kDigestsName, lines}};
+  for (const auto& [name, contents] : layers) {
+    files.push_back({name, contents});
+  }
+  return bytes::write_zip(files);
+}
+
+Result<structure::Package> with_base(structure::Package package) {
+  TENON_TRY(std::string copy, encode_base(package));
+  package.files[structure::copy_place(package.interface)].bytes =
+      bytes::FileBytes::own(std::move(copy));
+  return package;
+}
+
+Result<std::optional<BaseCopy>> read_base(const std::string& folder, const std::string& opening) {
+  auto bytes = bytes::FileBytes::open(folder + '/' + structure::copy_place(opening));
+  if (!bytes && bytes.error().code() == ErrorCode::NotFound) {
+    return std::optional<BaseCopy>();
+  }
+  if (!bytes) {
+    return std::move(bytes).error();
+  }
+  const auto asset = bytes::FileBytes::open(folder + '/' + opening);
+  const auto noted = asset ? structure::noted_own_digest((*asset)->text(), opening) : std::nullopt;
+  auto copy = decode_base(*std::move(bytes));
+  if (!copy) {
+    return std::move(copy).error().in_file(folder + '/' + structure::copy_place(opening));
+  }
+  const auto known = copy->digests.find(opening);
+  if (!noted || known == copy->digests.end() || known->second != *noted) {
+    return std::optional<BaseCopy>();
+  }
+  return std::optional<BaseCopy>(*std::move(copy));
+}
+
+Result<layer::Layer> restored(layer::Layer base, const layer::Layer& edited,
+                              const layer::Layer& source, formats::LayerFormat format) {
+  std::vector<std::pair<Path, Value>> left;
+  for (const layer::Layer::Entry& entry : base.entries()) {
+    const Value* mark = entry.path.empty() ? nullptr : entry.spec.find(fields::default_value);
+    if (mark == nullptr || !is_array_mark(*mark)) {
+      continue;
+    }
+    const Value wanted = *mark;
+    layer::Spec& spec = *base.find(entry.path);
+    spec.erase(fields::default_value);
+    for (const layer::Layer* layer : {&edited, &source}) {
+      const layer::Spec* other = layer->find(entry.path);
+      const Value* value = other == nullptr ? nullptr : other->find(fields::default_value);
+      if (value != nullptr && array_mark(*value) == wanted.get_or(std::string())) {
+        spec.set(fields::default_value, *value);
+        break;
+      }
+    }
+    if (!spec.has(fields::default_value)) {
+      left.emplace_back(entry.path, wanted);
+    }
+  }
+  if (format == formats::LayerFormat::Text) {
+    TENON_TRY(std::string text, formats::encode_layer(base, format));
+    Diagnostics ignored;
+    const std::string name = base.identifier();
+    TENON_TRY(base, formats::read_layer(bytes::FileBytes::own(std::move(text)), name, ignored));
+  }
+  for (auto& [path, mark] : left) {
+    if (layer::Spec* spec = base.find(path)) {
+      spec->set(fields::default_value, std::move(mark));
+    }
+  }
+  return base;
+}
+
+}  // namespace tenon

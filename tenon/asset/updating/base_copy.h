@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "tenon/base/result.h"
+#include "tenon/formats/layer_format.h"
+#include "tenon/layer/layer.h"
+#include "tenon/structure/package.h"
+#include "tenon/structure/written_note.h"
+
+/// What an asset was like when it was made, beside it: by it a later run tells edits from changes
+/// of the source. A zip archive with the digests of all files, and each layer in binary form
+/// without its long arrays, of which it holds digests.
+namespace tenon {
+
+struct BaseCopy {
+  structure::Digests digests;  ///< of all files by name; of that which opens the asset its own
+  std::map<std::string, layer::Layer> layers;  ///< by name; notes left out
+};
+
+/// The bytes of the copy of a package with its layers stored.
+Result<std::string> encode_base(const structure::Package& package);
+/// The package with its copy among its files.
+Result<structure::Package> with_base(structure::Package package);
+
+/// The copy of `folder`/`opening` at structure::copy_place; nothing where there is none, or one of
+/// another asset than the file's note (structure/written_note.h) speaks of. Errors: those of
+/// reading one that is there.
+Result<std::optional<BaseCopy>> read_base(const std::string& folder, const std::string& opening);
+
+/// A layer of a copy as a reader of a text or of a binary file has it. Arrays that the copy has
+/// digests of come from one of the two layers; where neither has them the digests stay.
+Result<layer::Layer> restored(layer::Layer base, const layer::Layer& edited,
+                              const layer::Layer& source, formats::LayerFormat format);
+
+}  // namespace tenon

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "tenon/base/path.h"
+#include "tenon/layer/layer.h"
+
+namespace tenon {
+
+/// Old path -> new path of prims that stand elsewhere in the new layers, as links do when one is
+/// put between: what is gone and what is new with the same name and type, where only one of each
+/// is. What goes along with a prim above it is not named.
+std::map<Path, Path> moved_prims(const std::vector<const layer::Layer*>& before,
+                                 const std::vector<const layer::Layer*>& after);
+
+/// Moves them in one layer, as far as it speaks of them, with all that names them.
+void follow_moves(const std::map<Path, Path>& moved, layer::Layer& layer);
+
+}  // namespace tenon

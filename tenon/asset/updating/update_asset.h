@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tenon/asset/edited_file.h"
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/path.h"
+#include "tenon/base/result.h"
+#include "tenon/diff/merge/merge_layers.h"
+#include "tenon/structure/package.h"
+
+/// An asset that was edited, made anew from its source.
+namespace tenon {
+
+/// What an edit and the source changed, each in another way; of a file that is no layer, or that
+/// one of them removed, without a path.
+struct UpdateConflict {
+  std::string file;  ///< name in the asset's folder
+  diff::MergeConflict what;
+};
+
+struct UpdatedAsset {
+  std::vector<EditedFile> files;  ///< that differ, for write_files
+  std::vector<UpdateConflict> conflicts;
+  std::map<Path, Path> moved;  ///< prims that the source has elsewhere; their edits went along
+  std::size_t edits = 0;       ///< fields, specs and files that stay as edits made them
+  std::size_t changes = 0;     ///< those that become what the source says now
+};
+
+/// The asset in `folder`, whose files are read, with what changed between the conversion that made
+/// it and `made`, the new one with its layers stored. Edits stay: base is the copy of what was made
+/// (base_copy.h), or the asset itself where its note says that nobody edited it. Where both changed
+/// the same thing, `keep` decides, and a finding of the rule "update.conflict" names it. Where the
+/// source says what it said nothing differs, and no file is in the answer. No file is touched.
+/// Errors: NotFound "update.nothing" where there is no such asset; Invalid "update.no-base" where
+/// it was edited and nothing tells what it was; those of reading.
+Result<UpdatedAsset> update_asset(const structure::Package& made, const std::string& folder,
+                                  diff::Side keep, Diagnostics& diagnostics);
+
+}  // namespace tenon
