@@ -213,15 +213,92 @@ def check_kept(work):
 
 
 def check_changed(work):
-    """One that was changed is made anew of what the asset says, and that is told."""
+    """One that has no place for a change is made anew of what the asset says, and that is told."""
     asset, back = work / "kept_floating.usda", work / "changed.xml"
-    run("set", asset, "/floating/Geometry/world/base/arm.physics:mass=2.5")
+    arm = "/floating/Geometry/world/base/arm"
+    run("set", asset, f"{arm}.physics:mass=2.5", f"{arm}.xformOp:translate=(0, 0, 0.25)")
     answer = run("convert", asset, back)
     said = [finding for finding in answer["diagnostics"] if finding["rule"] == "mjcf.written-anew"]
-    if len(said) != 1 or "physics:mass" not in said[0]["message"]:
+    if len(said) != 1 or "xformOp:translate" not in said[0]["message"] or \
+            "physics:mass" in said[0]["message"]:
         faults.append(f"changed: {answer['diagnostics']}")
     near("changed: mass", mujoco.MjModel.from_xml_path(str(back)).body("arm").mass, 2.5)
     check_noticed(work)
+
+
+# Fields that MuJoCo computes of others.
+DERIVED = {"body_subtreemass", "dof_length", "body_invweight0", "dof_invweight0", "dof_M0",
+           "tendon_invweight0", "actuator_acc0", "stat.meaninertia", "stat.meanmass",
+           "stat.meansize"}
+SPRING = {"actuator_gainprm", "actuator_biasprm"}
+# Model, edit ("*" is another number), and the fields that differ then.
+PATCHES = (
+    ("floating", "/floating/Geometry/world/base/arm.physics:mass=2.5", {"body_mass"}),
+    ("floating", "/floating/Geometry/world/base/arm.physics:centerOfMass=(0, 0, 0.1)",
+     {"body_ipos"}),
+    ("floating", "/floating/Physics/elbow.physics:upperLimit=60", {"jnt_range"}),
+    ("floating", "/floating/Physics/elbow.newton:damping=0.25", {"dof_damping"}),
+    ("floating", "/floating/Physics/elbow.newton:armature=0.5", {"dof_armature"}),
+    ("floating", "/floating/Physics/elbow.newton:friction=0.5", {"dof_frictionloss"}),
+    ("floating", "/floating/Physics/elbow.mjc:stiffness=3", {"jnt_stiffness"}),
+    ("floating", "/floating/Physics/elbow.mjc:solreflimit=[0.03, 0.8]", {"jnt_solref"}),
+    ("floating", "/floating/Physics/servo.mjc:biasPrm=[0, -30, -2]", SPRING),
+    ("floating", "/floating/Physics/servo.mjc:forceRange:max=7 "
+     "/floating/Physics/servo.mjc:forceRange:min=-7", {"jnt_actfrcrange"}),
+    ("floating", "/floating/Physics/PhysicsScene.physics:gravityMagnitude=3", {"opt.gravity"}),
+    ("floating", "/floating/Physics/PhysicsScene.newton:timeStepsPerSecond=250", {"opt.timestep"}),
+    ("everything", "/everything/Physics/x.physics:upperLimit=1.5", {"jnt_range"}),
+    ("everything", "/everything/Physics/pitch.mjc:solreflimit=[0.04, 0.8]", {"jnt_solref"}),
+    ("everything", "/everything/Physics/reach.mjc:biasPrm=[0, -80, -3]", SPRING),
+    ("everything", "/everything/Physics/pull.mjc:gainPrm=[25, 0, 0, 0, 0, 0, 0, 0, 0, 0]",
+     {"actuator_gainprm"}),
+)
+
+
+def check_patched(work):
+    """Edits of numbers go into the model that is kept: all that MJCF alone has comes back."""
+    for name, edit, wanted in PATCHES:
+        source = ROOT / f"tests/convert/mjcf/{name}.xml"
+        before = mujoco.MjModel.from_xml_path(str(source))
+        for form in (f"patched_{name}/", f"patched_{name}.usda"):
+            subprocess.run([TENON, "convert", source, f"{work}/{form}", "-q", "--scene", "--force"],
+                           check=False)
+            asset = work / (f"{form}{name}.usda" if form.endswith("/") else form)
+            variant = ("--physics", "mujoco") if form.endswith("/") else ()
+            api = {"newton:[adf]": "NewtonJointAPI", "mjc:s": "MjcJointAPI"}
+            prim, prop = edit.split("=")[0].split(".", 1)
+            applied = [f"{prim}={schema}" for start, schema in api.items()
+                       if re.match(start, prop)]
+            edited = subprocess.run(
+                [TENON, "set", asset, *re.split(" (?=/)", edit),
+                 *(["--apply", applied[0]] if applied else []), "-q"],
+                check=False, capture_output=True, text=True)
+            if edited.returncode != 0:
+                faults.append(f"patched: {edit}: {edited.stderr}")
+                continue
+            answer = run("convert", asset, work / "patched.xml", "--force", *variant)
+            rules = [finding["rule"] for finding in answer["diagnostics"]]
+            if "mjcf.patched" not in rules or "mjcf.written-anew" in rules:
+                faults.append(f"patched: {form} {edit}: {answer['diagnostics']}")
+                continue
+            after = mujoco.MjModel.from_xml_path(str(work / "patched.xml"))
+            found = set(round_trip.model_differences(before, after)) - DERIVED
+            if not wanted & found or found - wanted:
+                faults.append(f"patched: {form} {edit}: {sorted(found)}, wanted {sorted(wanted)}")
+
+
+def check_friction(work):
+    """Friction of one material goes to all shapes that are bound to it, and to no others."""
+    asset = work / "friction.usda"
+    run("convert", ROOT / "tests/convert/mjcf/floating.xml", asset, "--force")
+    text = asset.read_text()
+    edited = re.sub("(Friction = )1\n", r"\g<1>0.35\n", text)
+    asset.write_text(edited)
+    answer = run("convert", asset, work / "friction.xml", "--force")
+    after = mujoco.MjModel.from_xml_path(str(work / "friction.xml"))
+    near("friction", after.geom_friction[:, 0], [0.35] * after.ngeom)
+    if edited == text or "mjcf.patched" not in [d["rule"] for d in answer["diagnostics"]]:
+        faults.append(f"friction: {answer['diagnostics']}")
 
 
 def check_noticed(work):
@@ -240,7 +317,8 @@ def check_noticed(work):
         answer = run("convert", asset, work / "noticed.xml", "--force")
         rules = [finding["rule"] for finding in answer["diagnostics"]]
         changed += 1
-        if ("mjcf.written-anew" in rules) == name.startswith(UNSEEN):
+        seen_now = "mjcf.written-anew" in rules or "mjcf.patched" in rules
+        if seen_now == name.startswith(UNSEEN):
             faults.append(f"{name}: {value} -> {new} is noticed otherwise: {rules}")
     if changed < 40:
         faults.append(f"only {changed} properties were changed")
@@ -295,4 +373,5 @@ def check_left_out(work):
 
 if __name__ == "__main__":
     sys.exit(round_trip.main(check_world, check_left_out, check_images, check_sensors,
-                             check_names_and_frames, check_kept, check_changed, check_files))
+                             check_names_and_frames, check_kept, check_changed, check_patched,
+                             check_friction, check_files))

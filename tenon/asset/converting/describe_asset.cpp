@@ -41,7 +41,7 @@ Result<AssetDescription> as_mjcf(const stage::Stage& stage, const bytes::ReadPol
                                  const std::string& output, Diagnostics& diagnostics) {
   const scene::PhysicsScene scene = physics::read_physics(stage, read_options(), diagnostics);
   std::optional<ExportedMjcf> kept =
-      kept_mjcf(stage, fs::path(output).stem().string(), policy, diagnostics);
+      kept_mjcf(stage, scene, fs::path(output).stem().string(), policy, diagnostics);
   if (kept) {
     return AssetDescription{noted(kept->text, kept->images, output), DescriptionFormat::Mjcf,
                             scene.bodies.size(), scene.joints.size(), kept->images.size()};

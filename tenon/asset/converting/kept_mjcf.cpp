@@ -12,18 +12,21 @@
 #include <map>
 
 #include "tenon/answers/prim_walk.h"
+#include "tenon/asset/converting/patch_model.h"
 #include "tenon/base/file_finding.h"
 #include "tenon/base/number_from_text.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/file_kind.h"
 #include "tenon/convert/source/record.h"
 #include "tenon/convert/source/seal.h"
+#include "tenon/layer/fields.h"
+#include "tenon/physics/vendors/read_mujoco_parts.h"
 #include "tenon/robot/mujoco_parts.h"
 
 namespace tenon {
 namespace {
 
-convert::Seal seal_of_stage(const stage::Stage& stage) {
+convert::Seal seal_of_stage(const stage::Stage& stage, convert::SealParts& parts) {
   convert::SealMaker maker(stage.default_prim().path());
   answers::walk_prims(stage.pseudo_root(), [&](const stage::Prim& prim) {
     if (prim.is_pseudo_root() || !prim.is_active() || !prim.is_defined()) {
@@ -39,7 +42,50 @@ convert::Seal seal_of_stage(const stage::Stage& stage) {
       }
     }
   });
-  return maker.take();
+  convert::Seal seal = maker.take();
+  parts = maker.take_parts();
+  return seal;
+}
+
+/// What stands beside an edit that a model can take over: the schema that declares the property,
+/// and what a material says, which is told by the shapes that it is bound to.
+bool goes_along(const std::string& word, bool has_bindings) {
+  constexpr std::string_view kSchemas[] = {"api:PhysicsMassAPI",     "api:NewtonMassAPI",
+                                           "api:NewtonJointAPI",     "api:MjcJointAPI",
+                                           "api:PhysicsMaterialAPI", "api:NewtonMaterialAPI"};
+  constexpr std::string_view kFriction[] = {"physics:staticFriction", "physics:dynamicFriction",
+                                            "newton:torsionalFriction", "newton:rollingFriction"};
+  return std::find(std::begin(kSchemas), std::end(kSchemas), word) != std::end(kSchemas) ||
+         (has_bindings &&
+          std::find(std::begin(kFriction), std::end(kFriction), word) != std::end(kFriction));
+}
+
+/// Edits of single properties, and words that cannot be told apart so.
+struct Edits {
+  std::vector<PropertyEdit> single;
+  std::vector<std::string> others;
+};
+
+Edits edits_of(const std::vector<std::string>& changed, const std::vector<std::string>& parts,
+               const convert::SealParts& now) {
+  const bool has_bindings =
+      std::any_of(changed.begin(), changed.end(),
+                  [](const std::string& word) { return word.starts_with("material:binding"); });
+  Edits edits;
+  for (const std::string& word : changed) {
+    if (goes_along(word, has_bindings)) {
+      continue;
+    }
+    const auto prims = convert::edited_prims(parts, word, now);
+    if (!prims) {
+      edits.others.push_back(word);
+      continue;
+    }
+    for (const Path prim : *prims) {
+      edits.single.push_back({prim, word});
+    }
+  }
+  return edits;
 }
 
 void report_written_anew(Diagnostics& diagnostics, const std::string& why) {
@@ -56,6 +102,57 @@ std::string named_few(const std::vector<std::string>& words) {
   }
   return words.size() > kNamed ? text + " and " + std::to_string(words.size() - kNamed) + " more"
                                : text;
+}
+
+/// Display names where prims have such.
+std::string name_on(const stage::Stage& stage, Path path) {
+  if (const stage::Prim prim = stage.prim(path)) {
+    const layer::Value shown = prim.metadata(layer::fields::displayName);
+    if (const auto* text = shown.get<std::string>(); text != nullptr && !text->empty()) {
+      return *text;
+    }
+  }
+  return path.name().str();
+}
+
+/// The text with what the asset says otherwise in it; nothing, and a finding, where that cannot be.
+std::optional<std::string> with_edits(const std::string& text,
+                                      const std::vector<std::string>& changed,
+                                      const convert::SealParts& now, const stage::Stage& stage,
+                                      const scene::PhysicsScene& scene, Diagnostics& diagnostics) {
+  const auto parts = stage.default_prim()
+                         .attribute(convert::kSourceParts)
+                         .get_as<layer::Array<std::string>>()
+                         .value_or(layer::Array<std::string>());
+  const Edits edits = edits_of(changed, {parts.begin(), parts.end()}, now);
+  if (!edits.others.empty() || edits.single.empty()) {
+    report_written_anew(diagnostics, "the asset says something else than its source of " +
+                                         named_few(edits.others.empty() ? changed : edits.others));
+    return std::nullopt;
+  }
+  const auto patched =
+      patch_model(text, edits.single, scene, physics::read_mujoco_parts(stage, scene),
+                  [&stage](Path prim) { return name_on(stage, prim); });
+  if (!patched || !patched->left.empty()) {
+    std::vector<std::string> why;
+    for (const UnpatchedEdit& left : patched ? patched->left : std::vector<UnpatchedEdit>()) {
+      why.push_back("</" + left.edit.prim.str().substr(1) + ">." + left.edit.property + " (" +
+                    left.why + ")");
+    }
+    report_written_anew(diagnostics, "the model has no place for an edit of " +
+                                         (patched ? named_few(why) : patched.error().message()));
+    return std::nullopt;
+  }
+  std::vector<std::string> said;
+  for (const PropertyEdit& edit : edits.single) {
+    said.push_back(edit.prim.name().str() + "." + edit.property);
+  }
+  diagnostics.add(file_finding(Severity::Info, "mjcf.patched",
+                               "the model that the asset was made of is kept, with what was edited "
+                               "since: " +
+                                   named_few(said),
+                               "", 0));
+  return patched->text;
 }
 
 /// Puts the files of a source in folders beside its text.
@@ -130,8 +227,9 @@ std::string with_files(std::string_view text, FilePlacer& files) {
 
 }  // namespace
 
-std::optional<ExportedMjcf> kept_mjcf(const stage::Stage& stage, const std::string& stem,
-                                      const bytes::ReadPolicy& policy, Diagnostics& diagnostics) {
+std::optional<ExportedMjcf> kept_mjcf(const stage::Stage& stage, const scene::PhysicsScene& scene,
+                                      const std::string& stem, const bytes::ReadPolicy& policy,
+                                      Diagnostics& diagnostics) {
   const stage::Prim robot = stage.default_prim();
   if (!robot) {
     return std::nullopt;
@@ -141,16 +239,20 @@ std::optional<ExportedMjcf> kept_mjcf(const stage::Stage& stage, const std::stri
   if (!text || !seal) {
     return std::nullopt;
   }
+  convert::SealParts parts;
   const std::vector<std::string> changed =
-      convert::changed_since({seal->begin(), seal->end()}, seal_of_stage(stage));
+      convert::changed_since({seal->begin(), seal->end()}, seal_of_stage(stage, parts));
+  std::string edited = *text;
   if (!changed.empty()) {
-    report_written_anew(diagnostics,
-                        "the asset says something else than its source of " + named_few(changed));
-    return std::nullopt;
+    const auto patched = with_edits(*text, changed, parts, stage, scene, diagnostics);
+    if (!patched) {
+      return std::nullopt;
+    }
+    edited = *patched;
   }
   FilePlacer files(robot, stem, policy);
   ExportedMjcf result;
-  result.text = with_files(*text, files);
+  result.text = with_files(edited, files);
   if (!files.missing().empty()) {
     report_written_anew(diagnostics, "the file @" + files.missing() +
                                          "@ cannot be read, or is neither a shape nor an image");

@@ -9,11 +9,12 @@
 
 namespace tenon {
 
-/// The MJCF model that an asset was converted from, as long as the asset says the same
-/// (convert/source/record.h), with its files in the folders "<stem>_images" and "<stem>_meshes".
-/// None, and a finding where there was one, when something was changed since, or when a file is
-/// not there any more.
-std::optional<ExportedMjcf> kept_mjcf(const stage::Stage& stage, const std::string& stem,
-                                      const bytes::ReadPolicy& policy, Diagnostics& diagnostics);
+/// The MJCF model that an asset was converted from (convert/source/record.h), with what was edited
+/// since where the model has an attribute for it ("mjcf.patched"), and with its files in the
+/// folders "<stem>_images" and "<stem>_meshes". None, and a finding where there was one, when
+/// something else was changed since, or when a file is not there any more.
+std::optional<ExportedMjcf> kept_mjcf(const stage::Stage& stage, const scene::PhysicsScene& scene,
+                                      const std::string& stem, const bytes::ReadPolicy& policy,
+                                      Diagnostics& diagnostics);
 
 }  // namespace tenon

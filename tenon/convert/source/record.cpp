@@ -64,9 +64,12 @@ void write_source(const robot::RobotModel& model, const ConvertOptions& options,
     }
   }
   const Path robot = Path::absolute_root().child(layer.default_prim());
-  std::vector<std::string> words = seal_words(seal_of(layer));
+  SealParts parts;
+  std::vector<std::string> words = seal_words(seal_of(layer, &parts));
   add_custom(layer, robot, kSourceText, "string", Value(source.text));
   add_custom(layer, robot, kSourceSeal, "string[]", Value(layer::Array<std::string>(words)));
+  add_custom(layer, robot, kSourceParts, "string[]",
+             Value(layer::Array<std::string>(part_words(parts))));
   for (std::size_t i = 0; i < source.files.size(); ++i) {
     add_custom(layer, robot, Token(kSourceFile + std::to_string(i)), "asset",
                Value(layer::AssetPath{source.files[i], "", ""}));

@@ -7,9 +7,11 @@
 
 namespace tenon::convert {
 
-/// Where the robot's prim keeps the source: its text, its seal, and behind a number its files.
+/// Where the robot's prim keeps the source: its text, its seal, parts of that, and behind a number
+/// its files.
 inline constexpr const char* kSourceText = "tenon:mjcf:model";
 inline constexpr const char* kSourceSeal = "tenon:mjcf:seal";
+inline constexpr const char* kSourceParts = "tenon:mjcf:parts";
 inline constexpr const char* kSourceFile = "tenon:mjcf:file";
 
 /// Writes what `model` keeps of its source to the robot's prim of a finished layer; nothing where

@@ -78,6 +78,46 @@ std::string bytes_of(const Value& value) {
   return out;
 }
 
+/// Of bodies, joints, actuators and scenes, and which shape touches with which material.
+constexpr std::string_view kWithParts[] = {"physics:mass",
+                                           "physics:centerOfMass",
+                                           "physics:diagonalInertia",
+                                           "newton:inertia",
+                                           "physics:principalAxes",
+                                           "physics:lowerLimit",
+                                           "physics:upperLimit",
+                                           "newton:armature",
+                                           "newton:damping",
+                                           "newton:friction",
+                                           "newton:timeStepsPerSecond",
+                                           "mjc:armature",
+                                           "mjc:damping",
+                                           "mjc:frictionloss",
+                                           "mjc:stiffness",
+                                           "mjc:springref",
+                                           "mjc:solreflimit",
+                                           "mjc:solimplimit",
+                                           "mjc:solreffriction",
+                                           "mjc:solimpfriction",
+                                           "mjc:gainPrm",
+                                           "mjc:biasPrm",
+                                           "mjc:gear",
+                                           "mjc:ctrlRange:min",
+                                           "mjc:ctrlRange:max",
+                                           "mjc:forceRange:min",
+                                           "mjc:forceRange:max",
+                                           "mjc:option:timestep",
+                                           "physics:gravityDirection",
+                                           "physics:gravityMagnitude",
+                                           "drive:angular:physics:stiffness",
+                                           "drive:angular:physics:damping",
+                                           "drive:angular:physics:maxForce",
+                                           "drive:linear:physics:stiffness",
+                                           "drive:linear:physics:damping",
+                                           "drive:linear:physics:maxForce",
+                                           "material:binding",
+                                           "material:binding:physics"};
+
 /// "mjc" of "mjc:solref" and "api:MjcJointAPI"; empty: of all engines.
 std::string_view engine_of(std::string_view key) {
   std::string_view name = key;
@@ -101,13 +141,21 @@ std::string digits_of(std::uint64_t digest) {
 
 }  // namespace
 
+bool has_parts(std::string_view property) {
+  return std::find(std::begin(kWithParts), std::end(kWithParts), property) != std::end(kWithParts);
+}
+
 void SealMaker::add(Path prim, Token type, const std::string& key, const std::string& contents) {
   // Where a mesh stands may have gone to a prim around it, of another name.
   const bool of_mesh =
       type == "Mesh" || (key.starts_with("xform") && type == "Xform" && !bodies_.contains(prim));
   const bool named = prim != root_ && !of_mesh && !is_look(type);
-  const std::uint64_t digest =
-      content_digest((named ? prim.name().str() : std::string()) + '\0' + contents);
+  const std::string name = named ? prim.name().str() : std::string();
+  const std::uint64_t digest = content_digest(name + '\0' + contents);
+  if (!is_look(type) && has_parts(key)) {
+    constexpr std::uint64_t kHalf = 0xffffffff;
+    parts_[key].push_back({prim, content_digest(name) << 32u | (digest & kHalf)});
+  }
   if (is_look(type)) {
     looks_[key].insert(digest);
     for (Path around = prim; !around.empty() && !around.is_absolute_root();
@@ -173,7 +221,7 @@ Seal SealMaker::take() {
   return std::move(seal_);
 }
 
-Seal seal_of(const layer::Layer& layer) {
+Seal seal_of(const layer::Layer& layer, SealParts* parts) {
   SealMaker maker(Path::absolute_root().child(layer.default_prim()));
   for (const layer::Layer::Entry& entry : layer.entries()) {
     const Path path = entry.path;
@@ -198,7 +246,11 @@ Seal seal_of(const layer::Layer& layer) {
       maker.add_value(path.prim(), type_name, path.name(), *value);
     }
   }
-  return maker.take();
+  Seal seal = maker.take();
+  if (parts != nullptr) {
+    *parts = maker.take_parts();
+  }
+  return seal;
 }
 
 std::vector<std::string> seal_words(const Seal& seal) {
@@ -207,6 +259,59 @@ std::vector<std::string> seal_words(const Seal& seal) {
     words.push_back(key + " " + digits_of(digest));
   }
   return words;
+}
+
+std::vector<std::string> part_words(const SealParts& parts) {
+  std::vector<std::string> words;
+  for (const auto& [key, list] : parts) {
+    std::vector<std::uint64_t> digests;
+    for (const SealPart& part : list) {
+      digests.push_back(part.digest);
+    }
+    std::sort(digests.begin(), digests.end());
+    std::string word = key;
+    for (const std::uint64_t digest : digests) {
+      word += " " + digits_of(digest);
+    }
+    words.push_back(std::move(word));
+  }
+  return words;
+}
+
+std::optional<std::vector<Path>> edited_prims(const std::vector<std::string>& words,
+                                              const std::string& property, const SealParts& now) {
+  const auto word = std::find_if(words.begin(), words.end(), [&](const std::string& line) {
+    return line == property || line.starts_with(property + " ");
+  });
+  const auto parts = now.find(property);
+  if (parts == now.end() || words.empty()) {
+    return std::nullopt;
+  }
+  std::multiset<std::string> before;
+  std::multiset<std::string> names;
+  for (std::size_t at = property.size() + 1; word != words.end() && at < word->size(); at += 17) {
+    before.insert(word->substr(at, 16));
+  }
+  std::vector<Path> edited;
+  for (const SealPart& part : parts->second) {
+    const std::string digits = digits_of(part.digest);
+    const auto same = before.find(digits);
+    if (same != before.end()) {
+      before.erase(same);
+    } else {
+      edited.push_back(part.prim);
+      names.insert(digits.substr(0, 8));
+    }
+  }
+  for (const std::string& gone : before) {  // what it was before the edit of a prim of that name
+    const auto same = names.find(gone.substr(0, 8));
+    if (same == names.end()) {
+      return std::nullopt;
+    }
+    names.erase(same);
+  }
+  std::sort(edited.begin(), edited.end());
+  return edited.empty() ? std::nullopt : std::optional(std::move(edited));
 }
 
 std::vector<std::string> changed_since(const std::vector<std::string>& words, const Seal& now) {

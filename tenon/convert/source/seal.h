@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tenon/base/path.h"
@@ -20,6 +22,17 @@ namespace tenon::convert {
 /// does where a mesh stands among others that are the same.
 using Seal = std::map<std::string, std::uint64_t>;
 
+/// One number of a seal in parts: what one prim says, as a number of its name and one of the value.
+struct SealPart {
+  Path prim;
+  std::uint64_t digest = 0;  ///< the upper half of the name, the lower of name and value
+};
+/// Of the properties whose edits a model can take over one by one (`has_parts`), by property.
+using SealParts = std::map<std::string, std::vector<SealPart>>;
+
+/// A property whose seal is kept in parts too, so that an edit of it is known by its prim.
+bool has_parts(std::string_view property);
+
 /// Gathers a seal, prim by prim in any order; of each the prim comes before its properties.
 class SealMaker {
  public:
@@ -30,12 +43,14 @@ class SealMaker {
   void add_value(Path prim, Token type, Token property, const layer::Value& value);
   void add_targets(Path prim, Token type, Token relationship, const std::vector<Path>& targets);
   Seal take();
+  SealParts take_parts() { return std::move(parts_); }
 
  private:
   void add(Path prim, Token type, const std::string& key, const std::string& contents);
 
   Path root_;
   Seal seal_;
+  SealParts parts_;
   std::map<std::string, std::set<std::uint64_t>> looks_;  // of materials, each once
   std::map<Path, std::uint64_t> look_sums_;  ///< of all that is said of looks at and below a path
   std::set<Path> bodies_;
@@ -49,11 +64,19 @@ class SealMaker {
   std::vector<Binding> bindings_;
 };
 
-/// Of the layer of a converted robot.
-Seal seal_of(const layer::Layer& layer);
+/// Of the layer of a converted robot; its parts, too, where they are asked for.
+Seal seal_of(const layer::Layer& layer, SealParts* parts = nullptr);
 
 /// "property digest" for each.
 std::vector<std::string> seal_words(const Seal& seal);
+
+/// "property digest digest ..." for each, sorted digests.
+std::vector<std::string> part_words(const SealParts& parts);
+
+/// The prims whose parts are others `now` than they were, in the order of paths; nothing where it
+/// cannot be told: the words have no such property, or a prim lost it.
+std::optional<std::vector<Path>> edited_prims(const std::vector<std::string>& words,
+                                              const std::string& property, const SealParts& now);
 
 /// Properties that do not say what they did, sorted; where all of the words of an engine are
 /// missing `now`, as they are under variants of other engines, they do not count.

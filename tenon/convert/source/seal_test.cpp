@@ -86,5 +86,49 @@ TEST(SourceSeal, KnowsMaterialsByWhatTheySay) {
       Words{"material:binding:physics"});
 }
 
+/// Parts of a robot with two joints, each with a limit.
+SealParts parts_of(const std::string& first, const std::string& second) {
+  const std::string text =
+      "#usda 1.0\n(defaultPrim = \"r\")\ndef Xform \"r\" {\n"
+      "def PhysicsRevoluteJoint \"j\" {\n" +
+      first + "\n}\ndef PhysicsRevoluteJoint \"k\" {\n" + second + "\n}\n}\n";
+  Diagnostics findings;
+  const auto layer = formats::read_layer(bytes::FileBytes::own(text), "r.usda", findings);
+  EXPECT_TRUE(layer);
+  SealParts parts;
+  seal_of(*layer, &parts);
+  return parts;
+}
+
+TEST(SealParts, NameThePrimsThatWereEdited) {
+  const std::string one = "float physics:upperLimit = 1";
+  const std::string two = "float physics:upperLimit = 2";
+  const Words words = part_words(parts_of(one, two));
+  ASSERT_EQ(words.size(), 1u);
+  const auto edited = [&](const std::string& first, const std::string& second) {
+    const auto prims = edited_prims(words, "physics:upperLimit", parts_of(first, second));
+    std::string names;
+    for (const Path prim : prims.value_or(std::vector<Path>{Path::from("/unknown")})) {
+      names += prim.name().str() + " ";
+    }
+    return names;
+  };
+  EXPECT_EQ(edited(two, two), "j ");
+  EXPECT_EQ(edited(two, one), "j k ");
+  EXPECT_EQ(edited(one, two), "unknown ");  // no edit that parts know
+  EXPECT_EQ(edited(one, ""), "unknown ");   // a prim lost it
+  EXPECT_EQ(edited(two, ""), "unknown ");
+  EXPECT_FALSE(edited_prims({}, "physics:upperLimit", parts_of(two, two)));
+}
+
+TEST(SealParts, AnAddedPropertyIsAnEdit) {
+  const std::string limit = "float physics:upperLimit = 1";
+  const std::string damping = "\nfloat newton:damping = 3";
+  const auto prims = edited_prims(part_words(parts_of(limit, limit)), "newton:damping",
+                                  parts_of(limit + damping, limit));
+  ASSERT_TRUE(prims);
+  EXPECT_EQ(*prims, std::vector<Path>{Path::from("/r/j")});
+}
+
 }  // namespace
 }  // namespace tenon::convert
