@@ -90,7 +90,8 @@ void SimulateArguments::add_to(const Command& verb) {
   verb.add_option("--fps", frames_per_second, {0, 1e5, true, false, "per second"},
                   "Frames of logs and baked layers");
   add_readings(verb, readings);
-  verb.add_option("--set", asset.overrides, "PATH.attr=value, for this run only; may be repeated")
+  verb.add_option("--set", asset.overrides,
+                  "PATH.attr=value, or PATH.rel+=PRIM, for this run only; may be repeated")
       .repeatable();
 }
 

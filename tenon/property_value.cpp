@@ -168,12 +168,24 @@ Result<PropertyAssignment> read_assignment(const std::string& text) {
         .with_rule("usage.value")
         .with_fix("write PATH.attribute=VALUE, as in /World/Scene.physics:gravityMagnitude=1.62");
   }
-  const std::string object = text.substr(0, equals);
+  const char before = text[equals - 1];
+  const AssignmentKind kind = before == '+'   ? AssignmentKind::Add
+                              : before == '-' ? AssignmentKind::Remove
+                                              : AssignmentKind::Whole;
+  const std::string object = text.substr(0, kind == AssignmentKind::Whole ? equals : equals - 1);
   const auto path = Path::parse(object);
   if (!path || !path->is_absolute() || path->kind() != PathKind::Property) {
     return not_a_path(object, "property");
   }
-  return PropertyAssignment{*path, text.substr(equals + 1), {}};
+  return PropertyAssignment{*path, text.substr(equals + 1), {}, kind};
+}
+
+Error not_a_list(Path property) {
+  return Error(ErrorCode::Invalid,
+               "<" + property.str() + "> is no relationship: += and -= are for lists of targets")
+      .with_prim(property.prim().str())
+      .with_rule("edit.type-mismatch")
+      .with_fix("write the whole value: =VALUE");
 }
 
 Result<PropertyValue> known_property(const stage::Prim& prim, Token name, Token type_name,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,17 +14,28 @@
 /// Properties and values as people write them, alike for edits of files and for values of one run.
 namespace tenon {
 
+enum class AssignmentKind : std::uint8_t {
+  Whole,   ///< "=": all that it has then
+  Add,     ///< "+=": to the targets that a relationship has
+  Remove,  ///< "-="
+};
+
 struct PropertyAssignment {
   Path property;      ///< absolute
   std::string value;  ///< of an attribute as text layers print it, quotes and @ may be left out,
                       ///< "None" blocks; of a relationship: paths, all that it has then
   Token type_name;    ///< of an attribute that no schema and no layer knows: makes it
+  AssignmentKind kind = AssignmentKind::Whole;
 };
 
 /// The error for `text` where the absolute path of a `kind` ("prim") is asked for: edit.bad-path.
 Error not_a_path(const std::string& text, const std::string& kind);
 
-/// "PATH.property=VALUE". Errors: Invalid, with rule usage.value or edit.bad-path.
+/// The error for "+=" and "-=" on what is no relationship: edit.type-mismatch.
+Error not_a_list(Path property);
+
+/// "PATH.property=VALUE", "PATH.rel+=PATH", "PATH.rel-=PATH". Errors: Invalid, with rule
+/// usage.value or edit.bad-path.
 Result<PropertyAssignment> read_assignment(const std::string& text);
 
 /// A property as schemas and layers declare it, and a value for it.

@@ -38,8 +38,26 @@ layer::Spec& over(layer::Layer& layer, Path path) {
   return layer.create(path, layer::SpecKind::Prim);
 }
 
+/// What a relationship has with the session so far, and this assignment.
+std::vector<Path> targets_with(const stage::Prim& prim, const PropertyAssignment& assignment,
+                               const layer::Layer& session, const std::vector<Path>& given) {
+  if (assignment.kind == AssignmentKind::Whole) {
+    return given;
+  }
+  std::vector<Path> targets = prim.relationship(assignment.property.name()).targets();
+  const layer::Spec* own = session.find(assignment.property);
+  if (const auto* op =
+          own == nullptr ? nullptr : own->get<layer::ListOp<Path>>(fields::targetPaths)) {
+    op->apply_to(targets);
+  }
+  assignment.kind == AssignmentKind::Add ? layer::append_absent(targets, given)
+                                         : layer::remove_items(targets, given);
+  return targets;
+}
+
 /// The spec that gives a property of the stage its value.
-Result<layer::Spec> override_of(const stage::Stage& stage, const PropertyAssignment& assignment) {
+Result<layer::Spec> override_of(const stage::Stage& stage, const PropertyAssignment& assignment,
+                                const layer::Layer& session) {
   const Path owner = assignment.property.parent();
   const stage::Prim prim = stage.prim(owner);
   if (!prim) {
@@ -52,9 +70,12 @@ Result<layer::Spec> override_of(const stage::Stage& stage, const PropertyAssignm
   layer::Spec spec;
   spec.kind = property.is_relationship ? layer::SpecKind::Relationship : layer::SpecKind::Attribute;
   if (property.is_relationship) {
-    spec.set(fields::targetPaths,
-             layer::Value(layer::ListOp<Path>::make_explicit(std::move(property.targets))));
+    spec.set(fields::targetPaths, layer::Value(layer::ListOp<Path>::make_explicit(
+                                      targets_with(prim, assignment, session, property.targets))));
     return spec;
+  }
+  if (assignment.kind != AssignmentKind::Whole) {
+    return not_a_list(assignment.property);
   }
   spec.set(fields::typeName, layer::Value(property.type_name));
   if (property.variability != layer::Variability::Varying) {
@@ -93,7 +114,7 @@ Result<layer::LayerPtr> with_overrides(const layer::LayerPtr& session, const sta
   layer::Layer layer = copy_of(session);
   for (const std::string& text : assignments) {
     TENON_TRY(const PropertyAssignment assignment, read_assignment(text));
-    TENON_TRY(layer::Spec spec, override_of(stage, assignment));
+    TENON_TRY(layer::Spec spec, override_of(stage, assignment, layer));
     const Path path = assignment.property;
     layer::Spec& prim = over(layer, path.parent());
     add_name(prim, fields::properties, path.name());

@@ -99,5 +99,28 @@ TEST(SessionOpinions, WhatCannotBeSetIsAnError) {
   }
 }
 
+TEST(SessionOpinions, TargetsAreAddedAndTakenAway) {
+  const layer::LayerPtr root = read(kScene);
+  const stage::Stage stage = open(root, nullptr);
+  const auto targets = [&](const std::vector<std::string>& assignments) {
+    const auto session = with_overrides(nullptr, stage, assignments);
+    EXPECT_TRUE(session);
+    std::string names;
+    if (session) {
+      for (const Path target :
+           open(root, *session).prim(Path::from("/W")).relationship(Token("to")).targets()) {
+        names += target.str() + " ";
+      }
+    }
+    return names;
+  };
+  EXPECT_EQ(targets({"/W.to+=/A", "/W.to+=/B", "/W.to+=/A"}), "/W /A /B ");
+  EXPECT_EQ(targets({"/W.to+=/A", "/W.to-=/W"}), "/A ");
+  EXPECT_EQ(targets({"/W.to=/A", "/W.to+=/B"}), "/A /B ");
+  const auto number = with_overrides(nullptr, stage, {"/W.v+=1"});
+  ASSERT_FALSE(number);
+  EXPECT_EQ(number.error().diagnostic().rule, "edit.type-mismatch");
+}
+
 }  // namespace
 }  // namespace tenon

@@ -35,7 +35,7 @@ struct AssetEdit {
     ApplyApi,
     RemoveApi,
     AddTargets,     ///< to what a relationship has
-    RemoveTargets,  ///< of a relationship, also from weaker layers
+    RemoveTargets,  ///< of a relationship, also from weaker layers; from `layer` where tidy
     DefinePrim,     ///< of type `type_name`, below a prim that is there, with what `arc` brings
     AddVariant,     ///< `value` is SET=VARIANT
     RemoveVariant,  ///< the same, from all own files; a set goes with its last one

@@ -26,16 +26,12 @@ Result<Path> read_path(const std::string& text, const std::string& kind) {
   return not_a_path(text, kind);
 }
 
-/// "PATH.rel+=/a" and "PATH.rel-=/a" edit the list, "=" replaces it.
-Result<AssetEdit> assigned(std::string text, const std::string& type) {
+Result<AssetEdit> assigned(const std::string& text, const std::string& type) {
   AssetEdit edit;
-  const std::size_t equals = text.find('=');
-  const char before = equals == std::string::npos || equals == 0 ? '\0' : text[equals - 1];
-  if (before == '+' || before == '-') {
-    edit.kind = before == '+' ? AssetEdit::Kind::AddTargets : AssetEdit::Kind::RemoveTargets;
-    text.erase(equals - 1, 1);
-  }
   TENON_TRY(const PropertyAssignment parts, read_assignment(text));
+  edit.kind = parts.kind == AssignmentKind::Add      ? AssetEdit::Kind::AddTargets
+              : parts.kind == AssignmentKind::Remove ? AssetEdit::Kind::RemoveTargets
+                                                     : AssetEdit::Kind::SetProperty;
   edit.object = parts.property;
   edit.value = parts.value;
   edit.type_name = Token(type);

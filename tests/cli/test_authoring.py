@@ -372,6 +372,50 @@ class Verbs(Case):
         self.assertNotIn("hinge", text)  # a joint of what is gone
         self.assertIn("</World/box>", text)
 
+    def robot(self):
+        """A robot of three links in the structure, whose second joint follows the first."""
+        link = ('<link name="{0}"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" '
+                'ixy="0" ixz="0" iyz="0"/></inertial></link>')
+        joint = ('<joint name="j{1}" type="revolute"><parent link="{0}"/><child link="{1}"/>'
+                 '<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>{2}'
+                 "</joint>")
+        text = "".join(map(link.format, "abc")) + joint.format("a", "b", "") + joint.format(
+            "b", "c", '<mimic joint="jb" multiplier="2"/>')
+        (self.folder / "r.urdf").write_text(f'<robot name="r">{text}</robot>', encoding="utf-8")
+        self.do("convert", "r.urdf", "r/", "--schema", "both", "--flat")
+        return self.folder / "r/r.usda"
+
+    def test_followers_of_a_leader_that_goes_follow_nothing(self):
+        asset = self.robot()
+        out = self.do("remove", asset, "/r/Physics/jb").stdout
+        for path in (self.folder / "r").rglob("*.usda"):
+            text = path.read_text(encoding="utf-8")
+            self.assertNotRegex(text, "(?i)mimic|EqualityJoint|mjc:coef", path)
+            self.assertNotIn("/jb>", text, path)
+        self.assertIn("/r/Physics/jc", out)
+        answer = json.loads(self.do("physics", asset, "--json").stdout)
+        self.assertEqual([(j["path"], j["mimics"]) for j in answer["joints"]],
+                         [("/r/Physics/jc", [])])
+
+    def test_what_joins_a_robot_is_in_its_lists(self):
+        asset = self.robot()
+        before = self.files()
+
+        def lists():
+            properties = json.loads(self.do("dump", asset).stdout)["prims"]["/r"]["properties"]
+            return [properties[f"isaac:physics:robot{what}"]["targets"]
+                    for what in ("Links", "Joints")]
+
+        links, joints = lists()
+        self.do("add", asset, "/r/d=xform,body,mass", "--mass", "1")
+        self.do("add", asset, "/r/Physics/jd=revolute", "--body0", "/r/c", "--body1", "/r/d")
+        self.assertEqual(lists(), [[*links, "/r/d"], [*joints, "/r/Physics/jd"]])
+        self.do("remove", asset, "/r/Physics/jd")
+        self.do("remove", asset, "/r/d=body")
+        self.assertEqual(lists(), [links, joints])
+        self.do("remove", asset, "/r/d")
+        self.assertEqual(self.files(), before)
+
     def test_a_new_name_is_everywhere(self):
         self.scene_with_boxes()
         before = self.scene.read_text(encoding="utf-8")

@@ -167,6 +167,9 @@ class Addition {
     TENON_CHECK(apply_schemas());
     if (joint) {
       TENON_CHECK(add_frames());
+      join_robot(kRobotJoints);
+    } else if (kind_->name == "body") {
+      join_robot(kRobotLinks);
     }
     if (kind_->name == "ground") {
       set("axis", stage().metadata(Token("upAxis")).get_or(Token("Y")).str());
@@ -177,6 +180,19 @@ class Addition {
       }
     }
     return {};
+  }
+
+  /// A joint or a body below a robot is one of its joints or links.
+  void join_robot(const char* list) {
+    AssetEdit edit;
+    edit.kind = Verdict::AddTargets;
+    edit.object = robot_list(stages_, wanted_.prim, list);
+    if (edit.object.empty()) {
+      return;
+    }
+    edit.value = wanted_.prim.str();
+    push(std::move(edit));
+    edits_.back().may_rest = true;
   }
 
   Result<void> check_type() const {

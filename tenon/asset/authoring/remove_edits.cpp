@@ -8,6 +8,7 @@
 #include "tenon/asset/authoring/remove_edits.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -69,11 +70,65 @@ class Removal {
           .with_rule("edit.wrong-type")
           .with_fix("without =KIND the prim is removed, whatever it is");
     }
-    for (const Path joint : joints_of_prim()) {
+    const std::vector<Path> joints = joints_of_prim();
+    release_followers(joints);
+    for (const Path joint : joints) {
       edits_.push_back(edit_of(AssetEdit::Kind::RemovePrim, joint));
     }
     edits_.push_back(edit_of(AssetEdit::Kind::RemovePrim, wanted_.prim));
     return {};
+  }
+
+  /// Calls `with` on each prim of each stage but what is at the prim or below.
+  template <class With>
+  void walk_others(const With& with) const {
+    for (const auto& stage : stages_) {
+      std::vector<stage::Prim> open{stage->pseudo_root()};
+      while (!open.empty()) {
+        const stage::Prim at = open.back();
+        open.pop_back();
+        if (at.path().has_prefix(wanted_.prim)) {
+          continue;
+        }
+        with(at);
+        for (const stage::Prim& child : at.children()) {
+          open.push_back(child);
+        }
+      }
+    }
+  }
+
+  /// Mimics elsewhere whose leader is at the prim or below, or one of `joints`: without it they
+  /// mean nothing.
+  void release_followers(const std::vector<Path>& joints) {
+    const auto goes = [&](Path path) {
+      return path.has_prefix(wanted_.prim) ||
+             std::find(joints.begin(), joints.end(), path) != joints.end();
+    };
+    std::map<Path, std::set<std::string>> mimics;
+    walk_others([&](const stage::Prim& at) {
+      for (const Token api : at.authored_api_schemas()) {
+        const auto [name, instance] = schema::split_api_name(api);
+        const std::string leader = name == "NewtonMimicAPI" ? "newton:mimicJoint"
+                                   : name == "PhysxMimicJointAPI"
+                                       ? "physxMimicJoint:" + instance.str() + ":referenceJoint"
+                                   : name == "MjcEqualityJointAPI" ? "mjc:target"
+                                                                   : "";
+        if (leader.empty() || goes(at.path())) {
+          continue;
+        }
+        const std::vector<Path> targets = at.relationship(Token(leader)).targets();
+        if (!targets.empty() && std::all_of(targets.begin(), targets.end(), goes)) {
+          mimics[at.path()].insert(api.str());
+        }
+      }
+    });
+    for (const auto& [follower, names] : mimics) {
+      const RequestedKinds there{follower, {}};
+      Removal removal(stages_, request_, engine_, there, edits_);
+      removal.prim_ = find_in(stages_, follower);
+      removal.take_off_schemas({names.begin(), names.end()});
+    }
   }
 
   /// Joints elsewhere that have a side at the prim or below.
@@ -89,22 +144,11 @@ class Removal {
       }
       return false;
     };
-    for (const auto& stage : stages_) {
-      std::vector<stage::Prim> open{stage->pseudo_root()};
-      while (!open.empty()) {
-        const stage::Prim at = open.back();
-        open.pop_back();
-        if (at.path().has_prefix(wanted_.prim)) {
-          continue;
-        }
-        if (at.is_a(Token("PhysicsJoint")) && names_it(at)) {
-          joints.insert(at.path());
-        }
-        for (const stage::Prim& child : at.children()) {
-          open.push_back(child);
-        }
+    walk_others([&](const stage::Prim& at) {
+      if (at.is_a(Token("PhysicsJoint")) && names_it(at)) {
+        joints.insert(at.path());
       }
-    }
+    });
     return {joints.begin(), joints.end()};
   }
 
@@ -127,11 +171,39 @@ class Removal {
     if (apis.empty()) {
       return has_none(std::string(kind_->name));
     }
+    take_off_schemas(apis);
+    return kind_->name == "body" ? leave_robot() : Result<void>();
+  }
+
+  void take_off_schemas(const std::vector<Token>& apis) {
     for (const Token property : properties_of(apis)) {
       clear(property);
     }
     for (const Token api : apis) {
       withdraw(api);
+    }
+  }
+
+  /// What is no body is no link of a robot.
+  Result<void> leave_robot() {
+    const Path list = robot_list(stages_, wanted_.prim, kRobotLinks);
+    if (list.empty()) {
+      return {};
+    }
+    std::set<std::string> files;
+    for (const auto& stage : stages_) {
+      for (const auto& source : stage::opinion_sources(*stage, list.prim(), list.name())) {
+        const auto* op = source.spec->get<layer::ListOp<Path>>(fields::targetPaths);
+        if (op != nullptr && edit::adds(*op, wanted_.prim)) {
+          files.insert(source.layer->identifier());
+        }
+      }
+    }
+    for (const std::string& file : files) {
+      AssetEdit edit = edit_of(AssetEdit::Kind::RemoveTargets, list);
+      edit.value = wanted_.prim.str();
+      edit.layer = file;
+      edits_.push_back(std::move(edit));
     }
     return {};
   }

@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// What a command line names is looked for in the table of kinds and in the stage of each selection,
+// so that every mistake in it is told before there is an edit.
 #include "tenon/asset/authoring/requested_kinds.h"
 
 #include <algorithm>
@@ -94,6 +97,17 @@ Result<void> check_options(const AuthoringRequest& request,
             .with_rule("edit.bad-argument")
             .with_fix("it takes " + options_of(*kind));
       }
+    }
+  }
+  return {};
+}
+
+Path robot_list(const Stages& stages, Path prim, const char* list) {
+  for (Path at = prim.parent(); !at.empty() && !at.is_absolute_root(); at = at.parent()) {
+    const stage::Prim robot = find_in(stages, at);
+    if (robot && robot.has_api(Token("IsaacRobotAPI"))) {
+      const bool has_list = !robot.relationship(Token(list)).targets().empty();
+      return has_list ? at.property(Token(list)) : Path();
     }
   }
   return {};

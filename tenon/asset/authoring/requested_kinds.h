@@ -27,6 +27,13 @@ Result<RequestedKinds> read_requested(const std::string& text, bool kinds_needed
 Result<void> check_options(const AuthoringRequest& request,
                            const std::vector<RequestedKinds>& requested);
 
+/// The lists of IsaacRobotAPI.
+inline constexpr const char* kRobotLinks = "isaac:physics:robotLinks";
+inline constexpr const char* kRobotJoints = "isaac:physics:robotJoints";
+/// This list of the robot that `prim` stands below; empty where there is no robot, or it has no
+/// such list.
+Path robot_list(const Stages& stages, Path prim, const char* list);
+
 /// The prim under the first selection that has it; an invalid one where none has.
 stage::Prim find_in(const Stages& stages, Path prim);
 /// The same. Errors: NotFound (edit.no-prim).

@@ -67,18 +67,16 @@ Result<void> add_variant(edit::StageEditor& editor, const AssetEdit& edit) {
 Result<void> edit_target_list(edit::StageEditor& editor, const AssetEdit& edit,
                               const PropertyValue& typed) {
   if (!typed.is_relationship) {
-    return Error(ErrorCode::Invalid, "<" + edit.object.str() +
-                                         "> is no relationship: += and -= are for lists of targets")
-        .with_prim(edit.object.prim().str())
-        .with_rule("edit.type-mismatch")
-        .with_fix("write the whole value: =VALUE");
+    return not_a_list(edit.object);
   }
   return editor.as_one_step([&]() -> Result<void> {
     TENON_CHECK(editor.create_relationship(edit.object, typed.custom));
+    const bool takes_back = edit.tidy && !edit.layer.empty();
     for (const Path target : typed.targets) {
-      TENON_CHECK(editor.edit_targets(edit.object, edit.kind == Kind::AddTargets
-                                                       ? edit::ListEdit<Path>::add(target)
-                                                       : edit::ListEdit<Path>::remove(target)));
+      TENON_CHECK(editor.edit_targets(
+          edit.object, edit.kind == Kind::AddTargets ? edit::ListEdit<Path>::add(target)
+                       : takes_back                  ? edit::ListEdit<Path>::withdraw(target)
+                                                     : edit::ListEdit<Path>::remove(target)));
     }
     return {};
   });
