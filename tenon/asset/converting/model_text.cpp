@@ -179,7 +179,7 @@ void ModelText::set_numbers(pugi::xml_node node, const char* attribute,
 std::string ModelText::str() const {
   std::ostringstream out;
   document_->save(out, "", pugi::format_raw | pugi::format_no_declaration);
-  return std::move(out).str();
+  return std::move(out).str() + "\n";
 }
 
 }  // namespace tenon
