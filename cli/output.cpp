@@ -227,8 +227,7 @@ Result<void> check_layer_name(const std::string& path, LayerFormat format) {
 
 Result<void> write_asset(const structure::Package& package, const std::string& folder,
                          const structure::WriteOptions& options) {
-  TENON_TRY(const structure::Package whole, with_base(package));
-  return structure::write_package(whole, folder, options);
+  return write_with_base(package, folder, options);
 }
 
 Result<void> write_edits(const std::vector<EditedFile>& files) { return write_files(files); }

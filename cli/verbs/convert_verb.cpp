@@ -21,7 +21,6 @@
 #include "tenon/asset/converting/robot_files.h"
 #include "tenon/asset/layers/output_place.h"
 #include "tenon/asset/repeat_edit.h"
-#include "tenon/asset/updating/base_copy.h"
 #include "tenon/asset/updating/updated_json.h"
 #include "tenon/asset_policy.h"
 #include "tenon/base/assignment.h"
@@ -89,14 +88,6 @@ structure::StructureOptions structure_options(const ConvertArguments& options) {
 /// What was edited since it was written stays, without --force; what is not known to have been
 /// written, too.
 Result<void> write(NotedFiles made, const ConvertArguments& options, Outputs& outputs) {
-  if (made.layer != nullptr) {
-    TENON_TRY(const structure::Package package, package_of(made, options.output));
-    TENON_TRY(std::string copy, encode_base(package));
-    const fs::path folder = fs::path(options.output).parent_path();
-    made.files.insert(
-        made.files.begin(),
-        {(folder / structure::copy_place(package.interface)).string(), std::move(copy)});
-  }
   outputs.put_all(std::move(made.files));
   if (!options.force) {
     outputs.check_before_commit([&options, beside = std::move(made.beside)] {

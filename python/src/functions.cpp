@@ -35,6 +35,7 @@
 #include "tenon/asset/converting/robot_files.h"
 #include "tenon/asset/layers/output_place.h"
 #include "tenon/asset/structure_asset.h"
+#include "tenon/asset/updating/base_copy.h"
 #include "tenon/check/rule.h"
 #include "tenon/guard/worker_place.h"
 #include "tenon/make_simulation.h"
@@ -158,7 +159,7 @@ Result<Json> import_robot(const std::string& input, const std::string& output,
   const RobotCounts counts = counts_of(converted);
   if (folder) {
     TENON_TRY(const structure::StructuredAsset asset, structured_robot(converted, found));
-    TENON_CHECK(structure::write_package(asset.package, output, {.force = force}));
+    TENON_CHECK(write_with_base(asset.package, output, {.force = force}));
   } else {
     TENON_TRY(const NotedFiles made, robot_files(std::move(converted), output, found));
     TENON_CHECK(write_noted(made, output, force));
@@ -219,7 +220,7 @@ nb::object structure(const std::filesystem::path& path, const std::filesystem::p
         TENON_TRY(const structure::StructuredAsset asset,
                   structure_asset(path.string(), open_options_of(arguments), options, found));
         if (!folder.empty()) {
-          TENON_CHECK(structure::write_package(asset.package, folder.string(), {.force = force}));
+          TENON_CHECK(write_with_base(asset.package, folder.string(), {.force = force}));
         }
         return structured_json(asset);
       }),

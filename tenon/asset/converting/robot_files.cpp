@@ -13,6 +13,7 @@
 
 #include "tenon/asset/layers/relative_path.h"
 #include "tenon/asset/structure_asset.h"
+#include "tenon/asset/updating/base_copy.h"
 #include "tenon/asset_policy.h"
 #include "tenon/base/content_digest.h"
 #include "tenon/bytes/asset_resolver.h"
@@ -146,6 +147,10 @@ Result<NotedFiles> robot_files(ConvertedFile converted, const std::string& outpu
   structure::seal(contents, name);
   made.files.push_back({output, std::move(contents)});
   made.layer = std::make_shared<const layer::Layer>(std::move(layer));
+  TENON_TRY(const structure::Package package, package_of(made, output));
+  TENON_TRY(std::string copy, encode_base(package));
+  const fs::path place = fs::path(output).parent_path() / structure::copy_place(name);
+  made.files.insert(made.files.begin(), {place.string(), std::move(copy)});
   return made;
 }
 
@@ -155,8 +160,10 @@ Result<structure::Package> package_of(const NotedFiles& made, const std::string&
   for (const MadeFile& file : made.files) {
     const std::string name =
         fs::path(bytes::absolute_file_path(file.path)).lexically_relative(folder).generic_string();
-    package.files[name].bytes = bytes::FileBytes::own(file.contents);
-    package.interface = name;  // the last one
+    if (!structure::is_copy_place(name)) {
+      package.files[name].bytes = bytes::FileBytes::own(file.contents);
+      package.interface = name;  // the last one
+    }
   }
   structure::PackageFile& opening = package.files[package.interface];
   opening.layer = made.layer;

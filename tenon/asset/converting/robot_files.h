@@ -24,8 +24,9 @@ struct NotedFiles {
 Result<structure::Package> package_of(const NotedFiles& made, const std::string& output);
 
 /// One layer or package for a file at `output`, and images beside it: those that are in no file of
-/// their own, and those outside of the folders of the output. No file is touched. Errors: those of
-/// encoding; Invalid for the name.
+/// their own, and those outside of the folders of the output; beside a layer also a copy of what
+/// was made (updating/base_copy.h). No file is touched. Errors: those of encoding; Invalid for the
+/// name.
 Result<NotedFiles> robot_files(ConvertedFile converted, const std::string& output,
                                Diagnostics& diagnostics);
 

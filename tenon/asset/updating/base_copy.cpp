@@ -148,11 +148,12 @@ Result<std::string> encode_base(const structure::Package& package) {
   return bytes::write_zip(files);
 }
 
-Result<structure::Package> with_base(structure::Package package) {
+Result<void> write_with_base(structure::Package package, const std::string& folder,
+                             const structure::WriteOptions& options) {
   TENON_TRY(std::string copy, encode_base(package));
   package.files[structure::copy_place(package.interface)].bytes =
       bytes::FileBytes::own(std::move(copy));
-  return package;
+  return structure::write_package(package, folder, options);
 }
 
 Result<std::optional<BaseCopy>> read_base(const std::string& folder, const std::string& opening) {

@@ -24,8 +24,9 @@ struct BaseCopy {
 
 /// The bytes of the copy of a package with its layers stored.
 Result<std::string> encode_base(const structure::Package& package);
-/// The package with its copy among its files.
-Result<structure::Package> with_base(structure::Package package);
+/// structure::write_package with the copy among the files, as whoever makes an asset writes it.
+Result<void> write_with_base(structure::Package package, const std::string& folder,
+                             const structure::WriteOptions& options);
 
 /// The copy of `folder`/`opening` at structure::copy_place; nothing where there is none, or one of
 /// another asset than the file's note (structure/written_note.h) speaks of. Errors: those of
