@@ -240,6 +240,18 @@ std::optional<std::uint64_t> noted_own_digest(std::string_view contents, const s
   return digest;
 }
 
+Digests noted_digests(const layer::Layer& layer, const std::string& own) {
+  Digests digests;
+  const Dictionary* note = note_of(layer);
+  for (const auto& [name, value] : note == nullptr ? Dictionary().items : note->items) {
+    const auto digest = noted_digest(*note, name);
+    if (digest && name != own && name != kSelf) {
+      digests.emplace(name, *digest);
+    }
+  }
+  return digests;
+}
+
 void copy_note(const layer::Layer& from, layer::Layer& layer) {
   const Dictionary* note = note_of(from);
   change_note(layer, [&](Dictionary& tool) {

@@ -44,6 +44,8 @@ void seal(std::string& contents, const std::string& own);
 std::uint64_t own_digest(std::string_view contents, const std::string& own);
 /// The digest of its own that a file's note has; nothing for a file without a note. Packages aside.
 std::optional<std::uint64_t> noted_own_digest(std::string_view contents, const std::string& own);
+/// What the note of the layer that opens an asset says of the other files.
+Digests noted_digests(const layer::Layer& layer, const std::string& own);
 /// Takes the note of `from` over, as it is there; without one there is none.
 void copy_note(const layer::Layer& from, layer::Layer& layer);
 /// The same in a layer of a package.

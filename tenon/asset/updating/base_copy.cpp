@@ -36,19 +36,20 @@ constexpr std::string_view kArrayMark = "tenon:array ";
 constexpr const char* kDigestsName = "digests";
 constexpr const char* kLayerEnding = ".usdc";
 
+/// The bytes of an array of numbers; none of other values.
 template <class T>
-bool append_numbers(const Value& value, std::string& out) {
+std::string_view bytes_of_array(const Value& value) {
   if constexpr (std::is_trivially_copyable_v<T> && !std::is_same_v<T, Token>) {
     if (const auto* array = value.get<layer::Array<T>>()) {
-      out.reserve(array->size() * sizeof(T));
-      for (auto&& element : *array) {
-        const T number = element;
-        out.append(reinterpret_cast<const char*>(&number), sizeof(T));
-      }
-      return true;
+      return {reinterpret_cast<const char*>(&*array->begin()), array->size() * sizeof(T)};
     }
   }
-  return false;
+  return {};
+}
+
+std::string mark_of(std::size_t size, std::string_view numbers) {
+  return std::string(kArrayMark) + std::to_string(size) + ' ' +
+         structure::hex_of(content_digest(numbers));
 }
 
 /// The digest that stands for a long array of numbers; empty for other values.
@@ -56,11 +57,10 @@ std::string array_mark(const Value& value) {
   if (!value.is_array() || value.size() <= kKeptElements) {
     return {};
   }
-  std::string numbers;
-#define TENON_SCALAR(enumerator, type, name, crate_id)                    \
-  if (append_numbers<type>(value, numbers)) {                             \
-    return std::string(kArrayMark) + std::to_string(value.size()) + ' ' + \
-           structure::hex_of(content_digest(numbers));                    \
+  std::string_view numbers;
+#define TENON_SCALAR(enumerator, type, name, crate_id)           \
+  if (numbers = bytes_of_array<type>(value); !numbers.empty()) { \
+    return mark_of(value.size(), numbers);                       \
   }
 #include "tenon/layer/value_types.def"
   return {};
@@ -127,12 +127,12 @@ Result<BaseCopy> decode_base(std::shared_ptr<const bytes::FileBytes> bytes) {
 }  // namespace
 
 Result<std::string> encode_base(const structure::Package& package) {
-  structure::Digests digests;
+  const structure::PackageFile& opening = package.files.at(package.interface);
+  structure::Digests digests = structure::noted_digests(*opening.layer, package.interface);
+  digests[package.interface] =
+      structure::noted_own_digest(opening.bytes->text(), package.interface).value_or(0);
   std::vector<std::pair<std::string, std::string>> layers;
   for (const auto& [name, file] : package.files) {
-    const std::string_view contents = file.bytes->text();
-    const bool opens = name == package.interface;
-    digests.emplace(name, opens ? structure::own_digest(contents, name) : content_digest(contents));
     if (file.layer != nullptr) {
       layer::Layer layer = without_arrays(*file.layer);
       structure::remove_note(layer);
