@@ -44,6 +44,7 @@ constexpr std::array kVerbs{
     Verb{"sim", add_sim},
     Verb{"strip", add_strip},
     Verb{"structure", add_structure},
+    Verb{"sweep", add_sweep},
     Verb{"test-runner", add_test_runner},
     Verb{"tree", add_tree},
     Verb{"variant", add_variant},

@@ -102,6 +102,7 @@ AddVerb add_strip;
 AddVerb add_structure;
 AddVerb add_tree;
 AddVerb add_variant;
+AddVerb add_sweep;
 AddVerb add_test_runner;
 AddVerb add_version;
 AddVerb add_where;

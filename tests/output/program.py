@@ -159,6 +159,7 @@ PRINTING = {
     "sim": ["sim", "scene.usda", "--duration", "0.1"],
     "strip": ["strip", "base.usda", "-o", "-"],
     "structure": ["structure", "scene.usda", "--dry-run"],
+    "sweep": ["sweep", "--help"],  # the rest is printed by Python
     "test-runner": ["test-runner", "layer", "scene.usda"],
     "tree": ["tree", "scene.usda"],
     "variant": ["variant", "scene.usda"],
@@ -203,6 +204,7 @@ WRITING = {
     "strip": [["strip", "scene.usda", "-o", "OUT.usda"],
               ["strip", "scene.usda", "--mute", "-o", "OUT.usda"]],
     "structure": [["structure", "base.usda", "-o", "OUT"]],
+    "sweep": [],  # Python writes: python/tests/test_sweep_logic.py
     "test-runner": [],
     "tree": [],
     "variant": [["variant", "base.usda", "Physics=none", "-o", "OUT.usda"]],

@@ -20,7 +20,7 @@ OPTIONS = ("--sandbox", "--search-path", "--allow-read")
 MARK = "CANARY"
 
 # What reads no asset.
-WITHOUT = {"doctor", "help", "version", "completion", "manual", "new",
+WITHOUT = {"doctor", "help", "version", "completion", "manual", "new", "sweep",
            "test-runner list-op", "test-runner schemas"}
 # Verb -> its arguments behind the asset; OUT is a folder.
 ROWS = {

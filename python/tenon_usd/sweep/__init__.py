@@ -1,0 +1,16 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Sweeps: one asset simulated many times, with values that a plan names.
+
+A plan is a TOML file (docs/sweep.md). The same plan gives the same bytes on threads, on shards and
+on a cluster of Ray, and a run that was stopped goes on where it was.
+"""
+
+from .cases import Case, Cases, ExtraMissing
+from .chunks import FolderError, Results
+from .plan import Fault, Metric, Plan, PlanError, Vary, load_plan, plan_from_table
+from .work import Outcome, Runner, run_on_ray, run_on_threads, shard_of
+
+__all__ = ["Case", "Cases", "ExtraMissing", "Fault", "FolderError", "Metric", "Outcome", "Plan",
+           "PlanError", "Results", "Runner", "Vary", "load_plan", "plan_from_table", "run_on_ray",
+           "run_on_threads", "shard_of"]

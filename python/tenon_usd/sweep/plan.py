@@ -1,0 +1,406 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""A plan: what is simulated, what varies and what is measured, read from TOML and checked.
+
+Everything that a case depends on is in the plan; its digest, with the bytes of the asset's files,
+names the results, so that results of another plan are never mixed with them.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import math
+import os
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+MAX_PLAN_BYTES = 1 << 20
+MAX_CASES = 1_000_000
+MAX_CHUNK = 100_000
+#: How a row says what it varies: a number of the running model, times a factor or as it is; a
+#: property of the asset; a target of drives; the asset or the engine itself.
+TARGETS = ("scale", "value", "set", "target", "asset", "engine")
+#: How a row says with which values.
+DRAWS = ("grid", "random", "sobol")
+DISTRIBUTIONS = ("uniform", "log", "normal")
+TAKES = ("final", "first", "min", "max", "mean")
+RESERVED = ("case", "status", "time", "rule", "error")
+
+
+@dataclasses.dataclass(frozen=True)
+class Fault:
+    """One thing that is wrong with a plan. `row` names the row of the plan ("vary 2"), `line` is
+    where that row begins in the file, 0 where there is no line."""
+
+    row: str
+    line: int
+    message: str
+
+    def __str__(self) -> str:
+        place = f":{self.line}" if self.line else ""
+        return f"{place}: {self.row}: {self.message}" if self.row else f"{place}: {self.message}"
+
+
+class PlanError(ValueError):
+    """A plan that cannot be used: `path`, and a Fault for each thing that is wrong."""
+
+    def __init__(self, path: str, faults: Iterable[Fault]) -> None:
+        self.path, self.faults = path, tuple(faults)
+        super().__init__("\n".join(f"{path}{fault}" for fault in self.faults))
+
+
+@dataclasses.dataclass(frozen=True)
+class Vary:
+    """One row `[[vary]]`. `kind` is one of TARGETS and `target` what it says there; `draw` is one
+    of DRAWS; `values` are those of a grid, or low and high (mean and deviation of "normal")."""
+
+    name: str
+    kind: str
+    target: str
+    draw: str
+    values: tuple[Any, ...]
+    distribution: str = "uniform"
+    line: int = dataclasses.field(default=0, compare=False)
+
+
+@dataclasses.dataclass(frozen=True)
+class Metric:
+    """One row `[[metric]]`: `of` is a signal ("position.z@/World/Can"), `take` one of TAKES."""
+
+    name: str
+    of: str
+    take: str = "final"
+    line: int = dataclasses.field(default=0, compare=False)
+
+
+@dataclasses.dataclass(frozen=True)
+class Plan:
+    """A sweep as a value. `asset` is a path relative to `folder`, durations are in seconds;
+    `step` None: the asset's own. `chunk` cases are written together."""
+
+    asset: str
+    folder: str
+    engine: str | None = None
+    physics: str | None = None
+    duration: float = 1.0
+    step: float | None = None
+    sample: float = 0.02
+    samples: int = 1
+    seed: int = 0
+    chunk: int = 64
+    vary: tuple[Vary, ...] = ()
+    metrics: tuple[Metric, ...] = ()
+    source: str = "plan"
+
+    @property
+    def grid_points(self) -> int:
+        """How many combinations the grids have."""
+        return math.prod(len(row.values) for row in self.vary if row.draw == "grid")
+
+    @property
+    def case_count(self) -> int:
+        """Combinations of the grids times samples."""
+        return self.grid_points * self.samples
+
+    @property
+    def chunk_count(self) -> int:
+        return -(-self.case_count // self.chunk)
+
+    def chunk_cases(self, number: int) -> range:
+        """The cases of one chunk."""
+        return range(number * self.chunk, min((number + 1) * self.chunk, self.case_count))
+
+    def canonical(self) -> str:
+        """All that the cases depend on as text, the same for the same plan wherever it lies."""
+        value = dataclasses.asdict(self)
+        del value["folder"], value["source"]
+        for row in [*value["vary"], *value["metrics"]]:
+            del row["line"]
+        return json.dumps(value, sort_keys=True, separators=(",", ":"))
+
+    def digest(self, files: Mapping[str, bytes] | None = None, versions: str = "") -> str:
+        """SHA-256 of the plan, of the asset's files by name, and of what runs it."""
+        whole = hashlib.sha256(self.canonical().encode())
+        for name, contents in sorted((files or {}).items()):
+            whole.update(f"\0{name}\0".encode() + hashlib.sha256(contents).digest())
+        whole.update(f"\0{versions}".encode())
+        return whole.hexdigest()
+
+    def asset_path(self, asset: str) -> str:
+        return os.path.join(self.folder, asset)
+
+
+class _Reader:
+    """Collects the faults of one plan while it is read."""
+
+    def __init__(self, text: str) -> None:
+        self.lines = text.split("\n")
+        self.faults: list[Fault] = []
+        self.row = ""
+        self.line = 0
+
+    def at(self, table: str, number: int) -> None:
+        """What follows is about the row `number` (from 1) of the tables [[table]]."""
+        self.row, self.line = f"{table} {number}", 0
+        head = re.compile(rf"\s*\[\[\s*{table}\s*\]\]")
+        found = [at for at, line in enumerate(self.lines, 1) if head.match(line)]
+        if number <= len(found):
+            self.line = found[number - 1]
+
+    def at_top(self, key: str = "") -> None:
+        self.row, self.line = "", 0
+        for at, line in enumerate(self.lines, 1):
+            if key and re.match(rf"\s*{re.escape(key)}\s*=", line):
+                self.line = at
+                break
+
+    def fault(self, message: str) -> None:
+        self.faults.append(Fault(self.row, self.line, message))
+
+    def unknown(self, table: Mapping[str, Any], known: Iterable[str]) -> None:
+        known = tuple(known)
+        for key in table:
+            if key not in known:
+                self.fault(f'there is no "{key}" here; there are {", ".join(known)}')
+
+    def text(self, table: Mapping[str, Any], key: str, default: str | None = None) -> str | None:
+        value = table.get(key, default)
+        if value is not None and (not isinstance(value, str) or not value):
+            self.fault(f"{key} is {value!r}; expected a text")
+            return default
+        return value
+
+    def number(self, table: Mapping[str, Any], key: str, default: float, low: float,
+               high: float) -> float:
+        value: Any = table.get(key, default)
+        if not _is_number(value) or not low <= value <= high:
+            self.fault(f"{key} is {value!r}; expected a number from {low:g} to {high:g}")
+            return default
+        return value
+
+    def whole(self, table: Mapping[str, Any], key: str, default: int, low: int, high: int) -> int:
+        value = table.get(key, default)
+        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+            self.fault(f"{key} is {value!r}; expected a whole number from {low} to {high}")
+            return default
+        return value
+
+
+def _is_number(value: Any) -> bool:
+    return (not isinstance(value, bool) and isinstance(value, (int, float))
+            and math.isfinite(value))
+
+
+def _range_of(reader: _Reader, row: Mapping[str, Any], draw: str) -> tuple[Any, ...] | None:
+    """Low and high of `random` and `sobol`."""
+    value, distribution = row[draw], row.get("distribution", "uniform")
+    if distribution not in DISTRIBUTIONS:
+        reader.fault(f"distribution is {distribution!r}; there are {', '.join(DISTRIBUTIONS)}")
+        return None
+    if not isinstance(value, list) or len(value) != 2 or not all(map(_is_number, value)):
+        reader.fault(f"{draw} is {value!r}; expected two numbers")
+        return None
+    low, high = map(float, value)
+    if distribution == "normal":
+        if high < 0:
+            reader.fault("a deviation is not below 0")
+            return None
+    elif low > high or (distribution == "log" and low <= 0):
+        reader.fault(f"{draw} is {value!r}; the first is not above the second"
+                     + (", and both are above 0" if distribution == "log" else ""))
+        return None
+    return low, high
+
+
+def _grid_of(reader: _Reader, row: Mapping[str, Any]) -> tuple[Any, ...] | None:
+    """A list of values, or {from, to, count}."""
+    value = row["grid"]
+    if isinstance(value, dict):
+        reader.unknown(value, ("from", "to", "count"))
+        low, high, count = value.get("from"), value.get("to"), value.get("count")
+        if (not _is_number(low) or not _is_number(high) or isinstance(count, bool)
+                or not isinstance(count, int) or not 1 <= count <= MAX_CASES):
+            reader.fault("a grid has from, to and a count of at least 1")
+            return None
+        last = max(count - 1, 1)
+        return tuple(float(low + (high - low) * i / last) for i in range(count))
+    if not isinstance(value, list) or not value:
+        reader.fault(f"grid is {value!r}; expected a list of values, or from, to and count")
+        return None
+    if not all(_is_number(each) or isinstance(each, (str, bool)) for each in value):
+        reader.fault("a value of a grid is a number, a text or true or false")
+        return None
+    return tuple(float(each) if _is_number(each) else each for each in value)
+
+
+def _read_vary(reader: _Reader, row: Mapping[str, Any]) -> Vary | None:
+    reader.unknown(row, ("name", "distribution", *TARGETS, *DRAWS))
+    kinds = [kind for kind in TARGETS if kind in row]
+    draws = [draw for draw in DRAWS if draw in row]
+    # `asset` and `engine` are lists: what and with which values in one.
+    if kinds in (["asset"], ["engine"]) and not draws and isinstance(row[kinds[0]], list):
+        row = {**row, "grid": row[kinds[0]], kinds[0]: kinds[0]}
+        draws = ["grid"]
+    if len(kinds) != 1:
+        reader.fault(f"one of {', '.join(TARGETS)} says what varies; here are {kinds or 'none'}")
+        return None
+    if len(draws) != 1:
+        reader.fault(f"one of {', '.join(DRAWS)} says with which values; here are "
+                     f"{draws or 'none'}")
+        return None
+    kind, draw = kinds[0], draws[0]
+    target = reader.text(row, kind)
+    values = _grid_of(reader, row) if draw == "grid" else _range_of(reader, row, draw)
+    if target is None or values is None:
+        return None
+    wants_text = kind in ("asset", "engine")
+    if wants_text and not all(isinstance(each, str) for each in values):
+        reader.fault(f"{kind} varies over texts")
+        return None
+    if kind in ("scale", "value", "target") and not all(map(_is_number, values)):
+        reader.fault(f"{kind} varies over numbers")
+        return None
+    name = reader.text(row, "name", target) or target
+    return Vary(name, kind, target, draw, values, row.get("distribution", "uniform"),
+                reader.line)
+
+
+def _read_metric(reader: _Reader, row: Mapping[str, Any]) -> Metric | None:
+    reader.unknown(row, ("name", "of", "take"))
+    of, take = reader.text(row, "of"), reader.text(row, "take", "final")
+    if of is None:
+        reader.fault("`of` says what is measured, such as \"position.z@/World/Can\"")
+        return None
+    if take not in TAKES:
+        reader.fault(f"take is {take!r}; there are {', '.join(TAKES)}")
+        return None
+    return Metric(reader.text(row, "name", f"{take}({of})") or of, of, take, reader.line)
+
+
+def _rows(reader: _Reader, table: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
+    rows = table.get(key, [])
+    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+        reader.fault(f"{key} is a list of tables: [[{key}]]")
+        return []
+    return rows
+
+
+def _check_names(reader: _Reader, vary: list[Vary], metrics: list[Metric]) -> None:
+    seen: set[str] = set(RESERVED)
+    for number, row in enumerate([*vary, *metrics]):
+        is_vary = number < len(vary)
+        reader.at("vary" if is_vary else "metric", number + 1 - (0 if is_vary else len(vary)))
+        if row.name in seen:
+            reader.fault(f'a column "{row.name}" is there already; give the row another name')
+        seen.add(row.name)
+
+
+_KEYS = ("asset", "engine", "physics", "duration", "step", "sample", "samples", "seed", "chunk",
+         "vary", "metric")
+
+
+def plan_from_table(table: Mapping[str, Any], folder: str, path: str = "plan",
+                    text: str = "") -> Plan:
+    """The plan that a table says, as TOML gives it. Errors: PlanError with all faults."""
+    reader = _Reader(text)
+    reader.unknown(table, _KEYS)
+    reader.at_top("asset")
+    asset = reader.text(table, "asset")
+    rows: list[Vary] = []
+    for number, row in enumerate(_rows(reader, table, "vary"), 1):
+        reader.at("vary", number)
+        if (read := _read_vary(reader, row)) is not None:
+            rows.append(read)
+    metrics: list[Metric] = []
+    for number, row in enumerate(_rows(reader, table, "metric"), 1):
+        reader.at("metric", number)
+        if (metric := _read_metric(reader, row)) is not None:
+            metrics.append(metric)
+    _check_names(reader, rows, metrics)
+    reader.at_top()
+    if asset is None and not any(row.kind == "asset" for row in rows):
+        reader.fault('an asset is missing: asset = "hand.usda"')
+    step = None
+    if "step" in table:
+        step = float(reader.number(table, "step", 0.002, 1e-9, 1))
+    plan = Plan(
+        asset or "", folder, reader.text(table, "engine"), reader.text(table, "physics"),
+        float(reader.number(table, "duration", 1.0, 0, 1e6)), step,
+        float(reader.number(table, "sample", 0.02, 1e-6, 1e6)),
+        reader.whole(table, "samples", 1, 1, MAX_CASES),
+        reader.whole(table, "seed", 0, 0, (1 << 63) - 1),
+        reader.whole(table, "chunk", 64, 1, MAX_CHUNK), tuple(rows), tuple(metrics), path)
+    if not reader.faults and plan.case_count > MAX_CASES:
+        reader.fault(f"{plan.case_count} cases; at most {MAX_CASES}")
+    if plan.samples > 1 and all(row.draw == "grid" for row in rows) and not reader.faults:
+        reader.fault("samples are draws of random and sobol, and no row draws")
+    if reader.faults:
+        raise PlanError(path, reader.faults)
+    return plan
+
+
+def load_plan(path: str, more: Iterable[str] = (), **changes: Any) -> Plan:
+    """Reads a plan file, or makes a plan of an asset alone (a name that does not end in .toml).
+
+    `more` are rows as the command line has them (--vary); `changes` replace keys of the file.
+    Errors: OSError; PlanError.
+    """
+    text = ""
+    if path.endswith(".toml"):
+        with open(path, "rb") as file:
+            contents = file.read(MAX_PLAN_BYTES + 1)
+        if len(contents) > MAX_PLAN_BYTES:
+            raise PlanError(path, [Fault("", 0, f"larger than {MAX_PLAN_BYTES} bytes")])
+        try:
+            text = contents.decode("utf-8")
+            table = tomllib.loads(text)
+        except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            raise PlanError(path, [Fault("", 0, str(error))]) from error
+    else:
+        table = {"asset": os.path.basename(path)}
+    folder = os.path.dirname(os.path.abspath(path))
+    table.update({key: value for key, value in changes.items() if value is not None})
+    given = [vary_from_text(each, path) for each in more]
+    if given:
+        rows = table.get("vary", [])
+        table["vary"] = [*(rows if isinstance(rows, list) else []), *given]
+    return plan_from_table(table, folder, path, text)
+
+
+
+def vary_from_text(text: str, path: str = "--vary") -> dict[str, Any]:
+    """A row of the command line: NAME=LOW..HIGH draws at random, NAME=LOW:HIGH:COUNT is a grid,
+    NAME=A,B,C a list. NAME is a number of the model as `tenon bench --vary` names it, whose values
+    are factors, or PATH.PROPERTY of the asset, "asset" or "engine". Errors: PlanError."""
+    # A property may hold no "=" but its name may hold ":"; the values stand behind the last "=".
+    name, sign, values = text.rpartition("=")
+    row: dict[str, Any] = {}
+    if not sign or not name or not values:
+        raise PlanError("--vary", [Fault("", 0, f"{text!r}: expected NAME=LOW..HIGH, "
+                                         "NAME=LOW:HIGH:COUNT or NAME=A,B,C")])
+    if name in ("asset", "engine"):
+        return {name: values.split(",")}
+    row["set" if name.startswith("/") else "scale"] = name
+    try:
+        if ".." in values:
+            low, high = values.split("..", 1)
+            row["random"] = [float(low), float(high)]
+        elif values.count(":") == 2:
+            low, high, count = values.split(":")
+            row["grid"] = {"from": float(low), "to": float(high), "count": int(count)}
+        else:
+            row["grid"] = [_value_of(each) for each in values.split(",")]
+    except ValueError as error:
+        raise PlanError("--vary", [Fault("", 0, f"{text!r}: {error}")]) from error
+    return row
+
+
+def _value_of(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
