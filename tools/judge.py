@@ -94,6 +94,8 @@ def judgements():
                                              "docs/beside-other-engines.md"],
                         "release", ["tenon_cli", "tenon_worker"],
                         f"tests/engines_beside/requirements-{engine}.txt")
+    yield Judgement("sweeps", ["{engine}", "-B", "tests/sweep/at_scale.py"], "release", (),
+                    "tests/sweep/requirements-sweep.txt")
     # Of a build with every engine (make build ENGINES=all, make test).
     yield Judgement("own_physx", ["{python}", "-B", "tests/engines_beside/own_physx.py", "{engine}",
                                   "build/release/bin/tenon", "docs/beside-other-engines.md"],

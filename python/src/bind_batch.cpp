@@ -5,6 +5,7 @@
 // in the order of the environments, so that no result depends on threads. Each call lets other
 // threads of Python run, and then waits for its turn with the batch.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -190,6 +191,7 @@ void set_joints(Batch& batch, const Numbers& positions, const Numbers& velocitie
   }));
 }
 
+/// A position that is no number leaves its drive, and what moves its target, alone.
 void set_targets(Batch& batch, const Numbers& positions, const Numbers& velocities) {
   const std::size_t width = batch.drives.size();
   const auto p = span_of(positions, batch.size() * width);
@@ -198,6 +200,9 @@ void set_targets(Batch& batch, const Numbers& positions, const Numbers& velociti
     return each(batch, [&](std::size_t i, World& world) -> Result<void> {
       for (std::size_t at = 0; at < width; ++at) {
         const Coordinate& drive = batch.drives[at];
+        if (std::isnan(p[i * width + at])) {
+          continue;
+        }
         const Result<void> done =
             world.set_drive_target(drive.joint, static_cast<scene::Index>(drive.part),
                                    {p[i * width + at], v[i * width + at]});

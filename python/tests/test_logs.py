@@ -160,7 +160,8 @@ class Logs(unittest.TestCase):
     def test_files_that_are_no_log(self):
         for name, text in (("a.csv", "x,y\n1,2\n"), ("b.csv", ""), ("c.csv", "time,a\n1\n"),
                            ("d.csv", "time,a\n1,b\n"), ("e.jsonl", "{"), ("f.jsonl", "[1]\n"),
-                           ("g.npz", "none"), ("h.txt", ""), ("i.jsonl", '{"time": 0}\n{"a": 1}\n')):
+                           ("g.npz", "none"), ("h.txt", ""),
+                           ("i.jsonl", '{"time": 0}\n{"a": 1}\n')):
             path = self.folder / name
             path.write_text(text)
             with self.subTest(name), self.assertRaises(logs.LogError) as caught:

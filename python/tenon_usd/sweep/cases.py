@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
+import importlib
 import math
 import statistics
+from collections.abc import Callable
 from typing import Any
 
 from .plan import Plan, Vary
@@ -37,7 +39,7 @@ def _uniform(seed: int, row: int, sample: int) -> float:
 
 def _placed(row: Vary, unit: float) -> float:
     """A number of (0, 1) as one of the row's distribution."""
-    first, second = row.values
+    first, second = (float(value) for value in row.values)
     if row.distribution == "normal":
         return statistics.NormalDist(first, second).inv_cdf(unit) if second > 0 else first
     if row.distribution == "log":
@@ -51,10 +53,10 @@ class _Sobol:
 
     def __init__(self, dimensions: int, seed: int) -> None:
         try:
-            from scipy.stats import qmc
+            qmc: Any = importlib.import_module("scipy.stats.qmc")
         except ImportError as error:
             raise ExtraMissing("SciPy", "sobol", "sobol") from error
-        self._make = lambda: qmc.Sobol(dimensions, scramble=True, seed=seed)
+        self._make: Callable[[], Any] = lambda: qmc.Sobol(dimensions, scramble=True, seed=seed)
         self._sequence: Any = None
         self._next = 0
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import importlib
 import io
 import json
 import os
@@ -52,8 +53,8 @@ def columns_of(plan: Plan) -> list[tuple[str, type]]:
 def default_format() -> str:
     """Parquet where pyarrow is installed, else CSV."""
     try:
-        import pyarrow.parquet  # noqa: F401
-    except ImportError:
+        _parquet()
+    except ExtraMissing:
         return "csv"
     return "parquet"
 
@@ -89,11 +90,9 @@ def _arrays(columns: Sequence[tuple[str, type]], rows: Sequence[Row]) -> dict[st
 
 def _parquet() -> Any:
     try:
-        import pyarrow as pa
-        import pyarrow.parquet as pq
+        return importlib.import_module("pyarrow"), importlib.import_module("pyarrow.parquet")
     except ImportError as error:
         raise ExtraMissing("pyarrow", "parquet", "the format parquet") from error
-    return pa, pq
 
 
 def _encode_parquet(columns: Sequence[tuple[str, type]], rows: Sequence[Row], digest: str) -> bytes:
@@ -117,8 +116,9 @@ def _decode_parquet(contents: bytes) -> tuple[list[Row], str]:
 
 def _encode_npz(columns: Sequence[tuple[str, type]], rows: Sequence[Row], digest: str) -> bytes:
     arrays = _arrays(columns, rows)
-    named = {f"column{at:04}": np.array(arrays[name], dtype=None if kind is not str else "U")
-             for at, (name, kind) in enumerate(columns)}
+    named: dict[str, Any] = {
+        f"column{at:04}": np.array(arrays[name], dtype="U" if kind is str else None)
+        for at, (name, kind) in enumerate(columns)}
     sink = io.BytesIO()
     # Columns go by number: numpy cannot store a name that has a slash.
     np.savez_compressed(sink, tenon_sweep=np.array(digest),

@@ -176,11 +176,11 @@ class _Reader:
 
     def number(self, table: Mapping[str, Any], key: str, default: float, low: float,
                high: float) -> float:
-        value: Any = table.get(key, default)
+        value = table.get(key, default)
         if not _is_number(value) or not low <= value <= high:
             self.fault(f"{key} is {value!r}; expected a number from {low:g} to {high:g}")
             return default
-        return value
+        return float(value)
 
     def whole(self, table: Mapping[str, Any], key: str, default: int, low: int, high: int) -> int:
         value = table.get(key, default)
@@ -221,7 +221,9 @@ def _grid_of(reader: _Reader, row: Mapping[str, Any]) -> tuple[Any, ...] | None:
     value = row["grid"]
     if isinstance(value, dict):
         reader.unknown(value, ("from", "to", "count"))
-        low, high, count = value.get("from"), value.get("to"), value.get("count")
+        low: Any = value.get("from")
+        high: Any = value.get("to")
+        count = value.get("count")
         if (not _is_number(low) or not _is_number(high) or isinstance(count, bool)
                 or not isinstance(count, int) or not 1 <= count <= MAX_CASES):
             reader.fault("a grid has from, to and a count of at least 1")
@@ -291,7 +293,8 @@ def _rows(reader: _Reader, table: Mapping[str, Any], key: str) -> list[Mapping[s
 
 def _check_names(reader: _Reader, vary: list[Vary], metrics: list[Metric]) -> None:
     seen: set[str] = set(RESERVED)
-    for number, row in enumerate([*vary, *metrics]):
+    rows: list[Vary | Metric] = [*vary, *metrics]
+    for number, row in enumerate(rows):
         is_vary = number < len(vary)
         reader.at("vary" if is_vary else "metric", number + 1 - (0 if is_vary else len(vary)))
         if row.name in seen:

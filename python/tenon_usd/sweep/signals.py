@@ -235,11 +235,13 @@ def _start_body(path: str, axis: str, world: World) -> Setter:
 
 def _target(path: str, world: World) -> Setter:
     drive = _at(world.drive_names, path, "drive")
+    drives = [each for joint in world.scene.joints for each in joint.drives]
+    velocities = np.array([[float(each.target_velocity) for each in drives]])
 
     def put(world: World, value: float) -> None:
-        targets = world.drive_targets
+        targets = np.full_like(velocities, np.nan)  # the others are left alone
         targets[0, drive] = value
-        world.drive_targets = targets
+        world._batch.set_targets(targets, velocities)
     return put
 
 

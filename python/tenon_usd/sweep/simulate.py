@@ -12,7 +12,7 @@ import os
 from collections.abc import Sequence
 from typing import Any
 
-from .. import __version__, _tenon, open as open_stage
+from .. import __version__, engines, open as open_stage
 from ..errors import Error, FileError, NotFoundError
 from ..world import World
 from .cases import Case, Cases
@@ -73,7 +73,7 @@ class Model:
 
     def run(self, case: Case) -> Outcome:
         """Errors: Error, of a value that cannot be used."""
-        self.world.reset()
+        self.world._batch.reset([0])
         for setter, value in zip(self.setters, case.values, strict=True):
             if setter is not None:
                 setter(self.world, value)
@@ -205,7 +205,7 @@ def digest_of(plan: Plan) -> str:
     files: dict[str, bytes] = {}
     for asset in _assets(plan):
         files.update(_files(plan, asset))
-    versions = [__version__, *(f"{row['name']} {row['version']}" for row in _tenon.engines())]
+    versions = [__version__, *(f"{row['name']} {row['version']}" for row in engines())]
     return plan.digest(files, "\n".join(versions))
 
 

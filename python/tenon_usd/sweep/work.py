@@ -6,6 +6,7 @@ What a row says is the same wherever it was made."""
 from __future__ import annotations
 
 import dataclasses
+import importlib
 import math
 import os
 import queue
@@ -147,7 +148,7 @@ def run_on_ray(results: Results, chunks: Sequence[int], make_runner: MakeRunner,
     without Ray; those of a worker."""
     os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # nothing is sent to anybody
     try:
-        import ray
+        ray: Any = importlib.import_module("ray")
     except ImportError as error:
         raise ExtraMissing("Ray", "ray", "--on ray") from error
     own = not ray.is_initialized()
