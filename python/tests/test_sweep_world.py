@@ -149,7 +149,8 @@ class Sweeps(FilesTestCase):
         self.assertTrue(math.isnan(rows[1]["e"]))
 
     def test_unstable_cases_are_rows_and_the_others_are_as_without_them(self):
-        text = ('duration = 0.5\n[[vary]]\nvalue = "driveStiffness@/World/Slide"\ngrid = [100, 1e12, 50]\n'
+        text = ('duration = 0.5\n[[vary]]\nvalue = "driveStiffness@/World/Slide"\n'
+                'grid = [100, 1e12, 50]\n'
                 '[[vary]]\ntarget = "/World/Slide"\ngrid = [0.3]\n'
                 '[[metric]]\nname = "x"\nof = "jointPosition@/World/Slide"\n')
         rows = self.rows(text)

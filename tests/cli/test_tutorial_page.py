@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""docs/tutorial.md is true: each command of its console blocks, run in order in one folder beside
-a copy of the example hand, prints what the page shows and ends as it says.
+"""A page with commands is true: each command of its console blocks, run in order in one folder
+beside a copy of the examples, prints what the page shows and ends as it says.
 
-    test_tutorial_page.py ROOT TENON           compares
-    test_tutorial_page.py ROOT TENON --write   writes what the commands print into the page
+    test_tutorial_page.py ROOT TENON PAGE           compares
+    test_tutorial_page.py ROOT TENON PAGE --write   writes what the commands print into the page
 """
 
 import os
@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 ROOT, TENON = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
-PAGE = ROOT / "docs/tutorial.md"
+PAGE = ROOT / sys.argv[3]
 BLOCK = re.compile(r"^```console\n(.*?)^```$", re.M | re.S)
 
 
@@ -38,7 +38,8 @@ def run(command, folder):
 def main():
     text = PAGE.read_text(encoding="utf-8")
     with tempfile.TemporaryDirectory() as folder:
-        shutil.copytree(ROOT / "examples/inspire_hand", f"{folder}/examples/inspire_hand")
+        for name in ("inspire_hand", "scenes", "cpp/robots", "sweep"):
+            shutil.copytree(ROOT / "examples" / name, f"{folder}/examples/{name}")
 
         def replay(match):
             shown = "".join(f"$ {command}\n{run(command, folder)}"
@@ -46,14 +47,14 @@ def main():
             return f"```console\n{shown}```"
 
         played = BLOCK.sub(replay, text)
-    if sys.argv[3:] == ["--write"]:
+    if sys.argv[4:] == ["--write"]:
         PAGE.write_text(played, encoding="utf-8")
         return 0
     for number, (wanted, found) in enumerate(zip(text.split("\n"), played.split("\n")), 1):
         if wanted != found:
-            print(f"docs/tutorial.md:{number}: the page shows {wanted!r}, found {found!r}")
+            print(f"{sys.argv[3]}:{number}: the page shows {wanted!r}, found {found!r}")
             return 1
-    print(f"{len(BLOCK.findall(text))} blocks of the tutorial are as shown")
+    print(f"{len(BLOCK.findall(text))} blocks of {sys.argv[3]} are as shown")
     return 0 if played == text else 1
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""`tenon sweep` at its full size: 2,000 cases on threads, on 4 shards and on a local cluster of Ray of
-two nodes have the same bytes, and so has what comes of runs whose driver or workers were killed
+"""`tenon sweep` at its full size: 2,000 cases on threads, on 4 shards and on a local cluster of Ray
+of two nodes have the same bytes, and so has what comes of runs whose driver or workers were killed
 twenty times. Also what the sweep costs beside the steps alone, and the tests of the package's
 extras: SciPy, Arrow, MCAP, Rerun.
 
