@@ -110,6 +110,7 @@ def judgements():
                                      "python3 -B bench/python_package.py --smoke && "
                                      "python/tests/run.sh build/wheel/clean "
                                      "python/tests/many_opens.py"], "release")
+    yield Judgement("python_versions", ["python/tests/versions.sh"], "release")
     yield Judgement("python_sanitized", ["bash", "-c", "python/tests/install.sh && "
                                          "python/tests/sanitized.sh"], "dev",
                     ["tenon_asset", "tenon_worker"])

