@@ -60,6 +60,8 @@ constexpr KindRow kKinds[] = {
     {OutputKind::Sarif, "a SARIF log", {".sarif", ".json"}, true, true},
     {OutputKind::Baseline, "a baseline", {".json"}, true, true},
     {OutputKind::Comparison, "a comparison", {".html", ".json", ".csv"}, false, false},
+    {OutputKind::Motion, "a motion", {".usda", ".usdc", ".usd", ".glb"}, false, true},
+    {OutputKind::Page, "a page", {".html"}, false, true},
 };
 
 const KindRow& row_of(OutputKind kind) {

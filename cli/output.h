@@ -36,6 +36,8 @@ enum class OutputKind : std::uint8_t {
   Sarif,
   Baseline,
   Comparison,  ///< of motions
+  Motion,      ///< of bodies: a layer over an asset, or a scene for other programs
+  Page,        ///< that browsers show
 };
 
 /// The files of one run. They are claimed before the work, so that nobody waits for what cannot be

@@ -40,6 +40,7 @@ constexpr std::array kVerbs{
     Verb{"physics", add_physics},
     Verb{"remove", add_remove},
     Verb{"rename", add_rename},
+    Verb{"report", add_report},
     Verb{"set", add_set},
     Verb{"sim", add_sim},
     Verb{"strip", add_strip},
@@ -63,6 +64,7 @@ constexpr const char* kProgramFooter =
     "  tenon physics hand.usda --json          what an engine receives, SI and radians\n"
     "  tenon sim hand.usda --duration 5        simulate it on MuJoCo\n"
     "  tenon bake hand.usda -o motion.usda     a layer that any USD viewer plays\n"
+    "  tenon report hand.usda -o hand.html     one page with all of it, to look at and to mail\n"
     "  tenon convert hand.urdf hand.usda       make an asset from a robot description\n"
     "  tenon new scene.usda                    an empty scene, for tenon add to fill\n"
     "  tenon cat model.usdc                    a binary layer as text\n"

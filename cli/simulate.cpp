@@ -36,6 +36,8 @@ class InterruptCounter {
   Handler previous_ = std::signal(SIGINT, count_interrupt);
 };
 
+}  // namespace
+
 Result<SimulateAssetOptions> simulation_options(const SimulateArguments& arguments) {
   SimulateAssetOptions options;
   TENON_TRY(options.readings, chosen_readings(arguments.readings));
@@ -55,8 +57,6 @@ Result<SimulateAssetOptions> simulation_options(const SimulateArguments& argumen
   }
   return options;
 }
-
-}  // namespace
 
 void SimulateArguments::add_to(const Command& verb) {
   asset.add_with_standard_input_to(verb);
@@ -95,13 +95,17 @@ void SimulateArguments::add_to(const Command& verb) {
       .repeatable();
 }
 
-void SimulateArguments::add_steering_to(const Command& verb) {
+void SimulateArguments::add_commands_to(const Command& verb) {
   verb.add_option("--commands", commands,
                   "Drive joints over time by a table, .csv or .npz: time [s], then columns such as "
                   "/hand/joint.target, .velocityTarget (degrees or stage units) and .effort (N, "
                   "N m); each row holds until the next")
       .file_only()
       .value_name("FILE");
+}
+
+void SimulateArguments::add_steering_to(const Command& verb) {
+  add_commands_to(verb);
   verb.add_option("--state-in", state_in,
                   "Begin from a state that --state-out saved of this asset; --duration counts "
                   "from there")
@@ -127,25 +131,43 @@ int exit_code_of(const SimulatedAsset& simulated) {
   return simulated.until_rest && !simulated.run.rest_since ? kNo : kOk;
 }
 
-Result<SimulatedAsset> simulate(const SimulateArguments& arguments, Report& report) {
-  TENON_TRY(SimulateAssetOptions options, simulation_options(arguments));
-  Progress progress(report.globals(), "reading " + shown_path(arguments.asset.asset));
+struct RunWatch::Parts {
+  Parts(const Globals& globals, const std::string& asset)
+      : progress(globals, "reading " + shown_path(asset)) {}
+  Progress progress;
   std::optional<InterruptCounter> interrupts;
-  options.listener.next_part = [&](const std::string& what) { progress.next(what); };
+};
+
+RunWatch::RunWatch(const SimulateArguments& arguments, Report& report)
+    : report_(report), parts_(std::make_unique<Parts>(report.globals(), arguments.asset.asset)) {}
+RunWatch::~RunWatch() = default;
+
+SimulationListener RunWatch::listener() {
+  SimulationListener listener;
+  Parts* parts = parts_.get();
+  Report& report = report_;
+  listener.next_part = [parts](const std::string& what) { parts->progress.next(what); };
   if (!report.json()) {
-    options.listener.announce = [&](const Diagnostic& finding) {
+    listener.announce = [&report](const Diagnostic& finding) {
       if (!report.quiet()) {
         say_aside(diagnostic_line(finding, use_color(report.globals())));
       }
     };
   }
-  options.listener.go_on = [&](double seconds, double duration) {
-    if (!interrupts) {
-      interrupts.emplace();  // while steps are taken
+  listener.go_on = [parts](double seconds, double duration) {
+    if (!parts->interrupts) {
+      parts->interrupts.emplace();  // while steps are taken
     }
-    progress.at(seconds, duration, "s");
+    parts->progress.at(seconds, duration, "s");
     return interrupt_count == 0;
   };
+  return listener;
+}
+
+Result<SimulatedAsset> simulate(const SimulateArguments& arguments, Report& report) {
+  TENON_TRY(SimulateAssetOptions options, simulation_options(arguments));
+  RunWatch watch(arguments, report);
+  options.listener = watch.listener();
   return simulate_asset(arguments.asset.asset, options, report.diagnostics);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,8 +32,26 @@ struct SimulateArguments {
   std::vector<std::string> log;  ///< of sim: outputs beside states
 
   void add_to(const Command& verb);
+  /// --commands alone.
+  void add_commands_to(const Command& verb);
   /// What only `sim` offers: commands, states, an end at rest.
   void add_steering_to(const Command& verb);
+};
+
+/// The options of a run, without a listener.
+Result<SimulateAssetOptions> simulation_options(const SimulateArguments& arguments);
+
+/// Shows progress on a terminal's standard error; an interrupt stops the run. As long as it lives.
+class RunWatch {
+ public:
+  RunWatch(const SimulateArguments& arguments, Report& report);
+  ~RunWatch();
+  SimulationListener listener();
+
+ private:
+  struct Parts;
+  Report& report_;
+  std::unique_ptr<Parts> parts_;
 };
 
 int exit_code_of(const SimulatedAsset& simulated);

@@ -96,6 +96,7 @@ AddVerb add_new;
 AddVerb add_physics;
 AddVerb add_remove;
 AddVerb add_rename;
+AddVerb add_report;
 AddVerb add_set;
 AddVerb add_sim;
 AddVerb add_strip;

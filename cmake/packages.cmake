@@ -66,6 +66,17 @@ endif()
 target_compile_definitions(tenon_meshoptimizer
                            INTERFACE TENON_MESHOPTIMIZER_SONAME="${CMAKE_MATCH_1}")
 
+# Opened at run time, when a report is made.
+find_path(TENON_ZLIB_INCLUDE_DIR zlib.h)
+add_library(tenon_zlib INTERFACE)
+if(TENON_ZLIB_INCLUDE_DIR)
+  target_include_directories(tenon_zlib SYSTEM INTERFACE ${TENON_ZLIB_INCLUDE_DIR})
+  target_compile_definitions(tenon_zlib INTERFACE TENON_WITH_ZLIB=1)
+else()
+  message(STATUS "zlib not found (zlib1g-dev): reports are larger")
+  target_compile_definitions(tenon_zlib INTERFACE TENON_WITH_ZLIB=0)
+endif()
+
 if(TENON_DEVELOPER)
   find_package(GTest REQUIRED)
 endif()

@@ -39,6 +39,26 @@ const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base
 /// Text in the place of a slot, whatever dollar signs it has.
 const fill = (frame, slot, text) => frame.split(slot).join(text);
 
+/// As tenon/bytes/gzip.h has it.
+function sevenBitText(bytes) {
+  const codes = [];
+  const add = (value) => codes.push([0, 13, 60].includes(value) ? 256 + value : value);
+  let held = 0;
+  let count = 0;
+  for (const byte of bytes) {
+    held = ((held << 8) | byte) & 0xffff;
+    count += 8;
+    while (count >= 7) {
+      count -= 7;
+      add((held >> count) & 127);
+    }
+  }
+  if (count > 0) {
+    add((held << (7 - count)) & 127);
+  }
+  return codes.map((code) => String.fromCharCode(code)).join("");
+}
+
 async function main() {
   const [live, report] = await Promise.all([bundle("src/live/main.ts"), bundle("src/report/main.ts")]);
   const style = (await esbuild.transform(await readFile(join(here, "src/page.css"), "utf8"), {
@@ -56,7 +76,7 @@ async function main() {
       "form-action 'none'");
   frame = fill(frame, "{{STYLE}}", style);
   frame = fill(frame, "{{START}}", start);
-  frame = fill(frame, "{{SCRIPT}}", gzipSync(report, { level: 9 }).toString("base64"));
+  frame = fill(frame, "{{SCRIPT}}", sevenBitText(gzipSync(report, { level: 9 })));
   await mkdir(folder, { recursive: true });
   await writeFile(join(folder, "live.js"), live);
   await writeFile(join(folder, "page.css"), style);

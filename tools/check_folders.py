@@ -33,6 +33,7 @@ LIBRARIES = {
     "fast_float/*": ["tenon/base/number_from_text.h"],
     "meshoptimizer.h": ["tenon/approximate/*.cpp"],
     "lz4*.h": ["tenon/bytes/*.cpp"],
+    "zlib.h": ["tenon/bytes/gzip.cpp"],
     "mujoco/*": [
         "tenon/engines/mujoco/mujoco_library.h",
         "tenon/engines/mujoco/set_up/*_test.cpp",
@@ -56,6 +57,7 @@ IGNORED = re.compile(r'//.*|\bfopen\("/dev/null"|(?<!#include )"(?:[^"\\]|\\.)*"
 DISK_USERS = {
     "tenon/approximate/piece_cache.cpp": "keeps a cache of its own",
     "tenon/asset/layers/output_place.cpp": "looks at what is to be written to",
+    "tenon/asset/viewing/page_place.cpp": "finds the page, which is a part of the program",
     "tenon/formats/open_layer.cpp": "opens layers of the disk for tools",
     "tenon/guard/worker_place.cpp": "finds the worker's program",
     "tenon/guard/workers.cpp": "tells the worker where files lie",

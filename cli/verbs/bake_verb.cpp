@@ -6,6 +6,7 @@
 #include "cli/simulate.h"
 #include "cli/verb.h"
 #include "tenon/asset/simulating/simulated_json.h"
+#include "tenon/asset/viewing/view_asset.h"
 #include "tenon/base/text/shown_path.h"
 
 namespace tenon::cli {
@@ -14,6 +15,10 @@ namespace {
 struct BakeArguments {
   SimulateArguments simulate;
   std::string output;
+  std::size_t triangles = 0;
+  bool compressed = false;
+
+  bool makes_glb() const { return output.ends_with(".glb"); }
 };
 
 Result<void> claim(const Globals& globals, const BakeArguments& options, Outputs& outputs) {
@@ -21,7 +26,24 @@ Result<void> claim(const Globals& globals, const BakeArguments& options, Outputs
     return Error(ErrorCode::Invalid, "--json and a layer cannot both go to standard output")
         .with_fix("name an output file with -o");
   }
-  return outputs.claim(OutputKind::Overlay, options.output);
+  if (!options.makes_glb() && (options.triangles > 0 || options.compressed)) {
+    return Error(ErrorCode::Invalid, "--simplify and --compress are of motions in a .glb file")
+        .with_fix("name an output file that ends in .glb");
+  }
+  return outputs.claim(OutputKind::Motion, options.output);
+}
+
+Result<void> put_motion(const SimulatedAsset& simulated, const BakeArguments& options,
+                        Outputs& outputs, Report& report) {
+  if (!options.makes_glb()) {
+    return put_bake(simulated, options.simulate, options.output, outputs, report);
+  }
+  const ViewFileOptions how{options.triangles, options.compressed, false};
+  const AssetArguments& asset = options.simulate.asset;
+  TENON_TRY(std::string contents,
+            motion_glb(simulated, asset.asset, asset.open_options(), how, report.diagnostics));
+  outputs.put(options.output, std::move(contents));
+  return {};
 }
 
 int run_bake(const Globals& globals, const BakeArguments& options) {
@@ -37,7 +59,7 @@ int run_bake(const Globals& globals, const BakeArguments& options) {
   if (simulated->run.interrupted) {
     return report.finish(kInterrupted);
   }
-  auto written = put_bake(*simulated, options.simulate, options.output, outputs, report);
+  auto written = put_motion(*simulated, options, outputs, report);
   written = written ? outputs.commit() : written;
   if (!written) {
     return report.fail(written.error());
@@ -55,15 +77,26 @@ int run_bake(const Globals& globals, const BakeArguments& options) {
 
 void add_bake(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
-      "bake", "Simulate and write the motion into a layer over the asset, which stays untouched");
+      "bake",
+      "Simulate and write the motion: a layer over the asset, which stays untouched, or a .glb");
   auto options = std::make_shared<BakeArguments>();
   options->simulate.add_to(verb);
   verb.option("asset").file_only().description("A .usd, .usda, .usdc or .usdz file");
-  verb.add_option("-o,--output", options->output, "The layer to write: .usda, .usdc or .usd")
+  verb.add_option("-o,--output", options->output,
+                  "The layer to write: .usda, .usdc or .usd; or .glb, a scene "
+                  "with all that is seen, for browsers and other 3D programs")
       .required();
+  verb.add_option("--simplify", options->triangles, {1, 1e9, false, true, ""},
+                  "Of .glb: draw about so many triangles at most")
+      .value_name("TRIANGLES");
+  verb.add_flag("--compress", options->compressed,
+                "Of .glb: an eighth of the size, by extensions of glTF that not all programs read");
   verb.add_flag("--uninstance", options->simulate.uninstance,
                 "Take instances apart that have moving bodies inside (instanceable = false)");
-  verb.footer("Example:\n  tenon bake grasp.usda -o motion.usda --fps 60 --duration 4");
+  verb.footer(
+      "Examples:\n"
+      "  tenon bake grasp.usda -o motion.usda --fps 60 --duration 4\n"
+      "  tenon bake grasp.usda -o motion.glb --fps 30 --simplify 50000");
   choose(verb, chosen, [&globals, options] { return run_bake(globals, *options); });
 }
 

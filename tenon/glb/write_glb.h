@@ -12,11 +12,13 @@
 namespace tenon::glb {
 
 struct GlbOptions {
-  /// A motion of the bodies of the view; nullptr: none. Frames are told apart to 1e-6.
+  /// A motion of the bodies of the view; nullptr: none. Compressed, positions are rounded to 4
+  /// micrometres.
   const bake::PoseRecording* motion = nullptr;
-  /// EXT_meshopt_compression and KHR_mesh_quantization: an eighth of the size, points moved by less
-  /// than 1/60000 of the mesh's size. Not all programs read it.
+  /// EXT_meshopt_compression and KHR_mesh_quantization: an eighth of the size, points moved by half
+  /// a step of their grid at most. Not all programs read it.
   bool compressed = false;
+  int point_bits = 14;     ///< compressed: steps of that grid over the mesh, 2^bits, 8 to 16 bits
   bool colliders = false;  ///< also shapes of colliders, which other programs show as if seen
 };
 

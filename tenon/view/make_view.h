@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 
-#include "tenon/bytes/files.h"
+#include "tenon/base/function.h"
 #include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 #include "tenon/view/view_scene.h"
@@ -20,7 +22,9 @@ struct ViewLimits {
 };
 
 struct ViewOptions {
-  bytes::Files files;     ///< where images come from
+  /// The bytes of an image by its resolved asset path; nothing where it may not or cannot be read.
+  /// Without it there are no images.
+  Function<std::optional<std::string>(const std::string& path)> read_image;
   bool colliders = true;  ///< also what is touched
   ViewLimits limits{};
 };

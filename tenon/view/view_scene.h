@@ -49,8 +49,8 @@ struct ViewMaterial {
   std::optional<ViewTexture> color_texture;
   std::optional<ViewTexture> emission_texture;
   std::optional<ViewTexture> normal_texture;
-  /// Occlusion in red, roughness in green, metallic in blue: where one image has them.
-  std::optional<ViewTexture> surface_texture;
+  std::optional<ViewTexture> surface_texture;    ///< roughness in green, metallic in blue
+  std::optional<ViewTexture> occlusion_texture;  ///< in red
 };
 
 /// Triangles to draw; a point stands once for each normal and place in images that it has.

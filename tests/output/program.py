@@ -171,7 +171,8 @@ PRINTING = {
 # How each verb writes a file or folder, OUT. An empty list: it writes none.
 WRITING = {
     "add": [],  # this and the next like it: in place alone
-    "bake": [(["bake", "scene.usda", "-o", "OUT.usda", "--duration", "0.1"])],
+    "bake": [["bake", "scene.usda", "-o", "OUT.usda", "--duration", "0.1"],
+             ["bake", "scene.usda", "-o", "OUT.glb", "--duration", "0.1"]],
     "cat": [["cat", "scene.usda", "-o", "OUT.usdc"], ["cat", "scene.usda", "-f", "-o", "OUT.usda"],
             ["cat", "scene.usda", "-o", "OUT.usdz"]],
     "check": [["check", "fixable.usda", "--sarif", "OUT.sarif"],

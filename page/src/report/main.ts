@@ -7,24 +7,19 @@ import { Panel } from "../panel/panel";
 import { Viewer } from "../scene/viewer";
 import { type ReportData, addReport } from "./report";
 
-/** The bytes in a slot of the page. */
-async function slot(id: string): Promise<ArrayBuffer> {
-  const element = document.getElementById(id) as HTMLElement;
-  const bytes = Uint8Array.from(atob((element.textContent ?? "").trim()), (c) => c.charCodeAt(0));
-  element.remove();
-  if (element.dataset.coding !== "gzip") {
-    return bytes.buffer;
+declare global {
+  interface Window {
+    /** The bytes in a slot of the page, which start.js makes. */
+    tenonSlot(id: string): Promise<ArrayBuffer>;
   }
-  const plain = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(plain).arrayBuffer();
 }
 
 async function main(): Promise<void> {
-  const data = JSON.parse(new TextDecoder().decode(await slot("tenon-data"))) as ReportData;
+  const data = JSON.parse(new TextDecoder().decode(await window.tenonSlot("tenon-data"))) as ReportData;
   const panel = new Panel(document.body, (place) => new Viewer(place));
   panel.setTitle(data.title);
   addReport(panel, data);
-  await panel.viewer.load(await slot("tenon-scene"));
+  await panel.viewer.load(await window.tenonSlot("tenon-scene"));
   panel.viewer.draw();
   Object.assign(window, { tenonPage: { panel, viewer: panel.viewer, ready: true } });
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a report says in words and tables, beside the picture.
-import { h, table } from "../panel/dom";
+import { figure, h, table } from "../panel/dom";
 import { pathButton } from "../panel/joints";
 import type { Panel } from "../panel/panel";
 
@@ -76,7 +76,7 @@ export function addReport(panel: Panel, data: ReportData): void {
     const run = data.run;
     overview.append(
       h("h3", {}, "Motion"),
-      h("p", {}, `${run.duration} s on ${run.engine}, time step ${run.dt * 1000} ms.`),
+      h("p", {}, `${figure(run.duration)} s on ${run.engine}, time step ${figure(run.dt * 1000)} ms.`),
       ...run.events.map((event) => h("p", {}, event)),
     );
   }

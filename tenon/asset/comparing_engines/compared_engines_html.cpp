@@ -155,14 +155,9 @@ std::string plot_of(const ComparedEngines& compared, const motions::Gap& gap) {
 
 }  // namespace
 
-std::string compared_engines_html(const std::string& asset, const ComparedEngines& compared,
-                                  bool timing) {
-  std::string html =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width\"><title>" +
-      html_text(asset) + "</title><style>" + kStyle + "</style></head><body>\n<h1>" +
-      html_text(asset) + "</h1>\n<p>" + html_text(rounded_text(compared.duration)) +
-      " s on each engine.</p>\n" + engines_table(compared, timing);
+std::string compared_engines_part(const ComparedEngines& compared, bool timing) {
+  std::string html = "<p>" + html_text(rounded_text(compared.duration)) +
+                     " s on each engine.</p>\n" + engines_table(compared, timing);
   std::set<std::pair<Metric, Path>> plotted;
   for (const EnginePair& pair : compared.pairs) {
     html += "<h2>" + html_text(compared.engines.front().setup.name) + " and " +
@@ -176,7 +171,16 @@ std::string compared_engines_html(const std::string& asset, const ComparedEngine
       }
     }
   }
-  return html + "</body></html>\n";
+  return html;
+}
+
+std::string compared_engines_html(const std::string& asset, const ComparedEngines& compared,
+                                  bool timing) {
+  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+         "<meta name=\"viewport\" content=\"width=device-width\"><title>" +
+         html_text(asset) + "</title><style>" + kStyle + "</style></head><body>\n<h1>" +
+         html_text(asset) + "</h1>\n" + compared_engines_part(compared, timing) +
+         "</body></html>\n";
 }
 
 }  // namespace tenon

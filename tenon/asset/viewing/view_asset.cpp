@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/asset/viewing/view_asset.h"
+
+#include <map>
+
+#include "tenon/asset_policy.h"
+#include "tenon/glb/simplify_view.h"
+#include "tenon/glb/write_glb.h"
+#include "tenon/view/make_view.h"
+
+namespace tenon {
+
+view::ViewScene view_of_asset(const stage::Stage& stage, const scene::PhysicsScene& scene,
+                              const std::string& path, const OpenOptions& open, bool colliders) {
+  const bytes::ReadPolicy policy = policy_for(path, open);
+  view::ViewOptions options;
+  options.colliders = colliders;
+  options.read_image = [&policy](const std::string& image) -> std::optional<std::string> {
+    const auto bytes = policy.open(image);
+    return bytes ? std::optional<std::string>((*bytes)->text()) : std::nullopt;
+  };
+  return view::make_view(stage, scene, options);
+}
+
+void report_notes(const view::ViewScene& view, Diagnostics& diagnostics) {
+  std::map<std::string, std::size_t> count;
+  for (const view::ViewNote& note : view.notes) {
+    ++count[note.what];
+  }
+  for (const view::ViewNote& note : view.notes) {
+    const std::size_t times = std::exchange(count[note.what], 0);
+    if (times == 0) {
+      continue;
+    }
+    Diagnostic finding;
+    finding.severity = Severity::Info;
+    finding.rule = "view.left-out";
+    finding.message = note.what;
+    finding.prim = note.prim.str();
+    if (times > 1) {
+      finding.message += " (the same of " + std::to_string(times - 1) + " more)";
+    }
+    diagnostics.add(std::move(finding));
+  }
+}
+
+Result<std::string> motion_glb(const SimulatedAsset& simulated, const std::string& path,
+                               const OpenOptions& open, const ViewFileOptions& options,
+                               Diagnostics& diagnostics) {
+  view::ViewScene view =
+      view_of_asset(*simulated.stage, *simulated.scene, path, open, options.colliders);
+  report_notes(view, diagnostics);
+  if (options.triangles > 0) {
+    glb::simplify_view(view, options.triangles);
+  }
+  const bake::PoseRecording motion = simulated.run.recording.poses();
+  return glb::write_glb(view, {.motion = &motion,
+                               .compressed = options.compressed,
+                               .colliders = options.colliders});
+}
+
+}  // namespace tenon

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "tenon/asset/simulating/simulate_asset.h"
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/open_stage.h"
+#include "tenon/scene/physics_scene.h"
+#include "tenon/stage/stage.h"
+#include "tenon/view/view_scene.h"
+
+/// What one sees of an asset, and files that show it.
+namespace tenon {
+
+/// What one sees of the asset at `path`, which is open as `stage` by `open` and read as `scene`.
+/// Images come from folders that may go into outputs (tenon/asset_policy.h). Colliders are left out
+/// where they are not asked for.
+view::ViewScene view_of_asset(const stage::Stage& stage, const scene::PhysicsScene& scene,
+                              const std::string& path, const OpenOptions& open, bool colliders);
+
+/// What could not be shown, as findings "view.left-out"; of the same kind the first one and how
+/// many there are.
+void report_notes(const view::ViewScene& view, Diagnostics& diagnostics);
+
+struct ViewFileOptions {
+  std::size_t triangles = 0;  ///< that are drawn at most, about; 0: all
+  bool compressed = false;    ///< GlbOptions::compressed
+  bool colliders = false;
+};
+
+/// A GLB of the asset at `path` that plays its run. Errors: those of glb::write_glb.
+Result<std::string> motion_glb(const SimulatedAsset& simulated, const std::string& path,
+                               const OpenOptions& open, const ViewFileOptions& options,
+                               Diagnostics& diagnostics);
+
+}  // namespace tenon
