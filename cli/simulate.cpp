@@ -23,6 +23,8 @@ volatile std::sig_atomic_t interrupt_count = 0;
 
 extern "C" void count_interrupt(int) { interrupt_count = interrupt_count + 1; }
 
+}  // namespace
+
 /// Counts interrupts, which otherwise end the program, as long as it lives.
 class InterruptCounter {
  public:
@@ -35,8 +37,6 @@ class InterruptCounter {
   using Handler = void (*)(int);
   Handler previous_ = std::signal(SIGINT, count_interrupt);
 };
-
-}  // namespace
 
 Result<SimulateAssetOptions> simulation_options(const SimulateArguments& arguments) {
   SimulateAssetOptions options;

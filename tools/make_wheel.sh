@@ -48,7 +48,8 @@ tools_of() { # the environment of the tools, made where it is missing
 }
 bin=$(tools_of) || give_up "pip could not install python/requirements.txt (no network?)"
 
-cmake --build build/release -j "$jobs" --target all tenon_shared_cli tenon_shared_worker >build/wheel.log ||
+cmake --build build/release -j "$jobs" --target all tenon_shared_cli tenon_shared_worker \
+  >build/wheel.log ||
   { tail -n 40 build/wheel.log >&2; exit 1; }
 
 # What is installed, with the program over the library in the place of the one that stands alone.

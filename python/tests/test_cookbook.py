@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""The Python of docs/cookbook.md prints what the page shows, run in order behind the page's commands.
+"""The Python of docs/cookbook.md prints what the page shows, run in order behind its commands.
 
     test_cookbook.py           compares
     test_cookbook.py --write   writes what is printed into the page

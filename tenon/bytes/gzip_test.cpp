@@ -9,7 +9,7 @@ namespace {
 
 TEST(SevenBitText, HasSevenBitsInACharacterTheHighestFirst) {
   EXPECT_EQ(seven_bit_text(""), "");
-  EXPECT_EQ(seven_bit_text("\x82"), std::string("A\xc4\x80"));      // 1000001 0, filled up
+  EXPECT_EQ(seven_bit_text("\x82"), std::string("A\xc4\x80"));         // 1000001 0, filled up
   EXPECT_EQ(seven_bit_text("\x78"), std::string("\xc4\xbc\xc4\x80"));  // 0111100 is `<`
   EXPECT_EQ(seven_bit_text(std::string(7, '\xff')), std::string(8, '\x7f'));
 }

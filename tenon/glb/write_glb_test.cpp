@@ -109,8 +109,7 @@ TEST(WriteGlb, CompressedPointsAreWholeNumbersThatTheNodeBringsBack) {
   EXPECT_EQ(accessor["max"], json({16383, 16383, 0}));
   EXPECT_NEAR(node["scale"][0].get<double>() * 16383, 2, 1e-9);
   EXPECT_NEAR(node["scale"][1].get<double>() * 16383, -1, 1e-9);
-  EXPECT_EQ(gltf["extensionsRequired"],
-            json({"EXT_meshopt_compression", "KHR_mesh_quantization"}));
+  EXPECT_EQ(gltf["extensionsRequired"], json({"EXT_meshopt_compression", "KHR_mesh_quantization"}));
 }
 
 TEST(WriteGlb, AShapeThatIsShownTwiceIsInTheFileOnce) {

@@ -216,10 +216,10 @@ TEST(MakeView, AHullHoldsMoreThanItsHollowMesh) {
 }
 
 TEST(MakeView, TheInertiaBoxOfABoxIsThatBox) {
-  const ViewScene view = seen(
-      body("def Cube \"c\" (prepend apiSchemas = [\"PhysicsCollisionAPI\"]) {\n"
-           "double size = 2\nfloat3 xformOp:scale = (1, 2, 3)\n"
-           "uniform token[] xformOpOrder = [\"xformOp:scale\"]\n}\n"));
+  const ViewScene view =
+      seen(body("def Cube \"c\" (prepend apiSchemas = [\"PhysicsCollisionAPI\"]) {\n"
+                "double size = 2\nfloat3 xformOp:scale = (1, 2, 3)\n"
+                "uniform token[] xformOpOrder = [\"xformOp:scale\"]\n}\n"));
   ASSERT_EQ(view.bodies.size(), 1u);
   Vec3d half = view.bodies[0].inertia_box;
   std::sort(half.v.begin(), half.v.end());
@@ -229,8 +229,9 @@ TEST(MakeView, TheInertiaBoxOfABoxIsThatBox) {
 }
 
 TEST(MakeView, BodiesOfAJointDoNotTouch) {
-  const std::string collider = "(prepend apiSchemas = [\"PhysicsRigidBodyAPI\", "
-                               "\"PhysicsCollisionAPI\"]) ";
+  const std::string collider =
+      "(prepend apiSchemas = [\"PhysicsRigidBodyAPI\", "
+      "\"PhysicsCollisionAPI\"]) ";
   const ViewScene view = seen("def Cube \"a\" " + collider + "{}\ndef Cube \"b\" " + collider +
                               "{}\ndef PhysicsRevoluteJoint \"j\" {\nrel physics:body0 = </r/a>\n"
                               "rel physics:body1 = </r/b>\nuniform token physics:axis = \"Y\"\n"

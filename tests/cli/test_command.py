@@ -377,6 +377,7 @@ class Command(unittest.TestCase):
                 "add": ["/World/x=cube", "--dry-run"], "remove": ["/World/mesh", "--dry-run"],
                 "rename": ["/World/mesh", "m", "--dry-run"], "variant": [],
                 "bench": ["--duration", "0.01"],
+                "report": ["-o", "r.html", "--duration", "0.01"],
                 "compare": ["--engines", "mujoco,mujoco", "--duration", "0.01"]}
         for name in self.verbs:
             if name in NOTHING or name in ("new", "sweep"):  # they read nothing here

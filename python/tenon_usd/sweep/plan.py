@@ -239,6 +239,15 @@ def _grid_of(reader: _Reader, row: Mapping[str, Any]) -> tuple[Any, ...] | None:
     return tuple(float(each) if _is_number(each) else each for each in value)
 
 
+def _wrong_values(kind: str, values: tuple[Any, ...]) -> str | None:
+    """What is wrong with values of that kind."""
+    if kind in ("asset", "engine") and not all(isinstance(each, str) for each in values):
+        return f"{kind} varies over texts"
+    if kind in ("scale", "value", "target") and not all(map(_is_number, values)):
+        return f"{kind} varies over numbers"
+    return None
+
+
 def _read_vary(reader: _Reader, row: Mapping[str, Any]) -> Vary | None:
     reader.unknown(row, ("name", "distribution", *TARGETS, *DRAWS))
     kinds = [kind for kind in TARGETS if kind in row]
@@ -259,12 +268,8 @@ def _read_vary(reader: _Reader, row: Mapping[str, Any]) -> Vary | None:
     values = _grid_of(reader, row) if draw == "grid" else _range_of(reader, row, draw)
     if target is None or values is None:
         return None
-    wants_text = kind in ("asset", "engine")
-    if wants_text and not all(isinstance(each, str) for each in values):
-        reader.fault(f"{kind} varies over texts")
-        return None
-    if kind in ("scale", "value", "target") and not all(map(_is_number, values)):
-        reader.fault(f"{kind} varies over numbers")
+    if fault := _wrong_values(kind, values):
+        reader.fault(fault)
         return None
     name = reader.text(row, "name", target) or target
     return Vary(name, kind, target, draw, values, row.get("distribution", "uniform"),

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The frame of a report comes with the page and has slots. Texts of the asset go into the slot of
-// the data as JSON, packed as text without `<`, so they are never markup; its title alone is escaped text.
+// the data as JSON, packed as text without `<`, so they are never markup; its title alone is
+// escaped text.
 #include "tenon/asset/viewing/report_asset.h"
 
 #include <string_view>
@@ -200,11 +201,10 @@ Result<AssetReport> report_asset(const std::string& path, const ReportOptions& o
       options.triangles > 0 ? glb::simplify_view(view, options.triangles) : view.drawn_triangles();
   const bool moves = asset.simulation != nullptr;
   const bake::PoseRecording motion = moves ? asset.run.recording.poses() : bake::PoseRecording{};
-  TENON_TRY(const std::string scene,
-            glb::write_glb(view, {.motion = moves ? &motion : nullptr,
-                                  .compressed = true,
-                                  .point_bits = kPointBits,
-                                  .colliders = options.colliders}));
+  TENON_TRY(const std::string scene, glb::write_glb(view, {.motion = moves ? &motion : nullptr,
+                                                           .compressed = true,
+                                                           .point_bits = kPointBits,
+                                                           .colliders = options.colliders}));
   report.frames = motion.frame_count();
   report.findings = findings.size();
   report.scene_size = scene.size();

@@ -55,9 +55,8 @@ Result<std::string> motion_glb(const SimulatedAsset& simulated, const std::strin
     glb::simplify_view(view, options.triangles);
   }
   const bake::PoseRecording motion = simulated.run.recording.poses();
-  return glb::write_glb(view, {.motion = &motion,
-                               .compressed = options.compressed,
-                               .colliders = options.colliders});
+  return glb::write_glb(
+      view, {.motion = &motion, .compressed = options.compressed, .colliders = options.colliders});
 }
 
 }  // namespace tenon
