@@ -74,12 +74,19 @@ sys.exit(not os.path.exists(os.path.join(s.get_paths()["include"], "Python.h")))
   missing+=(python3-dev python3-venv)
 }
 
+# Ubuntu 22.04 has node 12, which is too old; the page and its tests are left out there.
+need_for_page() {
+  need_tool nodejs node --version
+  need_tool npm npm --version
+}
+
 need_for_engines() { need_tool cargo cargo --version; }
 
 need_for_test() {
   need_for_engines
   need_for_wheel
   need_for_deb
+  need_for_page
   need_package libgtest-dev
   need_tool valgrind valgrind --version
   need_tool binutils readelf --version

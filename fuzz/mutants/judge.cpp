@@ -122,10 +122,12 @@ std::string silent_fault(const Command& command, const ProgramRun& run, const st
   return "";
 }
 
-/// What stands beside an output and is of it: out_meshes of out.urdf.
+/// What stands beside an output and is of it: out_meshes of out.urdf, and the copy of what was
+/// made.
 bool belongs_to_output(const std::string& name, const std::string& output) {
   const std::string stem = output.substr(0, output.rfind('.'));
-  return !output.empty() && (name == output || name.starts_with(stem + "_"));
+  return !output.empty() &&
+         (name == output || name.starts_with(stem + "_") || name == ".tenon/" + output + ".base");
 }
 
 /// Files that nobody asked for, and inputs that changed.
@@ -139,6 +141,7 @@ std::string left_behind(const Mutant& mutant, const Command& command, const std:
       continue;
     }
     const bool known =
+        (name == ".tenon" && !command.output.empty()) ||
         std::any_of(mutant.files.begin(), mutant.files.end(), [&](const NamedFile& file) {
           return file.name == name || file.name.starts_with(name + "/");
         });

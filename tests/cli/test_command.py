@@ -386,6 +386,8 @@ class Command(unittest.TestCase):
                 process = tenon(name, broken, cwd=self.folder)
             else:
                 process = tenon(name, broken, *more.get(name, []), cwd=self.folder)
+            if "view.no-page" in process.stderr:
+                continue  # a build without node
             # 2: a verb that refuses to go on.
             self.assertIn(process.returncode, (1, 2), (name, process.stdout, process.stderr))
             self.assertIn("gone.usd", process.stderr + process.stdout, name)

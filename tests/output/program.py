@@ -216,6 +216,12 @@ WRITING = {
     "zip": [["zip", "scene.usda", "-o", "OUT.usdz"]],
 }
 
+# A build without node has no page, and no report.
+if "view.no-page" in run("report", ROOT / "examples/scenes/joint.usda", "--duration", "0", "-o",
+                         "-").stderr:
+    PRINTING["report"] = ["report", "--help"]
+    WRITING["report"] = []
+
 # Edits of files of an asset: arguments, and arguments of another edit at the same time.
 EDITS = {
     "set": [(["set", "base.usda", "/World/box.size=1"],

@@ -80,6 +80,8 @@ class Report(unittest.TestCase):
 
     def report(self, asset, *arguments, name="r.html"):
         done = tenon("report", asset, "-o", self.folder / name, *arguments)
+        if "view.no-page" in done.stderr:
+            self.skipTest("this build has no page: it needs node 18 and npm")
         self.assertEqual(done.returncode, 0, done.stderr)
         return Page((self.folder / name).read_text(encoding="utf-8"))
 
