@@ -25,6 +25,7 @@
 #include "tenon/asset_policy.h"
 #include "tenon/base/assignment.h"
 #include "tenon/base/text/shown_path.h"
+#include "tenon/bytes/file_bytes.h"
 #include "tenon/structure/written_note.h"
 
 namespace tenon::cli {
@@ -85,9 +86,20 @@ structure::StructureOptions structure_options(const ConvertArguments& options) {
   return result;
 }
 
+/// The file is as it is to be already: an image of the asset that is read, for one.
+bool is_there(const MadeFile& file) {
+  bytes::FileRules rules;
+  rules.is_input = false;
+  const auto present = bytes::FileBytes::open(file.path, rules);
+  return present && (*present)->text() == file.contents;
+}
+
 /// What was edited since it was written stays, without --force; what is not known to have been
-/// written, too.
+/// written, too. Files beside it that are as they are to be are left alone.
 Result<void> write(NotedFiles made, const ConvertArguments& options, Outputs& outputs) {
+  std::erase_if(made.files, [&options](const MadeFile& file) {
+    return file.path != options.output && is_there(file);
+  });
   outputs.put_all(std::move(made.files));
   if (!options.force) {
     outputs.check_before_commit([&options, beside = std::move(made.beside)] {

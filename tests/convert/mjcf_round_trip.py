@@ -351,6 +351,12 @@ def check_files(work):
     before = mujoco.MjModel.from_xml_path(str(work / "images" / "textured.xml"))
     for field in round_trip.model_differences(before, mujoco.MjModel.from_xml_path(str(back))):
         faults.append(f"files: {field}")
+    # Images that lie where the way back puts them are the asset's own already.
+    run("convert", work / "images" / "textured.xml", work / "files" / "same.usda", "--force")
+    run("convert", work / "files" / "same.usda", work / "files" / "same.xml")
+    for field in round_trip.model_differences(
+            before, mujoco.MjModel.from_xml_path(str(work / "files" / "same.xml"))):
+        faults.append(f"files beside: {field}")
     (work / "images" / "secret.txt").write_text("nobody else's business")
     text = asset.read_text()
     asset.write_text(re.sub("(asset tenon:mjcf:file0 = )@.*@", r"\1@images/secret.txt@", text))
