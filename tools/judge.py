@@ -88,6 +88,8 @@ def judgements():
                     "bench", ["tenon_composition_dump"])
     yield Judgement("mjcf_corpus", ["{python}", "-B", "tests/convert/corpus_round_trip.py", ".",
                                     "build/release/bin/tenon", "--all", "--table"], "release")
+    yield Judgement("edited_corpus", ["{python}", "-B", "tests/convert/edited_corpus.py", ".",
+                                      "build/release/bin/tenon", "--all"], "release")
     for engine in ("ovphysx", "newton"):
         yield Judgement(f"beside_{engine}", ["{python}", "-B", "tests/engines_beside/beside.py",
                                              engine, "{engine}", "build/release/bin/tenon",
