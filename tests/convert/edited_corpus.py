@@ -9,8 +9,9 @@ URDF: masses and limits are edited in the asset, other numbers change in the sou
 --update` makes of both is what comes of converting the new source and editing that. Meshes are
 balls here, as only numbers matter. MJCF: one mass and one limit are edited; what `convert` writes
 differs from the source in that number alone, with as many cameras, lights, sensors and all else,
-or it is made anew and says why. The robots are those of build/robots (tests/convert/ten_robots.py makes
-it), a choice of them unless --all asks for every one; everything that is random has a fixed seed.
+or it is made anew and says why. The robots are those of build/robots
+(tests/convert/ten_robots.py makes it), a choice of them unless --all asks for every one; what is
+random has a fixed seed.
 """
 
 import collections
