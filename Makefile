@@ -4,7 +4,7 @@
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build docs deb bench judge tidy clean packages test-packages judge-packages oracle \
+.PHONY: help demo test build docs site deb bench judge tidy clean packages test-packages judge-packages oracle \
         engine-packages wheel wheel-packages
 .DELETE_ON_ERROR:
 
@@ -14,6 +14,7 @@ help:
 	@echo "make build   only the program: build/release/bin/tenon; ENGINES=all: PhysX and Jolt too"
 	@echo "make wheel   the Python package with every engine: dist/tenon_usd-*.whl"
 	@echo "make docs    the reference of the C++ headers: build/docs/html"
+	@echo "make site    the documentation as a web site: build/site/index.html"
 	@echo "make deb     a Debian package with all engines: dist/tenon_*.deb"
 	@echo "make bench   measure, beside usd-core; BASE=<commit>: beside that commit"
 	@echo "make judge   the long runs, hours of them; ONLY=\"NAME...\" chooses, tools/judge.py --list"
@@ -37,6 +38,9 @@ wheel: engine-packages wheel-packages
 docs: build
 	@tools/bootstrap.sh docs
 	@tools/python.sh tools/make_reference.py
+
+site: docs
+	@python3 tools/make_site.py
 
 deb:
 	@$(MAKE) --no-print-directory build ENGINES=all

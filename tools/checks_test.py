@@ -12,6 +12,7 @@ import check_answers
 import check_classes
 import check_folders
 import check_limits
+import check_links
 import check_outputs
 import check_sizes
 import check_snippets
@@ -299,6 +300,27 @@ class Snippets(unittest.TestCase):
         # Both the snippet and the program that no page shows are faults.
         for bad in ("third();\n", "first();\nsecond();\n", "  first();\n"):
             self.assertEqual(len(self.faults(bad)), 2, bad)
+
+
+class Links(unittest.TestCase):
+    def faults(self, text, **more):
+        files = {"README.md": "[d](docs/a.md)\n", "docs/a.md": text, "docs/b/c.txt": "", **more}
+        with tree(files) as root:
+            return list(check_links.faults(root, [name for name in files if name.endswith(".md")]))
+
+    def test_good(self):
+        for text in ("[x](b/c.txt)", "[x](b)", "[x](../README.md)", "# A b\n[x](#a-b)",
+                     "`[x](gone.md)`", "```\n[x](gone.md)\n```\n", "[x](mailto:a@b)",
+                     "# `a.b`: c, d\n[x](a.md#ab-c-d)"):
+            self.assertEqual(self.faults(text), [], text)
+
+    def test_bad(self):
+        for text in ("[x](gone.md)", "[x](../../etc)", "[x](#gone)", "[x](../README.md#gone)",
+                     "![x](gone.svg)"):
+            self.assertEqual(len(self.faults(text)), 1, text)
+
+    def test_a_page_that_nothing_leads_to(self):
+        self.assertEqual(len(self.faults("", **{"docs/lonely.md": "[a](a.md)"})), 1)
 
 
 class Text(unittest.TestCase):

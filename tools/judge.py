@@ -77,6 +77,7 @@ def judgements():
     yield Judgement("labelled", ["ctest", "--preset", "dev", "-L", "judge", "-j", "{jobs}",
                                  "--no-tests=error"], "dev")
     yield Judgement("reference", ["{python}", "-B", "tools/make_reference.py"], "release")
+    yield Judgement("site", ["{python}", "-B", "tools/make_site.py"], "release")
     yield Judgement("bench", ["ctest", "--test-dir", "build/bench", "-R", "^bench[.]",
                               "--no-tests=error"], "bench")
     yield Judgement("structure_sweep", ["{python}", "-B", "tests/structure/sweep.py", ".",

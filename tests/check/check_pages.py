@@ -73,7 +73,10 @@ def index(table, rows):
         for name, kind, found in rows:
             if name == key:
                 text += f"| {kind} | {', '.join(map(link, found))} |\n"
-    return text
+    families = sorted(page.stem for page in PAGES.glob("*.md") if "." not in page.stem)
+    families.remove(INDEX.stem)
+    return text + ("\n## Families of findings while files are read\n\n"
+                   + ", ".join(map(link, families)) + "\n")
 
 
 def page_faults(rule):
