@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
 ROOT, TENON = pathlib.Path(sys.argv[1]), sys.argv[2]
 
@@ -316,6 +317,27 @@ class Update(unittest.TestCase):
             code, answer = tenon("convert", self.robot, output, "--update")
             self.assertEqual(code, 2, answer)
             self.assertEqual(files_of(asset.parent), before)
+
+    def test_a_base_that_names_other_files_is_refused(self):
+        output, asset = next(self.places())
+        self.robot.write_text(urdf())
+        self.convert(output)
+        victim = asset.parent.parent / "victim.txt"
+        victim.write_text("mine")
+        base = asset.parent / ".tenon/r.usda.base"
+        with zipfile.ZipFile(base) as archive:
+            entries = {name: archive.read(name) for name in archive.namelist()}
+        self.robot.write_text(urdf({"c": 10}))
+        for name in ("../victim.txt", str(victim), "a/../../victim.txt"):
+            with zipfile.ZipFile(base, "w") as archive:
+                for entry, contents in entries.items():
+                    line = f"{'0' * 16} {name}\n".encode() if entry == "digests" else b""
+                    archive.writestr(entry, contents + line)
+            code, answer = tenon("convert", self.robot, output, "--update", "--conflicts",
+                                 "source")
+            self.assertEqual(code, 2, answer)
+            self.assertIn("outside", answer["diagnostics"][-1]["message"])
+            self.assertEqual(victim.read_text(), "mine")
 
     def test_where_there_is_nothing_it_converts(self):
         for output, asset in self.places():

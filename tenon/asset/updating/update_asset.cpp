@@ -9,6 +9,7 @@
 #include "tenon/asset/updating/update_asset.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
@@ -58,7 +59,23 @@ Error no_base(const std::string& folder, const std::string& opening) {
       .with_rule("update.no-base")
       .with_fix(
           "bring that file back, or convert into a new folder and take the edits over that "
-          "`tenon diff` shows; --force overwrites them");
+          "`tenon diff` shows; --force without --update overwrites them");
+}
+
+/// A copy and a note come with the asset: what they name is looked at, and may go, in its folder.
+Result<void> check_inside(const structure::Digests& files, const std::string& place) {
+  for (const auto& [name, digest] : files) {
+    const std::filesystem::path path(name);
+    if (name.empty() || !path.is_relative() || path.lexically_normal() != path ||
+        *path.begin() == "..") {
+      return Error(ErrorCode::Corrupt,
+                   "what was made is said to have a file outside of the asset's folder: " + name)
+          .in_file(place)
+          .with_rule("update.no-base")
+          .with_fix("convert into a new folder");
+    }
+  }
+  return {};
 }
 
 /// The copy beside the asset, or one of the asset itself where it is as it was made.
@@ -123,6 +140,7 @@ class AssetUpdate {
           .with_fix("leave out --update, or give the name that it was made with");
     }
     TENON_TRY(base_, base_of(folder_, made_.interface));
+    TENON_CHECK(check_inside(base_.digests, path_of(made_.interface)));
     std::set<std::string> names;
     for (const auto& [name, file] : made_.files) {
       names.insert(name);
