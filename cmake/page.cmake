@@ -56,7 +56,8 @@ function(tenon_page_packages out)
   endif()
 endfunction()
 
-if(TENON_PAGE AND PROJECT_IS_TOP_LEVEL) # a program around the library shows no pages
+# A program around the library shows no pages, and a part of the sources may be all there is.
+if(TENON_PAGE AND PROJECT_IS_TOP_LEVEL AND EXISTS ${PROJECT_SOURCE_DIR}/page/package-lock.json)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
                                          ${PROJECT_SOURCE_DIR}/page/package-lock.json)
   tenon_page_packages(tenon_page_packages)

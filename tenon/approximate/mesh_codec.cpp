@@ -38,16 +38,16 @@ struct Codec {
 template <class Function>
 constexpr void check(Function, Function) {}
 [[maybe_unused]] constexpr void check_types() {
-  constexpr Codec all;
-  check<decltype(all.encode_vertices)>(nullptr, &::meshopt_encodeVertexBuffer);
-  check<decltype(all.vertices_bound)>(nullptr, &::meshopt_encodeVertexBufferBound);
-  check<decltype(all.vertex_version)>(nullptr, &::meshopt_encodeVertexVersion);
-  check<decltype(all.encode_indices)>(nullptr, &::meshopt_encodeIndexBuffer);
-  check<decltype(all.indices_bound)>(nullptr, &::meshopt_encodeIndexBufferBound);
-  check<decltype(all.index_version)>(nullptr, &::meshopt_encodeIndexVersion);
-  check<decltype(all.order_triangles)>(nullptr, &::meshopt_optimizeVertexCacheStrip);
-  check<decltype(all.order_points)>(nullptr, &::meshopt_optimizeVertexFetchRemap);
-  check<decltype(all.thin)>(nullptr, &::meshopt_simplify);
+  constexpr Codec kAll;
+  check<decltype(kAll.encode_vertices)>(nullptr, &::meshopt_encodeVertexBuffer);
+  check<decltype(kAll.vertices_bound)>(nullptr, &::meshopt_encodeVertexBufferBound);
+  check<decltype(kAll.vertex_version)>(nullptr, &::meshopt_encodeVertexVersion);
+  check<decltype(kAll.encode_indices)>(nullptr, &::meshopt_encodeIndexBuffer);
+  check<decltype(kAll.indices_bound)>(nullptr, &::meshopt_encodeIndexBufferBound);
+  check<decltype(kAll.index_version)>(nullptr, &::meshopt_encodeIndexVersion);
+  check<decltype(kAll.order_triangles)>(nullptr, &::meshopt_optimizeVertexCacheStrip);
+  check<decltype(kAll.order_points)>(nullptr, &::meshopt_optimizeVertexFetchRemap);
+  check<decltype(kAll.thin)>(nullptr, &::meshopt_simplify);
 }
 
 /// glTF's extension has version 0 of attributes and version 1 of triangles.

@@ -103,7 +103,7 @@ class ColliderShapes {
         ViewShape copy = shape;
         copy.material.reset();
         result.shapes.push_back(static_cast<Index>(view_.collider_shapes.size()));
-        view_.collider_shapes.push_back(std::move(copy));
+        view_.collider_shapes.push_back(copy);
       }
     }
     return !result.shapes.empty();
@@ -184,7 +184,7 @@ class ColliderShapes {
     shape.scale = scale;
     shape.mesh = mesh;
     result.shapes.push_back(static_cast<Index>(view_.collider_shapes.size()));
-    view_.collider_shapes.push_back(std::move(shape));
+    view_.collider_shapes.push_back(shape);
   }
 
   const scene::PhysicsScene& scene_;

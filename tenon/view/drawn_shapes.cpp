@@ -230,7 +230,7 @@ class DrawnShapes {
     const stage::Prim owner = subset.empty() ? place.prim : place.prim.child(subset.name());
     shape.material = surfaces_.of(owner ? owner : place.prim);
     shape.two_sided = place.prim.attribute("doubleSided").get_as<bool>(time_).value_or(false);
-    view_.shapes.push_back(std::move(shape));
+    view_.shapes.push_back(shape);
   }
 
   /// The meshes of a gprim, read once for all instances of it.

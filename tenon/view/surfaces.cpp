@@ -161,7 +161,7 @@ std::optional<Index> Surfaces::read(const stage::Prim& material) {
     return std::nullopt;
   }
   look.color = in_unit_range(look.color);
-  view_.materials.push_back(std::move(look));
+  view_.materials.push_back(look);
   return static_cast<Index>(view_.materials.size() - 1);
 }
 
