@@ -57,6 +57,12 @@ void print(const char* format, ...) {
   va_end(again);
 }
 
+void flush_prints() {
+  if (std::fflush(stdout) != 0 && first_error == 0) {
+    first_error = errno == 0 ? EIO : errno;
+  }
+}
+
 void print_text(std::string_view text) {
   clear_for_print();
   const bool plain = std::all_of(text.begin(), text.end(),

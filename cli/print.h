@@ -16,6 +16,8 @@ void print_text(std::string_view text);
 void print_colored(std::string_view text);
 /// Text for programs, such as a patch: escaped where standard output is a terminal only.
 void print_data(std::string_view text);
+/// Lets what was printed be seen at once, by a verb that goes on.
+void flush_prints();
 /// One line to standard error; `text` may hold colours of ours, names in it are escaped already.
 void say_aside(std::string_view line);
 

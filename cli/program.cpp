@@ -50,6 +50,7 @@ constexpr std::array kVerbs{
     Verb{"tree", add_tree},
     Verb{"variant", add_variant},
     Verb{"version", add_version},
+    Verb{"view", add_view},
     Verb{"where", add_where},
     Verb{"zip", add_zip},
 };
@@ -62,6 +63,7 @@ constexpr const char* kProgramFooter =
     "  tenon tree hand.usda --show physics     its bodies, joints and masses\n"
     "  tenon check hand.usda                   what is wrong with it, and --fix\n"
     "  tenon physics hand.usda --json          what an engine receives, SI and radians\n"
+    "  tenon view hand.usda                    look at it and move it, in the browser\n"
     "  tenon sim hand.usda --duration 5        simulate it on MuJoCo\n"
     "  tenon bake hand.usda -o motion.usda     a layer that any USD viewer plays\n"
     "  tenon report hand.usda -o hand.html     one page with all of it, to look at and to mail\n"

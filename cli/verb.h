@@ -106,6 +106,7 @@ AddVerb add_variant;
 AddVerb add_sweep;
 AddVerb add_test_runner;
 AddVerb add_version;
+AddVerb add_view;
 AddVerb add_where;
 AddVerb add_zip;
 

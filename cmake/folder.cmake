@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 
-# tenon_folder(<folder> [LIBRARIES <target>...] [WITHOUT <sub-folder>...])
+# tenon_folder(<folder> [LIBRARIES <target>...] [WITHOUT <sub-folder>...] [OF_PROGRAM])
 #
 # Turns tenon/<folder> into the static library tenon_<folder> ('/' becomes '_'), built from every
 # .cpp in it and below it except *_test.cpp and except the sub-folders named by WITHOUT (they are
@@ -10,9 +10,10 @@
 #   tenon_<folder>_test      all *_test.cpp, each TEST registered with ctest under the label `unit`
 #   tenon_<folder>_headers   compiles every header without a source file alone, unless TENON_UNITY
 # A folder without any .cpp becomes an interface library. The others, and what they name as
-# LIBRARIES, are in the global properties TENON_FOLDER_LIBRARIES and TENON_FOLDER_NEEDS.
+# LIBRARIES, are in the global properties TENON_FOLDER_LIBRARIES and TENON_FOLDER_NEEDS, of which
+# libtenon.so is made; what is OF_PROGRAM is in the program alone.
 function(tenon_folder folder)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;WITHOUT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "OF_PROGRAM" "" "LIBRARIES;WITHOUT")
   string(REPLACE "/" "_" name ${folder})
   set(library tenon_${name})
   set(root ${PROJECT_SOURCE_DIR}/tenon/${folder})
@@ -37,8 +38,10 @@ function(tenon_folder folder)
     tenon_precompile(${library} folder)
     tenon_unity(${library})
     target_link_libraries(${library} PUBLIC tenon_flags ${dependencies} ${arg_LIBRARIES})
-    set_property(GLOBAL APPEND PROPERTY TENON_FOLDER_LIBRARIES ${library})
-    set_property(GLOBAL APPEND PROPERTY TENON_FOLDER_NEEDS ${arg_LIBRARIES})
+    if(NOT arg_OF_PROGRAM)
+      set_property(GLOBAL APPEND PROPERTY TENON_FOLDER_LIBRARIES ${library})
+      set_property(GLOBAL APPEND PROPERTY TENON_FOLDER_NEEDS ${arg_LIBRARIES})
+    endif()
   else()
     add_library(${library} INTERFACE)
     target_link_libraries(${library} INTERFACE tenon_flags ${dependencies} ${arg_LIBRARIES})
@@ -71,6 +74,9 @@ function(tenon_folder_line key out)
   endif()
   if(NOT TENON_WITH_JOLT)
     list(REMOVE_ITEM found engines/jolt)
+  endif()
+  if(NOT TENON_WITH_VIEW)
+    list(REMOVE_ITEM found serve live)
   endif()
   set(${out} ${found} PARENT_SCOPE)
 endfunction()

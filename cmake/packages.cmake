@@ -77,6 +77,23 @@ else()
   target_compile_definitions(tenon_zlib INTERFACE TENON_WITH_ZLIB=0)
 endif()
 
+# Of the server behind `tenon view`; headers alone.
+if(TENON_WITH_VIEW)
+  find_path(TENON_BOOST_INCLUDE_DIR boost/beast.hpp)
+  if(TENON_BOOST_INCLUDE_DIR)
+    add_library(tenon_boost INTERFACE)
+    target_include_directories(tenon_boost SYSTEM INTERFACE ${TENON_BOOST_INCLUDE_DIR})
+    target_link_libraries(tenon_boost INTERFACE Threads::Threads)
+    if(TENON_SANITIZE_THREADS)
+      # The thread sanitizer knows locks, which suffice here, and no fences.
+      target_compile_definitions(tenon_boost INTERFACE BOOST_ASIO_DISABLE_FENCED_BLOCK)
+    endif()
+  else()
+    message(STATUS "Boost not found (libboost-dev): without tenon view")
+    set(TENON_WITH_VIEW OFF)
+  endif()
+endif()
+
 if(TENON_DEVELOPER)
   find_package(GTest REQUIRED)
 endif()

@@ -24,6 +24,13 @@ struct OpenOptions {
   bool physics_below = false;
   /// "PRIM=VARIANT": variants of "Physics" of these prims, which count before the two above.
   std::vector<std::string> physics_of{};
+  /// Any variant of any set, selected in the session layer as well.
+  struct Selection {
+    std::string prim;
+    std::string set;
+    std::string variant;
+  };
+  std::vector<Selection> selections{};
   /// "PATH.attr=value" in text form of the attribute's type: opinions in the session layer.
   std::vector<std::string> overrides{};
   /// Where every file is read from that the asset and its layers name: the disk, memory, unsaved

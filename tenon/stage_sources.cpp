@@ -70,6 +70,10 @@ Result<StageSources> open_sources(const std::string& path, const OpenOptions& op
     TENON_TRY(const Path prim, parse_prim_path(wanted.first, "the prim of the variant"));
     sources.session = with_variant(sources.session, prim, "Physics", wanted.second);
   }
+  for (const OpenOptions::Selection& wanted : options.selections) {
+    TENON_TRY(const Path prim, parse_prim_path(wanted.prim, "the prim of the variant"));
+    sources.session = with_variant(sources.session, prim, wanted.set, wanted.variant);
+  }
   return sources;
 }
 

@@ -56,7 +56,8 @@ need_for_build() {
   need_tool python3 python3 --version
   need_tool python3-pip python3 -m pip --version
   need_package ca-certificates libcli11-dev nlohmann-json3-dev liblz4-dev \
-    zlib1g-dev libeigen3-dev libqhull-dev libpugixml-dev libassimp-dev libmeshoptimizer-dev
+    zlib1g-dev libeigen3-dev libqhull-dev libpugixml-dev libassimp-dev libmeshoptimizer-dev \
+    libboost-dev
 }
 
 # Headers of the Python that the package is built for (tools/make_wheel.sh), 3.11 or later.

@@ -23,13 +23,14 @@ SHORT_PATH = "tenon/tenon.h"
 
 # Libraries that only some files may name: pattern of the include -> patterns of the files.
 SYSTEM = ["tenon/base/*", "tenon/bytes/*", "tenon/guard/*", "worker/*", "cli/*", "tests/*",
-          "bench/*", "fuzz/*", "*_test.cpp"]
+          "bench/*", "fuzz/*", "*_test.cpp", "tenon/serve/test_socket.h"]
 LIBRARIES = {
     # The operating system: files, memory and libraries up to `bytes`, processes in `guard`.
     **dict.fromkeys(["sys/*", "unistd.h", "fcntl.h", "dlfcn.h", "spawn.h", "poll.h", "sched.h",
                      "signal.h", "pthread.h", "malloc.h", "termios.h", "dirent.h", "execinfo.h"],
                     SYSTEM),
     "Eigen/*": ["tenon/math/*.cpp"],
+    "boost/*": ["tenon/serve/hub.h", "tenon/serve/*.cpp"],
     "fast_float/*": ["tenon/base/number_from_text.h"],
     "meshoptimizer.h": ["tenon/approximate/*.cpp"],
     "lz4*.h": ["tenon/bytes/*.cpp"],

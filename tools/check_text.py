@@ -25,7 +25,8 @@ ADDRESS = re.compile(r"\b(?!package:|model:)[a-z]+://([A-Za-z0-9.-]+)")  # ROS's
 HOSTS = {"www.apache.org", "spdx.org", "openusd.org", "aousd.org", "mujoco.org",
          "mujoco.readthedocs.io", "docs.isaacsim.omniverse.nvidia.com", "github.com",
          "json.schemastore.org", "git-lfs.github.com",
-         "json-schema.org"}
+         "json-schema.org",
+         "127.0.0.1", "localhost", "evil.example"}  # this machine, and nobody (RFC 2606)
 
 
 def check_lines(path, text):

@@ -50,6 +50,18 @@ void run_both(const std::function<void()>& first, const std::function<void()>& s
   }
 }
 
+bool run_beside(const std::function<void()>& beside, const std::function<void()>& here) {
+  const std::function<void(std::size_t)> call = [&](std::size_t) { beside(); };
+  Numbered task{&call, 0};
+  pthread_t thread{};
+  if (pthread_create(&thread, nullptr, run_numbered, &task) != 0) {
+    return false;
+  }
+  here();
+  pthread_join(thread, nullptr);
+  return true;
+}
+
 // Not std::thread: where no thread can be had, that one throws.
 void run_each(std::size_t count, const std::function<void(std::size_t)>& call) {
   std::vector<Numbered> tasks(count, Numbered{&call, 0});

@@ -19,4 +19,9 @@ void run_both(const std::function<void()>& first, const std::function<void()>& s
 /// not throw.
 void run_each(std::size_t count, const std::function<void(std::size_t)>& call);
 
+/// Runs `beside` on a thread of its own while `here` runs on this one, and returns when both have
+/// ended; they wait for each other in their own ways. False where no thread can be had: then
+/// neither has run. They must not throw.
+bool run_beside(const std::function<void()>& beside, const std::function<void()>& here);
+
 }  // namespace tenon

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/base/parallel.h"
 
+#include <atomic>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -26,6 +27,23 @@ TEST(Parallel, CallsEachNumberOnce) {
     run_each(count, [&](std::size_t i) { ++calls[i]; });
     EXPECT_EQ(calls, std::vector<int>(count, 1));
   }
+}
+
+TEST(Parallel, RunsOneBesideTheOther) {
+  std::atomic<bool> begun = false;
+  std::atomic<bool> ended = false;
+  EXPECT_TRUE(run_beside(
+      [&] {
+        begun = true;
+        while (!ended) {
+        }
+      },
+      [&] {
+        while (!begun) {  // both run at the same time
+        }
+        ended = true;
+      }));
+  EXPECT_TRUE(begun);
 }
 
 }  // namespace

@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A file is remembered by its identity, its times and, where asked for, a digest of its contents.
+// Times tell most changes for nothing; the digest tells a file that was written anew with the same
+// bytes from one that was changed. One lock guards the record, because files are read by several
+// threads.
 #include "tenon/bytes/read_record.h"
 
 #include <atomic>
@@ -112,6 +117,15 @@ void ReadRecord::clear() {
 bool ReadRecord::has(const FileIdentity& file) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return identities_.contains(file);
+}
+
+std::vector<std::string> ReadRecord::paths() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<std::string> paths;
+  for (const auto& [path, stamp] : files_) {
+    paths.push_back(path);
+  }
+  return paths;
 }
 
 Result<void> ReadRecord::check_unchanged(const std::set<FileIdentity>& by_content) const {

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "tenon/base/result.h"
 
@@ -66,6 +67,8 @@ class ReadRecord {
   void clear();
 
   bool has(const FileIdentity& file) const;
+  /// As they were opened, sorted.
+  std::vector<std::string> paths() const;
   /// Error with rule "file.changed" when a file that was read is no longer what it was then. Files
   /// in `by_content` are read again to know.
   Result<void> check_unchanged(const std::set<FileIdentity>& by_content) const;

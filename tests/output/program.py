@@ -133,6 +133,12 @@ def verbs():
     return found
 
 
+def has_viewer():
+    """This program was built with the server and the page of `tenon view`."""
+    parts = json.loads(run("doctor", "--json").stdout)["libraries"]
+    return any(part["name"] == "view" and part["available"] for part in parts)
+
+
 # What each verb prints on standard output. None: it is a verb about something else.
 PRINTING = {
     "add": ["add", "scene.usda", "/World/ball=sphere", "--dry-run"],
@@ -165,6 +171,7 @@ PRINTING = {
     "tree": ["tree", "scene.usda"],
     "variant": ["variant", "scene.usda"],
     "version": ["version"],
+    "view": ["view", "scene.usda", "--for", "0"] if has_viewer() else ["view", "--help"],
     "where": ["where", "scene.usda", "/World/box.size"],
     "zip": ["zip", "scene.usda", "-o", "made.usdz", "--json"],
 }
@@ -212,6 +219,7 @@ WRITING = {
     "tree": [],
     "variant": [["variant", "base.usda", "Physics=none", "-o", "OUT.usda"]],
     "version": [],
+    "view": [],
     "where": [],
     "zip": [["zip", "scene.usda", "-o", "OUT.usdz"]],
 }

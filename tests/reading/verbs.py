@@ -49,6 +49,7 @@ ROWS = {
     "test-runner value": ["/A.visibility", "default"],
     "tree": [],
     "variant": [],
+    "view": ["--for", "0"],
     "where": ["/A.visibility"],
     "zip": ["-o", "OUT/z.usdz"],
     "zip --list": [],

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tenon/approximate/mesh_approximator.h"
+#include "tenon/asset/viewing/page_place.h"
 #include "tenon/guard/workers.h"
 #include "tenon/make_simulation.h"
 
@@ -50,6 +51,22 @@ approximate::LibraryInfo worker_program(const Result<guard::AboutWorker>& worker
   return info;
 }
 
+/// What `tenon view` needs beyond the program.
+OptionalPart viewer_part() {
+  OptionalPart part;
+  part.name = "view";
+  const auto page = page_folder();
+  part.available = TENON_WITH_VIEW && page.has_value();
+  if (part.available) {
+    part.version = "page and server";
+  } else if (!TENON_WITH_VIEW) {
+    part.how_to_get = "install libboost-dev and build tenon again to look at assets in the browser";
+  } else {
+    part.how_to_get = page.error().message() + "; " + page.error().diagnostic().fix;
+  }
+  return part;
+}
+
 template <class Info>
 OptionalPart part_of(const Info& info) {
   return {info.name, info.available, info.available ? info.version : "",
@@ -85,6 +102,7 @@ OptionalParts optional_parts() {
         mesh_library(worker), worker_program(worker)}) {
     parts.libraries.push_back(part_of(library));
   }
+  parts.libraries.push_back(viewer_part());
   return parts;
 }
 

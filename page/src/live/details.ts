@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// All properties of the selected prim: who says what and why it counts, and edits, whose effect is
+// told where they were made.
+import { h, table } from "../panel/dom";
+import type { HelloNotice } from "./connection";
+import { type Session, attempt } from "./session";
+
+interface Property {
+  name: string;
+  type: string;
+  value: string | null;
+  authored: boolean;
+  source: string;
+}
+
+interface Opinion {
+  file: string | null;
+  line: number | null;
+  value: string | null;
+  verdict: string;
+  why: string | null;
+}
+
+interface Difference {
+  path: string;
+  what: string;
+  before: unknown;
+  after: unknown;
+  unit: string | null;
+}
+
+interface Edited {
+  edits: { before: string | null; after: string | null; file: string; line: number | null; why: string }[];
+  physics: { variant: string | null; differences: Difference[] }[];
+}
+
+const plain = (value: unknown): string =>
+  typeof value === "string" ? value : value === null ? "none" : JSON.stringify(value);
+
+export class Details {
+  private readOnly = false;
+  /** What the last edit did; shown again when the selection is drawn anew after it. */
+  private effect: { object: string; text: HTMLElement } | null = null;
+
+  constructor(private readonly session: Session) {
+    session.connection.on<HelloNotice>("hello", (notice) => {
+      this.readOnly = notice.readOnly;
+    });
+    session.panel.inspector.addSource((path) => this.properties(path));
+  }
+
+  private async properties(prim: string): Promise<Node | null> {
+    const answer = await this.session.connection
+      .ask<{ type: string; apis: string[]; all: Property[] }>("inspect", { prim })
+      .catch(() => null);
+    if (!answer) {
+      return null;
+    }
+    const authored = answer.all.filter((one) => one.authored);
+    const others = answer.all.filter((one) => !one.authored);
+    const rows = (list: Property[]) => list.map((one) => this.row(prim, one));
+    const apis = answer.apis.length > 0 ? `, ${answer.apis.join(", ")}` : "";
+    return h(
+      "section",
+      { class: "properties" },
+      h("h3", {}, "Properties"),
+      h("p", {}, `${answer.type || "no type"}${apis}`),
+      this.effect?.object.startsWith(`${prim}.`) ? this.effect.text : null,
+      ...rows(authored),
+      others.length > 0
+        ? h("details", {}, h("summary", {}, `${others.length} that nobody has set`), ...rows(others))
+        : null,
+    );
+  }
+
+  private row(prim: string, property: Property): HTMLElement {
+    const object = `${prim}.${property.name}`;
+    const place = h("div");
+    const row: HTMLDetailsElement = h(
+      "details",
+      {
+        class: "property",
+        "data-property": property.name,
+        ontoggle: () => {
+          if (row.open && place.childElementCount === 0) {
+            void this.open(object, property, place);
+          }
+        },
+      },
+      h(
+        "summary",
+        {},
+        h("code", {}, property.name),
+        ` ${property.value ?? ""} `,
+        h("small", {}, property.type),
+      ),
+      place,
+    );
+    return row;
+  }
+
+  private async open(object: string, property: Property, place: HTMLElement): Promise<void> {
+    const answer = await attempt<{ opinions: Opinion[] }>(this.session, "where", { object });
+    const opinions = answer?.opinions ?? [];
+    place.replaceChildren(
+      table(
+        ["Where", "Says", "Verdict"],
+        opinions.map((one) => [
+          one.file ? `${one.file}${one.line ? `:${one.line}` : ""}` : "the schema",
+          one.value ?? "",
+          `${one.verdict}${one.why ? `: ${one.why}` : ""}`,
+        ]),
+      ),
+    );
+    if (!this.readOnly) {
+      place.append(this.editor(object, property));
+    }
+  }
+
+  private editor(object: string, property: Property): HTMLElement {
+    const input = h("input", {
+      type: "text",
+      value: property.value ?? "",
+      "aria-label": `New value of ${property.name}`,
+      spellcheck: "false",
+    });
+    return h(
+      "form",
+      {
+        class: "editor",
+        onsubmit: (event: SubmitEvent) => {
+          event.preventDefault();
+          void this.edit("set", object, { value: input.value });
+        },
+      },
+      input,
+      h("button", { type: "submit" }, "Set"),
+      h(
+        "button",
+        { type: "button", onclick: () => void this.edit("clear", object, {}) },
+        "Clear",
+      ),
+    );
+  }
+
+  private async edit(
+    name: string,
+    object: string,
+    fields: Record<string, unknown>,
+  ): Promise<void> {
+    const edited = await attempt<Edited>(this.session, name, { object, ...fields });
+    const place = edited?.edits[0];
+    if (!edited || !place) {
+      return;
+    }
+    const where = `${place.file}${place.line ? `:${place.line}` : ""}`;
+    const title = `${place.before ?? "none"} -> ${place.after ?? "none"} in ${where} (${place.why})`;
+    const differences = edited.physics.flatMap((effect) => effect.differences);
+    const rows = differences
+      .slice(0, 20)
+      .map((one) => `${one.path} ${one.what}: ${plain(one.before)} -> ${plain(one.after)} ${one.unit ?? ""}`);
+    this.effect = {
+      object,
+      text: h(
+        "div",
+        { class: "effect", role: "status" },
+        h("p", {}, title),
+        h("ul", {}, ...[...new Set(rows)].map((row) => h("li", {}, row))),
+      ),
+    };
+    this.session.messages.say(title);
+    this.session.panel.inspector.update();
+  }
+}

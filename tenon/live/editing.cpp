@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Edits go the way of `tenon set`: into the file that owns what they change, proved before they are
+// written. Afterwards the asset is opened again for everyone. An edit whose asset would not open
+// is not written, because it is composed first.
+#include <utility>
+
+#include "tenon/asset/answers/edited_json.h"
+#include "tenon/asset/edit_asset.h"
+#include "tenon/bytes/read_record.h"
+#include "tenon/live/session_state.h"
+
+namespace tenon::live {
+namespace {
+
+using EditState = Session::State;
+
+Result<void> check_writable(const EditState& state) {
+  if (!state.options.write) {
+    return Error(ErrorCode::Unsupported, "this viewer only shows; it changes no file")
+        .with_rule("live.read-only")
+        .with_fix("start tenon view without --read-only");
+  }
+  return {};
+}
+
+/// What follows is read again, so that a commit compares with what is there now.
+void read_anew() {
+  if (bytes::ReadRecord* record = bytes::ReadRecord::current()) {
+    record->clear();
+    record->keep_digests();
+  }
+}
+
+Result<AssetEdit> edit_of(AssetEdit::Kind kind, const Asked& asked) {
+  const auto object = Path::parse(asked.text("object"));
+  if (!object || !object->is_property() || !object->is_absolute()) {
+    return Error(ErrorCode::Invalid, "`" + asked.text("object") + "` is no path of a property")
+        .with_rule("live.bad-field")
+        .with_fix("write it as /hand/palm.physics:mass");
+  }
+  AssetEdit edit;
+  edit.kind = kind;
+  edit.object = *object;
+  edit.value = asked.text("value");
+  return edit;
+}
+
+/// The variants that the session shows are those in which the edit has to count.
+EditOptions edit_options(const EditState& state, const Asked& asked) {
+  EditOptions options;
+  options.open = state.options.asset.open;
+  const stage::Prim root = state.asset.stage->default_prim();
+  for (const OpenOptions::Selection& selection : options.open.selections) {
+    if (root && selection.set == "Physics" && selection.prim == root.path().str()) {
+      options.open.physics_variant = selection.variant;
+    }
+  }
+  options.engine = asked.text("engine");
+  return options;
+}
+
+/// Why an edit is without effect, else whatever kept it from being written.
+Error fault_of_edit(const Diagnostics& found) {
+  for (const Diagnostic& finding : found) {
+    if (finding.rule == "edit.no-effect") {
+      return {ErrorCode::Invalid, finding};
+    }
+  }
+  return Error(ErrorCode::Invalid, "the edit changes nothing that engines receive")
+      .with_rule("edit.no-effect");
+}
+
+Result<Json> make_edit(EditState& state, const AssetEdit& edit, const EditOptions& options,
+                       Outbox& out) {
+  read_anew();
+  Diagnostics found;
+  const std::vector<AssetEdit> edits = {edit};
+  TENON_TRY(const EditedAsset made, edit_asset(state.options.asset.path, edits, options, found));
+  if (!made.without_effect.empty()) {
+    return fault_of_edit(found);
+  }
+  TENON_CHECK(state.history.make(made.files, options.open.files, state.options.write));
+  TENON_CHECK(state.reopen(state.options.asset, "edit", out));
+  return edited_json(edits, made, false);
+}
+
+Result<Json> reopened(EditState& state, const char* why, Outbox& out) {
+  TENON_CHECK(state.reopen(state.options.asset, why, out));
+  return Json::object();
+}
+
+}  // namespace
+
+Result<Json> set_property(Session::State& state, ClientNumber, const Asked& asked, Outbox& out) {
+  TENON_CHECK(check_writable(state));
+  TENON_TRY(const AssetEdit edit, edit_of(AssetEdit::Kind::SetProperty, asked));
+  return make_edit(state, edit, edit_options(state, asked), out);
+}
+
+Result<Json> clear_property(Session::State& state, ClientNumber, const Asked& asked, Outbox& out) {
+  TENON_CHECK(check_writable(state));
+  TENON_TRY(const AssetEdit edit, edit_of(AssetEdit::Kind::ClearProperty, asked));
+  return make_edit(state, edit, edit_options(state, asked), out);
+}
+
+Result<Json> undo_edit(Session::State& state, ClientNumber, const Asked&, Outbox& out) {
+  TENON_CHECK(check_writable(state));
+  read_anew();
+  TENON_CHECK(state.history.undo(state.options.asset.open.files, state.options.write));
+  return reopened(state, "undo", out);
+}
+
+Result<Json> redo_edit(Session::State& state, ClientNumber, const Asked&, Outbox& out) {
+  TENON_CHECK(check_writable(state));
+  read_anew();
+  TENON_CHECK(state.history.redo(state.options.asset.open.files, state.options.write));
+  return reopened(state, "redo", out);
+}
+
+}  // namespace tenon::live

@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The table of requests, and what those do that steer the simulation. A request that cannot be done
+// is an error that the page is told, and changes nothing.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "tenon/live/session_state.h"
+#include "tenon/make_simulation.h"
+
+namespace tenon::live {
+namespace {
+
+using State = Session::State;
+
+constexpr auto kPathField = FieldType::Path;
+constexpr auto kNumberField = FieldType::Number;
+constexpr auto kPointField = FieldType::Point;
+constexpr auto kTextField = FieldType::Text;
+constexpr std::uint32_t kMostSteps = 1000;
+constexpr double kLeastSpeed = 0.001;
+constexpr double kMostSpeed = 100;
+
+Error refused(std::string message, std::string fix) {
+  return Error(ErrorCode::Invalid, std::move(message))
+      .with_rule("live.refused")
+      .with_fix(std::move(fix));
+}
+
+/// Tells everyone, and is the answer.
+Json new_state(const State& state, Outbox& out) {
+  const Json notice = state.state_notice();
+  state.tell(0, notice, out);
+  return Json::object();
+}
+
+Result<Json> play(State& state, ClientNumber, const Asked&, Outbox& out) {
+  TENON_CHECK(state.world());
+  state.playing = true;
+  state.owed = 0;
+  return new_state(state, out);
+}
+
+Result<Json> pause(State& state, ClientNumber, const Asked&, Outbox& out) {
+  state.playing = false;
+  return new_state(state, out);
+}
+
+Result<Json> step_some(State& state, ClientNumber, const Asked& asked, Outbox& out) {
+  const std::uint32_t count = asked.integer("count", 1);
+  if (count > kMostSteps) {
+    return refused("at most 1000 steps are made at once", "ask for fewer, or play");
+  }
+  state.playing = false;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    TENON_CHECK(state.step(out));
+  }
+  state.tell_observers(out);
+  return new_state(state, out);
+}
+
+Result<Json> reset(State& state, ClientNumber, const Asked&, Outbox& out) {
+  TENON_TRY(engines::World * world, state.world());
+  TENON_CHECK(world->reset());
+  state.targets.clear();
+  state.begin_again("reset", out);
+  return Json::object();
+}
+
+Result<Json> set_speed(State& state, ClientNumber, const Asked& asked, Outbox& out) {
+  const double speed = asked.number("factor", 1);
+  if (speed < kLeastSpeed || speed > kMostSpeed) {
+    return refused("the speed is to be from 0.001 to 100", "give another factor");
+  }
+  state.speed = speed;
+  return new_state(state, out);
+}
+
+Result<Json> set_drive(State& state, ClientNumber, const Asked& asked, Outbox&) {
+  TENON_TRY(engines::World * world, state.world());
+  TENON_TRY(const scene::Index index, state.joint(asked.path("joint")));
+  const scene::Joint& joint = state.asset.scene().joints[index];
+  const scene::Index drive = asked.integer("drive");
+  if (drive >= joint.drives.size()) {
+    return refused("the joint has " + std::to_string(joint.drives.size()) + " drives",
+                   "apply PhysicsDriveAPI to it, or name one that it has");
+  }
+  const auto key = std::make_pair(joint.path, drive);
+  const auto known = state.targets.find(key);
+  engines::DriveTarget target{joint.drives[drive].target_position,
+                              joint.drives[drive].target_velocity};
+  target = known == state.targets.end() ? target : known->second;
+  target.position = asked.number("position", target.position);
+  target.velocity = asked.number("velocity", target.velocity);
+  TENON_CHECK(world->set_drive_target(index, drive, target));
+  state.targets[key] = target;
+  return Json{{"position", target.position}, {"velocity", target.velocity}};
+}
+
+Result<Json> set_joint(State& state, ClientNumber, const Asked& asked, Outbox&) {
+  TENON_TRY(engines::World * world, state.world());
+  TENON_TRY(const scene::Index index, state.joint(asked.path("joint")));
+  if (state.playing) {
+    return refused("time goes on: joints are moved by hand while it stands still", "pause first");
+  }
+  engines::JointState wanted;
+  wanted.position = asked.numbers("position");
+  const std::size_t count = world->joint_state(index).position.size();
+  if (wanted.position.size() != count) {
+    return refused("the joint has " + std::to_string(count) + " coordinates", "give as many");
+  }
+  wanted.velocity.assign(count, 0);
+  TENON_CHECK(world->set_joint_state(index, wanted));
+  state.moved = true;
+  return Json{{"position", world->joint_state(index).position}};
+}
+
+/// The body that is asked for, where it can be pulled.
+Result<Pull> pull_at(const State& state, const Asked& asked) {
+  Pull pull;
+  TENON_TRY(pull.body, state.body(asked.path("body")));
+  const scene::Body& body = state.asset.scene().bodies[pull.body];
+  if (body.kinematic) {
+    return refused("<" + body.path.str() + "> is kinematic: forces do not move it",
+                   "pull at a body that moves freely");
+  }
+  return pull;
+}
+
+Result<Json> push(State& state, ClientNumber client, const Asked& asked, Outbox& out) {
+  TENON_TRY(engines::World * world, state.world());
+  TENON_TRY(Pull pull, pull_at(state, asked));
+  const Pose pose = world->body_state(pull.body).pose;
+  pull.anchor = transform_point(inverse(pose), asked.point("point"));
+  pull.force = asked.point("force");
+  state.pulls.set(client, pull);
+  return new_state(state, out);
+}
+
+Result<Json> drag(State& state, ClientNumber client, const Asked& asked, Outbox& out) {
+  TENON_CHECK(state.world());
+  TENON_TRY(Pull pull, pull_at(state, asked));
+  pull.anchor = asked.point("anchor");
+  pull.target = asked.point("target");
+  pull.to_target = true;
+  state.pulls.set(client, pull);
+  return new_state(state, out);
+}
+
+Result<Json> release(State& state, ClientNumber client, const Asked&, Outbox& out) {
+  state.pulls.release(client);
+  return new_state(state, out);
+}
+
+Result<Json> observe(State& state, ClientNumber client, const Asked& asked, Outbox& out) {
+  State::Client& one = state.clients[client];
+  one.contacts = asked.flag("contacts", one.contacts);
+  one.plots = asked.flag("plots", one.plots);
+  if (!state.playing) {
+    state.tell_observers(out);  // there is something to see at once
+  }
+  return Json{{"contacts", one.contacts}, {"plots", one.plots}};
+}
+
+Result<Json> choose_variant(State& state, ClientNumber, const Asked& asked, Outbox& out) {
+  const std::string prim_path = asked.text("prim");
+  const std::string set = asked.text("set");
+  const std::string variant = asked.text("variant");
+  const stage::Prim prim = state.asset.stage->prim(asked.path("prim"));
+  const auto names = prim ? prim.variant_names(set) : std::vector<std::string>();
+  if (std::find(names.begin(), names.end(), variant) == names.end()) {
+    return Error(ErrorCode::NotFound,
+                 "<" + prim_path + "> has no variant `" + variant + "` of a set `" + set + "`")
+        .with_rule("variant.unknown")
+        .with_prim(prim_path)
+        .with_fix("choose one of those that the message `scene` lists");
+  }
+  LiveAssetOptions changed = state.options.asset;
+  auto& selections = changed.open.selections;
+  std::erase_if(selections,
+                [&](const auto& one) { return one.prim == prim_path && one.set == set; });
+  selections.push_back({prim_path, set, variant});
+  TENON_CHECK(state.reopen(std::move(changed), "variant", out));
+  return Json::object();
+}
+
+Result<Json> set_engine(State& state, ClientNumber, const Asked& asked, Outbox& out) {
+  const std::string name = asked.text("engine");
+  const engines::EngineInfo info = engine_info(name);
+  if (!info.available) {
+    return Error(ErrorCode::Missing, "the engine `" + name.substr(0, 64) + "` is not there")
+        .with_rule("live.no-engine")
+        .with_fix(info.how_to_get.empty() ? "choose one of those that the message `scene` lists"
+                                          : info.how_to_get);
+  }
+  state.options.asset.engine = name;
+  state.restart(name, "engine", out);
+  return Json::object();
+}
+
+Result<Json> tell_messages(State&, ClientNumber, const Asked&, Outbox&) {
+  return messages_json(requests());
+}
+
+constexpr std::array<Field, 0> kNoFields{};
+constexpr std::array kStepFields{
+    Field{"count", FieldType::Integer, false, "how many, at most 1,000; 1 when left out"}};
+constexpr std::array kSpeedFields{Field{"factor", kNumberField, true, "1 is real time"}};
+constexpr std::array kDriveFields{
+    Field{"joint", kPathField, true, "the joint's prim"},
+    Field{"drive", FieldType::Integer, false, "which of its drives, 0 when left out"},
+    Field{"position", kNumberField, false, "[rad, m]; stays when left out"},
+    Field{"velocity", kNumberField, false, "[rad/s, m/s]; stays when left out"}};
+constexpr std::array kJointFields{
+    Field{"joint", kPathField, true, "the joint's prim"},
+    Field{"position", FieldType::Numbers, true, "of each of its degrees of freedom [rad, m]"}};
+constexpr std::array kForceFields{Field{"body", kPathField, true, "the body's prim"},
+                                  Field{"point", kPointField, true, "where, world axes [m]"},
+                                  Field{"force", kPointField, true, "world axes [N]"}};
+constexpr std::array kDragFields{
+    Field{"body", kPathField, true, "the body's prim"},
+    Field{"anchor", kPointField, true, "the point that is held, in the body's frame [m]"},
+    Field{"target", kPointField, true, "where it is drawn to, world axes [m]"}};
+constexpr std::array kObserveFields{Field{"contacts", FieldType::Flag, false, "as it was"},
+                                    Field{"plots", FieldType::Flag, false, "as it was"}};
+constexpr std::array kVariantFields{Field{"prim", kPathField, true, "that has the set"},
+                                    Field{"set", kTextField, true, "its name"},
+                                    Field{"variant", kTextField, true, "of the set"}};
+constexpr std::array kEngineFields{Field{"engine", kTextField, true, "its name"}};
+constexpr std::array kPrimFields{Field{"prim", kPathField, true, "any prim"}};
+constexpr std::array kWhereFields{
+    Field{"object", kTextField, true, "`/prim.property`, or `/prim`"},
+    Field{"time", kNumberField, false, "time code of what counts at times"}};
+constexpr std::array kExplainFields{
+    Field{"object", kTextField, true, "`/prim.property`, or `/prim`"},
+    Field{"other", kTextField, false, "another prim: whether the two collide, and why not"}};
+constexpr std::array kSetFields{
+    Field{"object", kTextField, true, "`/prim.property`"},
+    Field{"value", kTextField, true, "as text layers print it; of relationships paths"},
+    Field{"engine", kTextField, false, "the file of this engine alone: physx, mujoco, newton"}};
+constexpr std::array kClearFields{Field{"object", kTextField, true, "`/prim.property`"}};
+
+constexpr std::array kRequests{
+    Request{{"play", kNoFields, "Lets time go on", "nothing"}, play},
+    Request{{"pause", kNoFields, "Stops it", "nothing"}, pause},
+    Request{{"step", kStepFields, "Makes some time steps and stops", "nothing"}, step_some},
+    Request{
+        {"reset", kNoFields, "Back to the start; drive targets are the asset's again", "nothing"},
+        reset},
+    Request{{"speed", kSpeedFields, "How fast time is to go on", "nothing"}, set_speed},
+    Request{{"setDrive", kDriveFields, "What a drive is to reach, until it is set anew or reset",
+             "{`position`, `velocity`}"},
+            set_drive},
+    Request{{"setJoint", kJointFields,
+             "Moves a joint and what hangs on it by hand, while time stands still", "{`position`}"},
+            set_joint},
+    Request{
+        {"force", kForceFields,
+         "A force on a body until it is set anew or released; one pull for each page", "nothing"},
+        push},
+    Request{{"drag", kDragFields,
+             "A spring between a point of a body and a point in the world, for pulling by mouse",
+             "nothing"},
+            drag},
+    Request{{"release", kNoFields, "Ends what this page pulls", "nothing"}, release},
+    Request{{"observe", kObserveFields, "Which notices this page gets while time goes on",
+             "{`contacts`, `plots`}"},
+            observe},
+    Request{{"variant", kVariantFields, "Selects a variant; no file is touched", "nothing"},
+            choose_variant},
+    Request{{"engine", kEngineFields, "Simulates on another engine, from the start", "nothing"},
+            set_engine},
+    Request{{"tree", kNoFields, "All prims", "as `tenon tree --json`: {`prims`}"}, ask_tree},
+    Request{{"inspect", kPrimFields, "All that is known of a prim",
+             "as `tenon explain --json PRIM`, and {`all`: rows {`name`, `type`, `value`, "
+             "`authored`, `source`}}"},
+            ask_inspect},
+    Request{{"where", kWhereFields, "Which files speak about it, and which of them counts",
+             "as `tenon where --json`"},
+            ask_where},
+    Request{{"explain", kExplainFields, "Where a number comes from", "as `tenon explain --json`"},
+            ask_explain},
+    Request{{"findings", kNoFields, "What is wrong with the asset", "as `tenon check --json`"},
+            ask_findings},
+    Request{
+        {"set", kSetFields, "Changes a property in the file that owns it", "as `tenon set --json`"},
+        set_property},
+    Request{{"clear", kClearFields, "Removes the owning file's opinion", "as `tenon set --json`"},
+            clear_property},
+    Request{{"undo", kNoFields, "Takes the last edit back", "nothing"}, undo_edit},
+    Request{{"redo", kNoFields, "Makes it again", "nothing"}, redo_edit},
+    Request{{"messages", kNoFields, "These tables", "{`protocol`, `requests`, `notices`}"},
+            tell_messages},
+};
+
+}  // namespace
+
+std::span<const Request> all_requests() { return kRequests; }
+
+}  // namespace tenon::live

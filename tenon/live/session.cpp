@@ -1,0 +1,372 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Real time is a debt of simulated time that steps pay. What cannot be paid within one call is
+// forgiven, so that a slow model runs late instead of ever further behind. Everything that changes
+// what there is to see ends in set_asset() or begin_model(), which tell everyone.
+#include "tenon/live/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "tenon/answers/diagnostic_json.h"
+#include "tenon/answers/or_null.h"
+#include "tenon/answers/variants_json.h"
+#include "tenon/base/text/shown_path.h"
+#include "tenon/live/session_state.h"
+#include "tenon/make_simulation.h"
+
+namespace tenon::live {
+namespace {
+
+using LiveClock = std::chrono::steady_clock;
+
+constexpr double kStepSeconds = 0.03;  // of real time that one call may step
+constexpr double kMostOwed = 0.1;      // [s] that a pause of the machine may be made up for
+constexpr double kRateWindow = 0.5;    // [s]
+constexpr std::size_t kMostContacts = 1000;
+
+/// One line; bytes of assets that are no UTF-8 are replaced.
+std::string line_of(const Json& message) {
+  return message.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json engines_json() {
+  Json rows = Json::array();
+  for (const engines::EngineInfo& info : list_engines()) {
+    rows.push_back({{"name", info.name},
+                    {"available", info.available},
+                    {"howToGet", answers::or_null(info.how_to_get)}});
+  }
+  return rows;
+}
+
+Json paths_of_bodies(const scene::PhysicsScene& scene) {
+  Json rows = Json::array();
+  for (const scene::Body& body : scene.bodies) {
+    rows.push_back(body.path.str());
+  }
+  return rows;
+}
+
+Json opening_json(const Diagnostics& opening) {
+  constexpr std::size_t kMost = 50;
+  Json rows = Json::array();
+  for (const Diagnostic& finding : opening) {
+    if (rows.size() < kMost) {
+      rows.push_back(answers::diagnostic_json(finding));
+    }
+  }
+  return rows;
+}
+
+template <class List>
+Result<scene::Index> index_of(const List& list, Path path, const char* what) {
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.path == path; });
+  if (found == list.end()) {
+    return Error(ErrorCode::NotFound, "there is no " + std::string(what) + " <" + path.str() + ">")
+        .with_rule("live.not-found")
+        .with_prim(path.str());
+  }
+  return static_cast<scene::Index>(found - list.begin());
+}
+
+}  // namespace
+
+bool Session::State::Timer::due(double seconds) {
+  passed += seconds;
+  if (passed < period) {
+    return false;
+  }
+  passed = 0;
+  return true;
+}
+
+// ---- what is told
+
+void Session::State::tell(ClientNumber to, const Json& message, Outbox& out) const {
+  out.messages.push_back({to, line_of(message)});
+}
+
+void Session::State::tell_problem(const Diagnostic& finding, Outbox& out) const {
+  tell(0, {{"is", "problem"}, {"problem", answers::diagnostic_json(finding)}}, out);
+}
+
+Json Session::State::scene_notice(const char* why) const {
+  return {{"is", "scene"},
+          {"revision", revision},
+          {"why", why},
+          {"engine", asset.engine},
+          {"engines", engines_json()},
+          {"simulates", asset.world.has_value()},
+          {"problem", asset.problem ? answers::diagnostic_json(*asset.problem) : Json(nullptr)},
+          {"opening", opening_json(asset.opening)},
+          {"timeStep", asset.world ? Json(asset.world->time_step()) : Json(nullptr)},
+          {"variants", answers::variants_json(*asset.stage, "")},
+          {"bodies", paths_of_bodies(asset.scene())},
+          {"joints", joints_json(asset)},
+          {"canUndo", history.can_undo()},
+          {"canRedo", history.can_redo()}};
+}
+
+Json Session::State::state_notice() const {
+  return {{"is", "state"},
+          {"playing", playing},
+          {"time", asset.world ? asset.world->time() : 0.0},
+          {"speed", speed},
+          {"rate", playing ? rate : 0.0},
+          {"contacts", asset.world ? asset.world->contact_count() : 0},
+          {"pulled", pulls.count()}};
+}
+
+void Session::State::tell_observers(Outbox& out) const {
+  const auto wanted = [&](bool Client::* what) {
+    return asset.world && std::any_of(clients.begin(), clients.end(),
+                                      [what](const auto& client) { return client.second.*what; });
+  };
+  const auto tell_each = [&](bool Client::* what, const Json& message) {
+    const std::string text = line_of(message);
+    for (const auto& [number, client] : clients) {
+      if (client.*what) {
+        out.messages.push_back({number, text});
+      }
+    }
+  };
+  if (wanted(&Client::plots)) {
+    const engines::Energy energy = asset.world->energy();
+    tell_each(&Client::plots, {{"is", "plots"},
+                               {"time", asset.world->time()},
+                               {"joints", positions_json(asset)},
+                               {"kinetic", energy.kinetic},
+                               {"potential", energy.potential}});
+  }
+  if (wanted(&Client::contacts)) {
+    tell_each(&Client::contacts, {{"is", "contacts"},
+                                  {"time", asset.world->time()},
+                                  {"count", asset.world->contact_count()},
+                                  {"rows", contacts_json(asset, kMostContacts)}});
+  }
+}
+
+void Session::State::frame_due(Outbox& out) {
+  out.frame = pose_frame(asset);
+  moved = false;
+}
+
+// ---- what requests do
+
+Result<engines::World*> Session::State::world() {
+  if (!asset.world) {
+    const std::string why = asset.problem ? asset.problem->message : "there is no engine";
+    return Error(ErrorCode::Invalid, "nothing is simulated: " + why)
+        .with_rule("live.no-model")
+        .with_fix(asset.problem ? asset.problem->fix : "");
+  }
+  return &*asset.world;
+}
+
+Result<scene::Index> Session::State::joint(Path path) const {
+  return index_of(asset.scene().joints, path, "joint");
+}
+
+Result<scene::Index> Session::State::body(Path path) const {
+  return index_of(asset.scene().bodies, path, "body");
+}
+
+void Session::State::begin_model() {
+  pulls.begin(asset.scene());
+  owed = 0;
+  rate = 0;
+  window_wall = 0;
+  window_simulated = 0;
+  playing = playing && asset.world.has_value();
+  for (auto known = targets.begin(); known != targets.end();) {
+    const auto [path, drive] = known->first;
+    const auto index = joint(path);
+    const bool is_set = index && asset.world &&
+                        asset.world->set_drive_target(*index, drive, known->second).has_value();
+    known = is_set || !asset.world ? std::next(known) : targets.erase(known);
+  }
+}
+
+void Session::State::set_asset(LiveAsset opened, const char* why, Outbox& out) {
+  asset.world.reset();  // it refers to the scene that goes
+  asset = std::move(opened);
+  ++revision;
+  begin_watching();
+  out.picture = asset.picture;
+  begin_again(why, out);
+}
+
+void Session::State::begin_watching() {
+  const bytes::ReadRecord* record = bytes::ReadRecord::current();
+  std::vector<std::string> paths = record == nullptr ? std::vector<std::string>() : record->paths();
+  paths.push_back(options.asset.path);
+  watch.begin(paths);
+  if (record != nullptr && !record->check_unchanged({})) {
+    watch.doubt();
+  }
+}
+
+Result<void> Session::State::reopen(LiveAssetOptions changed, const char* why, Outbox& out) {
+  if (bytes::ReadRecord* record = bytes::ReadRecord::current()) {
+    record->clear();  // what follows is read again
+  }
+  auto opened = open_live_asset(changed);
+  if (!opened) {
+    return opened.error();
+  }
+  options.asset = std::move(changed);
+  set_asset(*std::move(opened), why, out);
+  return {};
+}
+
+void Session::State::restart(const std::string& engine, const char* why, Outbox& out) {
+  make_live_world(options.asset, engine, asset);
+  begin_again(why, out);
+}
+
+void Session::State::begin_again(const char* why, Outbox& out) {
+  begin_model();
+  tell(0, scene_notice(why), out);
+  tell(0, state_notice(), out);
+  frame_due(out);
+}
+
+Result<void> Session::State::step(Outbox& out) {
+  TENON_TRY(engines::World * model, world());
+  TENON_CHECK(pulls.apply(*model, asset.scene()));
+  moved = true;
+  if (auto done = model->step(); !done) {
+    playing = false;
+    tell_problem(done.error().diagnostic(), out);
+    tell(0, state_notice(), out);
+    return done;
+  }
+  return {};
+}
+
+// ---- time
+
+void Session::State::take_steps(double seconds, Outbox& out) {
+  const double dt = asset.world->time_step();
+  owed = std::min(owed + seconds * speed, std::max(kMostOwed * speed, dt));
+  const auto begin = LiveClock::now();
+  const double before = asset.world->time();
+  while (playing && owed >= dt) {
+    if (!step(out)) {
+      break;
+    }
+    owed -= dt;
+    if (std::chrono::duration<double>(LiveClock::now() - begin).count() > kStepSeconds) {
+      owed = std::min(owed, dt);  // the machine is too slow for it
+    }
+  }
+  window_wall += seconds;
+  window_simulated += asset.world->time() - before;
+  if (window_wall >= kRateWindow) {
+    rate = window_simulated / window_wall;
+    window_wall = 0;
+    window_simulated = 0;
+  }
+}
+
+void Session::State::advance(double seconds, Outbox& out) {
+  if (playing && asset.world) {
+    take_steps(seconds, out);
+  }
+  if (moved) {
+    frame_due(out);
+  }
+  if (state_timer.due(seconds) && playing) {
+    tell(0, state_notice(), out);
+  }
+  if (observer_timer.due(seconds) && playing) {
+    tell_observers(out);
+  }
+}
+
+// ---- the session
+
+std::span<const MessageInfo> requests() {
+  static const std::vector<MessageInfo> known = [] {
+    std::vector<MessageInfo> list;
+    for (const Request& request : all_requests()) {
+      list.push_back(request.info);
+    }
+    return list;
+  }();
+  return known;
+}
+
+Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+Result<Session> Session::open(SessionOptions options) {
+  auto state = std::make_unique<State>();
+  if (bytes::ReadRecord* record = bytes::ReadRecord::current()) {
+    record->clear();  // what is noted from here on is the asset
+  }
+  TENON_TRY(state->asset, open_live_asset(options.asset));
+  state->options = std::move(options);
+  state->pulls.begin(state->asset.scene());
+  state->begin_watching();
+  return Session(std::move(state));
+}
+
+const LiveAsset& Session::asset() const { return state_->asset; }
+bool Session::is_playing() const { return state_->playing; }
+
+void Session::greet(ClientNumber client, Outbox& out) {
+  state_->clients[client];
+  state_->tell(client,
+               {{"is", "hello"},
+                {"protocol", kProtocol},
+                {"version", state_->options.version},
+                {"client", client},
+                {"asset", shown_path(state_->options.asset.path)},
+                {"readOnly", !state_->options.write}},
+               out);
+  state_->tell(client, state_->scene_notice("open"), out);
+  state_->tell(client, state_->state_notice(), out);
+  state_->frame_due(out);
+}
+
+void Session::forget(ClientNumber client) {
+  state_->clients.erase(client);
+  state_->pulls.release(client);
+}
+
+void Session::hear(ClientNumber client, std::string_view text, Outbox& out) {
+  Asked asked;
+  const auto index = Listener(requests()).read(text, asked);
+  Result<Json> result =
+      index ? all_requests()[*index].handle(*state_, client, asked, out) : index.error();
+  Json answer = {{"is", result ? "answer" : "error"}, {"to", asked.name()}, {"id", asked.id()}};
+  if (result) {
+    answer["result"] = *std::move(result);
+  } else {
+    answer["error"] = answers::diagnostic_json(result.error().diagnostic());
+  }
+  if (state_->moved) {
+    state_->frame_due(out);
+  }
+  state_->tell(client, answer, out);
+}
+
+void Session::advance(double seconds, Outbox& out) { state_->advance(seconds, out); }
+
+void Session::look_at_files(Outbox& out) {
+  if (!state_->options.watch || !state_->watch.look()) {
+    return;
+  }
+  if (auto opened = state_->reopen(state_->options.asset, "file", out); !opened) {
+    state_->tell_problem(opened.error().diagnostic(), out);
+  }
+}
+
+}  // namespace tenon::live

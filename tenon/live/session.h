@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A live session as a machine of values: messages and passed time go in, messages, pose frames and
+// pictures come out. It knows no sockets and no threads; who holds it calls it from one thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tenon/base/result.h"
+#include "tenon/live/edit_history.h"
+#include "tenon/live/live_asset.h"
+#include "tenon/live/messages.h"
+
+namespace tenon::live {
+
+/// Whom a message comes from and goes to; 0 is everyone.
+using ClientNumber = std::uint64_t;
+
+/// What comes out of one call.
+struct Outbox {
+  struct Message {
+    ClientNumber to = 0;
+    std::string text;
+  };
+  std::vector<Message> messages;
+  std::optional<std::string> frame;              ///< to everyone, pose_frame()
+  std::shared_ptr<const std::string> picture{};  ///< not null: there is another one, for everyone
+};
+
+struct SessionOptions {
+  LiveAssetOptions asset;
+  std::string version;  ///< of tenon
+  bool watch = false;   ///< look_at_files() opens the asset again when a file has changed
+  WriteFiles write;     ///< empty: edits are refused
+};
+
+/// All requests that a session understands.
+std::span<const MessageInfo> requests();
+
+class Session {
+ public:
+  /// Errors: those of open_live_asset.
+  static Result<Session> open(SessionOptions options);
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+  ~Session();
+
+  const LiveAsset& asset() const;
+
+  void greet(ClientNumber client, Outbox& out);
+  void hear(ClientNumber client, std::string_view text, Outbox& out);
+  /// What the client pulled is let go.
+  void forget(ClientNumber client);
+  /// `seconds` have passed since the last call. Takes no longer than some 30 ms; what cannot be
+  /// simulated in that is left out, and the rate of `state` tells it.
+  void advance(double seconds, Outbox& out);
+  /// Opens the asset again where a file that it was read from has changed. One that does not open
+  /// any more is told, and what was there stays.
+  void look_at_files(Outbox& out);
+  bool is_playing() const;
+
+  class State;
+
+ private:
+  explicit Session(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tenon::live

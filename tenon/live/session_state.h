@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tenon/live/file_watch.h"
+#include "tenon/live/pulls.h"
+#include "tenon/live/session.h"
+
+/// What a session knows. Internal to tenon/live: requests change it, session.cpp lets time pass.
+namespace tenon::live {
+
+class Session::State {
+ public:
+  SessionOptions options;
+  LiveAsset asset;
+  EditHistory history;
+  FileWatch watch;
+  Pulls pulls;
+
+  struct Client {
+    bool contacts = false;  ///< observes them
+    bool plots = false;
+  };
+  std::map<ClientNumber, Client> clients;
+
+  bool playing = false;
+  double speed = 1;
+  double owed = 0;             ///< [s] of simulation that real time is ahead
+  double rate = 0;             ///< of simulated to wanted time, lately
+  std::uint32_t revision = 1;  ///< of the picture
+  bool moved = false;          ///< since the last frame
+  /// Drive targets that were set, by joint and drive: they are set again on a new model.
+  std::map<std::pair<Path, scene::Index>, engines::DriveTarget> targets;
+
+  /// Now and then, in real time.
+  struct Timer {
+    double period = 1;
+    double passed = 0;
+    bool due(double seconds);
+  };
+  Timer state_timer{0.25};
+  Timer observer_timer{0.05};
+  double window_wall = 0;  // [s] of the window over which the rate is measured
+  double window_simulated = 0;
+
+  // ---- what requests do
+
+  /// Opens the asset anew with `changed` options; where that fails everything stays as it is.
+  Result<void> reopen(LiveAssetOptions changed, const char* why, Outbox& out);
+  /// A model anew of the asset as it is.
+  void restart(const std::string& engine, const char* why, Outbox& out);
+  /// Tells everyone that the model begins at its start.
+  void begin_again(const char* why, Outbox& out);
+  /// The model, where there is one. Errors: Invalid (live.no-model), with the reason.
+  Result<engines::World*> world();
+  Result<scene::Index> joint(Path path) const;
+  Result<scene::Index> body(Path path) const;
+  /// One step, with what pulls; an unstable one stops the time.
+  Result<void> step(Outbox& out);
+
+  // ---- what is told
+
+  Json scene_notice(const char* why) const;
+  Json state_notice() const;
+  void tell(ClientNumber to, const Json& message, Outbox& out) const;
+  void tell_problem(const Diagnostic& finding, Outbox& out) const;
+  void tell_observers(Outbox& out) const;
+  void frame_due(Outbox& out);
+
+  // ---- time
+
+  void advance(double seconds, Outbox& out);
+  void begin_watching();
+
+ private:
+  void set_asset(LiveAsset opened, const char* why, Outbox& out);
+  void begin_model();
+  void take_steps(double seconds, Outbox& out);
+};
+
+/// Json for what was asked for.
+using Handler = Result<Json> (*)(Session::State& state, ClientNumber client, const Asked& asked,
+                                 Outbox& out);
+
+/// A request and what it does.
+struct Request {
+  MessageInfo info;
+  Handler handle = nullptr;
+};
+
+/// The truth about requests (requests.cpp).
+std::span<const Request> all_requests();
+
+// ---- requests that ask (asking.cpp) and edit (editing.cpp)
+Result<Json> ask_tree(Session::State& state, ClientNumber client, const Asked& asked, Outbox& out);
+Result<Json> ask_inspect(Session::State& state, ClientNumber client, const Asked& asked,
+                         Outbox& out);
+Result<Json> ask_where(Session::State& state, ClientNumber client, const Asked& asked, Outbox& out);
+Result<Json> ask_explain(Session::State& state, ClientNumber client, const Asked& asked,
+                         Outbox& out);
+Result<Json> ask_findings(Session::State& state, ClientNumber client, const Asked& asked,
+                          Outbox& out);
+Result<Json> set_property(Session::State& state, ClientNumber client, const Asked& asked,
+                          Outbox& out);
+Result<Json> clear_property(Session::State& state, ClientNumber client, const Asked& asked,
+                            Outbox& out);
+Result<Json> undo_edit(Session::State& state, ClientNumber client, const Asked& asked, Outbox& out);
+Result<Json> redo_edit(Session::State& state, ClientNumber client, const Asked& asked, Outbox& out);
+
+}  // namespace tenon::live
