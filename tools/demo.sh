@@ -9,6 +9,7 @@ hand=examples/inspire_hand/inspire_hand.usda
 grasp=examples/inspire_hand/grasp.usda
 motion=build/demo/grasp_motion.usda
 log=build/demo/grasp.csv
+page=build/demo/grasp.html
 
 step() { # step WORDS -- COMMAND: say it, show the command, run it
   local words=$1
@@ -31,10 +32,19 @@ awk -F, '
   (NR - 2) % 60 == 0 { printf "%8.2f %12.4f %12.4f\n", $1, $column["/World/can.position.z"],
                        $column["/World/table.position.z"] }' "$log"
 
+# The page is built where node 18 and npm are.
+looked_at=
+if [ -e build/release/share/tenon/page/report.html ]; then
+  step "One page with all of it" -- \
+    "$tenon" report "$grasp" --physics mujoco --duration 4 -o "$page"
+  looked_at="   $page             the same in one page: open it in a browser and press play
+"
+fi
+
 cat <<END
 
 == What to look at
-   $motion   open it in any USD viewer and press play
+$looked_at   $motion   open it in any USD viewer and press play
    $log                every joint and body over time, for a spreadsheet
    $hand   the asset: start reading here
 
@@ -43,5 +53,6 @@ cat <<END
    $tenon physics FILE.usda --json           what an engine would receive, in SI units
    $tenon sim FILE.usda --duration 5         simulate it
    $tenon bake FILE.usda -o motion.usda      and look at the motion
+   $tenon view FILE.usda                     or in the browser, live
    $tenon --help                             everything else
 END
