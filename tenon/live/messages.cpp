@@ -190,7 +190,7 @@ Json schema_of(FieldType type) {
     case FieldType::Path:
       return {{"type", "string"}, {"pattern", "^/"}};
     case FieldType::Number:
-      return number;
+      return {{"type", "number"}};
     case FieldType::Integer:
       return {{"type", "integer"}, {"minimum", 0}};
     case FieldType::Flag:
