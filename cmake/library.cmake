@@ -41,6 +41,10 @@ target_include_directories(
 if(TARGET tenon_cli_parts)
   add_executable(tenon_shared_cli EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/cli/main.cpp
                                                    $<TARGET_OBJECTS:tenon_cli_parts>)
+  if(TARGET tenon_live) # of the program alone
+    target_sources(tenon_shared_cli PRIVATE $<TARGET_OBJECTS:tenon_live>
+                                            $<TARGET_OBJECTS:tenon_serve>)
+  endif()
   target_link_libraries(tenon_shared_cli PRIVATE tenon_flags tenon_library)
   target_compile_definitions(tenon_shared_cli PRIVATE TENON_VERSION="${PROJECT_VERSION}")
   set_target_properties(

@@ -181,6 +181,8 @@ def calls(verb, asset, folder):
         "structure": [["-o", out], ["--dry-run"], ["--dry-run", "--schema", "both"]],
         "test-runner": [["composition"], ["layer"]],
         "tree": [[], ["--physics", "physics"], ["--show", "physics"]],
+        "report": [["-o", out + ".html", "--duration", "0.01"]],
+        "view": [["--for", "0"]],
         "where": [["/A"], ["/A.physics:mass"], ["/A/B"]],
         "zip": [["-o", out + ".usdz"]],
     }.get(verb, [[]])
