@@ -97,10 +97,15 @@ class Security(unittest.TestCase):
         self.assertGreater(int(fields["content-length"]), 0)
 
     def send(self, data):
+        """-> the status; None where the server closed the connection on what it had not read yet,
+        which may take the answer along."""
         with self.viewer.connect() as link:
-            link.sendall(data)
-            link.shutdown(socket.SHUT_WR)
-            return viewer.parse_response(viewer.read_all(link))[0]
+            try:
+                link.sendall(data)
+                link.shutdown(socket.SHUT_WR)
+                return viewer.parse_response(viewer.read_all(link))[0]
+            except OSError:
+                return None
 
     def test_garbage(self):
         target = f"/{self.viewer.token}/".encode()
@@ -120,7 +125,8 @@ class Security(unittest.TestCase):
                 (b"GET " + target + b" HTTP/1.1\r\nHost: localhost\r\n"
                  b"Transfer-Encoding: chunked\r\n\r\nffffffffffff\r\n", (400, 413)),
                 (b"", (0,))):
-            self.assertIn(self.send(data), allowed, data[:60])
+            self.assertIn(self.send(data), (*allowed, None), data[:60])
+        self.assertEqual(self.viewer.get("")[0], 200)  # it lives
 
     def test_frames_that_are_none(self):
         def closed(*sent):
