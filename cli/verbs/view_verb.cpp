@@ -129,6 +129,7 @@ int run_view(const Globals& globals, const ViewArguments& arguments) {
   if (auto published = publish_page(*server); !published) {
     return report.fail(published.error());
   }
+  server->heed_signals();  // who has the address may end it at once
   tell_address(report, *server);
   report.finish(kOk, live::address_json(*server));
   flush_prints();

@@ -181,12 +181,16 @@ void Server::stop() {
   asio::post(state_->io, [hub = state_.get()] { stop_serving(*hub); });
 }
 
+void Server::heed_signals() {
+  beast::error_code ignored;
+  state_->signals.add(SIGINT, ignored);
+  state_->signals.add(SIGTERM, ignored);
+}
+
 bool Server::run(const Function<bool(ClientEvent event)>& receive) {
   Hub& hub = *state_;
   hub.receive = receive;
-  beast::error_code ignored;
-  hub.signals.add(SIGINT, ignored);
-  hub.signals.add(SIGTERM, ignored);
+  heed_signals();
   hub.signals.async_wait([&hub](beast::error_code fault, int) {
     if (!fault) {
       hub.by_signal = true;

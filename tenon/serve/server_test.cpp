@@ -276,6 +276,14 @@ TEST_F(ServerTest, StopsBySignal) {
   server_.reset();
 }
 
+TEST(Server, HeedsASignalThatComesBeforeItRuns) {
+  auto server = Server::open({});
+  ASSERT_TRUE(server);
+  server->heed_signals();
+  std::raise(SIGTERM);
+  EXPECT_TRUE(server->run([](const ClientEvent&) { return true; }));
+}
+
 TEST(Server, TellsWhyItCannotBeHad) {
   const auto no_address = Server::open({.bind = "localhost"});
   ASSERT_FALSE(no_address);
