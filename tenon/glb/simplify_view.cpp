@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "tenon/approximate/mesh_codec.h"
@@ -69,9 +70,7 @@ void compact(ViewMesh& mesh) {
   keep(mesh.colors, kept);
 }
 
-ViewMesh thinner(const ViewMesh& mesh, double share) {
-  const auto count = static_cast<double>(mesh.triangle_count());
-  const auto wanted = std::max(kFewest, static_cast<std::size_t>(count * share));
+ViewMesh thinner(const ViewMesh& mesh, std::size_t wanted) {
   if (wanted >= mesh.triangle_count()) {
     return mesh;
   }
@@ -98,9 +97,26 @@ std::size_t simplify_view(view::ViewScene& view, std::size_t budget) {
   }
   const double share = static_cast<double>(budget) / static_cast<double>(drawn);
   for (ViewMesh& mesh : view.meshes) {
-    mesh = thinner(mesh, share);
+    const auto wanted =
+        static_cast<std::size_t>(static_cast<double>(mesh.triangle_count()) * share);
+    mesh = thinner(mesh, std::max(kFewest, wanted));
   }
   return view.drawn_triangles();
+}
+
+void simplify_hulls(view::ViewScene& view, std::size_t budget) {
+  std::set<view::Index> hulls;
+  for (const view::ViewCollider& collider : view.colliders) {
+    if (collider.kind == scene::shape_name(scene::ShapeKind::ConvexHull) ||
+        collider.kind == view::kSeveralHulls) {
+      for (const view::Index shape : collider.shapes) {
+        hulls.insert(view.collider_shapes[shape].mesh);
+      }
+    }
+  }
+  for (const view::Index hull : hulls) {
+    view.meshes[hull] = thinner(view.meshes[hull], std::max(kFewest, budget));
+  }
 }
 
 }  // namespace tenon::glb

@@ -13,4 +13,8 @@ namespace tenon::glb {
 /// how many are drawn then.
 std::size_t simplify_view(view::ViewScene& view, std::size_t budget);
 
+/// Thins out hulls that colliders are to about `budget` triangles each. Of 128 about the 64 corners
+/// remain that PhysX gives a hull. What is told of their volumes stays.
+void simplify_hulls(view::ViewScene& view, std::size_t budget);
+
 }  // namespace tenon::glb

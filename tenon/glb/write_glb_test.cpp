@@ -157,6 +157,24 @@ TEST(SimplifyView, KeepsTheBudgetAndTheShape) {
   EXPECT_EQ(most, 1);
 }
 
+TEST(SimplifyHulls, LeavesWhatIsSeenAndTrianglesThatAreTouched) {
+  view::ViewScene view = one_body(20);
+  for (const std::string kind : {"convexHull", "mesh", "convexDecomposition"}) {
+    view::ViewShape shape;
+    shape.mesh = static_cast<view::Index>(view.meshes.size());
+    view.meshes.push_back(grid_mesh(20));
+    view::ViewCollider& collider = view.colliders.emplace_back();
+    collider.kind = kind;
+    collider.shapes = {static_cast<view::Index>(view.collider_shapes.size())};
+    view.collider_shapes.push_back(shape);
+  }
+  simplify_hulls(view, 128);
+  EXPECT_EQ(view.meshes[0].triangle_count(), 800u);
+  EXPECT_LE(view.meshes[1].triangle_count(), 140u);
+  EXPECT_EQ(view.meshes[2].triangle_count(), 800u);
+  EXPECT_LE(view.meshes[3].triangle_count(), 140u);
+}
+
 TEST(SimplifyView, LeavesAloneWhatIsBelowTheBudget) {
   view::ViewScene view = one_body(2);
   EXPECT_EQ(simplify_view(view, 100), 8u);

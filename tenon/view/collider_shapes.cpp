@@ -56,8 +56,7 @@ class ColliderShapes {
     ViewCollider result;
     result.path = collider.path;
     result.body = collider.body;
-    result.kind =
-        shape.pieces.empty() ? std::string(scene::shape_name(shape.kind)) : "convexDecomposition";
+    result.kind = shape.pieces.empty() ? scene::shape_name(shape.kind) : kSeveralHulls;
     if (collider.approximation) {
       result.approximation = scene::approximation_name(*collider.approximation);
     }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -89,11 +90,13 @@ struct ViewBody {
   std::optional<Index> articulation;  ///< into ViewScene::articulations
 };
 
+inline constexpr std::string_view kSeveralHulls = "convexDecomposition";
+
 /// What a body touches with.
 struct ViewCollider {
   Path path;
   std::optional<Index> body;  ///< none: static
-  std::string kind;           ///< scene::shape_name, "convexDecomposition" for one of several hulls
+  std::string kind;           ///< scene::shape_name, or kSeveralHulls
   std::string approximation;  ///< what the asset asks for; empty: no mesh
   bool enabled = true;
   std::vector<Index> shapes;  ///< into ViewScene::collider_shapes

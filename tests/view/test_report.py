@@ -11,6 +11,7 @@ import base64
 import gzip
 import hashlib
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -23,6 +24,8 @@ from glb_file import Glb
 TENON = sys.argv.pop(1)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GRASP = ROOT / "examples/inspire_hand/grasp.usda"
+SHARED = pathlib.Path(os.environ.get("TENON_SHARED_DIR", ROOT.parent / "shared"))
+VENDORS_HAND = SHARED / "assets/inspire_hand_isaac/inspire_hand.usda"  # 120,000 triangles
 EVIL = "</script><img src=x onerror=alert(1)>"
 HOSTILE = f"""#usda 1.0
 (
@@ -131,6 +134,14 @@ class Report(unittest.TestCase):
         one = self.report(GRASP, "--duration", 0.2, name="a.html")
         other = self.report(GRASP, "--duration", 0.2, name="b.html")
         self.assertEqual(one.text, other.text)
+
+    @unittest.skipUnless(VENDORS_HAND.exists(), "the vendor's hand is not there")
+    def test_a_hand_in_full_can_be_mailed(self):
+        run = ("--duration", 10, "--fps", 30)
+        full = self.report(VENDORS_HAND, *run, name="full.html")
+        self.assertLess(len(full.text.encode()), 550_000)
+        thin = self.report(VENDORS_HAND, *run, "--simplify", 30000, name="thin.html")
+        self.assertLess(len(thin.text.encode()), 350_000)
 
     def test_without_the_page_it_says_how_to_get_it(self):
         done = tenon("report", GRASP, "-o", self.folder / "r.html",

@@ -28,7 +28,8 @@ namespace {
 
 using answers::Json;
 
-constexpr int kPointBits = 12;  // a fiftieth of a millimetre of a hand
+constexpr int kPointBits = 11;  // a point moves by a quarter of a thousandth of its mesh's size
+constexpr std::size_t kHullTriangles = 128;
 
 /// A slot of the frame with what goes there.
 struct Slot {
@@ -199,6 +200,7 @@ Result<AssetReport> report_asset(const std::string& path, const ReportOptions& o
   AssetReport report;
   report.triangles =
       options.triangles > 0 ? glb::simplify_view(view, options.triangles) : view.drawn_triangles();
+  glb::simplify_hulls(view, kHullTriangles);
   const bool moves = asset.simulation != nullptr;
   const bake::PoseRecording motion = moves ? asset.run.recording.poses() : bake::PoseRecording{};
   TENON_TRY(const std::string scene, glb::write_glb(view, {.motion = moves ? &motion : nullptr,
