@@ -468,6 +468,7 @@ class Verbs(Case):
                 ("edit.unknown-kind", "add /World/j=colider"),
                 ("edit.bad-argument", "add /World/j"),
                 ("edit.bad-argument", "add /World/j=sphere --size 2"),
+                ("edit.bad-argument", "add /World/j=cube,body --mass 2"),
                 ("edit.bad-argument", "add /World/j=reference"),
                 ("edit.bad-argument", "add /World/j=fixed --body1 /World/tip --at 1,2"),
                 ("edit.bad-argument", "add /World/ground=mass,cube"),
@@ -483,6 +484,8 @@ class Verbs(Case):
                 self.refused(rule, verb, scene, *arguments)
         self.assertIn("did you mean collider?",
                       self.refused("edit.unknown-kind", "add", scene, "/World/j=colider"))
+        self.assertIn("it belongs to mass: write cube,body,mass", self.refused(
+            "edit.bad-argument", "add", scene, "/World/j=cube,body", "--mass", "2"))
 
     def test_what_changes_nothing_is_not_written(self):
         self.scene_with_boxes()

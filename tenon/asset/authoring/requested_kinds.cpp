@@ -42,6 +42,44 @@ std::string options_of(const Kind& kind) {
   return text.empty() ? "no options" : text;
 }
 
+/// The kind that takes an option and is put on a prim beside `kinds`; null where none or several
+/// do.
+const Kind* missing_kind(std::string_view option, const std::vector<const Kind*>& kinds) {
+  const Kind* found = nullptr;
+  for (const Kind& kind : authoring_kinds()) {
+    const bool fits = std::any_of(kinds.begin(), kinds.end(), [&](const Kind* one) {
+      return kind.on.empty() ? one->takes_pose() || !one->makes_prim() : one->type == kind.on;
+    });
+    if (!kind.makes_prim() && fits && kind.takes(option)) {
+      if (found != nullptr) {
+        return nullptr;
+      }
+      found = &kind;
+    }
+  }
+  return found;
+}
+
+Error untaken(const std::string& option, const std::vector<const Kind*>& kinds) {
+  std::string names;
+  std::string list;
+  for (const Kind* kind : kinds) {
+    names += (names.empty() ? "" : kind == kinds.back() ? " and " : ", ") + std::string(kind->name);
+    list += std::string(kind->name) + ",";
+  }
+  std::string fix = "leave it out";
+  if (!kinds.empty()) {
+    const Kind* missing = missing_kind(option, kinds);
+    const std::string first(kinds.front()->name);
+    fix = missing == nullptr ? first + " takes " + options_of(*kinds.front())
+                             : "it belongs to " + std::string(missing->name) + ": write " + list +
+                                   std::string(missing->name);
+  }
+  return Error(ErrorCode::Invalid, "--" + option + " is no option of " + names)
+      .with_rule("edit.bad-argument")
+      .with_fix(fix);
+}
+
 }  // namespace
 
 Result<RequestedKinds> read_requested(const std::string& text, bool kinds_needed) {
@@ -84,10 +122,7 @@ Result<void> check_options(const AuthoringRequest& request,
         std::any_of(kinds.begin(), kinds.end(),
                     [&, &option = name](const Kind* kind) { return kind->takes(option); });
     if (!taken) {
-      const std::string kind = kinds.empty() ? "" : std::string(kinds.front()->name);
-      return Error(ErrorCode::Invalid, "--" + name + " is no option of " + kind)
-          .with_rule("edit.bad-argument")
-          .with_fix(kinds.empty() ? "leave it out" : kind + " takes " + options_of(*kinds.front()));
+      return untaken(name, kinds);
     }
   }
   for (const Kind* kind : kinds) {
