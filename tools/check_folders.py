@@ -44,8 +44,8 @@ LIBRARIES = {
                     "tenon/urdf/*"],
     "assimp/*": ["tenon/mesh/assimp_scene.cpp"],
     "CLI/*": ["cli/command_line.cpp"],
-    "nlohmann/*": ["tenon/answers/*", "tenon/glb/*.cpp", "tenon/glb/glb_buffer.h", "tests/*",
-                   "bench/*"],
+    "nlohmann/*": ["tenon/answers/*", "tenon/browser/*.cpp", "tenon/glb/*.cpp",
+                   "tenon/glb/glb_buffer.h", "tests/*", "bench/*"],
 }
 
 # What asks the disk whatever files were handed over. Of std::filesystem only paths do not, and
