@@ -62,6 +62,8 @@ constexpr KindRow kKinds[] = {
     {OutputKind::Comparison, "a comparison", {".html", ".json", ".csv"}, false, false},
     {OutputKind::Motion, "a motion", {".usda", ".usdc", ".usd", ".glb"}, false, true},
     {OutputKind::Page, "a page", {".html"}, false, true},
+    {OutputKind::Picture, "a picture", {".png"}, false, false},
+    {OutputKind::Recording, "a picture or a film", {".png", ".webm", ".mp4"}, false, false},
 };
 
 const KindRow& row_of(OutputKind kind) {

@@ -38,6 +38,8 @@ enum class OutputKind : std::uint8_t {
   Comparison,  ///< of motions
   Motion,      ///< of bodies: a layer over an asset, or a scene for other programs
   Page,        ///< that browsers show
+  Picture,     ///< .png
+  Recording,   ///< a picture or a film
 };
 
 /// The files of one run. They are claimed before the work, so that nobody waits for what cannot be

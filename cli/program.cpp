@@ -38,6 +38,7 @@ constexpr std::array kVerbs{
     Verb{"manual", add_manual},
     Verb{"new", add_new},
     Verb{"physics", add_physics},
+    Verb{"record", add_record},
     Verb{"remove", add_remove},
     Verb{"rename", add_rename},
     Verb{"report", add_report},
@@ -66,6 +67,7 @@ constexpr const char* kProgramFooter =
     "  tenon view hand.usda                    look at it and move it, in the browser\n"
     "  tenon sim hand.usda --duration 5        simulate it on MuJoCo\n"
     "  tenon bake hand.usda -o motion.usda     a layer that any USD viewer plays\n"
+    "  tenon record hand.usda -o hand.webm     a film of it, or a picture (.png)\n"
     "  tenon report hand.usda -o hand.html     one page with all of it, to look at and to mail\n"
     "  tenon convert hand.urdf hand.usda       make an asset from a robot description\n"
     "  tenon new scene.usda                    an empty scene, for tenon add to fill\n"

@@ -94,6 +94,7 @@ AddVerb add_info;
 AddVerb add_manual;
 AddVerb add_new;
 AddVerb add_physics;
+AddVerb add_record;
 AddVerb add_remove;
 AddVerb add_rename;
 AddVerb add_report;

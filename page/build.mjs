@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Bundles the page: node build.mjs FOLDER, where node_modules is beside this file. Writes live.js, page.css and index.html for `tenon
-// view`, and report.html, the frame of `tenon report`: style and script are in it, the script
-// compressed, and two slots wait for the asset. The policy of the report names its script and style
+// view`, record.js and record.html for `tenon record`, and report.html, the frame of `tenon report`:
+// style and script are in it, the script compressed, and two slots wait for the asset. The policy of the report names its script and style
 // by their hashes, so that nothing else in the file can run.
 import { createHash } from "node:crypto";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
@@ -60,7 +60,8 @@ function sevenBitText(bytes) {
 }
 
 async function main() {
-  const [live, report] = await Promise.all([bundle("src/live/main.ts"), bundle("src/report/main.ts")]);
+  const [live, report, record] = await Promise.all(
+    ["live", "report", "record"].map((part) => bundle(`src/${part}/main.ts`)));
   const style = (await esbuild.transform(await readFile(join(here, "src/page.css"), "utf8"), {
     loader: "css",
     minify: true,
@@ -68,7 +69,7 @@ async function main() {
   const start = (await esbuild.transform(await readFile(join(here, "src/report/start.js"), "utf8"), {
     minify: true,
   })).code;
-  const notices = await readFile(join(here, "node_modules/three/LICENSE"), "utf8");
+  const licence = (name) => readFile(join(here, "node_modules", name, "LICENSE"), "utf8");
   let frame = await readFile(join(here, "src/report/report.html"), "utf8");
   frame = fill(frame, "{{POLICY}}",
     `default-src 'none'; script-src ${hash(start)} 'strict-dynamic' 'wasm-unsafe-eval'; ` +
@@ -81,7 +82,10 @@ async function main() {
   await writeFile(join(folder, "live.js"), live);
   await writeFile(join(folder, "page.css"), style);
   await writeFile(join(folder, "index.html"), await readFile(join(here, "src/live/index.html")));
-  await writeFile(join(folder, "three-LICENSE.txt"), notices);
+  await writeFile(join(folder, "record.js"), record);
+  await writeFile(join(folder, "record.html"), await readFile(join(here, "src/record/record.html")));
+  await writeFile(join(folder, "three-LICENSE.txt"), await licence("three"));
+  await writeFile(join(folder, "mediabunny-LICENSE.txt"), await licence("mediabunny"));
   await writeFile(join(folder, "report.html"), frame); // last: its presence says that all is there
 }
 

@@ -97,6 +97,8 @@ need_for_test() {
 
 need_for_judge() {
   need_for_docs
+  need_tool chromium chromium --version # recordings; other programs decode them
+  need_tool ffmpeg ffmpeg -version
   need_tool clang-19 clang++-19 --version
   need_package libclang-rt-19-dev
   if [ "$(dpkg --print-architecture)" = amd64 ]; then # of the preset bits32

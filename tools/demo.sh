@@ -10,6 +10,7 @@ grasp=examples/inspire_hand/grasp.usda
 motion=build/demo/grasp_motion.usda
 log=build/demo/grasp.csv
 page=build/demo/grasp.html
+picture=build/demo/grasp.png
 
 step() { # step WORDS -- COMMAND: say it, show the command, run it
   local words=$1
@@ -39,6 +40,15 @@ if [ -e build/release/share/tenon/page/report.html ]; then
     "$tenon" report "$grasp" --physics mujoco --duration 4 -o "$page"
   looked_at="   $page             the same in one page: open it in a browser and press play
 "
+  # A Chromium draws, where there is one; `tenon doctor` looks for it.
+  if "$tenon" doctor --quiet 2>/dev/null | grep -q '^browser .*not available'; then
+    printf '\n== No picture: there is no Chromium here (apt-get install chromium)\n'
+  else
+    step "A picture of the hand that holds the can" -- \
+      "$tenon" record "$grasp" --physics mujoco --time 2 -o "$picture" --size 960x540
+    looked_at+="   $picture              the hand that holds the can
+"
+  fi
 fi
 
 cat <<END
@@ -54,5 +64,6 @@ $looked_at   $motion   open it in any USD viewer and press play
    $tenon sim FILE.usda --duration 5         simulate it
    $tenon bake FILE.usda -o motion.usda      and look at the motion
    $tenon view FILE.usda                     or in the browser, live
+   $tenon record FILE.usda -o motion.webm    or as a film, or a picture (.png)
    $tenon --help                             everything else
 END

@@ -91,6 +91,8 @@ def judgements():
                                     "build/release/bin/tenon", "--all", "--table"], "release")
     yield Judgement("edited_corpus", ["{python}", "-B", "tests/convert/edited_corpus.py", ".",
                                       "build/release/bin/tenon", "--all"], "release")
+    yield Judgement("recordings", ["{python}", "-B", "tests/view/recordings.py", ".",
+                                   "build/release/bin/tenon"], "release")
     for engine in ("ovphysx", "newton"):
         yield Judgement(f"beside_{engine}", ["{python}", "-B", "tests/engines_beside/beside.py",
                                              engine, "{engine}", "build/release/bin/tenon",
@@ -117,6 +119,10 @@ def judgements():
     yield Judgement("python_sanitized", ["bash", "-c", "python/tests/install.sh && "
                                          "python/tests/sanitized.sh"], "dev",
                     ["tenon_asset", "tenon_worker"])
+    yield from fuzzers()
+
+
+def fuzzers():
     for source in sorted(glob.glob(os.path.join(ROOT, "fuzz/*_fuzz.cpp"))):
         target = os.path.basename(source)[:-len(".cpp")]
         yield Judgement(f"fuzz_{target[:-len('_fuzz')]}",

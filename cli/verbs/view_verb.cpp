@@ -13,6 +13,7 @@
 
 #include "cli/output.h"
 #include "cli/reading_options.h"
+#include "cli/recording.h"
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/base/error.h"
@@ -38,7 +39,28 @@ struct ViewArguments {
   std::optional<double> seconds;
   bool watch = false;
   bool read_only = false;
+  std::string screenshot;
+  PictureArguments picture;
 };
+
+/// --screenshot: a picture instead of a server, as `tenon record` makes it.
+int run_screenshot(const Globals& globals, const ViewArguments& arguments) {
+  Report report(globals, "view", arguments.asset.asset);
+  Outputs outputs;
+  RecordOptions options;
+  auto well = outputs.claim(OutputKind::Picture, arguments.screenshot);
+  well = well ? arguments.picture.put_into(options) : well;
+  auto readings = chosen_readings(arguments.readings);
+  if (!well || !readings) {
+    return report.fail(well ? readings.error() : well.error());
+  }
+  options.run.open = arguments.asset.open_options();
+  options.run.readings = *std::move(readings);
+  options.triangles = arguments.triangles;
+  SimulateArguments still;
+  still.asset = arguments.asset;
+  return make_recording(report, still, std::move(options), arguments.screenshot, outputs);
+}
 
 #if TENON_WITH_VIEW
 
@@ -163,7 +185,8 @@ constexpr const char* kViewFooter =
     "Examples:\n"
     "  tenon view hand.usda\n"
     "  tenon view hand.usda --watch               reloads when a file changes\n"
-    "  tenon view hand.usda --port 8080 --json    an address that scripts can read";
+    "  tenon view hand.usda --port 8080 --json    an address that scripts can read\n"
+    "  tenon view hand.usda --screenshot hand.png a picture, without a server";
 
 }  // namespace
 
@@ -191,12 +214,20 @@ void add_view(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option("--for", options->seconds, {0, 1e9, false, false, "s"},
                   "End by itself after this time; without it Ctrl-C ends it")
       .value_name("SECONDS");
+  verb.add_option("--screenshot", options->screenshot,
+                  "Serve nothing: write a picture to this .png and end (tenon record has more to "
+                  "choose)")
+      .value_name("FILE");
+  options->picture.add_to(verb);
   add_readings(verb, options->readings);
   verb.add_option("--set", options->asset.overrides,
                   "PATH.attr=value, for this session only; may be repeated")
       .repeatable();
   verb.footer(kViewFooter);
-  choose(verb, chosen, [&globals, options] { return run_view(globals, *options); });
+  choose(verb, chosen, [&globals, options] {
+    return options->screenshot.empty() ? run_view(globals, *options)
+                                       : run_screenshot(globals, *options);
+  });
 }
 
 }  // namespace tenon::cli

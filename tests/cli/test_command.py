@@ -23,6 +23,7 @@ import time
 import unittest
 
 ROOT, TENON = pathlib.Path(sys.argv[1]).resolve(), str(pathlib.Path(sys.argv[2]).resolve())
+os.environ["TENON_CHROMIUM"] = str(ROOT / "tests/view/fake_browser.py")
 HAND = ROOT / "examples/inspire_hand/inspire_hand.usda"
 NOTHING = ("doctor", "help", "version", "manual", "completion", "test-runner")  # no asset
 
@@ -378,6 +379,7 @@ class Command(unittest.TestCase):
                 "add": ["/World/x=cube", "--dry-run"], "remove": ["/World/mesh", "--dry-run"],
                 "rename": ["/World/mesh", "m", "--dry-run"], "variant": [],
                 "bench": ["--duration", "0.01"],
+                "record": ["-o", "r.png"],
                 "report": ["-o", "r.html", "--duration", "0.01"], "view": ["--for", "0"],
                 "compare": ["--engines", "mujoco,mujoco", "--duration", "0.01"]}
         for name in self.verbs:

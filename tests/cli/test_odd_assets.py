@@ -18,6 +18,8 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
 TENON = sys.argv[1]
+os.environ["TENON_CHROMIUM"] = str(
+    pathlib.Path(__file__).resolve().parents[1] / "view/fake_browser.py")
 ALL = sys.argv[2:] == ["all"]
 
 BODY = 'def Xform "B" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) { %s }'
@@ -181,6 +183,7 @@ def calls(verb, asset, folder):
         "structure": [["-o", out], ["--dry-run"], ["--dry-run", "--schema", "both"]],
         "test-runner": [["composition"], ["layer"]],
         "tree": [[], ["--physics", "physics"], ["--show", "physics"]],
+        "record": [["-o", out + ".png"]],
         "report": [["-o", out + ".html", "--duration", "0.01"]],
         "view": [["--for", "0"]],
         "where": [["/A"], ["/A.physics:mass"], ["/A/B"]],

@@ -12,6 +12,8 @@ import sys
 
 ROOT, TENON = pathlib.Path(sys.argv[1]).absolute(), str(pathlib.Path(sys.argv[2]).absolute())
 EXAMPLE = ROOT / "examples/inspire_hand"
+# What draws here needs no Chromium.
+os.environ["TENON_CHROMIUM"] = str(ROOT / "tests/view/fake_browser.py")
 
 SHAPES = """#usda 1.0
 (
@@ -157,6 +159,7 @@ PRINTING = {
     "manual": ["manual"],
     "new": ["new", "made.usda", "--json"],
     "physics": ["physics", "scene.usda"],
+    "record": ["record", "scene.usda", "-o", "made.png", "--json"],
     "remove": ["remove", "scene.usda", "/World/box", "--dry-run"],
     "rename": ["rename", "scene.usda", "/World/box", "crate", "--dry-run"],
     "report": ["report", "scene.usda", "-o", "made.html", "--duration", "0.1", "--json"],
@@ -201,6 +204,9 @@ WRITING = {
     "physics": [],
     "remove": [],
     "rename": [],
+    "record": [["record", "scene.usda", "-o", "OUT.png"],
+               ["record", "scene.usda", "-o", "OUT.webm", "--duration", "0.1"],
+               ["record", "scene.usda", "-o", "OUT.mp4", "--duration", "0.1"]],
     "report": [["report", "scene.usda", "--duration", "0.1", "-o", "OUT.html"]],
     "set": [],  # in place alone
     "bench": [],
@@ -219,16 +225,17 @@ WRITING = {
     "tree": [],
     "variant": [["variant", "base.usda", "Physics=none", "-o", "OUT.usda"]],
     "version": [],
-    "view": [],
+    "view": [["view", "scene.usda", "--screenshot", "OUT.png"]],
     "where": [],
     "zip": [["zip", "scene.usda", "-o", "OUT.usdz"]],
 }
 
-# A build without node has no page, and no report.
+# A build without node has no page, no report and no recording.
 if "view.no-page" in run("report", ROOT / "examples/scenes/joint.usda", "--duration", "0", "-o",
                          "-").stderr:
-    PRINTING["report"] = ["report", "--help"]
-    WRITING["report"] = []
+    for verb in ("report", "record"):
+        PRINTING[verb] = [verb, "--help"]
+    WRITING["report"] = WRITING["record"] = WRITING["view"] = []
 
 # Edits of files of an asset: arguments, and arguments of another edit at the same time.
 EDITS = {

@@ -16,6 +16,8 @@ import sys
 import tempfile
 
 TENON = os.path.abspath(sys.argv[1])
+os.environ["TENON_CHROMIUM"] = str(
+    pathlib.Path(__file__).absolute().parents[1] / "view/fake_browser.py")
 OPTIONS = ("--sandbox", "--search-path", "--allow-read")
 MARK = "CANARY"
 
@@ -37,6 +39,7 @@ ROWS = {
     "explain": ["/A"],
     "info": [],
     "physics": [],
+    "record": ["-o", "OUT/r.png"],
     "remove": ["/A", "--dry-run"],
     "rename": ["/A", "B", "--dry-run"],
     "report": ["-o", "OUT/r.html", "--duration", "0.01"],
@@ -50,6 +53,7 @@ ROWS = {
     "tree": [],
     "variant": [],
     "view": ["--for", "0"],
+    "view --screenshot": ["OUT/v.png"],
     "where": ["/A.visibility"],
     "zip": ["-o", "OUT/z.usdz"],
     "zip --list": [],
@@ -144,7 +148,7 @@ def main():
         if verb not in ROWS:
             faults.append(f"{verb}: this test has no row for it")
     for verb in ROWS:
-        if verb in verbs or verb.startswith("zip --"):
+        if verb in verbs or " --" in verb:
             with tempfile.TemporaryDirectory() as temporary:
                 folder = pathlib.Path(os.path.realpath(temporary))
                 for name in ("in", "out", "other"):

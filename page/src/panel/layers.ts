@@ -72,6 +72,10 @@ export class Layers {
     viewer.addEventListener("load", () => this.applyAll());
   }
 
+  has(name: string): boolean {
+    return this.boxes.has(name);
+  }
+
   set(name: string, visible: boolean): void {
     const layer = layers.find((one) => one.name === name);
     const box = this.boxes.get(name);

@@ -27,6 +27,15 @@ function isSoftware(): boolean {
   return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
+export interface ViewerOptions {
+  /** Smooths edges; as the machine is fast enough for, unless said. */
+  antialias?: boolean;
+  /** What is behind the scene may show through. */
+  alpha?: boolean;
+  /** Draws when something has changed; else when `draw` is called. */
+  animated?: boolean;
+}
+
 export class Viewer extends EventTarget {
   readonly scene = new THREE.Scene();
   readonly camera = new THREE.PerspectiveCamera(35, 1, 0.001, 1000);
@@ -57,10 +66,14 @@ export class Viewer extends EventTarget {
   private frames = 0;
   private theme: keyof typeof themes = "light";
 
-  constructor(readonly container: HTMLElement) {
+  constructor(
+    readonly container: HTMLElement,
+    { antialias, alpha = false, animated = true }: ViewerOptions = {},
+  ) {
     super();
     this.renderer = new THREE.WebGLRenderer({
-      antialias: !this.software,
+      antialias: antialias ?? !this.software,
+      alpha,
       preserveDrawingBuffer: true,
     });
     this.renderer.setPixelRatio(this.software ? 1 : Math.min(devicePixelRatio, 2));
@@ -78,7 +91,9 @@ export class Viewer extends EventTarget {
     this.listenToPointer(canvas);
     new ResizeObserver(() => this.resize()).observe(container);
     this.resize();
-    this.renderer.setAnimationLoop((time) => this.tick(time / 1000));
+    if (animated) {
+      this.renderer.setAnimationLoop((time) => this.tick(time / 1000));
+    }
   }
 
   /** Shows another file; the camera stays where it is with `keepCamera`. */
@@ -166,18 +181,18 @@ export class Viewer extends EventTarget {
     this.invalidate();
   }
 
-  /** Looks at the selection, or at everything, from where one sees it best. */
-  frame(path = ""): void {
+  /** Looks at a prim, or at everything, from a direction: where one sees it best, unless said. */
+  frame(path = "", from = new THREE.Vector3(1, 0.55, 1.1), zoom = 1): void {
     const sphere = this.sphere.clone();
     const node = path ? this.nodeAt(path) : undefined;
     const box = node ? new THREE.Box3().setFromObject(node) : new THREE.Box3();
     if (!box.isEmpty()) {
       box.getBoundingSphere(sphere);
     }
-    const away = new THREE.Vector3(1, 0.55, 1.1).normalize();
+    const away = from.clone().normalize();
     const half = THREE.MathUtils.degToRad(this.camera.fov / 2);
     const narrow = Math.min(1, this.camera.aspect);
-    const distance = (sphere.radius / Math.sin(half) / narrow) * 1.02;
+    const distance = ((sphere.radius / Math.sin(half) / narrow) * 1.02) / zoom;
     this.camera.position.copy(sphere.center).addScaledVector(away, distance);
     this.camera.near = distance / 500;
     this.camera.far = Math.max(distance, this.sphere.radius) * 50;

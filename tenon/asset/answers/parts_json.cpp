@@ -6,6 +6,7 @@
 
 #include "tenon/approximate/mesh_approximator.h"
 #include "tenon/asset/viewing/page_place.h"
+#include "tenon/browser/browser_page.h"
 #include "tenon/guard/workers.h"
 #include "tenon/make_simulation.h"
 
@@ -67,6 +68,22 @@ OptionalPart viewer_part() {
   return part;
 }
 
+/// What draws for `tenon record`.
+OptionalPart browser_part() {
+  OptionalPart part;
+  part.name = "browser";
+  const auto program = browser::find_browser("");
+  const auto page = page_folder();
+  part.available = program && page;
+  if (part.available) {
+    part.version = *program;
+  } else {
+    const Error& error = program ? page.error() : program.error();
+    part.how_to_get = error.message() + "; " + error.diagnostic().fix;
+  }
+  return part;
+}
+
 template <class Info>
 OptionalPart part_of(const Info& info) {
   return {info.name, info.available, info.available ? info.version : "",
@@ -103,6 +120,7 @@ OptionalParts optional_parts() {
     parts.libraries.push_back(part_of(library));
   }
   parts.libraries.push_back(viewer_part());
+  parts.libraries.push_back(browser_part());
   return parts;
 }
 

@@ -12,4 +12,18 @@ answers::Json report_json(const AssetReport& report, const std::string& output) 
           {"findings", report.findings}};
 }
 
+answers::Json record_json(const RecordedAsset& recorded, const RecordOptions& options,
+                          const std::string& output) {
+  return {
+      {"output", output},
+      {"size", recorded.contents.size()},
+      {"width", options.width},
+      {"height", options.height},
+      {"frames", recorded.frames},
+      {"duration", recorded.duration},
+      {"codec", recorded.codec.empty() ? answers::Json(nullptr) : answers::Json(recorded.codec)},
+      {"triangles", recorded.triangles},
+      {"browser", recorded.browser}};
+}
+
 }  // namespace tenon
