@@ -97,8 +97,8 @@ need_for_test() {
 
 need_for_judge() {
   need_for_docs
-  need_tool chromium chromium --version # recordings; other programs decode them
-  need_tool ffmpeg ffmpeg -version
+  need_tool chromium chromium_is_there # of recordings and the tests in a browser
+  need_tool ffmpeg ffmpeg -version     # other programs decode recordings
   need_tool clang-19 clang++-19 --version
   need_package libclang-rt-19-dev
   if [ "$(dpkg --print-architecture)" = amd64 ]; then # of the preset bits32
@@ -107,6 +107,10 @@ need_for_judge() {
       need_package "$library:i386"
     done
   fi
+}
+
+chromium_is_there() {
+  command -v chromium || command -v chromium-browser || command -v google-chrome
 }
 
 need_for_docs() { need_tool doxygen doxygen --version; }

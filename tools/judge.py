@@ -18,6 +18,7 @@ import glob
 import hashlib
 import os
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -41,11 +42,12 @@ RACES_OF_OTHERS = os.path.join(ROOT, "tests/thread_suppressions.txt")
 
 class Judgement:
     """A command and what has to be built for it; {jobs} and {python} are filled in, and {engine}
-    by the Python of an environment with another engine, whose file of requirements is `engine`."""
+    by the Python of an environment with another engine, whose file of requirements is `engine`,
+    and {packages} by a folder with the packages of `node`, a folder with a package-lock.json."""
 
-    def __init__(self, name, command, preset=None, targets=(), engine=None):
+    def __init__(self, name, command, preset=None, targets=(), engine=None, node=None):
         self.name, self.command, self.preset, self.targets = name, command, preset, targets
-        self.engine = engine
+        self.engine, self.node = engine, node
 
 
 def mutants(name, program, start, more=()):
@@ -55,6 +57,22 @@ def mutants(name, program, start, more=()):
          "--from", str(start), "--count", "50000", "--jobs", "{jobs}", "--findings",
          f"build/judge/{name}", "--json", f"build/judge/{name}.json", *more],
         "bench", ["tenon_mutants"])
+
+
+def judgements_of_pages_and_python():
+    # tests/browser/run.mjs --list names the tests; they run by name too.
+    yield Judgement("browser", ["node", "tests/browser/run.mjs", "{packages}", ".",
+                                "build/release/bin/tenon"],
+                    "release", ["tenon_cli", "tenon_worker", "tenon_page"], node="tests/browser")
+    # The Python package: memory after 100,000 openings, and its benchmark once, tiny.
+    yield Judgement("python_opens", ["bash", "-c", "python/tests/install.sh && "
+                                     "python3 -B bench/python_package.py --smoke && "
+                                     "python/tests/run.sh build/wheel/clean "
+                                     "python/tests/many_opens.py"], "release")
+    yield Judgement("python_versions", ["python/tests/versions.sh"], "release")
+    yield Judgement("python_sanitized", ["bash", "-c", "python/tests/install.sh && "
+                                         "python/tests/sanitized.sh"], "dev",
+                    ["tenon_asset", "tenon_worker"])
 
 
 def judgements():
@@ -110,15 +128,7 @@ def judgements():
                                           "tests/engines_beside/robots_per_engine.py", ".",
                                           "build/release/bin/tenon", "docs/robots-per-engine.md"],
                     "release", ["tenon_cli", "tenon_worker"])
-    # The Python package: memory after 100,000 openings, and its benchmark once, tiny.
-    yield Judgement("python_opens", ["bash", "-c", "python/tests/install.sh && "
-                                     "python3 -B bench/python_package.py --smoke && "
-                                     "python/tests/run.sh build/wheel/clean "
-                                     "python/tests/many_opens.py"], "release")
-    yield Judgement("python_versions", ["python/tests/versions.sh"], "release")
-    yield Judgement("python_sanitized", ["bash", "-c", "python/tests/install.sh && "
-                                         "python/tests/sanitized.sh"], "dev",
-                    ["tenon_asset", "tenon_worker"])
+    yield from judgements_of_pages_and_python()
     yield from fuzzers()
 
 
@@ -148,6 +158,24 @@ def environment_python(name, requirements):
         with open(os.path.join(folder, "made"), "w", encoding="utf-8"):
             pass
     return python
+
+
+def node_packages(name, folder):
+    """A folder of the cache with the packages that package-lock.json of a folder pins."""
+    sources = [os.path.join(ROOT, folder, each) for each in ("package.json", "package-lock.json")]
+    with open(sources[1], "rb") as file:
+        key = hashlib.sha256(file.read()).hexdigest()[:12]
+    made = os.path.join(CACHE, f"{name}-{key}")
+    if not os.path.exists(os.path.join(made, "made")):
+        shutil.rmtree(made, ignore_errors=True)
+        os.makedirs(made)
+        for source in sources:
+            shutil.copy(source, made)
+        subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund",
+                        "--loglevel=error"], cwd=made, check=True)
+        with open(os.path.join(made, "made"), "w", encoding="utf-8"):
+            pass
+    return made
 
 
 def build(judgement, jobs, log):
@@ -191,7 +219,8 @@ def run(judgement, python, jobs):
             return False, f"not built: {os.path.relpath(path, ROOT)}", 0
         engine = judgement.engine and environment_python(environment_name(judgement.engine),
                                                          judgement.engine)
-        words = [word.format(jobs=jobs, python=python, engine=engine)
+        packages = judgement.node and node_packages(judgement.name, judgement.node)
+        words = [word.format(jobs=jobs, python=python, engine=engine, packages=packages)
                  for word in judgement.command]
         environment = {**os.environ, "TENON_ORACLE_PYTHON": python,
                        "TSAN_OPTIONS": f"suppressions={RACES_OF_OTHERS}"}

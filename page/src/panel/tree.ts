@@ -109,7 +109,7 @@ export class Tree {
   private row(entry: Entry, level: number, nested: boolean): HTMLElement {
     const below = nested && entry.children.length > 0;
     const open = below && level < opened && entry.children.length <= mostOpened;
-    const text = h("span", { class: "row" }, nested ? nameOf(entry.path) : entry.path);
+    const text = h("span", { class: "row", title: entry.path }, nested ? nameOf(entry.path) : entry.path);
     if (entry.kinds.size > 0) {
       text.append(" ", h("small", {}, [...entry.kinds].join(", ")));
     }

@@ -36,6 +36,39 @@ export interface ViewerOptions {
   animated?: boolean;
 }
 
+/** A grid in the plane of the ground: each square's sides are lines of their own. */
+function gridLines(step: number, colors: { grid: number; axis: number }): THREE.LineSegments {
+  const places: number[] = [];
+  const shades: number[] = [];
+  const half = 20;
+  const corner = (a: number, b: number, turned: boolean, color: THREE.Color): void => {
+    const fade = Math.max(0, 1 - Math.hypot(a, b) / half) ** 1.5;
+    places.push((turned ? b : a) * step, 0, (turned ? a : b) * step);
+    shades.push(color.r, color.g, color.b, fade);
+  };
+  for (const turned of [false, true]) {
+    for (let a = -half; a <= half; ++a) {
+      const color = new THREE.Color(a === 0 ? colors.axis : colors.grid);
+      for (let b = -half; b < half; ++b) {
+        if (Math.hypot(a, b) < half && Math.hypot(a, b + 1) < half) {
+          corner(a, b, turned, color);
+          corner(a, b + 1, turned, color);
+        }
+      }
+    }
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
+  geometry.setAttribute("color", new THREE.Float32BufferAttribute(shades, 4));
+  const material = new THREE.LineBasicMaterial({
+    vertexColors: true,
+    transparent: true,
+    depthWrite: false,
+    toneMapped: false,
+  });
+  return new THREE.LineSegments(geometry, material);
+}
+
 export class Viewer extends EventTarget {
   readonly scene = new THREE.Scene();
   readonly camera = new THREE.PerspectiveCamera(35, 1, 0.001, 1000);
@@ -64,6 +97,7 @@ export class Viewer extends EventTarget {
   private readonly plain = new Map<THREE.Mesh, THREE.Material | THREE.Material[]>();
   private dirty = true;
   private frames = 0;
+  private scenes = 0;
   private theme: keyof typeof themes = "light";
 
   constructor(
@@ -124,6 +158,7 @@ export class Viewer extends EventTarget {
     }
     this.overlays.rebuild();
     this.select(selected);
+    this.scenes += 1;
     this.dispatchEvent(new Event("load"));
     this.invalidate();
   }
@@ -205,6 +240,11 @@ export class Viewer extends EventTarget {
   /** Draws again before the next picture. */
   invalidate(): void {
     this.dirty = true;
+  }
+
+  /** How many scenes were shown so far. */
+  get shown(): number {
+    return this.scenes;
   }
 
   /** How many pictures were drawn so far. */
@@ -322,14 +362,17 @@ export class Viewer extends EventTarget {
     this.grid.position.set(this.sphere.center.x, box.min.y, this.sphere.center.z);
   }
 
+  /** Squares around the scene that fade away. Short lines: software clips long ones badly. */
   private makeGrid(): void {
     for (const child of [...this.grid.children]) {
       this.grid.remove(child);
-      (child as THREE.GridHelper).dispose();
+      if (child instanceof THREE.LineSegments) {
+        child.geometry.dispose();
+        (child.material as THREE.Material).dispose();
+      }
     }
     const step = 10 ** Math.round(Math.log10(this.sphere.radius / 3));
-    const colors = themes[this.theme];
-    const lines = new THREE.GridHelper(40 * step, 40, colors.axis, colors.grid);
+    const lines = gridLines(step, themes[this.theme]);
     lines.userData.ofPage = true;
     this.grid.add(lines);
   }
