@@ -70,6 +70,7 @@ function main(): void {
   new Plots(session);
   new Details(session);
   new Pull(session);
+  panel.layers.offer("contacts");
   panel.openTab("Move");
   panel.viewer.addEventListener("select", () => panel.viewer.selected && panel.openTab("Selection"));
   connection.on<HelloNotice>("hello", (notice) => panel.setTitle(nameOf(notice.asset)));

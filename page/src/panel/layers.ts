@@ -11,6 +11,8 @@ interface Layer {
   label: string;
   key: string;
   shown: boolean;
+  /** Not in every page: `offer` shows its switch. */
+  special?: boolean;
   set: (viewer: Viewer, visible: boolean) => void;
 }
 
@@ -44,7 +46,7 @@ const layers: Layer[] = [
   overlay("frames", "Frames of bodies", "x"),
   overlay("tree", "Articulation tree", "t"),
   overlay("filtered", "Pairs of the selection that do not touch", "p"),
-  overlay("contacts", "Contacts and their forces", "o"),
+  { ...overlay("contacts", "Contacts and their forces", "o"), special: true },
   {
     name: "grid",
     label: "Ground grid",
@@ -57,6 +59,7 @@ const layers: Layer[] = [
 export class Layers {
   readonly element = h("fieldset", { class: "layers" }, h("legend", {}, "What is shown"));
   private readonly boxes = new Map<string, HTMLInputElement>();
+  private readonly rows = new Map<string, HTMLElement>();
 
   constructor(private readonly viewer: Viewer) {
     for (const layer of layers) {
@@ -67,13 +70,29 @@ export class Layers {
         onchange: () => layer.set(this.viewer, box.checked),
       });
       this.boxes.set(layer.name, box);
-      this.element.append(h("label", {}, box, ` ${layer.label} `, h("kbd", {}, layer.key)));
+      const row = h(
+        "label",
+        { hidden: layer.special },
+        box,
+        ` ${layer.label} `,
+        h("kbd", {}, layer.key),
+      );
+      this.rows.set(layer.name, row);
+      this.element.append(row);
     }
     viewer.addEventListener("load", () => this.applyAll());
   }
 
   has(name: string): boolean {
     return this.boxes.has(name);
+  }
+
+  /** Shows the switch of something that only this page has. */
+  offer(name: string): void {
+    const row = this.rows.get(name);
+    if (row) {
+      row.hidden = false;
+    }
   }
 
   set(name: string, visible: boolean): void {
@@ -87,7 +106,7 @@ export class Layers {
 
   key(key: string): void {
     const layer = layers.find((one) => one.key === key);
-    if (layer) {
+    if (layer && !this.rows.get(layer.name)!.hidden) {
       this.set(layer.name, !this.boxes.get(layer.name)!.checked);
     }
   }

@@ -36,6 +36,22 @@ export interface ViewerOptions {
   animated?: boolean;
 }
 
+/** Gives back what the graphics hold for a part. */
+function dispose(part: THREE.Object3D): void {
+  if (!(part instanceof THREE.Mesh)) {
+    return;
+  }
+  part.geometry.dispose();
+  for (const material of [part.material as THREE.Material | THREE.Material[]].flat()) {
+    for (const value of Object.values(material)) {
+      if (value instanceof THREE.Texture) {
+        value.dispose();
+      }
+    }
+    material.dispose();
+  }
+}
+
 /** A grid in the plane of the ground: each square's sides are lines of their own. */
 function gridLines(step: number, colors: { grid: number; axis: number }): THREE.LineSegments {
   const places: number[] = [];
@@ -135,7 +151,6 @@ export class Viewer extends EventTarget {
     const loader = new GLTFLoader();
     loader.setMeshoptDecoder(MeshoptDecoder);
     const file = await loader.parseAsync(bytes, "");
-    const selected = this.selected;
     this.clear();
     this.scene.add(file.scene);
     this.root = file.scene.children[0] ?? file.scene;
@@ -157,7 +172,7 @@ export class Viewer extends EventTarget {
       this.frame();
     }
     this.overlays.rebuild();
-    this.select(selected);
+    this.showSelection();
     this.scenes += 1;
     this.dispatchEvent(new Event("load"));
     this.invalidate();
@@ -181,14 +196,18 @@ export class Viewer extends EventTarget {
 
   /** Selects a prim by its path; "" selects nothing. */
   select(path: string): void {
-    this.unmark();
     this.selected = path;
-    const node = path ? this.nodeAt(path) : undefined;
+    this.showSelection();
+    this.dispatchEvent(new CustomEvent("select", { detail: path }));
+  }
+
+  private showSelection(): void {
+    this.unmark();
+    const node = this.selected ? this.nodeAt(this.selected) : undefined;
     if (node) {
       this.mark(node);
     }
     this.overlays.selectionChanged();
-    this.dispatchEvent(new CustomEvent("select", { detail: path }));
     this.invalidate();
   }
 
@@ -266,12 +285,8 @@ export class Viewer extends EventTarget {
   private clear(): void {
     this.unmark();
     this.overlays.clear();
+    this.root.traverse(dispose);
     this.root.parent?.remove(this.root);
-    this.scene.traverse((node) => {
-      if (node instanceof THREE.Mesh && node.userData.ofPage === undefined) {
-        node.geometry.dispose();
-      }
-    });
     for (const child of [...this.scene.children]) {
       if (child instanceof THREE.Group && child !== this.grid) {
         this.scene.remove(child);
@@ -299,7 +314,7 @@ export class Viewer extends EventTarget {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.renderer.setSize(width, height);
-    this.invalidate();
+    this.draw(); // at once, since the picture is empty now
   }
 
   private tick(seconds: number): void {
