@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// One walk over all prims, which knows the link that each belongs to: what is seen, frames, cameras
+// and lights go to that link, or to the world. What stands still and has no world is left out.
 #include "tenon/describe/visuals.h"
 
+#include "tenon/describe/cameras.h"
 #include "tenon/describe/material_reader.h"
 #include "tenon/describe/visual_shapes.h"
 #include "tenon/stage/collections/material_binding.h"
@@ -39,6 +43,8 @@ class VisualWalk {
   void add_site(Place& place);
   void note_site(const Place& place);
   void add_visual(const stage::Prim& prim, std::optional<Index> link);
+  void add_camera(const stage::Prim& prim, std::optional<Index> link);
+  void add_light(const stage::Prim& prim, std::optional<Index> link);
 
   SceneSource& source_;
   RobotTree& tree_;
@@ -74,6 +80,30 @@ void VisualWalk::enter(Place& place) {
   place.seen = place.seen && (place.prim.is_pseudo_root() || !is_unseen(place.prim));
   if (place.seen && place.prim.is_a("Gprim")) {
     add_visual(place.prim, place.link ? place.link : tree_.world());
+  }
+  if (place.prim.is_a("Camera")) {
+    add_camera(place.prim, place.link ? place.link : tree_.world());
+  } else if (place.prim.has_api("LightAPI")) {
+    add_light(place.prim, place.link ? place.link : tree_.world());
+  }
+}
+
+void VisualWalk::add_camera(const stage::Prim& prim, std::optional<Index> link) {
+  if (!source_.is_mjcf() || !link) {
+    source_.left_out(prim.path(), "it is a camera");
+    return;
+  }
+  robot::Camera camera = read_camera(source_, prim, tree_, tree_.pose(*link));
+  tree_.links()[*link].cameras.push_back(std::move(camera));
+}
+
+void VisualWalk::add_light(const stage::Prim& prim, std::optional<Index> link) {
+  if (!source_.is_mjcf() || !link) {
+    source_.left_out(prim.path(), "it is a light");
+    return;
+  }
+  if (auto light = read_light(source_, prim, tree_, tree_.pose(*link))) {
+    tree_.links()[*link].lights.push_back(std::move(*light));
   }
 }
 

@@ -2,29 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/mjcf/left_out.h"
 
+#include <string>
+#include <utility>
+
 namespace tenon::mjcf {
 
 void report_left_out(MjcfSource& source) {
-  struct Row {
-    mjtSize count;
-    const char* what;
-    mjtObj kind;
-  };
   const mjModel& model = source.model();
-  const Row rows[] = {{model.ncam, "cameras", mjOBJ_CAMERA},
-                      {model.nlight, "lights", mjOBJ_LIGHT},
-                      {model.nflex, "deformables", mjOBJ_UNKNOWN},
-                      {model.nskin, "skins", mjOBJ_UNKNOWN},
-                      {model.nplugin, "plugins", mjOBJ_UNKNOWN}};
-  for (const Row& row : rows) {
-    if (row.count <= 0) {
-      continue;
+  const std::pair<mjtSize, const char*> rows[] = {
+      {model.nflex, "deformables"}, {model.nskin, "skins"}, {model.nplugin, "plugins"}};
+  for (const auto& [count, what] : rows) {
+    if (count > 0) {
+      source.left_out(std::to_string(count) + " " + what + " are left out");
     }
-    const std::vector<std::uint32_t> lines =
-        row.kind == mjOBJ_UNKNOWN ? std::vector<std::uint32_t>() : source.lines_of(row.kind);
-    source.left_out(
-        std::to_string(row.count) + " " + row.what + " are left out" + lines_text(lines),
-        lines.empty() ? 0 : lines.front());
   }
 }
 

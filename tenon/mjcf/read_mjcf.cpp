@@ -18,6 +18,7 @@
 #include "tenon/mjcf/left_out.h"
 #include "tenon/mjcf/mjcf_source.h"
 #include "tenon/mjcf/mujoco_scene.h"
+#include "tenon/mjcf/seen/cameras.h"
 #include "tenon/mjcf/sensors.h"
 #include "tenon/mjcf/shapes/geoms.h"
 #include "tenon/mjcf/shapes/material_table.h"
@@ -99,6 +100,7 @@ robot::RobotModel read_model(MjcfSource& source) {
   attach_drives(actuators, tree.joints);
   attach_mimics(equalities, tree.joints);
   read_sensors(source, tree);
+  read_cameras_and_lights(source, tree);
   robot.mujoco.keyframes = read_keyframes(source, actuators, tree.joints);
   robot.mujoco.scene = read_scene(source);
   report_left_out(source);

@@ -24,6 +24,7 @@
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/engines/mujoco/writable_model.h"
+#include "tenon/mjcf/seen/write_cameras.h"
 #include "tenon/mjcf/text/write_text.h"
 #include "tenon/mjcf/write_actuators.h"
 #include "tenon/mjcf/write_keyframes.h"
@@ -390,6 +391,7 @@ Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::R
   VisualWriter writer(visuals, built.model, *built.spec, seen);
   if (sees) {
     writer.run(scene);
+    write_cameras_and_lights(visuals, scene, built.model, *built.spec, seen);
   }
   Files files(images);
   mjModel* compiled = nullptr;

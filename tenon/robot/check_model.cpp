@@ -79,6 +79,18 @@ class Checks {
       expect_numbers(collider.mujoco.solref, kSolref);
       expect_numbers(collider.mujoco.solimp, kSolimp);
     }
+    for (const Camera& camera : link.cameras) {
+      check_tracking(camera.tracking);
+    }
+    for (const Light& light : link.lights) {
+      check_tracking(light.tracking);
+    }
+  }
+
+  void check_tracking(const MujocoTracking& tracking) {
+    if (tracking.target) {
+      expect_in(*tracking.target, model_.links, "a camera or light follows a link not there");
+    }
   }
 
   void check_joint(const Joint& joint) {

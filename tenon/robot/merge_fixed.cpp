@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Links go down the tree: each is either kept or added to the kept one above it, with its place
+// there. All that named a link or a joint by number is numbered anew at the end.
 #include "tenon/robot/merge_fixed.h"
 
 #include "tenon/math/inertia.h"
@@ -28,6 +31,12 @@ struct Host {
   Index link = 0;  // in the result
   Pose pose;       // of the merged link in it
 };
+
+void renumber(const std::vector<Host>& hosts, MujocoTracking& tracking) {
+  if (tracking.target) {
+    tracking.target = hosts[*tracking.target].link;
+  }
+}
 
 void move_loops(const std::vector<Host>& hosts, RobotModel& result) {
   for (LoopJoint& loop : result.loops) {
@@ -62,6 +71,8 @@ void add_part(const Link& part, const Pose& pose, Link& whole) {
   take_shapes(part.visuals, pose, whole.visuals);
   take_shapes(part.colliders, pose, whole.colliders);
   take_shapes(part.sites, pose, whole.sites);
+  take_shapes(part.cameras, pose, whole.cameras);
+  take_shapes(part.lights, pose, whole.lights);
 }
 
 // Gives the result the links that stay, with their parts; where each link of the model is then.
@@ -138,6 +149,14 @@ RobotModel merge_fixed(const RobotModel& model, const KinematicTree& tree) {
     pair = {hosts[pair[0]].link, hosts[pair[1]].link};
   }
   move_loops(hosts, result);
+  for (Link& link : result.links) {
+    for (Camera& camera : link.cameras) {
+      renumber(hosts, camera.tracking);
+    }
+    for (Light& light : link.lights) {
+      renumber(hosts, light.tracking);
+    }
+  }
   renumber(keep_moving_joints(model, hosts, result), result.mujoco);
   return result;
 }

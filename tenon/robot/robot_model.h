@@ -13,6 +13,7 @@
 #include "tenon/math/matrix.h"
 #include "tenon/math/transform.h"
 #include "tenon/math/vector.h"
+#include "tenon/robot/cameras_and_lights.h"
 #include "tenon/robot/joint_quantity.h"
 #include "tenon/robot/mujoco_parts.h"
 
@@ -165,6 +166,8 @@ struct Link {
   std::vector<Visual> visuals;
   std::vector<Collider> colliders;
   std::vector<Site> sites;
+  std::vector<Camera> cameras;
+  std::vector<Light> lights;
   Place place;
 };
 

@@ -19,6 +19,7 @@
 #include "tenon/bytes/file_kind.h"
 #include "tenon/convert/source/record.h"
 #include "tenon/convert/source/seal.h"
+#include "tenon/describe/describe_visuals.h"
 #include "tenon/layer/fields.h"
 #include "tenon/physics/vendors/read_mujoco_parts.h"
 #include "tenon/robot/mujoco_parts.h"
@@ -115,6 +116,18 @@ std::string name_on(const stage::Stage& stage, Path path) {
   return path.name().str();
 }
 
+/// What is seen, where an edit is about it.
+robot::RobotModel seen_of(const std::vector<PropertyEdit>& edits, const stage::Stage& stage,
+                          const scene::PhysicsScene& scene) {
+  const auto is_seen = [](const PropertyEdit& edit) {
+    return edit.property.starts_with("Camera.") || edit.property.starts_with("Light.");
+  };
+  Diagnostics unsaid;  // nothing of it is written but what was edited
+  return std::any_of(edits.begin(), edits.end(), is_seen)
+             ? describe::describe_visuals(stage, scene, unsaid)
+             : robot::RobotModel();
+}
+
 /// The text with what the asset says otherwise in it; nothing, and a finding, where that cannot be.
 std::optional<std::string> with_edits(const std::string& text,
                                       const std::vector<std::string>& changed,
@@ -130,9 +143,9 @@ std::optional<std::string> with_edits(const std::string& text,
                                          named_few(edits.others.empty() ? changed : edits.others));
     return std::nullopt;
   }
-  const auto patched =
-      patch_model(text, edits.single, scene, physics::read_mujoco_parts(stage, scene),
-                  [&stage](Path prim) { return name_on(stage, prim); });
+  const auto patched = patch_model(
+      text, edits.single, scene, physics::read_mujoco_parts(stage, scene),
+      seen_of(edits.single, stage, scene), [&stage](Path prim) { return name_on(stage, prim); });
   if (!patched || !patched->left.empty()) {
     std::vector<std::string> why;
     for (const UnpatchedEdit& left : patched ? patched->left : std::vector<UnpatchedEdit>()) {

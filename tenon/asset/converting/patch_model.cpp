@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "tenon/asset/converting/model_text.h"
+#include "tenon/asset/converting/patch_seen.h"
 #include "tenon/math/angle.h"
 
 namespace tenon {
@@ -41,6 +42,7 @@ struct Patching {
   ModelText text;
   const PhysicsScene& scene;
   const scene::MujocoParts& parts;
+  const robot::RobotModel& seen;
   const std::function<std::string(Path)>& name_of;
 };
 
@@ -418,6 +420,9 @@ std::string apply_edit(Patching& at, const PropertyEdit& edit) {
       {"material:binding", write_friction},
       {"material:binding:physics", write_friction},
   };
+  if (edit.property.starts_with("Camera.") || edit.property.starts_with("Light.")) {
+    return patch_seen(at.text, at.seen, edit, at.name_of(edit.prim));
+  }
   for (const Rule& rule : kRules) {
     if (rule.property == edit.property) {
       return rule.write(at, edit.prim);
@@ -431,9 +436,10 @@ std::string apply_edit(Patching& at, const PropertyEdit& edit) {
 
 Result<PatchedModel> patch_model(const std::string& text, const std::vector<PropertyEdit>& edits,
                                  const PhysicsScene& scene, const scene::MujocoParts& parts,
+                                 const robot::RobotModel& seen,
                                  const std::function<std::string(Path prim)>& name_of) {
   TENON_TRY(ModelText model, ModelText::read(text));
-  Patching patching{std::move(model), scene, parts, name_of};
+  Patching patching{std::move(model), scene, parts, seen, name_of};
   PatchedModel patched;
   for (const PropertyEdit& edit : edits) {
     if (std::string why = apply_edit(patching, edit); !why.empty()) {

@@ -8,6 +8,7 @@
 
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
+#include "tenon/robot/robot_model.h"
 #include "tenon/scene/mujoco_actuators.h"
 #include "tenon/scene/physics_scene.h"
 
@@ -31,10 +32,12 @@ struct PatchedModel {
 };
 
 /// The text of a model in MuJoCo's format with `edits` in it, each at the attribute that says it.
-/// The numbers are those of `scene` and `parts`, where it is settled which schema counts; things in
-/// the text are called as `name_of` calls their prims. Error where the text is no XML.
+/// The numbers are those of `scene` and `parts`, where it is settled which schema counts, of
+/// cameras and lights those of `seen`, which are called by their paths there; things in the text
+/// are called as `name_of` calls their prims. Error where the text is no XML.
 Result<PatchedModel> patch_model(const std::string& text, const std::vector<PropertyEdit>& edits,
                                  const scene::PhysicsScene& scene, const scene::MujocoParts& parts,
+                                 const robot::RobotModel& seen,
                                  const std::function<std::string(Path prim)>& name_of);
 
 }  // namespace tenon

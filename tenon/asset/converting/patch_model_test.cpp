@@ -45,7 +45,7 @@ scene::PhysicsScene scene_with_joint() {
 
 PatchedModel patched(const char* prim, const char* property,
                      const scene::PhysicsScene& scene = scene_with_joint()) {
-  auto model = patch_model(kModel, {{Path::from(prim), property}}, scene, {},
+  auto model = patch_model(kModel, {{Path::from(prim), property}}, scene, {}, {},
                            [](Path path) { return path.name().str(); });
   EXPECT_TRUE(model);
   return model ? *std::move(model) : PatchedModel();
@@ -87,7 +87,7 @@ TEST(PatchModel, WhatTheModelHasNoPlaceForIsLeftWithTheReason) {
 }
 
 TEST(PatchModel, ATextThatIsNoXmlIsAnError) {
-  EXPECT_FALSE(patch_model("<mujoco>", {}, {}, {}, [](Path) { return std::string(); }));
+  EXPECT_FALSE(patch_model("<mujoco>", {}, {}, {}, {}, [](Path) { return std::string(); }));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "tenon/convert/contacts.h"
+#include "tenon/convert/shapes/cameras.h"
 #include "tenon/convert/shapes/gprims.h"
 
 namespace tenon::convert {
@@ -48,6 +49,12 @@ void ShapeWriter::write(Index link) {
   }
   for (const robot::Site& site : described.sites) {
     write_site(prim, site, names);
+  }
+  for (const robot::Camera& camera : described.cameras) {
+    write_camera(layer_, links_, prim, names, camera);
+  }
+  for (const robot::Light& light : described.lights) {
+    write_light(layer_, links_, prim, names, light);
   }
 }
 

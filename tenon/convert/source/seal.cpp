@@ -40,6 +40,24 @@ bool is_skipped(std::string_view property) {
          property == "extent";
 }
 
+/// What is said of cameras and lights counts apart from what is said of others, so that each edit
+/// of them is known by its prim.
+std::string_view seen_as(Token type) {
+  return type == "Camera"                 ? "Camera."
+         : type.view().ends_with("Light") ? "Light."
+                                          : std::string_view();
+}
+
+/// Of cameras and lights, what MuJoCo's have no word for.
+bool is_skipped_there(std::string_view property) {
+  return starts_with_any(
+      property,
+      {"clippingRange", "clippingPlanes", "fStop", "focusDistance", "shutter:", "exposure",
+       "stereoRole", "light", "collection:", "inputs:diffuse", "inputs:specular",
+       "inputs:enableColorTemperature", "inputs:colorTemperature", "inputs:shadow:distance",
+       "inputs:shadow:falloff", "inputs:shadow:color", "purpose"});
+}
+
 bool is_look(Token type) { return type == "Material" || type == "Shader"; }
 
 template <class T>
@@ -142,7 +160,8 @@ std::string digits_of(std::uint64_t digest) {
 }  // namespace
 
 bool has_parts(std::string_view property) {
-  return std::find(std::begin(kWithParts), std::end(kWithParts), property) != std::end(kWithParts);
+  return starts_with_any(property, {"Camera.", "Light."}) ||
+         std::find(std::begin(kWithParts), std::end(kWithParts), property) != std::end(kWithParts);
 }
 
 void SealMaker::add(Path prim, Token type, const std::string& key, const std::string& contents) {
@@ -183,14 +202,17 @@ void SealMaker::add_prim(Path prim, Token type, const std::vector<Token>& apis) 
 }
 
 void SealMaker::add_value(Path prim, Token type, Token property, const Value& value) {
-  if (!is_skipped(property.view()) && !value.holds<layer::AssetPath>() && !value.empty()) {
-    add(prim, type, property.str(), bytes_of(value));
+  const std::string_view seen = seen_as(type);
+  if (!is_skipped(property.view()) && !value.holds<layer::AssetPath>() && !value.empty() &&
+      (seen.empty() || !is_skipped_there(property.view()))) {
+    add(prim, type, std::string(seen) + property.str(), bytes_of(value));
   }
 }
 
 void SealMaker::add_targets(Path prim, Token type, Token relationship,
                             const std::vector<Path>& targets) {
-  if (is_skipped(relationship.view())) {
+  const std::string_view seen = seen_as(type);
+  if (is_skipped(relationship.view()) || (!seen.empty() && is_skipped_there(relationship.view()))) {
     return;
   }
   if (relationship.view().starts_with("material:binding")) {
@@ -203,7 +225,7 @@ void SealMaker::add_targets(Path prim, Token type, Token relationship,
   for (const Path target : targets) {
     names += target.name().str() + '\0';
   }
-  add(prim, type, relationship.str(), names);
+  add(prim, type, std::string(seen) + relationship.str(), names);
 }
 
 Seal SealMaker::take() {
