@@ -12,6 +12,7 @@
 #include "tenon/asset/layers/asset_layers.h"
 #include "tenon/bake/record_outputs.h"
 #include "tenon/base/text/shown_path.h"
+#include "tenon/engines/engines.h"
 
 namespace tenon::cli {
 namespace {
@@ -63,7 +64,7 @@ void SimulateArguments::add_to(const Command& verb) {
   verb.add_option("--engine", engine,
                   "The engine; without it that of the selected variant: PhysX for physx, else "
                   "MuJoCo (tenon doctor lists those of this build)")
-      .one_of({"mujoco", "physx", "jolt"})
+      .one_of(engines::engine_names())
       .value_name("NAME");
   verb.add_option("--duration", duration, {0, 1e6, false, false, "s"},
                   "Time to simulate; without it the stage's time range, else 5 s")

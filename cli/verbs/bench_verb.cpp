@@ -15,6 +15,7 @@
 #include "tenon/base/text/grouped_digits.h"
 #include "tenon/base/text/rounded_text.h"
 #include "tenon/base/text/shown_path.h"
+#include "tenon/engines/engines.h"
 
 namespace tenon::cli {
 namespace {
@@ -133,7 +134,7 @@ void add_bench(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "How many threads; 0 is as many as there are processors")
       .value_name("COUNT");
   verb.add_option("--engine", options->engine, "The engine; without it as in tenon sim")
-      .one_of({"mujoco", "physx", "jolt"})
+      .one_of(engines::engine_names())
       .value_name("NAME");
   verb.add_option("--duration", options->duration, {0, 1e6, false, false, "s"},
                   "Time to simulate; without it the stage's time range, else 5 s")

@@ -20,6 +20,7 @@
 #if TENON_WITH_VIEW
 #include "tenon/asset/viewing/page_place.h"
 #include "tenon/asset/viewing/view_asset.h"
+#include "tenon/engines/engines.h"
 #include "tenon/glb/simplify_view.h"
 #include "tenon/glb/write_glb.h"
 #include "tenon/live/serve_session.h"
@@ -201,7 +202,7 @@ void add_view(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option("--port", options->port, {0, 65535, false, true, ""}, "0: any that is free");
   verb.add_option("--engine", options->engine,
                   "The engine; without it that of the selected variant")
-      .one_of({"mujoco", "physx", "jolt"})
+      .one_of(engines::engine_names())
       .value_name("NAME");
   verb.add_option("--dt", options->time_step, {1e-9, 10, false, false, "s"},
                   "Time step; without it the asset's, else 0.002 s")

@@ -13,6 +13,7 @@
 #include "tenon/base/assignment.h"
 #include "tenon/open_stage.h"
 #include "tenon/property_value.h"
+#include "tenon/structure/layout.h"
 
 namespace tenon {
 namespace {
@@ -58,14 +59,17 @@ Result<stage::Stage> scene_with_physics(const std::string& asset, OpenOptions op
   if (!root || !open.physics_variant.empty()) {
     return stage;
   }
-  for (const char* variant : {"physics", "physx", "mujoco"}) {
-    const auto names = root.variant_names("Physics");
-    if (std::find(names.begin(), names.end(), variant) != names.end()) {
-      open.physics_variant = variant;
-      return open_stage(asset, open, ignored);
-    }
+  const std::string set(structure::kPhysicsSet);
+  const auto names = root.variant_names(set);
+  const auto known = structure::known_physics_variants();
+  const auto found = std::find_if(known.rbegin(), known.rend(), [&](std::string_view variant) {
+    return std::find(names.begin(), names.end(), variant) != names.end();
+  });
+  if (found == known.rend()) {
+    return stage;
   }
-  return stage;
+  open.physics_variant = *found;
+  return open_stage(asset, open, ignored);
 }
 
 using ReadEdits = std::function<Result<std::vector<AssetEdit>>(const std::string&)>;

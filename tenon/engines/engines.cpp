@@ -24,6 +24,14 @@ constexpr std::array<KnownEngine, 3> kKnownEngines{{
 
 }  // namespace
 
+std::vector<std::string> engine_names() {
+  std::vector<std::string> names;
+  for (const KnownEngine& known : kKnownEngines) {
+    names.emplace_back(known.name);
+  }
+  return names;
+}
+
 std::vector<EngineInfo> list_engines(std::span<const Engine> built) {
   std::vector<EngineInfo> infos;
   for (const Engine& engine : built) {

@@ -38,6 +38,9 @@ struct Engine {
                                                                 Diagnostics& diagnostics) = nullptr;
 };
 
+/// Every engine that there is an adapter of, built in or not, sorted by name. Loads none of them.
+std::vector<std::string> engine_names();
+
 /// The built ones and the known ones that are not built, sorted by name.
 std::vector<EngineInfo> list_engines(std::span<const Engine> built);
 

@@ -8,6 +8,7 @@
 #include "tenon/structure/layout.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "tenon/schema/registry.h"
@@ -221,6 +222,13 @@ std::string file_name(Role role, Names names) {
 }
 
 bool is_engine(Role role) { return kEngines.contains(role); }
+
+std::span<const std::string_view> known_physics_variants() {
+  static const std::array<std::string_view, 4> names{
+      role_name(Role::Physx), role_name(Role::Mujoco), role_name(Role::Newton),
+      role_name(Role::Physics)};
+  return names;
+}
 
 Role role_of_physics_variant(std::string_view variant) {
   for (const Role role : {Role::Physics, Role::Physx, Role::Mujoco, Role::Newton}) {

@@ -64,6 +64,9 @@ std::string file_name(Role role, Names names = Names::Current);
 /// usda, usdc and usd alike. A file at the top is the Interface, one in `payloads/<Set>/` a
 /// Variant.
 Role role_of_file_name(std::string_view place);
+/// Variants of the set "Physics" that have a role of their own, the strongest first: those of
+/// engines, then "physics".
+std::span<const std::string_view> known_physics_variants();
 /// Role of the variant of the set "Physics": Physics, Physx, Mujoco, Newton, else Engine.
 Role role_of_physics_variant(std::string_view variant);
 /// Physx, Mujoco, Newton and Engine.

@@ -229,6 +229,40 @@ class Kinds(Case):
         self.set("--engine", "physx", "--mimic", f"{FOLLOWER}={JOINT},0.5,2")
         self.assertEqual(self.value(f"{FOLLOWER}.physxMimicJoint:rotX:gearing", "physx"), "-0.5")
 
+    def test_a_joint_that_one_engine_alone_has(self):
+        self.hand.write_text('''#usda 1.0
+(
+    defaultPrim = "R"
+)
+
+def Xform "R" (
+    variants = {
+        string Physics = "none"
+    }
+    append variantSets = "Physics"
+)
+{
+    variantSet "Physics" = {
+        "newton" {
+            def Xform "a" (
+                prepend apiSchemas = ["PhysicsRigidBodyAPI"]
+            )
+            {
+            }
+
+            def PhysicsRevoluteJoint "j"
+            {
+                rel physics:body1 = </R/a>
+            }
+        }
+        "none" {
+        }
+    }
+}
+''', encoding="utf-8")
+        self.set("--drive", "/R/j=stiffness:3")
+        self.assertEqual(self.value("/R/j.drive:angular:physics:stiffness", "newton"), "3")
+
     def test_a_material_is_bound_within_what_instances_share(self):
         instances, binding = self.home / "payloads/instances.usda", (
             "            rel material:binding:physics = "

@@ -448,7 +448,8 @@ class Maker {
     if (find(sources_.selection) != nullptr) {
       return sources_.selection;
     }
-    for (const char* name : {"physx", "mujoco", "newton", "physics"}) {
+    for (const std::string_view variant : known_physics_variants()) {
+      std::string name(variant);
       const View* view = find(name);
       if (view != nullptr && view->over && !prims_below(*view->over).empty()) {
         return name;

@@ -14,6 +14,7 @@
 #include "tenon/stage/stage.h"
 #include "tenon/stage/work_account.h"
 #include "tenon/structure/layer_tree.h"
+#include "tenon/structure/layout.h"
 #include "tenon/structure/proof/content.h"
 
 namespace tenon::structure {
@@ -63,9 +64,10 @@ class Composer {
 
 /// The selected view, else that of the strongest engine.
 std::size_t choose(const SourceViews& views) {
-  for (const std::string_view name :
-       {std::string_view(views.selection), std::string_view("physx"), std::string_view("mujoco"),
-        std::string_view("newton"), std::string_view("physics")}) {
+  std::vector<std::string_view> names{views.selection};
+  const auto known = known_physics_variants();
+  names.insert(names.end(), known.begin(), known.end());
+  for (const std::string_view name : names) {
     for (std::size_t i = 0; i < views.physics.size(); ++i) {
       if (views.physics[i].variant == name && name != kNoVariant) {
         return i;
