@@ -103,11 +103,11 @@ class Recordings:
         pixels = self.pixels(clear, 1, "rgba")[0]
         alpha = pixels[..., 3]
         seen = (alpha > 128).mean()
-        # A sphere that fits the height of a 4:3 picture: pi / 4 * 3 / 4 of it.
-        self.hold(0.45 < seen < 0.6, f"clear: {seen:.3f} of the picture is ball")
+        # The box around it fits: its sphere takes half of the height or more, pi / 16 * 3 / 4.
+        self.hold(0.15 < seen < 0.6, f"clear: {seen:.3f} of the picture is ball")
         self.hold(alpha[0, 0] == 0 and alpha[HEIGHT // 2, WIDTH // 2] == 255, "clear: is not clear")
         red, green, blue, _ = pixels[HEIGHT // 2, WIDTH // 2]
-        self.hold(red > 120 and green < 90 and blue < 90,
+        self.hold(red > 2 * green and red > 2 * blue,
                   f"clear: is not red: {red} {green} {blue}")
         far, _ = self.record(scene, "far.png", "--background", "transparent", "--hide", "grid",
                              "--zoom", 0.5, *size)

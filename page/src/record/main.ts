@@ -22,6 +22,10 @@ import type { Film, FixedCamera, Orbit, Outcome, Settings } from "./settings";
 /** Drawn twice as large and made smaller, so that edges are smooth. */
 const oversampling = 2;
 const keyFrameSeconds = 2;
+/** What is looked at leaves this share of the picture free. */
+const margin = 0.06;
+/** Degrees between the angles that a turn is fitted at. */
+const turnStep = 10;
 
 function bytesOf(base64: string): Uint8Array {
   return Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
@@ -48,6 +52,8 @@ class Recording {
   private layers!: Pick<Layers, "set" | "has">;
   private settings!: Settings;
   private readonly canvas = document.createElement("canvas");
+  /** From the middle of what is looked at to the camera, once it is known [m]. */
+  private distance = 0;
   private film: { output: Output; source: CanvasSource; target: BufferTarget; step: number } | null = null;
 
   /** The next piece of the GLB. */
@@ -205,7 +211,23 @@ class Recording {
     }
   }
 
+  /** Looks from an angle. How far away is decided once, so that a film has one size. */
   private orbit(orbit: Orbit, turn: number): void {
+    const { camera, controls } = this.viewer;
+    if (this.distance === 0) {
+      const corners = this.cornersOf(orbit.target);
+      for (let at = 0; at <= Math.abs(orbit.turn); at += turnStep) {
+        this.aim(orbit, Math.sign(orbit.turn) * at);
+        this.distance = Math.max(this.distance, this.fittingDistance(corners));
+      }
+    }
+    this.aim(orbit, turn);
+    const away = camera.position.clone().sub(controls.target).normalize();
+    camera.position.copy(controls.target).addScaledVector(away, this.distance / orbit.zoom);
+    camera.updateMatrixWorld();
+  }
+
+  private aim(orbit: Orbit, turn: number): void {
     const azimuth = THREE.MathUtils.degToRad(orbit.azimuth + turn);
     const elevation = THREE.MathUtils.degToRad(orbit.elevation);
     // In glTF's axes up is Y, and a quarter turn about it takes +X to -Z.
@@ -215,6 +237,35 @@ class Recording {
       -Math.sin(azimuth) * Math.cos(elevation),
     );
     this.viewer.frame(orbit.target, from, orbit.zoom);
+    this.viewer.camera.updateMatrixWorld();
+  }
+
+  /** Corners of the boxes around what is looked at. */
+  private cornersOf(target: string): THREE.Vector3[] {
+    const node = target === "" ? undefined : this.viewer.nodeAt(target);
+    const corners: THREE.Vector3[] = [];
+    for (const one of node ? [node] : this.viewer.fitted) {
+      const { min, max } = new THREE.Box3().setFromObject(one, node === undefined);
+      for (let i = 0; i < 8 && min.x <= max.x; ++i) {
+        const at = (bit: number, axis: "x" | "y" | "z") => ((i >> bit) & 1 ? max[axis] : min[axis]);
+        corners.push(new THREE.Vector3(at(0, "x"), at(1, "y"), at(2, "z")));
+      }
+    }
+    return corners;
+  }
+
+  /** How far the camera has to be from what it looks at so that it sees all of the corners. */
+  private fittingDistance(corners: THREE.Vector3[]): number {
+    const { camera, controls } = this.viewer;
+    const room = Math.tan(THREE.MathUtils.degToRad(camera.fov / 2)) * (1 - margin);
+    const reach = camera.position.distanceTo(controls.target);
+    let distance = corners.length === 0 ? reach : 0;
+    for (const corner of corners) {
+      const seen = corner.clone().applyMatrix4(camera.matrixWorldInverse);
+      const sideways = Math.max(Math.abs(seen.x) / camera.aspect, Math.abs(seen.y));
+      distance = Math.max(distance, seen.z + reach + sideways / room);
+    }
+    return distance;
   }
 
   private lookFrom(camera: FixedCamera): void {

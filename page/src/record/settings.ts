@@ -13,6 +13,8 @@ export interface Orbit {
   zoom: number;
   /** What is looked at: a path; "" is all. */
   target: string;
+  /** How far it goes around in a film [degrees]. */
+  turn: number;
 }
 
 /** A camera of the asset. It looks along its -Z, +Y is up. */

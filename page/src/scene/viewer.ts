@@ -102,6 +102,8 @@ export class Viewer extends EventTarget {
   /** Middle and size of the scene, in glTF's axes [m]. */
   readonly sphere = new THREE.Sphere(new THREE.Vector3(), 1);
   selected = "";
+  /** What the view is fitted to: all that is drawn, but for grounds. */
+  fitted: THREE.Object3D[] = [];
 
   private readonly grid = new THREE.Group();
   private readonly kinds: Record<NodeKind, THREE.Object3D[]> = {
@@ -355,15 +357,17 @@ export class Viewer extends EventTarget {
     const box = new THREE.Box3();
     const seen = this.kinds.visual.length > 0 ? this.kinds.visual : this.kinds.collider;
     const part = new THREE.Box3();
-    const boxes = seen.map((node) => part.clone().setFromObject(node)).filter((b) => !b.isEmpty());
+    const drawn = seen
+      .map((node) => ({ node, box: part.clone().setFromObject(node) }))
+      .filter((one) => !one.box.isEmpty());
+    const boxes = drawn.map((one) => one.box);
     // Grounds are large beside what stands on them: what is twenty times the middle one is none.
     const sizes = boxes.map((b) => b.getSize(new THREE.Vector3()).length()).sort((a, b) => a - b);
     const middle = sizes[Math.floor(sizes.length / 2)] ?? 0;
-    for (const one of boxes) {
-      if (boxes.length === 1 || one.getSize(new THREE.Vector3()).length() <= 20 * middle) {
-        box.union(one);
-      }
-    }
+    const fits = (one: THREE.Box3) =>
+      boxes.length === 1 || one.getSize(new THREE.Vector3()).length() <= 20 * middle;
+    this.fitted = drawn.filter((one) => fits(one.box)).map((one) => one.node);
+    boxes.filter(fits).forEach((one) => box.union(one));
     if (box.isEmpty()) {
       for (const body of this.bodies) {
         box.expandByPoint(body.getWorldPosition(new THREE.Vector3()));

@@ -56,7 +56,8 @@ Json orbit_json(const RecordCamera& camera) {
   return {{"azimuth", camera.azimuth},
           {"elevation", camera.elevation},
           {"zoom", camera.zoom},
-          {"target", camera.target}};
+          {"target", camera.target},
+          {"turn", camera.turn}};
 }
 
 Json settings_json(const RecordOptions& options, const std::optional<view::ViewCamera>& camera) {
