@@ -15,6 +15,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tenon/base/limits/browser_limits.h"
 #include "tenon/base/text/base64.h"
 #include "tenon/bytes/write/temporary_folder.h"
 #include "tenon/guard/driven_program.h"
@@ -28,8 +29,6 @@ using guard::Waiting;
 using std::chrono::milliseconds;
 
 constexpr const char* kAddress = "http://localhost/tenon";  // counts as safe, as films need
-constexpr std::size_t kLongestAnswer = 128u << 20;
-constexpr std::size_t kLongestPage = 64u << 20;  // Chromium takes messages of 100 MB
 constexpr std::size_t kMostMessages = 50;
 constexpr milliseconds kSlice{200};
 
@@ -95,6 +94,12 @@ std::vector<std::string> arguments_of(const BrowserOptions& options, const std::
   return arguments;
 }
 
+/// Whatever it leaves anywhere goes with the profile.
+std::vector<std::string> environment_of(const std::string& profile) {
+  return {"TMPDIR=" + profile, "XDG_CACHE_HOME=" + profile + "/cache",
+          "XDG_CONFIG_HOME=" + profile + "/config"};
+}
+
 }  // namespace
 
 struct BrowserPage::State {
@@ -125,8 +130,9 @@ Result<void> BrowserPage::State::start(std::size_t width, std::size_t height) {
   TENON_TRY(program, find_browser(options.program));
   TENON_TRY(profile, bytes::TemporaryFolder::make());
   TENON_TRY(process,
-            DrivenProgram::start(program, arguments_of(options, profile.path(), width, height),
-                                 kLongestAnswer));
+            DrivenProgram::start(program, {arguments_of(options, profile.path(), width, height),
+                                           environment_of(profile.path()),
+                                           limits::kBrowserAnswer}));
   TENON_TRY(const Json about, call("Browser.getVersion", Json::object()));
   version = text_at(about, "product");
   return attach(width, height);
@@ -300,7 +306,7 @@ Error BrowserPage::State::ended() const {
 Result<std::unique_ptr<BrowserPage>> BrowserPage::open(const BrowserOptions& options,
                                                        std::string_view html, std::size_t width,
                                                        std::size_t height) {
-  if (html.size() > kLongestPage) {
+  if (html.size() > limits::kBrowserPage) {
     return fault(ErrorCode::Limit, "browser.page-too-large",
                  "the page is too large to be handed to a browser: " +
                      std::to_string(html.size() >> 20) + " MB")

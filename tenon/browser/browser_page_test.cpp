@@ -182,7 +182,7 @@ TEST_F(FakeBrowser, LeavesNoProfile) {
   const auto page = open(
       "for word in \"$@\"; do case $word in --user-data-dir=*) folder=${word#*=};"
       "esac; done; echo $folder > " +
-      kept + "; echo x > $folder/file; exit 1");
+      kept + "; echo x > $folder/file; echo x > $TMPDIR/other; exit 1");
   ASSERT_FALSE(page);
   std::string profile;
   std::ifstream(kept) >> profile;

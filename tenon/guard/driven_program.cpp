@@ -59,6 +59,30 @@ struct DrivenSocket {
   }
 };
 
+/// As C has lists of texts.
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) {
+    pointers.push_back(text.data());
+  }
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// The environment of this process with some of it replaced.
+std::vector<std::string> environment_with(const std::vector<std::string>& more) {
+  std::vector<std::string> all = more;
+  for (char** row = environ; *row != nullptr; ++row) {
+    const std::string_view kept = *row;
+    const std::string_view name = kept.substr(0, kept.find('=') + 1);
+    if (std::none_of(more.begin(), more.end(),
+                     [&](const std::string& one) { return one.starts_with(name); })) {
+      all.emplace_back(kept);
+    }
+  }
+  return all;
+}
+
 /// What posix_spawn is told.
 class DrivenSettings {
  public:
@@ -88,17 +112,13 @@ class DrivenSettings {
     posix_spawnattr_destroy(&attributes_);
   }
 
-  int spawn(const std::string& program, const std::vector<std::string>& arguments,
+  int spawn(const std::string& program, const DrivenProgram::Settings& settings,
             pid_t& process) const {
     std::vector<std::string> words{program};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> pointers;
-    for (std::string& word : words) {
-      pointers.push_back(word.data());
-    }
-    pointers.push_back(nullptr);
-    return posix_spawn(&process, program.c_str(), &actions_, &attributes_, pointers.data(),
-                       environ);
+    words.insert(words.end(), settings.arguments.begin(), settings.arguments.end());
+    std::vector<std::string> environment = environment_with(settings.environment);
+    return posix_spawn(&process, program.c_str(), &actions_, &attributes_,
+                       pointers_to(words).data(), pointers_to(environment).data());
   }
 
  private:
@@ -145,8 +165,8 @@ std::optional<std::string> find_program(const std::vector<std::string>& names) {
 
 bool runs_as_root() { return geteuid() == 0; }
 
-Result<std::unique_ptr<DrivenProgram>> DrivenProgram::start(
-    const std::string& program, const std::vector<std::string>& arguments, std::size_t longest) {
+Result<std::unique_ptr<DrivenProgram>> DrivenProgram::start(const std::string& program,
+                                                            const Settings& settings) {
   DrivenSocket to;
   DrivenSocket from;
   DrivenSocket errors;
@@ -156,7 +176,7 @@ Result<std::unique_ptr<DrivenProgram>> DrivenProgram::start(
     reason = errno;
   } else {
     reason = DrivenSettings(to.theirs, from.theirs, errors.theirs)
-                 .spawn(program, arguments, started.process);
+                 .spawn(program, settings, started.process);
   }
   for (DrivenSocket* socket : {&to, &from, &errors}) {
     DrivenSocket::drop(socket->theirs);
@@ -170,7 +190,7 @@ Result<std::unique_ptr<DrivenProgram>> DrivenProgram::start(
   started.to = to.ours;
   started.from = from.ours;
   started.errors = errors.ours;
-  return std::make_unique<DrivenProgram>(started, longest);
+  return std::make_unique<DrivenProgram>(started, settings.longest);
 }
 
 DrivenProgram::~DrivenProgram() { end(); }

@@ -40,11 +40,14 @@ class DrivenProgram {
  public:
   using Milliseconds = std::chrono::milliseconds;
 
-  /// Starts `program`, a path. `longest` is what a message of it may have [bytes]. Errors: Missing
-  /// where it cannot be started.
+  struct Settings {
+    std::vector<std::string> arguments;
+    std::vector<std::string> environment;  ///< "NAME=value", over that of this process
+    std::size_t longest = 1u << 20;        ///< what a message of it may have [bytes]
+  };
+  /// Starts `program`, a path. Errors: Missing where it cannot be started.
   static Result<std::unique_ptr<DrivenProgram>> start(const std::string& program,
-                                                      const std::vector<std::string>& arguments,
-                                                      std::size_t longest);
+                                                      const Settings& settings);
   /// Of `start`: the process and this side of its sockets.
   struct Started {
     pid_t process = 0;

@@ -31,7 +31,8 @@ class DrivenProgramTest : public testing::Test {
   /// The shell with a script.
   static std::unique_ptr<DrivenProgram> shell(const std::string& script,
                                               std::size_t longest = kLongest) {
-    auto driven = DrivenProgram::start("/bin/sh", {"-c", script}, longest);
+    auto driven = DrivenProgram::start(
+        "/bin/sh", {{"-c", script}, {"TENON_PLANTED=seen", "HOME=/planted"}, longest});
     EXPECT_TRUE(driven) << driven.error().to_string();
     return driven ? *std::move(driven) : nullptr;
   }
@@ -121,8 +122,15 @@ TEST_F(DrivenProgramTest, GetsNoOtherDescriptors) {
   }
 }
 
+TEST_F(DrivenProgramTest, HasTheEnvironmentWithSomeOfItReplaced) {
+  const auto driven = shell("printf '%s %s %s\\0' $TENON_PLANTED $HOME \"$PATH\" >&4");
+  std::string message;
+  ASSERT_EQ(driven->receive(message, milliseconds(10'000)), Waiting::Done);
+  EXPECT_EQ(message, "seen /planted " + std::string(std::getenv("PATH")));
+}
+
 TEST_F(DrivenProgramTest, ThatIsNotThereIsMissing) {
-  const auto driven = DrivenProgram::start((folder_ / "none").string(), {}, kLongest);
+  const auto driven = DrivenProgram::start((folder_ / "none").string(), {});
   ASSERT_FALSE(driven);
   EXPECT_EQ(driven.error().code(), ErrorCode::Missing);
   EXPECT_EQ(driven.error().diagnostic().file, (folder_ / "none").string());

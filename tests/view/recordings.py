@@ -11,6 +11,7 @@ Exit 0: all good; 1: a line for each fault; 77: no Chromium or no ffmpeg here.
 """
 
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -172,11 +173,13 @@ def main():
     if not browser["available"] or not shutil.which("ffmpeg"):
         print(browser["howToGet"] or "install ffmpeg")
         return 77
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as place:
+        os.environ["TMPDIR"] = os.environ["HOME"] = place
         recordings = Recordings(pathlib.Path(folder))
         recordings.pictures()
         recordings.looks()
         recordings.films()
+        recordings.hold(not os.listdir(place), f"left behind: {os.listdir(place)}")
     for fault in recordings.faults:
         print(fault)
     print(f"{recordings.made} recordings by {browser['version']} decoded, "

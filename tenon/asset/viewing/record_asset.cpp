@@ -10,20 +10,18 @@
 #include <cmath>
 #include <utility>
 
-#include "tenon/asset/physics_options.h"
 #include "tenon/asset/viewing/page_place.h"
 #include "tenon/asset/viewing/record_page.h"
 #include "tenon/asset/viewing/report_asset.h"
 #include "tenon/asset/viewing/view_asset.h"
+#include "tenon/base/limits/browser_limits.h"
 #include "tenon/glb/simplify_view.h"
 #include "tenon/glb/write_glb.h"
-#include "tenon/physics/read_physics.h"
 #include "tenon/view/view_camera.h"
 
 namespace tenon {
 namespace {
 
-constexpr double kMostFrames = 100'000;
 constexpr double kStillFrames = 60;  // per second, that the motion before a picture has at least
 
 Error refused(const char* rule, std::string message, std::string fix) {
@@ -39,7 +37,7 @@ bool asks_for(const std::vector<std::string>& names, const char* name) {
 /// Of a motion of so many seconds; a frame at least.
 Result<double> frames_of(const RecordOptions& options, double duration) {
   const double frames = std::round(duration * options.frames_per_second / options.speed);
-  if (frames > kMostFrames) {
+  if (frames > static_cast<double>(limits::kFilmFrames)) {
     return Error(ErrorCode::Limit, "the film would have more than 100,000 frames")
         .with_rule("record.frames")
         .with_fix("choose a shorter --duration, fewer --fps or a higher --speed");
@@ -118,13 +116,7 @@ Result<SimulatedAsset> run_or_read(const std::string& path, const RecordOptions&
   if (is_film(options) || options.time > 0) {
     return simulate_asset(path, run_of_recording(options), diagnostics);
   }
-  SimulatedAsset read;
-  const OpenOptions open = with_readings(options.run.open, options.run.readings);
-  TENON_TRY(stage::Stage stage, open_stage(path, open, diagnostics));
-  read.stage = std::make_unique<stage::Stage>(std::move(stage));
-  read.scene = std::make_unique<scene::PhysicsScene>(
-      physics::read_physics(*read.stage, read_options(options.run.readings), diagnostics));
-  return read;
+  return asset_at_start(path, options.run, diagnostics);
 }
 
 /// What the browser is to draw.

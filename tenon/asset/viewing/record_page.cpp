@@ -10,6 +10,7 @@
 
 #include "tenon/answers/json.h"
 #include "tenon/asset/viewing/page_place.h"
+#include "tenon/base/limits/browser_limits.h"
 #include "tenon/base/text/base64.h"
 
 namespace tenon {
@@ -169,6 +170,11 @@ Result<std::string> RecordPage::taken(const std::string& script) {
   const auto found = made.find("size");
   const std::size_t size =
       found != made.end() && found->is_number_unsigned() ? found->get<std::size_t>() : 0;
+  if (size > limits::kFilmBytes) {
+    return Error(ErrorCode::Limit, "the film is larger than 2 GB")
+        .with_rule("record.size")
+        .with_fix("choose a shorter --duration or a lower --bitrate");
+  }
   std::string bytes;
   while (bytes.size() < size) {
     const std::size_t count = std::min(size - bytes.size(), kRecordPiece);

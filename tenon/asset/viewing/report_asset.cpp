@@ -14,14 +14,12 @@
 #include "tenon/asset/check_asset.h"
 #include "tenon/asset/comparing_engines/compared_engines_json.h"
 #include "tenon/asset/comparing_engines/svg_plot.h"
-#include "tenon/asset/physics_options.h"
 #include "tenon/asset/viewing/page_place.h"
 #include "tenon/asset/viewing/view_asset.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/gzip.h"
 #include "tenon/glb/simplify_view.h"
 #include "tenon/glb/write_glb.h"
-#include "tenon/physics/read_physics.h"
 
 namespace tenon {
 namespace {
@@ -143,13 +141,7 @@ Result<SimulatedAsset> run_or_open(const std::string& path, const ReportOptions&
     why.severity = Severity::Warning;
     diagnostics.add(std::move(why));
   }
-  SimulatedAsset read;
-  const OpenOptions open = with_readings(options.run.open, options.run.readings);
-  TENON_TRY(stage::Stage stage, open_stage(path, open, diagnostics));
-  read.stage = std::make_unique<stage::Stage>(std::move(stage));
-  read.scene = std::make_unique<scene::PhysicsScene>(
-      physics::read_physics(*read.stage, read_options(options.run.readings), diagnostics));
-  return read;
+  return asset_at_start(path, options.run, diagnostics);
 }
 
 Result<Json> findings_of(const std::string& path, const ReportOptions& options) {

@@ -4,9 +4,11 @@
 
 #include <map>
 
+#include "tenon/asset/physics_options.h"
 #include "tenon/asset_policy.h"
 #include "tenon/glb/simplify_view.h"
 #include "tenon/glb/write_glb.h"
+#include "tenon/physics/read_physics.h"
 #include "tenon/view/make_view.h"
 
 namespace tenon {
@@ -21,6 +23,17 @@ view::ViewScene view_of_asset(const stage::Stage& stage, const scene::PhysicsSce
     return bytes ? std::optional<std::string>((*bytes)->text()) : std::nullopt;
   };
   return view::make_view(stage, scene, options);
+}
+
+Result<SimulatedAsset> asset_at_start(const std::string& path, const SimulateAssetOptions& options,
+                                      Diagnostics& diagnostics) {
+  SimulatedAsset read;
+  const OpenOptions open = with_readings(options.open, options.readings);
+  TENON_TRY(stage::Stage stage, open_stage(path, open, diagnostics));
+  read.stage = std::make_unique<stage::Stage>(std::move(stage));
+  read.scene = std::make_unique<scene::PhysicsScene>(
+      physics::read_physics(*read.stage, read_options(options.readings), diagnostics));
+  return read;
 }
 
 void report_notes(const view::ViewScene& view, Diagnostics& diagnostics) {

@@ -22,6 +22,11 @@ namespace tenon {
 view::ViewScene view_of_asset(const stage::Stage& stage, const scene::PhysicsScene& scene,
                               const std::string& path, const OpenOptions& open, bool colliders);
 
+/// The asset at `path` as a run of it would begin: the stage and the scene alone, no simulation.
+/// Errors: those of open_stage.
+Result<SimulatedAsset> asset_at_start(const std::string& path, const SimulateAssetOptions& options,
+                                      Diagnostics& diagnostics);
+
 /// What could not be shown, as findings "view.left-out"; of the same kind the first one and how
 /// many there are.
 void report_notes(const view::ViewScene& view, Diagnostics& diagnostics);

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+/// Limits on what is asked of a browser that draws pictures and films, and on what it answers.
+namespace tenon::limits {
+
+inline constexpr std::size_t kBrowserPage = 67'108'864;     ///< bytes of a page that it shows
+inline constexpr std::size_t kBrowserAnswer = 134'217'728;  ///< bytes of a message from it
+inline constexpr std::size_t kFilmFrames = 100'000;         ///< of a film
+inline constexpr std::size_t kFilmBytes = 2'147'483'648;    ///< of what it has made
+
+}  // namespace tenon::limits
