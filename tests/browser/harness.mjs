@@ -8,7 +8,7 @@ import { spawn, spawnSync } from "node:child_process";
 import { cpSync, existsSync, mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { pathToFileURL } from "node:url";
 
 export const patience = 60_000; // ms until something that has to come is missed
@@ -58,6 +58,7 @@ export async function until(ask, what, milliseconds = patience) {
 export class Viewer {
   constructor(program, asset, options = []) {
     this.process = spawn(program, ["view", "--json", asset, ...options], {
+      cwd: dirname(asset), // so that the page names files in few words
       stdio: ["ignore", "pipe", "pipe"],
     });
     this.said = "";
@@ -74,6 +75,7 @@ export class Viewer {
     );
     hold(this.said.endsWith("\n}\n"), `tenon view has ended: ${this.complained}`);
     this.url = JSON.parse(this.said).url;
+    hold(this.url, `tenon view refuses: ${this.said}`);
     return this;
   }
 

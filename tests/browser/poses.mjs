@@ -32,8 +32,9 @@ export const inverse = ({ p, q }) => {
 
 /** Metres, and radians, between two. */
 export const apart = (a, b) => {
-  const dot = Math.abs(a.q.reduce((sum, x, i) => sum + x * b.q[i], 0));
-  return [Math.hypot(...a.p.map((x, i) => x - b.p[i])), 2 * Math.acos(Math.min(1, dot))];
+  const { q } = product(inverse(a), b);
+  const turned = 2 * Math.asin(Math.min(1, Math.hypot(q[0], q[1], q[2])));
+  return [Math.hypot(...a.p.map((x, i) => x - b.p[i])), turned];
 };
 
 /** A frame of `tenon physics --json`, whose orientation begins with its real part. */

@@ -3,7 +3,7 @@
 //
 // All properties of the selected prim: who says what and why it counts, and edits, whose effect is
 // told where they were made.
-import { h, table } from "../panel/dom";
+import { figure, h, table } from "../panel/dom";
 import type { HelloNotice } from "./connection";
 import { type Session, attempt } from "./session";
 
@@ -36,11 +36,19 @@ interface Edited {
   physics: { variant: string | null; differences: Difference[] }[];
 }
 
-const plain = (value: unknown): string =>
-  typeof value === "string" ? value : value === null ? "none" : JSON.stringify(value);
+function plain(value: unknown): string {
+  if (typeof value === "number") {
+    return figure(value, 6);
+  }
+  return typeof value === "string" ? value : value === null ? "none" : JSON.stringify(value);
+}
+
+const fileName = (path: string): string => path.slice(path.lastIndexOf("/") + 1);
 
 export class Details {
   private readOnly = false;
+  /** Properties that people have opened: they stay so when the selection is drawn anew. */
+  private readonly opened = new Set<string>();
   /** What the last edit did; shown again when the selection is drawn anew after it. */
   private effect: { object: string; text: HTMLElement } | null = null;
 
@@ -70,7 +78,12 @@ export class Details {
       this.effect?.object.startsWith(`${prim}.`) ? this.effect.text : null,
       ...rows(authored),
       others.length > 0
-        ? h("details", {}, h("summary", {}, `${others.length} that nobody has set`), ...rows(others))
+        ? h(
+            "details",
+            { open: others.some((one) => this.opened.has(`${prim}.${one.name}`)) },
+            h("summary", {}, `${others.length} that nobody has set`),
+            ...rows(others),
+          )
         : null,
     );
   }
@@ -83,7 +96,9 @@ export class Details {
       {
         class: "property",
         "data-property": property.name,
+        open: this.opened.has(object),
         ontoggle: () => {
+          row.open ? this.opened.add(object) : this.opened.delete(object);
           if (row.open && place.childElementCount === 0) {
             void this.open(object, property, place);
           }
@@ -155,8 +170,9 @@ export class Details {
     if (!edited || !place) {
       return;
     }
-    const where = `${place.file}${place.line ? `:${place.line}` : ""}`;
-    const title = `${place.before ?? "none"} -> ${place.after ?? "none"} in ${where} (${place.why})`;
+    const line = place.line ? `:${place.line}` : "";
+    const change = `${place.before ?? "none"} -> ${place.after ?? "none"}`;
+    const title = `${change} in ${place.file}${line} (${place.why})`;
     const differences = edited.physics.flatMap((effect) => effect.differences);
     const rows = differences
       .slice(0, 20)
@@ -170,7 +186,7 @@ export class Details {
         h("ul", {}, ...[...new Set(rows)].map((row) => h("li", {}, row))),
       ),
     };
-    this.session.messages.say(title);
+    this.session.messages.say(`${change} in ${fileName(place.file)}${line}`);
     this.session.panel.inspector.update();
   }
 }

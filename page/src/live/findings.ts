@@ -6,6 +6,14 @@ import { h, nameOf } from "../panel/dom";
 import type { Finding, SceneNotice } from "./connection";
 import { type Session, attempt } from "./session";
 
+/** What is worst comes first. */
+const rank = (finding: Finding): number => ["error", "warning", "info"].indexOf(finding.severity);
+
+const count = (findings: Finding[], severity: string): string => {
+  const found = findings.filter((one) => one.severity === severity).length;
+  return `${found} ${severity}${found === 1 ? "" : "s"}`;
+};
+
 export class Findings {
   private readonly page: HTMLElement;
   private readonly list = h("div");
@@ -24,11 +32,14 @@ export class Findings {
   private async look(): Promise<void> {
     this.list.replaceChildren(h("p", { role: "status" }, "Looking..."));
     const answer = await attempt<{ diagnostics: Finding[] }>(this.session, "findings");
-    this.show(answer?.diagnostics ?? [], answer ? "" : "It could not be checked.", answer !== null);
+    const found = answer?.diagnostics ?? [];
+    const counts = ["error", "warning", "info"].map((severity) => count(found, severity)).join(", ");
+    this.show(found, answer ? `Found: ${counts}.` : "It could not be checked.", answer !== null);
   }
 
   private show(findings: Finding[], title: string, looked = false): void {
-    const items = findings.map((finding) => this.item(finding));
+    const sorted = [...findings].sort((a, b) => rank(a) - rank(b));
+    const items = sorted.map((finding) => this.item(finding));
     const none = looked && items.length === 0 ? [h("p", {}, "Nothing to find fault with.")] : [];
     const head = title && (items.length > 0 || looked) ? [h("p", {}, title)] : [];
     this.list.replaceChildren(...head, ...none, h("ul", { class: "findings" }, ...items));

@@ -79,14 +79,19 @@ function main(): void {
     if (scene.why === "file") {
       messages.say("A file has changed: opened again.");
     }
-    if (scene.problem && scene.problem.severity === "error") {
-      messages.complain(scene.problem);
+    const wrong = [...scene.opening, scene.problem].find((one) => one?.severity === "error");
+    if (wrong && scene.why !== "reset" && scene.why !== "engine") {
+      messages.complain(wrong);
     }
   });
   connection.on<Float32Array>("frame", (frame) => picture.pose(frame));
   connection.on<ContactsNotice>("contacts", (notice) => panel.viewer.overlays.setContacts(notice.rows));
   connection.on<{ problem: Finding }>("problem", (notice) => messages.complain(notice.problem));
-  connection.on("closed", () => messages.complain("tenon view does not answer; it is tried again."));
+  connection.on("closed", () =>
+    messages.complain(
+      "tenon view does not answer; it is tried again. One that was started anew has another address.",
+    ),
+  );
   connection.on("open", () => {
     messages.element.replaceChildren();
     void attempt(session, "observe", { contacts: true, plots: true });

@@ -4,7 +4,7 @@
 // Sliders. While time stands still they move joints by hand; while it goes on, and for joints with
 // drives, they say what the drive is to reach. One request is under way at a time for each slider,
 // and the newest value follows it.
-import { figure, h, nameOf } from "../panel/dom";
+import { h, nameOf } from "../panel/dom";
 import type { LiveDof, LiveJoint, PlotsNotice, SceneNotice } from "./connection";
 import { type Session, attempt } from "./session";
 
@@ -36,8 +36,11 @@ class Sender {
   }
 }
 
-const shown = (dof: LiveDof, value: number): string =>
-  dof.angular ? `${figure(value * degrees, 4)} deg` : `${figure(value * 1000, 4)} mm`;
+/** Hundredths of a degree or millimetre: what is less is no motion that one sees. */
+const shown = (dof: LiveDof, value: number): string => {
+  const rounded = Math.round(value * (dof.angular ? degrees : 1000) * 100) / 100 + 0;
+  return `${rounded} ${dof.angular ? "deg" : "mm"}`;
+};
 
 export class Move {
   private readonly page: HTMLElement;

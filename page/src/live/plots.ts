@@ -45,6 +45,10 @@ class Chart {
       this.times = [];
       this.lines.forEach((line) => (line.values = []));
     }
+    if (time === this.times[this.times.length - 1]) {
+      this.times.pop();
+      this.lines.forEach((line) => line.values.pop());
+    }
     this.times.push(time);
     this.lines.forEach((line, i) => line.values.push(values[i] ?? 0));
     const old = this.times.findIndex((one) => one >= time - window_);

@@ -52,6 +52,7 @@ export class Tools {
     });
     session.connection.on<SceneNotice>("scene", (notice) => this.showScene(notice));
     session.connection.on<StateNotice>("state", (notice) => this.showState(notice));
+    session.connection.on("closed", () => this.movers.forEach((button) => (button.disabled = true)));
     document.addEventListener("keydown", (event) => this.key(event));
   }
 

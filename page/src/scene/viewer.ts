@@ -18,13 +18,32 @@ const themes = {
 
 const highlight = new THREE.Color(0x2f7fe0);
 
-/** Whether pictures are computed by the processor. */
-function isSoftware(): boolean {
-  const context = document.createElement("canvas").getContext("webgl2");
-  const names = context?.getExtension("WEBGL_debug_renderer_info");
-  const name = names ? String(context!.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
-  context?.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+interface Graphics {
+  canvas: HTMLCanvasElement;
+  context: WebGL2RenderingContext | null;
+  /** Pictures are computed by the processor. */
+  software: boolean;
+}
+
+/** What is drawn with. Unless it is said, edges are smoothed where that is not software's work. */
+function openGraphics(antialias: boolean | undefined): Graphics {
+  const open = (smooth: boolean) => {
+    const canvas = document.createElement("canvas");
+    const context = canvas.getContext("webgl2", {
+      antialias: smooth,
+      preserveDrawingBuffer: true,
+    });
+    return { canvas, context };
+  };
+  const first = open(antialias ?? false);
+  const names = first.context?.getExtension("WEBGL_debug_renderer_info");
+  const name = names ? String(first.context!.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  const software = /swiftshader|llvmpipe|software|basic render/i.test(name);
+  if (software || antialias !== undefined) {
+    return { ...first, software };
+  }
+  first.context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return { ...open(true), software };
 }
 
 export interface ViewerOptions {
@@ -90,7 +109,7 @@ export class Viewer extends EventTarget {
   readonly camera = new THREE.PerspectiveCamera(35, 1, 0.001, 1000);
   readonly renderer: THREE.WebGLRenderer;
   readonly controls: OrbitControls;
-  readonly software = isSoftware();
+  readonly software: boolean;
   readonly overlays = new Overlays(this);
   info: SceneInfo = noScene;
   /** What stands in the world's axes: its children are the bodies and the world's own node. */
@@ -123,10 +142,12 @@ export class Viewer extends EventTarget {
     { antialias, alpha = false, animated = true }: ViewerOptions = {},
   ) {
     super();
+    const graphics = openGraphics(antialias);
+    this.software = graphics.software;
     this.renderer = new THREE.WebGLRenderer({
-      antialias: antialias ?? !this.software,
+      canvas: graphics.canvas,
+      context: graphics.context ?? undefined,
       alpha,
-      preserveDrawingBuffer: true,
     });
     this.renderer.setPixelRatio(this.software ? 1 : Math.min(devicePixelRatio, 2));
     this.renderer.toneMapping = THREE.NeutralToneMapping;
