@@ -125,6 +125,15 @@ void write_own_mass(RobotLayer& layer, Path path, const robot::Link& link) {
   }
 }
 
+/// PhysX can only switch it off; the number is this program's own.
+void write_gravity(LayerBuilder& builder, Path prim, double scale) {
+  builder.set_custom(prim, "tenon:gravityScale", "float", Value(static_cast<float>(scale)));
+  if (scale == 0) {
+    builder.apply(prim, "PhysxRigidBodyAPI");
+    builder.set_value(prim, "PhysxRigidBodyAPI", "physxRigidBody:disableGravity", Value(true));
+  }
+}
+
 }  // namespace
 
 void write_body(const Source& source, const LinkPrims& links, Index number, RobotLayer& layer) {
@@ -155,6 +164,9 @@ void write_body(const Source& source, const LinkPrims& links, Index number, Robo
     write_no_mass(layer, model, prim, link);
   }
   layer.builder().apply(prim.path, "IsaacLinkAPI");
+  if (link.gravity_scale != 1) {
+    write_gravity(layer.builder(), prim.path, link.gravity_scale);
+  }
 }
 
 void write_excluded_pairs(const robot::RobotModel& model, const LinkPrims& links,

@@ -30,6 +30,9 @@ void write_site_sensor(RobotLayer& layer, Path site, const SiteSensor& sensor, N
   const Token type(contact ? "IsaacContactSensor" : "IsaacImuSensor");
   const Path prim = layer.define(
       site, names, sensor.name.empty() ? (contact ? "contact" : "imu") : sensor.name, type);
+  if (sensor.period > 0) {
+    builder.set_number(prim, type, "sensorPeriod", sensor.period);
+  }
   if (contact) {
     builder.set_number(prim, type, "radius", sensor.radius);
     builder.set_value(prim, type, "threshold",

@@ -37,9 +37,7 @@ robot::Link read_link(MjcfSource& source, int body) {
   if (model.body_mocapid[body] >= 0) {
     source.left_out("the body \"" + link.name + "\" is moved by mocap; it is held instead");
   }
-  if (model.body_gravcomp[body] != 0) {
-    source.left_out("the gravity compensation of body \"" + link.name + "\" is left out");
-  }
+  link.gravity_scale = 1 - model.body_gravcomp[body];
   return link;
 }
 

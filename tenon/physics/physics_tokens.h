@@ -26,6 +26,7 @@ struct PhysicsTokens {
   Token physx_linear_damping{"physxRigidBody:linearDamping"};
   Token physx_angular_damping{"physxRigidBody:angularDamping"};
   Token physx_disable_gravity{"physxRigidBody:disableGravity"};
+  Token gravity_scale{"tenon:gravityScale"};
   // mass
   Token mass{"physics:mass"};
   Token density{"physics:density"};

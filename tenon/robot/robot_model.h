@@ -150,7 +150,8 @@ enum class SiteSensorKind : std::uint8_t {
 struct SiteSensor {
   std::string name;
   SiteSensorKind kind = SiteSensorKind::Imu;
-  double radius = 0;  ///< of Contact [m]
+  double radius = 0;  ///< of Contact [m]; below 0: the whole link
+  double period = 0;  ///< from one measurement to the next [s]; 0: always
 };
 
 /// A named frame on a link.
@@ -168,6 +169,7 @@ struct Link {
   std::vector<Site> sites;
   std::vector<Camera> cameras;
   std::vector<Light> lights;
+  double gravity_scale = 1;  ///< times gravity
   Place place;
 };
 

@@ -57,7 +57,6 @@ struct Extension {
   const char* what;
 };
 constexpr Extension kExtensions[] = {
-    {"gazebo", "settings for Gazebo"},
     {"transmission", "a transmission of ros_control"},
     {"ros2_control", "hardware of ros2_control"},
     {"mujoco", "settings of MuJoCo's own reading"},
@@ -90,6 +89,9 @@ Result<robot::RobotModel> UrdfReader::run(pugi::xml_node robot) {
     TENON_CHECK(read_joint(child));
   }
   TENON_CHECK(read_mimics());
+  for (const pugi::xml_node child : robot.children("gazebo")) {
+    read_gazebo(child);
+  }
   for (const pugi::xml_node child : robot.children()) {
     for (const Extension& extension : kExtensions) {
       if (extension.name == child.name()) {

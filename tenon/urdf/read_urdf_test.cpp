@@ -197,13 +197,64 @@ TEST_F(ReadUrdf, TakesALimitWithoutBoundsAsNone) {
 TEST_F(ReadUrdf, ListsWhatItLeavesOut) {
   ASSERT_TRUE(
       read("<link name='a' color='red'>\n<visual><geometry><box size='1 1 1'/></geometry>\n"
-           "<shadow/></visual></link>\n<gazebo reference='a'/>\n<transmission name='t'/>\n"
+           "<shadow/></visual></link>\n<gazebo/>\n<transmission name='t'/>\n"
            "<mujoco/>\n<plugin/>\n"));
   EXPECT_EQ(found(),
             "urdf.left-out:8 urdf.left-out:2 urdf.left-out:4 urdf.extension:5 urdf.extension:6 "
             "urdf.extension:7 ");
   ASSERT_TRUE(read(joint("revolute", "")));
   EXPECT_EQ(found(), "urdf.missing:3 ");
+}
+
+TEST_F(ReadUrdf, TakesWhatGazeboSaysOfLinks) {
+  const auto model =
+      read("<link name='a'><visual><geometry><box size='1 1 1'/></geometry></visual>\n"
+           "<collision><geometry><box size='1 1 1'/></geometry></collision></link>\n"
+           "<gazebo reference='a'><material> Gazebo/Red </material><mu1>0.7</mu1>"
+           "<mu2 value='0.7'/><gravity>false</gravity></gazebo>\n");
+  ASSERT_TRUE(model);
+  EXPECT_EQ(found(), "");
+  const robot::Link& link = model->links[0];
+  EXPECT_EQ(link.gravity_scale, 0);
+  EXPECT_EQ(link.colliders[0].surface.dynamic_friction, 0.7);
+  ASSERT_TRUE(link.visuals[0].material);
+  EXPECT_EQ(model->materials[*link.visuals[0].material].color, (Vec4d{{1, 0, 0, 1}}));
+}
+
+TEST_F(ReadUrdf, TakesSensorsOfGazebo) {
+  const auto model = read(
+      joint("fixed", "") +
+      "<gazebo reference='b'><sensor name='eye' type='depth'><pose>1 2 3 0 0 0</pose><camera>"
+      "<horizontal_fov>1</horizontal_fov><image><width>64</width><height>32</height></image>"
+      "</camera></sensor><sensor name='imu' type='imu'><update_rate>50</update_rate></sensor>"
+      "</gazebo><gazebo reference='j'><sensor name='ft' type='force_torque'/></gazebo>\n");
+  ASSERT_TRUE(model);
+  EXPECT_EQ(found(), "");
+  const robot::Link& link = model->links[1];
+  ASSERT_EQ(link.cameras.size(), 1u);
+  const robot::Camera& camera = link.cameras[0];
+  EXPECT_EQ(camera.pose.position, (Vec3d{{1, 2, 3}}));
+  // Looks along x, up is z.
+  EXPECT_NEAR(rotate(camera.pose.orientation, {{0, 0, -1}})[0], 1, 1e-15);
+  EXPECT_NEAR(rotate(camera.pose.orientation, {{0, 1, 0}})[2], 1, 1e-15);
+  EXPECT_NEAR(camera.aperture[0] / 2 / camera.focal_length, std::tan(0.5), 1e-12);
+  EXPECT_EQ(camera.aperture[0], 2 * camera.aperture[1]);
+  ASSERT_EQ(link.sites.size(), 2u);
+  EXPECT_EQ(link.sites[0].sensors[0].period, 0.02);
+  EXPECT_EQ(link.sites[1].sensors[0].kind, robot::SiteSensorKind::ForceTorque);
+}
+
+TEST_F(ReadUrdf, NamesSettingsOfGazeboThatItLeavesOut) {
+  ASSERT_TRUE(
+      read("<link name='a'/>\n<gazebo reference='a'><mu1>much</mu1><mu2>1</mu2><kp>1</kp>"
+           "<sensor name='s' type='ray'/><sensor name='t' type='camera'/>"
+           "<sensor name='u' type='imu'><pose>1 2</pose></sensor></gazebo>\n"
+           "<gazebo reference='b'/>\n<gazebo/>\n"));
+  EXPECT_EQ(found(), "urdf.extension:3 urdf.extension:4 urdf.extension:5 ");
+  const std::string said = findings_.begin()->message;
+  for (const char* part : {"mu1, mu2, kp", "\"s\" (ray)", "\"t\" (camera)", "\"u\" (imu)"}) {
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+  }
 }
 
 TEST_F(ReadUrdf, LeavesOutAMimicOfNoJointAndATextureOfNoFile) {

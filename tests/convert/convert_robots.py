@@ -103,6 +103,42 @@ def check_shapes(work):
                    (URDF / "stripes.png").read_bytes())
 
 
+def check_gazebo(work):
+    """What Gazebo says of links: colours, friction, gravity, sensors; the rest is named."""
+    target = work / "watcher.usda"
+    code, rules, answer = convert(URDF / "gazebo.urdf", target)
+    expect("gazebo: findings", (code, rules), (0, ["urdf.extension"] * 3))
+    said = " ".join(finding["message"] for finding in answer["diagnostics"])
+    for left in ("left out: kp", 'left out: sensor "scan" (ray)', "left out: provideFeedback"):
+        expect(f"gazebo: {left}", left in said, True)
+    scene = physics(target)
+    expect("gazebo: gravity", {name: body["gravityScale"]
+                               for name, body in by_name(scene["bodies"]).items()},
+           {"base": 1, "head": 0})
+    expect("gazebo: sensors", sorted(sensor["kind"] for sensor in scene["sensors"]),
+           ["contact", "forceTorque", "imu"])
+    near("gazebo: friction", max(m["dynamicFriction"] for m in scene["materials"]), 0.8, 1e-6)
+    text = target.read_text()
+    for wanted in ('def Material "Orange"', 'def Camera "eye"', "clippingRange = (0.05, 20)",
+                   "sensorPeriod = 0.005"):
+        expect(f"gazebo: {wanted}", wanted in text, True)
+
+
+def check_weightless(work):
+    """MuJoCo's compensation of gravity there and back, kept and made anew."""
+    source, target, back = work / "light.xml", work / "light.usda", work / "light_back.xml"
+    source.write_text('<mujoco><worldbody><body name="b" pos="0 0 2" gravcomp="0.25"><freejoint/>'
+                      '<geom name="g" size="0.1"/></body></worldbody></mujoco>')
+    expect("weightless: exit code", convert(source, target)[0], 0)
+    expect("weightless: scale", physics(target)["bodies"][0]["gravityScale"], 0.75)
+    path = physics(target)["bodies"][0]["path"]
+    for edit, wanted in (("tenon:gravityScale=0.5", 'gravcomp="0.5"'),
+                         ("xformOp:translate=(0,0,1)", 'gravcomp="0.5"')):
+        expect(edit, tenon("set", target, f"{path}.{edit}")[0], 0)
+        expect("weightless: back", convert(target, back, "--force")[0], 0)
+        expect(f"weightless: {edit}", wanted in back.read_text(), True)
+
+
 def check_bad_input(work):
     target = work / "bad.usda"
     for name, code, rule in (("cycle", 2, "robot.cycle"), ("missing_mesh", 1, "urdf.mesh-missing"),
@@ -355,6 +391,8 @@ def main():
         work = pathlib.Path(folder)
         check_every_joint(work)
         check_shapes(work)
+        check_gazebo(work)
+        check_weightless(work)
         check_bad_input(work)
         check_mjcf(work)
         check_mjcf_images(work)

@@ -105,6 +105,16 @@ std::string write_mass(Patching& at, Path prim) {
   return write_inertia(at, prim);
 }
 
+std::string write_weight(Patching& at, Path prim) {
+  pugi::xml_node node;
+  const scene::Body* body = body_of(at, prim, node);
+  if (body == nullptr || !std::isfinite(body->gravity_scale)) {
+    return kNoElement;
+  }
+  at.text.set_numbers(node, "gravcomp", {1 - body->gravity_scale});
+  return {};
+}
+
 // Joints.
 const scene::Joint* joint_of(Patching& at, Path prim, pugi::xml_node& node) {
   const scene::Joint* joint = at_path(at.scene.joints, prim);
@@ -392,6 +402,7 @@ std::string apply_edit(Patching& at, const PropertyEdit& edit) {
       {"physics:diagonalInertia", write_inertia},
       {"physics:principalAxes", write_inertia},
       {"newton:inertia", write_inertia},
+      {"tenon:gravityScale", write_weight},
       {"physics:lowerLimit", write_limits},
       {"physics:upperLimit", write_limits},
       {"newton:armature", write_armature},

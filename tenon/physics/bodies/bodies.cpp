@@ -134,11 +134,13 @@ void check_instance(const ReadState& state, const PhysicsPrim& found) {
   }
 }
 
-void read_damping(const ReadState& state, const PhysicsPrim& found, Body& body) {
+void read_motion_settings(const ReadState& state, const PhysicsPrim& found, Body& body) {
+  const AttributeValues& values = state.values;
+  body.gravity_scale =
+      values.authored_number(found.prim, state.tokens.gravity_scale).value_or(body.gravity_scale);
   if (!found.roles.has(Api::PhysxRigidBody)) {
     return;
   }
-  const AttributeValues& values = state.values;
   body.linear_damping =
       values.authored_number(found.prim, state.tokens.physx_linear_damping).value_or(0);
   body.angular_damping =
@@ -181,7 +183,7 @@ Body read_body(const ReadState& state, const PhysicsPrim& found, Index scene) {
     body.kinematic = true;  // stands still (S-19)
   }
   read_velocities(state, found, body);
-  read_damping(state, found, body);
+  read_motion_settings(state, found, body);
   return body;
 }
 

@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What <gazebo reference="..."> says of a link or a joint, as far as assets have a word for it. Each
+// child is one setting; those that are not taken are named in one finding for the element. Gazebo's
+// cameras look along x with z upwards, those of a model along -z with y upwards.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "tenon/base/text/text_number.h"
+#include "tenon/urdf/urdf_reader.h"
+
+namespace tenon::urdf {
+namespace {
+
+using robot::SiteSensorKind;
+
+struct NamedColor {
+  std::string_view name;
+  Vec4d color;
+};
+
+/// Gazebo's own materials that are one colour.
+constexpr NamedColor kColors[] = {
+    {"Black", {{0, 0, 0, 1}}},
+    {"Blue", {{0, 0, 1, 1}}},
+    {"DarkGrey", {{0.175, 0.175, 0.175, 1}}},
+    {"DarkYellow", {{0.7, 0.7, 0, 1}}},
+    {"FlatBlack", {{0.1, 0.1, 0.1, 1}}},
+    {"Green", {{0, 1, 0, 1}}},
+    {"Grey", {{0.7, 0.7, 0.7, 1}}},
+    {"Indigo", {{0.33, 0, 0.5, 1}}},
+    {"Orange", {{1, 0.5, 0, 1}}},
+    {"Purple", {{1, 0, 1, 1}}},
+    {"Red", {{1, 0, 0, 1}}},
+    {"Turquoise", {{0, 1, 1, 1}}},
+    {"White", {{1, 1, 1, 1}}},
+    {"Yellow", {{1, 1, 0, 1}}},
+};
+
+/// Of <name>text</name> or <name value="text"/>.
+std::string said(pugi::xml_node element) {
+  const pugi::xml_attribute value = element.attribute("value");
+  std::string text = value ? value.value() : element.text().get();
+  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
+  while (!text.empty() && is_space(text.back())) {
+    text.pop_back();
+  }
+  const auto first = std::find_if_not(text.begin(), text.end(), is_space);
+  return {first, text.end()};
+}
+
+/// Finite, or none.
+std::optional<double> number_in(pugi::xml_node element) {
+  const auto number = parse_double(said(element));
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+bool is_true(pugi::xml_node element) {
+  const std::string text = said(element);
+  return text == "true" || text == "1" || text == "True";
+}
+
+/// Six numbers: place, then roll, pitch, yaw; nothing where they are others.
+std::optional<Pose> pose_in(pugi::xml_node element) {
+  if (!element) {
+    return Pose{};
+  }
+  std::array<double, 6> numbers{};
+  std::string text = said(element);
+  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  std::size_t count = 0;
+  for (std::size_t at = text.find_first_not_of(' '); at < text.size(); ++count) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const auto number = parse_double(std::string_view(text).substr(at, end - at));
+    if (!number || !std::isfinite(*number) || count == numbers.size()) {
+      return std::nullopt;
+    }
+    numbers[count] = *number;
+    at = text.find_first_not_of(' ', end);
+  }
+  if (count != numbers.size()) {
+    return std::nullopt;
+  }
+  const auto& [x, y, z, roll, pitch, yaw] = numbers;
+  return Pose{{{x, y, z}}, rotation_of_rpy(roll, pitch, yaw)};
+}
+
+/// A camera's axes in those that Gazebo gives it.
+constexpr Quatd kCameraAxes{0.5, -0.5, -0.5, 0.5};
+
+std::string name_of_sensor(pugi::xml_node element) {
+  const std::string name = element.attribute("name").value();
+  return name.empty() ? "sensor" : name;
+}
+
+}  // namespace
+
+/// What is said of all shapes of a link; false: it is something else, or no number.
+bool UrdfReader::take_gazebo_surface(pugi::xml_node setting, robot::Link& link) {
+  const std::string_view name = setting.name();
+  const std::optional<double> number = number_in(setting);
+  if ((name != "mu1" && name != "mu2" && name != "mu") || !number || *number < 0) {
+    return false;
+  }
+  if (name == "mu2") {  // another friction across is not what assets have
+    const auto first = number_in(setting.parent().child("mu1"));
+    return first && *first == *number;
+  }
+  for (robot::Collider& collider : link.colliders) {
+    collider.surface.static_friction = *number;
+    collider.surface.dynamic_friction = *number;
+  }
+  return true;
+}
+
+bool UrdfReader::take_gazebo_color(pugi::xml_node setting, robot::Link& link) {
+  std::string name = said(setting);
+  constexpr std::string_view kStart = "Gazebo/";
+  if (!name.starts_with(kStart)) {
+    return false;
+  }
+  name = name.substr(kStart.size());
+  const auto known = std::find_if(std::begin(kColors), std::end(kColors),
+                                  [&](const NamedColor& color) { return color.name == name; });
+  const bool wanted = std::any_of(link.visuals.begin(), link.visuals.end(),
+                                  [](const robot::Visual& visual) { return !visual.material; });
+  if (known == std::end(kColors) || !wanted) {
+    return known != std::end(kColors);  // URDF's own colours count
+  }
+  robot::Material material;
+  material.name = name;
+  material.color = known->color;
+  material.place = xml_.place_of(setting);
+  const robot::Index number = material_number(std::move(material));
+  for (robot::Visual& visual : link.visuals) {
+    visual.material = visual.material ? visual.material : number;
+  }
+  return true;
+}
+
+bool UrdfReader::take_gazebo_camera(pugi::xml_node sensor, const Pose& pose, robot::Link& link,
+                                    std::string& left) {
+  const pugi::xml_node described = sensor.child("camera");
+  const std::optional<Pose> inner = pose_in(described.child("pose"));
+  const double angle = number_in(described.child("horizontal_fov")).value_or(1.047);
+  const pugi::xml_node image = described.child("image");
+  const double width = number_in(image.child("width")).value_or(320);
+  const double height = number_in(image.child("height")).value_or(240);
+  if (!described || !inner || !(angle > 0 && angle < std::numbers::pi) || !(width > 0) ||
+      !(height > 0)) {
+    return false;
+  }
+  constexpr double kFilmWidth = 20.955;  // of a camera in USD that says nothing
+  robot::Camera camera;
+  camera.name = name_of_sensor(sensor);
+  camera.pose = pose * *inner;
+  camera.pose.orientation = camera.pose.orientation * kCameraAxes;
+  camera.aperture = {{kFilmWidth, kFilmWidth * height / width}};
+  camera.focal_length = kFilmWidth / 2 / std::tan(angle / 2);
+  const pugi::xml_node clip = described.child("clip");
+  camera.clipping = {number_in(clip.child("near")).value_or(0.1),
+                     number_in(clip.child("far")).value_or(100)};
+  camera.settings.push_back({"resolution", {std::floor(width), std::floor(height)}, ""});
+  link.cameras.push_back(std::move(camera));
+  for (const char* other : {"noise", "distortion", "lens"}) {
+    left += described.child(other) ? std::string(" without its ") + other : "";
+  }
+  return true;
+}
+
+/// A sensor of a link, or of the joint above it; false: of a kind that assets have no word for.
+bool UrdfReader::take_gazebo_sensor(pugi::xml_node sensor, robot::Link& link, bool of_joint,
+                                    std::string& left) {
+  const std::string_view kind = sensor.attribute("type").value();
+  const std::optional<Pose> pose = pose_in(sensor.child("pose"));
+  if (!pose) {
+    return false;
+  }
+  if (!of_joint && (kind == "camera" || kind == "depth" || kind == "depth_camera" ||
+                    kind == "rgbd_camera" || kind == "rgbd")) {
+    return take_gazebo_camera(sensor, *pose, link, left);
+  }
+  const bool measures_force = kind == "force_torque";
+  if ((kind != "imu" && kind != "contact" && !measures_force) ||
+      (measures_force != of_joint && measures_force)) {
+    return false;
+  }
+  robot::Site site;
+  site.name = name_of_sensor(sensor);
+  site.pose = *pose;
+  robot::SiteSensor measured;
+  measured.name = site.name;
+  measured.kind = kind == "imu"       ? SiteSensorKind::Imu
+                  : kind == "contact" ? SiteSensorKind::Contact
+                                      : SiteSensorKind::ForceTorque;
+  measured.radius = -1;
+  const double rate = number_in(sensor.child("update_rate")).value_or(0);
+  measured.period = rate > 0 && !measures_force ? 1 / rate : 0;
+  site.sensors.push_back(std::move(measured));
+  link.sites.push_back(std::move(site));
+  return true;
+}
+
+/// false: left out.
+bool UrdfReader::take_gazebo_setting(pugi::xml_node setting, robot::Link& link, bool of_joint,
+                                     std::string& left) {
+  const std::string_view name = setting.name();
+  if (name == "sensor") {
+    return take_gazebo_sensor(setting, link, of_joint, left);
+  }
+  if (of_joint) {
+    return false;
+  }
+  if (name == "material") {
+    return take_gazebo_color(setting, link);
+  }
+  if (name == "turnGravityOff" || name == "gravity") {
+    const bool falls = is_true(setting) == (name == "gravity");
+    link.gravity_scale = falls ? 1 : 0;
+    return true;
+  }
+  return take_gazebo_surface(setting, link);
+}
+
+void UrdfReader::read_gazebo(pugi::xml_node element) {
+  const std::string whose = element.attribute("reference").value();
+  const auto link = links_.find(whose);
+  const auto joint = joints_.find(whose);
+  if (link == links_.end() && joint == joints_.end()) {
+    xml_.warn(element, "urdf.extension",
+              "holds settings for Gazebo" + (whose.empty() ? "" : " (of \"" + whose + "\")") +
+                  "; what it says is left out",
+              "");
+    return;
+  }
+  const bool of_joint = link == links_.end();
+  robot::Link& on = model_.links[of_joint ? model_.joints[joint->second].child : link->second];
+  std::string left;
+  for (const pugi::xml_node setting : element.children()) {
+    if (setting.type() != pugi::node_element) {
+      continue;
+    }
+    std::string without;
+    const bool is_sensor = std::string_view(setting.name()) == "sensor";
+    const std::string what =
+        is_sensor ? "sensor \"" + name_of_sensor(setting) + "\" (" +
+                        setting.attribute("type").value() + ")"
+                  : std::string(setting.name());
+    if (!take_gazebo_setting(setting, on, of_joint, without)) {
+      left += (left.empty() ? "" : ", ") + what;
+    } else if (!without.empty()) {
+      left += (left.empty() ? "" : ", ") + what + without;
+    }
+  }
+  if (!left.empty()) {
+    xml_.warn(element, "urdf.extension",
+              "holds settings for Gazebo (of \"" + whose + "\") that are left out: " + left, "");
+  }
+}
+
+}  // namespace tenon::urdf
