@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -78,6 +79,10 @@ struct PrimIndex {
   std::string instance_key;
   Diagnostics errors;  ///< rule = "compose.<class>", see composition_error.h
 
+  /// Some opinion has a property of that name: most that schemas declare are in no layer.
+  bool has_property(Token name) const {
+    return std::find(property_names.begin(), property_names.end(), name) != property_names.end();
+  }
   /// `path` of node's namespace in the stage's; empty when it has no image.
   Path map_to_root(std::uint32_t node, Path path_in_node) const {
     return nodes[node].map_to_root->map_source_to_target(path_in_node.strip_variants());

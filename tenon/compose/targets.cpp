@@ -206,6 +206,9 @@ class TargetCombiner {
 std::vector<PropertyOpinion> property_opinions(const PrimIndex& index, Token name,
                                                Diagnostics* errors) {
   std::vector<PropertyOpinion> found;
+  if (!index.has_property(name)) {
+    return found;
+  }
   for (const Opinion& opinion : index.opinions) {
     const Path path = opinion.path.property(name);
     const layer::Spec* spec = opinion.layer->find(path);

@@ -21,11 +21,17 @@ std::vector<compose::Opinion> property_opinions(const PrimData& prim, Token name
 /// Calls `visit(opinion)` for each of them until it returns true.
 template <class Visit>
 void visit_property_opinions(const PrimData& prim, Token name, Visit visit) {
+  if (!prim.index->has_property(name)) {
+    return;
+  }
+  const bool has_others = prim.index->opinions.size() > 1;
   for (const compose::Opinion& opinion : prim.index->opinions) {
     // A short list is searched faster than a path is made.
-    const auto& names = layer::Layer::children(*opinion.spec, layer::fields::properties);
-    if (names.size() <= 32 && std::find(names.begin(), names.end(), name) == names.end()) {
-      continue;
+    if (has_others) {
+      const auto& names = layer::Layer::children(*opinion.spec, layer::fields::properties);
+      if (names.size() <= 32 && std::find(names.begin(), names.end(), name) == names.end()) {
+        continue;
+      }
     }
     compose::Opinion found = opinion;
     found.path = opinion.path.property(name);

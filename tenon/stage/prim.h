@@ -78,7 +78,9 @@ class Prim {
   Relationship relationship(Token name) const;
   /// Authored properties in OpenUSD's order (dictionary order, then propertyOrder).
   std::vector<Token> authored_property_names() const;
-  /// The same with the properties that schemas of stock OpenUSD declare.
+  /// The same in the order of layers, as the stage keeps them.
+  const std::vector<Token>& unordered_property_names() const;
+  /// Authored properties with those that schemas of stock OpenUSD declare.
   std::vector<Token> property_names() const;
   bool has_property(Token name) const;
   bool is_relationship(Token name) const;

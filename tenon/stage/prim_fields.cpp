@@ -18,11 +18,6 @@ namespace {
 
 namespace fields = layer::fields;
 
-bool authored(const PrimData& prim, Token property) {
-  const std::vector<Token>& names = prim.index->property_names;
-  return std::find(names.begin(), names.end(), property) != names.end();
-}
-
 // In dictionary order; those that the strongest propertyOrder names come first, in its order.
 void put_in_order(const PrimData& prim, std::vector<Token>& names) {
   std::sort(names.begin(), names.end(),
@@ -57,6 +52,11 @@ std::vector<Token> Prim::authored_property_names() const {
   return names;
 }
 
+const std::vector<Token>& Prim::unordered_property_names() const {
+  static const std::vector<Token> none;
+  return data_ == nullptr ? none : data_->index->property_names;
+}
+
 std::vector<Token> Prim::property_names() const {
   std::vector<Token> names;
   if (data_ == nullptr) {
@@ -73,7 +73,8 @@ std::vector<Token> Prim::property_names() const {
 }
 
 bool Prim::has_property(Token name) const {
-  return data_ != nullptr && (authored(*data_, name) || data_->definition->find(name) != nullptr);
+  return data_ != nullptr &&
+         (data_->index->has_property(name) || data_->definition->find(name) != nullptr);
 }
 
 bool Prim::is_relationship(Token name) const {
@@ -85,7 +86,7 @@ bool Prim::is_relationship(Token name) const {
   }
   bool result = false;
   bool found = false;
-  if (authored(*data_, name)) {
+  if (data_->index->has_property(name)) {
     visit_property_opinions(*data_, name, [&](const compose::Opinion& opinion) {
       found = true;
       result = opinion.spec->kind == layer::SpecKind::Relationship;

@@ -42,7 +42,7 @@ bool names_item(const layer::Value& value, const StatementPart& part) {
 
 SourceMap source_map(const StageData& stage, const PrimData& prim, Path proxy_path) {
   SourceMap map;
-  Prim at = stage.find(proxy_path.empty() ? prim.path : proxy_path);
+  Prim at = stage.handle(prim, proxy_path);
   if (at.is_instance()) {
     at = at.parent();
   }
@@ -68,10 +68,6 @@ Path translated(const SourceMap& map, Path target) {
 }
 
 bool is_authored_as(const PrimData& prim, Token name, layer::SpecKind kind) {
-  const std::vector<Token>& names = prim.index->property_names;
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    return false;
-  }
   bool result = false;
   visit_property_opinions(prim, name, [&](const compose::Opinion& opinion) {
     result = opinion.spec->kind == kind;

@@ -60,6 +60,8 @@ struct StageData {
 
   /// The handle at an absolute prim path, proxies included; invalid when there is none.
   Prim find(Path path) const;
+  /// The handle of a record, for instance proxies with their path.
+  Prim handle(const PrimData& prim, Path proxy_path) const { return Prim(this, &prim, proxy_path); }
 };
 
 /// The record of the prim at a path; for instance proxies that of the prim in the prototype.

@@ -43,7 +43,7 @@ void note(const Question& question, std::size_t source, ReadTrace::Use use, bool
 
 /// What one source says at a time without interpolation: an array, an edit, a block, or nothing.
 Value said_at(const Question& question, const ResolvedValue& source, Time time) {
-  return read_one_value(question.stage, question.prim, question.name, source, time, question.form,
+  return read_one_value(question.stage, question.prim, source, time, question.form,
                         Interpolation::Held);
 }
 

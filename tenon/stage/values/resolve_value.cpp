@@ -52,6 +52,7 @@ ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
     const schema::PropertyDefinition* definition = prim.definition->find(name);
     if (definition != nullptr && !definition->fallback.empty()) {
       result.source = ValueSource::Fallback;
+      result.declared = definition;
     }
   }
   return result;
@@ -59,8 +60,7 @@ ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
 
 Value read_value(const StageData& stage, const PrimData& prim, Token name,
                  const ResolvedValue& resolved, Time time, AssetForm form, ReadTrace* trace) {
-  Value value =
-      read_one_value(stage, prim, name, resolved, time, form, stage.options.interpolation);
+  Value value = read_one_value(stage, prim, resolved, time, form, stage.options.interpolation);
   return value.holds<layer::ArrayEdit>() ? compose_array_edits(stage, prim, name, time, form, trace)
                                          : value;
 }
@@ -75,9 +75,8 @@ Value read_attribute(const StageData& stage, const PrimData& prim, Path proxy_pa
   return compose_expression(stage, prim, proxy_path, name, std::move(value), time, trace);
 }
 
-Value read_one_value(const StageData& stage, const PrimData& prim, Token name,
-                     const ResolvedValue& resolved, Time time, AssetForm form,
-                     Interpolation interpolation) {
+Value read_one_value(const StageData& stage, const PrimData& prim, const ResolvedValue& resolved,
+                     Time time, AssetForm form, Interpolation interpolation) {
   switch (resolved.source) {
     case ValueSource::Default:
       return localize(stage, prim, resolved.opinion, *resolved.value, form);
@@ -98,10 +97,8 @@ Value read_one_value(const StageData& stage, const PrimData& prim, Token name,
       opinion.offset = resolved.clips->offset();
       return localize(stage, prim, opinion, found.value, form);
     }
-    case ValueSource::Fallback: {
-      const schema::PropertyDefinition* declared = prim.definition->find(name);
-      return resolved.blocked || declared == nullptr ? Value() : declared->fallback;
-    }
+    case ValueSource::Fallback:
+      return resolved.blocked ? Value() : resolved.declared->fallback;
     default:
       return {};
   }

@@ -18,6 +18,7 @@ struct ResolvedValue {
   const layer::TimeSamples* samples = nullptr;  ///< of TimeSamples, in the layer's time
   const layer::Spline* spline = nullptr;        ///< of Spline, in the layer's time
   const ClipSet* clips = nullptr;               ///< of ValueClips; `opinion` has node and path
+  const schema::PropertyDefinition* declared = nullptr;  ///< of Fallback
 };
 
 /// The opinions of an attribute that its value may be made of, strongest first: each but the last
@@ -56,7 +57,7 @@ layer::Value read_attribute(const StageData& stage, const PrimData& prim, Path p
                             Token name, Time time, ReadTrace* trace = nullptr);
 
 /// Of `read_value` without weaker opinions: an edit of an array comes back as it is.
-layer::Value read_one_value(const StageData& stage, const PrimData& prim, Token name,
+layer::Value read_one_value(const StageData& stage, const PrimData& prim,
                             const ResolvedValue& resolved, Time time, AssetForm form,
                             Interpolation interpolation);
 
