@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 #include "tenon/stage/xform_op.h"
 
@@ -16,21 +17,22 @@ namespace {
 const Token kOpOrder{"xformOpOrder"};
 const Token kXformable{"Xformable"};
 
-// Operations after the last "!resetXformStack!"; true when there was one.
-bool split_at_reset(std::vector<Token>& order) {
-  static const Token reset{"!resetXformStack!"};
-  const auto last = std::find(order.rbegin(), order.rend(), reset);
-  if (last == order.rend()) {
-    return false;
-  }
-  order.erase(order.begin(), last.base());
-  return true;
-}
+/// The operations of a prim, outermost first: those after the last "!resetXformStack!".
+struct OpOrder {
+  layer::Value value;  // that holds them
+  std::span<const Token> ops;
+  bool resets = false;
+};
 
-std::vector<Token> op_order(const Prim& prim) {
-  const layer::Value value = prim.attribute(kOpOrder).get();
-  const auto* order = value.get<std::vector<Token>>();
-  return order == nullptr ? std::vector<Token>() : *order;
+OpOrder op_order(const Prim& prim) {
+  static const Token reset{"!resetXformStack!"};
+  OpOrder order{prim.attribute(kOpOrder).get(), {}};
+  if (const auto* ops = order.value.get<std::vector<Token>>()) {
+    const auto last = std::find(ops->rbegin(), ops->rend(), reset);
+    order.resets = last != ops->rend();
+    order.ops = std::span(*ops).subspan(static_cast<std::size_t>(ops->rend() - last));
+  }
+  return order;
 }
 
 }  // namespace
@@ -40,12 +42,12 @@ LocalTransform local_transform(const Prim& prim, Time time, Diagnostics* diagnos
   if (!prim.is_a(kXformable)) {
     return result;
   }
-  std::vector<Token> order = op_order(prim);
-  result.resets_stack = split_at_reset(order);
-  for (std::size_t i = order.size(); i-- > 0;) {
-    const XformOp op = parse_xform_op(order[i]);
+  const OpOrder order = op_order(prim);
+  result.resets_stack = order.resets;
+  for (std::size_t i = order.ops.size(); i-- > 0;) {
+    const XformOp op = parse_xform_op(order.ops[i]);
     if (i > 0) {
-      const XformOp next = parse_xform_op(order[i - 1]);
+      const XformOp next = parse_xform_op(order.ops[i - 1]);
       if (next.attribute == op.attribute && next.inverted != op.inverted) {
         --i;
         continue;
@@ -82,14 +84,13 @@ std::vector<double> transform_samples(const Prim& prim) {
     if (!at.is_a(kXformable)) {
       continue;
     }
-    std::vector<Token> order = op_order(at);
-    const bool resets = split_at_reset(order);
-    for (const Token name : order) {
+    const OpOrder order = op_order(at);
+    for (const Token name : order.ops) {
       const std::vector<double> samples =
           at.attribute(parse_xform_op(name).attribute).time_samples();
       times.insert(samples.begin(), samples.end());
     }
-    if (resets) {
+    if (order.resets) {
       break;
     }
   }

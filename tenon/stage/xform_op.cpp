@@ -162,7 +162,9 @@ struct Reader {
 
 }  // namespace
 
-XformOp parse_xform_op(Token name) {
+namespace {
+
+XformOp parse_name(Token name) {
   XformOp op;
   std::string_view text = name.view();
   static constexpr std::string_view kInvert = "!invert!";
@@ -177,6 +179,23 @@ XformOp parse_xform_op(Token name) {
     op.kind = Token(text.substr(0, text.find(':')));
   }
   return op;
+}
+
+}  // namespace
+
+XformOp parse_xform_op(Token name) {
+  // A scene has few names of operations, and asks for them at each prim.
+  struct Known {
+    Token name;
+    XformOp op;
+  };
+  constexpr std::size_t kKnown = 64;
+  thread_local std::array<Known, kKnown> known;
+  Known& slot = known[std::hash<Token>()(name) >> 16U & (kKnown - 1)];
+  if (slot.name != name) {
+    slot = {name, parse_name(name)};
+  }
+  return slot.op;
 }
 
 Mat4d xform_op_matrix(const Prim& prim, const XformOp& op, Time time, Diagnostics* diagnostics) {
