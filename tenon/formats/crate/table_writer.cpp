@@ -16,6 +16,7 @@
 #include <span>
 #include <string>
 
+#include "tenon/base/path_order.h"
 #include "tenon/bytes/integer_coding.h"
 #include "tenon/bytes/lz4_block.h"
 
@@ -57,7 +58,31 @@ Token element_of(Path path) {
   return {};
 }
 
+/// Begins with where the program lies in memory, so that nobody who makes a layer can choose values
+/// that all fall into one place of the tables. What is written does not depend on it.
+std::uint64_t hash_seed() {
+  static const char here = 0;
+  return reinterpret_cast<std::uintptr_t>(&here);
+}
+
+std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
+  hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
+  return hash ^ (hash >> 32U);
+}
+
 }  // namespace
+
+std::size_t TableWriter::RowHash::operator()(const FieldRow& row) const {
+  return static_cast<std::size_t>(mixed(mixed(hash_seed(), row.name), row.word));
+}
+
+std::size_t TableWriter::RowHash::operator()(const std::vector<std::uint32_t>& set) const {
+  std::uint64_t hash = hash_seed();
+  for (const std::uint32_t field : set) {
+    hash = mixed(hash, field);
+  }
+  return static_cast<std::size_t>(hash);
+}
 
 TableWriter::TableWriter() {
   token(Token());  // index 0: a property's name must have a negative form
@@ -87,6 +112,9 @@ std::uint32_t TableWriter::string(std::string_view text) {
 }
 
 std::uint32_t TableWriter::path(Path path) {
+  if (const auto known = path_index_.find(path); known != path_index_.end()) {
+    return known->second;
+  }
   std::vector<Path> missing;
   for (Path at = path; !path_index_.contains(at); at = at.parent()) {
     missing.push_back(at);
@@ -99,7 +127,7 @@ std::uint32_t TableWriter::path(Path path) {
     paths_.push_back(at);
     path_tokens_.push_back(token(element_of(at)));
   });
-  return path_index_.find(path)->second;
+  return static_cast<std::uint32_t>(paths_.size() - 1);
 }
 
 std::uint32_t TableWriter::field(Token name, ValueWord value) {
@@ -163,17 +191,11 @@ struct TableWriter::PathTree {
   std::vector<std::int32_t> jumps;
 
   explicit PathTree(const TableWriter& table) {
-    std::vector<std::uint32_t> order;
-    for (std::uint32_t i = 0; i < table.paths_.size(); ++i) {
-      if (!table.paths_[i].empty()) {
-        order.push_back(i);
-      }
-    }
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return table.paths_[a] < table.paths_[b]; });
     std::vector<std::size_t> open;  // rows from the root to the row before
-    for (const std::uint32_t index : order) {
-      add(table, index, open);
+    for (const std::uint32_t index : path_order(table.paths_)) {
+      if (!table.paths_[index].empty()) {
+        add(table, index, open);
+      }
     }
   }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <map>
 #include <unordered_map>
 #include <vector>
 
@@ -38,6 +38,15 @@ class TableWriter {
   }
 
  private:
+  struct FieldRow {
+    std::uint32_t name = 0;
+    std::uint64_t word = 0;
+    bool operator==(const FieldRow&) const = default;
+  };
+  struct RowHash {
+    std::size_t operator()(const FieldRow& row) const;
+    std::size_t operator()(const std::vector<std::uint32_t>& set) const;
+  };
   struct PathTree;
   void write_tokens(bytes::ByteWriter& out) const;
   void write_fields(bytes::ByteWriter& out) const;
@@ -55,9 +64,9 @@ class TableWriter {
   std::unordered_map<Path, std::uint32_t> path_index_;
   std::vector<std::uint32_t> field_names_;
   std::vector<std::uint64_t> field_words_;
-  std::map<std::pair<std::uint32_t, std::uint64_t>, std::uint32_t> field_index_;
+  std::unordered_map<FieldRow, std::uint32_t, RowHash> field_index_;
   std::vector<std::uint32_t> field_sets_;
-  std::map<std::vector<std::uint32_t>, std::uint32_t> field_set_index_;
+  std::unordered_map<std::vector<std::uint32_t>, std::uint32_t, RowHash> field_set_index_;
   std::vector<std::uint32_t> spec_paths_;
   std::vector<std::uint32_t> spec_sets_;
   std::vector<std::uint32_t> spec_kinds_;

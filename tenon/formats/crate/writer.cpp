@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <unordered_map>
 #include <vector>
 
+#include "tenon/base/path_order.h"
 #include "tenon/formats/crate/table_writer.h"
 #include "tenon/formats/crate/value_writer.h"
 
@@ -19,35 +22,38 @@ std::uint32_t kind_number(layer::SpecKind kind) {
   return static_cast<std::uint32_t>(it - std::begin(crate::kSpecKinds));
 }
 
-/// Prims before properties, those grouped by name: equal fields side by side pack well.
-bool comes_before(const Entry* a, const Entry* b) {
-  const bool a_property = a->path.is_property();
-  const bool b_property = b->path.is_property();
-  if (a_property != b_property) {
-    return b_property;
-  }
-  if (a_property && a->path.name() != b->path.name()) {
-    return a->path.name() < b->path.name();
-  }
-  return a->path < b->path;
-}
-
-/// Specs in the order of the file. Those of targets carry nothing that their list does not.
+/// Specs in the order of the file: prims before properties, those grouped by name, each by path.
+/// Equal fields side by side pack well. Specs of targets carry nothing that their list does not.
 std::vector<const Entry*> ordered_specs(const layer::Layer& layer) {
   std::vector<const Entry*> entries;
+  std::vector<Path> paths;
   for (const Entry& entry : layer.entries()) {
     if (!entry.path.empty() && entry.spec.kind != layer::SpecKind::Connection &&
         entry.spec.kind != layer::SpecKind::RelationshipTarget) {
       entries.push_back(&entry);
+      paths.push_back(entry.path);
     }
   }
-  std::sort(entries.begin(), entries.end(), comes_before);
-  return entries;
+  std::vector<const Entry*> ordered;
+  ordered.reserve(entries.size());
+  std::unordered_map<Token, std::vector<const Entry*>> properties;
+  for (const std::uint32_t i : path_order(paths)) {
+    (paths[i].is_property() ? properties[paths[i].name()] : ordered).push_back(entries[i]);
+  }
+  std::map<Token, const std::vector<const Entry*>*> by_name;
+  for (const auto& [name, group] : properties) {
+    by_name.emplace(name, &group);
+  }
+  for (const auto& [name, group] : by_name) {
+    ordered.insert(ordered.end(), group->begin(), group->end());
+  }
+  return ordered;
 }
 
-Result<void> write_spec(const Entry& entry, crate::TableWriter& tables,
-                        crate::ValueWriter& values) {
-  std::vector<std::uint32_t> fields;
+/// `fields` is room for the numbers of its fields.
+Result<void> write_spec(const Entry& entry, crate::TableWriter& tables, crate::ValueWriter& values,
+                        std::vector<std::uint32_t>& fields) {
+  fields.clear();
   for (const layer::Field& field : entry.spec.fields()) {
     if (field.value.empty() || field.name == layer::fields::targetChildren ||
         field.name == layer::fields::connectionChildren) {
@@ -70,8 +76,9 @@ Result<std::string> write_crate(const layer::Layer& layer) {
   out.write(crate::Bootstrap{});
   crate::TableWriter tables;
   crate::ValueWriter values(out, tables);
+  std::vector<std::uint32_t> fields;
   for (const Entry* entry : ordered_specs(layer)) {
-    TENON_CHECK(write_spec(*entry, tables, values));
+    TENON_CHECK(write_spec(*entry, tables, values, fields));
   }
   crate::Bootstrap bootstrap = {};
   bootstrap.contents = static_cast<std::int64_t>(tables.write(out));
