@@ -14,7 +14,7 @@
 #include "tenon/physics/colliders/collider_settings.h"
 #include "tenon/physics/colliders/shapes.h"
 #include "tenon/physics/read_state.h"
-#include "tenon/stage/collections/material_binding.h"
+#include "tenon/stage/collections/inherited_bindings.h"
 
 namespace tenon::physics {
 namespace {
@@ -143,12 +143,12 @@ void bind_materials(ReadState& state) {
   if (state.scene.materials.empty()) {
     return;  // nothing that a binding could find
   }
-  const Token purpose("physics");
+  stage::InheritedBindings bindings(Token("physics"));
   bool bound = false;
   std::set<Path> told;
   for (Index i = 0; i < state.scene.colliders.size(); ++i) {
     const PhysicsPrim& found = state.prim_of_collider(i);
-    const stage::MaterialBinding binding = stage::find_material_binding(found.prim, purpose);
+    const stage::MaterialBinding binding = bindings.find(found.prim);
     if (const Path cut = binding.cut_collection; !cut.empty() && told.insert(cut).second) {
       state.not_read(state.stage.prim(cut.parent()), cut.name().str(),
                      "the collection is too large or its expression too costly (docs/limits.md); "

@@ -6,29 +6,22 @@
 // strongerThanDescendants; at one prim collections, in property order, win over the direct binding.
 #include "tenon/stage/collections/material_binding.h"
 
+#include <algorithm>
 #include <optional>
+#include <string>
 
+#include "tenon/stage/collections/binding_rules.h"
 #include "tenon/stage/collections/collection.h"
 
 namespace tenon::stage {
 namespace {
 
-const std::string kBinding = "material:binding";
-const std::string kCollectionBinding = "material:binding:collection";
-
-bool is_stronger(const Relationship& binding) {
-  static const Token stronger{"strongerThanDescendants"};
-  return binding.metadata("bindMaterialAs").get_or<Token>(Token()) == stronger;
-}
+constexpr std::string_view kBinding = "material:binding";
+constexpr std::string_view kCollectionBinding = "material:binding:collection:";
 
 bool is_material(const Prim& prim, Path path) {
-  return path.is_prim() && prim.prim_at(path).is_a("Material");
-}
-
-std::optional<Path> direct_material(const Prim& at, Token name) {
-  const std::vector<Path> targets = at.relationship(name).targets();
-  return targets.size() == 1 && is_material(at, targets[0]) ? std::optional(targets[0])
-                                                            : std::nullopt;
+  static const Token material{"Material"};
+  return path.is_prim() && prim.prim_at(path).is_a(material);
 }
 
 // The material of a collection binding of `at` when its collection contains `path`; a collection
@@ -56,10 +49,10 @@ std::optional<Path> collection_material(const Prim& at, Token name, Path path, P
 
 // "material:binding:collection:name" or, for a purpose, "...:collection:purpose:name".
 bool is_collection_binding(std::string_view name, Token purpose) {
-  if (!name.starts_with(kCollectionBinding + ":")) {
+  if (!name.starts_with(kCollectionBinding)) {
     return false;
   }
-  const std::string_view rest = name.substr(kCollectionBinding.size() + 1);
+  const std::string_view rest = name.substr(kCollectionBinding.size());
   const std::size_t colon = rest.find(':');
   return purpose.empty()
              ? colon == std::string_view::npos
@@ -72,14 +65,14 @@ struct Search {
   MaterialBinding found;
 
   void take(const Prim& at, const Relationship& binding, Path material) {
-    found.material = material;
-    found.relationship = binding.path();
-    found.binding_api_missing = !at.has_api("MaterialBindingAPI");
+    const Path cut = found.cut_collection;
+    found = made_binding(at, binding, material);
+    found.cut_collection = cut;
   }
 
   void look_at(const Prim& at) {
     bool direct_here = false;
-    const Token name(purpose.empty() ? kBinding : kBinding + ":" + purpose.str());
+    const Token name = direct_binding_name(purpose);
     if (at.has_property(name)) {
       const Relationship binding = at.relationship(name);
       const std::optional<Path> material = direct_material(at, name);
@@ -87,6 +80,10 @@ struct Search {
         take(at, binding, *material);
         direct_here = true;
       }
+    }
+    const std::vector<Token>& names = at.unordered_property_names();
+    if (std::none_of(names.begin(), names.end(), is_any_collection_binding)) {
+      return;
     }
     for (const Token property : at.authored_property_names()) {
       if (!is_collection_binding(property.view(), purpose)) {
@@ -113,6 +110,36 @@ struct Search {
 };
 
 }  // namespace
+
+Token direct_binding_name(Token purpose) {
+  static const Token of_all{kBinding};
+  static const Token of_physics{std::string(kBinding) + ":physics"};
+  if (purpose.empty()) {
+    return of_all;
+  }
+  return purpose == "physics" ? of_physics : Token(std::string(kBinding) + ":" + purpose.str());
+}
+
+bool is_any_binding(Token name) { return name.view().starts_with(kBinding); }
+
+bool is_any_collection_binding(Token name) { return name.view().starts_with(kCollectionBinding); }
+
+bool is_stronger(const Relationship& binding) {
+  static const Token how{"bindMaterialAs"};
+  static const Token stronger{"strongerThanDescendants"};
+  return binding.metadata(how).get_or<Token>(Token()) == stronger;
+}
+
+std::optional<Path> direct_material(const Prim& at, Token name) {
+  const std::vector<Path> targets = at.relationship(name).targets();
+  return targets.size() == 1 && is_material(at, targets[0]) ? std::optional(targets[0])
+                                                            : std::nullopt;
+}
+
+MaterialBinding made_binding(const Prim& at, const Relationship& binding, Path material) {
+  static const Token api{"MaterialBindingAPI"};
+  return {material, binding.path(), !at.has_api(api), {}};
+}
 
 MaterialBinding find_material_binding(const Prim& prim, Token purpose) {
   MaterialBinding binding = Search{prim, purpose, {}}.run();
