@@ -163,7 +163,8 @@ void write_instance_arrays(const stage::Stage& stage, const scene::PhysicsScene&
                            const PoseRecording& recording, const BodyTransforms& transforms,
                            layer::Layer& layer, Diagnostics& diagnostics) {
   Diagnostics said;  // while the scene was read
-  const physics::AttributeValues values(stage::Time(scene.start_time_code), true,
+  const physics::AttributeValues values(stage::Time(scene.start_time_code),
+                                        physics::LayerContents{.animated = true},
                                         physics::ValueTypes::Strict, said);
   for (auto& [path, instancer] : instancers_of(stage, scene, diagnostics)) {
     instancer.reading = physics::read_point_instancer(values, instancer.prim);

@@ -18,24 +18,6 @@
 
 namespace tenon::physics {
 
-bool stage_is_animated(const stage::Stage& stage) {
-  const Token samples("timeSamples");
-  const Token spline("spline");
-  const Token clips("clips");
-  for (const layer::LayerPtr& layer : stage.used_layers()) {
-    for (const layer::Layer::Entry& entry : layer->entries()) {
-      if (entry.spec.kind == layer::SpecKind::Attribute) {
-        if (entry.spec.has(samples) || entry.spec.has(spline)) {
-          return true;
-        }
-      } else if (entry.spec.kind == layer::SpecKind::Prim && entry.spec.has(clips)) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
 std::optional<double> number_of(const layer::Value& value) {
   if (value.is_array()) {
     return std::nullopt;
@@ -65,7 +47,7 @@ std::optional<double> number_of(const layer::Value& value) {
 // S-6: the default where one is authored, else the value at the start, held before the first
 // sample.
 layer::Value AttributeValues::resolved(const stage::Attribute& attribute) const {
-  if (!animated_) {
+  if (!contents_.animated) {
     return attribute.get();
   }
   if (asked_ != nullptr && attribute.is_animated()) {

@@ -19,8 +19,16 @@
 
 namespace tenon::physics {
 
-/// Some layer of the stage holds time samples, splines or value clips.
-bool stage_is_animated(const stage::Stage& stage);
+/// What a look at all layers of a stage tells about every prim of it.
+struct LayerContents {
+  bool animated = false;    ///< some layer holds time samples, splines or value clips
+  bool names_apis = false;  ///< some property may be of physics, by its name: names_physics()
+};
+LayerContents layer_contents(const stage::Stage& stage);
+
+/// A property of that name may mean something to physics: an API of physics declares it, or it says
+/// what the prim measures.
+bool names_physics(Token property);
 
 /// A number of any numeric type; nullopt for anything else.
 std::optional<double> number_of(const layer::Value& value);
@@ -30,9 +38,10 @@ std::optional<double> number_of(const layer::Value& value);
 /// nullopt comes back, with a diagnostic for the first two (S-3, S-4, S-5).
 class AttributeValues {
  public:
-  /// `animated`: some attribute of the stage varies over time (`stage_is_animated`).
-  AttributeValues(stage::Time start, bool animated, ValueTypes types, Diagnostics& diagnostics)
-      : start_(start), animated_(animated), types_(types), diagnostics_(&diagnostics) {}
+  /// `contents`: of the layers of the stage that the prims are of.
+  AttributeValues(stage::Time start, LayerContents contents, ValueTypes types,
+                  Diagnostics& diagnostics)
+      : start_(start), contents_(contents), types_(types), diagnostics_(&diagnostics) {}
 
   /// The same at another time, where samples win over a default beside them: they are followed.
   AttributeValues at_sample(stage::Time time, Diagnostics& diagnostics) const {
@@ -48,7 +57,8 @@ class AttributeValues {
   void note_asked(std::unordered_set<std::string>* asked) { asked_ = asked; }
 
   stage::Time start() const { return start_; }
-  bool stage_is_animated() const { return animated_; }
+  bool stage_is_animated() const { return contents_.animated; }
+  bool stage_names_apis() const { return contents_.names_apis; }
   Diagnostics& diagnostics() const { return *diagnostics_; }
 
   /// The value where it is exactly a T.
@@ -93,7 +103,7 @@ class AttributeValues {
   bool check_number(const stage::Prim& prim, Token name, double value) const;
 
   stage::Time start_;
-  bool animated_ = false;
+  LayerContents contents_;
   ValueTypes types_ = ValueTypes::Strict;
   bool samples_first_ = false;
   std::unordered_set<std::string>* asked_ = nullptr;

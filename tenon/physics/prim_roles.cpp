@@ -101,27 +101,12 @@ RoleFinder::RoleFinder() {
   }
 }
 
-std::size_t RoleFinder::KeyHash::operator()(const Key& key) const {
-  std::uint64_t hash = std::hash<Token>()(key.type);
-  for (const Token& schema : key.schemas) {
-    hash = hash * 0x100000001B3ull ^ std::hash<Token>()(schema);
-  }
-  return static_cast<std::size_t>(hash);
-}
-
 const Roles& RoleFinder::roles_of(const stage::Prim& prim) {
-  Key key{prim.type_name(), prim.authored_api_schemas()};
-  if (key.schemas.empty()) {
-    const auto found = plain_.find(key.type);
-    return found != plain_.end() ? found->second
-                                 : plain_.emplace(key.type, find(prim, {})).first->second;
-  }
-  const auto found = known_.find(key);
-  if (found != known_.end()) {
-    return found->second;
-  }
-  Roles roles = find(prim, key.schemas);
-  return known_.emplace(std::move(key), roles).first->second;
+  const auto found = known_.find(prim.definition());
+  return found != known_.end()
+             ? found->second
+             : known_.emplace(prim.definition(), find(prim, prim.authored_api_schemas()))
+                   .first->second;
 }
 
 Roles RoleFinder::find(const stage::Prim& prim, const std::vector<Token>& schemas) const {

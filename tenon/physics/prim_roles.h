@@ -70,26 +70,18 @@ struct Roles {
   bool matters() const;
 };
 
-/// Finds the roles of prims; asks the schemas once per combination of type and applied APIs.
+/// Finds the roles of prims of one stage; asks the schemas once per combination of type and applied
+/// APIs, which is what definitions of prims are made for.
 class RoleFinder {
  public:
   RoleFinder();
   const Roles& roles_of(const stage::Prim& prim);
 
  private:
-  struct Key {
-    Token type;
-    std::vector<Token> schemas;
-    bool operator==(const Key&) const = default;
-  };
-  struct KeyHash {
-    std::size_t operator()(const Key& key) const;
-  };
   Roles find(const stage::Prim& prim, const std::vector<Token>& schemas) const;
 
   std::vector<Token> api_names_;
-  std::unordered_map<Key, Roles, KeyHash> known_;
-  std::unordered_map<Token, Roles> plain_;  // prims without applied APIs
+  std::unordered_map<const schema::PrimDefinition*, Roles> known_;
 };
 
 }  // namespace tenon::physics

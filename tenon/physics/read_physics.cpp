@@ -36,7 +36,7 @@ ReadState begin(const stage::Stage& stage, const ReadOptions& options, Diagnosti
   }
   const double start =
       std::isnan(options.start_time_code) ? stage.start_time_code() : options.start_time_code;
-  const AttributeValues values(stage::Time(start), stage_is_animated(stage),
+  const AttributeValues values(stage::Time(start), layer_contents(stage),
                                options.readings.value_types, diagnostics);
   ReadState state{stage, diagnostics, physics_tokens(), options.readings, units, values};
   state.scene.meters_per_unit = units.length;

@@ -114,16 +114,10 @@ struct ReadState {
 template <class Wanted>
 std::vector<std::uint32_t> sorted_prims(const Walk& walk, Wanted wanted) {
   std::vector<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < walk.prims.size(); ++i) {
+  for (const std::uint32_t i : walk.by_path) {
     if (wanted(walk.prims[i])) {
       found.push_back(i);
     }
-  }
-  const auto less = [&](std::uint32_t a, std::uint32_t b) {
-    return walk.prims[a].path < walk.prims[b].path;
-  };
-  if (!std::is_sorted(found.begin(), found.end(), less)) {
-    std::sort(found.begin(), found.end(), less);
   }
   return found;
 }

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One walk down the stage finds all prims that mean something to physics. World matrix, body, mass
-// and articulation root are handed down from parent to child, so one visit of each prim is enough.
+// One walk down the stage finds all prims that mean something to physics. Body, mass, articulation
+// root and place are handed down from parent to child, so one visit of each prim is enough. World
+// matrices are worked out where such a prim stands: a scene may have few of them among many others.
 // Prims to visit lie on a stack, children in reverse, which gives the order of the stage without
 // recursion. Below a point instancer only prototypes count: each is walked once per instance, with
 // paths of its own below the instancer (S-38). Instances multiply without any room in the file, so
@@ -15,6 +16,7 @@
 #include <string>
 
 #include "tenon/base/limits/physics_limits.h"
+#include "tenon/base/path_order.h"
 #include "tenon/physics/physics_tokens.h"
 #include "tenon/physics/stray_properties.h"
 #include "tenon/stage/transform_at.h"
@@ -24,13 +26,23 @@ namespace {
 
 /// What a prim hands down to its children.
 struct Inherited {
-  Mat4d world = Mat4d::identity();
+  std::uint32_t place = kNone;  ///< where it stands, into Walker::places_
   std::uint32_t body = kNone;
   std::uint32_t mass = kNone;
   std::uint32_t articulation_root = kNone;
-  bool resets_below_body = false;
-  bool collides = false;  ///< the collision API of a prim above means its shapes (S-47)
   std::uint32_t instance = kNone;
+  bool collides = false;  ///< the collision API of a prim above means its shapes (S-47)
+};
+
+/// Where a prim on the way to the one that is visited stands; known once somebody has asked.
+struct Place {
+  stage::Prim prim;
+  std::uint32_t above = kNone;
+  bool moves = false;  ///< has a transform of its own
+  bool in_instance = false;
+  bool known = false;
+  bool resets_below_body = false;
+  Mat4d world = Mat4d::identity();
 };
 
 struct Pending {
@@ -87,13 +99,7 @@ class Walker {
 
   void visit(const stage::Prim& prim, Inherited state) {
     Roles roles = collision_from_above(finder_.roles_of(prim), state);
-    bool resets = false;
-    if (roles.xformable) {
-      const stage::LocalTransform local = stage::local_transform(prim, values_.start());
-      resets = local.resets_stack && state.instance == kNone;
-      state.world = resets ? local.matrix : local.matrix * state.world;
-    }
-    state.resets_below_body = state.resets_below_body || resets;
+    enter(prim, roles.xformable, state);
     roles.marked_sensor = stray_.report_on(values_, prim, roles);
     if (roles.vendor) {
       walk_.vendor_prims.push_back(prim);
@@ -106,6 +112,37 @@ class Walker {
     } else if (readings_.point_instancers == PointInstancers::Expand) {
       expand(prim, state);
     }
+  }
+
+  /// The prims on the way to this one lie on top of each other; what is above the place of the
+  /// prim above belongs to prims that are done with.
+  void enter(const stage::Prim& prim, bool moves, Inherited& state) {
+    places_.resize(state.place == kNone ? 0 : state.place + 1);
+    places_.push_back({prim, state.place, moves, state.instance != kNone});
+    state.place = static_cast<std::uint32_t>(places_.size() - 1);
+  }
+
+  /// The place, with its matrix, and those above worked out where that was not done yet.
+  Place& known_place(std::uint32_t index) {
+    unknown_.clear();
+    for (std::uint32_t i = index; i != kNone && !places_[i].known; i = places_[i].above) {
+      unknown_.push_back(i);
+    }
+    for (auto i = unknown_.rbegin(); i != unknown_.rend(); ++i) {
+      Place& at = places_[*i];
+      if (at.above != kNone) {
+        at.world = places_[at.above].world;
+        at.resets_below_body = places_[at.above].resets_below_body;
+      }
+      if (at.moves) {
+        const stage::LocalTransform local = stage::local_transform(at.prim, values_.start());
+        const bool resets = local.resets_stack && !at.in_instance;
+        at.world = resets ? local.matrix : local.matrix * at.world;
+        at.resets_below_body = at.resets_below_body || resets;
+      }
+      at.known = true;
+    }
+    return places_[index];
   }
 
   /// A point instancer, however often it is met.
@@ -175,7 +212,8 @@ class Walker {
       return;
     }
     const std::string stem = free_stem(instancer);
-    const Path place = placed_path(instancer, state.instance);
+    const Path path = placed_path(instancer, state.instance);
+    const Place at = known_place(state.place);
     for (std::size_t i = reading.instances.size(); i > 0; --i) {
       const ArrayInstance& array = reading.instances[i - 1];
       const stage::Prim& prototype = reading.prototypes[array.prototype];
@@ -186,9 +224,11 @@ class Walker {
       Inherited inside = state;
       inside.instance = static_cast<std::uint32_t>(walk_.instances.size());
       walk_.instances.push_back({instancer, prototype, array,
-                                 place.child(Token(stem + std::to_string(array.index))),
-                                 state.world, state.instance});
-      inside.world = walk_.instances.back().placement();
+                                 path.child(Token(stem + std::to_string(array.index))), at.world,
+                                 state.instance});
+      inside.place = static_cast<std::uint32_t>(places_.size());
+      places_.push_back(at);
+      places_.back().world = walk_.instances.back().placement();
       pending_.push_back({prototype, inside});
       ++known.simulated;
       known.in_body = known.in_body || state.body != kNone;
@@ -272,20 +312,21 @@ class Walker {
 
   void add(const stage::Prim& prim, const Roles& roles, Inherited& state) {
     const auto index = static_cast<std::uint32_t>(walk_.prims.size());
+    Place& place = known_place(state.place);
     PhysicsPrim found;
     found.prim = prim;
     found.path = placed_path(prim, state.instance);
     found.instance = state.instance;
     found.roles = roles;
-    found.world = state.world;
-    found.resets_below_body = state.resets_below_body;
+    found.world = place.world;
+    found.resets_below_body = place.resets_below_body;
     const bool enabled = roles.has(Api::RigidBody) && is_enabled_body(prim, roles);
-    if (enabled && stands_alone(prim, state)) {
+    if (enabled && stands_alone(prim, state.body, place.resets_below_body)) {
       found.is_body = true;
       found.outer_body = state.body;
       state.body = index;
       state.mass = kNone;
-      state.resets_below_body = false;
+      place.resets_below_body = false;
     }
     found.body = state.body;
     found.mass_above = state.mass;
@@ -321,12 +362,12 @@ class Walker {
   }
 
   /// S-24: whether a body below another is one of its own.
-  bool stands_alone(const stage::Prim& prim, const Inherited& above) const {
-    if (readings_.nesting == Nesting::Independent || above.body == kNone) {
+  bool stands_alone(const stage::Prim& prim, std::uint32_t body_above, bool resets) const {
+    if (readings_.nesting == Nesting::Independent || body_above == kNone) {
       return true;
     }
     if (readings_.nesting == Nesting::Error) {
-      if (above.resets_below_body) {
+      if (resets) {
         return true;
       }
       report(values_.diagnostics(), prim, Severity::Error, "body.nested-rejected",
@@ -348,6 +389,8 @@ class Walker {
   RoleFinder finder_;
   StrayProperties stray_;
   std::vector<Pending> pending_;
+  std::vector<Place> places_;           // of the prims on the way to the one that is visited
+  std::vector<std::uint32_t> unknown_;  // of known_place()
   std::unordered_map<Path, bool> physics_below_;
   std::unordered_map<Path, std::size_t> instancer_index_;
   std::deque<Instancer> instancers_;  // by the first time that they are met
@@ -382,6 +425,12 @@ Walk walk_stage(const stage::Stage& stage, const AttributeValues& values, const 
                 std::optional<stage::Time> switches_at) {
   Walk walk;
   Walker(values, readings, switches_at, walk).run(stage.pseudo_root());
+  std::vector<Path> paths;
+  paths.reserve(walk.prims.size());
+  for (const PhysicsPrim& found : walk.prims) {
+    paths.push_back(found.path);
+  }
+  walk.by_path = path_order(paths);
   return walk;
 }
 

@@ -55,6 +55,7 @@ struct PhysicsPrim {
 /// The physics prims of a stage in traversal order.
 struct Walk {
   std::vector<PhysicsPrim> prims;
+  std::vector<std::uint32_t> by_path;                ///< all of `prims` in the order of their paths
   std::unordered_map<Path, std::uint32_t> index_of;  ///< by path
   std::vector<PointInstance> instances;
   /// Prims of a vendor's type or with a vendor's API, also those that mean nothing else to physics.

@@ -88,6 +88,14 @@ const std::vector<Token>& StrayProperties::apis_of(Token name) {
 // S-2
 bool StrayProperties::report_ignored(const AttributeValues& values, const stage::Prim& prim,
                                      const Roles& roles) {
+  const std::vector<Token>& authored = prim.unordered_property_names();
+  const auto concerns = [this](const stage::Prim& at, Token name) {
+    return at.definition()->find(name) == nullptr && names_physics(name);
+  };
+  if (std::none_of(authored.begin(), authored.end(),
+                   [&](Token name) { return concerning_.ask(prim, name, concerns); })) {
+    return false;
+  }
   std::vector<std::pair<Token, std::vector<Token>>> ignored;  // API, names
   bool marks_sensor = false;
   for (const Token name : prim.authored_property_names()) {
@@ -123,7 +131,7 @@ bool StrayProperties::report_ignored(const AttributeValues& values, const stage:
 
 bool StrayProperties::report_on(const AttributeValues& values, const stage::Prim& prim,
                                 const Roles& roles) {
-  const bool marks_sensor = report_ignored(values, prim, roles);
+  const bool marks_sensor = values.stage_names_apis() && report_ignored(values, prim, roles);
   for (const Token name : unprefixed(roles)) {
     if (prim.has_property(name)) {
       values.report(prim, name, Severity::Warning, "attribute.unprefixed",

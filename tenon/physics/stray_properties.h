@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tenon/physics/attribute_values.h"
+#include "tenon/physics/definition_memo.h"
 #include "tenon/physics/prim_roles.h"
 
 namespace tenon::physics {
@@ -23,6 +24,7 @@ class StrayProperties {
   bool report_ignored(const AttributeValues& values, const stage::Prim& prim, const Roles& roles);
 
   std::unordered_map<Token, std::vector<Token>> apis_;
+  DefinitionMemo concerning_;  // what is not declared and would be something to an API
 };
 
 /// API schemas of UsdPhysics and of vendors that declare a property of that name, with the instance

@@ -107,7 +107,7 @@ class DrawnShapes {
         options_(options),
         view_(view),
         time_(scene.start_time_code),
-        values_(time_, physics::stage_is_animated(stage), physics::ValueTypes::Lenient, unheard_),
+        values_(time_, physics::layer_contents(stage), physics::ValueTypes::Lenient, unheard_),
         surfaces_(options, time_, view) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       bodies_.emplace(scene.bodies[i].path, static_cast<Index>(i));

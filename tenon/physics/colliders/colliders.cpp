@@ -124,7 +124,7 @@ Pose offset_of(const ReadState& state, const ShapeSource& source, const Collider
 }
 
 /// Sizes, points and pose are numbers that an engine can use; overflow leaves others behind.
-bool is_finite_shape(const ReadState& state, const Shape& shape) {
+bool is_finite_shape(ReadState& state, const Shape& shape) {
   const auto finite = [](const Vec3d& v) { return is_finite(v); };
   bool usable = is_finite(shape.half_extents) &&
                 is_finite(Vec3d{{shape.radius, shape.half_height, 0}}) &&
@@ -132,8 +132,7 @@ bool is_finite_shape(const ReadState& state, const Shape& shape) {
                 std::all_of(shape.sphere_radii.begin(), shape.sphere_radii.end(),
                             [](double r) { return std::isfinite(r); });
   if (shape.kind == ShapeKind::ConvexHull || shape.kind == ShapeKind::Mesh) {
-    const std::vector<Vec3d>& points = state.scene.meshes[shape.mesh].points;
-    usable = usable && std::all_of(points.begin(), points.end(), finite);
+    usable = usable && state.shared_meshes.has_finite_points(shape.mesh, state.scene.meshes);
   }
   return usable;
 }

@@ -93,12 +93,24 @@ const SharedMeshes::Solid& SharedMeshes::solid(const Shape& shape,
   return solids_.emplace(key, solid).first->second;
 }
 
+bool SharedMeshes::has_finite_points(Index mesh, const std::vector<TriangleMesh>& meshes) {
+  const auto known = finite_.find(mesh);
+  if (known != finite_.end()) {
+    return known->second;
+  }
+  const std::vector<Vec3d>& points = meshes[mesh].points;
+  const bool finite = std::all_of(points.begin(), points.end(),
+                                  [](const Vec3d& point) { return is_finite(point); });
+  return finite_.emplace(mesh, finite).first->second;
+}
+
 void SharedMeshes::forget_from(Index mesh) {
   for (auto& [key, known] : known_) {
     known.erase(std::remove_if(known.begin(), known.end(),
                                [&](const Known& each) { return each.mesh >= mesh; }),
                 known.end());
   }
+  std::erase_if(finite_, [&](const auto& each) { return each.first >= mesh; });
   std::erase_if(solids_, [&](const auto& each) { return each.first.first >= mesh; });
 }
 

@@ -32,6 +32,9 @@ class SharedMeshes {
   };
   const Solid& solid(const Shape& shape, const std::vector<TriangleMesh>& meshes);
 
+  /// The points of a mesh of the scene are numbers; looked at once, however many colliders have it.
+  bool has_finite_points(Index mesh, const std::vector<TriangleMesh>& meshes);
+
   /// The meshes from this one on are not in the scene any more.
   void forget_from(Index mesh);
 
@@ -55,6 +58,7 @@ class SharedMeshes {
 
   std::unordered_map<std::uint64_t, std::vector<Known>> known_;
   std::map<SolidKey, Solid> solids_;
+  std::unordered_map<Index, bool> finite_;
 };
 
 }  // namespace tenon::physics

@@ -8,16 +8,26 @@
 #include <string_view>
 #include <unordered_set>
 
+#include "tenon/physics/definition_memo.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/vendors/vendor_attributes.h"
 
 namespace tenon::physics {
 namespace {
 
-void note_vendor_settings(ReadState& state, const stage::Prim& prim) {
-  for (const Token& name : prim.authored_property_names()) {
-    if (is_vendor_attribute(prim, name) &&
-        use_of_vendor_attribute(prim, name) == VendorUse::NotRead) {
+bool is_not_read(const stage::Prim& prim, Token name) {
+  return is_vendor_attribute(prim, name) &&
+         use_of_vendor_attribute(prim, name) == VendorUse::NotRead;
+}
+
+void note_vendor_settings(ReadState& state, const stage::Prim& prim, DefinitionMemo& not_read) {
+  const std::vector<Token>& authored = prim.unordered_property_names();
+  const auto is_noted = [&](Token name) { return not_read.ask(prim, name, is_not_read); };
+  if (std::none_of(authored.begin(), authored.end(), is_noted)) {
+    return;
+  }
+  for (const Token name : prim.authored_property_names()) {
+    if (is_noted(name)) {
       state.not_read(prim, name.str(), "a setting of one engine without a neutral meaning");
     }
   }
@@ -51,9 +61,10 @@ void note_instancer(ReadState& state, const PhysicsPrim& found) {
 
 void note_what_is_not_read(ReadState& state) {
   std::unordered_set<Path> told;  // prototypes of point instancers are said of once
+  DefinitionMemo not_read;
   for (const stage::Prim& prim : state.walk.vendor_prims) {
     if (told.insert(prim.path()).second) {
-      note_vendor_settings(state, prim);
+      note_vendor_settings(state, prim, not_read);
     }
   }
   told.clear();

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Layers have many specs and few names of properties, each of which is judged once. A scene without
+// physics, however large, is not asked prim by prim for what it may have meant.
+#include <array>
+#include <functional>
+#include <unordered_set>
+
+#include "tenon/layer/fields.h"
+#include "tenon/physics/attribute_values.h"
+#include "tenon/physics/physics_tokens.h"
+#include "tenon/physics/stray_properties.h"
+
+namespace tenon::physics {
+namespace {
+
+class ContentsReader {
+ public:
+  /// Looks at a spec; false once there is nothing more to find out.
+  bool take(const layer::Layer::Entry& entry) {
+    const layer::Spec& spec = entry.spec;
+    if (spec.kind == layer::SpecKind::Attribute) {
+      contents.animated = contents.animated || spec.has(layer::fields::timeSamples) ||
+                          spec.has(layer::fields::spline);
+    } else if (spec.kind == layer::SpecKind::Prim) {
+      contents.animated = contents.animated || spec.has(layer::fields::clips);
+      return !(contents.animated && contents.names_apis);
+    }
+    if (!contents.names_apis && entry.path.is_property()) {
+      contents.names_apis = is_new(entry.path.name()) && names_physics(entry.path.name());
+    }
+    return !(contents.animated && contents.names_apis);
+  }
+
+  LayerContents contents;
+
+ private:
+  bool is_new(Token name) {
+    Token& last = recent_[std::hash<Token>()(name) >> 16U & (kRecent - 1)];
+    if (last == name) {
+      return false;
+    }
+    last = name;
+    return met_.insert(name).second;
+  }
+
+  static constexpr std::size_t kRecent = 64;
+  std::array<Token, kRecent> recent_;
+  std::unordered_set<Token> met_;
+};
+
+}  // namespace
+
+bool names_physics(Token property) {
+  return property == physics_tokens().sensor || !physics_apis_of(property).empty();
+}
+
+LayerContents layer_contents(const stage::Stage& stage) {
+  ContentsReader reader;
+  for (const layer::LayerPtr& layer : stage.used_layers()) {
+    for (const layer::Layer::Entry& entry : layer->entries()) {
+      if (!reader.take(entry)) {
+        return reader.contents;
+      }
+    }
+  }
+  return reader.contents;
+}
+
+}  // namespace tenon::physics
