@@ -29,7 +29,8 @@ const compose::PrimIndex& empty_index() {
 
 class Populator {
  public:
-  explicit Populator(StageData& data) : data_(data) {}
+  explicit Populator(StageData& data)
+      : data_(data), may_build_ahead_(data.options.mask.empty() && usable_processors() > 1) {}
 
   void run() {
     data_.root = &data_.prims.emplace_back();
@@ -56,8 +57,7 @@ class Populator {
     constexpr std::size_t kWorthTwoThreads = 256;  // prims
     const std::size_t count = data_.prims.size();
     if (count < std::max(kWorthTwoThreads, next_ahead_) || count >= data_.options.max_prims ||
-        pending_.size() < 2 || built_ahead_ || !data_.options.mask.empty() ||
-        usable_processors() < 2) {
+        pending_.size() < 2 || built_ahead_ || !may_build_ahead_) {
       return;
     }
     std::vector<const compose::PrimIndex*> roots;
@@ -220,6 +220,7 @@ class Populator {
   }
 
   StageData& data_;
+  const bool may_build_ahead_;                     // asked of the system once, not for every prim
   std::unordered_map<std::string, Path> sources_;  // of prototypes; filled for the first instance
   bool too_many_reported_ = false;
   bool too_many_findings_reported_ = false;
