@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 
-# tenon_folder(<folder> [LIBRARIES <target>...] [WITHOUT <sub-folder>...] [OF_PROGRAM])
+# tenon_folder(<folder> [LIBRARIES <target>...] [WITHOUT <sub-folder>...] [OF_PROGRAM] [SMALL])
 #
 # Turns tenon/<folder> into the static library tenon_<folder> ('/' becomes '_'), built from every
 # .cpp in it and below it except *_test.cpp and except the sub-folders named by WITHOUT (they are
@@ -11,9 +11,10 @@
 #   tenon_<folder>_headers   compiles every header without a source file alone, unless TENON_UNITY
 # A folder without any .cpp becomes an interface library. The others, and what they name as
 # LIBRARIES, are in the global properties TENON_FOLDER_LIBRARIES and TENON_FOLDER_NEEDS, of which
-# libtenon.so is made; what is OF_PROGRAM is in the program alone.
+# libtenon.so is made; what is OF_PROGRAM is in the program alone. SMALL is for folders whose own
+# code takes no time that anybody notices (tenon_small).
 function(tenon_folder folder)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "OF_PROGRAM" "" "LIBRARIES;WITHOUT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "OF_PROGRAM;SMALL" "" "LIBRARIES;WITHOUT")
   string(REPLACE "/" "_" name ${folder})
   set(library tenon_${name})
   set(root ${PROJECT_SOURCE_DIR}/tenon/${folder})
@@ -35,7 +36,12 @@ function(tenon_folder folder)
   if(sources)
     add_library(${library} STATIC ${sources})
     target_compile_options(${library} PRIVATE -fno-exceptions -fno-rtti)
-    tenon_precompile(${library} folder)
+    if(arg_SMALL)
+      tenon_small(${library})
+      tenon_precompile(${library} small_folder)
+    else()
+      tenon_precompile(${library} folder)
+    endif()
     tenon_unity(${library})
     target_link_libraries(${library} PUBLIC tenon_flags ${dependencies} ${arg_LIBRARIES})
     if(NOT arg_OF_PROGRAM)
@@ -56,6 +62,11 @@ function(tenon_folder folder)
       target_link_libraries(${library}_test PRIVATE ${extra})
     endif()
   endif()
+endfunction()
+
+# Releases of the target are compiled for size: a third of the code.
+function(tenon_small target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Os>)
 endfunction()
 
 # Reads the line "<key> : a b c" of tenon/folders.txt into <out> as a list; empty without a line.

@@ -36,8 +36,21 @@ target_include_directories(
   INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>"
             "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
 
-# The program over this library, for the Python package, which has the library anyway
-# (tools/make_wheel.sh).
+# Worker and program over this library, for the Python package, which has the library anyway
+# (tools/make_wheel.sh). The worker adds what only it calls.
+set(only_worker $<TARGET_OBJECTS:tenon_mesh> $<TARGET_OBJECTS:tenon_mjcf>)
+list(TRANSFORM only_worker REPLACE "(.+:tenon_mesh>)" "$<FILTER:\\1,INCLUDE,/assimp_scene>")
+list(TRANSFORM only_worker REPLACE "(.+:tenon_mjcf>)" "$<FILTER:\\1,EXCLUDE,/write_>")
+if(NOT TENON_WITH_MUJOCO)
+  list(FILTER only_worker EXCLUDE REGEX tenon_mjcf)
+endif()
+tenon_worker_program(tenon_shared_worker EXCLUDE_FROM_ALL ${only_worker})
+target_link_libraries(tenon_shared_worker PRIVATE tenon_flags tenon_library ${needs})
+set_target_properties(
+  tenon_shared_worker
+  PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/shared_bin
+             INSTALL_RPATH "$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}")
+
 if(TARGET tenon_cli_parts)
   add_executable(tenon_shared_cli EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/cli/main.cpp
                                                    $<TARGET_OBJECTS:tenon_cli_parts>)

