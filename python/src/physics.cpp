@@ -19,9 +19,11 @@
 #include <vector>
 
 #include "failure.h"
+#include "field_text.h"
 #include "numbers.h"
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 #include <nanobind/typing.h>
 
 #include "tenon/answers/scene_json.h"
@@ -40,6 +42,11 @@ struct FieldRow {
   std::string name;
   std::string type;  ///< for signatures
   std::string meaning;
+  std::string about;  ///< the meaning alone, without unit and shape
+  std::string unit;
+  std::string refers;               ///< the list of the scene that it points into
+  std::string number;               ///< "float64", "int32", ...; empty: no numbers
+  std::vector<std::int64_t> shape;  ///< of numbers; -1: as many as there are
   nb::object (*get)(const void* object, nb::handle owner) = nullptr;
   /// Of all objects of a list; null: it is asked of one after the other.
   nb::object (*column)(const void* first, std::size_t count, nb::handle owner) = nullptr;
@@ -50,127 +57,23 @@ const std::vector<FieldRow>& rows_of();
 template <class T>
 nb::object view(const T& value, nb::handle owner);
 
-// ---- names
-
-std::string snake_case(std::string_view camel) {
-  std::string snake;
-  for (const char c : camel) {
-    const bool upper = c >= 'A' && c <= 'Z';
-    snake += upper ? std::string("_") + static_cast<char>(c + 32) : std::string(1, c);
-  }
-  // In a class body of a stub this name would hide what makes the others.
-  return snake == "property" ? "property_name" : snake;
-}
-
-/// "Body"; "BodyTrack" of ObjectTrack<Body>, "TendonWrapAttachment" of TendonWrap::Attachment.
-template <class T>
-std::string class_name() {
-  const std::string_view function = __PRETTY_FUNCTION__;
-  const std::size_t begin = function.find("T = ") + 4;
-  std::string name(function.substr(begin, function.find_first_of(";]", begin) - begin));
-  const bool track = name.find("ObjectTrack<") != std::string::npos;
-  for (const char* part : {"tenon::scene::", "tenon::", "ObjectTrack<", ">", "::"}) {
-    for (std::size_t at = name.find(part); at != std::string::npos; at = name.find(part)) {
-      name.erase(at, std::strlen(part));
-    }
-  }
-  return name + (track ? "Track" : "");
-}
-
-template <class T>
-inline constexpr bool kIsIndexPair = std::is_same_v<T, std::pair<scene::Index, scene::Index>>;
-
-/// How a type is written in signatures.
-template <class T>
-std::string type_text() {
-  if constexpr (wire::kIsOptional<T>) {
-    return type_text<typename T::value_type>() + " | None";
-  } else if constexpr (std::is_same_v<T, bool>) {
-    return "bool";
-  } else if constexpr (std::is_enum_v<T> || std::is_same_v<T, std::string> ||
-                       std::is_same_v<T, Path>) {
-    return "str";
-  } else if constexpr (std::is_floating_point_v<T>) {
-    return "float";
-  } else if constexpr (std::is_integral_v<T>) {
-    return "int";
-  } else if constexpr (std::is_same_v<T, Quatd> || kHasNumbers<T>) {
-    return "NDArray[Any]";
-  } else if constexpr (wire::kIsVector<T>) {
-    using Item = typename T::value_type;
-    return kHasNumbers<Item> || kIsIndexPair<Item> ? "NDArray[Any]"
-                                                   : "List[" + type_text<Item>() + "]";
-  } else if constexpr (wire::kIsPair<T>) {
-    return "tuple[" + type_text<typename T::first_type>() + ", " +
-           type_text<typename T::second_type>() + "]";
-  } else {
-    return class_name<T>();
-  }
-}
-
-/// " (count, 3)" of arrays.
-template <class T>
-std::string shape_of() {
-  if constexpr (wire::kIsOptional<T>) {
-    return shape_of<typename T::value_type>();
-  } else if constexpr (std::is_same_v<T, Quatd>) {
-    return " (4): w, x, y, z";
-  } else if constexpr (std::is_arithmetic_v<T>) {
-    return "";
-  } else if constexpr (wire::kIsVector<T>) {
-    using Item = typename T::value_type;
-    if constexpr (kIsIndexPair<Item>) {
-      return " (count, 2)";
-    } else if constexpr (kHasNumbers<Item>) {
-      constexpr auto& kShape = NumbersOf<Item>::kShape;
-      std::string text = " (count";
-      for (const std::size_t length : kShape) {
-        text += ", " + std::to_string(length);
-      }
-      return text + ")";
-    } else {
-      return "";
-    }
-  } else if constexpr (kHasNumbers<T>) {
-    std::string text;
-    for (const std::size_t length : NumbersOf<T>::kShape) {
-      text += (text.empty() ? " (" : ", ") + std::to_string(length);
-    }
-    return text + ")";
-  } else {
-    return "";
-  }
-}
-
-const char* list_name(scene::List list) {
-  constexpr const char* kNames[] = {"",
-                                    "scenes",
-                                    "bodies",
-                                    "colliders",
-                                    "meshes",
-                                    "materials",
-                                    "joints",
-                                    "articulations",
-                                    "tendons",
-                                    "actuators",
-                                    "bodies, colliders or joints"};
-  return kNames[static_cast<std::size_t>(list)];
-}
-
-std::string meaning_of(const FieldInfo& info, const std::string& shape) {
-  std::string meaning(info.meaning);
-  if (!meaning.empty()) {
-    meaning[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning[0])));
-  }
-  if (info.refers != scene::List::None) {
-    meaning += "; an index into " + std::string(list_name(info.refers));
-  }
+/// "kg", "rad or m"; empty without a unit.
+std::string unit_of(const FieldInfo& info) {
   const std::string angular(unit_text(info.unit, true));
   const std::string linear(unit_text(info.unit, false));
-  if (!angular.empty()) {
-    meaning += " [" + angular + (angular == linear ? "" : " or " + linear) + "]";
+  return angular + (angular == linear ? "" : " or " + linear);
+}
+
+/// Says in `row` what its field means.
+void tell(const FieldInfo& info, const std::string& shape, FieldRow& row) {
+  row.about = info.meaning;
+  if (!row.about.empty()) {
+    row.about[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(row.about[0])));
   }
-  return meaning + shape + ".";
+  row.unit = unit_of(info);
+  row.refers = list_name(info.refers);
+  row.meaning = row.about + (row.refers.empty() ? "" : "; an index into " + row.refers) +
+                (row.unit.empty() ? "" : " [" + row.unit + "]") + shape + ".";
 }
 
 // ---- lists
@@ -307,7 +210,9 @@ FieldRow row_of(const FieldInfo& info) {
   FieldRow row;
   row.name = snake_case(info.name);
   row.type = type_text<Value>();
-  row.meaning = meaning_of(info, shape_of<Value>());
+  row.number = number_name<Value>();
+  row.shape = number_shape<Value>();
+  tell(info, shape_of<Value>(), row);
   row.get = [](const void* object, nb::handle owner) {
     return view(member<Chain...>(*static_cast<const T*>(object)), owner);
   };
@@ -395,6 +300,22 @@ void add_property(nb::handle type, const FieldRow& row) {
       nb::module_::import_("builtins").attr("property")(getter, nb::none(), nb::none());
 }
 
+/// What is known of each property: for tables (tenon_usd/tables.py).
+nb::dict columns_of(const std::vector<FieldRow>& rows) {
+  nb::dict columns;
+  for (const FieldRow& row : rows) {
+    nb::dict column;
+    column["type"] = row.type;
+    column["unit"] = row.unit;
+    column["meaning"] = row.about;
+    column["refers"] = row.refers;
+    column["number"] = row.number;
+    column["shape"] = nb::tuple(nb::cast(row.shape));
+    columns[row.name.c_str()] = column;
+  }
+  return columns;
+}
+
 /// Binds `Bound`, at whose beginning a T lies, with the properties of T.
 template <class T, class Bound = T>
 nb::class_<Bound> bind_class(nb::module_& module) {
@@ -405,11 +326,9 @@ nb::class_<Bound> bind_class(nb::module_& module) {
   for (const FieldRow& row : rows_of<T>()) {
     add_property(bound, row);
   }
-  nb::list names;
-  for (const FieldRow& row : rows_of<T>()) {
-    names.append(row.name);
-  }
-  bound.attr("FIELDS") = nb::tuple(names);  // of the properties
+  const nb::dict columns = columns_of(rows_of<T>());
+  bound.attr("FIELDS") = nb::tuple(columns);
+  bound.attr("COLUMNS") = columns;
   return bound;
 }
 
@@ -457,6 +376,19 @@ void bind_pose(nb::module_& module) {
       "orientation",
       [](const Pose& self, nb::handle owner) { return view(self.orientation, owner); },
       "(4): w, x, y, z.");
+  std::vector<FieldRow> rows(2);
+  rows[0].name = "position";
+  rows[0].unit = unit_text(scene::Unit::Meter, true);
+  rows[0].about = "Of the origin";
+  rows[0].shape = number_shape<Vec3d>();
+  rows[1].name = "orientation";
+  rows[1].about = "w, x, y, z";
+  rows[1].shape = number_shape<Quatd>();
+  for (FieldRow& row : rows) {
+    row.type = "NDArray[Any]";
+    row.number = number_name<Vec3d>();
+  }
+  pose.attr("COLUMNS") = columns_of(rows);
 }
 
 void bind_list(nb::module_& module) {
@@ -470,6 +402,27 @@ void bind_list(nb::module_& module) {
   list.def("column", &column_of, "name"_a, nb::sig("def column(self, name: str) -> Any"),
            "One property of all objects, in its unit: of numbers a read-only NumPy view without a "
            "copy (count, ...), else a list. Raises KeyError for an unknown name.");
+  list.def_prop_ro(
+      "columns",
+      [](const List& self) { return self.rows == nullptr ? nb::dict() : columns_of(*self.rows); },
+      nb::sig("def columns(self) -> dict[str, dict[str, Any]]"),
+      "What is known of each property of the objects: {\"type\", \"unit\", \"meaning\", "
+      "\"refers\", \"number\", \"shape\"}.");
+  // A table in Python: pandas and Arrow are the user's.
+  const auto table = [&list](const char* name, const char* text) {
+    list.def(
+        name,
+        [name](nb::handle self) {
+          return nb::module_::import_("tenon_usd.tables").attr(name)(self);
+        },
+        nb::sig((std::string("def ") + name + "(self) -> Any").c_str()), text);
+  };
+  table("to_arrow",
+        "A pyarrow.Table with a row for each object; fields tell unit and meaning in their "
+        "metadata. Raises MissingError without pyarrow.");
+  table("to_pandas",
+        "A pandas.DataFrame with a row for each object, vectors as columns \"position.x\"; its "
+        "attrs[\"units\"] has the unit of each. Raises MissingError without pandas.");
   list.def("__repr__",
            [](const List& self) { return "<List of " + std::to_string(self.count) + ">"; });
 }

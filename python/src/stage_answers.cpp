@@ -59,9 +59,10 @@ nb::object explain(OpenedStage& stage, const std::string& object,
 }
 
 nb::object masses(OpenedStage& stage) {
-  return ask(stage, [](const answers::Explained& explained) -> Result<Json> {
+  const nb::object rows = ask(stage, [](const answers::Explained& explained) -> Result<Json> {
     return answers::mass_table_json(explained.stage, explained.scene, explained.provenance);
   });
+  return nb::module_::import_("tenon_usd.tables").attr("Rows")(rows);
 }
 
 nb::object info(OpenedStage& stage) {
@@ -127,9 +128,10 @@ void bind_stage_answers(nb::class_<OpenedStage>& stage) {
             "a time [time codes]; with `variants` also what other variants of \"Physics\" say.");
   stage.def("info", &info, nb::sig("def info(self) -> dict[str, Any]"),
             "What the asset is: units, variants, counts of bodies and joints, mass [kg].");
-  stage.def("masses", &masses, nb::sig("def masses(self) -> list[dict[str, Any]]"),
+  stage.def("masses", &masses, nb::sig("def masses(self) -> tenon_usd.tables.Rows"),
             "Of every body the authored and the resolved mass [kg], centre of mass [m] and inertia "
-            "[kg m^2], with the reasons.");
+            "[kg m^2], with the reasons: a list of dictionaries, and a table by to_pandas() and "
+            "to_arrow().");
   stage.def("tree", &tree, nb::sig("def tree(self) -> list[dict[str, Any]]"),
             "Every prim: path, specifier, type, active, instance.");
   stage.def("kinematic_tree", &kinematic_tree,

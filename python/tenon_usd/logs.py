@@ -13,7 +13,6 @@ and "rerun", .parquet the extra "parquet".
 from __future__ import annotations
 
 import csv
-import dataclasses
 import io
 import json
 import os
@@ -23,77 +22,27 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
+
+from .log import (
+    AXES,
+    BODY,
+    CONTACT_NUMBERS,
+    CONTACT_VECTORS,
+    SI_UNITS,
+    SIM_UNITS,
+    Array,
+    Log,
+    LogError,
+    make_log,
+)
 
 if TYPE_CHECKING:
     from .world import World
 
-Array = npt.NDArray[np.float64]
-AXES = (".x", ".y", ".z")
-BODY = {"position": AXES, "orientation": (".w", *AXES), "linearVelocity": AXES,
-        "angularVelocity": AXES}
+__all__ = ["Log", "LogError", "main", "read", "record", "write"]
+
 ARRAYS = {"position": "position", "orientation": "orientation", "linearVelocity": "linear_velocity",
           "angularVelocity": "angular_velocity"}
-CONTACT_VECTORS = ("point", "normal", "frictionForce", "frictionTorque")
-CONTACT_NUMBERS = ("depth", "normalForce")
-SIM_UNITS = {"length": "stage", "angle": "deg"}
-SI_UNITS = {"length": "m", "angle": "rad"}
-
-
-class LogError(ValueError):
-    """A file that is no log, or an ending that is no format."""
-
-
-@dataclasses.dataclass
-class Log:
-    """What a run was, sample by sample.
-
-    `time` [s] has shape (samples,), each of `columns` too; their names are "PATH.position.x",
-    "PATH.orientation.w", "PATH.linearVelocity.x", "PATH.angularVelocity.x" of bodies,
-    "PATH.position" and "PATH.velocity" of joints, and those of outputs. `contacts` has a row for
-    each contact: "time", "collider0", "collider1", "body0", "body1", "point.x" and so on; None
-    where they were not logged. `units` are those of lengths ("m" or "stage") and angles ("rad",
-    "deg"): logs of `tenon sim` have units of the stage and degrees. Forces are in N, energies in J.
-    """
-
-    time: Array
-    columns: dict[str, Array]
-    contacts: dict[str, npt.NDArray[Any]] | None = None
-    units: dict[str, str] = dataclasses.field(default_factory=lambda: dict(SIM_UNITS))
-
-    @property
-    def bodies(self) -> list[str]:
-        """Paths of what has an orientation and a position."""
-        end = ".orientation.w"
-        return [name[:-len(end)] for name in self.columns if name.endswith(end)
-                and name[:-len(end)] + ".position.x" in self.columns]
-
-    def body(self, path: str, what: str) -> Array:
-        """"position", "orientation" (w, x, y, z), "linearVelocity" or "angularVelocity" of a body,
-        shape (samples, 3) or (samples, 4)."""
-        return np.stack([self.columns[f"{path}.{what}{axis}"] for axis in BODY[what]], axis=1)
-
-    def others(self) -> dict[str, Array]:
-        """The columns that are not of bodies: joints, and what was logged beside states."""
-        of_bodies = {f"{path}.{what}{axis}" for path in self.bodies for what, axes in BODY.items()
-                     for axis in axes}
-        return {name: values for name, values in self.columns.items() if name not in of_bodies}
-
-    def contacts_at(self, sample: int) -> npt.NDArray[np.intp]:
-        """The rows of `contacts` of one sample."""
-        if self.contacts is None:
-            return np.zeros(0, dtype=np.intp)
-        return np.flatnonzero(self.contacts["time"] == self.time[sample])
-
-
-def _log(time: Any, columns: Mapping[str, Any], contacts: Any = None,
-         units: Mapping[str, str] = SIM_UNITS) -> Log:
-    time = np.asarray(time, dtype=np.float64)
-    found = {name: np.asarray(values, dtype=np.float64) for name, values in columns.items()}
-    for name, values in found.items():
-        if values.shape != time.shape:
-            raise LogError(f"the column {name} has {values.shape}, not {time.shape} samples")
-    return Log(time, found, contacts, dict(units))
 
 
 # ---- reading
@@ -132,7 +81,7 @@ def _read_csv(path: str) -> Log:
     if os.path.exists(_contacts_path(path)):
         with open(_contacts_path(path), encoding="utf-8", newline="") as file:
             contacts = _read_table(file, COLLIDERS)
-    return _log(columns.pop("time"), columns, contacts)
+    return make_log(columns.pop("time"), columns, contacts)
 
 
 def _parts(path: str, what: str, count: int) -> list[str]:
@@ -210,7 +159,7 @@ def _own_npz(arrays: Mapping[str, Any]) -> Log:
     columns = dict(zip(_texts(arrays["columns"]), arrays["values"].T, strict=True))
     contacts = {name.removeprefix("contact."): values for name, values in arrays.items()
                 if name.startswith("contact.")}
-    return _log(arrays["time"], columns, contacts or None, json.loads(str(arrays["units"])))
+    return make_log(arrays["time"], columns, contacts or None, json.loads(str(arrays["units"])))
 
 
 def _read_npz(path: str) -> Log:
@@ -232,7 +181,7 @@ def _read_npz(path: str) -> Log:
                 columns[name] = arrays[f"joint_{what}"][:, offsets[i] + k]
     used = {*ARRAYS.values(), "joint_position", "joint_velocity"}
     columns.update(_npz_outputs(arrays, used, len(arrays["time"])))
-    return _log(arrays["time"], columns, _npz_contacts(arrays))
+    return make_log(arrays["time"], columns, _npz_contacts(arrays))
 
 
 #: Lists of a line of JSON whose parts are axes, wherever they stand.
@@ -291,7 +240,7 @@ def _read_jsonl(path: str) -> Log:
                 samples.append(found)
             names = list(samples[0]) if samples else []
             columns = {name: [sample.get(name, np.nan) for sample in samples] for name in names}
-            return _log([line["time"] for line in lines], columns, _jsonl_contacts(lines))
+            return make_log([line["time"] for line in lines], columns, _jsonl_contacts(lines))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise LogError(f"a line is none of a log: {error}") from error
 
@@ -308,7 +257,7 @@ def _read_parquet(path: str) -> Log:
             other[name].type) else other[name].to_numpy() for name in other.column_names}
     if "time" not in columns:
         raise LogError("the table has no column `time`")
-    return _log(columns.pop("time"), columns, contacts, units or SIM_UNITS)
+    return make_log(columns.pop("time"), columns, contacts, units or SIM_UNITS)
 
 
 READERS: dict[str, Callable[[str], Log]] = {
@@ -369,7 +318,7 @@ def record(world: World, duration: float, every: float = 1 / 60, env: int = 0,
     for i, name in enumerate(("energy.kinetic", "energy.potential")):
         columns[name] = np.array(energies)[:, i]
     found = {name: np.array(values) for name, values in touched.items()} if contacts else None
-    return _log(times, columns, found, SI_UNITS)
+    return make_log(times, columns, found, SI_UNITS)
 
 
 def _touch(world: World, env: int, time: float, touched: dict[str, list[Any]]) -> None:

@@ -231,8 +231,11 @@ class Results:
 
     def read_chunk(self, number: int) -> list[Row] | None:
         """The rows of a chunk; None where it is missing, damaged or of another plan."""
+        return self._rows_of(self.chunk_path(number), self.plan.chunk_cases(number))
+
+    def _rows_of(self, path: str, cases: range) -> list[Row] | None:
         try:
-            with open(self.chunk_path(number), "rb") as file:
+            with open(path, "rb") as file:
                 rows, digest = self._decode(file.read())
         except ExtraMissing:
             raise
@@ -240,9 +243,13 @@ class Results:
             return None
         names = [name for name, _ in self.columns]
         good = (digest == self.digest
-                and [row.get("case") for row in rows] == list(self.plan.chunk_cases(number))
+                and [row.get("case") for row in rows] == list(cases)
                 and all(list(row) == names for row in rows))
         return rows if good else None
+
+    def read_result(self) -> list[Row] | None:
+        """The rows of the merged file; None where it is missing, damaged or of another plan."""
+        return self._rows_of(self.result_path, range(self.plan.case_count))
 
     def missing(self, numbers: Iterator[int] | range) -> list[int]:
         """Those chunks that are not there. Files that were begun and never finished go."""
