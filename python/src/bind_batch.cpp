@@ -19,6 +19,7 @@
 #include "failure.h"
 #include "json.h"
 #include "numbers.h"
+#include "opened_stage.h"
 #include "options.h"
 #include "physics.h"
 #include <nanobind/nanobind.h>
@@ -430,12 +431,11 @@ engines::Outputs outputs_named(const std::vector<std::string>& names) {
   return outputs;
 }
 
-std::unique_ptr<Batch> make_batch(const std::filesystem::path& path, const OpenArguments& arguments,
-                                  const std::string& engine, std::size_t count, std::size_t threads,
-                                  std::uint64_t seed, double time_step,
-                                  const std::vector<std::string>& outputs,
-                                  const std::vector<std::string>& variations,
-                                  const std::string& integrator) {
+BatchOptions batch_options(const std::string& engine, std::size_t count, std::size_t threads,
+                           std::uint64_t seed, double time_step,
+                           const std::vector<std::string>& outputs,
+                           const std::vector<std::string>& variations,
+                           const std::string& integrator) {
   BatchOptions options;
   options.engine = engine;
   options.count = count;
@@ -450,9 +450,23 @@ std::unique_ptr<Batch> make_batch(const std::filesystem::path& path, const OpenA
               .with_fix("euler, implicitfast, implicit and rk4 can be asked for"));
   }
   options.simulation.methods.integrator = *chosen;
+  return options;
+}
+
+std::unique_ptr<Batch> make_batch(const std::filesystem::path& path, const OpenArguments& arguments,
+                                  const BatchOptions& options) {
   const physics::Readings readings = readings_of(arguments);
   return or_raise(
       unlocked([&] { return Batch::make(path.string(), arguments.open, readings, options); }));
+}
+
+/// Of the scene as it is edited now; later edits change nothing of it.
+std::unique_ptr<Batch> make_batch_of(OpenedStage& stage, const BatchOptions& options) {
+  const auto access = stage.access();
+  return or_raise(unlocked([&]() -> Result<std::unique_ptr<Batch>> {
+    TENON_TRY(const OpenOptions open, stage.options_as_edited());
+    return Batch::make(stage.path(), open, stage.readings(), options);
+  }));
 }
 
 void bind_facts(nb::class_<Batch>& batch) {
@@ -489,12 +503,13 @@ void bind_facts(nb::class_<Batch>& batch) {
 
 void bind_batch(nb::module_& module) {
   nb::class_<Batch> batch(module, "Batch", "What World stands on.");
-  module.def("make_batch", &make_batch, "path"_a, "arguments"_a, "engine"_a, "count"_a, "threads"_a,
-             "seed"_a, "time_step"_a, "outputs"_a, "variations"_a, "integrator"_a,
+  nb::class_<BatchOptions>(module, "BatchOptions", "How many environments are made, and of what.")
+      .def(nb::new_(&batch_options), "engine"_a, "count"_a, "threads"_a, "seed"_a, "time_step"_a,
+           "outputs"_a, "variations"_a, "integrator"_a);
+  module.def("make_batch", &make_batch, "path"_a, "arguments"_a, "options"_a,
              nb::sig("def make_batch(path: str | os.PathLike[str], arguments: OpenArguments, "
-                     "engine: str, count: int, threads: int, seed: int, time_step: float, "
-                     "outputs: Sequence[str], variations: Sequence[str], "
-                     "integrator: str) -> Batch"));
+                     "options: BatchOptions) -> Batch"));
+  module.def("make_batch_of", &make_batch_of, "stage"_a, "options"_a);
   bind_facts(batch);
   batch.def("step", &step, "count"_a);
   batch.def("reset", &reset, "which"_a);

@@ -86,6 +86,17 @@ Result<std::vector<EditedFile>> OpenedStage::edited_files() const {
   return editor_ ? editor_->files() : std::vector<EditedFile>();
 }
 
+Result<OpenOptions> OpenedStage::options_as_edited() const {
+  TENON_TRY(std::vector<EditedFile> files, edited_files());
+  OpenOptions options = options_;
+  bytes::FileMap contents;
+  for (EditedFile& file : files) {
+    contents[file.path] = bytes::FileBytes::own(std::move(file.after));
+  }
+  options.files = options.files.with(std::move(contents));
+  return options;
+}
+
 Result<std::vector<EditedFile>> OpenedStage::save() {
   TENON_TRY(std::vector<EditedFile> files, edited_files());
   if (!files.empty()) {

@@ -8,9 +8,12 @@
 #include <nanobind/stl/vector.h>
 
 #include "tenon/asset/physics_options.h"
+#include "tenon/bytes/file_bytes.h"
 
 namespace tenon::python {
 namespace {
+
+using namespace nb::literals;
 
 template <class Type>
 void bind_option(nb::class_<OpenArguments>& bound, const char* name, Type OpenOptions::* field,
@@ -58,6 +61,14 @@ void bind_options(nb::module_& module) {
               "Folders that files may be read from; empty: all.");
   bind_option(bound, "allow_read", &OpenOptions::allowed_reads,
               "Folders and files that may go into outputs.");
+  bound.def(
+      "set_contents",
+      [](OpenArguments& arguments, const std::string& path, const nb::bytes& contents) {
+        bytes::FileMap files;
+        files[path] = bytes::FileBytes::own(std::string(contents.c_str(), contents.size()));
+        arguments.open.files = arguments.open.files.with(std::move(files));
+      },
+      "path"_a, "contents"_a, "Bytes that stand for a file.");
   bound.def_rw("readings", &OpenArguments::readings,
                "Readings of the physics that differ from the usual ones, by name.");
 }

@@ -20,6 +20,7 @@ from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
+from ._tenon import Stage
 from .options import PathLike
 from .world import World
 
@@ -37,11 +38,15 @@ class AssetVectorEnv(VectorEnv[Array, Array, Array]):
     that ended are reset by the step after, as AutoresetMode.NEXT_STEP has it.
     """
 
+    observation_space: spaces.Space[Array]
+    action_space: spaces.Space[Array]
+    single_observation_space: spaces.Space[Array]
+    single_action_space: spaces.Space[Array]
     metadata: dict[str, Any] = {"autoreset_mode": AutoresetMode.NEXT_STEP, "render_modes": []}
 
     def __init__(
         self,
-        asset: PathLike,
+        asset: PathLike | Stage,
         num_envs: int = 1,
         *,
         bodies: Iterable[str] = (),
@@ -50,12 +55,12 @@ class AssetVectorEnv(VectorEnv[Array, Array, Array]):
         seed: int = 0,
         **world_options: Any,
     ) -> None:
-        self.world = World(asset, envs=num_envs, seed=seed, **world_options)
+        self.world: World = World(asset, envs=num_envs, seed=seed, **world_options)
         self.num_envs = num_envs
-        self.frame_steps = max(1, round(frame_time / self.world.time_step))
+        self.frame_steps: int = max(1, round(frame_time / self.world.time_step))
         self.episode_time = episode_time
         names = self.world.body_names
-        self.bodies = [names.index(body) for body in bodies]
+        self.bodies: list[int] = [names.index(body) for body in bodies]
         self._low, self._high = self._bounds()
         size = 2 * len(self.world.joint_names) + 7 * len(self.bodies)
         self.single_observation_space = spaces.Box(-np.inf, np.inf, (size,), np.float64)
@@ -149,7 +154,7 @@ class GraspEnv(AssetVectorEnv):
 
     def __init__(
         self,
-        asset: PathLike,
+        asset: PathLike | Stage,
         num_envs: int = 1,
         *,
         can: str = "/World/can",

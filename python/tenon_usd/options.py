@@ -38,6 +38,8 @@ class OpenOptions(TypedDict, total=False):
     """Folders that files may be read from; all where it is empty."""
     allow_read: Sequence[PathLike]
     """Folders and files that may go into outputs beside those of the asset."""
+    contents: Mapping[PathLike, str | bytes]
+    """Texts or bytes in memory that stand for files, over the disk: layers that are not saved."""
     readings: Mapping[str, str]
     """Readings of the physics by name (docs/physics.md): {"nesting": "ignore"}."""
 
@@ -56,6 +58,10 @@ def arguments_of(given: Mapping[str, Any]) -> OpenArguments:
             setattr(arguments, name, [os.fspath(path) for path in value])
         elif name == "variant_fallbacks":
             arguments.variant_fallbacks = {k: list(v) for k, v in value.items()}
+        elif name == "contents":
+            for path, text in value.items():
+                bytes_of = text.encode() if isinstance(text, str) else bytes(text)
+                arguments.set_contents(os.fspath(path), bytes_of)
         elif name == "readings":
             arguments.readings = dict(value)
         elif name == "payloads":

@@ -23,7 +23,7 @@ from .options import OpenOptions, PathLike, arguments_of
 if TYPE_CHECKING:
     from typing import Unpack
 
-    from ._tenon import Diagnostic, PhysicsScene
+    from ._tenon import Diagnostic, PhysicsScene, Stage
 
 Array = npt.NDArray[np.float64]
 OUTPUTS = ("contacts", "efforts", "reactions", "accelerations", "work", "sensors")
@@ -32,7 +32,9 @@ OUTPUTS = ("contacts", "efforts", "reactions", "accelerations", "work", "sensors
 class World:
     """Environments of one asset on one engine.
 
-    World("grasp.usda", envs=64) makes 64 of them from one compiled model. `engine` is a name as of
+    World("grasp.usda", envs=64) makes 64 of them from one compiled model. `asset` is a file, or a
+    stage of tenon_usd.open() with the edits that it has now, saved or not, opened as the stage was;
+    `options` are for files alone. `engine` is a name as of
     tenon_usd.engines(); None: what the asset's variant asks for, else MuJoCo. `threads` are as many
     as the process may use where it is 0. `time_step` [s] is the asset's where it is 0. `outputs`
     name what can be read beside states: contacts, efforts, reactions, accelerations, work, sensors.
@@ -43,7 +45,7 @@ class World:
 
     def __init__(
         self,
-        asset: PathLike,
+        asset: PathLike | Stage,
         engine: str | None = None,
         envs: int = 1,
         seed: int = 0,
@@ -55,18 +57,15 @@ class World:
         integrator: str = "",
         **options: Unpack[OpenOptions],
     ) -> None:
-        self._batch = _tenon.make_batch(
-            os.fspath(asset),
-            arguments_of(options),
-            engine or "",
-            envs,
-            threads,
-            seed,
-            time_step,
-            list(outputs),
-            list(vary),
-            integrator,
+        how = _tenon.BatchOptions(
+            engine or "", envs, threads, seed, time_step, list(outputs), list(vary), integrator
         )
+        if isinstance(asset, _tenon.Stage):
+            if options:
+                raise TypeError(f"{', '.join(options)}: a stage was opened with its own options")
+            self._batch = _tenon.make_batch_of(asset, how)
+        else:
+            self._batch = _tenon.make_batch(os.fspath(asset), arguments_of(options), how)
         drives = [drive for joint in self._batch.scene().joints for drive in joint.drives]
         self._first_targets = np.array([drive.target_position for drive in drives])
         self._first_velocities = np.array([drive.target_velocity for drive in drives])

@@ -12,6 +12,61 @@ import tenon_usd as tenon
 HAND = {"physics": "physics"}
 
 
+class Assets(support.FilesTestCase):
+    """What a world is made of beside a file."""
+
+    MASS = "physics:mass"
+    THUMB = "/inspire_hand/right_thumb_1"
+
+    def motion(self, *arguments, **options):
+        world = tenon.World(*arguments, **options)
+        world.step(50)
+        return world.scene.json(), world.body_poses
+
+    def assert_same(self, one, other):
+        self.assertEqual(one[0], other[0])
+        np.testing.assert_array_equal(one[1], other[1])
+
+    def test_an_edited_stage_is_simulated_as_it_will_be_saved(self):
+        path = self.copied_hand()
+        before = self.motion(path, **HAND)
+        stage = tenon.open(path, **HAND)
+        self.assert_same(self.motion(stage), before)
+        stage[self.THUMB].set(self.MASS, 2.0)
+        edited = self.motion(stage)
+        self.assertNotEqual(edited[0], before[0])
+        self.assert_same(self.motion(path, **HAND), before)  # no file was touched
+        world = tenon.World(stage, envs=2)
+        stage.undo()
+        self.assert_same(self.motion(stage), before)
+        masses = [body.mass for body in world.scene.bodies if body.path == self.THUMB]
+        self.assertEqual(masses, [2.0])  # of the stage as it was then
+        world.step(50)
+        np.testing.assert_array_equal(world.body_poses[1], edited[1][0])
+        self.assertIn('mass="2"', world.to_mjcf())
+        stage.redo()
+        stage.save()
+        self.assert_same(self.motion(path, **HAND), edited)
+        with self.assertRaisesRegex(TypeError, "physics"):
+            tenon.World(stage, physics="mujoco")
+
+    def test_layers_in_memory(self):
+        text = (support.SCENES / "box_on_box.usda").read_text()
+        path = self.written("box.usda", text)
+        before = self.motion(path)
+        path.unlink()
+        self.assert_same(self.motion(path, contents={path: text}), before)
+        self.assertFalse(path.exists())
+        over = (f'#usda 1.0\n(\n    subLayers = [@{path}@]\n    defaultPrim = "World"\n'
+                '    upAxis = "Z"\n    metersPerUnit = 0.01\n)\n')
+        stage = tenon.open("over.usda", contents={"over.usda": over, path: text.encode()})
+        np.testing.assert_array_equal(self.motion(stage)[1], before[1])
+        with self.assertRaises(tenon.MissingFileError):
+            tenon.open(path)
+        with self.assertRaises(tenon.ParseError):
+            tenon.open(path, contents={path: "#usda 1.0\ndef"})
+
+
 class Stepping(support.FilesTestCase):
     def test_a_box_falls_as_it_should(self):
         path = self.written("fall.usda", '''#usda 1.0
