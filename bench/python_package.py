@@ -66,6 +66,60 @@ began = time.process_time()
 rollout.rollout(model, data, states, np.zeros(({envs}, {steps}, model.nu)))
 print({envs} * {steps} / (time.process_time() - began))
 """
+# Frames of vector environments: targets of the drives in, positions and velocities of joints out.
+FRAMES = """
+import time
+import numpy as np
+{envs_of}
+envs.reset(seed=0)
+actions = np.zeros(envs.action_space.shape, dtype=envs.action_space.dtype)
+envs.step(actions)
+began = time.process_time()
+for _ in range({frames}):
+    envs.step(actions)
+print({envs} * {frames} / (time.process_time() - began))
+"""
+OWN_ENVS = """
+from tenon_usd.gym import AssetVectorEnv
+envs = AssetVectorEnv({path!r}, {envs}, frame_time=0.02, episode_time=1e9, threads=1,
+                      physics="physics")
+"""
+# The same model, as Gymnasium has it: one MuJoCo for each environment, in one process.
+GYMNASIUM_ENVS = """
+import os, tempfile
+os.environ["MUJOCO_GL"] = "disable"
+import tenon_usd
+from gymnasium import spaces
+from gymnasium.envs.mujoco import MujocoEnv
+from gymnasium.vector import SyncVectorEnv
+
+folder = tempfile.TemporaryDirectory()
+world = tenon_usd.World({path!r}, physics="physics")
+world.to_mjcf(os.path.join(folder.name, "hand.xml"))
+skip = max(1, round(0.02 / world.time_step))
+fps = round(1 / (skip * world.time_step))
+
+class Hand(MujocoEnv):
+    metadata = {{"render_modes": ["human", "rgb_array", "depth_array", "rgbd_tuple"],
+                "render_fps": fps}}
+
+    def __init__(self):
+        super().__init__(os.path.join(folder.name, "hand.xml"), skip, None)
+        self.observation_space = spaces.Box(-np.inf, np.inf, self.observe().shape, np.float64)
+
+    def observe(self):
+        return np.concatenate([self.data.qpos, self.data.qvel])
+
+    def step(self, action):
+        self.do_simulation(action, self.frame_skip)
+        return self.observe(), 0.0, False, False, {{}}
+
+    def reset_model(self):
+        self.set_state(self.init_qpos, self.init_qvel)
+        return self.observe()
+
+envs = SyncVectorEnv([Hand] * {envs})
+"""
 
 
 def many_prims(folder, count):
@@ -147,6 +201,17 @@ def stepping_rows(envs, steps, rounds):
               f"{rate[own] / rate[other]:7.3f}", flush=True)
 
 
+def learning_row(envs, frames, rounds):
+    rates = []
+    for _ in range(rounds):
+        rates.append([run(FRAMES.format(envs_of=code.format(path=HAND, envs=envs), envs=envs,
+                                        frames=frames)) for code in (OWN_ENVS, GYMNASIUM_ENVS)])
+    own, other = (statistics.median(side) for side in zip(*rates))
+    name = f"{envs} environments, frames of 0.02 s : Gymnasium's MuJoCo"
+    print(f"{name:52} {own / 1e3:10.1f} {other / 1e3:10.1f} {'k frames/cpu s':12} "
+          f"{own / other:7.3f}", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--rounds", type=int, default=5)
@@ -162,6 +227,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         reading_rows(many_prims(folder, prims), rounds, f"{prims} prims")
     stepping_rows(64, steps, rounds)
+    learning_row(64, max(1, steps // 10), rounds)
     return 0
 
 
