@@ -99,6 +99,7 @@ need_for_judge() {
   need_for_docs
   need_tool chromium chromium_is_there # of recordings and the tests in a browser
   need_tool ffmpeg ffmpeg -version     # other programs decode recordings
+  need_tool debootstrap test -x /usr/sbin/debootstrap
   need_tool clang-19 clang++-19 --version
   need_package libclang-rt-19-dev
   if [ "$(dpkg --print-architecture)" = amd64 ]; then # of the preset bits32

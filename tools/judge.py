@@ -70,6 +70,10 @@ def judgements_of_pages_and_python():
                                      "python/tests/run.sh build/wheel/clean "
                                      "python/tests/many_opens.py"], "release")
     yield Judgement("python_versions", ["python/tests/versions.sh"], "release")
+    yield Judgement("python_types", ["bash", "-c", "python/tests/install.sh && "
+                                     "python/tests/pyright.sh"], "release")
+    yield Judgement("clean_root", ["bash", "-c", "python/tests/install.sh && "
+                                   "python/tests/clean_root.sh"], "release")
     yield Judgement("python_sanitized", ["bash", "-c", "python/tests/install.sh && "
                                          "python/tests/sanitized.sh"], "dev",
                     ["tenon_asset", "tenon_worker"])
