@@ -113,7 +113,8 @@ class Log:
 
 
 def make_log(time: Any, columns: Mapping[str, Any], contacts: Any = None,
-         units: Mapping[str, str] = SIM_UNITS) -> Log:
+             units: Mapping[str, str] = SIM_UNITS) -> Log:
+    """A log of columns of whatever numbers. Raises LogError where one has another length."""
     time = np.asarray(time, dtype=np.float64)
     found = {name: np.asarray(values, dtype=np.float64) for name, values in columns.items()}
     for name, values in found.items():

@@ -55,9 +55,9 @@ class Command(unittest.TestCase):
 
 def documented():
     """(name, object) of everything public: functions, classes, their methods and properties."""
-    from tenon_usd import errors, functions, options, text, world
+    from tenon_usd import errors, functions, log, options, tables, text, world
 
-    for module in (tenon, tenon._tenon, errors, functions, options, text, world):
+    for module in (tenon, tenon._tenon, errors, functions, log, options, tables, text, world):
         for name, one in vars(module).items():
             own = getattr(one, "__module__", "").startswith("tenon_usd") or (
                 getattr(one, "__module__", "") == "_tenon")
