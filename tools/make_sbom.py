@@ -45,9 +45,16 @@ def pinned_versions():
 
 
 def debian_version(package):
-    done = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", package], capture_output=True,
-                          text=True, check=False)
-    return done.stdout.strip()
+    """Of a package, whichever architectures of it there are; empty where it is not installed."""
+    done = subprocess.run(["dpkg-query", "-W", "-f", "${Version}\\n", package],
+                          capture_output=True, text=True, check=False)
+    return done.stdout.partition("\n")[0]
+
+
+def packages_of_page():
+    """-> [(name, version)] of what the page of `tenon view` is bundled with."""
+    with open(os.path.join(ROOT, "page/package.json"), encoding="utf-8") as file:
+        return sorted(json.load(file)["dependencies"].items())
 
 
 def libraries(prefix):
@@ -59,6 +66,8 @@ def libraries(prefix):
     found = [(name, pinned.get(name) or debian_version(PACKAGES.get(name, name)))
              for name in names]
     unknown = [name for name, version in found if not version]
+    if os.path.isdir(os.path.join(prefix, "share/tenon/page")):
+        found += packages_of_page()
     if unknown or not found:
         sys.exit(f"make_sbom: no version of {', '.join(unknown) or 'anything'}")
     return found
