@@ -44,8 +44,8 @@ if [ -e build/release/share/tenon/page/report.html ]; then
   if "$tenon" doctor --quiet 2>/dev/null | grep -q '^browser .*not available'; then
     printf '\n== No picture: there is no Chromium here (apt-get install chromium)\n'
   else
-    step "A picture of the hand that holds the can" -- \
-      "$tenon" record "$grasp" --physics mujoco --time 2 -o "$picture" --size 960x540
+    step "A picture of its end: the hand holds the can above the table" -- \
+      "$tenon" record "$grasp" --physics mujoco --time 4 -o "$picture" --size 960x540
     looked_at+="   $picture              the hand that holds the can
 "
   fi

@@ -129,10 +129,9 @@ struct BrowserPage::State {
 Result<void> BrowserPage::State::start(std::size_t width, std::size_t height) {
   TENON_TRY(program, find_browser(options.program));
   TENON_TRY(profile, bytes::TemporaryFolder::make());
-  TENON_TRY(process,
-            DrivenProgram::start(program, {arguments_of(options, profile.path(), width, height),
-                                           environment_of(profile.path()),
-                                           limits::kBrowserAnswer}));
+  TENON_TRY(process, DrivenProgram::start(
+                         program, {arguments_of(options, profile.path(), width, height),
+                                   environment_of(profile.path()), limits::kBrowserAnswer}));
   TENON_TRY(const Json about, call("Browser.getVersion", Json::object()));
   version = text_at(about, "product");
   return attach(width, height);

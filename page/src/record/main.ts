@@ -52,7 +52,8 @@ class Recording {
   private layers!: Pick<Layers, "set" | "has">;
   private settings!: Settings;
   private readonly canvas = document.createElement("canvas");
-  /** From the middle of what is looked at to the camera, once it is known [m]. */
+  /** The middle of what is looked at, and how far the camera is from it [m]; 0: not known yet. */
+  private readonly middle = new THREE.Vector3();
   private distance = 0;
   private film: { output: Output; source: CanvasSource; target: BufferTarget; step: number } | null = null;
 
@@ -216,6 +217,7 @@ class Recording {
     const { camera, controls } = this.viewer;
     if (this.distance === 0) {
       const corners = this.cornersOf(orbit.target);
+      new THREE.Box3().setFromPoints(corners).getCenter(this.middle);
       for (let at = 0; at <= Math.abs(orbit.turn); at += turnStep) {
         this.aim(orbit, Math.sign(orbit.turn) * at);
         this.distance = Math.max(this.distance, this.fittingDistance(corners));
@@ -236,8 +238,11 @@ class Recording {
       Math.sin(elevation),
       -Math.sin(azimuth) * Math.cos(elevation),
     );
+    const { camera, controls } = this.viewer;
     this.viewer.frame(orbit.target, from, orbit.zoom);
-    this.viewer.camera.updateMatrixWorld();
+    camera.position.add(this.middle).sub(controls.target);
+    controls.target.copy(this.middle);
+    camera.updateMatrixWorld();
   }
 
   /** Corners of the boxes around what is looked at. */
@@ -251,7 +256,7 @@ class Recording {
         corners.push(new THREE.Vector3(at(0, "x"), at(1, "y"), at(2, "z")));
       }
     }
-    return corners;
+    return corners.length > 0 ? corners : [this.viewer.sphere.center.clone()];
   }
 
   /** How far the camera has to be from what it looks at so that it sees all of the corners. */
@@ -259,7 +264,7 @@ class Recording {
     const { camera, controls } = this.viewer;
     const room = Math.tan(THREE.MathUtils.degToRad(camera.fov / 2)) * (1 - margin);
     const reach = camera.position.distanceTo(controls.target);
-    let distance = corners.length === 0 ? reach : 0;
+    let distance = this.viewer.sphere.radius / 100;
     for (const corner of corners) {
       const seen = corner.clone().applyMatrix4(camera.matrixWorldInverse);
       const sideways = Math.max(Math.abs(seen.x) / camera.aspect, Math.abs(seen.y));
