@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What `tenon record` makes with a real Chromium, decoded by another program (ffmpeg): sizes,
 frames, durations, that something is seen where it should be, that a film moves, that two runs of a
-picture are the same bytes, and that the browser has nothing to say.
+picture are the same bytes, that the browser has nothing to say, and what comes of one that fails.
 
     recordings.py ROOT TENON
 
@@ -14,9 +14,11 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 import numpy
 
@@ -67,7 +69,7 @@ class Recordings:
         told = json.loads(done.stdout)
         said = [one["message"] for one in told["diagnostics"] if one["rule"].startswith("browser.")]
         self.hold(done.returncode == code, f"{name}: exit {done.returncode}: {done.stdout[-600:]}")
-        self.hold(not said, f"{name}: {said}")
+        self.hold(code != 0 or not said, f"{name}: {said}")
         return path, told
 
     def pixels(self, path, count=None, channels="rgb24"):
@@ -166,6 +168,44 @@ class Recordings:
             self.hold(apart < 6, f"{name}: begins {apart:.1f} away from the picture")
 
 
+    def failures(self, browser, place):
+        """A browser without WebGL, and one that is killed at work: a message, and no file."""
+        blind = self.folder / "blind"
+        blind.write_text(f'#!/bin/sh\nexec {browser} "$@" --disable-3d-apis\n')
+        blind.chmod(0o755)
+        path, told = self.record(GRASP, "blind.png", "--browser", blind, code=4)
+        self.hold(told["diagnostics"][-1]["rule"] == "browser.webgl", f"blind: {told}")
+        self.hold(not path.exists(), "blind: a file was written")
+        film = self.folder / "killed.webm"
+        process = subprocess.Popen([TENON, "record", str(GRASP), "-o", str(film), "--duration",
+                                    "60"], stderr=subprocess.PIPE, text=True)
+        for _ in range(600):
+            if browsers := [pid for pid in processes() if of_browser(pid, place)]:
+                time.sleep(2)  # it draws
+                os.kill(browsers[0], signal.SIGKILL)
+                break
+            time.sleep(0.1)
+        said = process.communicate(timeout=120)[1]
+        self.made += 1
+        self.hold(process.returncode == 2 and "browser.ended" in said, f"killed: {said[-300:]}")
+        self.hold(not film.exists(), "killed: a file was written")
+
+
+def processes():
+    return sorted(int(name) for name in os.listdir("/proc") if name.isdigit())
+
+
+def of_browser(pid, place):
+    """The first process of a browser whose profile is below `place`."""
+    try:
+        words = pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().decode().split("\0")
+    except (OSError, UnicodeDecodeError):
+        return False
+    return ("--remote-debugging-pipe" in words
+            and any(word.startswith(f"--user-data-dir={place}") for word in words)
+            and not any(word.startswith("--type=") for word in words))
+
+
 def main():
     found = json.loads(subprocess.run([TENON, "doctor", "--json"], capture_output=True,
                                       check=False).stdout)
@@ -179,6 +219,7 @@ def main():
         recordings.pictures()
         recordings.looks()
         recordings.films()
+        recordings.failures(browser["version"], place)
         recordings.hold(not os.listdir(place), f"left behind: {os.listdir(place)}")
     for fault in recordings.faults:
         print(fault)
