@@ -4,7 +4,7 @@
 // All properties of the selected prim: who says what and why it counts, and edits, whose effect is
 // told where they were made.
 import { figure, h, table } from "../panel/dom";
-import type { HelloNotice } from "./connection";
+import type { HelloNotice, StateNotice } from "./connection";
 import { type Session, attempt } from "./session";
 
 interface Property {
@@ -47,6 +47,7 @@ const fileName = (path: string): string => path.slice(path.lastIndexOf("/") + 1)
 
 export class Details {
   private readOnly = false;
+  private time = 0;
   /** Properties that people have opened: they stay so when the selection is drawn anew. */
   private readonly opened = new Set<string>();
   /** What the last edit did; shown again when the selection is drawn anew after it. */
@@ -55,6 +56,9 @@ export class Details {
   constructor(private readonly session: Session) {
     session.connection.on<HelloNotice>("hello", (notice) => {
       this.readOnly = notice.readOnly;
+    });
+    session.connection.on<StateNotice>("state", (notice) => {
+      this.time = notice.time;
     });
     session.panel.inspector.addSource((path) => this.properties(path));
   }
@@ -165,6 +169,7 @@ export class Details {
     object: string,
     fields: Record<string, unknown>,
   ): Promise<void> {
+    const hadPassed = this.time > 0;
     const edited = await attempt<Edited>(this.session, name, { object, ...fields });
     const place = edited?.edits[0];
     if (!edited || !place) {
@@ -186,7 +191,8 @@ export class Details {
         h("ul", {}, ...[...new Set(rows)].map((row) => h("li", {}, row))),
       ),
     };
-    this.session.messages.say(`${change} in ${fileName(place.file)}${line}`);
+    const anew = hadPassed ? "; time begins anew with it" : "";
+    this.session.messages.say(`${change} in ${fileName(place.file)}${line}${anew}`);
     this.session.panel.inspector.update();
   }
 }

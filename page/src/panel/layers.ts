@@ -59,6 +59,7 @@ const layers: Layer[] = [
 export class Layers {
   readonly element = h("fieldset", { class: "layers" }, h("legend", {}, "What is shown"));
   private readonly boxes = new Map<string, HTMLInputElement>();
+  private begun = false;
   private readonly rows = new Map<string, HTMLElement>();
 
   constructor(private readonly viewer: Viewer) {
@@ -80,7 +81,18 @@ export class Layers {
       this.rows.set(layer.name, row);
       this.element.append(row);
     }
-    viewer.addEventListener("load", () => this.applyAll());
+    viewer.addEventListener("load", () => this.begin());
+  }
+
+  /** At first what nobody would see otherwise is shown: an asset may have no visuals. */
+  private begin(): void {
+    if (!this.begun && this.viewer.info.bodies.length > 0 && !this.viewer.has("visual")) {
+      for (const name of ["colliders", "masses", "tree"]) {
+        this.boxes.get(name)!.checked = true;
+      }
+    }
+    this.begun = true;
+    this.applyAll();
   }
 
   has(name: string): boolean {

@@ -234,6 +234,11 @@ export class Viewer extends EventTarget {
     this.invalidate();
   }
 
+  /** Whether there is anything of a kind. */
+  has(kind: NodeKind): boolean {
+    return this.kinds[kind].length > 0;
+  }
+
   show(kind: "visual" | "collider", visible: boolean): void {
     for (const node of this.kinds[kind]) {
       node.visible = visible;

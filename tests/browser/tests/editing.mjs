@@ -91,6 +91,7 @@ export const tests = {
     const other = await stage.live(viewer);
     await listen(page);
     await page.evaluate((path) => window.tenonPage.viewer.select(path), joint);
+    await ask(page, "step", { count: 10 });
     const looked = await camera(page);
     const row = await property(page, "physics:upperLimit");
     hold((await row.locator("td").first().textContent()).includes("physics.usda:"), "no place is told");
@@ -101,6 +102,8 @@ export const tests = {
     const told = await effect.textContent();
     hold(/0\.5236 -> 34\.377 in .*physics\.usda:\d+/.test(told), `the effect reads ${told}`);
     hold(told.includes("limits") || told.includes("upper"), `no effect on engines is told: ${told}`);
+    const said = await page.locator(".messages").textContent();
+    hold(said.includes("time begins anew"), `that time begins anew is not said: ${said}`);
     await drawn(page);
     near(await upper(page), (34.377 * Math.PI) / 180, 1e-5, "the limit after the edit");
     const now = content(dirname(asset));
