@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include "tenon/bytes/files.h"
+#include "tenon/bytes/read_record.h"
 
 namespace tenon::bytes {
 namespace {
@@ -26,6 +27,7 @@ class DiskFiles : public FileSource {
   NameKind kind(const std::string& path) const override {
     struct stat info = {};
     if (::stat(path.c_str(), &info) != 0) {
+      note_missing(path);
       return NameKind::Nothing;
     }
     return S_ISREG(info.st_mode)   ? NameKind::File

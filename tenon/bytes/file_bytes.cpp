@@ -108,7 +108,9 @@ Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path
                                                          const FileRules& rules) {
   const OpenFile file(path);
   if (file.descriptor < 0) {
-    return file_error(path, "cannot open the file", errno);
+    const Error error = file_error(path, "cannot open the file", errno);
+    note_missing(path);
+    return error;
   }
   if (rules.check) {
     TENON_CHECK(rules.check(real_path_of(file.descriptor, path)));

@@ -22,6 +22,8 @@ namespace {
 constexpr const char* kChanged = "file.changed";
 constexpr std::size_t kDigestBytes = 64u << 20;  // larger files are told apart by their times
 
+constexpr std::size_t kMostMissing = 10'000;
+
 std::atomic<ReadRecord*> installed{nullptr};
 
 Error changed_error(const std::string& path) {
@@ -107,8 +109,21 @@ void ReadRecord::note(const std::string& path) {
   }
 }
 
+void ReadRecord::note_missing(const std::string& path) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (missing_.size() < kMostMissing) {
+    missing_.insert(path);
+  }
+}
+
+std::vector<std::string> ReadRecord::missing() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return {missing_.begin(), missing_.end()};
+}
+
 void ReadRecord::clear() {
   const std::lock_guard<std::mutex> lock(mutex_);
+  missing_.clear();
   files_.clear();
   identities_.clear();
   changed_.clear();
@@ -154,6 +169,12 @@ void ReadRecord::refresh(const std::set<FileIdentity>& replaced) {
 void note_read(const std::string& path) {
   if (ReadRecord* record = ReadRecord::current()) {
     record->note(path);
+  }
+}
+
+void note_missing(const std::string& path) {
+  if (ReadRecord* record = ReadRecord::current()) {
+    record->note_missing(path);
   }
 }
 

@@ -63,12 +63,16 @@ class ReadRecord {
   void note(const std::string& path, FileStamp stamp, std::string_view contents);
   /// The same for a file that something else opens by its name.
   void note(const std::string& path);
+  /// `path` was asked for and is not there, or cannot be opened.
+  void note_missing(const std::string& path);
   /// Starts anew: what follows is read again.
   void clear();
 
   bool has(const FileIdentity& file) const;
   /// As they were opened, sorted.
   std::vector<std::string> paths() const;
+  /// What was asked for and not had, sorted; the first 10,000 of them.
+  std::vector<std::string> missing() const;
   /// Error with rule "file.changed" when a file that was read is no longer what it was then. Files
   /// in `by_content` are read again to know.
   Result<void> check_unchanged(const std::set<FileIdentity>& by_content) const;
@@ -80,11 +84,15 @@ class ReadRecord {
   mutable std::mutex mutex_;
   std::map<std::string, FileStamp> files_;  // by path as opened
   std::set<FileIdentity> identities_;
+  std::set<std::string> missing_;
   std::string changed_;  // a path that was two different files, at different times
 };
 
 /// Notes a file that a library opens by itself. Nothing happens where no record is installed.
 void note_read(const std::string& path);
+
+/// Notes what was asked for and is not there. Nothing happens where no record is installed.
+void note_missing(const std::string& path);
 
 /// True for the Error of a file that was changed by somebody else since it was read: who reads it
 /// again and repeats the edit loses nothing.

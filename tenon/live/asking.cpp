@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Requests that change nothing: what they answer is what the verbs of the command answer.
+// Requests that change nothing: what they answer is what the verbs of the command answer. A check
+// opens the asset by itself and takes long, so it is a late answer.
 #include <algorithm>
 #include <utility>
 
@@ -101,8 +102,11 @@ Result<Json> ask_findings(Session::State& state, ClientNumber, const Asked&, Out
   CheckAssetsOptions options;
   options.check.open = state.options.asset.open;
   options.check.readings = state.options.asset.readings;
-  TENON_TRY(const CheckedAssets checked, check_assets({state.options.asset.path}, options));
-  return checked_json(checked, "");
+  state.later = [options, path = state.options.asset.path]() -> Result<Json> {
+    TENON_TRY(const CheckedAssets checked, check_assets({path}, options));
+    return checked_json(checked, "");
+  };
+  return Json();
 }
 
 }  // namespace tenon::live

@@ -7,6 +7,7 @@
 #include <array>
 #include <utility>
 
+#include "tenon/live/move_joint.h"
 #include "tenon/live/session_state.h"
 #include "tenon/make_simulation.h"
 
@@ -99,21 +100,20 @@ Result<Json> set_drive(State& state, ClientNumber, const Asked& asked, Outbox&) 
   return Json{{"position", target.position}, {"velocity", target.velocity}};
 }
 
-Result<Json> set_joint(State& state, ClientNumber, const Asked& asked, Outbox&) {
+Result<Json> set_joint(State& state, ClientNumber, const Asked& asked, Outbox& out) {
   TENON_TRY(engines::World * world, state.world());
   TENON_TRY(const scene::Index index, state.joint(asked.path("joint")));
   if (state.playing) {
     return refused("time goes on: joints are moved by hand while it stands still", "pause first");
   }
-  engines::JointState wanted;
-  wanted.position = asked.numbers("position");
+  const std::vector<double> wanted = asked.numbers("position");
   const std::size_t count = world->joint_state(index).position.size();
-  if (wanted.position.size() != count) {
+  if (wanted.size() != count) {
     return refused("the joint has " + std::to_string(count) + " coordinates", "give as many");
   }
-  wanted.velocity.assign(count, 0);
-  TENON_CHECK(world->set_joint_state(index, wanted));
+  TENON_CHECK(move_joint(state.asset, index, wanted));
   state.moved = true;
+  state.tell_observers(out);
   return Json{{"position", world->joint_state(index).position}};
 }
 
@@ -254,7 +254,8 @@ constexpr std::array kRequests{
              "{`position`, `velocity`}"},
             set_drive},
     Request{{"setJoint", kJointFields,
-             "Moves a joint and what hangs on it by hand, while time stands still", "{`position`}"},
+             "Moves a joint, and those that mimic it, by hand, while time stands still",
+             "{`position`}"},
             set_joint},
     Request{
         {"force", kForceFields,

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The server puts what clients say into an inbox of bounded size, from which the thread of the
-// session takes it; a client that says more than fits is dropped by the server. What comes out of
-// the session is handed to the server, which is safe from any thread.
+// Three threads: the server, the session, and one for answers that take long. The server puts what
+// clients say into an inbox of bounded size, from which the thread of the session takes it; a
+// client that says more than fits is dropped by the server. What comes out of the session is handed
+// to the server, which is safe from any thread.
 #include "tenon/live/serve_session.h"
 
 #include <algorithm>
@@ -21,6 +22,7 @@ namespace {
 using PaceClock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostWaiting = 4096;  // messages that nobody has looked at yet
+constexpr std::size_t kMostLate = 16;       // answers that are to be made
 constexpr auto kFrameTime = std::chrono::microseconds(16'667);
 constexpr auto kIdleTime = std::chrono::milliseconds(100);  // also between looks at files
 
@@ -28,16 +30,34 @@ double seconds_between(PaceClock::time_point from, PaceClock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-/// From the thread of the server to that of the session.
+struct MadeAnswer {
+  LateAnswer late;
+  Result<Json> result;
+};
+
+/// What has come to the session.
+struct Letters {
+  std::deque<serve::ClientEvent> events;
+  std::deque<MadeAnswer> answers;
+};
+
+/// From the other threads to that of the session.
 class Inbox {
  public:
+  void put(MadeAnswer answer) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      waiting_.answers.push_back(std::move(answer));
+    }
+    filled_.notify_one();
+  }
   bool put(serve::ClientEvent event) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      if (event.kind == serve::ClientEvent::Kind::Said && waiting_.size() >= kMostWaiting) {
+      if (event.kind == serve::ClientEvent::Kind::Said && waiting_.events.size() >= kMostWaiting) {
         return false;
       }
-      waiting_.push_back(std::move(event));
+      waiting_.events.push_back(std::move(event));
     }
     filled_.notify_one();
     return true;
@@ -50,9 +70,11 @@ class Inbox {
     filled_.notify_one();
   }
   /// What has come until `then`, at once where there is something; nothing more after end().
-  std::deque<serve::ClientEvent> take(PaceClock::time_point then, bool& ended) {
+  Letters take(PaceClock::time_point then, bool& ended) {
     std::unique_lock<std::mutex> lock(mutex_);
-    filled_.wait_until(lock, then, [&] { return ended_ || !waiting_.empty(); });
+    filled_.wait_until(lock, then, [&] {
+      return ended_ || !waiting_.events.empty() || !waiting_.answers.empty();
+    });
     ended = ended_;
     return std::exchange(waiting_, {});
   }
@@ -60,9 +82,70 @@ class Inbox {
  private:
   std::mutex mutex_;
   std::condition_variable filled_;
-  std::deque<serve::ClientEvent> waiting_;
+  Letters waiting_;
   bool ended_ = false;
 };
+
+/// What takes long, one after the other on a thread of its own, so that time goes on meanwhile.
+class LateAnswers {
+ public:
+  /// False when too many wait.
+  bool put(LateAnswer& late) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (waiting_.size() >= kMostLate) {
+        return false;
+      }
+      waiting_.push_back(std::move(late));
+    }
+    filled_.notify_one();
+    return true;
+  }
+  void end() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ended_ = true;
+    }
+    filled_.notify_one();
+  }
+  /// Makes answers until end().
+  void run(Inbox& inbox) {
+    while (auto late = next()) {
+      Result<Json> result = late->make();
+      inbox.put({*std::move(late), std::move(result)});
+    }
+  }
+
+ private:
+  std::optional<LateAnswer> next() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    filled_.wait(lock, [&] { return ended_ || !waiting_.empty(); });
+    if (ended_) {
+      return std::nullopt;
+    }
+    LateAnswer late = std::move(waiting_.front());
+    waiting_.pop_front();
+    return late;
+  }
+
+  std::mutex mutex_;
+  std::condition_variable filled_;
+  std::deque<LateAnswer> waiting_;
+  bool ended_ = false;
+};
+
+/// Hands over what is to be made later; who asks for too much at once is refused.
+void hand_over(LateAnswers& answers, const Session& session, Outbox& out) {
+  for (LateAnswer& late : std::exchange(out.late, {})) {
+    if (!answers.put(late)) {
+      session.answer_late(late,
+                          Error(ErrorCode::Limit, "too much is asked for at once")
+                              .with_rule("live.busy")
+                              .with_fix("wait for what was asked for before"),
+                          out);
+    }
+  }
+}
 
 /// Pictures are published before the messages that tell of them.
 void send(serve::Server& server, Outbox& out) {
@@ -92,7 +175,8 @@ void hear(Session& session, const serve::ClientEvent& event, Outbox& out) {
   }
 }
 
-void live(serve::Server& server, Session& session, Inbox& inbox, std::optional<double> seconds) {
+void live(serve::Server& server, Session& session, Inbox& inbox, LateAnswers& answers,
+          std::optional<double> seconds) {
   const auto begin = PaceClock::now();
   auto last = begin;
   auto next = last;
@@ -100,8 +184,14 @@ void live(serve::Server& server, Session& session, Inbox& inbox, std::optional<d
   bool ended = false;
   while (!ended) {
     Outbox out;
-    for (const serve::ClientEvent& event : inbox.take(next, ended)) {
+    Letters letters = inbox.take(next, ended);
+    for (const serve::ClientEvent& event : letters.events) {
       hear(session, event, out);
+      hand_over(answers, session, out);
+      send(server, out);
+    }
+    for (MadeAnswer& answer : letters.answers) {
+      session.answer_late(answer.late, std::move(answer.result), out);
       send(server, out);
     }
     const auto now = PaceClock::now();
@@ -119,8 +209,11 @@ void live(serve::Server& server, Session& session, Inbox& inbox, std::optional<d
     if (seconds && seconds_between(begin, now) >= *seconds) {
       server.stop();
     }
-    next = now + (session.is_playing() ? PaceClock::duration(kFrameTime) : kIdleTime);
+    // The clock of frames does not lag behind because one came a little late.
+    const PaceClock::duration pause = session.is_playing() ? kFrameTime : kIdleTime;
+    next = std::max(next + pause, now + pause / 2);
   }
+  answers.end();
 }
 
 }  // namespace
@@ -134,14 +227,18 @@ Result<bool> serve_session(serve::Server& server, Session& session, std::optiona
     server.publish("scene.glb", {"model/gltf-binary", session.asset().picture});
   }
   Inbox inbox;
+  LateAnswers answers;
   bool by_signal = false;
-  const bool served = run_beside([&] { live(server, session, inbox, seconds); },
-                                 [&] {
-                                   by_signal = server.run([&](serve::ClientEvent event) {
-                                     return inbox.put(std::move(event));
-                                   });
-                                   inbox.end();
-                                 });
+  const auto serve_pages = [&] {
+    by_signal = server.run([&](serve::ClientEvent event) { return inbox.put(std::move(event)); });
+    inbox.end();
+  };
+  bool lived = false;
+  const auto serve_live = [&] {
+    lived = run_beside([&] { live(server, session, inbox, answers, seconds); }, serve_pages);
+    answers.end();
+  };
+  const bool served = run_beside([&] { answers.run(inbox); }, serve_live) && lived;
   if (!served) {
     return Error(ErrorCode::Io, "the system gives no second thread").with_rule("live.no-thread");
   }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 #include "tenon/answers/diagnostic_json.h"
@@ -88,6 +89,17 @@ bool Session::State::Timer::due(double seconds) {
 
 void Session::State::tell(ClientNumber to, const Json& message, Outbox& out) const {
   out.messages.push_back({to, line_of(message)});
+}
+
+void Session::State::tell_answer(ClientNumber to, const std::string& request, const Json& id,
+                                 Result<Json> result, Outbox& out) const {
+  Json answer = {{"is", result ? "answer" : "error"}, {"to", request}, {"id", id}};
+  if (result) {
+    answer["result"] = *std::move(result);
+  } else {
+    answer["error"] = answers::diagnostic_json(result.error().diagnostic());
+  }
+  tell(to, answer, out);
 }
 
 void Session::State::tell_problem(const Diagnostic& finding, Outbox& out) const {
@@ -203,6 +215,9 @@ void Session::State::set_asset(LiveAsset opened, const char* why, Outbox& out) {
 void Session::State::begin_watching() {
   const bytes::ReadRecord* record = bytes::ReadRecord::current();
   std::vector<std::string> paths = record == nullptr ? std::vector<std::string>() : record->paths();
+  if (record != nullptr) {  // what was not there may come
+    std::ranges::copy(record->missing(), std::back_inserter(paths));
+  }
   paths.push_back(options.asset.path);
   watch.begin(paths);
   if (record != nullptr && !record->check_unchanged({})) {
@@ -346,16 +361,20 @@ void Session::hear(ClientNumber client, std::string_view text, Outbox& out) {
   const auto index = Listener(requests()).read(text, asked);
   Result<Json> result =
       index ? all_requests()[*index].handle(*state_, client, asked, out) : index.error();
-  Json answer = {{"is", result ? "answer" : "error"}, {"to", asked.name()}, {"id", asked.id()}};
-  if (result) {
-    answer["result"] = *std::move(result);
-  } else {
-    answer["error"] = answers::diagnostic_json(result.error().diagnostic());
-  }
   if (state_->moved) {
     state_->frame_due(out);
   }
-  state_->tell(client, answer, out);
+  if (result && state_->later) {
+    out.late.push_back({client, asked.name(), asked.id(), std::exchange(state_->later, {})});
+  } else {
+    state_->tell_answer(client, asked.name(), asked.id(), std::move(result), out);
+  }
+}
+
+void Session::answer_late(const LateAnswer& late, Result<Json> result, Outbox& out) const {
+  if (state_->clients.contains(late.client)) {
+    state_->tell_answer(late.client, late.request, late.id, std::move(result), out);
+  }
 }
 
 void Session::advance(double seconds, Outbox& out) { state_->advance(seconds, out); }

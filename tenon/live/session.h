@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tenon/base/function.h"
 #include "tenon/base/result.h"
 #include "tenon/live/edit_history.h"
 #include "tenon/live/live_asset.h"
@@ -23,6 +24,15 @@ namespace tenon::live {
 /// Whom a message comes from and goes to; 0 is everyone.
 using ClientNumber = std::uint64_t;
 
+/// The answer to a request that takes long. `make` touches nothing of the session, so another
+/// thread may call it; what comes of it goes to Session::answer_late().
+struct LateAnswer {
+  ClientNumber client = 0;
+  std::string request;
+  Json id;
+  Function<Result<Json>()> make;
+};
+
 /// What comes out of one call.
 struct Outbox {
   struct Message {
@@ -31,6 +41,7 @@ struct Outbox {
   };
   std::vector<Message> messages;
   std::optional<std::string> frame;              ///< to everyone, pose_frame()
+  std::vector<LateAnswer> late;                  ///< for who holds the session to make
   std::shared_ptr<const std::string> picture{};  ///< not null: there is another one, for everyone
 };
 
@@ -56,6 +67,8 @@ class Session {
 
   void greet(ClientNumber client, Outbox& out);
   void hear(ClientNumber client, std::string_view text, Outbox& out);
+  /// Tells who has asked what came of LateAnswer::make.
+  void answer_late(const LateAnswer& late, Result<Json> result, Outbox& out) const;
   /// What the client pulled is let go.
   void forget(ClientNumber client);
   /// `seconds` have passed since the last call. Takes no longer than some 30 ms; what cannot be

@@ -35,6 +35,8 @@ class Session::State {
   double rate = 0;             ///< of simulated to wanted time, lately
   std::uint32_t revision = 1;  ///< of the picture
   bool moved = false;          ///< since the last frame
+  /// Set by a request whose answer is made later, elsewhere.
+  Function<Result<Json>()> later;
   /// Drive targets that were set, by joint and drive: they are set again on a new model.
   std::map<std::pair<Path, scene::Index>, engines::DriveTarget> targets;
 
@@ -69,6 +71,8 @@ class Session::State {
   Json scene_notice(const char* why) const;
   Json state_notice() const;
   void tell(ClientNumber to, const Json& message, Outbox& out) const;
+  void tell_answer(ClientNumber to, const std::string& request, const Json& id, Result<Json> result,
+                   Outbox& out) const;
   void tell_problem(const Diagnostic& finding, Outbox& out) const;
   void tell_observers(Outbox& out) const;
   void frame_due(Outbox& out);

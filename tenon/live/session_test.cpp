@@ -135,6 +135,9 @@ class SessionTest : public ::testing::Test {
   Json ask(const Json& request) {
     Outbox out;
     session_->hear(1, request.dump(), out);
+    for (const LateAnswer& late : std::exchange(out.late, {})) {
+      session_->answer_late(late, late.make(), out);
+    }
     told_.erase("error");
     take(out);
     if (!told_.contains("error")) {
@@ -216,6 +219,70 @@ TEST_F(SessionTest, MovesJointsByHand) {
             "live.refused");
   ask({{"do", "play"}});
   EXPECT_EQ(ask({{"do", "setJoint"}, {"joint", "/Arm/hinge"}, {"position", {0}}}), "live.refused");
+}
+
+TEST_F(SessionTest, MovesWhatFollowsAJoint) {
+  std::string text = kBase;
+  text.insert(text.find("    variantSet \"Load\""),
+              R"(    def Cube "tip" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])
+    {
+        double size = 0.1
+        float physics:mass = 0.1
+        double3 xformOp:translate = (0.4, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+    def PhysicsRevoluteJoint "wrist" (prepend apiSchemas = ["NewtonMimicAPI"])
+    {
+        rel physics:body0 = </Arm/link>
+        rel physics:body1 = </Arm/tip>
+        uniform token physics:axis = "Y"
+        point3f physics:localPos1 = (-0.2, 0, 0)
+        rel newton:mimicJoint = </Arm/hinge>
+        float newton:mimicCoef0 = 0.1
+        float newton:mimicCoef1 = -2
+    }
+)");
+  write("base.usda", text);
+  open();
+  ASSERT_EQ(told_["scene"]["joints"][1]["follows"], true);
+  ask({{"do", "setJoint"}, {"joint", "/Arm/hinge"}, {"position", {0.3}}});
+  EXPECT_NEAR(angle(), 0.3, 1e-9);
+  const double offset = session_->asset().scene().joints[1].mimics[0].offset;
+  EXPECT_NEAR(session_->asset().world->joint_state(1).position[0], offset - 0.6, 1e-9);
+  EXPECT_GT(std::abs(offset), 0) << "the law has a constant part";
+}
+
+TEST_F(SessionTest, OpensAgainWhenAMissingFileComes) {
+  fs::remove(folder_ / "base.usda");
+  open();
+  EXPECT_FALSE(told_["scene"]["opening"].empty());
+  EXPECT_EQ(told_["scene"]["bodies"], Json::array());
+  write("base.usda", kBase);
+  Outbox out;
+  for (int i = 0; i < 3; ++i) {
+    session_->look_at_files(out);
+  }
+  take(out);
+  EXPECT_EQ(told_["scene"]["why"], "file");
+  EXPECT_EQ(told_["scene"]["bodies"].size(), 2u);
+}
+
+TEST_F(SessionTest, LeavesChecksToWhoHoldsIt) {
+  Outbox out;
+  session_->hear(1, R"({"do": "findings", "id": 7})", out);
+  EXPECT_TRUE(out.messages.empty()) << "it is not answered yet";
+  ASSERT_EQ(out.late.size(), 1u);
+  const LateAnswer late = std::move(out.late[0]);
+  out = {};
+  session_->answer_late(late, late.make(), out);
+  take(out);
+  EXPECT_EQ(told_["answer"]["to"], "findings");
+  EXPECT_EQ(told_["answer"]["id"], 7);
+  EXPECT_TRUE(told_["answer"]["result"].contains("diagnostics"));
+  session_->forget(1);
+  out = {};
+  session_->answer_late(late, late.make(), out);
+  EXPECT_TRUE(out.messages.empty()) << "who asked is gone";
 }
 
 TEST_F(SessionTest, PullsBodies) {

@@ -80,6 +80,7 @@ export class Viewer {
   }
 
   async stop(signal = "SIGINT") {
+    this.stopped = true;
     if (this.process.exitCode === null && this.process.signalCode === null) {
       this.process.kill(signal);
       await this.ended;
@@ -122,7 +123,13 @@ export class Stage {
 
   async view(asset, ...options) {
     const viewer = new Viewer(this.program, asset, options);
-    this.ending.push(() => viewer.stop());
+    this.ending.push(async () => {
+      const { exitCode, signalCode } = viewer.process;
+      if (!viewer.stopped && (exitCode !== null || signalCode !== null)) {
+        this.faults.push(`tenon view has ended (${exitCode ?? signalCode}): ${viewer.complained}`);
+      }
+      await viewer.stop();
+    });
     return viewer.address();
   }
 

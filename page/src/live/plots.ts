@@ -83,6 +83,12 @@ class Chart {
       });
       context.stroke();
     });
+    context.fillStyle = getComputedStyle(this.canvas).color;
+    context.font = "11px system-ui, sans-serif";
+    const unit = this.lines[0]?.unit ?? "";
+    const text = (value: number) => `${figure(Math.abs(value) < span / 1000 ? 0 : value, 3)} ${unit}`;
+    context.fillText(text(high), 4, 12);
+    context.fillText(text(low), 4, height - 5);
     this.lines.forEach((line, i) => {
       const item = this.legend.children[i]?.lastElementChild;
       if (item) {

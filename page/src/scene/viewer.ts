@@ -361,13 +361,16 @@ export class Viewer extends EventTarget {
     const colors = [0x2c9f6b, 0xd9822b, 0x7a5fd0, 0xc0486f, 0x2a8fbd, 0x9a9330];
     for (const node of this.kinds.collider) {
       node.visible = false;
+      // A plane has no end and would lie over everything.
+      const info = this.info.colliders.find((one) => one.path === node.userData.path);
+      const opacity = info?.kind === "plane" ? 0.1 : 0.38;
       const color = colors[(node.userData.piece as number | undefined ?? 0) % colors.length]!;
       node.traverse((part) => {
         if (part instanceof THREE.Mesh) {
           part.material = new THREE.MeshStandardMaterial({
             color,
             transparent: true,
-            opacity: 0.38,
+            opacity,
             depthWrite: false,
             roughness: 0.8,
             flatShading: true,
