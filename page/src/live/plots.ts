@@ -22,10 +22,12 @@ class Chart {
   private readonly legend = h("ul", { class: "legend" });
   times: number[] = [];
   lines: Line[] = [];
+  private waiting = false;
 
   constructor(private readonly title: string) {
     this.canvas.setAttribute("aria-label", title);
     this.element = h("figure", {}, h("figcaption", {}, title), this.canvas, this.legend);
+    new ResizeObserver(() => this.drawSoon()).observe(this.canvas); // it has come to be seen
   }
 
   begin(lines: Line[]): void {
@@ -54,7 +56,20 @@ class Chart {
     const old = this.times.findIndex((one) => one >= time - window_);
     this.times.splice(0, old);
     this.lines.forEach((line) => line.values.splice(0, old));
-    this.draw();
+    this.drawSoon();
+  }
+
+  /** With the next picture, and only where somebody looks. */
+  private drawSoon(): void {
+    if (!this.waiting) {
+      this.waiting = true;
+      requestAnimationFrame(() => {
+        this.waiting = false;
+        if (this.canvas.offsetParent) {
+          this.draw();
+        }
+      });
+    }
   }
 
   private draw(): void {

@@ -112,6 +112,7 @@ function limitRail(limit: LimitInfo, thickness: number): THREE.Object3D | null {
 
 export class Overlays {
   contacts: Contact[] = [];
+  private contactsAreNew = false;
 
   private readonly shown = new Set<OverlayName>();
   private readonly made = new Map<OverlayName, THREE.Object3D[]>();
@@ -161,14 +162,22 @@ export class Overlays {
     }
   }
 
-  /** Contacts of this moment. */
+  /** Contacts of this moment: drawn with the next picture, since more of them may come before. */
   setContacts(contacts: Contact[]): void {
     this.contacts = contacts;
+    this.contactsAreNew = true;
     if (this.shown.has("contacts")) {
-      this.drop("contacts");
-      this.make("contacts");
       this.viewer.invalidate();
     }
+  }
+
+  /** Before a picture is drawn. */
+  refresh(): void {
+    if (this.contactsAreNew && this.shown.has("contacts")) {
+      this.drop("contacts");
+      this.make("contacts");
+    }
+    this.contactsAreNew = false;
   }
 
   private get size(): number {

@@ -302,6 +302,7 @@ export class Viewer extends EventTarget {
   /** Draws now. */
   draw(): void {
     this.dirty = false;
+    this.overlays.refresh();
     this.renderer.render(this.scene, this.camera);
     this.frames += 1;
   }
