@@ -4,6 +4,7 @@
 // The wire: many bodies at full rate, a server that goes and comes, two pages, long checks beside
 // motion, and memory over time. The length of the last is TENON_BROWSER_MINUTES, 10 unless set.
 import { readFileSync, writeFileSync } from "node:fs";
+import { availableParallelism, loadavg } from "node:os";
 import { join } from "node:path";
 import { ask, button, hold, listen, near, openTab, sleep, until } from "../harness.mjs";
 
@@ -69,7 +70,9 @@ export const tests = {
     const span = (late[late.length - 1][0] - late[0][0]) / 1000;
     const rate = (late.length - 1) / span;
     hold(late.every((one) => one[2] === 1 + 7 * 300), "frames of another size");
-    hold(rate > 50 && rate < 62, `${rate.toFixed(1)} frames a second, expected 60`);
+    // A machine that has more to do than processors may skip some, but not fall behind.
+    const least = loadavg()[0] > 2 * availableParallelism() ? 30 : 55;
+    hold(rate > least && rate < 62, `${rate.toFixed(1)} frames a second, expected 60`);
     // The time in a frame lags behind the clock; where messages pile up, ever more.
     const lag = late.map(([at, time]) => at / 1000 - time).sort((a, b) => a - b);
     const half = Math.floor(late.length / 2);
