@@ -427,6 +427,38 @@ class Verbs(Case):
         self.refused("edit.prim-exists", "rename", self.scene, "/World/tip", "box")
         self.refused("edit.bad-name", "rename", self.scene, "/World/tip", "a-b")
 
+    def test_texts_that_are_paths_follow_a_new_name(self):
+        self.scene.write_text("""#usda 1.0
+(
+    defaultPrim = "r"
+)
+
+def Xform "r" (
+    customData = {
+        dictionary NameOverride = {
+            string "/r/old/x" = "/r/older"
+            dictionary inner = {
+                string at = "/r/old.size"
+            }
+        }
+    }
+)
+{
+    custom token part = "/r/old"
+    custom string[] parts = ["/r/old/x", "see /r/old"]
+
+    def Xform "old"
+    {
+    }
+}
+""", encoding="utf-8")
+        before = self.scene.read_text(encoding="utf-8")
+        self.do("rename", self.scene, "/r/old", "new")
+        text = self.scene.read_text(encoding="utf-8")
+        wanted = before.replace('"/r/old/x"', '"/r/new/x"').replace('"/r/old"', '"/r/new"')
+        wanted = wanted.replace("/r/old.size", "/r/new.size").replace('"old"', '"new"')
+        self.assertEqual(text, wanted)
+
     def test_a_link_of_a_structured_hand_gets_another_name_in_all_files(self):
         shutil.copytree(HAND, self.folder / "hand")
         for path in self.folder.rglob("*"):

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tenon/asset/editing/path_texts.h"
 #include "tenon/layer/arcs.h"
 #include "tenon/layer/fields.h"
 
@@ -134,6 +135,9 @@ Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, Path prim
     changed.push_back(moved);
   }
   editor.retarget(prim, to);
+  for (const Path spec : follow_in_texts(editor, prim, to)) {
+    changed.push_back(spec);
+  }
   return changed;
 }
 

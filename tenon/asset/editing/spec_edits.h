@@ -20,7 +20,8 @@ namespace tenon {
 /// there.
 Result<std::vector<Path>> remove_prim_specs(edit::LayerEditor& editor, Path prim);
 
-/// Renames them, and the prim in all targets, connections and arcs of the layer.
+/// Renames them, and the prim in all targets, connections and arcs of the layer, and in texts that
+/// are its path (path_texts.h).
 Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, Path prim, Token name);
 
 /// Removes a variant with all in it, and the set when it was its last one.

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/asset/editing/path_texts.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tenon/layer/dictionary.h"
+#include "tenon/layer/fields.h"
+
+namespace tenon {
+namespace {
+
+using layer::Value;
+namespace fields = layer::fields;
+
+class PathTexts {
+ public:
+  PathTexts(Path prim, Path to) : from_(prim.str()), to_(to.str()) {}
+
+  /// Nothing: it stays.
+  std::optional<std::string> moved(const std::string& text) const {
+    const bool below =
+        text.starts_with(from_) &&
+        (text.size() == from_.size() || text[from_.size()] == '/' || text[from_.size()] == '.');
+    return below ? std::optional(to_ + text.substr(from_.size())) : std::nullopt;
+  }
+
+  std::optional<Value> moved_value(const Value& value) const {
+    const auto* dictionary = value.get<layer::Dictionary>();
+    return dictionary == nullptr ? moved(value) : moved_items(*dictionary);
+  }
+
+ private:
+  std::optional<Value> moved(const Value& value) const {
+    if (const auto* text = value.get<std::string>()) {
+      const auto now = moved(*text);
+      return now ? std::optional(Value(*now)) : std::nullopt;
+    }
+    if (const auto* token = value.get<Token>()) {
+      const auto now = moved(token->str());
+      return now ? std::optional(Value(Token(*now))) : std::nullopt;
+    }
+    if (const auto* texts = value.get<layer::Array<std::string>>()) {
+      return moved_list<std::string>({texts->begin(), texts->end()});
+    }
+    if (const auto* tokens = value.get<layer::Array<Token>>()) {
+      return moved_list<Token>({tokens->begin(), tokens->end()});
+    }
+    return std::nullopt;
+  }
+
+  static std::string text_of(const std::string& text) { return text; }
+  static std::string text_of(Token token) { return token.str(); }
+
+  template <class T>
+  std::optional<Value> moved_list(std::vector<T> list) const {
+    bool changed = false;
+    for (T& one : list) {
+      if (const auto now = moved(text_of(one))) {
+        one = T(*now);
+        changed = true;
+      }
+    }
+    return changed ? std::optional(Value(layer::Array<T>(std::move(list)))) : std::nullopt;
+  }
+
+  /// A dictionary that is being made anew, up to the item that is next.
+  struct Open {
+    const layer::Dictionary* from;
+    std::map<std::string, Value, std::less<>>::const_iterator next;
+    std::string key;  ///< where it goes in the one around it
+    layer::Dictionary made{};
+    bool changed = false;
+  };
+
+  /// Those within too, by a list of what is open instead of recursion.
+  std::optional<Value> moved_items(const layer::Dictionary& dictionary) const {
+    std::vector<Open> open{{&dictionary, dictionary.items.begin(), ""}};
+    while (true) {
+      Open& inner = open.back();
+      if (inner.next != inner.from->items.end()) {
+        const auto& [key, item] = *inner.next++;
+        const auto name = moved(key);
+        inner.changed = inner.changed || name;
+        if (const auto* deeper = item.get<layer::Dictionary>()) {
+          open.push_back({deeper, deeper->items.begin(), name.value_or(key)});
+          continue;
+        }
+        auto contents = moved(item);
+        inner.changed = inner.changed || contents;
+        inner.made.items.insert_or_assign(name.value_or(key),
+                                          contents ? *std::move(contents) : item);
+        continue;
+      }
+      Open done = std::move(open.back());
+      open.pop_back();
+      if (open.empty()) {
+        return done.changed ? std::optional(Value(std::move(done.made))) : std::nullopt;
+      }
+      open.back().changed = open.back().changed || done.changed;
+      open.back().made.items.insert_or_assign(done.key, Value(std::move(done.made)));
+    }
+  }
+
+  std::string from_;
+  std::string to_;
+};
+
+}  // namespace
+
+std::vector<Path> follow_in_texts(edit::LayerEditor& editor, Path prim, Path to) {
+  const PathTexts texts(prim, to);
+  struct Change {
+    Path spec;
+    Token field;
+    Value value;
+  };
+  std::vector<Change> changes;
+  for (const layer::Layer::Entry& entry : editor.layer().entries()) {
+    for (const Token field :
+         {fields::default_value, fields::customData, fields::assetInfo, fields::customLayerData}) {
+      const layer::Spec* spec = editor.layer().find(entry.path);
+      const Value* value = spec == nullptr ? nullptr : spec->find(field);
+      if (auto now = value == nullptr ? std::nullopt : texts.moved_value(*value)) {
+        changes.push_back({entry.path, field, *std::move(now)});
+      }
+    }
+  }
+  std::vector<Path> changed;
+  for (Change& change : changes) {
+    editor.set(change.spec, change.field, std::move(change.value));
+    changed.push_back(change.spec);
+  }
+  return changed;
+}
+
+}  // namespace tenon

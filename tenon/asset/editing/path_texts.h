@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "tenon/base/path.h"
+#include "tenon/edit/layer_editor.h"
+
+/// Internal to this folder.
+namespace tenon {
+
+/// Lets texts that are nothing but the path of `prim`, or of something below it, name `to` instead:
+/// strings and tokens in values of attributes, custom data, asset information and custom data of
+/// the layer, keys of dictionaries too (maps of names for prims are written so). The specs that
+/// changed.
+std::vector<Path> follow_in_texts(edit::LayerEditor& editor, Path prim, Path to);
+
+}  // namespace tenon
