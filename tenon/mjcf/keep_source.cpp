@@ -30,6 +30,7 @@ ModelPtr compile_as_asked(mjSpec& spec, const Simplified& simplified) {
   spec.compiler.fusestatic = static_cast<mjtByte>(simplified.fuses_static);
   spec.compiler.discardvisual = static_cast<mjtByte>(simplified.drops_visuals);
   mjModel* model = nullptr;
+  const WithoutArena small(spec);
   const auto compiled = engines::mujoco::guarded([&] { model = mj_compile(&spec, nullptr); });
   return compiled ? ModelPtr(model) : nullptr;
 }
@@ -189,6 +190,28 @@ void drop_folder(std::string& text, std::string_view attribute) {
   }
 }
 
+/// The text with the room that simulations are to have, which the compiler was not told of
+/// (WithoutArena).
+std::string with_arena(std::string text, const mjSpec& spec) {
+  std::string room;
+  const auto add = [&](const char* name, long long value) {
+    if (value != -1) {
+      room += std::string(" ") + name + "=\"" + std::to_string(value) + "\"";
+    }
+  };
+  add("memory", spec.memory);
+  add("njmax", spec.njmax);
+  add("nconmax", spec.nconmax);
+  constexpr std::string_view kSize = "<size";
+  const std::size_t size = text.find(kSize);
+  const std::size_t start = text.find('>', text.find("<mujoco"));
+  if (room.empty() || start == std::string::npos || text[start - 1] == '/') {
+    return text;
+  }
+  return size == std::string::npos ? text.insert(start + 1, "\n  <size" + room + "/>")
+                                   : text.insert(size + kSize.size(), room);
+}
+
 }  // namespace
 
 robot::MujocoSource keep_source(MjcfSource& source, mjSpec& spec, const Simplified& simplified) {
@@ -206,7 +229,8 @@ robot::MujocoSource keep_source(MjcfSource& source, mjSpec& spec, const Simplifi
     return {};
   }
   SourceFiles files(source, spec);
-  const std::string sized = SizeWriter(again ? *again : source.model()).run(*text);
+  const std::string whole = with_arena(*text, spec);
+  const std::string sized = SizeWriter(again ? *again : source.model()).run(whole);
   robot::MujocoSource kept;
   kept.text = walk_text(sized, [&](auto section, auto tag, auto attribute, auto value) {
     return names_file(section, tag, attribute) ? files.mark_of(tag, value)

@@ -49,6 +49,31 @@ class MjcfSource {
   std::map<mjtObj, std::map<int, std::uint32_t>> lines_;  // by kind and number, as asked for
 };
 
+/// Takes the room that simulations of a model want out of its description, as long as this lives:
+/// nothing is simulated here, and it may be gigabytes, which compilers ask for too.
+class WithoutArena {
+ public:
+  explicit WithoutArena(mjSpec& spec)
+      : spec_(spec), memory_(spec.memory), njmax_(spec.njmax), nconmax_(spec.nconmax) {
+    spec.memory = -1;
+    spec.njmax = -1;
+    spec.nconmax = -1;
+  }
+  WithoutArena(const WithoutArena&) = delete;
+  WithoutArena& operator=(const WithoutArena&) = delete;
+  ~WithoutArena() {
+    spec_.memory = memory_;
+    spec_.njmax = njmax_;
+    spec_.nconmax = nconmax_;
+  }
+
+ private:
+  mjSpec& spec_;
+  mjtSize memory_;
+  int njmax_;
+  int nconmax_;
+};
+
 /// ": lines 3, 5", or nothing where no line is known.
 std::string lines_text(const std::vector<std::uint32_t>& lines);
 

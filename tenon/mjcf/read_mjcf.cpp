@@ -67,6 +67,7 @@ Result<ModelPtr> compile(mjSpec& spec, const std::string& path) {
   spec.compiler.fusestatic = 0;
   spec.compiler.discardvisual = 0;
   mjModel* model = nullptr;
+  const WithoutArena small(spec);
   TENON_CHECK(guarded([&] { model = mj_compile(&spec, nullptr); }));
   if (model == nullptr) {
     return fault(ErrorCode::Invalid, mjs_getError(&spec), path);

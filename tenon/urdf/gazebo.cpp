@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What <gazebo reference="..."> says of a link or a joint, as far as assets have a word for it. Each
-// child is one setting; those that are not taken are named in one finding for the element. Gazebo's
-// cameras look along x with z upwards, those of a model along -z with y upwards.
+// What <gazebo reference="..."> says of a link or a joint, as far as assets have a word for it.
+// Each child is one setting; those that are not taken are named in one finding for the element.
+// Gazebo's cameras look along x with z upwards, those of a model along -z with y upwards.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -245,10 +245,9 @@ void UrdfReader::read_gazebo(pugi::xml_node element) {
     }
     std::string without;
     const bool is_sensor = std::string_view(setting.name()) == "sensor";
-    const std::string what =
-        is_sensor ? "sensor \"" + name_of_sensor(setting) + "\" (" +
-                        setting.attribute("type").value() + ")"
-                  : std::string(setting.name());
+    const std::string what = is_sensor ? "sensor \"" + name_of_sensor(setting) + "\" (" +
+                                             setting.attribute("type").value() + ")"
+                                       : std::string(setting.name());
     if (!take_gazebo_setting(setting, on, of_joint, without)) {
       left += (left.empty() ? "" : ", ") + what;
     } else if (!without.empty()) {

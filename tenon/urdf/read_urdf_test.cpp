@@ -207,11 +207,11 @@ TEST_F(ReadUrdf, ListsWhatItLeavesOut) {
 }
 
 TEST_F(ReadUrdf, TakesWhatGazeboSaysOfLinks) {
-  const auto model =
-      read("<link name='a'><visual><geometry><box size='1 1 1'/></geometry></visual>\n"
-           "<collision><geometry><box size='1 1 1'/></geometry></collision></link>\n"
-           "<gazebo reference='a'><material> Gazebo/Red </material><mu1>0.7</mu1>"
-           "<mu2 value='0.7'/><gravity>false</gravity></gazebo>\n");
+  const auto model = read(
+      "<link name='a'><visual><geometry><box size='1 1 1'/></geometry></visual>\n"
+      "<collision><geometry><box size='1 1 1'/></geometry></collision></link>\n"
+      "<gazebo reference='a'><material> Gazebo/Red </material><mu1>0.7</mu1>"
+      "<mu2 value='0.7'/><gravity>false</gravity></gazebo>\n");
   ASSERT_TRUE(model);
   EXPECT_EQ(found(), "");
   const robot::Link& link = model->links[0];
@@ -222,12 +222,12 @@ TEST_F(ReadUrdf, TakesWhatGazeboSaysOfLinks) {
 }
 
 TEST_F(ReadUrdf, TakesSensorsOfGazebo) {
-  const auto model = read(
-      joint("fixed", "") +
-      "<gazebo reference='b'><sensor name='eye' type='depth'><pose>1 2 3 0 0 0</pose><camera>"
-      "<horizontal_fov>1</horizontal_fov><image><width>64</width><height>32</height></image>"
-      "</camera></sensor><sensor name='imu' type='imu'><update_rate>50</update_rate></sensor>"
-      "</gazebo><gazebo reference='j'><sensor name='ft' type='force_torque'/></gazebo>\n");
+  const auto model =
+      read(joint("fixed", "") +
+           "<gazebo reference='b'><sensor name='eye' type='depth'><pose>1 2 3 0 0 0</pose><camera>"
+           "<horizontal_fov>1</horizontal_fov><image><width>64</width><height>32</height></image>"
+           "</camera></sensor><sensor name='imu' type='imu'><update_rate>50</update_rate></sensor>"
+           "</gazebo><gazebo reference='j'><sensor name='ft' type='force_torque'/></gazebo>\n");
   ASSERT_TRUE(model);
   EXPECT_EQ(found(), "");
   const robot::Link& link = model->links[1];

@@ -139,6 +139,53 @@ def check_weightless(work):
         expect(f"weightless: {edit}", wanted in back.read_text(), True)
 
 
+def check_ellipsoid(work):
+    """One that collides is a mesh that this program knows as an ellipsoid, there and back."""
+    source, target, back = work / "egg.xml", work / "egg.usda", work / "egg_back.xml"
+    source.write_text('<mujoco><worldbody><body name="b" pos="0 0 2"><freejoint/><geom name="e" '
+                      'type="ellipsoid" size="0.1 0.2 0.3"/></body></worldbody></mujoco>')
+    expect("egg: exit code", convert(source, target)[0], 0)
+    rules = [finding["rule"] for finding in json.loads(tenon("check", target, "--json")[1])
+             ["diagnostics"] if finding["severity"] != "info"]
+    expect("egg: check", rules, [])
+    scene = physics(target)
+    collider = scene["colliders"][0]
+    expect("egg: shape", (collider["shape"], collider["halfExtents"]),
+           ("ellipsoid", [0.1, 0.2, 0.3]))
+    text = target.read_text()
+    expect("egg: hull", 'physics:approximation = "convexHull"' in text, True)
+    package = work / "egg"
+    expect("egg: structure", tenon("structure", target, "-o", package)[0], 0)
+    expect("egg: in the structure",
+           physics(package / "egg.usda")["colliders"][0]["shape"], "ellipsoid")
+    path = scene["bodies"][0]["path"]
+    expect("egg: edit", tenon("set", target, f"{path}.xformOp:translate=(0,0,1)")[0], 0)
+    expect("egg: back", convert(target, back)[0], 0)
+    expect("egg: an ellipsoid again", back.read_text().count('type="ellipsoid"'), 1)
+
+
+def check_physx_edits(work):
+    """What is edited for PhysX alone is no part of a model for MuJoCo, which is said."""
+    target, back = work / "for_physx.usda", work / "for_physx.xml"
+    expect("physx: exit code", convert(ROOT / "tests/convert/mjcf/arm.xml", target)[0], 0)
+    expect("physx: nothing is said", convert(target, back)[1].count("mjcf.left-out"), 0)
+    path = by_name(physics(target)["joints"])["shoulder"]["path"]
+    expect("physx: edit", tenon("set", target,
+                                f"{path}.physxJointAxis:angular:armature=0.5")[0], 0)
+    rules = convert(target, back, "--force")[1]
+    expect("physx: said", (rules.count("mjcf.left-out"), rules.count("mjcf.written-anew")), (1, 0))
+
+
+def check_large_arena(work):
+    """Room that simulations are to have is no reason to refuse a model, and stays in it."""
+    source, target, back = work / "room.xml", work / "room.usda", work / "room_back.xml"
+    source.write_text('<mujoco><size memory="3G"/><worldbody><body name="b">'
+                      '<freejoint/><geom size="0.1"/></body></worldbody></mujoco>')
+    expect("room: exit code", convert(source, target)[0], 0)
+    expect("room: back", convert(target, back)[0], 0)
+    expect("room: stays", 'memory="3221225472"' in back.read_text(), True)
+
+
 def check_bad_input(work):
     target = work / "bad.usda"
     for name, code, rule in (("cycle", 2, "robot.cycle"), ("missing_mesh", 1, "urdf.mesh-missing"),
@@ -393,6 +440,9 @@ def main():
         check_shapes(work)
         check_gazebo(work)
         check_weightless(work)
+        check_large_arena(work)
+        check_ellipsoid(work)
+        check_physx_edits(work)
         check_bad_input(work)
         check_mjcf(work)
         check_mjcf_images(work)

@@ -48,6 +48,33 @@ convert::Seal seal_of_stage(const stage::Stage& stage, convert::SealParts& parts
   return seal;
 }
 
+std::string named_few(const std::vector<std::string>& words) {
+  constexpr std::size_t kNamed = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(words.size(), kNamed); ++i) {
+    text += (i == 0 ? "" : ", ") + words[i];
+  }
+  return words.size() > kNamed ? text + " and " + std::to_string(words.size() - kNamed) + " more"
+                               : text;
+}
+
+/// What is edited for PhysX alone does not go into a model for MuJoCo, which is said.
+void leave_out_physx(std::vector<std::string>& changed, Diagnostics& diagnostics) {
+  std::vector<std::string> left;
+  std::erase_if(changed, [&](const std::string& word) {
+    const bool physx = word.starts_with("physx") || word.starts_with("api:Physx");
+    if (physx) {
+      left.push_back(word);
+    }
+    return physx;
+  });
+  if (!left.empty()) {
+    diagnostics.add(file_finding(
+        Severity::Warning, "mjcf.left-out",
+        "what was edited for PhysX alone is left out of the model: " + named_few(left), "", 0));
+  }
+}
+
 /// What stands beside an edit that a model can take over: the schema that declares the property,
 /// and what a material says, which is told by the shapes that it is bound to.
 bool goes_along(const std::string& word, bool has_bindings) {
@@ -93,16 +120,6 @@ void report_written_anew(Diagnostics& diagnostics, const std::string& why) {
   diagnostics.add(file_finding(
       Severity::Warning, "mjcf.written-anew",
       "what MJCF alone has is left out, because the model is made anew: " + why, "", 0));
-}
-
-std::string named_few(const std::vector<std::string>& words) {
-  constexpr std::size_t kNamed = 8;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(words.size(), kNamed); ++i) {
-    text += (i == 0 ? "" : ", ") + words[i];
-  }
-  return words.size() > kNamed ? text + " and " + std::to_string(words.size() - kNamed) + " more"
-                               : text;
 }
 
 /// Display names where prims have such.
@@ -253,8 +270,9 @@ std::optional<ExportedMjcf> kept_mjcf(const stage::Stage& stage, const scene::Ph
     return std::nullopt;
   }
   convert::SealParts parts;
-  const std::vector<std::string> changed =
+  std::vector<std::string> changed =
       convert::changed_since({seal->begin(), seal->end()}, seal_of_stage(stage, parts));
+  leave_out_physx(changed, diagnostics);
   std::string edited = *text;
   if (!changed.empty()) {
     const auto patched = with_edits(*text, changed, parts, stage, scene, diagnostics);

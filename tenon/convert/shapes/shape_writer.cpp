@@ -11,6 +11,7 @@
 
 #include "tenon/convert/contacts.h"
 #include "tenon/convert/shapes/cameras.h"
+#include "tenon/convert/shapes/ellipsoid.h"
 #include "tenon/convert/shapes/gprims.h"
 
 namespace tenon::convert {
@@ -75,7 +76,11 @@ Path ShapeWriter::write_shape(Path link, const Shape& shape, NameScope& names) {
   if (shape.geometry.kind == GeometryKind::Mesh) {
     return write_parts(link, shape, names);
   }
-  const Path prim = write_gprim(layer_, link, names.make(shape.name), shape.geometry, shape.pose);
+  const Token name = names.make(shape.name);
+  const bool hull = is_hull(shape);
+  const Path prim =
+      hull ? write_ellipsoid(layer_, link, name, shape.geometry.half_extents, shape.pose)
+           : write_gprim(layer_, link, name, shape.geometry, shape.pose);
   layer_.show_name(prim, shape.name);
   write_use(prim, shape, shape.material);
   return prim;
@@ -100,6 +105,10 @@ Path ShapeWriter::write_parts(Path link, const Shape& shape, NameScope& names) {
   return top;
 }
 
+bool ShapeWriter::is_hull(const Shape& shape) {
+  return shape.collider != nullptr && shape.geometry.kind == GeometryKind::Ellipsoid;
+}
+
 void ShapeWriter::write_use(Path prim, const Shape& shape, std::optional<Index> material) {
   if (shape.collider == nullptr) {
     if (material) {
@@ -108,7 +117,7 @@ void ShapeWriter::write_use(Path prim, const Shape& shape, std::optional<Index> 
     return;
   }
   layer_.builder().apply(prim, "PhysicsCollisionAPI");
-  if (shape.geometry.kind == GeometryKind::Mesh) {
+  if (shape.geometry.kind == GeometryKind::Mesh || is_hull(shape)) {
     layer_.builder().apply(prim, "PhysicsMeshCollisionAPI");
     layer_.builder().set_value(prim, "PhysicsMeshCollisionAPI", "physics:approximation",
                                Value(Token("convexHull")));

@@ -45,6 +45,8 @@ class ShapeWriter {
     const robot::Collider* collider = nullptr;  ///< none: a visual
   };
 
+  /// An ellipsoid that collides is a mesh.
+  static bool is_hull(const Shape& shape);
   Path write_shape(Path link, const Shape& shape, NameScope& names);
   Path write_parts(Path link, const Shape& shape, NameScope& names);
   void write_use(Path prim, const Shape& shape, std::optional<robot::Index> material);

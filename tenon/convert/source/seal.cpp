@@ -26,7 +26,7 @@ using layer::Value;
 namespace fields = layer::fields;
 
 /// Of engines that need not be there under every variant.
-constexpr std::string_view kEngines[] = {"mjc", "newton"};
+constexpr std::string_view kEngines[] = {"mjc", "newton", "physx"};
 
 bool starts_with_any(std::string_view text, std::initializer_list<std::string_view> starts) {
   return std::any_of(starts.begin(), starts.end(),
@@ -35,8 +35,8 @@ bool starts_with_any(std::string_view text, std::initializer_list<std::string_vi
 
 /// Properties about which MuJoCo's format has nothing to say, or which structures change.
 bool is_skipped(std::string_view property) {
-  return starts_with_any(property, {"physx", "isaac", "urdf", "ui:", "omni",
-                                    "tenon:mjcf:", "info:", "outputs:"}) ||
+  return starts_with_any(property,
+                         {"isaac", "urdf", "ui:", "omni", "tenon:mjcf:", "info:", "outputs:"}) ||
          property == "extent";
 }
 
@@ -146,6 +146,9 @@ std::string_view engine_of(std::string_view key) {
   if (starts_with_any(name, {"mjc", "Mjc"})) {
     return kEngines[0];
   }
+  if (starts_with_any(name, {"physx", "Physx"})) {
+    return kEngines[2];
+  }
   return starts_with_any(name, {"newton", "Newton"}) ? kEngines[1] : std::string_view();
 }
 
@@ -196,7 +199,7 @@ void SealMaker::add_prim(Path prim, Token type, const std::vector<Token>& apis) 
     if (api == "PhysicsRigidBodyAPI") {
       bodies_.insert(prim);
     }
-    if (starts_with_any(api.view(), {"Physics", "Mjc", "Newton"})) {
+    if (starts_with_any(api.view(), {"Physics", "Mjc", "Newton", "Physx"})) {
       add(prim, type, "api:" + api.str(), "");
     }
   }

@@ -350,9 +350,27 @@ std::vector<Index> decompose(ReadState& state, const ShapeSource& source,
   return indices;
 }
 
-}  // namespace
+/// A mesh that stands for an ellipsoid and has its semi-axes (docs/conversion.md). Nothing where
+/// its scale bends these, or another approximation is asked for.
+std::optional<ShapeReading> read_ellipsoid(const ReadState& state, const ShapeSource& source) {
+  const auto axes = source.found.prim.attribute("tenon:ellipsoid").get_as<Vec3d>();
+  const auto kind = source.found.prim.attribute("physics:approximation").get_as<Token>();
+  if (!axes || source.parts.sheared || !kind || !(*kind == "convexHull")) {
+    return std::nullopt;
+  }
+  ShapeReading reading;
+  reading.shape.kind = ShapeKind::Ellipsoid;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double half = (*axes)[i] * std::fabs(source.parts.scale[i]) * state.units.length;
+    if (!(half > 0) || !std::isfinite(half)) {
+      return std::nullopt;
+    }
+    reading.shape.half_extents[i] = half;
+  }
+  return reading;
+}
 
-std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource& source) {
+std::optional<ShapeReading> read_faces(ReadState& state, const ShapeSource& source) {
   const stage::Prim& prim = source.found.prim;
   const MeshSource made_from = read_source(state, source, prim, source.found.world);
   const std::vector<stage::Prim> parts = submeshes(prim);
@@ -407,6 +425,13 @@ std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource&
     state.shared_meshes.add(made_from, reading.shape.mesh);
   }
   return reading;
+}
+
+}  // namespace
+
+std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource& source) {
+  auto ellipsoid = read_ellipsoid(state, source);
+  return ellipsoid ? ellipsoid : read_faces(state, source);
 }
 
 namespace {
