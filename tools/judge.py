@@ -79,6 +79,19 @@ def judgements_of_pages_and_python():
                     ["tenon_asset", "tenon_worker"])
 
 
+def corpora():
+    """Published robots through this program and back."""
+    yield Judgement("mjcf_corpus", ["{python}", "-B", "tests/convert/corpus_round_trip.py", ".",
+                                    "build/release/bin/tenon", "--all", "--table"], "release")
+    yield Judgement("edited_corpus", ["{python}", "-B", "tests/convert/edited_corpus.py", ".",
+                                      "build/release/bin/tenon", "--all"], "release")
+    yield Judgement("robot_corpora", ["{python}", "-B", "tests/convert/robot_corpora.py", ".",
+                                      "build/release/bin/tenon", "{engine}",
+                                      "docs/robot-corpora.md", "--most", "60"],
+                    "release", ["tenon_cli", "tenon_worker"],
+                    "tests/convert/requirements-robots.txt")
+
+
 def judgements():
     """All of them, in the order in which they are run."""
     yield Judgement("separate_files", ["cmake", "-E", "echo", "every source compiles alone"],
@@ -109,10 +122,7 @@ def judgements():
                                       "--scenes", "5000", "--show", "3", "--misses",
                                       "tests/differential/random_scenes_misses.txt"],
                     "bench", ["tenon_composition_dump"])
-    yield Judgement("mjcf_corpus", ["{python}", "-B", "tests/convert/corpus_round_trip.py", ".",
-                                    "build/release/bin/tenon", "--all", "--table"], "release")
-    yield Judgement("edited_corpus", ["{python}", "-B", "tests/convert/edited_corpus.py", ".",
-                                      "build/release/bin/tenon", "--all"], "release")
+    yield from corpora()
     yield Judgement("recordings", ["{python}", "-B", "tests/view/recordings.py", ".",
                                    "build/release/bin/tenon"], "release")
     for engine in ("ovphysx", "newton"):

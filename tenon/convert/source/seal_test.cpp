@@ -45,10 +45,30 @@ TEST(SourceSeal, GoesOnWithoutEnginesThatAVariantLeavesOut) {
             Words{"mjc:armature"});
 }
 
-TEST(SourceSeal, LeavesOtherEnginesAndFilesAside) {
+TEST(SourceSeal, LeavesFilesAndOtherSchemasAside) {
   const Words words = seal_words(sealed("float physics:mass = 1"));
-  EXPECT_EQ(changed_since(words, sealed("float physics:mass = 1\nfloat physxRigidBody:x = 1\n"
+  EXPECT_EQ(changed_since(words, sealed("float physics:mass = 1\nfloat isaac:x = 1\n"
                                         "asset a = @x.png@")),
+            Words{});
+}
+
+TEST(SourceSeal, NamesEditsForPhysX) {
+  const Words words = seal_words(sealed("float physics:mass = 1\nfloat physxRigidBody:x = 1"));
+  EXPECT_EQ(changed_since(words, sealed("float physics:mass = 1\nfloat physxRigidBody:x = 2")),
+            Words{"physxRigidBody:x"});
+  EXPECT_EQ(changed_since(words, sealed("float physics:mass = 1")), Words{});  // another variant
+}
+
+TEST(SourceSeal, KnowsCamerasAndLightsApart) {
+  const auto seen = [](const char* camera, const char* light) {
+    return sealed("double3 xformOp:translate = (0, 0, 1)\n}\ndef Camera \"c\" {\n" +
+                  std::string(camera) + "\n}\ndef SphereLight \"l\" {\n" + light);
+  };
+  const Words words = seal_words(seen("float focalLength = 1", "float inputs:radius = 1"));
+  EXPECT_EQ(changed_since(words, seen("float focalLength = 2", "float inputs:radius = 3")),
+            (Words{"Camera.focalLength", "Light.inputs:radius"}));
+  EXPECT_EQ(changed_since(words, seen("float focalLength = 1\nfloat fStop = 2",
+                                      "float inputs:radius = 1\nfloat inputs:diffuse = 2")),
             Words{});
 }
 
