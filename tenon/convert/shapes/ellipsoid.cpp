@@ -21,13 +21,13 @@ struct Ball {
 };
 
 Ball make_ball() {
-  constexpr double kPi = std::numbers::pi;
+  constexpr double kHalfTurn = std::numbers::pi;
   Ball ball;
   ball.points.push_back({{0, 0, -1}});
   for (int ring = 1; ring <= kRings; ++ring) {
-    const double height = kPi * ring / (kRings + 1);
+    const double height = kHalfTurn * ring / (kRings + 1);
     for (int side = 0; side < kSides; ++side) {
-      const double turn = 2 * kPi * side / kSides;
+      const double turn = 2 * kHalfTurn * side / kSides;
       ball.points.push_back({{std::sin(height) * std::cos(turn), std::sin(height) * std::sin(turn),
                               -std::cos(height)}});
     }
