@@ -16,7 +16,7 @@
 #include <string>
 
 #include "tenon/base/limits/physics_limits.h"
-#include "tenon/base/path_order.h"
+#include "tenon/base/paths/path_order.h"
 #include "tenon/physics/physics_tokens.h"
 #include "tenon/physics/stray_properties.h"
 #include "tenon/stage/transform_at.h"

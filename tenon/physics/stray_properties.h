@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tenon/physics/attribute_values.h"
-#include "tenon/physics/definition_memo.h"
+#include "tenon/physics/contents/definition_memo.h"
 #include "tenon/physics/prim_roles.h"
 
 namespace tenon::physics {

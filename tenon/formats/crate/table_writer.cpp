@@ -16,7 +16,7 @@
 #include <span>
 #include <string>
 
-#include "tenon/base/path_order.h"
+#include "tenon/base/paths/path_order.h"
 #include "tenon/bytes/integer_coding.h"
 #include "tenon/bytes/lz4_block.h"
 

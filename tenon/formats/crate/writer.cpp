@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "tenon/base/path_order.h"
+#include "tenon/base/paths/path_order.h"
 #include "tenon/formats/crate/table_writer.h"
 #include "tenon/formats/crate/value_writer.h"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <unordered_set>
 
-#include "tenon/physics/definition_memo.h"
+#include "tenon/physics/contents/definition_memo.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/vendors/vendor_attributes.h"
 

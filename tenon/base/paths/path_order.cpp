@@ -4,7 +4,7 @@
 // The paths and all above them are put together as a tree, which is then walked from the top. Names
 // of siblings are compared by eight bytes behind what all of them begin with; only where those are
 // equal the paths themselves are.
-#include "tenon/base/path_order.h"
+#include "tenon/base/paths/path_order.h"
 
 #include <algorithm>
 #include <cstddef>

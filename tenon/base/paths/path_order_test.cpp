@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/base/path_order.h"
+#include "tenon/base/paths/path_order.h"
 
 #include <algorithm>
 #include <numeric>
