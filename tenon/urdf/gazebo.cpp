@@ -96,10 +96,17 @@ std::string name_of_sensor(pugi::xml_node element) {
   return name.empty() ? "sensor" : name;
 }
 
-}  // namespace
+/// Where settings of one element go, and what becomes of them.
+struct GazeboSettings {
+  robot::Link& link;
+  bool of_joint = false;   ///< the element is of the joint above the link
+  std::string without;     ///< what is left out of the last one that was taken
+  pugi::xml_node colored;  ///< the one that says a colour
+  std::optional<robot::Material> color;
+};
 
 /// What is said of all shapes of a link; false: it is something else, or no number.
-bool UrdfReader::take_gazebo_surface(pugi::xml_node setting, robot::Link& link) {
+bool take_surface(pugi::xml_node setting, robot::Link& link) {
   const std::string_view name = setting.name();
   const std::optional<double> number = number_in(setting);
   if ((name != "mu1" && name != "mu2" && name != "mu") || !number || *number < 0) {
@@ -116,7 +123,7 @@ bool UrdfReader::take_gazebo_surface(pugi::xml_node setting, robot::Link& link) 
   return true;
 }
 
-bool UrdfReader::take_gazebo_color(pugi::xml_node setting, robot::Link& link) {
+bool take_color(pugi::xml_node setting, GazeboSettings& settings) {
   std::string name = said(setting);
   constexpr std::string_view kStart = "Gazebo/";
   if (!name.starts_with(kStart)) {
@@ -125,24 +132,17 @@ bool UrdfReader::take_gazebo_color(pugi::xml_node setting, robot::Link& link) {
   name = name.substr(kStart.size());
   const auto known = std::find_if(std::begin(kColors), std::end(kColors),
                                   [&](const NamedColor& color) { return color.name == name; });
-  const bool wanted = std::any_of(link.visuals.begin(), link.visuals.end(),
-                                  [](const robot::Visual& visual) { return !visual.material; });
-  if (known == std::end(kColors) || !wanted) {
-    return known != std::end(kColors);  // URDF's own colours count
+  if (known == std::end(kColors)) {
+    return false;
   }
-  robot::Material material;
-  material.name = name;
-  material.color = known->color;
-  material.place = xml_.place_of(setting);
-  const robot::Index number = material_number(std::move(material));
-  for (robot::Visual& visual : link.visuals) {
-    visual.material = visual.material ? visual.material : number;
-  }
+  settings.color.emplace();
+  settings.color->name = name;
+  settings.color->color = known->color;
+  settings.colored = setting;
   return true;
 }
 
-bool UrdfReader::take_gazebo_camera(pugi::xml_node sensor, const Pose& pose, robot::Link& link,
-                                    std::string& left) {
+bool take_camera(pugi::xml_node sensor, const Pose& pose, GazeboSettings& settings) {
   const pugi::xml_node described = sensor.child("camera");
   const std::optional<Pose> inner = pose_in(described.child("pose"));
   const double angle = number_in(described.child("horizontal_fov")).value_or(1.047);
@@ -164,28 +164,27 @@ bool UrdfReader::take_gazebo_camera(pugi::xml_node sensor, const Pose& pose, rob
   camera.clipping = {number_in(clip.child("near")).value_or(0.1),
                      number_in(clip.child("far")).value_or(100)};
   camera.settings.push_back({"resolution", {std::floor(width), std::floor(height)}, ""});
-  link.cameras.push_back(std::move(camera));
+  settings.link.cameras.push_back(std::move(camera));
   for (const char* other : {"noise", "distortion", "lens"}) {
-    left += described.child(other) ? std::string(" without its ") + other : "";
+    settings.without += described.child(other) ? std::string(" without its ") + other : "";
   }
   return true;
 }
 
 /// A sensor of a link, or of the joint above it; false: of a kind that assets have no word for.
-bool UrdfReader::take_gazebo_sensor(pugi::xml_node sensor, robot::Link& link, bool of_joint,
-                                    std::string& left) {
+bool take_sensor(pugi::xml_node sensor, GazeboSettings& settings) {
   const std::string_view kind = sensor.attribute("type").value();
   const std::optional<Pose> pose = pose_in(sensor.child("pose"));
   if (!pose) {
     return false;
   }
-  if (!of_joint && (kind == "camera" || kind == "depth" || kind == "depth_camera" ||
-                    kind == "rgbd_camera" || kind == "rgbd")) {
-    return take_gazebo_camera(sensor, *pose, link, left);
+  if (!settings.of_joint && (kind == "camera" || kind == "depth" || kind == "depth_camera" ||
+                             kind == "rgbd_camera" || kind == "rgbd")) {
+    return take_camera(sensor, *pose, settings);
   }
   const bool measures_force = kind == "force_torque";
   if ((kind != "imu" && kind != "contact" && !measures_force) ||
-      (measures_force != of_joint && measures_force)) {
+      (measures_force && !settings.of_joint)) {
     return false;
   }
   robot::Site site;
@@ -200,30 +199,31 @@ bool UrdfReader::take_gazebo_sensor(pugi::xml_node sensor, robot::Link& link, bo
   const double rate = number_in(sensor.child("update_rate")).value_or(0);
   measured.period = rate > 0 && !measures_force ? 1 / rate : 0;
   site.sensors.push_back(std::move(measured));
-  link.sites.push_back(std::move(site));
+  settings.link.sites.push_back(std::move(site));
   return true;
 }
 
 /// false: left out.
-bool UrdfReader::take_gazebo_setting(pugi::xml_node setting, robot::Link& link, bool of_joint,
-                                     std::string& left) {
+bool take_setting(pugi::xml_node setting, GazeboSettings& settings) {
   const std::string_view name = setting.name();
   if (name == "sensor") {
-    return take_gazebo_sensor(setting, link, of_joint, left);
+    return take_sensor(setting, settings);
   }
-  if (of_joint) {
+  if (settings.of_joint) {
     return false;
   }
   if (name == "material") {
-    return take_gazebo_color(setting, link);
+    return take_color(setting, settings);
   }
   if (name == "turnGravityOff" || name == "gravity") {
     const bool falls = is_true(setting) == (name == "gravity");
-    link.gravity_scale = falls ? 1 : 0;
+    settings.link.gravity_scale = falls ? 1 : 0;
     return true;
   }
-  return take_gazebo_surface(setting, link);
+  return take_surface(setting, settings.link);
 }
+
+}  // namespace
 
 void UrdfReader::read_gazebo(pugi::xml_node element) {
   const std::string whose = element.attribute("reference").value();
@@ -238,20 +238,30 @@ void UrdfReader::read_gazebo(pugi::xml_node element) {
   }
   const bool of_joint = link == links_.end();
   robot::Link& on = model_.links[of_joint ? model_.joints[joint->second].child : link->second];
+  GazeboSettings settings{on, of_joint, {}, {}, {}};
   std::string left;
   for (const pugi::xml_node setting : element.children()) {
     if (setting.type() != pugi::node_element) {
       continue;
     }
-    std::string without;
+    settings.without.clear();
     const bool is_sensor = std::string_view(setting.name()) == "sensor";
     const std::string what = is_sensor ? "sensor \"" + name_of_sensor(setting) + "\" (" +
                                              setting.attribute("type").value() + ")"
                                        : std::string(setting.name());
-    if (!take_gazebo_setting(setting, on, of_joint, without)) {
+    if (!take_setting(setting, settings)) {
       left += (left.empty() ? "" : ", ") + what;
-    } else if (!without.empty()) {
-      left += (left.empty() ? "" : ", ") + what + without;
+    } else if (!settings.without.empty()) {
+      left += (left.empty() ? "" : ", ") + what + settings.without;
+    }
+  }
+  const bool wanted = std::any_of(on.visuals.begin(), on.visuals.end(),
+                                  [](const robot::Visual& visual) { return !visual.material; });
+  if (settings.color && wanted) {  // URDF's own colours count
+    settings.color->place = xml_.place_of(settings.colored);
+    const robot::Index number = material_number(*std::move(settings.color));
+    for (robot::Visual& visual : on.visuals) {
+      visual.material = visual.material ? visual.material : number;
     }
   }
   if (!left.empty()) {

@@ -35,6 +35,41 @@ std::optional<JointKind> kind_named(const std::string& type) {
   return std::nullopt;
 }
 
+Result<void> read_safety(XmlReader& xml, pugi::xml_node element, robot::Joint& joint) {
+  const pugi::xml_node safety = element.child("safety_controller");
+  if (!safety) {
+    return {};
+  }
+  xml.list_unknown(safety, {"soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"},
+                   {});
+  robot::Safety& values = joint.safety.emplace();
+  if (safety.attribute("soft_lower_limit")) {
+    TENON_TRY(values.soft_lower, xml.number(safety, "soft_lower_limit", std::nullopt));
+  }
+  if (safety.attribute("soft_upper_limit")) {
+    TENON_TRY(values.soft_upper, xml.number(safety, "soft_upper_limit", std::nullopt));
+  }
+  TENON_TRY(values.position_gain, xml.number(safety, "k_position", 0.0));
+  TENON_TRY(values.velocity_gain, xml.number(safety, "k_velocity", 0.0));
+  return {};
+}
+
+Result<void> read_calibration(XmlReader& xml, pugi::xml_node element, robot::Joint& joint) {
+  const pugi::xml_node calibration = element.child("calibration");
+  if (!calibration) {
+    return {};
+  }
+  xml.list_unknown(calibration, {"rising", "falling"}, {});
+  robot::Calibration& values = joint.calibration.emplace();
+  if (calibration.attribute("rising")) {
+    TENON_TRY(values.rising, xml.number(calibration, "rising", std::nullopt));
+  }
+  if (calibration.attribute("falling")) {
+    TENON_TRY(values.falling, xml.number(calibration, "falling", std::nullopt));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<robot::Index> UrdfReader::link_named(pugi::xml_node joint, const char* end) const {
@@ -77,8 +112,8 @@ Result<void> UrdfReader::read_joint(pugi::xml_node element) {
   }
   TENON_CHECK(read_limit(element, joint));
   TENON_CHECK(read_dynamics(element, joint));
-  TENON_CHECK(read_safety(element, joint));
-  TENON_CHECK(read_calibration(element, joint));
+  TENON_CHECK(read_safety(xml_, element, joint));
+  TENON_CHECK(read_calibration(xml_, element, joint));
   joints_.emplace(joint.name, static_cast<robot::Index>(model_.joints.size()));
   joint_elements_.push_back(element);
   model_.joints.push_back(std::move(joint));
@@ -130,41 +165,6 @@ Result<void> UrdfReader::read_dynamics(pugi::xml_node element, robot::Joint& joi
   TENON_TRY(joint.damping, xml_.number(dynamics, "damping", 0.0));
   TENON_TRY(joint.friction, xml_.number(dynamics, "friction", 0.0));
   TENON_TRY(joint.armature, xml_.number(dynamics, "armature", 0.0));
-  return {};
-}
-
-Result<void> UrdfReader::read_safety(pugi::xml_node element, robot::Joint& joint) {
-  const pugi::xml_node safety = element.child("safety_controller");
-  if (!safety) {
-    return {};
-  }
-  xml_.list_unknown(safety, {"soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"},
-                    {});
-  robot::Safety& values = joint.safety.emplace();
-  if (safety.attribute("soft_lower_limit")) {
-    TENON_TRY(values.soft_lower, xml_.number(safety, "soft_lower_limit", std::nullopt));
-  }
-  if (safety.attribute("soft_upper_limit")) {
-    TENON_TRY(values.soft_upper, xml_.number(safety, "soft_upper_limit", std::nullopt));
-  }
-  TENON_TRY(values.position_gain, xml_.number(safety, "k_position", 0.0));
-  TENON_TRY(values.velocity_gain, xml_.number(safety, "k_velocity", 0.0));
-  return {};
-}
-
-Result<void> UrdfReader::read_calibration(pugi::xml_node element, robot::Joint& joint) {
-  const pugi::xml_node calibration = element.child("calibration");
-  if (!calibration) {
-    return {};
-  }
-  xml_.list_unknown(calibration, {"rising", "falling"}, {});
-  robot::Calibration& values = joint.calibration.emplace();
-  if (calibration.attribute("rising")) {
-    TENON_TRY(values.rising, xml_.number(calibration, "rising", std::nullopt));
-  }
-  if (calibration.attribute("falling")) {
-    TENON_TRY(values.falling, xml_.number(calibration, "falling", std::nullopt));
-  }
   return {};
 }
 

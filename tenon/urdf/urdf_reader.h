@@ -48,20 +48,10 @@ class UrdfReader {
   Result<robot::Index> link_named(pugi::xml_node joint, const char* end) const;
   Result<void> read_limit(pugi::xml_node element, robot::Joint& joint);
   Result<void> read_dynamics(pugi::xml_node element, robot::Joint& joint);
-  Result<void> read_safety(pugi::xml_node element, robot::Joint& joint);
-  Result<void> read_calibration(pugi::xml_node element, robot::Joint& joint);
   Result<void> read_mimics();
 
   // gazebo.cpp, after links and joints
   void read_gazebo(pugi::xml_node element);
-  bool take_gazebo_setting(pugi::xml_node setting, robot::Link& link, bool of_joint,
-                           std::string& left);
-  bool take_gazebo_surface(pugi::xml_node setting, robot::Link& link);
-  bool take_gazebo_color(pugi::xml_node setting, robot::Link& link);
-  bool take_gazebo_sensor(pugi::xml_node sensor, robot::Link& link, bool of_joint,
-                          std::string& left);
-  bool take_gazebo_camera(pugi::xml_node sensor, const Pose& pose, robot::Link& link,
-                          std::string& left);
 
   XmlReader& xml_;
   MeshPaths paths_;
