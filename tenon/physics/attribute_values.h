@@ -26,8 +26,8 @@ struct LayerContents {
 };
 LayerContents layer_contents(const stage::Stage& stage);
 
-/// A property of that name may mean something to physics: an API of physics declares it, or it says
-/// what the prim measures.
+/// A property of that name may mean something to physics: it begins as those do that APIs of
+/// physics declare, or says what the prim measures.
 bool names_physics(Token property);
 
 /// A number of any numeric type; nullopt for anything else.

@@ -24,6 +24,11 @@ constexpr std::array<std::string_view, 10> kPhysicsBeginnings{
     "deformablePose:", "drive:",       "isaac:",   "limit:", "mjc:",
     "newton:",         "omniphysics:", "physics:", "physx",  "state:"};
 
+bool begins_as_physics(Token name) {
+  return std::any_of(kPhysicsBeginnings.begin(), kPhysicsBeginnings.end(),
+                     [&](std::string_view begins) { return name.view().starts_with(begins); });
+}
+
 /// Names without the prefix that the schema wants.
 const std::vector<Token>& unprefixed(const Roles& roles) {
   static const std::vector<Token> material{"staticFriction", "dynamicFriction", "restitution",
@@ -67,11 +72,13 @@ bool has_its_own_rule(Token name, const Roles& roles) {
 
 }  // namespace
 
+bool names_physics(Token property) {
+  return property == physics_tokens().sensor || begins_as_physics(property);
+}
+
 std::vector<Token> physics_apis_of(Token name) {
-  const bool physics =
-      std::any_of(kPhysicsBeginnings.begin(), kPhysicsBeginnings.end(),
-                  [&](std::string_view begins) { return name.view().starts_with(begins); });
-  std::vector<Token> apis = physics ? schema::declaring_apis(name) : std::vector<Token>();
+  std::vector<Token> apis =
+      begins_as_physics(name) ? schema::declaring_apis(name) : std::vector<Token>();
   std::erase_if(apis, [](Token api) {
     return !api.view().starts_with("Physics") &&
            !schema::Registry::instance().is_vendor(schema::split_api_name(api).first);

@@ -9,8 +9,6 @@
 
 #include "tenon/layer/fields.h"
 #include "tenon/physics/attribute_values.h"
-#include "tenon/physics/physics_tokens.h"
-#include "tenon/physics/stray_properties.h"
 
 namespace tenon::physics {
 namespace {
@@ -51,10 +49,6 @@ class ContentsReader {
 };
 
 }  // namespace
-
-bool names_physics(Token property) {
-  return property == physics_tokens().sensor || !physics_apis_of(property).empty();
-}
 
 LayerContents layer_contents(const stage::Stage& stage) {
   ContentsReader reader;
