@@ -114,12 +114,12 @@ class PathTexts {
 
 std::vector<Path> follow_in_texts(edit::LayerEditor& editor, Path prim, Path to) {
   const PathTexts texts(prim, to);
-  struct Change {
+  struct TextChange {
     Path spec;
     Token field;
     Value value;
   };
-  std::vector<Change> changes;
+  std::vector<TextChange> changes;
   for (const layer::Layer::Entry& entry : editor.layer().entries()) {
     for (const Token field :
          {fields::default_value, fields::customData, fields::assetInfo, fields::customLayerData}) {
@@ -131,7 +131,7 @@ std::vector<Path> follow_in_texts(edit::LayerEditor& editor, Path prim, Path to)
     }
   }
   std::vector<Path> changed;
-  for (Change& change : changes) {
+  for (TextChange& change : changes) {
     editor.set(change.spec, change.field, std::move(change.value));
     changed.push_back(change.spec);
   }
