@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -81,7 +80,12 @@ struct PrimIndex {
 
   /// Some opinion has a property of that name: most that schemas declare are in no layer.
   bool has_property(Token name) const {
-    return std::find(property_names.begin(), property_names.end(), name) != property_names.end();
+    for (const Token each : property_names) {
+      if (each == name) {
+        return true;
+      }
+    }
+    return false;
   }
   /// `path` of node's namespace in the stage's; empty when it has no image.
   Path map_to_root(std::uint32_t node, Path path_in_node) const {
