@@ -185,7 +185,7 @@ class TargetCombiner {
   }
 
   void report(std::string_view error_class, const PropertyOpinion& opinion, Path authored,
-              Path target, std::string message, std::string fix) {
+              Path target, const std::string& message, std::string fix) {
     const char* what = opinion.spec->kind == SpecKind::Attribute ? "connection " : "target ";
     errors_.push_back(
         {target, composition_error(error_class, Severity::Error,

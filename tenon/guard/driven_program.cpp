@@ -153,7 +153,7 @@ std::optional<std::string> find_program(const std::vector<std::string>& names) {
     }
     for (std::size_t at = 0; !name.empty() && at < folders.size();) {
       const std::size_t end = std::min(folders.find(':', at), folders.size());
-      const std::string path = folders.substr(at, end - at) + "/" + name;
+      std::string path = folders.substr(at, end - at) + "/" + name;
       if (path.front() == '/' && is_program(path)) {
         return path;
       }

@@ -117,8 +117,8 @@ bool take_surface(pugi::xml_node setting, robot::Link& link) {
     return first && *first == *number;
   }
   for (robot::Collider& collider : link.colliders) {
-    collider.surface.static_friction = *number;
-    collider.surface.dynamic_friction = *number;
+    collider.surface.static_friction = number;
+    collider.surface.dynamic_friction = number;
   }
   return true;
 }

@@ -200,7 +200,7 @@ Result<std::string> RecordPage::still(double time) {
 }
 
 Result<std::string> RecordPage::begin_film() {
-  const std::string codec = codec_of(*options_);
+  std::string codec = codec_of(*options_);
   const CodecRow* row = std::find_if(std::begin(kCodecs), std::end(kCodecs),
                                      [&](const CodecRow& one) { return codec == one.name; });
   if (row == std::end(kCodecs)) {

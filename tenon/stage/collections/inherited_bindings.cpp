@@ -57,7 +57,7 @@ std::uint32_t InheritedBindings::number_of(const Prim& prim, std::uint32_t above
   if (!purpose_.empty()) {
     take(Token(), found.for_all);
   }
-  found_.push_back(std::move(found));
+  found_.push_back(found);
   return static_cast<std::uint32_t>(found_.size() - 1);
 }
 
