@@ -9,7 +9,8 @@
 namespace tenon::live {
 namespace {
 
-constexpr double kFrequency = 2 * 3.14159265358979323846 * 2.5;  // of the spring [rad/s]
+// Of the spring [rad/s]: what hangs on it sags by a centimetre.
+constexpr double kFrequency = 2 * 3.14159265358979323846 * 5;
 constexpr double kStablePart = 0.1;  // of the stiffness at which one explicit step would overshoot
 
 /// Mass of all bodies that joints connect with each one, kinematic bodies and the world apart.
