@@ -78,7 +78,7 @@ struct PrimIndex {
   std::string instance_key;
   Diagnostics errors;  ///< rule = "compose.<class>", see composition_error.h
 
-  /// Some opinion has a property of that name: most that schemas declare are in no layer.
+  /// Some opinion has a property of that name.
   bool has_property(Token name) const {
     for (const Token each : property_names) {
       if (each == name) {
@@ -87,6 +87,13 @@ struct PrimIndex {
     }
     return false;
   }
+  /// False where that is quickly known, as most properties that schemas declare are in no layer: a
+  /// short list is searched faster than a path is made for each opinion, a long one is not
+  /// searched.
+  bool may_have_property(Token name) const {
+    return property_names.size() > kShortList || has_property(name);
+  }
+  static constexpr std::size_t kShortList = 32;
   /// `path` of node's namespace in the stage's; empty when it has no image.
   Path map_to_root(std::uint32_t node, Path path_in_node) const {
     return nodes[node].map_to_root->map_source_to_target(path_in_node.strip_variants());

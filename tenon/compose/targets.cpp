@@ -206,7 +206,7 @@ class TargetCombiner {
 std::vector<PropertyOpinion> property_opinions(const PrimIndex& index, Token name,
                                                Diagnostics* errors) {
   std::vector<PropertyOpinion> found;
-  if (!index.has_property(name)) {
+  if (!index.may_have_property(name)) {
     return found;
   }
   for (const Opinion& opinion : index.opinions) {

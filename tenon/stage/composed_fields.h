@@ -21,7 +21,7 @@ std::vector<compose::Opinion> property_opinions(const PrimData& prim, Token name
 /// Calls `visit(opinion)` for each of them until it returns true.
 template <class Visit>
 void visit_property_opinions(const PrimData& prim, Token name, Visit visit) {
-  if (!prim.index->has_property(name)) {
+  if (!prim.index->may_have_property(name)) {
     return;
   }
   const bool has_others = prim.index->opinions.size() > 1;
@@ -29,7 +29,8 @@ void visit_property_opinions(const PrimData& prim, Token name, Visit visit) {
     // A short list is searched faster than a path is made.
     if (has_others) {
       const auto& names = layer::Layer::children(*opinion.spec, layer::fields::properties);
-      if (names.size() <= 32 && std::find(names.begin(), names.end(), name) == names.end()) {
+      if (names.size() <= compose::PrimIndex::kShortList &&
+          std::find(names.begin(), names.end(), name) == names.end()) {
         continue;
       }
     }

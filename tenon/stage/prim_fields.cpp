@@ -86,13 +86,11 @@ bool Prim::is_relationship(Token name) const {
   }
   bool result = false;
   bool found = false;
-  if (data_->index->has_property(name)) {
-    visit_property_opinions(*data_, name, [&](const compose::Opinion& opinion) {
-      found = true;
-      result = opinion.spec->kind == layer::SpecKind::Relationship;
-      return true;
-    });
-  }
+  visit_property_opinions(*data_, name, [&](const compose::Opinion& opinion) {
+    found = true;
+    result = opinion.spec->kind == layer::SpecKind::Relationship;
+    return true;
+  });
   const schema::PropertyDefinition* declared = data_->definition->find(name);
   return found ? result : declared != nullptr && declared->is_relationship;
 }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/compose/prim_index.h"
 #include "tenon/stage/collections/collection.h"
 #include "tenon/stage/collections/material_binding.h"
 #include "tenon/stage/flatten/flatten.h"
@@ -554,6 +555,35 @@ TEST(Values, ASampleIsExactAtItsOwnStageTime) {
   EXPECT_EQ(x.get_as<double>(-1.0), 0.0);
   EXPECT_EQ(x.get_as<double>(9.0), 0.0);
   EXPECT_NEAR(*x.get_as<double>(6.25), 50, 1e-9);
+}
+
+TEST(PrimIndex, SearchesShortListsOfPropertiesAlone) {
+  compose::PrimIndex index;
+  for (std::size_t i = 0; i < compose::PrimIndex::kShortList; ++i) {
+    index.property_names.emplace_back("a" + std::to_string(i));
+  }
+  EXPECT_TRUE(index.may_have_property("a0"));
+  EXPECT_FALSE(index.may_have_property("none"));
+  index.property_names.emplace_back("one more");
+  EXPECT_TRUE(index.may_have_property("none"));
+  EXPECT_FALSE(index.has_property("none"));
+}
+
+TEST(Prim, KnowsItsPropertiesHoweverManyTheyAre) {
+  for (const std::size_t count : {std::size_t{3}, 2 * compose::PrimIndex::kShortList}) {
+    std::string text = "def \"P\" {\nrel last\n";
+    for (std::size_t i = 0; i < count; ++i) {
+      text += "int a" + std::to_string(i) + "\n";
+    }
+    const Stage stage = open_text(Texts{{"root", text + "}\n"}});
+    const Prim prim = stage.prim(Path::from("/P"));
+    EXPECT_FALSE(prim.has_property("none"));
+    EXPECT_FALSE(prim.is_relationship("none"));
+    EXPECT_FALSE(prim.is_relationship("a1"));
+    EXPECT_TRUE(prim.is_relationship("last"));
+    EXPECT_TRUE(prim.relationship("none").targets().empty());
+    EXPECT_TRUE(prim.attribute("none").get().empty());
+  }
 }
 
 }  // namespace
