@@ -17,11 +17,12 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "tenon/guard/spawn_settings.h"
 
 namespace tenon::guard {
 namespace {
@@ -83,48 +84,22 @@ std::vector<std::string> environment_with(const std::vector<std::string>& more) 
   return all;
 }
 
-/// What posix_spawn is told.
-class DrivenSettings {
- public:
-  DrivenSettings(int to, int from, int errors) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, to, kDrivenReads);
-    posix_spawn_file_actions_adddup2(&actions_, from, kDrivenWrites);
-    posix_spawn_file_actions_addclosefrom_np(&actions_, kDrivenWrites + 1);
-    posix_spawnattr_init(&attributes_);
-    sigset_t all;
-    sigset_t none;
-    sigfillset(&all);
-    sigemptyset(&none);
-    posix_spawnattr_setsigdefault(&attributes_, &all);
-    posix_spawnattr_setsigmask(&attributes_, &none);
-    posix_spawnattr_setpgroup(&attributes_, 0);
-    posix_spawnattr_setflags(
-        &attributes_, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
-  }
-  DrivenSettings(const DrivenSettings&) = delete;
-  DrivenSettings& operator=(const DrivenSettings&) = delete;
-  ~DrivenSettings() {
-    posix_spawn_file_actions_destroy(&actions_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-
-  int spawn(const std::string& program, const DrivenProgram::Settings& settings,
-            pid_t& process) const {
-    std::vector<std::string> words{program};
-    words.insert(words.end(), settings.arguments.begin(), settings.arguments.end());
-    std::vector<std::string> environment = environment_with(settings.environment);
-    return posix_spawn(&process, program.c_str(), &actions_, &attributes_,
-                       pointers_to(words).data(), pointers_to(environment).data());
-  }
-
- private:
-  posix_spawn_file_actions_t actions_;
-  posix_spawnattr_t attributes_;
-};
+/// In a process group of its own, with sockets to speak, to answer and for its standard error.
+/// -> 0, or the error.
+int start_driven(int to, int from, int errors, const std::string& program,
+                 const DrivenProgram::Settings& settings, pid_t& process) {
+  SpawnSettings spawn(POSIX_SPAWN_SETPGROUP);
+  spawn.lead_nowhere(STDIN_FILENO);
+  spawn.lead_nowhere(STDOUT_FILENO);
+  spawn.give(errors, STDERR_FILENO);
+  spawn.give(to, kDrivenReads);
+  spawn.give(from, kDrivenWrites);
+  spawn.close_from(kDrivenWrites + 1);
+  std::vector<std::string> words{program};
+  words.insert(words.end(), settings.arguments.begin(), settings.arguments.end());
+  std::vector<std::string> environment = environment_with(settings.environment);
+  return spawn.spawn(program, pointers_to(words).data(), pointers_to(environment).data(), process);
+}
 
 bool is_program(const std::string& path) {
   struct stat info = {};
@@ -175,8 +150,8 @@ Result<std::unique_ptr<DrivenProgram>> DrivenProgram::start(const std::string& p
   if (!to.open() || !from.open() || !errors.open()) {
     reason = errno;
   } else {
-    reason = DrivenSettings(to.theirs, from.theirs, errors.theirs)
-                 .spawn(program, settings, started.process);
+    reason =
+        start_driven(to.theirs, from.theirs, errors.theirs, program, settings, started.process);
   }
   for (DrivenSocket* socket : {&to, &from, &errors}) {
     DrivenSocket::drop(socket->theirs);

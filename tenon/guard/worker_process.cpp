@@ -16,52 +16,28 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "tenon/guard/spawn_settings.h"
 
 namespace tenon::guard {
 namespace {
 
 constexpr std::size_t kFirstPiece = 1u << 20;
 
-/// What posix_spawn is told: the socket is standard input, the rest leads nowhere, no signal is
-/// ignored or held back. No code of this process runs in the new one.
-class SpawnSettings {
- public:
-  explicit SpawnSettings(int socket) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_adddup2(&actions_, socket, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
-    posix_spawnattr_init(&attributes_);
-    sigset_t all;
-    sigset_t none;
-    sigfillset(&all);
-    sigemptyset(&none);
-    posix_spawnattr_setsigdefault(&attributes_, &all);
-    posix_spawnattr_setsigmask(&attributes_, &none);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-  ~SpawnSettings() {
-    posix_spawn_file_actions_destroy(&actions_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-
-  int spawn(const std::string& program, pid_t& process) const {
-    std::string name = "tenon-worker";
-    char* const arguments[] = {name.data(), nullptr};
-    return posix_spawn(&process, program.c_str(), &actions_, &attributes_, arguments, environ);
-  }
-
- private:
-  posix_spawn_file_actions_t actions_;
-  posix_spawnattr_t attributes_;
-};
+/// The socket is standard input of the new process, the rest leads nowhere. -> 0, or the error.
+int start_worker(int socket, const std::string& program, pid_t& process) {
+  SpawnSettings settings;
+  settings.give(socket, STDIN_FILENO);
+  settings.lead_nowhere(STDOUT_FILENO);
+  settings.lead_nowhere(STDERR_FILENO);
+  settings.close_from(STDERR_FILENO + 1);
+  std::string name = "tenon-worker";
+  char* const arguments[] = {name.data(), nullptr};
+  return settings.spawn(program, arguments, environ, process);
+}
 
 Error no_start(const std::string& program, int reason) {
   return Error(ErrorCode::Missing, "the program " + program +
@@ -79,7 +55,7 @@ Result<std::unique_ptr<WorkerProcess>> WorkerProcess::start(const std::string& p
     return no_start(program, errno);
   }
   pid_t process = 0;
-  const int reason = SpawnSettings(sockets[1]).spawn(program, process);
+  const int reason = start_worker(sockets[1], program, process);
   close(sockets[1]);
   if (reason != 0) {
     close(sockets[0]);
