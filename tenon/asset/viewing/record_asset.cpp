@@ -15,7 +15,6 @@
 #include "tenon/asset/viewing/report_asset.h"
 #include "tenon/asset/viewing/view_asset.h"
 #include "tenon/base/limits/browser_limits.h"
-#include "tenon/glb/simplify_view.h"
 #include "tenon/glb/write_glb.h"
 #include "tenon/view/view_camera.h"
 
@@ -153,16 +152,12 @@ Result<Drawn> what_is_drawn(const std::string& path, const RecordOptions& option
     TENON_TRY(drawn.camera, view::find_camera(*asset.stage, *asset.scene, options.camera.prim));
   }
   const bool colliders = asks_for(options.show, "colliders");
-  view::ViewScene view =
-      view_of_asset(*asset.stage, *asset.scene, path, options.run.open, colliders);
-  report_notes(view, diagnostics);
-  recorded.triangles =
-      options.triangles > 0 ? glb::simplify_view(view, options.triangles) : view.drawn_triangles();
-  const bool moves = asset.simulation != nullptr;
-  const bake::PoseRecording motion = moves ? asset.run.recording.poses() : bake::PoseRecording{};
+  const DrawnAsset seen =
+      drawn_asset(asset, path, options.run.open, colliders, options.triangles, diagnostics);
+  recorded.triangles = seen.triangles;
   TENON_TRY(drawn.scene,
-            glb::write_glb(view, {.motion = moves ? &motion : nullptr, .colliders = colliders}));
-  if (moves) {
+            glb::write_glb(seen.view, {.motion = seen.played(), .colliders = colliders}));
+  if (seen.moves) {
     drawn.duration = asset.run.time - asset.begin;
     recorded.unstable = asset.unstable();
     const double asked = run_duration(run_of_recording(options).duration, *asset.scene);

@@ -186,20 +186,16 @@ Result<AssetReport> report_asset(const std::string& path, const ReportOptions& o
   TENON_TRY(const SimulatedAsset asset, run_or_open(path, options, diagnostics));
   TENON_TRY(Json findings, findings_of(path, options));
   TENON_TRY(std::string compared, comparison(path, options, diagnostics));
-  view::ViewScene view =
-      view_of_asset(*asset.stage, *asset.scene, path, options.run.open, options.colliders);
-  report_notes(view, diagnostics);
+  DrawnAsset drawn =
+      drawn_asset(asset, path, options.run.open, options.colliders, options.triangles, diagnostics);
+  glb::simplify_hulls(drawn.view, kHullTriangles);
+  TENON_TRY(const std::string scene, glb::write_glb(drawn.view, {.motion = drawn.played(),
+                                                                 .compressed = true,
+                                                                 .point_bits = kPointBits,
+                                                                 .colliders = options.colliders}));
   AssetReport report;
-  report.triangles =
-      options.triangles > 0 ? glb::simplify_view(view, options.triangles) : view.drawn_triangles();
-  glb::simplify_hulls(view, kHullTriangles);
-  const bool moves = asset.simulation != nullptr;
-  const bake::PoseRecording motion = moves ? asset.run.recording.poses() : bake::PoseRecording{};
-  TENON_TRY(const std::string scene, glb::write_glb(view, {.motion = moves ? &motion : nullptr,
-                                                           .compressed = true,
-                                                           .point_bits = kPointBits,
-                                                           .colliders = options.colliders}));
-  report.frames = motion.frame_count();
+  report.triangles = drawn.triangles;
+  report.frames = drawn.motion.frame_count();
   report.findings = findings.size();
   report.scene_size = scene.size();
   report.interrupted = asset.run.interrupted;
@@ -207,7 +203,7 @@ Result<AssetReport> report_asset(const std::string& path, const ReportOptions& o
                {"facts", facts_json(answers::info_json(*asset.stage, *asset.scene))},
                {"findings", std::move(findings)},
                {"masses", masses_of(*asset.scene)}};
-  if (moves) {
+  if (drawn.moves) {
     data["run"] = run_of(asset);
   }
   Packed packed_data = packed(answers::printed(data));

@@ -58,18 +58,29 @@ void report_notes(const view::ViewScene& view, Diagnostics& diagnostics) {
   }
 }
 
+DrawnAsset drawn_asset(const SimulatedAsset& asset, const std::string& path,
+                       const OpenOptions& open, bool colliders, std::size_t triangles,
+                       Diagnostics& diagnostics) {
+  DrawnAsset drawn;
+  drawn.view = view_of_asset(*asset.stage, *asset.scene, path, open, colliders);
+  report_notes(drawn.view, diagnostics);
+  drawn.triangles =
+      triangles > 0 ? glb::simplify_view(drawn.view, triangles) : drawn.view.drawn_triangles();
+  drawn.moves = asset.simulation != nullptr;
+  if (drawn.moves) {
+    drawn.motion = asset.run.recording.poses();
+  }
+  return drawn;
+}
+
 Result<std::string> motion_glb(const SimulatedAsset& simulated, const std::string& path,
                                const OpenOptions& open, const ViewFileOptions& options,
                                Diagnostics& diagnostics) {
-  view::ViewScene view =
-      view_of_asset(*simulated.stage, *simulated.scene, path, open, options.colliders);
-  report_notes(view, diagnostics);
-  if (options.triangles > 0) {
-    glb::simplify_view(view, options.triangles);
-  }
-  const bake::PoseRecording motion = simulated.run.recording.poses();
+  const DrawnAsset drawn =
+      drawn_asset(simulated, path, open, options.colliders, options.triangles, diagnostics);
   return glb::write_glb(
-      view, {.motion = &motion, .compressed = options.compressed, .colliders = options.colliders});
+      drawn.view,
+      {.motion = drawn.played(), .compressed = options.compressed, .colliders = options.colliders});
 }
 
 }  // namespace tenon

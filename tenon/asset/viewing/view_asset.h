@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tenon/asset/simulating/simulate_asset.h"
+#include "tenon/bake/pose_recording.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/open_stage.h"
@@ -30,6 +31,23 @@ Result<SimulatedAsset> asset_at_start(const std::string& path, const SimulateAss
 /// What could not be shown, as findings "view.left-out"; of the same kind the first one and how
 /// many there are.
 void report_notes(const view::ViewScene& view, Diagnostics& diagnostics);
+
+/// What is drawn of an asset, and its run.
+struct DrawnAsset {
+  view::ViewScene view;
+  std::size_t triangles = 0;   ///< that are drawn
+  bake::PoseRecording motion;  ///< without frames where nothing was simulated
+  bool moves = false;          ///< it was simulated
+
+  /// For GlbOptions::motion.
+  const bake::PoseRecording* played() const { return moves ? &motion : nullptr; }
+};
+
+/// Of the asset at `path`, thinned out to about `triangles` (0: all); what could not be shown is
+/// told (report_notes).
+DrawnAsset drawn_asset(const SimulatedAsset& asset, const std::string& path,
+                       const OpenOptions& open, bool colliders, std::size_t triangles,
+                       Diagnostics& diagnostics);
 
 struct ViewFileOptions {
   std::size_t triangles = 0;  ///< that are drawn at most, about; 0: all
