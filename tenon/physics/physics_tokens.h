@@ -37,6 +37,7 @@ struct PhysicsTokens {
   // colliders
   Token collision_enabled{"physics:collisionEnabled"};
   Token approximation{"physics:approximation"};
+  Token ellipsoid{"tenon:ellipsoid"};
   Token physx_contact_offset{"physxCollision:contactOffset"};
   Token physx_rest_offset{"physxCollision:restOffset"};
   Token newton_contact_gap{"newton:contactGap"};

@@ -353,8 +353,8 @@ std::vector<Index> decompose(ReadState& state, const ShapeSource& source,
 /// A mesh that stands for an ellipsoid and has its semi-axes (docs/conversion.md). Nothing where
 /// its scale bends these, or another approximation is asked for.
 std::optional<ShapeReading> read_ellipsoid(const ReadState& state, const ShapeSource& source) {
-  const auto axes = source.found.prim.attribute("tenon:ellipsoid").get_as<Vec3d>();
-  const auto kind = source.found.prim.attribute("physics:approximation").get_as<Token>();
+  const auto axes = source.found.prim.attribute(state.tokens.ellipsoid).get_as<Vec3d>();
+  const auto kind = source.found.prim.attribute(state.tokens.approximation).get_as<Token>();
   if (!axes || source.parts.sheared || !kind || !(*kind == "convexHull")) {
     return std::nullopt;
   }

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Layers have many specs and few names of properties, each of which is judged once. A scene without
-// physics, however large, is not asked prim by prim for what it may have meant.
+// Layers have many specs and few names of properties, which are hardly ever judged twice. A scene
+// without physics, however large, is not asked prim by prim for what it may have meant.
 #include <array>
 #include <functional>
-#include <unordered_set>
+#include <utility>
 
 #include "tenon/layer/fields.h"
 #include "tenon/physics/attribute_values.h"
@@ -26,7 +26,7 @@ class ContentsReader {
       return !(contents.animated && contents.names_apis);
     }
     if (!contents.names_apis && entry.path.is_property()) {
-      contents.names_apis = is_new(entry.path.name()) && names_physics(entry.path.name());
+      contents.names_apis = !was_judged(entry.path.name()) && names_physics(entry.path.name());
     }
     return !(contents.animated && contents.names_apis);
   }
@@ -34,18 +34,14 @@ class ContentsReader {
   LayerContents contents;
 
  private:
-  bool is_new(Token name) {
+  /// Lately: names that were met before that are judged again.
+  bool was_judged(Token name) {
     Token& last = recent_[std::hash<Token>()(name) >> 16U & (kRecent - 1)];
-    if (last == name) {
-      return false;
-    }
-    last = name;
-    return met_.insert(name).second;
+    return std::exchange(last, name) == name;
   }
 
   static constexpr std::size_t kRecent = 64;
   std::array<Token, kRecent> recent_;
-  std::unordered_set<Token> met_;
 };
 
 }  // namespace
