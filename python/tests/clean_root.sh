@@ -57,7 +57,9 @@ for engine in mujoco physx jolt; do
 done
 own/bin/tenon convert examples/robots/arm.urdf arm >/dev/null
 own/bin/tenon convert examples/inspire_hand/inspire_hand.usda hand.xml --physics mujoco >/dev/null
-own/bin/tenon convert hand.xml again >/dev/null' # the last by MuJoCo in the worker
+own/bin/tenon convert hand.xml again >/dev/null # by MuJoCo in the worker
+own/bin/tenon report examples/inspire_hand/inspire_hand.usda -o hand.html >/dev/null'
+[ -s "$user/hand.html" ]
 count=$(chroot "$root" dpkg-query -W | wc -l)
 size=$(stat -c %s "$made" | awk '{printf "%.1f", $1 / 1e6}')
 echo "README's lines, 3 engines and the worker in a $release of $count packages, wheel $size MB"

@@ -52,6 +52,21 @@ class Command(unittest.TestCase):
                                    "0.02"], capture_output=True, text=True, cwd=folder)
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_the_command_shows_assets_where_the_build_has_its_page(self):
+        page = os.path.join(support.ROOT, "build/release/share/tenon/page")
+        own = os.path.join(os.path.dirname(tenon.__file__), "share/tenon/page")
+        if not os.path.exists(os.path.join(page, "report.html")):
+            self.assertFalse(os.path.exists(own))
+            self.skipTest("this build has no page: node and npm are missing")
+        self.assertEqual(sorted(os.listdir(own)), sorted(os.listdir(page)))
+        with tempfile.TemporaryDirectory() as folder:
+            report = os.path.join(folder, "hand.html")
+            done = subprocess.run([PROGRAM, "report", support.HAND, "-o", report],
+                                  capture_output=True, text=True,
+                                  env={**os.environ, "TENON_PAGE": ""})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertGreater(os.path.getsize(report), 100_000)
+
 
 def documented():
     """(name, object) of everything public: functions, classes, their methods and properties."""
