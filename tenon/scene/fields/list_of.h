@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 #include "tenon/base/path.h"
 #include "tenon/scene/fields/field.h"
@@ -11,15 +12,8 @@
 namespace tenon::scene {
 
 /// The list that an index of a field with `refers` points into, in the object `owner`.
-template <class Owner>
-List list_of(const Owner&, List refers) {
-  return refers;
-}
-inline List list_of(const SwitchTrack& owner, List refers) {
-  if (refers != List::BySwitch) {
-    return refers;
-  }
-  switch (owner.what) {
+inline List switched_list(Switch what) {
+  switch (what) {
     case Switch::BodyEnabled:
     case Switch::BodyKinematic:
       return List::Bodies;
@@ -32,7 +26,14 @@ inline List list_of(const SwitchTrack& owner, List refers) {
   return List::Joints;
 }
 
-/// How many objects a list has.
+template <class Owner>
+List list_of(const Owner&, List refers) {
+  return refers;
+}
+inline List list_of(const SwitchTrack& owner, List refers) {
+  return refers == List::BySwitch ? switched_list(owner.what) : refers;
+}
+
 inline std::size_t size_of(const PhysicsScene& scene, List list) {
   switch (list) {
     case List::Scenes:
@@ -103,6 +104,36 @@ inline bool is_angular_in(const LimitSpring& spring, bool) { return is_angular(s
 inline bool is_angular_in(const Mimic& mimic, bool) { return is_angular(mimic.dof); }
 inline bool is_angular_in(const Joint& joint, bool) {
   return joint.kind != JointKind::Prismatic && joint.kind != JointKind::Distance;
+}
+
+/// What the meaning of a field depends on in the struct that it is of. Walks over fields hand this
+/// on instead of the struct, so that they are compiled once for each type of field, not once more
+/// for each struct that has one.
+struct OwnerFacts {
+  List switched = List::BySwitch;  ///< what List::BySwitch stands for
+  bool angular = true;             ///< its coordinate turns
+  bool has_mesh = false;           ///< a shape of a mesh
+  bool is_shape = false;
+  bool is_collider = false;
+  bool is_joint = false;
+};
+
+inline List list_of(const OwnerFacts& owner, List refers) {
+  return refers == List::BySwitch ? owner.switched : refers;
+}
+
+template <class Owner>
+OwnerFacts facts_of(const Owner& owner, bool outer_angular = true) {
+  OwnerFacts facts;
+  facts.switched = list_of(owner, List::BySwitch);
+  facts.angular = is_angular_in(owner, outer_angular);
+  facts.is_collider = std::is_same_v<Owner, Collider>;
+  facts.is_joint = std::is_same_v<Owner, Joint>;
+  if constexpr (std::is_same_v<Owner, Shape>) {
+    facts.is_shape = true;
+    facts.has_mesh = owner.kind == ShapeKind::ConvexHull || owner.kind == ShapeKind::Mesh;
+  }
+  return facts;
 }
 
 }  // namespace tenon::scene

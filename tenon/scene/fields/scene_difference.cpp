@@ -82,6 +82,12 @@ std::vector<SceneDifference> filter_differences(const Side& before, const Side& 
   return found;
 }
 
+/// Of the structs of both scenes that a field is of.
+struct Owners {
+  OwnerFacts a;
+  OwnerFacts b;
+};
+
 class Walk {
  public:
   Walk(const PhysicsScene& before, const PhysicsScene& after, const CompareOptions& options)
@@ -120,7 +126,7 @@ class Walk {
     } else {
       object_ = HasTable<T> ? info.name : Table<PhysicsScene>::kWord;
       path_ = "/";
-      field(before_.scene, after_.scene, info, a, b, Place{});
+      field({}, info, a, b, Place{});
     }
   }
 
@@ -179,41 +185,42 @@ class Walk {
 
   template <class T>
   void both(const T& a, const T& b, const Place& place) {
+    const Owners owners{facts_of(a, place.angular), facts_of(b, place.angular)};
+    const Place inner{place.words, owners.a.angular};
     each_field_of_both(a, b, [&](const FieldInfo& info, const auto& x, const auto& y) {
       if (counts(info) && info.role != Role::Identity &&
           are_comparable(a, b, info, options_.motion_alone)) {
-        field(a, b, info, x, y, place);
+        field(owners, info, x, y, inner);
       }
     });
   }
 
-  template <class Owner, class T>
-  void field(const Owner& a, const Owner& b, const FieldInfo& info, const T& x, const T& y,
+  template <class T>
+  void field(const Owners& owners, const FieldInfo& info, const T& x, const T& y,
              const Place& place) {
-    const Place inner{place.words, is_angular_in(a, place.angular)};
     if constexpr (std::is_same_v<T, Index> || std::is_same_v<T, std::optional<Index>>) {
       if (info.refers != List::None) {
-        reference(a, b, info, x, y, inner);
+        reference(owners, info, x, y, place);
         return;
       }
     }
     if constexpr (std::is_same_v<T, Pose>) {
-      pose(a, b, info, x, y, inner);
+      pose(owners, info, x, y, place);
     } else if constexpr (wire::kIsOptional<T>) {
       if (x && y) {
-        field(a, b, info, *x, *y, place);
+        field(owners, info, *x, *y, place);
       } else if (x || y) {
-        one(x ? before_ : after_, x ? a : b, info, x ? *x : *y, inner,
+        one(x ? before_ : after_, x ? owners.a : owners.b, info, x ? *x : *y, place,
             x ? Change::Removed : Change::Added);
       }
     } else if constexpr (HasTable<T>) {
-      both(x, y, inner.inside(words_of_struct(info)));
+      both(x, y, place.inside(words_of_struct(info)));
     } else if constexpr (is_list_of_structs<T>()) {
-      nested(info, x, y, inner);
+      nested(info, x, y, place);
     } else {
-      leaf(a, b, info, x, y, inner);
+      leaf(owners, info, x, y, place);
       if constexpr (std::is_same_v<T, std::vector<std::pair<Index, BodyMass>>>) {
-        masses(x, y, inner);
+        masses(x, y, place);
       }
     }
   }
@@ -243,8 +250,7 @@ class Walk {
     });
   }
 
-  template <class Owner>
-  void pose(const Owner& a, const Owner& b, const FieldInfo& info, const Pose& x, const Pose& y,
+  void pose(const Owners& owners, const FieldInfo& info, const Pose& x, const Pose& y,
             const Place& place) {
     FieldInfo part = info;
     const std::string words(info.words.empty() || info.inlined ? std::string_view() : info.words);
@@ -252,18 +258,18 @@ class Walk {
     const std::string orientation = "orientation" + (words.empty() ? "" : " " + words);
     part.words = position;
     part.unit = Unit::Meter;
-    leaf(a, b, part, x.position, y.position, place);
+    leaf(owners, part, x.position, y.position, place);
     part.words = orientation;
     part.unit = Unit::None;
-    leaf(a, b, part, x.orientation, y.orientation, place);
+    leaf(owners, part, x.orientation, y.orientation, place);
   }
 
-  template <class Owner, class T>
-  void reference(const Owner& a, const Owner& b, const FieldInfo& info, const T& x, const T& y,
+  template <class T>
+  void reference(const Owners& owners, const FieldInfo& info, const T& x, const T& y,
                  const Place& place) {
     if (info.refers == List::Meshes) {
       if constexpr (std::is_same_v<T, Index>) {
-        mesh(a, b, x, y, place);
+        mesh(owners, x, y, place);
       }
       return;
     }
@@ -277,19 +283,13 @@ class Walk {
       }
       return;
     }
-    leaf(a, b, info, x, y, place);
+    leaf(owners, info, x, y, place);
   }
 
   /// Meshes count where the shape is of one.
-  template <class Owner>
-  void mesh(const Owner& a, const Owner& b, Index x, Index y, const Place& place) {
-    if constexpr (std::is_same_v<Owner, Shape>) {
-      const auto has_mesh = [](const Shape& shape) {
-        return shape.kind == ShapeKind::ConvexHull || shape.kind == ShapeKind::Mesh;
-      };
-      if (has_mesh(a) && has_mesh(b)) {
-        both(before_.scene.meshes[x], after_.scene.meshes[y], place.inside("mesh"));
-      }
+  void mesh(const Owners& owners, Index x, Index y, const Place& place) {
+    if (owners.a.has_mesh && owners.b.has_mesh) {
+      both(before_.scene.meshes[x], after_.scene.meshes[y], place.inside("mesh"));
     }
   }
 
@@ -299,15 +299,15 @@ class Walk {
     return options_.motion_alone ? info.tolerance : options_.tolerance;
   }
 
-  template <class Owner, class T>
-  void leaf(const Owner& a, const Owner& b, const FieldInfo& info, const T& x, const T& y,
+  template <class T>
+  void leaf(const Owners& owners, const FieldInfo& info, const T& x, const T& y,
             const Place& place) {
     if constexpr (kHasNumbers<T>) {
       if (info.refers == List::None && info.on.empty()) {
         const double apart = distance(x, y, {tolerance(info), options_.smallest_size});
         if (apart > 0) {
-          report(Change::Changed, before_.fact(a, info, x, place), after_.fact(b, info, y, place),
-                 apart);
+          report(Change::Changed, before_.fact(owners.a, info, x, place),
+                 after_.fact(owners.b, info, y, place), apart);
         }
         return;
       }
@@ -316,8 +316,8 @@ class Walk {
       hulls(info, x, y, place);
       return;
     }
-    Fact before = before_.fact(a, info, x, place);
-    Fact after = after_.fact(b, info, y, place);
+    Fact before = before_.fact(owners.a, info, x, place);
+    Fact after = after_.fact(owners.b, info, y, place);
     if (before.word != after.word) {
       report(Change::Changed, std::move(before), std::move(after), kNoMeasure);
     }
@@ -343,15 +343,17 @@ class Walk {
 
   template <class T>
   void all(const Side& side, const T& item, const Place& place, Change change) {
+    const OwnerFacts owner = facts_of(item, place.angular);
+    const Place inner{place.words, owner.angular};
     each_field(item, [&](const FieldInfo& info, const auto& value) {
       if (counts(info) && info.role != Role::Identity) {
-        one(side, item, info, value, {place.words, is_angular_in(item, place.angular)}, change);
+        one(side, owner, info, value, inner, change);
       }
     });
   }
 
-  template <class Owner, class T>
-  void one(const Side& side, const Owner& owner, const FieldInfo& info, const T& value,
+  template <class T>
+  void one(const Side& side, const OwnerFacts& owner, const FieldInfo& info, const T& value,
            const Place& place, Change change) {
     if constexpr (HasTable<T>) {
       all(side, value, place.inside(words_of_struct(info)), change);

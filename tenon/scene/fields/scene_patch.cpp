@@ -45,6 +45,7 @@ bool same_objects(const std::vector<T>& a, const std::vector<T>& b) {
 /// Calls `visit(owner, info, name, x, y)` for each field that is copied as a whole.
 template <class From, class To, class Visit>
 void each_leaf_of_pair(From& from, To& to, const std::string& around, Visit& visit) {
+  const OwnerFacts owner = facts_of(to);
   each_field_of_pair(from, to, [&](const FieldInfo& info, auto& x, auto& y) {
     using T = std::remove_cvref_t<decltype(y)>;
     if (!acts(info)) {
@@ -61,7 +62,7 @@ void each_leaf_of_pair(From& from, To& to, const std::string& around, Visit& vis
           return;
         }
       }
-      visit(std::as_const(to), info, joined(around, info), x, y);
+      visit(owner, info, joined(around, info), x, y);
     }
   });
 }
@@ -74,10 +75,11 @@ class Translation {
   bool failed() const { return failed_; }
 
   /// Mends all indices in what was copied from the one scene into the other.
-  template <class Owner, class T>
-  void mend(const Owner& owner, const FieldInfo& info, T& value) {
+  template <class T>
+  void mend(const OwnerFacts& owner, const FieldInfo& info, T& value) {
     if constexpr (HasTable<T>) {
-      each_field(value, [&](const FieldInfo& inner, auto& field) { mend(value, inner, field); });
+      const OwnerFacts facts = facts_of(value);
+      each_field(value, [&](const FieldInfo& inner, auto& field) { mend(facts, inner, field); });
     } else if constexpr (std::is_same_v<T, Index>) {
       if (const List list = list_of(owner, info.refers); list != List::None) {
         value = led(list, value);
@@ -140,8 +142,8 @@ struct Compared {
   const PhysicsScene& a;
   const PhysicsScene& b;
 
-  template <class Owner, class T>
-  bool differ(const Owner& owner, const FieldInfo& info, const T& x, const T& y) const {
+  template <class T>
+  bool differ(const OwnerFacts& owner, const FieldInfo& info, const T& x, const T& y) const {
     if constexpr (wire::kIsOptional<T>) {
       return x.has_value() != y.has_value() || (x && differ(owner, info, *x, *y));
     } else if constexpr (std::is_same_v<T, Index>) {
@@ -154,9 +156,10 @@ struct Compared {
       return differ(owner, info, x.first, y.first) || differ(owner, info, x.second, y.second);
     } else if constexpr (HasTable<T>) {
       bool found = false;
+      const OwnerFacts facts = facts_of(x);
       each_field_of_both(x, y, [&](const FieldInfo& inner, const auto& p, const auto& q) {
-        found =
-            found || (acts(inner) || inner.role == Role::Identity ? differ(x, inner, p, q) : false);
+        found = found ||
+                (acts(inner) || inner.role == Role::Identity ? differ(facts, inner, p, q) : false);
       });
       return found;
     } else if constexpr (wire::kIsVector<T>) {
@@ -177,20 +180,11 @@ struct Compared {
   }
 };
 
-bool has_no_mesh(const Shape& shape) {
-  return shape.kind != ShapeKind::ConvexHull && shape.kind != ShapeKind::Mesh;
-}
 /// The index of a mesh says nothing where the shape is of none, and which articulation a joint is
 /// of says what the articulations say.
-template <class Owner>
-bool says_nothing(const Owner& owner, const FieldInfo& info) {
-  if constexpr (std::is_same_v<Owner, Shape>) {
-    return info.refers == List::Meshes && has_no_mesh(owner);
-  } else if constexpr (std::is_same_v<Owner, Joint>) {
-    return info.refers == List::Articulations;
-  } else {
-    return false;
-  }
+bool says_nothing(const OwnerFacts& owner, const FieldInfo& info) {
+  return (owner.is_shape && !owner.has_mesh && info.refers == List::Meshes) ||
+         (owner.is_joint && info.refers == List::Articulations);
 }
 
 template <class T>
@@ -257,7 +251,7 @@ void collect_objects(const Compared& sides, const std::vector<T>& a, const std::
         if (!same_identity(x, y)) {
           found.add("", y.path);
         }
-        auto leaf = [&](const auto& owner, const FieldInfo& info, const std::string& name,
+        auto leaf = [&](const OwnerFacts& owner, const FieldInfo& info, const std::string& name,
                         const auto& p, const auto& q) {
           if (!says_nothing(owner, info) && sides.differ(owner, info, p, q)) {
             found.add(name, y.path);
@@ -281,11 +275,11 @@ void each_joint_of_both(const PhysicsScene& a, B& b, Visit&& visit) {
 }
 
 bool same_articulations(const PhysicsScene& a, const PhysicsScene& b) {
-  bool same = !Compared{a, b}.differ(a, FieldInfo{}, a.articulations, b.articulations);
+  bool same = !Compared{a, b}.differ({}, FieldInfo{}, a.articulations, b.articulations);
   each_joint_of_both(a, b, [&](const Joint& x, const Joint& y) {
     FieldInfo refers;
     refers.refers = List::Articulations;
-    same = same && !Compared{a, b}.differ(x, refers, x.articulation, y.articulation);
+    same = same && !Compared{a, b}.differ({}, refers, x.articulation, y.articulation);
   });
   return same;
 }
@@ -315,7 +309,7 @@ bool take_over_objects(const FieldPatch& patch, std::vector<T>& a, std::vector<T
   pair_objects(
       std::as_const(a), b,
       [&](const T& x, T& y) {
-        auto leaf = [&](const auto& owner, const FieldInfo& info, const std::string& name,
+        auto leaf = [&](const OwnerFacts& owner, const FieldInfo& info, const std::string& name,
                         const auto& from, auto& to) {
           if (name == patch.field) {
             to = from;
@@ -336,7 +330,7 @@ void take_over_drive_tracks(const FieldPatch& patch, const PhysicsScene& a, Phys
     b.scalar_tracks = a.scalar_tracks;
     for (ScalarTrack& track : b.scalar_tracks) {
       each_field(track,
-                 [&](const FieldInfo& info, auto& value) { translation.mend(track, info, value); });
+                 [&](const FieldInfo& info, auto& value) { translation.mend({}, info, value); });
     }
   }
 }
@@ -357,7 +351,7 @@ bool take_over_in(const FieldPatch& patch, PhysicsScene& a, PhysicsScene& b) {
         taken = take_over_objects(patch, x, y, translation);
       } else {
         y = x;
-        translation.mend(b, info, y);
+        translation.mend({}, info, y);
         taken = !translation.failed();
         if constexpr (std::is_same_v<T, std::vector<Articulation>>) {
           each_joint_of_both(
@@ -397,10 +391,10 @@ std::vector<FieldPatch> field_patches(const PhysicsScene& a, const PhysicsScene&
         if (!same_articulations(a, b)) {
           of_list.add(std::string(info.name), {});
         }
-      } else if (sides.differ(a, info, x, y)) {
+      } else if (sides.differ({}, info, x, y)) {
         of_list.add(std::string(info.name), {});
       }
-    } else if (sides.differ(a, info, x, y)) {
+    } else if (sides.differ({}, info, x, y)) {
       of_list.add(std::string(info.name), {});
     }
     of_list.move_to(found);

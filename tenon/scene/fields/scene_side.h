@@ -93,19 +93,20 @@ struct Side {
   template <class T>
   std::string key_of(const T& item) const {
     std::string key;
+    const OwnerFacts owner = facts_of(item);
     each_field(item, [&](const FieldInfo& info, const auto& value) {
       if (info.role == Role::Identity) {
-        const std::string word = identity_text(item, info, value);
+        const std::string word = identity_text(owner, info, value);
         key += (key.empty() || word.empty() ? "" : " ") + word;
       }
     });
     return key;
   }
 
-  template <class Owner, class T>
-  std::string identity_text(const Owner& owner, const FieldInfo& info, const T& value) const {
+  template <class T>
+  std::string identity_text(const OwnerFacts& owner, const FieldInfo& info, const T& value) const {
     if constexpr (std::is_same_v<T, Path>) {
-      const bool moves = std::is_same_v<Owner, Collider> && moved;
+      const bool moves = owner.is_collider && moved;
       return text_of(moves ? moved(value) : value);
     } else if constexpr (wire::kIsOptional<T>) {
       return value ? identity_text(owner, info, *value) : std::string();
@@ -142,8 +143,9 @@ struct Side {
   }
 
   /// What a field says; by numbers where they say all of it, else by a word.
-  template <class Owner, class T>
-  Fact fact(const Owner& owner, const FieldInfo& info, const T& value, const Place& place) const {
+  template <class T>
+  Fact fact(const OwnerFacts& owner, const FieldInfo& info, const T& value,
+            const Place& place) const {
     Fact fact;
     fact.name = place.words + words_of(info);
     fact.rotation = kIsQuat<T>;
@@ -158,8 +160,8 @@ struct Side {
     return fact;
   }
 
-  template <class Owner, class T>
-  std::string word(const Owner& owner, const FieldInfo& info, const T& value) const {
+  template <class T>
+  std::string word(const OwnerFacts& owner, const FieldInfo& info, const T& value) const {
     if constexpr (std::is_same_v<T, bool>) {
       return info.on.empty() ? (value ? "yes" : "no") : std::string(value ? info.on : info.off);
     } else if constexpr (std::is_same_v<T, Path>) {
