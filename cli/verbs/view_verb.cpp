@@ -17,10 +17,10 @@
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/base/error.h"
+#include "tenon/engines/engines.h"
 #if TENON_WITH_VIEW
 #include "tenon/asset/viewing/page_place.h"
 #include "tenon/asset/viewing/view_asset.h"
-#include "tenon/engines/engines.h"
 #include "tenon/glb/simplify_view.h"
 #include "tenon/glb/write_glb.h"
 #include "tenon/live/serve_session.h"
@@ -36,7 +36,7 @@ struct ViewArguments {
   double time_step = 0;
   std::string bind = "127.0.0.1";
   std::size_t port = 0;
-  std::size_t triangles = 250'000;
+  std::size_t triangles = 200'000;
   std::optional<double> seconds;
   bool watch = false;
   bool read_only = false;
