@@ -36,7 +36,7 @@ struct ViewArguments {
   double time_step = 0;
   std::string bind = "127.0.0.1";
   std::size_t port = 0;
-  std::size_t triangles = 200'000;
+  std::size_t triangles = 100'000;
   std::optional<double> seconds;
   bool watch = false;
   bool read_only = false;

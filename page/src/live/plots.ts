@@ -39,7 +39,7 @@ class Chart {
     Array.from(this.legend.querySelectorAll<HTMLElement>(".swatch")).forEach((swatch, i) => {
       swatch.style.background = colors[i % mostLines]!;
     });
-    this.draw();
+    this.drawSoon();
   }
 
   add(time: number, values: number[]): void {

@@ -18,6 +18,16 @@ const themes = {
 
 const highlight = new THREE.Color(0x2f7fe0);
 
+interface Size {
+  width: number;
+  height: number;
+}
+
+/** Of a box in the page, one pixel at least. */
+function sizeOf(box: HTMLElement): Size {
+  return { width: Math.max(1, box.clientWidth), height: Math.max(1, box.clientHeight) };
+}
+
 interface Graphics {
   canvas: HTMLCanvasElement;
   context: WebGL2RenderingContext | null;
@@ -25,10 +35,14 @@ interface Graphics {
   software: boolean;
 }
 
-/** What is drawn with. Unless it is said, edges are smoothed where that is not software's work. */
-function openGraphics(antialias: boolean | undefined): Graphics {
+/**
+ * What is drawn with. Unless it is said, edges are smoothed where that is not software's work. The
+ * canvas has its size before it has a context: each change of it later makes all buffers anew.
+ */
+function openGraphics(antialias: boolean | undefined, { width, height }: Size): Graphics {
   const open = (smooth: boolean) => {
     const canvas = document.createElement("canvas");
+    Object.assign(canvas, { width, height });
     const context = canvas.getContext("webgl2", {
       antialias: smooth,
       preserveDrawingBuffer: true,
@@ -133,6 +147,7 @@ export class Viewer extends EventTarget {
   };
   private readonly plain = new Map<THREE.Mesh, THREE.Material | THREE.Material[]>();
   private dirty = true;
+  private sized = false;
   private frames = 0;
   private scenes = 0;
   private theme: keyof typeof themes = "light";
@@ -142,7 +157,7 @@ export class Viewer extends EventTarget {
     { antialias, alpha = false, animated = true }: ViewerOptions = {},
   ) {
     super();
-    const graphics = openGraphics(antialias);
+    const graphics = openGraphics(antialias, sizeOf(container));
     this.software = graphics.software;
     this.renderer = new THREE.WebGLRenderer({
       canvas: graphics.canvas,
@@ -299,9 +314,14 @@ export class Viewer extends EventTarget {
     return this.frames;
   }
 
-  /** Draws now. */
+  /** Draws now; until there is a scene only what is behind it, which costs next to nothing. */
   draw(): void {
     this.dirty = false;
+    if (this.scenes === 0) {
+      this.renderer.setClearColor(themes[this.theme].background);
+      this.renderer.clear();
+      return;
+    }
     this.overlays.refresh();
     this.renderer.render(this.scene, this.camera);
     this.frames += 1;
@@ -338,8 +358,12 @@ export class Viewer extends EventTarget {
   }
 
   private resize(): void {
-    const width = Math.max(1, this.container.clientWidth);
-    const height = Math.max(1, this.container.clientHeight);
+    const { width, height } = sizeOf(this.container);
+    const now = this.renderer.getSize(new THREE.Vector2());
+    if (this.sized && now.x === width && now.y === height) {
+      return; // as an observer says at its beginning
+    }
+    this.sized = true;
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.renderer.setSize(width, height);
