@@ -66,6 +66,18 @@ Result<void> PictureArguments::put_into(RecordOptions& options) const {
   return {};
 }
 
+Result<void> refuse_given(const Command& verb, const std::vector<std::string>& names,
+                          const std::string& of_what, const std::string& fix) {
+  for (const std::string& name : names) {
+    if (verb.option(name).given()) {
+      return Error(ErrorCode::Invalid, name + " is of " + of_what + " alone")
+          .with_rule("record.kind")
+          .with_fix(fix);
+    }
+  }
+  return {};
+}
+
 RecordFormat recording_format(const std::string& output) {
   return output.ends_with(".webm")  ? RecordFormat::WebM
          : output.ends_with(".mp4") ? RecordFormat::Mp4

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/command_line.h"
 #include "cli/output.h"
@@ -24,6 +25,10 @@ struct PictureArguments {
   /// Errors: Invalid for what is no size.
   Result<void> put_into(RecordOptions& options) const;
 };
+
+/// An error of the rule record.kind where one of `names` was given, which are `of_what` alone.
+Result<void> refuse_given(const Command& verb, const std::vector<std::string>& names,
+                          const std::string& of_what, const std::string& fix);
 
 /// What the ending of a file's name says.
 RecordFormat recording_format(const std::string& output);

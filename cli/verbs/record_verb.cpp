@@ -53,12 +53,15 @@ void RecordArguments::add_looks_to(const Command& verb) {
   verb.add_option("--background", options.background,
                   "light, dark, a colour such as #ffffff, or transparent (of .png)")
       .value_name("COLOUR");
-  verb.add_option("--show", options.show,
-                  "Show these, too: colliders, joints, limits, masses, inertia, frames, tree")
+  std::string layers;
+  for (const std::string& name : record_layers()) {
+    layers += (layers.empty() ? "" : ", ") + name;
+  }
+  verb.add_option("--show", options.show, "Show these, too: " + layers)
       .split_at_commas()
       .repeatable()
       .value_name("NAMES");
-  verb.add_option("--hide", options.hide, "Do not show these: visuals, grid")
+  verb.add_option("--hide", options.hide, "Do not show these, which are shown else: visuals, grid")
       .split_at_commas()
       .repeatable()
       .value_name("NAMES");
@@ -93,21 +96,14 @@ void RecordArguments::add_film_to(const Command& verb) {
 
 /// Options of the other kind of output are a mistake.
 Result<void> check_kind(const Command& verb, const RecordArguments& arguments) {
-  const bool film = recording_format(arguments.output) != RecordFormat::Png;
-  const std::vector<std::string> of_films{"--duration", "--fps",   "--speed",
-                                          "--turn",     "--codec", "--bitrate"};
-  const std::vector<std::string> of_pictures{"--time", "--panels"};
-  for (const std::string& name : film ? of_pictures : of_films) {
-    if (verb.option(name).given()) {
-      return Error(ErrorCode::Invalid,
-                   name + (film ? " is of pictures alone" : " is of films alone"))
-          .with_rule("record.kind")
-          .with_fix(film ? "name an output file that ends in .png"
-                         : "name an output file that ends in .webm or .mp4, or choose the moment "
-                           "of the picture with --time");
-    }
+  if (recording_format(arguments.output) != RecordFormat::Png) {
+    return refuse_given(verb, {"--time", "--panels"}, "pictures",
+                        "name an output file that ends in .png");
   }
-  return {};
+  return refuse_given(verb, {"--duration", "--fps", "--speed", "--turn", "--codec", "--bitrate"},
+                      "films",
+                      "name an output file that ends in .webm or .mp4, or choose the moment of "
+                      "the picture with --time");
 }
 
 Result<RecordOptions> options_of(const RecordArguments& arguments) {

@@ -44,6 +44,17 @@ struct ViewArguments {
   PictureArguments picture;
 };
 
+/// Options of the other kind are a mistake: a picture is served by nobody.
+Result<void> check_view_kind(const Command& verb, const ViewArguments& arguments) {
+  if (arguments.screenshot.empty()) {
+    return refuse_given(verb, {"--size", "--browser", "--no-sandbox", "--patience"}, "--screenshot",
+                        "add --screenshot FILE.png");
+  }
+  return refuse_given(verb,
+                      {"--bind", "--port", "--engine", "--dt", "--watch", "--read-only", "--for"},
+                      "views that are served", "leave it out, or leave --screenshot out");
+}
+
 /// --screenshot: a picture instead of a server, as `tenon record` makes it.
 int run_screenshot(const Globals& globals, const ViewArguments& arguments) {
   Report report(globals, "view", arguments.asset.asset);
@@ -225,7 +236,10 @@ void add_view(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "PATH.attr=value, for this session only; may be repeated")
       .repeatable();
   verb.footer(kViewFooter);
-  choose(verb, chosen, [&globals, options] {
+  choose(verb, chosen, [&globals, verb, options] {
+    if (auto fits = check_view_kind(verb, *options); !fits) {
+      return Report(globals, "view", options->asset.asset).fail(fits.error());
+    }
     return options->screenshot.empty() ? run_view(globals, *options)
                                        : run_screenshot(globals, *options);
   });

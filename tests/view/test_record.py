@@ -100,6 +100,19 @@ class Record(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("output.kind", done.stderr)
 
+    def test_view_refuses_options_of_the_other_kind(self):
+        shot = ["--screenshot", "s.png"]
+        flags = {"--watch", "--read-only", "--no-sandbox"}
+        for names, words in (
+                (("--bind", "--port", "--engine", "--dt", "--watch", "--read-only", "--for"), shot),
+                (("--size", "--browser", "--no-sandbox", "--patience"), [])):
+            for name in names:
+                value = [] if name in flags else ["mujoco" if name == "--engine" else "1"]
+                done = self.run_tenon("view", self.scene, *words, name, *value)
+                self.assertEqual(done.returncode, 2, (name, done.stdout))
+                self.assertIn(f"{name} is of ", done.stderr)
+                self.assertFalse((self.folder / "s.png").exists())
+
     def test_panels_are_those_of_the_report(self):
         done = self.record("-o", "p.png", "--panels")
         self.assertEqual(done.returncode, 0, done.stderr)
