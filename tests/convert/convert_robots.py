@@ -13,6 +13,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
@@ -153,6 +154,15 @@ def check_ellipsoid(work):
     expect("egg: shape", (collider["shape"], collider["halfExtents"]),
            ("ellipsoid", [0.1, 0.2, 0.3]))
     text = target.read_text()
+    expect("egg: normals of points", 'interpolation = "vertex"' in text, True)
+    axes, (points, normals) = (0.1, 0.2, 0.3), (
+        [[float(x) for x in row.split(",")] for row in re.findall(
+            r"\(([^()]*)\)", re.search(rf" {name} = \[(.*?)\]", text)[1])]
+        for name in ("points", "normals"))
+    across = [[x / a ** 2 for x, a in zip(point, axes)] for point in points]
+    near("egg: drawn round", max(abs(x / math.hypot(*row) - n) for row, normal in
+                                 zip(across, normals, strict=True)
+                                 for x, n in zip(row, normal)), 0, 1e-6)
     expect("egg: hull", 'physics:approximation = "convexHull"' in text, True)
     package = work / "egg"
     expect("egg: structure", tenon("structure", target, "-o", package)[0], 0)

@@ -68,14 +68,18 @@ Path write_ellipsoid(RobotLayer& layer, Path link, Token name, const Vec3d& half
   // As much room as the ellipsoid has, so that a mass of a density is nearly right.
   const double wider = std::cbrt(4.0 / 3 * std::numbers::pi / volume(ball));
   std::vector<Vec3f> points;
+  std::vector<Vec3f> normals;  // the ellipsoid's own, so that it is drawn round
   Vec3d most;
   for (const Vec3d& unit : ball.points) {
     Vec3d point;
+    Vec3d normal;
     for (std::size_t k = 0; k < 3; ++k) {
       point[k] = unit[k] * half_extents[k] * wider;
       most[k] = std::fmax(most[k], point[k]);
+      normal[k] = unit[k] / half_extents[k];
     }
     points.push_back(to_float(point + Vec3d{}));
+    normals.push_back(to_float(normalized(normal) + Vec3d{}));
   }
   LayerBuilder& builder = layer.builder();
   const Path prim = builder.define(link, name, "Mesh");
@@ -84,6 +88,8 @@ Path write_ellipsoid(RobotLayer& layer, Path link, Token name, const Vec3d& half
   builder.set_value(prim, "Mesh", "faceVertexCounts",
                     Value(std::vector<std::int32_t>(ball.corners.size() / 3, 3)));
   builder.set_value(prim, "Mesh", "faceVertexIndices", Value(ball.corners));
+  builder.set_value(prim, "Mesh", "normals", Value(std::move(normals)));
+  builder.set_metadata(prim.property("normals"), "interpolation", Value(Token("vertex")));
   builder.set_value(prim, "Mesh", "points", Value(std::move(points)));
   builder.set_value(prim, "Mesh", "subdivisionScheme", Value(Token("none")));
   builder.set_custom(prim, "tenon:ellipsoid", "double3", Value(half_extents));
