@@ -80,6 +80,8 @@ struct Surface {
   std::optional<double> torsional_friction;  ///< [m]
   std::optional<double> rolling_friction;    ///< [m]
   std::optional<double> restitution;
+  std::optional<double> contact_stiffness{};  ///< of contacts as springs [N/m]; none: hard
+  std::optional<double> contact_damping{};    ///< beside it [N s/m]
   bool operator==(const Surface&) const = default;
   bool is_default() const { return *this == Surface{}; }
 };

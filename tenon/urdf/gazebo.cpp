@@ -105,9 +105,26 @@ struct GazeboSettings {
   std::optional<robot::Material> color;
 };
 
+/// Contacts as springs: a stiffness above 0, and a damping beside one.
+bool take_contact_spring(pugi::xml_node setting, robot::Link& link) {
+  const std::optional<double> number = number_in(setting);
+  const std::optional<double> stiffness = number_in(setting.parent().child("kp"));
+  if (!number || *number < 0 || !stiffness || !(*stiffness > 0) || link.colliders.empty()) {
+    return false;
+  }
+  const bool damps = std::string_view(setting.name()) == "kd";
+  for (robot::Collider& collider : link.colliders) {
+    (damps ? collider.surface.contact_damping : collider.surface.contact_stiffness) = number;
+  }
+  return true;
+}
+
 /// What is said of all shapes of a link; false: it is something else, or no number.
 bool take_surface(pugi::xml_node setting, robot::Link& link) {
   const std::string_view name = setting.name();
+  if (name == "kp" || name == "kd") {
+    return take_contact_spring(setting, link);
+  }
   const std::optional<double> number = number_in(setting);
   if ((name != "mu1" && name != "mu2" && name != "mu") || !number || *number < 0) {
     return false;

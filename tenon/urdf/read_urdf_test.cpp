@@ -211,12 +211,14 @@ TEST_F(ReadUrdf, TakesWhatGazeboSaysOfLinks) {
       "<link name='a'><visual><geometry><box size='1 1 1'/></geometry></visual>\n"
       "<collision><geometry><box size='1 1 1'/></geometry></collision></link>\n"
       "<gazebo reference='a'><material> Gazebo/Red </material><mu1>0.7</mu1>"
-      "<mu2 value='0.7'/><gravity>false</gravity></gazebo>\n");
+      "<mu2 value='0.7'/><gravity>false</gravity><kp>2e5</kp><kd>30</kd></gazebo>\n");
   ASSERT_TRUE(model);
   EXPECT_EQ(found(), "");
   const robot::Link& link = model->links[0];
   EXPECT_EQ(link.gravity_scale, 0);
   EXPECT_EQ(link.colliders[0].surface.dynamic_friction, 0.7);
+  EXPECT_EQ(link.colliders[0].surface.contact_stiffness, 2e5);
+  EXPECT_EQ(link.colliders[0].surface.contact_damping, 30);
   ASSERT_TRUE(link.visuals[0].material);
   EXPECT_EQ(model->materials[*link.visuals[0].material].color, (Vec4d{{1, 0, 0, 1}}));
 }

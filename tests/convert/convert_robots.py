@@ -110,7 +110,7 @@ def check_gazebo(work):
     code, rules, answer = convert(URDF / "gazebo.urdf", target)
     expect("gazebo: findings", (code, rules), (0, ["urdf.extension"] * 3))
     said = " ".join(finding["message"] for finding in answer["diagnostics"])
-    for left in ("left out: kp", 'left out: sensor "scan" (ray)', "left out: provideFeedback"):
+    for left in ("left out: maxVel", 'left out: sensor "scan" (ray)', "left out: provideFeedback"):
         expect(f"gazebo: {left}", left in said, True)
     scene = physics(target)
     expect("gazebo: gravity", {name: body["gravityScale"]
@@ -119,9 +119,11 @@ def check_gazebo(work):
     expect("gazebo: sensors", sorted(sensor["kind"] for sensor in scene["sensors"]),
            ["contact", "forceTorque", "imu"])
     near("gazebo: friction", max(m["dynamicFriction"] for m in scene["materials"]), 0.8, 1e-6)
+    soft = max((m["compliance"] for m in scene["materials"]), key=lambda law: law["stiffness"])
+    expect("gazebo: springs", (soft["stiffness"], soft["damping"]), (1e6, 100))
     text = target.read_text()
     for wanted in ('def Material "Orange"', 'def Camera "eye"', "clippingRange = (0.05, 20)",
-                   "sensorPeriod = 0.005"):
+                   "sensorPeriod = 0.005", "newton:contactStiffness = 1000000"):
         expect(f"gazebo: {wanted}", wanted in text, True)
 
 

@@ -92,6 +92,10 @@ void write_surface(LayerBuilder& builder, Path path, const robot::Surface& surfa
   set("PhysicsMaterialAPI", "physics:staticFriction", surface.static_friction);
   set("PhysicsMaterialAPI", "physics:dynamicFriction", surface.dynamic_friction);
   set("PhysicsMaterialAPI", "physics:restitution", surface.restitution);
+  set("NewtonMaterialAPI", "newton:contactDamping", surface.contact_damping);
+  set("NewtonMaterialAPI", "newton:contactStiffness", surface.contact_stiffness);
+  set("PhysxMaterialAPI", "physxMaterial:compliantContactDamping", surface.contact_damping);
+  set("PhysxMaterialAPI", "physxMaterial:compliantContactStiffness", surface.contact_stiffness);
   set("NewtonMaterialAPI", "newton:torsionalFriction", surface.torsional_friction);
   set("NewtonMaterialAPI", "newton:rollingFriction", surface.rolling_friction);
 }
