@@ -127,6 +127,9 @@ std::string sensor_line(const PhysicsScene& scene, const scene::Sensor& sensor) 
   if (sensor.kind == scene::SensorKind::ForceTorque) {
     line += ", held by " + scene.joints[*sensor.joint].path.str();
   }
+  if (sensor.kind == scene::SensorKind::Rays) {
+    line += ", " + plural(sensor.ray_directions.size(), "ray", "rays");
+  }
   return line + (sensor.enabled ? "\n" : ", off\n");
 }
 

@@ -96,6 +96,13 @@ nb::object vector_of(const Vec3d& vector) {
   return made.take();
 }
 
+nb::object rotation_of(const Quatd& rotation) {
+  NewArray<> made({4});
+  double* to = made.numbers.data();
+  put(rotation, to);
+  return made.take();
+}
+
 nb::object numbers_of(const std::vector<double>& values) {
   NewArray<> made({values.size()});
   made.numbers = values;
@@ -112,15 +119,20 @@ nb::dict reading_of(const scene::Sensor& sensor, const engines::SensorReading& r
       row["in_contact"] = reading.in_contact;
       row["normal_force"] = reading.normal_force;
       break;
-    case scene::SensorKind::Imu: {
+    case scene::SensorKind::Imu:
       row["linear_acceleration"] = vector_of(reading.linear_acceleration);
       row["angular_velocity"] = vector_of(reading.angular_velocity);
-      NewArray<> orientation({4});
-      double* to = orientation.numbers.data();
-      put(reading.orientation, to);
-      row["orientation"] = orientation.take();
+      row["orientation"] = rotation_of(reading.orientation);
       break;
-    }
+    case scene::SensorKind::Frame:
+      row["position"] = vector_of(reading.position);
+      row["linear_velocity"] = vector_of(reading.linear_velocity);
+      row["angular_velocity"] = vector_of(reading.angular_velocity);
+      row["orientation"] = rotation_of(reading.orientation);
+      break;
+    case scene::SensorKind::Rays:
+      row["distances"] = numbers_of(reading.distances);
+      break;
     case scene::SensorKind::ForceTorque:
       row["force"] = vector_of(reading.wrench.force);
       row["torque"] = vector_of(reading.wrench.torque);

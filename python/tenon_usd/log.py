@@ -27,6 +27,8 @@ SI_UNITS = {"length": "m", "angle": "rad"}
 #: of angles. A joint turns or slides, which its name does not tell.
 QUANTITIES: dict[str, str] = {
     "position": "A or L", "velocity": "A/s or L/s", "acceleration": "A/s^2 or L/s^2",
+    "distance": "L", "framePosition": "L", "frameLinearVelocity": "L/s",
+    "frameAngularVelocity": "A/s",
     "sensorPosition": "A or L", "sensorVelocity": "A/s or L/s", "sensorEffort": "N m or N",
     "linearVelocity": "L/s", "angularVelocity": "A/s", "linearAcceleration": "L/s^2",
     "angularAcceleration": "A/s^2", "driveEffort": "N m or N", "reactionForce": "N",

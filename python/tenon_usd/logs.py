@@ -186,7 +186,8 @@ def _read_npz(path: str) -> Log:
 
 #: Lists of a line of JSON whose parts are axes, wherever they stand.
 VECTORS = ("linearVelocity", "angularVelocity", "orientation", "linearAcceleration",
-           "angularAcceleration", "reactionForce", "reactionTorque", "force", "torque")
+           "angularAcceleration", "reactionForce", "reactionTorque", "force", "torque",
+           "framePosition", "frameOrientation", "frameLinearVelocity", "frameAngularVelocity")
 
 
 def _flat(value: Any, name: str, of_body: bool, found: dict[str, float]) -> None:
@@ -198,7 +199,7 @@ def _flat(value: Any, name: str, of_body: bool, found: dict[str, float]) -> None
         key = name.rpartition(".")[2]
         labels = [""] if len(value) == 1 else [f".{k}" for k in range(len(value))]
         if key in VECTORS or (of_body and key == "position"):
-            labels = list(BODY["orientation"] if key == "orientation" else AXES)
+            labels = list(BODY["orientation"] if len(value) == 4 else AXES)
         for label, each in zip(labels, value, strict=True):
             found[name + label] = float(each)
     elif isinstance(value, (int, float)):

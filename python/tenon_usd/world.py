@@ -336,7 +336,9 @@ class World:
 
         Of contacts "in_contact" and "normal_force" [N]; of IMUs "linear_acceleration" [m/s^2],
         "angular_velocity" [rad/s] and "orientation"; of force and torque "force" [N] and "torque"
-        [N m]; of joints "position", "velocity", "effort". Needs outputs=["sensors"].
+        [N m]; of joints "position", "velocity", "effort"; of frames "position" [m], "orientation",
+        "linear_velocity" [m/s] and "angular_velocity" [rad/s]; of rays "distances" [m], -1 where
+        there is nothing. Needs outputs=["sensors"].
         """
         return self._batch.sensors(env)
 

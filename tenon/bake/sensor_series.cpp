@@ -35,6 +35,14 @@ Labels three(const Sensor&, const PhysicsScene&, const engines::Simulation&) {
 Labels four(const Sensor&, const PhysicsScene&, const engines::Simulation&) {
   return {".w", ".x", ".y", ".z"};
 }
+Labels rays(const Sensor& sensor, const PhysicsScene&, const engines::Simulation&) {
+  const std::size_t count = sensor.ray_directions.size();
+  Labels labels;
+  for (std::size_t k = 0; k < count; ++k) {
+    labels.push_back(part_label(k, count));
+  }
+  return labels;
+}
 Labels axes(const Sensor& sensor, const PhysicsScene&, const engines::Simulation& simulation) {
   const std::size_t count = simulation.joint_state(*sensor.joint).position.size();
   Labels labels;
@@ -85,6 +93,29 @@ constexpr SensorQuantity kQuantities[] = {
      [](const SensorReading& r, const Sensor&, const PhysicsScene&, Numbers& values) {
        const Quatd& q = r.orientation;
        values.insert(values.end(), {q.w, q.x, q.y, q.z});
+     }},
+    {SensorKind::Frame, "framePosition", "sensor_frame_position", three,
+     [](const SensorReading& r, const Sensor&, const PhysicsScene& scene, Numbers& values) {
+       append(values, r.position * (1 / scene.meters_per_unit));
+     }},
+    {SensorKind::Frame, "frameOrientation", "sensor_frame_orientation", four,
+     [](const SensorReading& r, const Sensor&, const PhysicsScene&, Numbers& values) {
+       const Quatd& q = r.orientation;
+       values.insert(values.end(), {q.w, q.x, q.y, q.z});
+     }},
+    {SensorKind::Frame, "frameLinearVelocity", "sensor_frame_linear_velocity", three,
+     [](const SensorReading& r, const Sensor&, const PhysicsScene& scene, Numbers& values) {
+       append(values, r.linear_velocity * (1 / scene.meters_per_unit));
+     }},
+    {SensorKind::Frame, "frameAngularVelocity", "sensor_frame_angular_velocity", three,
+     [](const SensorReading& r, const Sensor&, const PhysicsScene&, Numbers& values) {
+       append(values, r.angular_velocity * kDegreesPerRadian);
+     }},
+    {SensorKind::Rays, "distance", "sensor_distance", rays,
+     [](const SensorReading& r, const Sensor&, const PhysicsScene& scene, Numbers& values) {
+       for (const double distance : r.distances) {
+         values.push_back(distance < 0 ? distance : distance / scene.meters_per_unit);
+       }
      }},
     {SensorKind::ForceTorque, "force", "sensor_force", three,
      [](const SensorReading& r, const Sensor&, const PhysicsScene&, Numbers& values) {

@@ -19,6 +19,17 @@ robot::RobotModel assembled(RobotTree& tree, Looks looks) {
   return robot;
 }
 
+/// What is not simulated, as it reads rays, light or radar.
+void leave_out_other_sensors(SceneSource& source, const stage::Stage& stage,
+                             const scene::PhysicsScene& scene) {
+  for (const scene::NotRead& row : scene.not_read) {
+    const stage::Prim prim = stage.prim(row.prim);
+    if (prim && prim.is_a("IsaacBaseSensor") && prim.type_name().view() == row.property) {
+      source.left_out(row.prim, "it is a sensor that is not simulated");
+    }
+  }
+}
+
 }  // namespace
 
 Result<robot::RobotModel> describe_robot(const stage::Stage& stage,
@@ -39,6 +50,7 @@ Result<robot::RobotModel> describe_robot(const stage::Stage& stage,
   for (const scene::Sensor& sensor : scene.sensors) {
     source.left_out(sensor.path, "it is a sensor");
   }
+  leave_out_other_sensors(source, stage, scene);
   robot::RobotModel robot = assembled(bodies.tree, std::move(looks));
   const stage::Prim root = stage.default_prim();
   robot.name = source.name_of(root ? root.path() : Path(), "robot");
@@ -54,6 +66,7 @@ robot::RobotModel describe_visuals(const stage::Stage& stage, const scene::Physi
   }
   tree.set_world(tree.add_link({}, "world", {}, {}));
   Looks looks = add_visuals(source, tree);
+  leave_out_other_sensors(source, stage, scene);
   return assembled(tree, std::move(looks));
 }
 

@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "tenon/engines/simulation.h"
+#include "tenon/scene/shapes/ray_hit.h"
 
 namespace tenon::engines {
 namespace {
@@ -77,6 +78,12 @@ Sensors::Sensors(const scene::PhysicsScene& scene, const Simulation& simulation)
     }
     if (sensor.kind == SensorKind::Contact && sensor.enabled) {
       touches_.resize(scene.bodies.size());
+    }
+  }
+  const auto casts = [](const Sensor& s) { return s.kind == SensorKind::Rays && s.enabled; };
+  if (std::any_of(scene.sensors.begin(), scene.sensors.end(), casts)) {
+    for (const scene::Collider& collider : scene.colliders) {
+      ball_radii_.push_back(scene::bounding_radius(collider.shape, scene.meshes));
     }
   }
   std::sort(bodies_.begin(), bodies_.end());
@@ -143,6 +150,12 @@ Result<void> Sensors::measure(Index i) {
       return measure_imu(sensor, histories_[i], reading);
     case SensorKind::ForceTorque:
       return measure_wrench(sensor, reading);
+    case SensorKind::Frame:
+      measure_frame(sensor, reading);
+      return {};
+    case SensorKind::Rays:
+      measure_rays(sensor, reading);
+      return {};
     case SensorKind::Joint:
       break;
   }
@@ -196,6 +209,52 @@ Result<void> Sensors::measure_imu(const Sensor& sensor, History& history, Sensor
   reading.angular_velocity = mean(history.velocities);
   reading.orientation = mean(history.orientations);
   return {};
+}
+
+void Sensors::measure_frame(const Sensor& sensor, SensorReading& reading) const {
+  const BodyState now = simulation_.body_state(*sensor.body);
+  const Pose frame = now.pose * sensor.pose;
+  const Vec3d arm = frame.position - simulation_.center_of_mass(*sensor.body);
+  reading.position = frame.position;
+  reading.orientation = frame.orientation;
+  reading.linear_velocity = now.linear_velocity + cross(now.angular_velocity, arm);
+  reading.angular_velocity = now.angular_velocity;
+}
+
+void Sensors::measure_rays(const Sensor& sensor, SensorReading& reading) const {
+  const Pose frame = simulation_.body_state(*sensor.body).pose * sensor.pose;
+  const std::size_t count = sensor.ray_directions.size();
+  std::vector<Vec3d> origins;
+  std::vector<Vec3d> directions;
+  for (std::size_t i = 0; i < count; ++i) {
+    origins.push_back(transform_point(frame, sensor.ray_origins[i]));
+    directions.push_back(rotate(frame.orientation, sensor.ray_directions[i]));
+  }
+  reading.distances.assign(count, kInfinity);
+  for (std::size_t c = 0; c < scene_.colliders.size(); ++c) {
+    const scene::Collider& collider = scene_.colliders[c];
+    if (!collider.enabled || collider.body == sensor.body || collider.settings.trigger) {
+      continue;
+    }
+    const Pose place =
+        collider.body ? simulation_.body_state(*collider.body).pose * collider.pose : collider.pose;
+    const Pose to_collider = inverse(place);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3d origin = transform_point(to_collider, origins[i]);
+      const Vec3d direction = rotate(to_collider.orientation, directions[i]);
+      const double passes = length(cross(origin, direction));  // how near to its origin
+      if (passes <= ball_radii_[c] && length(origin) - ball_radii_[c] <= reading.distances[i]) {
+        const double found = scene::ray_distance(collider.shape, scene_.meshes, origin, direction);
+        reading.distances[i] = std::min(reading.distances[i], found);
+      }
+    }
+  }
+  for (double& distance : reading.distances) {
+    distance =
+        distance >= sensor.min_range && distance <= sensor.max_range && std::isfinite(distance)
+            ? distance
+            : -1;
+  }
 }
 
 Result<void> Sensors::measure_wrench(const Sensor& sensor, SensorReading& reading) const {

@@ -54,6 +54,8 @@ class Sensors {
   Result<void> find_touches();
   void measure_contact(const scene::Sensor& sensor, SensorReading& reading) const;
   Result<void> measure_imu(const scene::Sensor& sensor, History& history, SensorReading& reading);
+  void measure_frame(const scene::Sensor& sensor, SensorReading& reading) const;
+  void measure_rays(const scene::Sensor& sensor, SensorReading& reading) const;
   Result<void> measure_wrench(const scene::Sensor& sensor, SensorReading& reading) const;
   Result<void> measure_joint(const scene::Sensor& sensor, SensorReading& reading) const;
   bool is_due(scene::Index sensor);
@@ -65,6 +67,7 @@ class Sensors {
   std::vector<double> periods_done_;  ///< (sensor_count), counted from time 0
   std::vector<scene::Index> bodies_;  ///< whose states are looked at
   std::vector<BodyState> at_begin_;   ///< (body_count), of these, at the beginning of the step
+  std::vector<double> ball_radii_;    ///< (collider_count), about their origins, where rays are
   std::vector<std::vector<Touch>> touches_;  ///< (body_count), of bodies with contact sensors
 };
 

@@ -169,10 +169,16 @@ struct SensorReading {
   double normal_force = 0;  ///< sum of the normal forces of its contacts [N]; 0 without contact
   // Of SensorKind::Imu, along the axes of the sensor.
   Vec3d linear_acceleration;  ///< of its origin, less gravity: at rest that is up [m/s^2]
-  Vec3d angular_velocity;     ///< [rad/s]
-  Quatd orientation = kIdentityRotation;  ///< world <- sensor
+  Vec3d angular_velocity;     ///< [rad/s]; of SensorKind::Frame along the axes of the world
+  Quatd orientation = kIdentityRotation;  ///< world <- sensor; of SensorKind::Frame, too
+  // Of SensorKind::Frame, along the axes of the world.
+  Vec3d position;         ///< of its origin [m]
+  Vec3d linear_velocity;  ///< of its origin [m/s]
   // Of SensorKind::ForceTorque: what carries the body exerts on it, along the axes of the sensor.
   Wrench wrench{};  ///< about its origin
+  /// Of SensorKind::Rays: along each of its rays the nearest collider that is enabled and not of
+  /// its body (ray_count) [m]; -1: none within the ranges.
+  std::vector<double> distances;
   // Of SensorKind::Joint.
   JointState joint{};           ///< as joint_state()
   std::vector<double> efforts;  ///< as drive_efforts()

@@ -158,23 +158,16 @@ const std::vector<std::string>& values_of(const std::string& type) {
   static const std::vector<std::string> real{"0.3", "3", "40", "-1", "0.001"};
   static const std::vector<std::string> list{"[0.3]", "[0.3, 0.4]", "[0.8, 0.9, 0.01, 0.4, 2]",
                                              "[0.1, 0.3, 0.4, 0.5, 0.6, 0.7]"};
-  static const std::map<std::string, std::vector<std::string>> values{{"bool", {"0", "1"}},
-                                                                      {"int", whole},
-                                                                      {"uint", whole},
-                                                                      {"uchar", whole},
-                                                                      {"uint64", whole},
-                                                                      {"vector3f", three},
-                                                                      {"point3f", three},
-                                                                      {"float3", three},
-                                                                      {"double3", three},
-                                                                      {"float", real},
-                                                                      {"double", real},
-                                                                      {"float[]", list},
-                                                                      {"double[]", list},
-                                                                      {"int[]", {"[1]"}},
-                                                                      {"uint[]", {"[1]"}},
-                                                                      {"string", {"\"word\""}},
-                                                                      {"token[]", {"[\"word\"]"}}};
+  static const std::map<std::string, std::vector<std::string>> values{
+      {"bool", {"0", "1"}},     {"int", whole},
+      {"uint", whole},          {"uchar", whole},
+      {"uint64", whole},        {"vector3f", three},
+      {"point3f", three},       {"float3[]", {"[(0.3, 0.4, 0.5)]"}},
+      {"float3", three},        {"double3", three},
+      {"float", real},          {"double", real},
+      {"float[]", list},        {"double[]", list},
+      {"int[]", {"[1]"}},       {"uint[]", {"[1]"}},
+      {"string", {"\"word\""}}, {"token[]", {"[\"word\"]"}}};
   static const std::vector<std::string> none;
   const auto found = values.find(type);
   return found == values.end() ? none : found->second;

@@ -19,7 +19,7 @@
 #include "tenon/mjcf/mjcf_source.h"
 #include "tenon/mjcf/mujoco_scene.h"
 #include "tenon/mjcf/seen/cameras.h"
-#include "tenon/mjcf/sensors.h"
+#include "tenon/mjcf/sensors/sensors.h"
 #include "tenon/mjcf/shapes/geoms.h"
 #include "tenon/mjcf/shapes/material_table.h"
 #include "tenon/mjcf/shapes/meshes.h"

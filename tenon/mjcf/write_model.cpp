@@ -25,10 +25,10 @@
 #include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/engines/mujoco/writable_model.h"
 #include "tenon/mjcf/seen/write_cameras.h"
+#include "tenon/mjcf/sensors/write_sensors.h"
 #include "tenon/mjcf/text/write_text.h"
 #include "tenon/mjcf/write_actuators.h"
 #include "tenon/mjcf/write_keyframes.h"
-#include "tenon/mjcf/write_sensors.h"
 
 namespace tenon::mjcf {
 namespace {

@@ -46,6 +46,7 @@ constexpr KindOfType kKinds[] = {
     {"MjcTendon", PrimKind::Tendon},
     {"IsaacContactSensor", PrimKind::ContactSensor},
     {"IsaacImuSensor", PrimKind::ImuSensor},
+    {"IsaacRaycastSensor", PrimKind::RaycastSensor},
 };
 
 PrimKind kind_of(const stage::Prim& prim) {

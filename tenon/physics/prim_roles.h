@@ -49,6 +49,7 @@ enum class PrimKind : std::uint8_t {
   RackJoint,  ///< of PhysX: couples a hinge and a slide
   ContactSensor,
   ImuSensor,
+  RaycastSensor,
 };
 
 inline bool is_joint(PrimKind kind) {

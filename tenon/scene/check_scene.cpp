@@ -44,6 +44,9 @@ const char* fault_of(const Sensor& sensor) {
   if ((wants_body && !sensor.body) || (wants_joint && !sensor.joint)) {
     return "a sensor measures nothing that is there";
   }
+  if (sensor.ray_origins.size() != sensor.ray_directions.size()) {
+    return "a sensor has other numbers of origins and directions of rays";
+  }
   return is_finite(sensor.period) && sensor.period >= 0 ? nullptr
                                                         : "a period is negative or not finite";
 }

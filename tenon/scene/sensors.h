@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "tenon/base/path.h"
 #include "tenon/math/functions.h"
@@ -19,9 +20,11 @@ enum class SensorKind : std::uint8_t {
   Imu,          ///< proper acceleration, angular velocity and orientation of its frame
   ForceTorque,  ///< what the joint that holds the body exerts on it
   Joint,        ///< coordinates, velocities and drive efforts of a joint
+  Frame,        ///< where its frame is and how that moves
+  Rays,         ///< how far along rays other bodies and what stands still are
 };
 
-/// "contact", "imu", "forceTorque", "joint".
+/// "contact", "imu", "forceTorque", "joint", "frame", "rays".
 std::string_view sensor_kind_name(SensorKind kind);
 
 struct Sensor {
@@ -41,6 +44,11 @@ struct Sensor {
   int acceleration_width = 1;
   int velocity_width = 1;
   int orientation_width = 1;
+  // Of Rays, in its frame.
+  std::vector<Vec3d> ray_origins;     ///< (ray_count) [m]
+  std::vector<Vec3d> ray_directions;  ///< (ray_count), unit
+  double min_range = 0;               ///< what is nearer to an origin is nothing [m]
+  double max_range = kInfinity;       ///< what is farther is nothing [m]
 };
 
 }  // namespace tenon::scene

@@ -132,6 +132,35 @@ class Sensors(unittest.TestCase):
             self.assertEqual(archive["sensor_force"][-1, at + 2], row["/arm/wrist.force.z"])
             self.assertEqual(archive["sensor_kinds"][paths.index("/box/imu")], b"imu")
 
+    def test_frames_and_rays_are_read_in_the_units_of_the_stage(self):
+        """A frame 4 cm above the centre of a box, a ray down from there, one to nothing."""
+        path = self.write("frames.usda", BOX.rstrip("}\n") + """
+    def Xform "tip" {
+        custom uniform token tenon:sensor = "frame"
+        double3 xformOp:translate = (0, 0, 4)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        def IsaacRaycastSensor "rays" {
+            float3[] rayDirections = [(0, 0, -1), (1, 0, 0)]
+        }
+    }
+}
+""")
+        for name in ("run.csv", "run.jsonl"):
+            self.ok(path, "--duration", 1, "-o", name, "--log", "sensors")
+        row, sensors = self.rows("run.csv")[-1], self.lines("run.jsonl")[-1]["sensors"]
+        self.assertAlmostEqual(row["/box/tip.framePosition.z"], 14, delta=0.01)
+        self.assertAlmostEqual(row["/box/tip.frameOrientation.w"], 1, delta=1e-3)
+        self.assertAlmostEqual(row["/box/tip.frameLinearVelocity.x"], 0, delta=1e-3)
+        self.assertAlmostEqual(row["/box/tip/rays.distance.0"], 14, delta=0.01)
+        self.assertEqual(row["/box/tip/rays.distance.1"], -1)
+        self.assertEqual(sensors["/box/tip/rays"]["kind"], "rays")
+        self.assertEqual(sensors["/box/tip"]["framePosition"][2], row["/box/tip.framePosition.z"])
+        if numpy:
+            self.ok(path, "--duration", 1, "-o", "run.npz", "--log", "sensors")
+            archive = numpy.load(self.folder / "run.npz")
+            self.assertEqual(archive["sensor_distance"][-1].tolist(),
+                             [row["/box/tip/rays.distance.0"], -1])
+
     def test_sensors_that_cannot_measure_are_told(self):
         bad = self.write("bad.usda", SENSORS % {"radius": math.nan, "width": 0})
         process = self.ok(bad, "--duration", 0.1, "-o", "run.csv", "--log", "sensors")

@@ -58,6 +58,14 @@ Values own_values(const scene::PhysicsScene& scene, const engines::World& world)
         values["orientation"] = {r.orientation.w, r.orientation.x, r.orientation.y,
                                  r.orientation.z};
         break;
+      case scene::SensorKind::Frame:
+        values["place"] = list_of(r.position);
+        values["pace"] = list_of(r.linear_velocity);
+        values["spin"] = list_of(r.angular_velocity);
+        break;
+      case scene::SensorKind::Rays:
+        values["range"] = r.distances;
+        break;
       case scene::SensorKind::ForceTorque:
         values["force"] = list_of(r.wrench.force);
         values["torque"] = list_of(r.wrench.torque);

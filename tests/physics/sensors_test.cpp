@@ -116,6 +116,48 @@ TEST(Sensors, AnImuInFreeFallReadsWhatTurningAlonePutsOnIt) {
   expect_near(box.reading("/Box/Side").angular_velocity, {{0, 0, spin}}, 1e-6);
 }
 
+// A frame beside the centre of a box that falls and turns: where it is, and v + w x r.
+TEST(Sensors, AFrameReadsWhereItIsAndHowItMoves) {
+  Measured box(box_at(50,
+                      "vector3f physics:angularVelocity = (0, 0, 180)\n"
+                      "def Xform \"Tip\" {\n"
+                      "custom uniform token tenon:sensor = \"frame\"\n"
+                      "double3 xformOp:translate = (0.1, 0, 0)\n"
+                      "float xformOp:rotateZ = 90\n"
+                      "uniform token[] xformOpOrder = [\"xformOp:translate\", "
+                      "\"xformOp:rotateZ\"]\n}\n"));
+  box.run(0.1);
+  const double spin = M_PI;
+  const double turn = spin * 0.1;
+  const SensorReading tip = box.reading("/Box/Tip");
+  const Vec3d out{{std::cos(turn), std::sin(turn), 0}};
+  expect_near(tip.position, {{0.1 * out[0], 0.1 * out[1], 50.2 - kG * 0.01 / 2}}, 2e-3);
+  expect_near(tip.linear_velocity, {{-spin * 0.1 * out[1], spin * 0.1 * out[0], -kG * 0.1}}, 1e-3);
+  expect_near(tip.angular_velocity, {{0, 0, spin}}, 1e-6);
+  expect_near(rotate(tip.orientation, {{1, 0, 0}}), {{-out[1], out[0], 0}}, 1e-3);
+}
+
+// A box of which one ray leads down to the ground, one to the side where nothing is, and one is too
+// short; its own shape is no obstacle.
+TEST(Sensors, RaysReadHowFarOtherThingsAre) {
+  Measured box(
+      kGround +
+      box_at(0,
+             "def IsaacRaycastSensor \"Rays\" {\n"
+             "float3[] rayDirections = [(0, 0, -1), (1, 0, 0), (0, 0, -1), (0.6, 0, -0.8)]\n"
+             "float3[] rayOrigins = [(0, 0, 0), (0, 0, 0), (0, 0, 5), (0, 0, 0.6)]\n"
+             "float maxRange = 4\n"
+             "double3 xformOp:translate = (0, 0, 0.1)\n"
+             "uniform token[] xformOpOrder = [\"xformOp:translate\"]\n}\n"));
+  box.run(0.5);
+  const std::vector<double> found = box.reading("/Box/Rays").distances;
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_NEAR(found[0], 0.3, 1e-3);
+  EXPECT_EQ(found[1], -1);
+  EXPECT_EQ(found[2], -1);
+  EXPECT_NEAR(found[3], 0.9 / 0.8, 2e-3);
+}
+
 std::string turntable(const std::string& settings) {
   return "def Xform \"Table\" (apiSchemas = [\"PhysicsRigidBodyAPI\", \"PhysicsMassAPI\"]) {\n"
          "float physics:mass = 2\n"

@@ -24,6 +24,13 @@ TEST(JoltVendorSettings, EachActsIsNamedOrIsHarmless) {
             "IsaacImuSensor orientationFilterWidth\n"
             "IsaacImuSensor sensorPeriod\n"
             "IsaacImuSensor xformOpOrder\n"
+            "IsaacRaycastSensor enabled\n"
+            "IsaacRaycastSensor maxRange\n"
+            "IsaacRaycastSensor minRange\n"
+            "IsaacRaycastSensor numRays\n"
+            "IsaacRaycastSensor rayDirections\n"
+            "IsaacRaycastSensor rayOrigins\n"
+            "IsaacRaycastSensor xformOpOrder\n"
             "MjcEqualityJointAPI mjc:target\n"
             // Compliance is named whatever its numbers, and nothing rebounds in its scene.
             "PhysxMaterialAPI physxMaterial:compliantContactAccelerationSpring\n"

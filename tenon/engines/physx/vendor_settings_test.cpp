@@ -24,6 +24,13 @@ TEST(PhysxVendorSettings, EachActsIsNamedOrIsHarmless) {
             "IsaacImuSensor orientationFilterWidth\n"
             "IsaacImuSensor sensorPeriod\n"
             "IsaacImuSensor xformOpOrder\n"
+            "IsaacRaycastSensor enabled\n"
+            "IsaacRaycastSensor maxRange\n"
+            "IsaacRaycastSensor minRange\n"
+            "IsaacRaycastSensor numRays\n"
+            "IsaacRaycastSensor rayDirections\n"
+            "IsaacRaycastSensor rayOrigins\n"
+            "IsaacRaycastSensor xformOpOrder\n"
             // Contacts that are made earlier exert nothing earlier.
             "MjcCollisionAPI mjc:gap\n"
             "MjcEqualityJointAPI mjc:target\n"

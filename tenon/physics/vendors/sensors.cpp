@@ -4,7 +4,7 @@
 // Sensors are the prims of Isaac's sensor schema that measure bodies, and prims that say with
 // tenon:sensor what they are: no published schema has a word for force-torque sensors and for those
 // of joints. A sensor belongs to the nearest enabled body at or above its prim and keeps its place
-// in it. One that has nothing to measure is left out with a finding. Rays, light and radar are not
+// in it. One that has nothing to measure is left out with a finding. Light and radar are not
 // simulated, which the list of what is not read says.
 #include <algorithm>
 #include <cmath>
@@ -26,10 +26,15 @@ struct SensorTokens {
   Token acceleration_width{"linearAccelerationFilterWidth"};
   Token velocity_width{"angularVelocityFilterWidth"};
   Token orientation_width{"orientationFilterWidth"};
+  Token max_range{"maxRange"};
+  Token min_range{"minRange"};
+  Token ray_count{"numRays"};
+  Token ray_directions{"rayDirections"};
+  Token ray_origins{"rayOrigins"};
 };
 
 bool is_typed_sensor(PrimKind kind) {
-  return kind == PrimKind::ContactSensor || kind == PrimKind::ImuSensor;
+  return kind >= PrimKind::ContactSensor && kind <= PrimKind::RaycastSensor;
 }
 
 class SensorReader {
@@ -71,16 +76,17 @@ class SensorReader {
       refuse_setting(found, state_.tokens.sensor,
                      "is ignored: the prim's type says what it measures");
     }
+    const bool rays = found.roles.kind == PrimKind::RaycastSensor;
     Sensor sensor;
-    sensor.kind = contact ? SensorKind::Contact : SensorKind::Imu;
-    if (!place(found, sensor)) {
+    sensor.kind = contact ? SensorKind::Contact : rays ? SensorKind::Rays : SensorKind::Imu;
+    if (!place(found, sensor) || (rays && !read_rays(found, sensor))) {
       return;
     }
     sensor.enabled = state_.values.flag(found.prim, tokens_.enabled, true);
     sensor.period = std::max(0.0, number(found, tokens_.period, 0));
     if (contact) {
       read_contact(found, sensor);
-    } else {
+    } else if (!rays) {
       sensor.acceleration_width = width(found, tokens_.acceleration_width);
       sensor.velocity_width = width(found, tokens_.velocity_width);
       sensor.orientation_width = width(found, tokens_.orientation_width);
@@ -127,16 +133,52 @@ class SensorReader {
     sensor.max_force = most * state_.units.force();
   }
 
+  /// Those that have a direction; false with a finding where none has.
+  bool read_rays(const PhysicsPrim& found, Sensor& sensor) {
+    using Vectors = layer::Array<Vec3f>;
+    const Vectors directions =
+        state_.values.get<Vectors>(found.prim, tokens_.ray_directions).value_or(Vectors());
+    const Vectors origins =
+        state_.values.get<Vectors>(found.prim, tokens_.ray_origins).value_or(Vectors());
+    const auto said = static_cast<double>(directions.size());
+    const double most = state_.values.authored_number(found.prim, tokens_.ray_count).value_or(said);
+    const auto count = static_cast<std::size_t>(most > 0 ? std::min(most, said) : 0);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3d direction = normalized(to_double(directions[i]));
+      const Vec3d origin = i < origins.size() ? to_double(origins[i]) : Vec3d{};
+      if (dot(direction, direction) > 0 && is_finite(origin)) {
+        sensor.ray_directions.push_back(direction);
+        sensor.ray_origins.push_back(origin * state_.units.length);
+      }
+    }
+    if (sensor.ray_directions.empty()) {
+      refuse(found, "sensor.setting", "no ray of the sensor has a direction",
+             "author rayDirections");
+      return false;
+    }
+    if (sensor.ray_directions.size() < count) {
+      refuse_setting(found, tokens_.ray_directions,
+                     "has rays without a direction or a finite origin; the others count");
+    }
+    sensor.min_range = std::max(0.0, number(found, tokens_.min_range, 0)) * state_.units.length;
+    const double farthest =
+        unlimited_or(state_.values.authored_number(found.prim, tokens_.max_range).value_or(-1));
+    sensor.max_range = farthest > 0 ? farthest * state_.units.length : kInfinity;
+    return true;
+  }
+
   void read_marked(const PhysicsPrim& found) {
     const Token kind = state_.values.get<Token>(found.prim, state_.tokens.sensor).value_or(Token());
     if (kind == "joint") {
       read_joint(found);
     } else if (kind == "forceTorque") {
-      read_force_torque(found);
+      read_placed(found, SensorKind::ForceTorque, "force-torque sensor");
+    } else if (kind == "frame") {
+      read_placed(found, SensorKind::Frame, "sensor of a frame");
     } else if (!kind.empty()) {
       state_.report(found.prim, state_.tokens.sensor, Severity::Warning, "sensor.setting",
                     "there is no sensor \"" + kind.str() + "\"; it reads nothing",
-                    "write \"forceTorque\" or \"joint\"");
+                    "write \"forceTorque\", \"frame\" or \"joint\"");
     }
   }
 
@@ -154,13 +196,13 @@ class SensorReader {
     state_.scene.sensors.push_back(sensor);
   }
 
-  void read_force_torque(const PhysicsPrim& found) {
+  void read_placed(const PhysicsPrim& found, SensorKind kind, const char* what) {
     Sensor sensor;
-    sensor.kind = SensorKind::ForceTorque;
+    sensor.kind = kind;
     if (!found.roles.xformable) {
       refuse(found, "sensor.no-body",
-             "the force-torque sensor has no transform, so it has no frame",
-             "author it on an Xform below the body that the joint holds");
+             std::string("the ") + what + " has no transform, so it has no frame",
+             "author it on an Xform below the body that it is fixed to");
     } else if (place(found, sensor)) {
       state_.scene.sensors.push_back(sensor);
     }
@@ -242,10 +284,10 @@ class SensorReader {
   }
 
   void note_rays(const stage::Prim& prim) {
-    const bool rays = prim.is_a("IsaacBaseSensor") && prim.type_name() != "IsaacContactSensor" &&
-                      prim.type_name() != "IsaacImuSensor";
-    if (rays) {
-      state_.not_read(prim, prim.type_name().str(), "rays are not simulated");
+    const Token type = prim.type_name();
+    if (prim.is_a("IsaacBaseSensor") && type != "IsaacContactSensor" && type != "IsaacImuSensor" &&
+        type != "IsaacRaycastSensor") {
+      state_.not_read(prim, type.str(), "beams of light are not simulated");
     }
     for (const char* api : {"IsaacRtxLidarSensorAPI", "IsaacRtxRadarSensorAPI"}) {
       if (prim.has_api(api)) {

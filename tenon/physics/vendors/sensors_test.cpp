@@ -140,6 +140,18 @@ TEST(SensorReading, ForceTorqueSensorsBelongToTheJointThatHoldsTheirBody) {
             "no joint holds the body </Arm> of the force-torque sensor; it reads nothing");
 }
 
+TEST(SensorReading, SensorsOfFramesBelongToTheBodyAboveThem) {
+  const ReadSensors read = read_sensors_of(
+      sensor_body("def Xform \"Tip\" {\ncustom uniform token tenon:sensor = \"frame\"\n"
+                  "double3 xformOp:translate = (1, 2, 3)\n"
+                  "uniform token[] xformOpOrder = [\"xformOp:translate\"]\n}\n"
+                  "def Scope \"Y\" {\ncustom uniform token tenon:sensor = \"frame\"\n}\n"));
+  ASSERT_EQ(read.scene.sensors.size(), 1u);
+  EXPECT_EQ(read.scene.sensors[0].kind, SensorKind::Frame);
+  EXPECT_NEAR(read.scene.sensors[0].pose.position[1], 0.02, 1e-15);
+  EXPECT_EQ(read.count("sensor.no-body"), 1u);
+}
+
 TEST(SensorReading, WordsThatFitNoPrimAreTold) {
   const ReadSensors read = read_sensors_of(sensor_body(
       "custom uniform token tenon:sensor = \"joint\"\n"
@@ -153,9 +165,25 @@ TEST(SensorReading, WordsThatFitNoPrimAreTold) {
   EXPECT_EQ(read.count("sensor.no-body"), 1u);
 }
 
-TEST(SensorReading, RaysAndMotionInsideBodiesAreListed) {
+TEST(SensorReading, TakesRaysThatHaveADirection) {
+  const ReadSensors read = read_sensors_of(sensor_body(
+      "def IsaacRaycastSensor \"A\" {\nfloat3[] rayDirections = [(0, 0, 2), (0, 0, 0), (1, 0, 0)]\n"
+      "float3[] rayOrigins = [(10, 0, 0)]\nfloat minRange = 5\nfloat maxRange = 1000\n}\n"
+      "def IsaacRaycastSensor \"B\" {\n}\n"));
+  ASSERT_EQ(read.scene.sensors.size(), 1u);
+  const scene::Sensor& rays = read.scene.sensors[0];
+  EXPECT_EQ(rays.kind, SensorKind::Rays);
+  EXPECT_EQ(rays.ray_directions, (std::vector<Vec3d>{{{0, 0, 1}}, {{1, 0, 0}}}));
+  EXPECT_NEAR(rays.ray_origins.at(0)[0], 0.1, 1e-12);
+  EXPECT_EQ(rays.ray_origins.at(1), Vec3d{});
+  EXPECT_NEAR(rays.min_range, 0.05, 1e-12);
+  EXPECT_NEAR(rays.max_range, 10, 1e-12);
+  EXPECT_EQ(read.count("sensor.setting"), 2u);  // a ray without a direction, a sensor without rays
+}
+
+TEST(SensorReading, BeamsAndMotionInsideBodiesAreListed) {
   const ReadSensors read = read_sensors_of(
-      sensor_body("def IsaacRaycastSensor \"Rays\" {\n}\n"
+      sensor_body("def IsaacLightBeamSensor \"Rays\" {\n}\n"
                   "def Camera \"Lidar\" (apiSchemas = [\"IsaacRtxLidarSensorAPI\"]) {\n}\n"
                   "def Xform \"Mount\" {\ndouble3 xformOp:translate.timeSamples = {0: (0, 0, 0), "
                   "9: (1, 0, 0)}\n"
@@ -170,7 +198,7 @@ TEST(SensorReading, RaysAndMotionInsideBodiesAreListed) {
     }
     return false;
   };
-  EXPECT_TRUE(lists("/B/Rays", "IsaacRaycastSensor"));
+  EXPECT_TRUE(lists("/B/Rays", "IsaacLightBeamSensor"));
   EXPECT_TRUE(lists("/B/Lidar", "IsaacRtxLidarSensorAPI"));
   EXPECT_TRUE(lists("/B/Mount/Imu", "xformOp:translate"));
 }

@@ -58,9 +58,10 @@ struct UnreadRow {
 };
 constexpr UnreadRow kUnread[] = {
     {"IsaacLightBeamSensor", "enabled", ""},
+    {"IsaacLightBeamSensor", "maxRange", ""},
+    {"IsaacLightBeamSensor", "minRange", ""},
+    {"IsaacLightBeamSensor", "numRays", ""},
     {"IsaacLightBeamSensor", "xformOpOrder", ""},
-    {"IsaacRaycastSensor", "enabled", ""},
-    {"IsaacRaycastSensor", "xformOpOrder", ""},
     {"MjcEqualityAPI", "", "MjcEqualityJointAPI"},
     {"MjcJointAPI", "mjc:actuatorfrclimited", ""},
     {"MjcJointAPI", "mjc:actuatorfrcrange:max", ""},

@@ -63,7 +63,8 @@ struct EnumNames<Switch> {
 };
 template <>
 struct EnumNames<SensorKind> {
-  static constexpr std::array<std::string_view, 4> kNames{"contact", "imu", "forceTorque", "joint"};
+  static constexpr std::array<std::string_view, 6> kNames{"contact", "imu",   "forceTorque",
+                                                          "joint",   "frame", "rays"};
 };
 template <>
 struct EnumNames<TendonWrap::Kind> {

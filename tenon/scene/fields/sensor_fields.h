@@ -50,6 +50,21 @@ struct Table<Sensor> {
       field<&Sensor::orientation_width>({.name = "orientationWidth",
                                          .meaning = "measurements in the mean that is read",
                                          .presence = Presence::WhenSet}),
+      field<&Sensor::ray_origins>({.name = "rayOrigins",
+                                   .meaning = "in its frame",
+                                   .unit = Unit::Meter,
+                                   .presence = Presence::WhenSet}),
+      field<&Sensor::ray_directions>({.name = "rayDirections",
+                                      .meaning = "unit, in its frame",
+                                      .presence = Presence::WhenSet}),
+      field<&Sensor::min_range>({.name = "minRange",
+                                 .meaning = "what is nearer is nothing",
+                                 .unit = Unit::Meter,
+                                 .presence = Presence::WhenSet}),
+      field<&Sensor::max_range>({.name = "maxRange",
+                                 .meaning = "what is farther is nothing",
+                                 .unit = Unit::Meter,
+                                 .presence = Presence::WhenSet}),
   };
 };
 

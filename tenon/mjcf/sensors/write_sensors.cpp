@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/mjcf/write_sensors.h"
+//
+// Each quantity that a sensor reads is a sensor of MuJoCo's, at a site that is named after the
+// prim, so that a model has them where an asset has one instrument.
+#include "tenon/mjcf/sensors/write_sensors.h"
 
 #include <cmath>
 #include <string>
@@ -36,6 +39,14 @@ class SensorWriter {
         add(mjSENS_FORCE, sensor, ".force", mjOBJ_SITE, site(sensor));
         add(mjSENS_TORQUE, sensor, ".torque", mjOBJ_SITE, site(sensor));
         return;
+      case SensorKind::Frame:
+        add(mjSENS_FRAMEPOS, sensor, ".position", mjOBJ_SITE, site(sensor));
+        add(mjSENS_FRAMEQUAT, sensor, ".orientation", mjOBJ_SITE, site(sensor));
+        add(mjSENS_FRAMELINVEL, sensor, ".velocity", mjOBJ_SITE, site(sensor));
+        add(mjSENS_FRAMEANGVEL, sensor, ".angularVelocity", mjOBJ_SITE, site(sensor));
+        return;
+      case SensorKind::Rays:
+        return write_ray(sensor);
       case SensorKind::Joint:
         return write_joint(sensor);
     }
@@ -73,6 +84,25 @@ class SensorWriter {
     return name;
   }
 
+  /// A site whose z is the ray.
+  void write_ray(const Sensor& sensor) {
+    if (sensor.ray_directions.size() != 1) {
+      return leave_out(sensor, "MuJoCo's range finders have one ray, this sensor has " +
+                                   std::to_string(sensor.ray_directions.size()));
+    }
+    const Vec3d up{{0, 0, 1}};
+    const Vec3d ray = sensor.ray_directions[0];
+    const Vec3d axis = cross(up, ray);
+    const Quatd turn =
+        rotation_about(normalized(axis, {{1, 0, 0}}), std::atan2(length(axis), dot(up, ray)));
+    Sensor along = sensor;
+    along.pose = sensor.pose * Pose{sensor.ray_origins[0], turn};
+    add(mjSENS_RANGEFINDER, along, ".range", mjOBJ_SITE, site(along));
+    if (sensor.min_range > 0 || std::isfinite(sensor.max_range)) {
+      leave_out(sensor, "the ranges of the sensor");
+    }
+  }
+
   void write_touch(const Sensor& sensor) {
     if (!std::isfinite(sensor.radius)) {
       return leave_out(sensor, "MuJoCo's touch sensors have a volume, this one is of a whole body");
@@ -95,13 +125,21 @@ class SensorWriter {
 
   void write_joint(const Sensor& sensor) {
     const scene::Joint& joint = scene_.joints[*sensor.joint];
+    const std::string ball = joint.path.str() + ".ball";
+    if (joint.kind == scene::JointKind::Spherical && !model_.joints[*sensor.joint].reversed &&
+        mjs_findElement(&spec_, mjOBJ_JOINT, ball.c_str()) != nullptr) {
+      add(mjSENS_BALLQUAT, sensor, ".position", mjOBJ_JOINT, ball);
+      add(mjSENS_BALLANGVEL, sensor, ".velocity", mjOBJ_JOINT, ball);
+      return;
+    }
     const bool one_axis =
         joint.kind == scene::JointKind::Revolute || joint.kind == scene::JointKind::Prismatic;
     const std::string name =
         one_axis ? joint.path.str() + "." + std::string(dof_name(joint.dof())) : std::string();
     if (!one_axis || model_.joints[*sensor.joint].reversed ||
         mjs_findElement(&spec_, mjOBJ_JOINT, name.c_str()) == nullptr) {
-      return leave_out(sensor, "the joint is none of one axis that runs from parent to child");
+      return leave_out(sensor,
+                       "the joint is neither of one axis nor a ball, or runs from child to parent");
     }
     add(mjSENS_JOINTPOS, sensor, ".position", mjOBJ_JOINT, name);
     add(mjSENS_JOINTVEL, sensor, ".velocity", mjOBJ_JOINT, name);

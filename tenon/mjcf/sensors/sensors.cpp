@@ -5,7 +5,7 @@
 // accelerates, turns and is oriented is an IMU, force and torque are a force-torque sensor. A joint
 // is measured as a whole. A touch sensor counts contacts in the volume of its site, of which a
 // sphere is the one that can be said elsewhere.
-#include "tenon/mjcf/sensors.h"
+#include "tenon/mjcf/sensors/sensors.h"
 
 #include <algorithm>
 #include <map>
