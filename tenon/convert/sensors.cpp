@@ -3,6 +3,7 @@
 #include "tenon/convert/sensors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tenon::convert {
@@ -20,10 +21,39 @@ void mark_sensor(LayerBuilder& builder, Path prim, const char* kind) {
   builder.set_custom(prim, "tenon:sensor", "token", Value(Token(kind)));
 }
 
+/// All rays begin at the site.
+void write_rays(RobotLayer& layer, Path site, const SiteSensor& sensor, NameScope& names) {
+  const Token type("IsaacRaycastSensor");
+  LayerBuilder& builder = layer.builder();
+  const Path prim = layer.define(site, names, sensor.name.empty() ? "rays" : sensor.name, type);
+  if (std::isfinite(sensor.max_range)) {
+    builder.set_number(prim, type, "maxRange", sensor.max_range);
+  }
+  builder.set_number(prim, type, "minRange", sensor.min_range);
+  std::vector<Vec3f> directions;
+  for (const Vec3d& direction : sensor.directions) {
+    directions.push_back(to_float(direction + Vec3d{}));
+  }
+  builder.set_value(prim, type, "numRays",
+                    Value(static_cast<std::uint32_t>(sensor.directions.size())));
+  builder.set_value(prim, type, "rayOrigins",
+                    Value(std::vector<Vec3f>(directions.size(), Vec3f{})));
+  builder.set_value(prim, type, "rayDirections", Value(std::move(directions)));
+}
+
 void write_site_sensor(RobotLayer& layer, Path site, const SiteSensor& sensor, NameScope& names) {
   LayerBuilder& builder = layer.builder();
   if (is_force_torque(sensor)) {
     mark_sensor(builder, site, "forceTorque");
+    return;
+  }
+  if (sensor.kind == SiteSensorKind::Frame) {
+    const std::string name = sensor.name.empty() ? "frame" : sensor.name;
+    mark_sensor(builder, layer.define(site, names, name, "Xform"), "frame");
+    return;
+  }
+  if (sensor.kind == SiteSensorKind::Rays) {
+    write_rays(layer, site, sensor, names);
     return;
   }
   const bool contact = sensor.kind == SiteSensorKind::Contact;

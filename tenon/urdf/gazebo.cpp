@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
+#include "tenon/base/limits/physics_limits.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/urdf/urdf_reader.h"
 
@@ -99,6 +101,7 @@ std::string name_of_sensor(pugi::xml_node element) {
 /// Where settings of one element go, and what becomes of them.
 struct GazeboSettings {
   robot::Link& link;
+  std::size_t& rays;       ///< of the robot
   bool of_joint = false;   ///< the element is of the joint above the link
   std::string without;     ///< what is left out of the last one that was taken
   pugi::xml_node colored;  ///< the one that says a colour
@@ -159,6 +162,29 @@ bool take_color(pugi::xml_node setting, GazeboSettings& settings) {
   return true;
 }
 
+/// Children of an element that were not taken.
+void leave_out_others(pugi::xml_node element, std::initializer_list<std::string_view> taken,
+                      GazeboSettings& settings) {
+  for (const pugi::xml_node child : element.children()) {
+    const std::string_view name = child.name();
+    if (child.type() == pugi::node_element &&
+        std::find(taken.begin(), taken.end(), name) == taken.end()) {
+      settings.without += (settings.without.empty() ? " without its " : ", ") + std::string(name);
+    }
+  }
+}
+
+/// A sensor at a site of its own, which has its name.
+void add_site_sensor(pugi::xml_node element, const Pose& pose, robot::SiteSensor sensor,
+                     GazeboSettings& settings) {
+  robot::Site site;
+  site.name = name_of_sensor(element);
+  site.pose = pose;
+  sensor.name = site.name;
+  site.sensors.push_back(std::move(sensor));
+  settings.link.sites.push_back(std::move(site));
+}
+
 bool take_camera(pugi::xml_node sensor, const Pose& pose, GazeboSettings& settings) {
   const pugi::xml_node described = sensor.child("camera");
   const std::optional<Pose> inner = pose_in(described.child("pose"));
@@ -182,41 +208,119 @@ bool take_camera(pugi::xml_node sensor, const Pose& pose, GazeboSettings& settin
                      number_in(clip.child("far")).value_or(100)};
   camera.settings.push_back({"resolution", {std::floor(width), std::floor(height)}, ""});
   settings.link.cameras.push_back(std::move(camera));
-  for (const char* other : {"noise", "distortion", "lens"}) {
-    settings.without += described.child(other) ? std::string(" without its ") + other : "";
-  }
+  leave_out_others(described, {"pose", "horizontal_fov", "image", "clip"}, settings);
   return true;
 }
 
-/// A sensor of a link, or of the joint above it; false: of a kind that assets have no word for.
-bool take_sensor(pugi::xml_node sensor, GazeboSettings& settings) {
-  const std::string_view kind = sensor.attribute("type").value();
-  const std::optional<Pose> pose = pose_in(sensor.child("pose"));
-  if (!pose) {
+/// The angles at which rays lie, of <horizontal> or <vertical>; empty where it makes no sense. One
+/// ray straight ahead where nothing is said.
+std::vector<double> scan_angles(pugi::xml_node scan, GazeboSettings& settings) {
+  if (!scan) {
+    return {0};
+  }
+  const pugi::xml_node counted = scan.child("samples");
+  const double samples = counted ? number_in(counted).value_or(0) : 1;
+  const std::optional<double> first = number_in(scan.child("min_angle"));
+  const std::optional<double> last = number_in(scan.child("max_angle"));
+  if (!(samples >= 1 && samples <= limits::kSensorRays) || !first || !last || *first > *last) {
+    return {};
+  }
+  const bool plain = number_in(scan.child("resolution")).value_or(1) == 1;
+  leave_out_others(scan, {"samples", "min_angle", "max_angle", plain ? "resolution" : ""},
+                   settings);
+  std::vector<double> angles;
+  const auto count = static_cast<std::size_t>(samples);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0;
+    angles.push_back(*first + share * (*last - *first));
+  }
+  return angles;
+}
+
+/// A laser scanner, which looks along x with z upwards: rows of rays from the lowest up, each from
+/// its least angle about z.
+bool take_rays(pugi::xml_node sensor, const Pose& pose, GazeboSettings& settings) {
+  pugi::xml_node described = sensor.child("ray");
+  described = described ? described : sensor.child("lidar");
+  const std::string left_out_before = settings.without;
+  const pugi::xml_node scan = described.child("scan");
+  const std::vector<double> across = scan_angles(scan.child("horizontal"), settings);
+  const std::vector<double> upwards = scan_angles(scan.child("vertical"), settings);
+  const pugi::xml_node range = described.child("range");
+  const double nearest = number_in(range.child("min")).value_or(0);
+  const double farthest = number_in(range.child("max")).value_or(kInfinity);
+  if (!scan || across.empty() || upwards.empty() || !(nearest >= 0 && nearest < farthest) ||
+      across.size() * upwards.size() > limits::kSensorRays - settings.rays) {
+    settings.without = left_out_before;
     return false;
   }
-  if (!settings.of_joint && (kind == "camera" || kind == "depth" || kind == "depth_camera" ||
-                             kind == "rgbd_camera" || kind == "rgbd")) {
-    return take_camera(sensor, *pose, settings);
+  settings.rays += across.size() * upwards.size();
+  leave_out_others(range, {"min", "max"}, settings);
+  leave_out_others(described, {"scan", "range"}, settings);
+  robot::SiteSensor rays;
+  rays.kind = SiteSensorKind::Rays;
+  rays.min_range = nearest;
+  rays.max_range = farthest;
+  const auto clean = [](double part) { return std::fabs(part) < 1e-12 ? 0 : part; };
+  for (const double up : upwards) {
+    for (const double turn : across) {
+      rays.directions.push_back({{clean(std::cos(up) * std::cos(turn)),
+                                  clean(std::cos(up) * std::sin(turn)), clean(std::sin(up))}});
+    }
   }
+  add_site_sensor(sensor, pose, std::move(rays), settings);
+  return true;
+}
+
+bool is_one_of(std::string_view kind, std::initializer_list<std::string_view> kinds) {
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+}
+
+/// What measures at one point; false: of a kind that assets have no word for.
+bool take_instrument(pugi::xml_node sensor, const Pose& pose, GazeboSettings& settings) {
+  const std::string_view kind = sensor.attribute("type").value();
   const bool measures_force = kind == "force_torque";
-  if ((kind != "imu" && kind != "contact" && !measures_force) ||
+  if (!is_one_of(kind, {"imu", "contact", "force_torque"}) ||
       (measures_force && !settings.of_joint)) {
     return false;
   }
-  robot::Site site;
-  site.name = name_of_sensor(sensor);
-  site.pose = *pose;
   robot::SiteSensor measured;
-  measured.name = site.name;
   measured.kind = kind == "imu"       ? SiteSensorKind::Imu
                   : kind == "contact" ? SiteSensorKind::Contact
                                       : SiteSensorKind::ForceTorque;
   measured.radius = -1;
   const double rate = number_in(sensor.child("update_rate")).value_or(0);
   measured.period = rate > 0 && !measures_force ? 1 / rate : 0;
-  site.sensors.push_back(std::move(measured));
-  settings.link.sites.push_back(std::move(site));
+  add_site_sensor(sensor, pose, std::move(measured), settings);
+  return true;
+}
+
+/// A sensor of a link, or of the joint above it; false: of a kind that assets have no word for.
+/// All of them measure at all times, which is no setting.
+bool take_sensor(pugi::xml_node sensor, GazeboSettings& settings) {
+  const std::string_view kind = sensor.attribute("type").value();
+  const std::optional<Pose> pose = pose_in(sensor.child("pose"));
+  if (!pose) {
+    return false;
+  }
+  if (!settings.of_joint &&
+      is_one_of(kind, {"camera", "depth", "depth_camera", "rgbd_camera", "rgbd"})) {
+    if (!take_camera(sensor, *pose, settings)) {
+      return false;
+    }
+    leave_out_others(sensor, {"pose", "camera", "always_on"}, settings);
+  } else if (!settings.of_joint && is_one_of(kind, {"ray", "gpu_ray", "lidar", "gpu_lidar"})) {
+    if (!take_rays(sensor, *pose, settings)) {
+      return false;
+    }
+    leave_out_others(sensor, {"pose", "ray", "lidar", "always_on"}, settings);
+  } else {
+    if (!take_instrument(sensor, *pose, settings)) {
+      return false;
+    }
+    leave_out_others(sensor, {"pose", kind == "force_torque" ? "" : "update_rate", "always_on"},
+                     settings);
+  }
   return true;
 }
 
@@ -255,7 +359,7 @@ void UrdfReader::read_gazebo(pugi::xml_node element) {
   }
   const bool of_joint = link == links_.end();
   robot::Link& on = model_.links[of_joint ? model_.joints[joint->second].child : link->second];
-  GazeboSettings settings{on, of_joint, {}, {}, {}};
+  GazeboSettings settings{on, rays_, of_joint, {}, {}, {}};
   std::string left;
   for (const pugi::xml_node setting : element.children()) {
     if (setting.type() != pugi::node_element) {

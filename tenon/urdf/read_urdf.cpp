@@ -61,7 +61,6 @@ constexpr Extension kExtensions[] = {
     {"ros2_control", "hardware of ros2_control"},
     {"mujoco", "settings of MuJoCo's own reading"},
     {"drake:joint", "settings for Drake"},
-    {"sensor", "a sensor"},
     {"group", "a group of MoveIt"},
 };
 
@@ -91,6 +90,9 @@ Result<robot::RobotModel> UrdfReader::run(pugi::xml_node robot) {
   TENON_CHECK(read_mimics());
   for (const pugi::xml_node child : robot.children("gazebo")) {
     read_gazebo(child);
+  }
+  for (const pugi::xml_node child : robot.children("sensor")) {
+    read_sensor(child);
   }
   for (const pugi::xml_node child : robot.children()) {
     for (const Extension& extension : kExtensions) {

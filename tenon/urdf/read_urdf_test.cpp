@@ -246,6 +246,61 @@ TEST_F(ReadUrdf, TakesSensorsOfGazebo) {
   EXPECT_EQ(link.sites[1].sensors[0].kind, robot::SiteSensorKind::ForceTorque);
 }
 
+TEST_F(ReadUrdf, TakesSensorsThatNameTheirLinkOrJoint) {
+  const auto model = read(
+      joint("fixed", "") +
+      "<gazebo reference='j'><sensor name='ft' type='force_torque'/></gazebo>"
+      "<sensor name='acc' type='accelerometer'><parent link='b'/><origin xyz='1 2 3'/></sensor>"
+      "<sensor name='ft' type='force_torque'><parent joint='j'/></sensor>\n"
+      "<sensor name='turn' type='gyroscope'><parent link='a'/><noise/></sensor>\n"
+      "<sensor name='eye' type='camera'><parent link='a'/></sensor>\n"
+      "<sensor name='lost' type='imu'><parent link='c'/></sensor>\n");
+  ASSERT_TRUE(model);
+  EXPECT_EQ(found(), "urdf.extension:5 urdf.extension:6 urdf.extension:7 ");
+  EXPECT_NE(findings_.items()[0].message.find("\"turn\" (gyroscope) without its noise"),
+            std::string::npos);
+  const robot::Link& hand = model->links[1];
+  ASSERT_EQ(hand.sites.size(), 2u);  // Gazebo speaks of the force and torque, too
+  EXPECT_EQ(hand.sites[0].sensors[0].kind, robot::SiteSensorKind::ForceTorque);
+  EXPECT_EQ(hand.sites[1].sensors[0].kind, robot::SiteSensorKind::Imu);
+  EXPECT_EQ(hand.sites[1].pose.position, (Vec3d{{1, 2, 3}}));
+  EXPECT_EQ(model->links[0].sites.at(0).sensors[0].kind, robot::SiteSensorKind::Imu);
+}
+
+TEST_F(ReadUrdf, TakesLaserScannersOfGazebo) {
+  const std::string scan =
+      "<scan><horizontal><samples>3</samples><min_angle>-1</min_angle><max_angle>1</max_angle>"
+      "</horizontal><vertical><samples>2</samples><min_angle>0</min_angle><max_angle>0.5"
+      "</max_angle></vertical></scan><range><min>0.1</min><max>30</max></range>";
+  const auto model =
+      read("<link name='a'/><gazebo reference='a'><sensor name='s' type='gpu_lidar'><lidar>" +
+           scan + "</lidar></sensor></gazebo>\n");
+  ASSERT_TRUE(model);
+  EXPECT_EQ(found(), "");
+  const robot::SiteSensor& rays = model->links[0].sites.at(0).sensors.at(0);
+  EXPECT_EQ(rays.kind, robot::SiteSensorKind::Rays);
+  EXPECT_EQ(rays.min_range, 0.1);
+  EXPECT_EQ(rays.max_range, 30);
+  ASSERT_EQ(rays.directions.size(), 6u);
+  EXPECT_EQ(rays.directions[1], (Vec3d{{1, 0, 0}}));  // straight ahead, the lower row
+  EXPECT_NEAR(rays.directions[5][0], std::cos(0.5) * std::cos(1), 1e-15);
+  EXPECT_NEAR(rays.directions[5][1], std::cos(0.5) * std::sin(1), 1e-15);
+  EXPECT_NEAR(rays.directions[5][2], std::sin(0.5), 1e-15);
+  // Where it makes no sense, or asks for too much, it is named.
+  for (const char* samples : {"0", "1e9", "many"}) {
+    const std::string bad = "<scan><horizontal><samples>" + std::string(samples) +
+                            "</samples><min_angle>0</min_angle><max_angle>1</max_angle>"
+                            "</horizontal></scan>";
+    const auto without = read(
+        "<link name='a'/><gazebo reference='a'><sensor name='s' type='ray'>"
+        "<ray>" +
+        bad + "</ray></sensor></gazebo>\n");
+    ASSERT_TRUE(without);
+    EXPECT_TRUE(without->links[0].sites.empty()) << samples;
+    EXPECT_EQ(found(), "urdf.extension:2 ") << samples;
+  }
+}
+
 TEST_F(ReadUrdf, NamesSettingsOfGazeboThatItLeavesOut) {
   ASSERT_TRUE(
       read("<link name='a'/>\n<gazebo reference='a'><mu1>much</mu1><mu2>1</mu2><kp>1</kp>"

@@ -53,6 +53,9 @@ class UrdfReader {
   // gazebo.cpp, after links and joints
   void read_gazebo(pugi::xml_node element);
 
+  // sensors.cpp, after what Gazebo says
+  void read_sensor(pugi::xml_node element);
+
   XmlReader& xml_;
   MeshPaths paths_;
   robot::RobotModel model_;
@@ -63,6 +66,7 @@ class UrdfReader {
   std::unordered_map<std::string, robot::Index> first_material_;    // by name
   std::unordered_map<std::string, pugi::xml_node> definitions_;     // in visuals, by name
   std::unordered_map<std::string, Error> refusals_;                 // of meshes, by what is written
+  std::size_t rays_ = 0;                                            // of laser scanners
   std::vector<pugi::xml_node> joint_elements_;                      // (joint_count)
 };
 

@@ -110,20 +110,23 @@ def check_gazebo(work):
     code, rules, answer = convert(URDF / "gazebo.urdf", target)
     expect("gazebo: findings", (code, rules), (0, ["urdf.extension"] * 3))
     said = " ".join(finding["message"] for finding in answer["diagnostics"])
-    for left in ("left out: maxVel", 'left out: sensor "scan" (ray)', "left out: provideFeedback"):
+    for left in ("left out: maxVel", "left out: provideFeedback", 'sensor "ping" (sonar)',
+                 'sensor "scan" (gpu_ray) without its resolution, noise, update_rate, plugin'):
         expect(f"gazebo: {left}", left in said, True)
     scene = physics(target)
     expect("gazebo: gravity", {name: body["gravityScale"]
                                for name, body in by_name(scene["bodies"]).items()},
            {"base": 1, "head": 0})
     expect("gazebo: sensors", sorted(sensor["kind"] for sensor in scene["sensors"]),
-           ["contact", "forceTorque", "imu"])
+           ["contact", "forceTorque", "imu", "rays"])
     near("gazebo: friction", max(m["dynamicFriction"] for m in scene["materials"]), 0.8, 1e-6)
     soft = max((m["compliance"] for m in scene["materials"]), key=lambda law: law["stiffness"])
     expect("gazebo: springs", (soft["stiffness"], soft["damping"]), (1e6, 100))
     text = target.read_text()
     for wanted in ('def Material "Orange"', 'def Camera "eye"', "clippingRange = (0.05, 20)",
-                   "sensorPeriod = 0.005", "newton:contactStiffness = 1000000"):
+                   "sensorPeriod = 0.005", "newton:contactStiffness = 1000000",
+                   'def IsaacRaycastSensor "scan"', "maxRange = 30", "uint numRays = 3",
+                   "rayDirections = [(0, -1, 0), (1, 0, 0), (0, 1, 0)]"):
         expect(f"gazebo: {wanted}", wanted in text, True)
 
 

@@ -15,6 +15,7 @@ inline constexpr std::size_t kShapeSamples = 4'000;           ///< of shapes tha
 inline constexpr std::size_t kObjectReadings = 2'000'000;     ///< prims read again, of all samples
 inline constexpr std::size_t kHullPoints = 10'000;            ///< corners of a hull
 inline constexpr std::size_t kSensorWidth = 10'000;           ///< measurements in a sensor's mean
+inline constexpr std::size_t kSensorRays = 1'000'000;         ///< of all sensors of a robot
 inline constexpr std::size_t kNestingStates = 1'000;          ///< of bodies switched off in others
 
 }  // namespace tenon::limits
