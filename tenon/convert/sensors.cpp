@@ -29,7 +29,9 @@ void write_rays(RobotLayer& layer, Path site, const SiteSensor& sensor, NameScop
   if (std::isfinite(sensor.max_range)) {
     builder.set_number(prim, type, "maxRange", sensor.max_range);
   }
-  builder.set_number(prim, type, "minRange", sensor.min_range);
+  if (sensor.min_range > 0) {
+    builder.set_number(prim, type, "minRange", sensor.min_range);
+  }
   std::vector<Vec3f> directions;
   for (const Vec3d& direction : sensor.directions) {
     directions.push_back(to_float(direction + Vec3d{}));

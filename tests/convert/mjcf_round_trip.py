@@ -148,7 +148,7 @@ def sensordata(path):
         of_turn = "turn" in model.joint(model.sensor_objid[i]).name \
             if model.sensor_objtype[i] == mujoco.mjtObj.mjOBJ_JOINT else False
         key = (int(model.sensor_type[i]), of_turn)
-        found[key] = data.sensordata[first:first + model.sensor_dim[i]].copy()
+        found.setdefault(key, []).append(data.sensordata[first:first + model.sensor_dim[i]].copy())
     return found
 
 
@@ -162,11 +162,12 @@ def check_sensors(work):
     round_trip.without_source(first)
     run("convert", first, back)
     before, after = sensordata(source), sensordata(back)
-    for key, wanted in before.items():
+    for key, (wanted,) in before.items():
         if key not in after:
             faults.append(f"sensors: {key} is lost")
         elif key[0] != int(mujoco.mjtSensor.mjSENS_TOUCH):  # contacts are as soft as chosen
-            near(f"sensor {key}", after[key], wanted)
+            nearest = min(after[key], key=lambda found: abs(found - wanted).max())
+            near(f"sensor {key}", nearest, wanted)
 
 
 FRAMES = ("body_pos", "body_quat", "body_ipos", "body_mass", "geom_type", "geom_pos",

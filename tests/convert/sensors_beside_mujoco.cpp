@@ -108,7 +108,8 @@ void compare(const Values& own, const Values& theirs, std::map<std::string, Gap>
 }
 
 bool is_state(const std::string& name) {
-  return name == "gyro" || name == "orientation" || name == "angle" || name == "speed";
+  return name == "gyro" || name == "orientation" || name == "angle" || name == "speed" ||
+         name == "place" || name == "range" || name == "pace" || name == "spin";
 }
 
 /// As a share of the largest reading.
@@ -117,7 +118,7 @@ double tolerance_of(const std::string& name) {
 }
 
 int judge(const std::map<std::string, Gap>& gaps) {
-  int faults = gaps.size() == 9 ? 0 : 1;
+  int faults = gaps.size() == 13 ? 0 : 1;
   for (const auto& [name, gap] : gaps) {
     const bool near = gap.apart <= tolerance_of(name) * gap.size && gap.size > 1e-3;
     std::printf("%-14s largest %-10.5g apart %-10.3g%s\n", name.c_str(), gap.size, gap.apart,

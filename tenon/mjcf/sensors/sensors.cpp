@@ -2,22 +2,50 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // MuJoCo's sensors are single quantities; those of one site are parts of one instrument: what
-// accelerates, turns and is oriented is an IMU, force and torque are a force-torque sensor. A joint
-// is measured as a whole. A touch sensor counts contacts in the volume of its site, of which a
-// sphere is the one that can be said elsewhere.
+// accelerates, turns and is oriented is an IMU, force and torque are a force-torque sensor, places
+// and velocities in the world those of a frame. A joint is measured as a whole. A touch sensor
+// counts contacts in the volume of its site, of which a sphere is the one that can be said
+// elsewhere. A range finder is a ray. What is measured of a body, a shape or a camera is measured
+// at a site of its own in the asset.
 #include "tenon/mjcf/sensors/sensors.h"
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "tenon/engines/mujoco/model.h"
 
 namespace tenon::mjcf {
 namespace {
 
+using engines::mujoco::read_quaternion;
+using engines::mujoco::read_vector;
 using robot::Index;
 using robot::SiteSensorKind;
+
+/// What the elements are called, in the order of mjtSensor.
+constexpr std::string_view kSensorWords =
+    "touch accelerometer velocimeter gyro force torque magnetometer rangefinder "
+    "camprojection jointpos jointvel tendonpos tendonvel actuatorpos actuatorvel actuatorfrc "
+    "jointactuatorfrc tendonactuatorfrc ballquat ballangvel jointlimitpos jointlimitvel "
+    "jointlimitfrc tendonlimitpos tendonlimitvel tendonlimitfrc framepos framequat "
+    "framexaxis frameyaxis framezaxis framelinvel frameangvel framelinacc frameangacc "
+    "subtreecom subtreelinvel subtreeangmom insidesite distance normal fromto contact "
+    "e_potential e_kinetic clock tactile plugin user";
+static_assert(std::count(kSensorWords.begin(), kSensorWords.end(), ' ') == mjSENS_USER,
+              "MuJoCo has other sensors");
+
+std::string word_of_sensor(int kind) {
+  std::string_view words = kSensorWords;
+  for (int i = 0; i < kind; ++i) {
+    words.remove_prefix(words.find(' ') + 1);
+  }
+  return std::string(words.substr(0, words.find(' ')));
+}
 
 class SensorList {
  public:
@@ -38,10 +66,11 @@ class SensorList {
         leave_out(i);
       }
     }
-    for (const auto& [why, lines] : left_out_) {
-      source_.left_out(std::to_string(lines.size()) + (lines.size() == 1 ? " sensor" : " sensors") +
-                           why + lines_text(lines),
-                       lines.front());
+    for (const auto& [why, left] : left_out_) {
+      source_.left_out(std::to_string(left.lines.size()) +
+                           (left.lines.size() == 1 ? " sensor" : " sensors") + why + " (" +
+                           left.kinds + ")" + lines_text(left.lines),
+                       left.lines.front());
     }
     if (touches_) {
       source_.report(Severity::Info, "mjcf.touch",
@@ -54,41 +83,122 @@ class SensorList {
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
   void leave_out(int sensor, const char* what = " left out, which have no form in USD") {
-    left_out_[what].push_back(source_.line_of(mjOBJ_SENSOR, sensor));
+    LeftOut& left = left_out_[what];
+    const std::string kind = word_of_sensor(model_.sensor_type[sensor]);
+    if ((", " + left.kinds + ",").find(", " + kind + ",") == std::string::npos) {
+      left.kinds += (left.kinds.empty() ? "" : ", ") + kind;
+    }
+    left.lines.push_back(source_.line_of(mjOBJ_SENSOR, sensor));
   }
 
   /// Whether it measures something that sites and joints can say.
   bool take(int sensor) {
+    const int object = model_.sensor_objid[sensor];
+    switch (model_.sensor_type[sensor]) {
+      case mjSENS_JOINTPOS:
+      case mjSENS_JOINTVEL:
+      case mjSENS_BALLQUAT:
+      case mjSENS_BALLANGVEL:
+        return take_joint(object);
+      case mjSENS_JOINTACTFRC:
+        return is_driven(object) && take_joint(object);
+      case mjSENS_ACTUATORFRC:
+        return is_of_joint(object, true) && take_actuator(object);
+      case mjSENS_ACTUATORPOS:
+      case mjSENS_ACTUATORVEL:
+        return is_of_joint(object, false) && take_actuator(object);
+      case mjSENS_FRAMEQUAT:
+        return take_frame(sensor, is_of_site(sensor) ? SiteSensorKind::Imu : SiteSensorKind::Frame);
+      case mjSENS_FRAMELINACC:  // it feels what holds it, as accelerometers do
+        return take_frame(sensor, SiteSensorKind::Imu);
+      default:
+        return is_of_frame(sensor) ? take_frame(sensor, SiteSensorKind::Frame)
+                                   : take_instrument(sensor);
+    }
+  }
+
+  bool is_of_frame(int sensor) const {
+    const int kind = model_.sensor_type[sensor];
+    return kind == mjSENS_FRAMEPOS || kind == mjSENS_VELOCIMETER ||
+           (kind >= mjSENS_FRAMEXAXIS && kind <= mjSENS_FRAMEANGVEL);
+  }
+
+  /// What is of sites alone.
+  bool take_instrument(int sensor) {
+    const int site = model_.sensor_objid[sensor];
     switch (model_.sensor_type[sensor]) {
       case mjSENS_ACCELEROMETER:
       case mjSENS_GYRO:
         return take_site(sensor, SiteSensorKind::Imu);
-      case mjSENS_FRAMEQUAT:
-        return model_.sensor_objtype[sensor] == mjOBJ_SITE && model_.sensor_refid[sensor] < 0 &&
-               take_site(sensor, SiteSensorKind::Imu);
       case mjSENS_TOUCH:
-        return model_.site_type[model_.sensor_objid[sensor]] == mjGEOM_SPHERE &&
+        return model_.site_type[site] == mjGEOM_SPHERE &&
                take_site(sensor, SiteSensorKind::Contact);
       case mjSENS_FORCE:
       case mjSENS_TORQUE:
-        return is_held(model_.site_bodyid[model_.sensor_objid[sensor]]) &&
-               take_site(sensor, SiteSensorKind::ForceTorque);
-      case mjSENS_JOINTPOS:
-      case mjSENS_JOINTVEL:
-        return take_joint(model_.sensor_objid[sensor]);
-      case mjSENS_JOINTACTFRC:
-        return is_driven(model_.sensor_objid[sensor]) && take_joint(model_.sensor_objid[sensor]);
-      case mjSENS_ACTUATORFRC:
-        return take_actuator(model_.sensor_objid[sensor]);
+        return is_held(model_.site_bodyid[site]) && take_site(sensor, SiteSensorKind::ForceTorque);
+      case mjSENS_RANGEFINDER:
+        return is_of_site(sensor) && model_.sensor_dim[sensor] == 1 &&
+               take_site(sensor, SiteSensorKind::Rays);
       default:
         return false;
     }
   }
 
+  bool is_of_site(int sensor) const { return model_.sensor_objtype[sensor] == mjOBJ_SITE; }
+
+  /// Of a frame in the world; one in another frame has no form.
+  bool take_frame(int sensor, SiteSensorKind kind) {
+    if (model_.sensor_refid[sensor] >= 0) {
+      return false;
+    }
+    if (is_of_site(sensor)) {
+      return model_.site_bodyid[model_.sensor_objid[sensor]] != 0 && take_site(sensor, kind);
+    }
+    const auto frame = frame_of(model_.sensor_objtype[sensor], at(model_.sensor_objid[sensor]));
+    if (!frame || frame->first == 0) {
+      return false;
+    }
+    return take_at(sensor, kind,
+                   site_at(sensor, tree_.link_of_body[at(frame->first)], frame->second));
+  }
+
+  /// The body that an object belongs to and its place there; none: it has no frame.
+  std::optional<std::pair<int, Pose>> frame_of(int kind, std::size_t object) const {
+    const auto pose = [&](const mjtNum* position, const mjtNum* rotation) {
+      return Pose{read_vector(position + 3 * object), read_quaternion(rotation + 4 * object)};
+    };
+    switch (kind) {
+      case mjOBJ_XBODY:
+        return std::pair(static_cast<int>(object), Pose{});
+      case mjOBJ_BODY:
+        return std::pair(static_cast<int>(object), pose(model_.body_ipos, model_.body_iquat));
+      case mjOBJ_GEOM:
+        return std::pair(model_.geom_bodyid[object], pose(model_.geom_pos, model_.geom_quat));
+      case mjOBJ_CAMERA:
+        return std::pair(model_.cam_bodyid[object], pose(model_.cam_pos, model_.cam_quat));
+      default:
+        return std::nullopt;
+    }
+  }
+
+  /// The site that stands for what is measured and is none, made where there is none yet.
+  robot::Site& site_at(int sensor, Index link, const Pose& pose) {
+    std::vector<robot::Site>& sites = tree_.links[link].sites;
+    const auto key = std::pair(model_.sensor_objtype[sensor], model_.sensor_objid[sensor]);
+    const auto [known, is_new] = made_.emplace(key, sites.size());
+    if (is_new) {
+      sites.push_back({source_.name(mjOBJ_SENSOR, sensor, "frame"), pose});
+    }
+    return sites[known->second];
+  }
+
   bool take_site(int sensor, SiteSensorKind kind) {
-    const int site = model_.sensor_objid[sensor];
-    const auto& [link, number] = sites_[at(site)];
-    std::vector<robot::SiteSensor>& sensors = tree_.links[link].sites[number].sensors;
+    const auto& [link, number] = sites_[at(model_.sensor_objid[sensor])];
+    return take_at(sensor, kind, tree_.links[link].sites[number]);
+  }
+
+  bool take_at(int sensor, SiteSensorKind kind, robot::Site& site) {
+    std::vector<robot::SiteSensor>& sensors = site.sensors;
     const auto same = [&](const robot::SiteSensor& other) { return other.kind == kind; };
     if (std::any_of(sensors.begin(), sensors.end(), same)) {
       return true;
@@ -97,8 +207,11 @@ class SensorList {
     added.name = source_.written_name(mjOBJ_SENSOR, sensor);
     added.kind = kind;
     if (kind == SiteSensorKind::Contact) {
-      added.radius = model_.site_size[3 * at(site)];
+      added.radius = model_.site_size[3 * at(model_.sensor_objid[sensor])];
       touches_ = true;
+    }
+    if (kind == SiteSensorKind::Rays) {
+      added.directions.push_back({{0, 0, 1}});
     }
     return true;
   }
@@ -118,12 +231,15 @@ class SensorList {
     return true;
   }
 
-  /// Its force is that of the joint's drive where one unit of it is one of the joint.
-  bool take_actuator(int actuator) {
+  /// One unit of the actuator is one of its joint, which its drive moves where that is asked.
+  bool is_of_joint(int actuator, bool driven) const {
     const int joint = model_.actuator_trnid[2 * at(actuator)];
-    return model_.actuator_trntype[actuator] == mjTRN_JOINT && is_driven(joint) &&
-           model_.actuator_gear[6 * at(actuator)] == 1 && take_joint(joint);
+    const bool turns =
+        model_.actuator_trntype[actuator] == mjTRN_JOINT &&
+        (model_.jnt_type[joint] == mjJNT_HINGE || model_.jnt_type[joint] == mjJNT_SLIDE);
+    return turns && (!driven || is_driven(joint)) && model_.actuator_gear[6 * at(actuator)] == 1;
   }
+  bool take_actuator(int actuator) { return take_joint(model_.actuator_trnid[2 * at(actuator)]); }
 
   void tell_settings(int sensor) {
     if (model_.sensor_cutoff[sensor] > 0) {
@@ -140,8 +256,14 @@ class SensorList {
   MjcfSource& source_;
   const mjModel& model_;
   BodyTree& tree_;
-  std::vector<std::pair<Index, std::size_t>> sites_;            ///< link and number of each site
-  std::map<std::string, std::vector<std::uint32_t>> left_out_;  ///< lines, by what becomes of them
+  struct LeftOut {
+    std::string kinds;
+    std::vector<std::uint32_t> lines;
+  };
+
+  std::vector<std::pair<Index, std::size_t>> sites_;  ///< link and number of each site
+  std::map<std::pair<int, int>, std::size_t> made_;   ///< sites of other objects, in their links
+  std::map<std::string, LeftOut> left_out_;           ///< by what becomes of them
   bool touches_ = false;
 };
 

@@ -57,13 +57,14 @@ class SensorWriter {
     report_left_out(diagnostics_, sensor.path, "", what + ", which is left out");
   }
 
-  void add(mjtSensor type, const Sensor& sensor, const char* suffix, mjtObj kind,
-           const std::string& object) {
+  mjsSensor* add(mjtSensor type, const Sensor& sensor, const char* suffix, mjtObj kind,
+                 const std::string& object) {
     mjsSensor* made = mjs_addSensor(&spec_);
     made->type = type;
     made->objtype = kind;
     mjs_setString(made->objname, object.c_str());
     mjs_setName(made->element, (sensor.path.str() + suffix).c_str());
+    return made;
   }
 
   /// The site at the sensor, named after its prim; a tendon or an actuator may have made it.
@@ -97,7 +98,8 @@ class SensorWriter {
         rotation_about(normalized(axis, {{1, 0, 0}}), std::atan2(length(axis), dot(up, ray)));
     Sensor along = sensor;
     along.pose = sensor.pose * Pose{sensor.ray_origins[0], turn};
-    add(mjSENS_RANGEFINDER, along, ".range", mjOBJ_SITE, site(along));
+    mjsSensor* made = add(mjSENS_RANGEFINDER, along, ".range", mjOBJ_SITE, site(along));
+    made->intprm[0] = 1 << mjRAYDATA_DIST;
     if (sensor.min_range > 0 || std::isfinite(sensor.max_range)) {
       leave_out(sensor, "the ranges of the sensor");
     }
