@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/update.h"
 
-#include <filesystem>
-
 #include "cli/output.h"
 #include "tenon/base/text/shown_path.h"
 
@@ -31,13 +29,11 @@ Result<std::optional<UpdateOutcome>> update(const structure::Package& made,
                                             const std::string& folder,
                                             const UpdateArguments& options, bool dry_run,
                                             Diagnostics& diagnostics) {
-  std::error_code error;
-  if (!std::filesystem::exists(std::filesystem::path(folder) / made.interface, error)) {
+  TENON_TRY(auto updated, update_folder(made, folder, options.keep(), diagnostics));
+  if (!updated) {
     return std::optional<UpdateOutcome>();
   }
-  const std::string place = std::filesystem::canonical(folder, error).string();
-  UpdateOutcome outcome;
-  TENON_TRY(outcome.asset, update_asset(made, error ? folder : place, options.keep(), diagnostics));
+  UpdateOutcome outcome{*std::move(updated)};
   outcome.written = !dry_run && (options.conflicts != "fail" || outcome.asset.conflicts.empty());
   if (outcome.written) {
     TENON_CHECK(write_edits(outcome.asset.files));

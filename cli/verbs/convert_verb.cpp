@@ -234,6 +234,12 @@ int run_convert(const Globals& globals, const ConvertArguments& options) {
   Report report(globals, "convert", options.input);
   const Progress progress(globals, "converting " + shown_path(options.input));
   if (ends_in(options.input, {".usda", ".usdc", ".usd", ".usdz"})) {
+    if (options.update.update) {
+      return report.fail(Error(ErrorCode::Unsupported,
+                               "--update is about assets, and this makes "
+                               "a description of one")
+                             .with_fix("leave --update out"));
+    }
     if (ends_in(options.output, {".urdf"})) {
       return run_export(report, options, DescriptionFormat::Urdf);
     }

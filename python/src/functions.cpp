@@ -36,6 +36,8 @@
 #include "tenon/asset/layers/output_place.h"
 #include "tenon/asset/structure_asset.h"
 #include "tenon/asset/updating/base_copy.h"
+#include "tenon/asset/updating/update_asset.h"
+#include "tenon/asset/updating/updated_json.h"
 #include "tenon/check/rule.h"
 #include "tenon/guard/worker_place.h"
 #include "tenon/make_simulation.h"
@@ -139,6 +141,43 @@ ConvertFileOptions convert_options(const OpenArguments& arguments, const std::st
   return options;
 }
 
+/// What becomes of an asset that is there already: nothing of this, or it is made anew from its
+/// source and keeps its edits.
+struct UpdateArguments {
+  bool update = false;
+  std::string conflicts;  ///< "edits", "source" or "fail"
+
+  diff::Side keep() const { return conflicts == "source" ? diff::Side::Source : diff::Side::Edits; }
+};
+
+/// The asset in `folder` with what the source changed, written; nothing where none is there or
+/// wanted. Errors: those of update_folder; Invalid "update.conflict" where conflicts are to fail.
+Result<std::optional<UpdatedAsset>> update_written(const structure::Package& made,
+                                                   const std::string& folder,
+                                                   const UpdateArguments& how, Diagnostics& found) {
+  if (!how.update) {
+    return std::optional<UpdatedAsset>();
+  }
+  TENON_TRY(auto updated, update_folder(made, folder, how.keep(), found));
+  if (updated && how.conflicts == "fail" && !updated->conflicts.empty()) {
+    return Error(ErrorCode::Invalid, "edits and the source changed the same thing, in " +
+                                         std::to_string(updated->conflicts.size()) +
+                                         " places; nothing is written")
+        .in_file(folder)
+        .with_rule("update.conflict")
+        .with_fix("give conflicts=\"edits\" or \"source\"");
+  }
+  if (updated) {
+    TENON_CHECK(write_files(updated->files));
+  }
+  return updated;
+}
+
+Json with_update(Json answer, const std::optional<UpdatedAsset>& updated,
+                 const UpdateArguments& how) {
+  return updated ? with_updated(std::move(answer), *updated, how.keep()) : answer;
+}
+
 /// What was edited since it was written stays, unless it is forced.
 Result<void> write_noted(const NotedFiles& made, const std::string& output, bool force) {
   if (!force) {
@@ -147,24 +186,55 @@ Result<void> write_noted(const NotedFiles& made, const std::string& output, bool
   return write_made(made.files);
 }
 
-/// A description as an asset: a folder of Asset Structure 3.0, or a file.
-Result<Json> import_robot(const std::string& input, const std::string& output,
-                          const ConvertFileOptions& options, bool force, Diagnostics& found) {
-  GuardedRun guard;
-  const bool folder = names_folder(output);
-  TENON_CHECK(folder  ? structure::check_folder(output, {.force = force})
-              : force ? Result<void>()
-                      : structure::check_not_edited(output));
-  TENON_TRY(ConvertedFile converted, convert_file(input, options, found));
-  const RobotCounts counts = counts_of(converted);
-  if (folder) {
-    TENON_TRY(const structure::StructuredAsset asset, structured_robot(converted, found));
-    TENON_CHECK(write_with_base(asset.package, output, {.force = force}));
-  } else {
-    TENON_TRY(const NotedFiles made, robot_files(std::move(converted), output, found));
+/// Where nothing but an asset that nobody edited may be written over.
+Result<void> check_free(const std::string& output, bool folder, bool force) {
+  return folder  ? structure::check_folder(output, {.force = force})
+         : force ? Result<void>()
+                 : structure::check_not_edited(output);
+}
+
+/// A robot in one file, with what stands beside it.
+Result<std::optional<UpdatedAsset>> write_robot_file(ConvertedFile converted,
+                                                     const std::string& output, bool force,
+                                                     const UpdateArguments& how,
+                                                     Diagnostics& found) {
+  TENON_TRY(const NotedFiles made, robot_files(std::move(converted), output, found));
+  std::optional<UpdatedAsset> updated;
+  if (how.update) {
+    TENON_TRY(const structure::Package package, package_of(made, output));
+    const std::string folder = std::filesystem::absolute(output).parent_path().string();
+    TENON_TRY(updated, update_written(package, folder, how, found));
+  }
+  if (!updated) {
     TENON_CHECK(write_noted(made, output, force));
   }
-  return converted_json(counts, output);
+  return updated;
+}
+
+/// A description as an asset: a folder of Asset Structure 3.0, or a file.
+Result<Json> import_robot(const std::string& input, const std::string& output,
+                          const ConvertFileOptions& options, bool force, const UpdateArguments& how,
+                          Diagnostics& found) {
+  GuardedRun guard;
+  const bool folder = names_folder(output);
+  if (how.update && !folder && output.ends_with(".usdz")) {
+    return Error(ErrorCode::Unsupported, "a package cannot be updated")
+        .with_fix("convert into a folder, or give force=True to make the package anew");
+  }
+  TENON_CHECK(how.update ? Result<void>() : check_free(output, folder, force));
+  TENON_TRY(ConvertedFile converted, convert_file(input, options, found));
+  const RobotCounts counts = counts_of(converted);
+  std::optional<UpdatedAsset> updated;
+  if (folder) {
+    TENON_TRY(const structure::StructuredAsset asset, structured_robot(converted, found));
+    TENON_TRY(updated, update_written(asset.package, output, how, found));
+    if (!updated) {
+      TENON_CHECK(write_with_base(asset.package, output, {.force = force}));
+    }
+  } else {
+    TENON_TRY(updated, write_robot_file(std::move(converted), output, force, how, found));
+  }
+  return with_update(converted_json(counts, output), updated, how);
 }
 
 /// An asset as a description: MJCF or URDF.
@@ -190,23 +260,32 @@ bool is_asset(const std::filesystem::path& path) {
 nb::object convert(const std::filesystem::path& input, const std::filesystem::path& output,
                    const OpenArguments& arguments, const std::string& name,
                    const std::string& gains, bool fix_base, bool float_base, bool merge_fixed,
-                   bool scene, const std::map<std::string, std::string>& packages, bool force) {
+                   bool scene, const std::map<std::string, std::string>& packages, bool force,
+                   bool update, const std::string& conflicts) {
   const ConvertFileOptions options =
       convert_options(arguments, name, gains, fix_base, float_base, merge_fixed, scene, packages);
   Diagnostics found;
-  const Json json = or_raise(
-      unlocked([&] {
-        return is_asset(input)
-                   ? export_robot(input.string(), output.string(), options.open, force, found)
-                   : import_robot(input.string(), output.string(), options, force, found);
-      }),
-      found);
+  const Json json =
+      or_raise(unlocked([&]() -> Result<Json> {
+                 if (!is_asset(input)) {
+                   return import_robot(input.string(), output.string(), options, force,
+                                       {update, conflicts}, found);
+                 }
+                 if (update) {
+                   return Error(ErrorCode::Unsupported,
+                                "update is about assets, and this makes a description of one")
+                       .with_fix("leave update out");
+                 }
+                 return export_robot(input.string(), output.string(), options.open, force, found);
+               }),
+               found);
   return answered(json, found);
 }
 
 nb::object structure(const std::filesystem::path& path, const std::filesystem::path& folder,
                      const OpenArguments& arguments, const std::string& name, bool force,
-                     const std::vector<std::string>& engines) {
+                     const std::vector<std::string>& engines, bool update,
+                     const std::string& conflicts) {
   structure::StructureOptions options;
   options.name = name;
   options.engines = engines;
@@ -214,15 +293,20 @@ nb::object structure(const std::filesystem::path& path, const std::filesystem::p
   const Json json = or_raise(
       unlocked([&]() -> Result<Json> {
         GuardedRun guard;
-        if (!folder.empty()) {
+        const UpdateArguments how{update, conflicts};
+        if (!folder.empty() && !update) {
           TENON_CHECK(structure::check_folder(folder.string(), {.force = force}));
         }
         TENON_TRY(const structure::StructuredAsset asset,
                   structure_asset(path.string(), open_options_of(arguments), options, found));
-        if (!folder.empty()) {
+        if (folder.empty()) {
+          return structured_json(asset);
+        }
+        TENON_TRY(const auto updated, update_written(asset.package, folder.string(), how, found));
+        if (!updated) {
           TENON_CHECK(write_with_base(asset.package, folder.string(), {.force = force}));
         }
-        return structured_json(asset);
+        return with_update(structured_json(asset), updated, how);
       }),
       found);
   return answered(json, found);
@@ -296,15 +380,18 @@ void bind_functions(nb::module_& module) {
   bind_checks(module);
   module.def("convert", &convert, "input"_a, "output"_a, "arguments"_a, "name"_a, "gains"_a,
              "fix_base"_a, "float_base"_a, "merge_fixed"_a, "scene"_a, "packages"_a, "force"_a,
+             "update"_a, "conflicts"_a,
              nb::sig("def convert(input: str | os.PathLike[str], output: str | os.PathLike[str], "
                      "arguments: OpenArguments, name: str, gains: str, fix_base: bool, "
                      "float_base: bool, merge_fixed: bool, scene: bool, "
-                     "packages: Mapping[str, str], force: bool) -> dict[str, Any]"));
+                     "packages: Mapping[str, str], force: bool, update: bool, "
+                     "conflicts: str) -> dict[str, Any]"));
   module.def("structure", &structure, "path"_a, "folder"_a, "arguments"_a, "name"_a, "force"_a,
-             "engines"_a,
+             "engines"_a, "update"_a, "conflicts"_a,
              nb::sig("def structure(path: str | os.PathLike[str], "
                      "folder: str | os.PathLike[str], arguments: OpenArguments, name: str, "
-                     "force: bool, engines: Sequence[str]) -> dict[str, Any]"));
+                     "force: bool, engines: Sequence[str], update: bool, conflicts: str) "
+                     "-> dict[str, Any]"));
   module.def("new_asset", &make_new, "path"_a, "up_axis"_a, "meters_per_unit"_a,
              "kilograms_per_unit"_a, "default_prim"_a,
              nb::sig("def new_asset(path: str | os.PathLike[str], up_axis: str, "

@@ -129,6 +129,11 @@ def compare(
     )
 
 
+def _check_conflicts(conflicts: str) -> None:
+    if conflicts not in ("edits", "source", "fail"):
+        raise ValueError(f"conflicts is {conflicts!r}; expected edits, source or fail")
+
+
 def convert(
     input: PathLike,
     output: PathLike,
@@ -141,6 +146,8 @@ def convert(
     scene: bool = False,
     packages: Mapping[str, PathLike] | None = None,
     force: bool = False,
+    update: bool = False,
+    conflicts: str = "edits",
     **options: Unpack[OpenOptions],
 ) -> dict[str, Any]:
     """A robot's description (URDF, MJCF) as an asset, or an asset as a description.
@@ -149,7 +156,13 @@ def convert(
     `gains` are K, D of a drive for each joint [N m/rad, N m s/rad or N/m, N s/m], or a JSON file.
     `packages` are folders of ROS packages by name. Files that were edited since they were written
     stay, unless `force`. Returns {"output", "links", "joints", "diagnostics"}.
+
+    `update` takes over what the source changed since and keeps what was edited in `output`, and
+    adds "updated": {"files", "edits", "changes", "moved", "conflicts"}; give the options that the
+    asset was made with. Where both changed the same thing `conflicts` decides: "edits", "source",
+    or "fail", which writes nothing and raises InvalidError of the rule "update.conflict".
     """
+    _check_conflicts(conflicts)
     if not isinstance(gains, str):
         gains = f"{float(gains[0])!r},{float(gains[1])!r}"
     folders = {key: str(folder) for key, folder in (packages or {}).items()}
@@ -165,6 +178,8 @@ def convert(
         scene,
         folders,
         force,
+        update,
+        conflicts,
     )
 
 
@@ -175,15 +190,28 @@ def structure(
     name: str = "",
     engines: Sequence[str] = (),
     force: bool = False,
+    update: bool = False,
+    conflicts: str = "edits",
     **options: Unpack[OpenOptions],
 ) -> dict[str, Any]:
     """An asset in Asset Structure 3.0, proven to be the same and written to `folder`.
 
     Without a folder nothing is written. `engines` get a variant and a layer of their own. Returns
-    {"interface", "files", "variants", "selection", "moved", "diagnostics"}.
+    {"interface", "files", "variants", "selection", "moved", "diagnostics"}. `update` and
+    `conflicts` are those of convert(), for an asset in `folder` that was made of `path`.
     """
+    _check_conflicts(conflicts)
+    if update and folder is None:
+        raise ValueError("update is about an asset in a folder; give the folder")
     return _tenon.structure(
-        path, "" if folder is None else folder, arguments_of(options), name, force, list(engines)
+        path,
+        "" if folder is None else folder,
+        arguments_of(options),
+        name,
+        force,
+        list(engines),
+        update,
+        conflicts,
     )
 
 

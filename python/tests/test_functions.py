@@ -3,7 +3,9 @@
 """The verbs as functions, beside what the program in the wheel prints."""
 
 import json
+import math
 import os
+import re
 import shutil
 import subprocess
 import sysconfig
@@ -130,6 +132,54 @@ class Files(support.FilesTestCase):
             tenon.convert(robot, edited)
         self.assertEqual(caught.exception.rule, "output.edited")
         tenon.convert(robot, edited, force=True)
+
+    def test_an_asset_follows_its_source_and_keeps_its_edits(self):
+        robot = self.folder / "arm.urdf"
+        shutil.copytree(ROBOT.parent, self.folder, dirs_exist_ok=True)
+        text = robot.read_text()
+        upper = re.search(r'<limit [^>]*upper="([^"]*)"', text)[1]
+        for output in (self.folder / "arm", self.folder / "one.usda"):
+            robot.write_text(text)
+            # What is not there is made.
+            self.assertNotIn("updated", tenon.convert(robot, output, update=True))
+            (interface,) = output.glob("*.usda") if output.is_dir() else (output,)
+            stage = tenon.open(interface)
+            joint = next(row for row in stage.physics().joints if math.isfinite(row.upper))
+            stage[joint.path]["physics:upperLimit"] = 11.0
+            stage.save()
+            robot.write_text(text.replace('mass value="', 'mass value="1'))
+            answer = tenon.convert(robot, output, update=True)["updated"]
+            self.assertEqual((answer["edits"], answer["conflicts"]), (1, []), answer)
+            self.assertGreater(answer["changes"], 0)
+            again = tenon.open(interface)
+            self.assertEqual(again[joint.path]["physics:upperLimit"], 11.0)
+            self.assertGreater(sum(body.mass for body in again.physics().bodies),
+                               sum(body.mass for body in stage.physics().bodies))
+            # Both changed the same: nothing is written, or one of them decides.
+            robot.write_text(text.replace(f'upper="{upper}"', 'upper="0.25"'))
+            before = interface.read_bytes()
+            with self.assertRaises(tenon.InvalidError) as caught:
+                tenon.convert(robot, output, update=True, conflicts="fail")
+            self.assertEqual(caught.exception.rule, "update.conflict")
+            self.assertIn(joint.path, [row.prim for row in caught.exception.diagnostics])
+            self.assertEqual(interface.read_bytes(), before)
+            answer = tenon.convert(robot, output, update=True, conflicts="source")["updated"]
+            self.assertEqual([row["kept"] for row in answer["conflicts"]], ["source"])
+            self.assertNotEqual(tenon.open(interface)[joint.path]["physics:upperLimit"], 11.0)
+        with self.assertRaises(ValueError):
+            tenon.convert(robot, output, update=True, conflicts="mine")
+        with self.assertRaises(tenon.UnsupportedError):
+            tenon.convert(robot, self.folder / "arm.usdz", update=True)
+        with self.assertRaises(tenon.UnsupportedError):
+            tenon.convert(interface, self.folder / "out.urdf", update=True)
+
+    def test_a_structure_follows_its_asset(self):
+        path, output = self.copied_hand(), self.folder / "again"
+        tenon.structure(path, output)
+        answer = tenon.structure(path, output, update=True)["updated"]
+        self.assertEqual((answer["files"], answer["edits"]), ([], 0))
+        with self.assertRaises(ValueError):
+            tenon.structure(path, update=True)
 
     def test_an_asset_is_structured(self):
         path = self.copied_hand()

@@ -348,6 +348,12 @@ class Update(unittest.TestCase):
 
     def test_packages_are_refused(self):
         self.robot.write_text(urdf())
+        self.convert(self.folder / "r.usda")
+        for ending in ("xml", "urdf"):  # a description is no asset that could be updated
+            code, answer = tenon("convert", self.folder / "r.usda", self.folder / f"back.{ending}",
+                                 "--update")
+            self.assertEqual(code, 2, answer)
+            self.assertFalse((self.folder / f"back.{ending}").exists())
         answer = self.convert(self.folder / "r.usdz", "--update", code=2)
         self.assertIn("folder", answer["diagnostics"][-1]["fix"])
 

@@ -418,4 +418,16 @@ Result<UpdatedAsset> update_asset(const structure::Package& made, const std::str
   return AssetUpdate(made, folder, keep, diagnostics).run();
 }
 
+Result<std::optional<UpdatedAsset>> update_folder(const structure::Package& made,
+                                                  const std::string& folder, diff::Side keep,
+                                                  Diagnostics& diagnostics) {
+  std::error_code error;
+  if (!std::filesystem::exists(std::filesystem::path(folder) / made.interface, error)) {
+    return std::optional<UpdatedAsset>();
+  }
+  const std::string place = std::filesystem::canonical(folder, error).string();
+  TENON_TRY(UpdatedAsset updated, update_asset(made, error ? folder : place, keep, diagnostics));
+  return std::optional<UpdatedAsset>(std::move(updated));
+}
+
 }  // namespace tenon

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,5 +42,11 @@ struct UpdatedAsset {
 /// it was edited and nothing tells what it was; those of reading.
 Result<UpdatedAsset> update_asset(const structure::Package& made, const std::string& folder,
                                   diff::Side keep, Diagnostics& diagnostics);
+
+/// update_asset for what `made.interface` opens in `folder`; nothing where there is no such file,
+/// so that `made` is to be written as it is.
+Result<std::optional<UpdatedAsset>> update_folder(const structure::Package& made,
+                                                  const std::string& folder, diff::Side keep,
+                                                  Diagnostics& diagnostics);
 
 }  // namespace tenon
