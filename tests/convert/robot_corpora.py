@@ -41,8 +41,8 @@ TIMED = 12     # files of each format that the other converters convert, too
 ABOUT = (("inertia", ": inertia"), ("mass", ": mass|: centre"),
          ("limits", ": limits|: damping|: friction|: armature|: stiffness"),
          ("kinematics", ""))
-COLUMNS = ("files", "converted", "no robot", "refused", "kinematics", "mass", "inertia", "limits",
-           "effort", "MJCF back", "URDF back", "usd-core", "NVIDIA")
+COLUMNS = ("files", "converted", "no robot", "refused", "kinematics", "DOF", "mass", "inertia",
+           "limits", "effort", "MJCF back", "URDF back", "usd-core", "NVIDIA")
 # Findings of a refusal that is the source's fault, whoever reads it.
 SOURCE = re.compile(r"\[(urdf\.xacro|urdf\.root|robot\.cycle|file\.lfs-pointer|urdf\.parse)\]")
 # What NVIDIA's validator finds in meshes, which are the source's own.
@@ -140,6 +140,28 @@ def without_excused(faults, source):
             and not (NO_LAW.search(fault) and is_fixed(NO_LAW.search(fault)[1]))]
 
 
+def without_balls(faults, scene):
+    """Without the hinges that URDF has in the place of each ball of an asset."""
+    balls = {joint["path"].rsplit("/", 1)[1] for joint in scene["joints"]
+             if joint["type"] == "spherical"}
+    return [fault for fault in faults
+            if not ((match := re.search(r"no joint (.*)_[xyz]$", fault)) and match[1] in balls)]
+
+
+def degrees_of_freedom(scene):
+    """Of all joints of an asset; what floats has none there."""
+    free = {"revolute": 1, "prismatic": 1, "spherical": 3}
+    return sum(free.get(joint["type"], 0) for joint in scene["joints"])
+
+
+def held_degrees_of_freedom(model):
+    """Of the joints of a model, but for those of what floats."""
+    # pylint: disable-next=import-outside-toplevel
+    import mujoco
+    floating = int((model.jnt_type == int(mujoco.mjtJoint.mjJNT_FREE)).sum())
+    return model.nv - 6 * floating
+
+
 class Corpus:
     """One package on its way through the programs."""
 
@@ -196,9 +218,10 @@ class Corpus:
         else:
             said["effort"] += 1
         try:
-            comparison = Comparison("", Reading(source), scene).run()
+            reading = Reading(source)
+            comparison = Comparison("", reading, scene).run()
         except Exception as error:  # pylint: disable=broad-except
-            for column in ("kinematics", "mass", "inertia", "limits"):
+            for column in ("kinematics", "DOF", "mass", "inertia", "limits"):
                 said["unread " + column] += 1
             return notes + [f"not read by MuJoCo: {' '.join(str(error).split())[:120]}"]
         wrong = collections.Counter()
@@ -207,6 +230,9 @@ class Corpus:
             wrong[next(name for name, words in ABOUT if re.search(words, fault))] += 1
         for column in ("kinematics", "mass", "inertia", "limits"):
             said[column] += not wrong[column]
+        free, wanted = degrees_of_freedom(scene), held_degrees_of_freedom(reading.model)
+        said["DOF"] += free == wanted
+        notes += [f"{free} degrees of freedom, MuJoCo {wanted}"] if free != wanted else []
         return notes + [f"{len(faults)} numbers: {fault.strip(': ')}" for fault in faults[:1]]
 
     def go_back(self, source, asset, said):
@@ -235,8 +261,8 @@ class Corpus:
                     faults = []
                 else:
                     scene = json.loads(run([self.tenon, "physics", asset, "--json"])[1])
-                    faults = without_excused(
-                        WorldComparison("", Reading(back), scene).run().faults, source)
+                    faults = without_excused(without_balls(
+                        WorldComparison("", Reading(back), scene).run().faults, scene), source)
             except Exception as error:  # pylint: disable=broad-except
                 faults = [" ".join(str(error).split())]
             said[column] += not faults
@@ -301,10 +327,10 @@ def share(rows, column):
     return f"{rows[column]} of {of}"
 
 
-def table(results):
-    lines = ["| package | " + " | ".join(COLUMNS) + " |", "|---" * (len(COLUMNS) + 1) + "|"]
+def table(results, columns=COLUMNS):
+    lines = ["| package | " + " | ".join(columns) + " |", "|---" * (len(columns) + 1) + "|"]
     for name, corpus in results.items():
-        cells = [share(corpus.rows, column) for column in COLUMNS]
+        cells = [share(corpus.rows, column) for column in columns]
         lines.append(f"| {name} | " + " | ".join(cells) + " |")
     return lines
 
@@ -317,6 +343,7 @@ ONLY=robot_corpora`. Of packages with many files an even choice of {most} is tak
 
 - **no robot**: its format's own reader refuses the file, too: a macro, a part that others
   include, a file whose meshes the package lacks.
+- **DOF**: degrees of freedom of all joints.
 - **kinematics**, **mass**, **inertia**, **limits** (with damping, friction and armature): of the
   files that MuJoCo reads, where all numbers are MuJoCo's within rounding; **effort** is that of
   the URDF.
@@ -373,7 +400,7 @@ def main():
     for corpus in results.values():
         rows += corpus.rows
     wrong = sum(rows["converted"] - rows["unread " + column] - rows[column]
-                for column in ("kinematics", "mass", "inertia", "limits", "effort"))
+                for column in ("kinematics", "DOF", "mass", "inertia", "limits", "effort"))
     print(f"robots of {len(results)} packages: {rows['converted']} of {rows['files']} files "
           f"converted, {rows['no robot']} are no robots, {rows['refused']} refused, {wrong} with a "
           f"wrong number; back to MJCF {rows['MJCF back']}, to URDF {rows['URDF back']}; clean for "
