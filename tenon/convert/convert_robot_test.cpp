@@ -184,15 +184,26 @@ TEST(ConvertRobot, SplitsInertiasIntoMomentsAndAxes) {
 }
 
 TEST(ConvertRobot, TurnsEveryAxisIntoAToken) {
-  const Vec3d axes[] = {{{1, 0, 0}},     {{-1, 0, 0}},      {{0, 1, 0}},
-                        {{0, -1, 0}},    {{0, 0, 1}},       {{0, 0, -1}},
-                        {{0.6, 0, 0.8}}, {{-0.6, -0.8, 0}}, {{-1, 1e-9, 0}}};
+  const Vec3d axes[] = {{{1, 0, 0}},
+                        {{-1, 0, 0}},
+                        {{0, 1, 0}},
+                        {{0, -1, 0}},
+                        {{0, 0, 1}},
+                        {{0, 0, -1}},
+                        {{0.6, 0, 0.8}},
+                        {{-0.6, -0.8, 0}},
+                        {{-1, 1e-9, 0}},
+                        // As tools write them that turn axes by matrices.
+                        {{-0.9999999999999998, 0, -2.220446049250313e-16}},
+                        {{-0.9999999999999998, 0, 1e-9}},
+                        {{-0.9999999999999998, 2e-8, 0}},
+                        {{-2.220446049250313e-16, -0.9999999999999998, 0}}};
   for (const Vec3d& axis : axes) {
     const AxisTurn turn = axis_turn(axis);
     Vec3d unit;
     unit[static_cast<std::size_t>(turn.token[0] - 'X')] = 1;
     const Vec3d turned = rotate(turn.rotation, unit);
-    EXPECT_LT(length(turned - axis), 2e-9) << axis[0] << " " << axis[1] << " " << axis[2];
+    EXPECT_LT(length(turned - axis), 1e-12) << axis[0] << " " << axis[1] << " " << axis[2];
   }
 }
 

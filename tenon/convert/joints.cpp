@@ -8,6 +8,7 @@
 #include "tenon/convert/joints.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tenon/convert/joint_schemas.h"
 
@@ -17,21 +18,31 @@ using layer::Value;
 using robot::Index;
 using robot::JointKind;
 
+constexpr double kAxisNoise = 1e-12;
+constexpr double kNearlyOpposite = 1e-6;
+
+/// The shortest turn between unit vectors that are not nearly opposite.
+Quatd shortest_turn(const Vec3d& from, const Vec3d& to) {
+  const Vec3d normal = cross(from, to);
+  return normalized(Quatd{normal[0], normal[1], normal[2], 1 + dot(from, to)});
+}
+
 /// Half turns about a coordinate axis have exact quaternions; for an axis along -x, -y or -z the
-/// frame is turned by one of them.
+/// frame is turned by one of them. What tools leave beside a 1 by their rounding does not count.
 AxisTurn axis_turn(const Vec3d& axis) {
   constexpr const char* kTokens[] = {"X", "Y", "Z"};
   // About y, z and x: each turns the axis with its number to its opposite.
   const Quatd half_turns[] = {{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (axis[(i + 1) % 3] == 0 && axis[(i + 2) % 3] == 0) {
+    if (std::fabs(axis[(i + 1) % 3]) < kAxisNoise && std::fabs(axis[(i + 2) % 3]) < kAxisNoise) {
       return {kTokens[i], axis[i] < 0 ? half_turns[i] : kIdentityRotation};
     }
   }
-  // The shortest turn of x to the axis.
   const Vec3d x{{1, 0, 0}};
-  const Vec3d normal = cross(x, axis);
-  return {"X", normalized(Quatd{normal[0], normal[1], normal[2], 1 + dot(x, axis)})};
+  if (1 + axis[0] < kNearlyOpposite) {  // else nothing but rounding would be left of this
+    return {"X", shortest_turn(-x, axis) * half_turns[0]};
+  }
+  return {"X", shortest_turn(x, axis)};
 }
 
 void write_side(LayerBuilder& builder, Path joint, int side, Path body, const Pose& frame) {
