@@ -38,8 +38,7 @@ class SpawnSettings {
 
   /// What the program reads from or writes to `there` leads nowhere.
   void lead_nowhere(int there) {
-    posix_spawn_file_actions_addopen(&actions_, there, "/dev/null",
-                                     there == STDIN_FILENO ? O_RDONLY : O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions_, there, "/dev/null", O_RDWR, 0);
   }
   /// Ours is the program's as the descriptor `there`.
   void give(int ours, int there) { posix_spawn_file_actions_adddup2(&actions_, ours, there); }
