@@ -49,16 +49,13 @@ void install() {
 
 }  // namespace
 
-FilterScope::FilterScope(const ContactFilter& filter) : outer_(current_filter) {
-  if (filter.needed) {
-    install();
-    current_filter = &filter;
-  } else {
-    current_filter = nullptr;
-  }
+void FilterScope::begin(const ContactFilter& filter) {
+  install();
+  outer_ = current_filter;
+  current_filter = &filter;
 }
 
-FilterScope::~FilterScope() { current_filter = outer_; }
+void FilterScope::end() { current_filter = outer_; }
 
 bool may_touch(const Model& model, int a, int b) {
   const mjModel* m = model.model.get();

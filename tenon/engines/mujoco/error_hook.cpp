@@ -3,7 +3,6 @@
 #include "tenon/engines/mujoco/error_hook.h"
 
 #include <cstdio>
-#include <mutex>
 
 #include "tenon/engines/mujoco/mujoco_library.h"
 
@@ -33,8 +32,11 @@ void handle_message(const mjLogMessage* message) {
 }
 
 void install_handler() {
-  static std::once_flag installed;
-  std::call_once(installed, [] { previous_handler = mju_setLogHandler(&handle_message); });
+  static const bool installed = [] {
+    previous_handler = mju_setLogHandler(&handle_message);
+    return true;
+  }();
+  static_cast<void>(installed);
 }
 
 }  // namespace

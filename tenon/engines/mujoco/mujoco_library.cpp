@@ -18,6 +18,7 @@ namespace tenon::engines::mujoco {
 namespace {
 
 mjfConFilt* contact_filter = nullptr;
+mjfGeneric* control = nullptr;
 
 const SharedLibrary& library() {
   static const SharedLibrary opened =
@@ -39,6 +40,9 @@ std::string find_symbols() {
   }
 #include "tenon/engines/mujoco/mujoco_functions.def"
 #undef TENON_MUJOCO_FUNCTION
+  if (!library().find("mjcb_control", control)) {
+    return "it has no mjcb_control";
+  }
   return library().find("mjcb_contactfilter", contact_filter) ? "" : "it has no mjcb_contactfilter";
 }
 
@@ -58,5 +62,6 @@ Result<void> open_mujoco() {
 void* find_mujoco_function(const char* name) { return library().address(name); }
 
 mjfConFilt& contact_filter_callback() { return *contact_filter; }
+mjfGeneric& control_callback() { return *control; }
 
 }  // namespace tenon::engines::mujoco

@@ -31,5 +31,8 @@ void* find_mujoco_function(const char* name);
 
 /// The callback that decides about pairs of geoms, one for the whole process (mjcb_contactfilter).
 mjfConFilt& contact_filter_callback();
+/// The callback between what positions and velocities give and the forces of actuators, one for the
+/// whole process (mjcb_control).
+mjfGeneric& control_callback();
 
 }  // namespace tenon::engines::mujoco

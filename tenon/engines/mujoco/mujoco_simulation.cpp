@@ -39,6 +39,11 @@ Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::make(const PhysicsSc
   auto timeline = timeline_where_needed(scene);
   const PhysicsScene& now = timeline == nullptr ? scene : timeline->scene();
   TENON_TRY(Model model, build_model(now, options, diagnostics));
+  if (steps_by_euler_instead(model)) {
+    model.not_mapped.push_back({scene.scenes.front().path, "mjc:option:integrator",
+                                "steps are those of Euler's method: with actuation off, bodies "
+                                "that start asleep and several materials MuJoCo has no other"});
+  }
   auto start = std::make_shared<Start>();
   start->scene = &scene;
   start->options = options;
@@ -134,6 +139,7 @@ Result<void> MujocoSimulation::step() {
   stale_ = true;
   {
     const FilterScope filter(model_.filter);
+    const FinishScope finish(model_);
     TENON_CHECK(guarded_where_open([this] { advance(model_); }));
   }
   TENON_CHECK(check_step(model_));

@@ -1,8 +1,15 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Contacts are finished between their making and that of constraints, of which MuJoCo's one call of
+// a step knows nothing: a step is then made by its parts. Where bodies may sleep, who wakes is
+// decided between these two, in a part that is not to be had by itself, so that constraints are
+// made twice; and where the step is one of Runge and Kutta's method, which has no parts, MuJoCo's
+// callback for controls is the place to do it.
 #include "tenon/engines/mujoco/run/advance.h"
 
 #include <cstdio>
+#include <mutex>
 #include <string>
 
 #include "tenon/engines/mujoco/build/surfaces.h"
@@ -37,18 +44,43 @@ void derive_forces(Model& model) {
   mj_fwdVelocity(m, d);
 }
 
-// What wakes and falls asleep is decided inside mj_step1: constraints are made again after it.
-void advance_sleepers(Model& model) {
+// What wakes and falls asleep is decided where MuJoCo derives positions: constraints are made again
+// after it.
+void finish_late(Model& model) {
   const mjModel* m = model.model.get();
   mjData* d = model.data.get();
-  mj_step1(m, d);
   if (finish_contacts(model)) {
     mj_makeConstraint(m, d);
     mj_island(m, d);
     mj_projectConstraint(m, d);
     mj_referenceConstraint(m, d);
   }
-  mj_step2(m, d);
+}
+
+bool may_sleep(const Model& model) { return (model.model->opt.enableflags & mjENBL_SLEEP) != 0; }
+
+bool is_evaluated_by_mujoco(const Model& model) {
+  return finishes_contacts(model) && may_sleep(model) && model.model->opt.integrator == mjINT_RK4;
+}
+
+thread_local Model* finished_model = nullptr;
+mjfGeneric previous_control = nullptr;
+
+void finish_in_evaluation(const mjModel* m, mjData* d) {
+  if (finished_model != nullptr && finished_model->data.get() == d) {
+    finish_late(*finished_model);
+  }
+  if (previous_control != nullptr) {
+    previous_control(m, d);
+  }
+}
+
+void install_finishing() {
+  static std::once_flag installed;
+  std::call_once(installed, [] {
+    previous_control = control_callback();
+    control_callback() = &finish_in_evaluation;
+  });
 }
 
 Error unstable(const Model& model, int warning) {
@@ -74,14 +106,32 @@ Error unstable(const Model& model, int warning) {
 
 }  // namespace
 
+void FinishScope::begin(Model& model) {
+  if (is_evaluated_by_mujoco(model)) {
+    install_finishing();
+    begun_ = true;
+    outer_ = finished_model;
+    finished_model = &model;
+  }
+}
+
+void FinishScope::end() { finished_model = outer_; }
+
+bool steps_by_euler_instead(const Model& model) {
+  return is_evaluated_by_mujoco(model) && (model.model->opt.disableflags & mjDSBL_ACTUATION) != 0;
+}
+
 // Contacts may need to be finished; without that this is one mj_step.
 void advance(Model& model) {
   const mjModel* m = model.model.get();
   mjData* d = model.data.get();
-  if (!model.surfaces.by_contact && !model.curved_shapes) {
+  if (!finishes_contacts(model) ||
+      (is_evaluated_by_mujoco(model) && !steps_by_euler_instead(model))) {
     mj_step(m, d);
-  } else if ((m->opt.enableflags & mjENBL_SLEEP) != 0) {
-    advance_sleepers(model);
+  } else if (may_sleep(model)) {
+    mj_step1(m, d);
+    finish_late(model);
+    mj_step2(m, d);
   } else {
     mj_checkPos(m, d);
     mj_checkVel(m, d);

@@ -53,6 +53,18 @@ bool gains_follow_samples(const scene::PhysicsScene& scene, const DriveMap& map)
                      });
 }
 
+/// Springs and dampers of joints, tendons and actuators; those of soft bodies and tendons are taken
+/// as there.
+bool has_springs_or_dampers(const mjModel& m) {
+  const auto some = [](const mjtNum* numbers, mjtSize count) {
+    return std::any_of(numbers, numbers + count, [](mjtNum number) { return number != 0; });
+  };
+  return m.ntendon > 0 || m.nflex > 0 || some(m.jnt_stiffness, m.njnt) ||
+         some(m.jnt_stiffnesspoly, mjNPOLY * m.njnt) || some(m.dof_damping, m.nv) ||
+         some(m.dof_dampingpoly, mjNPOLY * m.nv) || some(m.actuator_damping, m.nactuator) ||
+         some(m.actuator_dampingpoly, mjNPOLY * m.nactuator);
+}
+
 int fastest_body(const Model& model) {
   const mjModel& m = *model.model;
   derive_motion(model);
@@ -169,6 +181,7 @@ void EnergyWatch::set_baseline(const Model& model) {
   const mjData& d = *model.data;
   fresh_ = false;
   steps_ = 0;
+  resists_ = has_springs_or_dampers(m);
   read_springs(model);
   explained_ = gained_ = lost_ = 0;
   const double gravity = std::max(length(read_vector(m.opt.gravity)), kEarth);
@@ -192,12 +205,18 @@ void EnergyWatch::set_baseline(const Model& model) {
 void EnergyWatch::add_work(const Model& model) {
   const mjModel& m = *model.model;
   const mjData& d = *model.data;
-  const double* velocity = velocity_.data();
   double work = 0;
-  for (int i = 0; i < m.nv; ++i) {
-    const double forces = d.qfrc_smooth[i] + d.qfrc_bias[i] - d.qfrc_spring[i] - d.qfrc_damper[i] -
-                          d.qfrc_actuator[i] + d.qfrc_constraint[i];
-    work += forces * (velocity[i] + d.qvel[i]);
+  if (resists_ || m.nu > 0) {
+    for (std::size_t i = 0; i < velocity_.size(); ++i) {
+      const double forces = d.qfrc_smooth[i] + d.qfrc_bias[i] - d.qfrc_spring[i] -
+                            d.qfrc_damper[i] - d.qfrc_actuator[i] + d.qfrc_constraint[i];
+      work += forces * (velocity_[i] + d.qvel[i]);
+    }
+  } else {
+    for (std::size_t i = 0; i < velocity_.size(); ++i) {
+      const double forces = d.qfrc_smooth[i] + d.qfrc_bias[i] + d.qfrc_constraint[i];
+      work += forces * (velocity_[i] + d.qvel[i]);
+    }
   }
   work *= m.opt.timestep / 2;
   if (!driven_.empty()) {

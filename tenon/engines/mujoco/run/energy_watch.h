@@ -56,6 +56,7 @@ class EnergyWatch {
   std::vector<std::size_t> candidates_;  ///< drives that may be springs, into Model::drives
   std::vector<Spring> springs_;
   bool only_springs_ = false;  ///< no actuator is anything else
+  bool resists_ = true;        ///< some part of the model may be a spring or a damper
   std::vector<int> driven_;    ///< first of six coordinates of bodies that follow poses
   std::vector<int> driven_bodies_;
   bool moved_ = false;  ///< something follows poses or bounds: constraints may give energy

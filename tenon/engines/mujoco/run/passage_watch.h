@@ -21,6 +21,7 @@ class PassageWatch {
   PassageWatch() = default;
   PassageWatch(const scene::PhysicsScene& scene, const Model& model);
 
+  bool empty() const { return bodies_.empty(); }
   /// After a step, before anything is derived from the new positions. Each pair is told once.
   std::vector<Passage> look(const Model& model);
 

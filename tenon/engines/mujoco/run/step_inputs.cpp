@@ -23,9 +23,10 @@ StepInputs::StepInputs(const scene::PhysicsScene& scene, Model& model)
   collect_tracks(scene, model);
   collect_pushed_bodies(scene, model);
   start_driven_bodies(model);
+  empty_ = has_none();
 }
 
-bool StepInputs::empty() const {
+bool StepInputs::has_none() const {
   return tracked_drives_.empty() && driven_bodies_.empty() && moved_colliders_.empty() &&
          pushed_bodies_.empty() && acceleration_drives_.empty() && bounded_drives_.empty();
 }

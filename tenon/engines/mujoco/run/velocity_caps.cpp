@@ -23,6 +23,7 @@ namespace {
 
 constexpr int kSweeps = 20;
 constexpr double kClose = 1e-9;      // relative, above which a speed is cut
+constexpr double kNear = 1 - 1e-9;   // squares of speeds that are below are below in any rounding
 constexpr double kImmobile = 1e-15;  // of an inverse mass: no impulse moves the body that way
 
 bool cut(double* velocity, double limit) {
@@ -35,6 +36,8 @@ bool cut(double* velocity, double limit) {
   }
   return true;
 }
+
+double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
 double sum_of_sizes(const std::vector<int>& places, const double* numbers) {
   double sum = 0;
@@ -92,8 +95,10 @@ VelocityCaps::VelocityCaps(const scene::PhysicsScene& scene, const Model& model)
     const bool capped = settings.max_linear_velocity < scene::kUnlimited ||
                         settings.max_angular_velocity < scene::kUnlimited;
     if (capped && model.plan.bases[b] == BodyBase::Free) {
-      bodies_.push_back(
-          {model.bodies[b].free_dof, settings.max_linear_velocity, settings.max_angular_velocity});
+      const double linear = settings.max_linear_velocity;
+      const double angular = settings.max_angular_velocity;
+      bodies_.push_back({model.bodies[b].free_dof, linear, angular, kNear * linear * linear,
+                         kNear * angular * angular});
     } else if (capped && model.plan.bases[b] == BodyBase::Jointed) {
       add_link(model, model.bodies[b].id, settings);
     }
@@ -104,6 +109,8 @@ VelocityCaps::VelocityCaps(const scene::PhysicsScene& scene, const Model& model)
     change_ = unit_;
     jacobian_.resize(trees_.empty() ? 0 : 3 * unit_.size());
     is_held_ = held_by_equalities(*model.model);
+    takes_back_ = model.model->opt.integrator != mjINT_RK4 &&
+                  std::find(is_held_.begin(), is_held_.end(), char{0}) != is_held_.end();
   }
 }
 
@@ -182,26 +189,29 @@ VelocityCaps::Coordinate VelocityCaps::coordinate(const mjModel& m, int dof, dou
   return at;
 }
 
-void VelocityCaps::respond(const Coordinate& at, const Model& model) {
-  const mjModel& m = *model.model;
-  const mjData& d = *model.data;
-  double* x = response_.data();
-  std::fill(x + at.first, x + at.last, 0.0);
-  x[at.dof] = 1;
-  for (int i = at.dof; i >= 0; i = m.dof_parentid[i]) {  // L^-T
-    const int row = m.M_rowadr[i];
-    for (int k = row; k < row + m.M_rownnz[i] - 1; ++k) {
-      x[m.M_colind[k]] -= d.qLD[k] * x[i];
-    }
+void VelocityCaps::respond(const Coordinate& at, const mjModel& m, const mjData& d) {
+  double* const x = response_.data();
+  const double* const factor = d.qLD;
+  const int* const columns = m.M_colind;
+  for (int i = at.first; i < at.last; ++i) {
+    x[i] = 0;
   }
-  for (int i = at.dof; i >= 0; i = m.dof_parentid[i]) {
-    x[i] *= d.qLDiagInv[i];
+  x[at.dof] = 1;
+  for (int i = at.dof; i >= 0; i = m.dof_parentid[i]) {  // L^-T, then D^-1: no later row reads it
+    const double own = x[i];
+    const int end = m.M_rowadr[i] + m.M_rownnz[i] - 1;
+    for (int k = m.M_rowadr[i]; k < end; ++k) {
+      x[columns[k]] -= factor[k] * own;
+    }
+    x[i] = own * d.qLDiagInv[i];
   }
   for (int i = at.first; i < at.last; ++i) {  // L^-1
-    const int row = m.M_rowadr[i];
-    for (int k = row; k < row + m.M_rownnz[i] - 1; ++k) {
-      x[i] -= d.qLD[k] * x[m.M_colind[k]];
+    double own = x[i];
+    const int end = m.M_rowadr[i] + m.M_rownnz[i] - 1;
+    for (int k = m.M_rowadr[i]; k < end; ++k) {
+      own -= factor[k] * x[columns[k]];
     }
+    x[i] = own;
   }
 }
 
@@ -266,26 +276,28 @@ bool VelocityCaps::cut_links(Model& model) {
 bool VelocityCaps::cut_bodies(mjData& data) const {
   bool any = false;
   for (const FreeBody& body : bodies_) {
-    const bool slower = cut(data.qvel + body.dof, body.linear);
-    const bool steadier = cut(data.qvel + body.dof + 3, body.angular);
+    double* const velocity = data.qvel + body.dof;
+    const bool slower = square(velocity) > body.near_linear && cut(velocity, body.linear);
+    const bool steadier =
+        square(velocity + 3) > body.near_angular && cut(velocity + 3, body.angular);
     any = any || slower || steadier;
   }
   return any;
 }
 
-bool VelocityCaps::cut_joints(Model& model) {
-  mjData* d = model.data.get();
+bool VelocityCaps::cut_joints(const mjModel& m, mjData& d) {
+  double* const velocity = d.qvel;
+  const double* const response = response_.data();
   bool any = false;
   for (const Coordinate& at : dofs_) {
-    const double velocity = d->qvel[at.dof];
-    if (!(std::fabs(velocity) > at.limit)) {
+    const double own = velocity[at.dof];
+    if (!(std::fabs(own) > at.limit)) {
       continue;
     }
-    respond(at, model);
-    const double impulse = (std::copysign(at.limit, velocity) - velocity) /
-                           response_[static_cast<std::size_t>(at.dof)];
+    respond(at, m, d);
+    const double impulse = (std::copysign(at.limit, own) - own) / response[at.dof];
     for (int i = at.first; i < at.last; ++i) {
-      d->qvel[i] += impulse * response_[static_cast<std::size_t>(i)];
+      velocity[i] += impulse * response[i];
     }
     any = true;
   }
@@ -308,11 +320,13 @@ void VelocityCaps::take_back_way(const mjModel& m, mjData& d) {
 void VelocityCaps::apply(Model& model) {
   const mjModel& m = *model.model;
   mjData& d = *model.data;
-  std::copy(d.qvel, d.qvel + m.nv, change_.begin());
-  const bool bodies = cut_bodies(d);
-  const bool joints = cut_joints(model);
-  const bool links = cut_links(model);
-  if ((bodies || joints || links) && m.opt.integrator != mjINT_RK4) {
+  if (takes_back_) {
+    std::copy(d.qvel, d.qvel + m.nv, change_.begin());
+  }
+  const bool bodies = !bodies_.empty() && cut_bodies(d);
+  const bool joints = cut_joints(m, d);
+  const bool links = !trees_.empty() && cut_links(model);
+  if (takes_back_ && (bodies || joints || links)) {
     take_back_way(m, d);
   }
 }

@@ -33,6 +33,9 @@ class VelocityCaps {
     int dof = 0;
     double linear = 0;
     double angular = 0;
+    /// Squares of a little less: speeds below need no closer look.
+    double near_linear = 0;
+    double near_angular = 0;
   };
   /// A body on joints with a limit.
   struct Link {
@@ -60,10 +63,10 @@ class VelocityCaps {
   /// True where the velocity was cut.
   bool cut_link(const Link& link, bool angular, Model& model);
   /// What a unit impulse along a coordinate does, into response_.
-  void respond(const Coordinate& at, const Model& model);
+  void respond(const Coordinate& at, const mjModel& m, const mjData& d);
   /// The parts of apply(); true where a velocity was cut.
   bool cut_bodies(mjData& data) const;
-  bool cut_joints(Model& model);
+  bool cut_joints(const mjModel& m, mjData& d);
   bool cut_links(Model& model);
   void take_back_way(const mjModel& m, mjData& d);
 
@@ -75,6 +78,7 @@ class VelocityCaps {
   std::vector<double> jacobian_;  ///< scratch (3 x dof_count)
   std::vector<double> change_;    ///< scratch (dof_count)
   std::vector<char> is_held_;     ///< (dof_count) in a tree with equalities
+  bool takes_back_ = false;       ///< some is not, and steps are none of Runge and Kutta's method
 };
 
 }  // namespace tenon::engines::mujoco
