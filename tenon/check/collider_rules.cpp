@@ -14,6 +14,7 @@
 #include "tenon/check/convex_overlap.h"
 #include "tenon/check/subject.h"
 #include "tenon/layer/field_values.h"
+#include "tenon/scene/shapes/mesh_inertia.h"
 
 namespace tenon::check {
 namespace {
@@ -115,6 +116,19 @@ bool first_face_is_turned(const stage::Prim& prim, const layer::Array<Vec3f>& po
   return dot(normal, authored) < -0.5 * length(normal) * length(authored);
 }
 
+/// Of a closed mesh; below zero where its faces look inward [m^3].
+double signed_volume(const scene::TriangleMesh& mesh) {
+  const Vec3d origin = mesh.points.empty() ? Vec3d{} : mesh.points.front();
+  double volume = 0;
+  for (const Vec3i& t : mesh.triangles) {
+    const Vec3d a = mesh.points[static_cast<std::size_t>(t[0])] - origin;
+    const Vec3d b = mesh.points[static_cast<std::size_t>(t[1])] - origin;
+    const Vec3d c = mesh.points[static_cast<std::size_t>(t[2])] - origin;
+    volume += dot(a, cross(b, c)) / 6;
+  }
+  return volume;
+}
+
 /// Reaching into each other by more than what rounding and resting contacts explain.
 bool reach_into(Placed a, Placed b) {
   const bool a_smaller = length(a.high - a.low) <= length(b.high - b.low);
@@ -192,6 +206,22 @@ void check_degenerate_mesh(const Subject& subject, Reporter& report) {
                 std::to_string(count) + " of " + std::to_string(mesh.triangles.size()) +
                     " triangles of the collider have no area",
                 "remove faces whose points lie in one line");
+    }
+  }
+}
+
+// M-9: a solid has more area that looks away from its middle than toward it.
+void check_inside_out(const Subject& subject, Reporter& report) {
+  for (const Collider& collider : subject.scene.colliders) {
+    if (collider.shape.kind != ShapeKind::Mesh) {
+      continue;
+    }
+    const scene::TriangleMesh& mesh = subject.scene.meshes[collider.shape.mesh];
+    if (!mesh.flat && signed_volume(mesh) < 0 && scene::is_closed(mesh)) {
+      report.at(subject.stage.prim(collider.path), "faceVertexIndices",
+                "all faces of the closed mesh look inward: engines that know a front of triangles, "
+                "as PhysX does, let bodies in and not out",
+                "turn the faces, or author orientation = \"leftHanded\"");
     }
   }
 }

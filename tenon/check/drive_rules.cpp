@@ -51,6 +51,20 @@ void each_drive(const Subject& subject, Visit visit) {
   }
 }
 
+/// The reader has said why the joint has neither drive nor mimic: it asks for one in vain.
+bool is_told_why(const Subject& subject, Path joint) {
+  const std::string path = joint.str();
+  for (const char* rule : {"mimic.leader-missing", "mimic.cycle", "drive.no-such-axis"}) {
+    if (subject.has_finding(rule, path)) {
+      return true;
+    }
+  }
+  const std::vector<Token> names = subject.stage.prim(joint).authored_property_names();
+  return std::any_of(names.begin(), names.end(), [&](Token name) {
+    return name.view().starts_with("drive:") && subject.is_reported(path, name.str());
+  });
+}
+
 bool acts(const Drive& drive) { return drive.stiffness != 0 || drive.damping != 0; }
 
 }  // namespace
@@ -128,10 +142,8 @@ void check_drive_missing(const Subject& subject, Reporter& report) {
       const Joint& joint = subject.scene.joints[i];
       const bool loose = has_one_axis(joint) && joint.drives.empty() && joint.mimics.empty() &&
                          joint.stiffness == 0 && joint.lower < joint.upper;
-      const std::string path = joint.path.str();
-      const bool judged = subject.has_finding("mimic.leader-missing", path) ||
-                          subject.has_finding("mimic.cycle", path);
-      if (some && loose && !judged) {
+      const Path path = joint.path;
+      if (some && loose && !is_told_why(subject, path)) {
         report.at(subject.stage.prim(joint.path),
                   "the joint has neither drive nor mimic, other joints of the robot have",
                   "apply PhysicsDriveAPI, or a fixed joint if it is not to move");

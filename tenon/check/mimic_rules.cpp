@@ -107,6 +107,17 @@ void check_mimic_rigid(const Subject& subject, Reporter& report) {
   });
 }
 
+void check_mimic_leader(const Subject& subject, Reporter& report) {
+  each_follower(subject, [&](const Follower& follower) {
+    if (!follower.leader.enabled) {
+      report.at(follower.prim,
+                "the leader <" + follower.leader.path.str() +
+                    "> is disabled and holds nothing: there is no coordinate to follow",
+                "enable the leader, or follow another joint");
+    }
+  });
+}
+
 void check_mimic_chain(const Subject& subject, Reporter& report) {
   each_follower(subject, [&](const Follower& follower) {
     const auto& leads = follower.leader.mimics;

@@ -89,6 +89,13 @@ std::string_view nearest_of_instances(const stage::Prim& prim, Token name) {
   return nearest_name(name.view(), names);
 }
 
+bool is_authored_as_attribute(const stage::Prim& prim, Token name) {
+  const std::vector<stage::SpecSite> sites = prim.relationship(name).spec_stack();
+  return std::any_of(sites.begin(), sites.end(), [](const stage::SpecSite& site) {
+    return site.spec->kind == layer::SpecKind::Attribute;
+  });
+}
+
 /// Names of all API schemas, or of all others.
 std::vector<std::string_view> schema_names(bool apis) {
   std::vector<std::string_view> names;
@@ -171,6 +178,24 @@ void check_unknown_attribute(const Subject& subject, Reporter& report) {
       if (!nearest.empty() || space == "physics") {
         report.at(prim, name, "no schema of the prim declares " + name.str() + "; it is ignored",
                   advice(nearest, "apply the API that declares it, or remove it"));
+      }
+    }
+  }
+}
+
+// S-3: OpenUSD passes over attributes where the schema has a relationship.
+void check_property_kind(const Subject& subject, Reporter& report) {
+  for (const stage::Prim& prim : subject.prims) {
+    for (const Token name : prim.unordered_property_names()) {
+      const schema::PropertyDefinition* declared =
+          is_physics_name(name.view()) ? prim.definition()->find(name) : nullptr;
+      if (declared != nullptr && declared->is_relationship &&
+          is_authored_as_attribute(prim, name)) {
+        report.at(prim, name,
+                  name.str() +
+                      " is declared as an attribute, the schema says a relationship; it "
+                      "is taken as unauthored",
+                  "declare it as a relationship: rel " + name.str());
       }
     }
   }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tenon/base/text/text_number.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/finding_place.h"
@@ -43,6 +44,8 @@ std::optional<double> number_of(const layer::Value& value) {
       return std::nullopt;
   }
 }
+
+std::string text_of_float(double value) { return shortest(static_cast<float>(value)); }
 
 // S-6: the default where one is authored, else the value at the start, held before the first
 // sample.

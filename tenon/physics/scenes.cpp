@@ -31,7 +31,7 @@ double gravity_magnitude(const ReadState& state, const stage::Prim& prim) {
     if (authored && std::isfinite(*authored)) {
       state.report(prim, state.tokens.gravity_magnitude, Severity::Warning,
                    "scene.negative-gravity",
-                   "physics:gravityMagnitude is " + shortest(*authored) +
+                   "physics:gravityMagnitude is " + text_of_float(*authored) +
                        "; a negative magnitude means earth gravity",
                    "turn physics:gravityDirection instead, or leave the magnitude out");
     }

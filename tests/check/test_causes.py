@@ -105,6 +105,21 @@ def Xform "World" {apis}
         self.assertEqual([d["rule"] for d in findings], ["attribute.unknown"])
         self.assertIn("PhysicsSphericalJoint", findings[0]["message"])
 
+    def test_a_finding_has_the_number_that_the_file_has(self):
+        self.write(box("A", "(0, 0, 1)", "float3 physics:diagonalInertia = (-0.1, 1, 1)",
+                       ["PhysicsMassAPI"]) + box("B", "(1, 0, 1)")
+                   + """    def PhysicsDistanceJoint "Rope"
+    {
+        rel physics:body0 = </World/A>
+        rel physics:body1 = </World/B>
+        float physics:minDistance = 1.3
+        float physics:maxDistance = 1.1
+    }
+""")
+        said = " ".join(d["message"] for d in self.check())
+        self.assertIn("has the component -0.1;", said)
+        self.assertIn("minDistance 1.3 exceeds maxDistance 1.1;", said)
+
     def portability(self, *options):
         return {(d["rule"], *d["engines"]) for d in self.check(*options) if d["engines"]}
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <map>
 
-#include "tenon/base/text/text_number.h"
 #include "tenon/physics/bodies/mass_properties.h"
 #include "tenon/physics/bodies/mass_provenance.h"
 #include "tenon/physics/read_state.h"
@@ -74,7 +73,7 @@ std::optional<Mat3d> diagonal_inertia(const ReadState& state, const PhysicsPrim&
   for (std::size_t i = 0; i < 3; ++i) {
     if ((*diagonal)[i] < 0 || !std::isfinite((*diagonal)[i])) {
       state.report(found.prim, name, Severity::Error, "mass.inertia-negative",
-                   "physics:diagonalInertia has the component " + shortest((*diagonal)[i]) +
+                   "physics:diagonalInertia has the component " + text_of_float((*diagonal)[i]) +
                        "; it is taken as unauthored",
                    "author positive moments of inertia");
       return std::nullopt;

@@ -25,7 +25,7 @@ double coefficient(const ReadState& state, const stage::Prim& prim, Token name) 
   if (value < 0) {
     // S-73
     state.report(prim, name, Severity::Error, "material.negative",
-                 name.str() + " is " + shortest(value) + "; 0 is used instead",
+                 name.str() + " is " + text_of_float(value) + "; 0 is used instead",
                  "author a value that is not negative");
     return 0;
   }
@@ -58,7 +58,7 @@ void read_spin_friction(const ReadState& state, const PhysicsPrim& found, Materi
     }
     if (!(*authored >= 0) || !std::isfinite(*authored)) {
       state.report(found.prim, name, Severity::Error, "material.negative",
-                   name.str() + " is " + shortest(*authored) + "; it is taken as unauthored",
+                   name.str() + " is " + text_of_float(*authored) + "; it is taken as unauthored",
                    "author a value that is not negative");
       return;
     }
@@ -92,17 +92,18 @@ Material read_material(const ReadState& state, const PhysicsPrim& found) {
       combine_mode(state, found, "physxMaterial:dampingCombineMode");
   // S-73
   if (material.dynamic_friction > material.static_friction) {
-    state.report(
-        found.prim, state.tokens.dynamic_friction, Severity::Warning, "material.friction-order",
-        "dynamic friction " + shortest(material.dynamic_friction) + " exceeds static friction " +
-            shortest(material.static_friction) + "; both become the larger one at rest",
-        "author a staticFriction that is at least dynamicFriction");
+    state.report(found.prim, state.tokens.dynamic_friction, Severity::Warning,
+                 "material.friction-order",
+                 "dynamic friction " + text_of_float(material.dynamic_friction) +
+                     " exceeds static friction " + text_of_float(material.static_friction) +
+                     "; both become the larger one at rest",
+                 "author a staticFriction that is at least dynamicFriction");
     material.static_friction = material.dynamic_friction;
   }
   if (material.restitution > 1) {
     state.report(
         found.prim, state.tokens.restitution, Severity::Warning, "material.restitution",
-        "restitution " + shortest(material.restitution) + " adds energy; 1 is used instead",
+        "restitution " + text_of_float(material.restitution) + " adds energy; 1 is used instead",
         "author a restitution from 0 to 1");
     material.restitution = 1;
   }

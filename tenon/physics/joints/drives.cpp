@@ -10,7 +10,6 @@
 
 #include <cmath>
 
-#include "tenon/base/text/text_number.h"
 #include "tenon/physics/joints/joint_limits.h"
 #include "tenon/scene/joint_freedom.h"
 
@@ -58,7 +57,7 @@ double read_max_force(const ReadState& state, const stage::Prim& prim, Token nam
   if (force < 0) {
     // S-105
     state.report(prim, name, Severity::Error, "drive.negative-max-force",
-                 name.str() + " is " + shortest(force) + "; the force is not limited",
+                 name.str() + " is " + text_of_float(force) + "; the force is not limited",
                  "author a value that is not negative");
     return kUnlimited;
   }
@@ -70,7 +69,7 @@ double read_gain(const ReadState& state, const stage::Prim& prim, Token name) {
   const double gain = state.values.number(prim, name).value_or(0);
   if (gain < 0) {
     state.report(prim, name, Severity::Error, "drive.negative-gain",
-                 name.str() + " is " + shortest(gain) + ": the drive feeds energy in",
+                 name.str() + " is " + text_of_float(gain) + ": the drive feeds energy in",
                  "author a gain that is not negative");
   }
   return gain;

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tenon/base/text/text_number.h"
 #include "tenon/scene/joint_freedom.h"
 
 namespace tenon::physics {
@@ -61,8 +60,8 @@ void read_distances(const ReadState& state, const stage::Prim& prim, Joint& join
   joint.upper = high < 0 || std::isinf(high) ? kUnlimited : high * state.units.length;
   if (joint.lower > joint.upper) {
     state.report(prim, state.tokens.min_distance, Severity::Error, "joint.distance-order",
-                 "minDistance " + shortest(low) + " exceeds maxDistance " + shortest(high) +
-                     "; the distance is held at the maximum",
+                 "minDistance " + text_of_float(low) + " exceeds maxDistance " +
+                     text_of_float(high) + "; the distance is held at the maximum",
                  "author a minDistance that is at most maxDistance");
     joint.lower = joint.upper;
   }

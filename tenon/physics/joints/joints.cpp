@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "tenon/base/text/text_number.h"
 #include "tenon/physics/joints/joint_frames.h"
 #include "tenon/physics/joints/joint_limits.h"
 #include "tenon/physics/read_state.h"
@@ -48,7 +47,7 @@ double break_limit(const ReadState& state, const stage::Prim& prim, Token name, 
   const double value = state.values.number(prim, name).value_or(kUnlimited);
   if (value < 0) {
     state.report(prim, name, Severity::Error, "joint.negative-break",
-                 name.str() + " is " + shortest(value) + "; the joint never breaks",
+                 name.str() + " is " + text_of_float(value) + "; the joint never breaks",
                  "author a positive value, or leave it out");
     return kUnlimited;
   }
