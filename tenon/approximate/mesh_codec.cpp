@@ -53,7 +53,8 @@ constexpr void check(Function, Function) {}
 /// glTF's extension has version 0 of attributes and version 1 of triangles.
 const Codec& codec() {
   static const Codec found = [] {
-    const SharedLibrary library = SharedLibrary::open({own_library(TENON_MESHOPTIMIZER_SONAME), TENON_MESHOPTIMIZER_SONAME});
+    const SharedLibrary library =
+        SharedLibrary::open({own_library(TENON_MESHOPTIMIZER_SONAME), TENON_MESHOPTIMIZER_SONAME});
     Codec all;
     const bool complete = library.find("meshopt_encodeVertexBuffer", all.encode_vertices) &&
                           library.find("meshopt_encodeVertexBufferBound", all.vertices_bound) &&

@@ -34,7 +34,8 @@ static_assert(sizeof(static_cast<Simplify>(&::meshopt_simplify)) == sizeof(Simpl
 /// nullptr where there is no such library.
 Simplify simplify_function() {
   static const Simplify found = [] {
-    const SharedLibrary library = SharedLibrary::open({own_library(TENON_MESHOPTIMIZER_SONAME), TENON_MESHOPTIMIZER_SONAME});
+    const SharedLibrary library =
+        SharedLibrary::open({own_library(TENON_MESHOPTIMIZER_SONAME), TENON_MESHOPTIMIZER_SONAME});
     Simplify function = nullptr;
     library.find("meshopt_simplify", function);
     return function;
