@@ -15,6 +15,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include "tenon/base/limits/limits.h"
@@ -27,6 +28,35 @@ namespace {
 Error too_short() {
   return Error(ErrorCode::Corrupt, "a packed list of integers ends too early")
       .with_rule("file.integers-damaged");
+}
+
+/// Puts integers that are equal side by side. Many of 32 bits are put in order by eleven bits at a
+/// time, from the low ones up, which takes a fifth of the steps of comparing them.
+template <class Signed>
+void group_equal(std::vector<Signed>& integers) {
+  constexpr unsigned kBits = 11;
+  constexpr std::uint32_t kDigits = 1U << kBits;
+  constexpr std::size_t kMany = kDigits;
+  if (sizeof(Signed) > sizeof(std::uint32_t) || integers.size() < kMany) {
+    std::sort(integers.begin(), integers.end());
+    return;
+  }
+  std::vector<Signed> other(integers.size());
+  std::vector<std::size_t> starts;
+  for (unsigned shift = 0; shift < 8 * sizeof(std::uint32_t); shift += kBits) {
+    const auto digit = [shift](Signed x) {
+      return static_cast<std::uint32_t>(x) >> shift & (kDigits - 1);
+    };
+    starts.assign(kDigits + 1, 0);
+    for (const Signed x : integers) {
+      ++starts[digit(x) + 1];
+    }
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    for (const Signed x : integers) {
+      other[starts[digit(x)]++] = x;
+    }
+    integers.swap(other);
+  }
 }
 
 /// The commonest of many differences, the largest of several. The small ones, which are nearly all
@@ -48,7 +78,7 @@ class DifferenceCounts {
     for (std::size_t i = 0; i < small_.size(); ++i) {
       note(static_cast<Signed>(i) - static_cast<Signed>(kSmall), small_[i]);
     }
-    std::sort(others_.begin(), others_.end());
+    group_equal(others_);
     for (auto first = others_.begin(); first != others_.end();) {
       const auto last = std::find_if(first, others_.end(), [&](Signed x) { return x != *first; });
       note(*first, static_cast<std::size_t>(last - first));

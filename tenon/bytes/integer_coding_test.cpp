@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/bytes/integer_coding.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -67,7 +70,7 @@ TEST(IntegerCoding, GivesBackLongListsOfAnyStep) {
 
 // Of differences that are equally common the largest counts, in short lists and in long ones.
 TEST(IntegerCoding, TheLargestOfTheCommonestDifferencesIsLeftOut) {
-  for (const std::size_t rounds : {5u, 500u}) {
+  for (const std::size_t rounds : {5u, 500u, 5000u}) {
     std::vector<std::int32_t> integers{-7};
     for (std::size_t i = 0; i < rounds; ++i) {
       for (const std::int32_t difference : {-7, 5000, -5000, 4000, 1}) {
@@ -75,11 +78,40 @@ TEST(IntegerCoding, TheLargestOfTheCommonestDifferencesIsLeftOut) {
       }
     }
     integers.push_back(integers.back() + 5000);
-    const auto plain = lz4_decompress(bytes_of(encode_integers<std::int32_t>(integers)), 100000);
+    const auto plain = lz4_decompress(bytes_of(encode_integers<std::int32_t>(integers)), 1000000);
     ASSERT_TRUE(plain);
     std::int32_t common = 0;
     std::memcpy(&common, plain->data(), sizeof(common));
     EXPECT_EQ(common, 5000);
+  }
+}
+
+// Lists are long enough that differences are not compared one with another.
+TEST(IntegerCoding, LeavesOutWhatAPlainCountFinds) {
+  std::mt19937 random(11);
+  for (const std::uint32_t kinds : {3u, 50u, 20000u}) {
+    std::vector<std::uint32_t> steps(kinds);
+    for (std::uint32_t& step : steps) {
+      step = static_cast<std::uint32_t>(random());
+    }
+    std::vector<std::uint32_t> integers;
+    std::map<std::int32_t, std::size_t> counts;
+    std::uint32_t last = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const std::uint32_t step = steps[random() % kinds];
+      ++counts[static_cast<std::int32_t>(step)];
+      integers.push_back(last += step);
+    }
+    const auto expected =
+        std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+          return a.second != b.second ? a.second < b.second : a.first < b.first;
+        });
+    const auto plain = lz4_decompress(bytes_of(encode_integers<std::uint32_t>(integers)), 1000000);
+    ASSERT_TRUE(plain);
+    std::int32_t common = 0;
+    std::memcpy(&common, plain->data(), sizeof(common));
+    EXPECT_EQ(common, expected->first);
+    expect_round_trip(integers);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "tenon/base/paths/path_order.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <string_view>
 
@@ -20,7 +21,7 @@ class PathFamilies {
  public:
   explicit PathFamilies(std::span<const Path> paths) : next_equal_(paths.size(), kNobody) {
     members_.push_back({});  // the empty path, which is above all roots
-    grow(2 * paths.size() + 16);
+    grow(std::bit_ceil(2 * paths.size() + 16));
     for (std::size_t i = paths.size(); i > 0; --i) {
       const auto index = static_cast<std::uint32_t>(i - 1);
       Member& member = members_[member_of(paths[index])];
@@ -93,9 +94,9 @@ class PathFamilies {
   /// Where the member of a path is told, or would be.
   std::size_t slot_of(Path path) const {
     // Paths that were made one after another have neighbouring numbers and stay neighbours here.
-    std::size_t at = path.number() % slots_.size();
+    std::size_t at = path.number() & (slots_.size() - 1);
     while (slots_[at] != 0 && members_[slots_[at]].path != path) {
-      at = at + 1 == slots_.size() ? 0 : at + 1;
+      at = (at + 1) & (slots_.size() - 1);
     }
     return at;
   }

@@ -58,97 +58,109 @@ Token element_of(Path path) {
   return {};
 }
 
-/// Begins with where the program lies in memory, so that nobody who makes a layer can choose values
-/// that all fall into one place of the tables. What is written does not depend on it.
-std::uint64_t hash_seed() {
-  static const char here = 0;
-  return reinterpret_cast<std::uintptr_t>(&here);
-}
-
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
-  hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
-  return hash ^ (hash >> 32U);
-}
-
 }  // namespace
-
-std::size_t TableWriter::RowHash::operator()(const FieldRow& row) const {
-  return static_cast<std::size_t>(mixed(mixed(hash_seed(), row.name), row.word));
-}
-
-std::size_t TableWriter::RowHash::operator()(const std::vector<std::uint32_t>& set) const {
-  std::uint64_t hash = hash_seed();
-  for (const std::uint32_t field : set) {
-    hash = mixed(hash, field);
-  }
-  return static_cast<std::size_t>(hash);
-}
 
 TableWriter::TableWriter() {
   token(Token());  // index 0: a property's name must have a negative form
 }
 
 std::uint32_t TableWriter::token(Token token) {
-  const auto [it, added] =
-      token_index_.try_emplace(token, static_cast<std::uint32_t>(tokens_.size()));
-  if (added) {
-    tokens_.push_back(token);
-    if (!has_zero_byte_ && token.str().find('\0') != std::string::npos) {
-      has_zero_byte_ = true;
-      text_with_zero_byte_ = token;
-    }
+  const auto next = static_cast<std::uint32_t>(tokens_.size());
+  const std::uint32_t known =
+      token_index_.find_or_add(RowHash().with(std::hash<Token>{}(token)), next,
+                               [&](std::uint32_t row) { return tokens_[row] == token; });
+  if (known != RowIndex::kNone) {
+    return known;
   }
-  return it->second;
+  tokens_.push_back(token);
+  if (!has_zero_byte_ && token.str().find('\0') != std::string::npos) {
+    has_zero_byte_ = true;
+    text_with_zero_byte_ = token;
+  }
+  return next;
 }
 
 std::uint32_t TableWriter::string(std::string_view text) {
   const std::uint32_t index = token(Token(text));
-  const auto [it, added] =
-      string_index_.try_emplace(index, static_cast<std::uint32_t>(strings_.size()));
-  if (added) {
+  string_of_token_.resize(std::max(string_of_token_.size(), std::size_t{index} + 1));
+  std::uint32_t& number = string_of_token_[index];
+  if (number == 0) {
     strings_.push_back(index);
+    number = static_cast<std::uint32_t>(strings_.size());
   }
-  return it->second;
+  return number - 1;
 }
 
 std::uint32_t TableWriter::path(Path path) {
-  if (const auto known = path_index_.find(path); known != path_index_.end()) {
-    return known->second;
+  if (path.empty()) {
+    return empty_path();
   }
+  if (const std::uint32_t* const known = path_index_.find(path)) {
+    return *known;
+  }
+  if (path.parent() != last_parent_) {
+    add_above(path);
+    last_parent_ = path.parent();
+  }
+  return add_path(path);
+}
+
+void TableWriter::add_above(Path path) {
   std::vector<Path> missing;
-  for (Path at = path; !path_index_.contains(at); at = at.parent()) {
+  for (Path at = path.parent(); !at.empty() && path_index_.find(at) == nullptr; at = at.parent()) {
     missing.push_back(at);
-    if (at.empty() || at.is_absolute_root()) {
-      break;
-    }
   }
-  std::for_each(missing.rbegin(), missing.rend(), [this](Path at) {
-    path_index_.emplace(at, static_cast<std::uint32_t>(paths_.size()));
-    paths_.push_back(at);
-    path_tokens_.push_back(token(element_of(at)));
-  });
-  return static_cast<std::uint32_t>(paths_.size() - 1);
+  std::for_each(missing.rbegin(), missing.rend(), [this](Path at) { add_path(at); });
+}
+
+std::uint32_t TableWriter::add_path(Path path) {
+  const auto row = static_cast<std::uint32_t>(paths_.size());
+  path_index_[path] = row;
+  paths_.push_back(path);
+  path_tokens_.push_back(token(element_of(path)));
+  return row;
+}
+
+std::uint32_t TableWriter::empty_path() {
+  if (empty_path_ == RowIndex::kNone) {
+    empty_path_ = static_cast<std::uint32_t>(paths_.size());
+    paths_.push_back({});
+    path_tokens_.push_back(0);
+  }
+  return empty_path_;
 }
 
 std::uint32_t TableWriter::field(Token name, ValueWord value) {
   const std::uint32_t index = token(name);
-  const auto [it, added] = field_index_.try_emplace(
-      {index, value.bits}, static_cast<std::uint32_t>(field_names_.size()));
-  if (added) {
-    field_names_.push_back(index);
-    field_words_.push_back(value.bits);
+  const auto next = static_cast<std::uint32_t>(field_names_.size());
+  const std::uint32_t known = field_index_.find_or_add(
+      RowHash().with(index).with(value.bits), next, [&](std::uint32_t row) {
+        return field_names_[row] == index && field_words_[row] == value.bits;
+      });
+  if (known != RowIndex::kNone) {
+    return known;
   }
-  return it->second;
+  field_names_.push_back(index);
+  field_words_.push_back(value.bits);
+  return next;
 }
 
 std::uint32_t TableWriter::field_set(const std::vector<std::uint32_t>& fields) {
-  const auto [it, added] =
-      field_set_index_.try_emplace(fields, static_cast<std::uint32_t>(field_sets_.size()));
-  if (added) {
-    field_sets_.insert(field_sets_.end(), fields.begin(), fields.end());
-    field_sets_.push_back(kEndOfSet);
+  RowHash hash;
+  for (const std::uint32_t field : fields) {
+    hash = hash.with(field);
   }
-  return it->second;
+  const auto next = static_cast<std::uint32_t>(field_sets_.size());
+  const std::uint32_t known = field_set_index_.find_or_add(hash, next, [&](std::uint32_t start) {
+    const auto set = field_sets_.begin() + start;
+    return std::equal(fields.begin(), fields.end(), set) && set[fields.size()] == kEndOfSet;
+  });
+  if (known != RowIndex::kNone) {
+    return known;
+  }
+  field_sets_.insert(field_sets_.end(), fields.begin(), fields.end());
+  field_sets_.push_back(kEndOfSet);
+  return next;
 }
 
 void TableWriter::spec(Path spec_path, std::uint32_t kind, std::uint32_t field_set) {
@@ -190,9 +202,12 @@ struct TableWriter::PathTree {
   std::vector<std::int32_t> tokens;
   std::vector<std::int32_t> jumps;
 
-  explicit PathTree(const TableWriter& table) {
+  PathTree(const TableWriter& table, std::span<const std::uint32_t> ordered) {
+    paths.reserve(ordered.size());
+    tokens.reserve(ordered.size());
+    jumps.reserve(ordered.size());
     std::vector<std::size_t> open;  // rows from the root to the row before
-    for (const std::uint32_t index : path_order(table.paths_)) {
+    for (const std::uint32_t index : ordered) {
       if (!table.paths_[index].empty()) {
         add(table, index, open);
       }
@@ -223,8 +238,21 @@ struct TableWriter::PathTree {
   }
 };
 
-void TableWriter::write_paths(bytes::ByteWriter& out) const {
-  const PathTree tree(*this);
+/// Each of the paths of specs has a row, so where there are as many, these are all.
+std::vector<std::uint32_t> TableWriter::ordered_paths(std::span<const Path> spec_paths) const {
+  if (spec_paths.size() != paths_.size()) {
+    return path_order(paths_);
+  }
+  std::vector<std::uint32_t> rows;
+  rows.reserve(paths_.size());
+  for (const Path path : spec_paths) {
+    rows.push_back(path_index_.at(path));
+  }
+  return rows;
+}
+
+void TableWriter::write_paths(bytes::ByteWriter& out, std::span<const Path> spec_paths) const {
+  const PathTree tree(*this, ordered_paths(spec_paths));
   out.write(std::uint64_t{paths_.size()});
   out.write(std::uint64_t{tree.paths.size()});
   write_packed(out, tree.paths);
@@ -239,7 +267,7 @@ void TableWriter::write_specs(bytes::ByteWriter& out) const {
   write_packed(out, spec_kinds_);
 }
 
-std::size_t TableWriter::write(bytes::ByteWriter& out) {
+std::size_t TableWriter::write(bytes::ByteWriter& out, std::span<const Path> spec_paths) {
   std::vector<Section> sections;
   const auto section = [&](const char* name, const std::function<void()>& content) {
     Section row = {};
@@ -259,7 +287,7 @@ std::size_t TableWriter::write(bytes::ByteWriter& out) {
     out.write(std::uint64_t{field_sets_.size()});
     write_packed(out, field_sets_);
   });
-  section("PATHS", [&] { write_paths(out); });
+  section("PATHS", [&] { write_paths(out, spec_paths); });
   section("SPECS", [&] { write_specs(out); });
   const std::size_t contents = out.offset();
   out.write(std::uint64_t{sections.size()});

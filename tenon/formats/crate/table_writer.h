@@ -4,13 +4,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
+#include <span>
 #include <vector>
 
 #include "tenon/base/path.h"
+#include "tenon/base/paths/path_table.h"
 #include "tenon/base/token.h"
 #include "tenon/bytes/byte_writer.h"
 #include "tenon/formats/crate/layout.h"
+#include "tenon/formats/crate/row_index.h"
 
 namespace tenon::formats::crate {
 
@@ -28,8 +30,9 @@ class TableWriter {
   std::uint32_t field_set(const std::vector<std::uint32_t>& fields);
   void spec(Path path, std::uint32_t kind, std::uint32_t field_set);
 
-  /// Appends the sections and the table of contents; the offset of the latter.
-  std::size_t write(bytes::ByteWriter& out);
+  /// Appends the sections and the table of contents; the offset of the latter. `spec_paths` are
+  /// those of all specs in their order: mostly there are no others.
+  std::size_t write(bytes::ByteWriter& out, std::span<const Path> spec_paths);
   /// False when there are more rows than the format can count.
   bool fits() const;
   /// The first text that the format, which ends texts with a zero, cannot hold; nullptr for none.
@@ -38,35 +41,33 @@ class TableWriter {
   }
 
  private:
-  struct FieldRow {
-    std::uint32_t name = 0;
-    std::uint64_t word = 0;
-    bool operator==(const FieldRow&) const = default;
-  };
-  struct RowHash {
-    std::size_t operator()(const FieldRow& row) const;
-    std::size_t operator()(const std::vector<std::uint32_t>& set) const;
-  };
   struct PathTree;
+  std::uint32_t empty_path();
+  void add_above(Path path);
+  std::uint32_t add_path(Path path);
   void write_tokens(bytes::ByteWriter& out) const;
   void write_fields(bytes::ByteWriter& out) const;
-  void write_paths(bytes::ByteWriter& out) const;
+  /// Rows of paths in the order of these.
+  std::vector<std::uint32_t> ordered_paths(std::span<const Path> spec_paths) const;
+  void write_paths(bytes::ByteWriter& out, std::span<const Path> spec_paths) const;
   void write_specs(bytes::ByteWriter& out) const;
 
   std::vector<Token> tokens_;
-  std::unordered_map<Token, std::uint32_t> token_index_;
+  RowIndex token_index_;
   Token text_with_zero_byte_;
   bool has_zero_byte_ = false;
   std::vector<std::uint32_t> strings_;
-  std::unordered_map<std::uint32_t, std::uint32_t> string_index_;  // by token
+  std::vector<std::uint32_t> string_of_token_;  // 1 + its number; 0: none
   std::vector<Path> paths_;
   std::vector<std::uint32_t> path_tokens_;  // of their last elements
-  std::unordered_map<Path, std::uint32_t> path_index_;
+  PathTable<std::uint32_t> path_index_;
+  Path last_parent_;  // of the path that came last: it and what is above it have rows
+  std::uint32_t empty_path_ = RowIndex::kNone;
   std::vector<std::uint32_t> field_names_;
   std::vector<std::uint64_t> field_words_;
-  std::unordered_map<FieldRow, std::uint32_t, RowHash> field_index_;
+  RowIndex field_index_;
   std::vector<std::uint32_t> field_sets_;
-  std::unordered_map<std::vector<std::uint32_t>, std::uint32_t, RowHash> field_set_index_;
+  RowIndex field_set_index_;  // by where they start
   std::vector<std::uint32_t> spec_paths_;
   std::vector<std::uint32_t> spec_sets_;
   std::vector<std::uint32_t> spec_kinds_;

@@ -251,19 +251,20 @@ Result<void> ValueWriter::item(bytes::ByteWriter& to, const layer::ListOp<T>& ed
 }
 
 std::uint64_t ValueWriter::place(std::string_view data, std::size_t alignment) {
-  const std::size_t hash = std::hash<std::string_view>{}(data);
-  const auto [first, last] = placed_.equal_range(hash);
-  for (auto it = first; it != last; ++it) {
-    const Placed& placed = it->second;
-    const std::string_view there =
-        std::string_view(out_.bytes()).substr(static_cast<std::size_t>(placed.offset), placed.size);
-    if (there == data && placed.offset % alignment == 0) {
-      return placed.offset;
-    }
+  const std::string_view before = out_.bytes();
+  const std::uint32_t known = placed_index_.find_or_add(
+      RowHash().with(std::hash<std::string_view>{}(data)),
+      static_cast<std::uint32_t>(placed_.size()), [&](std::uint32_t number) {
+        const Placed& placed = placed_[number];
+        return placed.size == data.size() && placed.offset % alignment == 0 &&
+               before.substr(static_cast<std::size_t>(placed.offset), placed.size) == data;
+      });
+  if (known != RowIndex::kNone) {
+    return placed_[known].offset;
   }
   const std::uint64_t offset = out_.align(alignment);
   out_.write_text(data);
-  placed_.emplace(hash, Placed{offset, data.size()});
+  placed_.push_back({offset, data.size()});
   return offset;
 }
 
@@ -347,7 +348,11 @@ ValueWord ValueWriter::array_edit(const layer::ArrayEdit& edit) {
 
 Result<ValueWord> ValueWriter::write(const Value& given) {
   using namespace layer;  // NOLINT(google-build-using-namespace): the table names its types
-  TENON_TRY(const Value value, given.decoded());
+  if (given.is_deferred()) {
+    TENON_TRY(const Value value, given.decoded());
+    return write(value);
+  }
+  const Value& value = given;
   switch (value.type()) {
 #define TENON_SCALAR(enumerator, type, name, crate_id)                         \
   case ValueType::enumerator:                                                  \

@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "tenon/base/result.h"
 #include "tenon/bytes/byte_writer.h"
 #include "tenon/formats/crate/layout.h"
+#include "tenon/formats/crate/row_index.h"
 #include "tenon/formats/crate/table_writer.h"
 #include "tenon/layer/field_values.h"
 
@@ -62,7 +62,8 @@ class ValueWriter {
     std::uint64_t offset;
     std::size_t size;
   };
-  std::unordered_multimap<std::size_t, Placed> placed_;  // by hash of the data
+  std::vector<Placed> placed_;
+  RowIndex placed_index_;  // by the data
 };
 
 }  // namespace tenon::formats::crate

@@ -3,6 +3,7 @@
 #include "tenon/formats/crate/writer.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <map>
 #include <unordered_map>
@@ -24,7 +25,12 @@ std::uint32_t kind_number(layer::SpecKind kind) {
 
 /// Specs in the order of the file: prims before properties, those grouped by name, each by path.
 /// Equal fields side by side pack well. Specs of targets carry nothing that their list does not.
-std::vector<const Entry*> ordered_specs(const layer::Layer& layer) {
+struct OrderedSpecs {
+  std::vector<const Entry*> entries;
+  std::vector<Path> paths;  ///< the same in the order of paths
+};
+
+OrderedSpecs ordered_specs(const layer::Layer& layer) {
   std::vector<const Entry*> entries;
   std::vector<Path> paths;
   for (const Entry& entry : layer.entries()) {
@@ -34,40 +40,71 @@ std::vector<const Entry*> ordered_specs(const layer::Layer& layer) {
       paths.push_back(entry.path);
     }
   }
-  std::vector<const Entry*> ordered;
-  ordered.reserve(entries.size());
+  OrderedSpecs ordered;
+  ordered.entries.reserve(entries.size());
+  ordered.paths.reserve(entries.size());
   std::unordered_map<Token, std::vector<const Entry*>> properties;
   for (const std::uint32_t i : path_order(paths)) {
-    (paths[i].is_property() ? properties[paths[i].name()] : ordered).push_back(entries[i]);
+    ordered.paths.push_back(paths[i]);
+    (paths[i].is_property() ? properties[paths[i].name()] : ordered.entries).push_back(entries[i]);
   }
   std::map<Token, const std::vector<const Entry*>*> by_name;
   for (const auto& [name, group] : properties) {
     by_name.emplace(name, &group);
   }
   for (const auto& [name, group] : by_name) {
-    ordered.insert(ordered.end(), group->begin(), group->end());
+    ordered.entries.insert(ordered.entries.end(), group->begin(), group->end());
   }
   return ordered;
 }
 
-/// `fields` is room for the numbers of its fields.
-Result<void> write_spec(const Entry& entry, crate::TableWriter& tables, crate::ValueWriter& values,
-                        std::vector<std::uint32_t>& fields) {
-  fields.clear();
-  for (const layer::Field& field : entry.spec.fields()) {
-    if (field.value.empty() || field.name == layer::fields::targetChildren ||
-        field.name == layer::fields::connectionChildren) {
-      continue;
+/// Writes specs one by one. Readers let specs share equal fields; where some are met again soon
+/// their set is known.
+class SpecWriter {
+ public:
+  SpecWriter(crate::TableWriter& tables, crate::ValueWriter& values)
+      : tables_(tables), values_(values) {}
+
+  Result<void> write(const Entry& entry) {
+    const layer::Field* const list = entry.spec.fields().data();
+    Known& known = known_[(reinterpret_cast<std::uintptr_t>(list) >> 5U) % kKnown];
+    if (list == nullptr || known.list != list) {
+      TENON_TRY(const std::uint32_t set, field_set(entry));
+      known = {list, set};
     }
-    auto word = values.write(field.name, field.value);
-    if (!word) {
-      return std::move(word).error().with_prim(entry.path.prim().str());
-    }
-    fields.push_back(tables.field(field.name, *word));
+    tables_.spec(entry.path, kind_number(entry.spec.kind), known.set);
+    return {};
   }
-  tables.spec(entry.path, kind_number(entry.spec.kind), tables.field_set(fields));
-  return {};
-}
+
+ private:
+  static constexpr std::size_t kKnown = 256;
+
+  struct Known {
+    const layer::Field* list = nullptr;
+    std::uint32_t set = 0;
+  };
+
+  Result<std::uint32_t> field_set(const Entry& entry) {
+    fields_.clear();
+    for (const layer::Field& field : entry.spec.fields()) {
+      if (field.value.empty() || field.name == layer::fields::targetChildren ||
+          field.name == layer::fields::connectionChildren) {
+        continue;
+      }
+      auto word = values_.write(field.name, field.value);
+      if (!word) {
+        return std::move(word).error().with_prim(entry.path.prim().str());
+      }
+      fields_.push_back(tables_.field(field.name, *word));
+    }
+    return tables_.field_set(fields_);
+  }
+
+  crate::TableWriter& tables_;
+  crate::ValueWriter& values_;
+  std::array<Known, kKnown> known_{};
+  std::vector<std::uint32_t> fields_;  // of the spec that is written
+};
 
 }  // namespace
 
@@ -76,12 +113,13 @@ Result<std::string> write_crate(const layer::Layer& layer) {
   out.write(crate::Bootstrap{});
   crate::TableWriter tables;
   crate::ValueWriter values(out, tables);
-  std::vector<std::uint32_t> fields;
-  for (const Entry* entry : ordered_specs(layer)) {
-    TENON_CHECK(write_spec(*entry, tables, values, fields));
+  SpecWriter specs(tables, values);
+  const OrderedSpecs ordered = ordered_specs(layer);
+  for (const Entry* entry : ordered.entries) {
+    TENON_CHECK(specs.write(*entry));
   }
   crate::Bootstrap bootstrap = {};
-  bootstrap.contents = static_cast<std::int64_t>(tables.write(out));
+  bootstrap.contents = static_cast<std::int64_t>(tables.write(out, ordered.paths));
   if (!tables.fits() || out.offset() > crate::ValueWord::kPayloadMask) {
     return Error(ErrorCode::Limit, "the layer is too large for a binary file")
         .with_rule("crate.too-much");

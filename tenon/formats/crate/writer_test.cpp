@@ -74,6 +74,50 @@ TEST(CrateWriter, KeepsNegativeZeroInfinityAndNan) {
   EXPECT_TRUE(std::isnan(*nan->find(Path::from("/A"))->get<double>("field")));
 }
 
+/// Many properties of few kinds, whose fields are shared where they are equal, or their own.
+Layer layer_of_like_specs(bool shared) {
+  Layer layer("made");
+  std::vector<Token> names;
+  std::vector<layer::FieldList> lists;
+  for (int i = 0; i < 7; ++i) {
+    names.push_back(Token("p" + std::to_string(i)));
+    layer::Spec spec;
+    spec.set(layer::fields::typeName, Token(i % 2 == 0 ? "double" : "float"));
+    spec.set(layer::fields::default_value, 0.1 * i);
+    lists.push_back(spec.field_list());
+  }
+  std::vector<Token> children;
+  for (int i = 0; i < 600; ++i) {
+    children.push_back(Token("A" + std::to_string(i)));
+    const Path prim = Path::absolute_root().child(children.back());
+    layer.create(prim, SpecKind::Prim).set(layer::fields::properties, names);
+    for (int j = 0; j < 7; ++j) {
+      const auto field_list = lists[static_cast<std::size_t>((i + j) % 7)];
+      layer::Spec& spec =
+          layer.create(prim.property(names[static_cast<std::size_t>(j)]), SpecKind::Attribute);
+      if (shared) {
+        spec.set_field_list(field_list);
+        continue;
+      }
+      for (const layer::Field& field : field_list.items()) {
+        spec.set(field.name, field.value);
+      }
+    }
+  }
+  layer.root().set(layer::fields::primChildren, children);
+  return layer;
+}
+
+TEST(CrateWriter, WritesSharedFieldsAsIfTheyWereNot) {
+  const auto shared = write_crate(layer_of_like_specs(true));
+  const auto own = write_crate(layer_of_like_specs(false));
+  ASSERT_TRUE(shared && own);
+  EXPECT_TRUE(*shared == *own);
+  const auto back = read_back(*shared);
+  ASSERT_TRUE(back);
+  expect_equal(layer_of_like_specs(false), *back);
+}
+
 TEST(CrateWriter, WritesTheLowestVersionThatHoldsTheLayer) {
   layer::Spline spline;
   spline.knots.push_back({});
