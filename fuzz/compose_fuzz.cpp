@@ -38,7 +38,7 @@ std::string account_of(IndexCache& cache, bool ahead) {
     const PrimIndex& index = *pending.back();
     pending.pop_back();
     text += index.path.str() + "\n" + dump_nodes(index, name_of);
-    for (const tenon::Diagnostic& error : index.errors) {
+    for (const tenon::Diagnostic& error : index.extras().errors) {
       text += error.to_string() + "\n";
     }
     for (const tenon::Token name : index.child_names) {

@@ -41,7 +41,8 @@ void count_work(const IndexServices& services, const PrimIndex& index) {
 void collect_selections(PrimIndex& index) {
   for (const Node& node : index.nodes) {
     if (node.path.is_variant_selection()) {
-      index.variant_selections.emplace(node.path.name().str(), node.path.variant().str());
+      index.make_extras().variant_selections.emplace(node.path.name().str(),
+                                                     node.path.variant().str());
     }
   }
 }
@@ -56,7 +57,6 @@ bool build_local_child(const IndexServices& services, const PrimIndex& parent, P
   }
   services.work->count(kIndexUnits + index.path.depth() + kOpinionUnits * parent.opinions.size());
   AuthoredArcs arcs;
-  index.opinions.reserve(parent.opinions.size());
   for (const Opinion& above : parent.opinions) {
     const layer::Spec* const spec = above.node == 0 ? above.layer->find(index.path) : nullptr;
     if (spec != nullptr) {
@@ -74,8 +74,8 @@ bool build_local_child(const IndexServices& services, const PrimIndex& parent, P
   index.nodes.front().has_specs = !index.opinions.empty();
   if (index.opinions.size() == 1 && !index.opinions.front().spec->has(layer::fields::primOrder)) {
     const layer::Spec& spec = *index.opinions.front().spec;
-    index.child_names = layer::Layer::children(spec, layer::fields::primChildren);
-    index.property_names = layer::Layer::children(spec, layer::fields::properties);
+    index.child_names = NameList(spec, layer::fields::primChildren);
+    index.property_names = NameList(spec, layer::fields::properties);
   } else if (!index.opinions.empty()) {
     compose_child_names(index);
     compose_property_names(index);
@@ -85,7 +85,8 @@ bool build_local_child(const IndexServices& services, const PrimIndex& parent, P
 
 void build_with_arcs(const IndexServices& services, PrimIndex& index) {
   NodeGraph graph(*services.maps, *services.work);
-  Indexer indexer(services, nullptr, graph, index.errors);
+  Diagnostics errors;
+  Indexer indexer(services, nullptr, graph, errors);
   indexer.root_prim = index.path;
   build_graph(indexer, {services.root_stack, index.path}, true);
   cull_without_opinions(graph);
@@ -94,9 +95,12 @@ void build_with_arcs(const IndexServices& services, PrimIndex& index) {
   index.payload_loaded = indexer.payload_loaded;
   graph.finalize();
   if (index.instanceable) {
-    index.instance_key = instance_key(graph, index.has_payloads);
+    index.make_extras().instance_key = instance_key(graph, index.has_payloads);
   }
-  index.nodes = std::move(graph.nodes());
+  if (!errors.empty()) {
+    index.make_extras().errors = std::move(errors);
+  }
+  index.nodes.assign(graph.nodes());
   *services.node_count += index.nodes.size();
   collect_opinions(index);
   collect_selections(index);
@@ -111,7 +115,7 @@ void build_root_index(const IndexServices& services, PrimIndex& index) {
   NodeGraph graph(*services.maps, *services.work);
   graph.reset(Site{services.root_stack, index.path});
   graph[0].has_specs = true;
-  index.nodes = std::move(graph.nodes());
+  index.nodes.assign(graph.nodes());
   collect_opinions(index);
   compose_child_names(index);
   compose_property_names(index);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 #include <unordered_set>
 
 #include "tenon/compose/indexer.h"
@@ -16,8 +17,8 @@ namespace {
 
 namespace fields = layer::fields;
 
-/// A list of distinct names; long ones with an index.
-class NameList {
+/// Distinct names that more are added to; many of them with an index.
+class GrowingNames {
  public:
   bool has(Token name) const {
     return indexed_ ? index_.count(name) != 0
@@ -119,12 +120,12 @@ RelocatedChildren relocated_children(const LayerStack& stack, Path path,
   return result;
 }
 
-void apply_relocates(const LayerStack& stack, Path path, NameList& list,
+void apply_relocates(const LayerStack& stack, Path path, GrowingNames& list,
                      std::set<Token>& prohibited) {
   RelocatedChildren relocated = relocated_children(stack, path, prohibited);
   std::erase_if(relocated.added, [&](Token name) { return list.has(name); });
   if (!relocated.renamed.empty() || !relocated.removed.empty()) {
-    NameList left;
+    GrowingNames left;
     std::set<Token> still_there(list.names().begin(), list.names().end());
     for (const Token name : list.names()) {
       const auto renamed = relocated.renamed.find(name);
@@ -165,7 +166,7 @@ std::vector<NodeOpinions> opinions_by_node(const PrimIndex& index) {
 }
 
 void add_names(const PrimIndex& index, const NodeOpinions& range, Token names_field,
-               const Token* order_field, NameList& list) {
+               const Token* order_field, GrowingNames& list) {
   for (std::size_t i = range.end; i-- > range.begin;) {
     const layer::Spec& spec = *index.opinions[i].spec;
     list.add_all(layer::Layer::children(spec, names_field));
@@ -179,7 +180,7 @@ void add_names(const PrimIndex& index, const NodeOpinions& range, Token names_fi
 }
 
 /// Nodes weakest first as their names combine: children before what they are below.
-std::vector<std::uint32_t> weak_to_strong(const std::vector<Node>& nodes) {
+std::vector<std::uint32_t> weak_to_strong(std::span<const Node> nodes) {
   std::vector<std::uint32_t> order;
   order.reserve(nodes.size());
   struct Open {
@@ -203,7 +204,7 @@ std::vector<std::uint32_t> weak_to_strong(const std::vector<Node>& nodes) {
   return order;
 }
 
-bool is_in_culled_subtree(const std::vector<Node>& nodes, std::uint32_t id) {
+bool is_in_culled_subtree(std::span<const Node> nodes, std::uint32_t id) {
   for (; id != kNoNode; id = nodes[id].parent) {
     if (nodes[id].culled) {
       return true;
@@ -216,7 +217,7 @@ bool is_in_culled_subtree(const std::vector<Node>& nodes, std::uint32_t id) {
 
 void compose_child_names(PrimIndex& index) {
   const std::vector<NodeOpinions> opinions = opinions_by_node(index);
-  NameList list;
+  GrowingNames list;
   std::set<Token> prohibited;
   for (const std::uint32_t id : weak_to_strong(index.nodes)) {
     const Node& node = index.nodes[id];
@@ -229,20 +230,23 @@ void compose_child_names(PrimIndex& index) {
     }
     add_names(index, opinions[id], fields::primChildren, &fields::primOrder, list);
   }
-  index.child_names = list.take();
-  std::erase_if(index.child_names, [&](Token name) { return prohibited.count(name) != 0; });
-  index.prohibited_child_names.assign(prohibited.begin(), prohibited.end());
+  std::vector<Token> names = list.take();
+  if (!prohibited.empty()) {
+    std::erase_if(names, [&](Token name) { return prohibited.count(name) != 0; });
+    index.make_extras().prohibited_child_names.assign(prohibited.begin(), prohibited.end());
+  }
+  index.child_names = NameList(std::move(names));
 }
 
 void compose_property_names(PrimIndex& index) {
   const std::vector<NodeOpinions> opinions = opinions_by_node(index);
-  NameList list;
+  GrowingNames list;
   for (const std::uint32_t id : weak_to_strong(index.nodes)) {
     if (opinions[id].end != 0 && !is_in_culled_subtree(index.nodes, id)) {
       add_names(index, opinions[id], fields::properties, nullptr, list);
     }
   }
-  index.property_names = list.take();
+  index.property_names = NameList(list.take());
 }
 
 }  // namespace tenon::compose

@@ -67,14 +67,14 @@ class Dump {
 
   void prim(const PrimIndex& index) {
     text_ += kRule + "\nResults for composing <" + index.path.str() + ">\n";
-    Diagnostics errors = index.errors;
+    Diagnostics errors = index.extras().errors;
     const std::vector<Property> properties = collect(index, errors);
     prim_stack(index);
     time_offsets(index);
     variant_selections(index);
-    names("Child names", index.child_names);
-    names("Prohibited child names", index.prohibited_child_names);
-    names("Property names", index.property_names);
+    names("Child names", index.child_names.list());
+    names("Prohibited child names", index.extras().prohibited_child_names);
+    names("Property names", index.property_names.list());
     property_stacks(properties);
     targets("Relationship targets", properties, false, &TargetList::paths);
     targets("Attribute connections", properties, true, &TargetList::paths);
@@ -145,11 +145,11 @@ class Dump {
   }
 
   void variant_selections(const PrimIndex& index) {
-    if (index.variant_selections.empty()) {
+    if (index.extras().variant_selections.empty()) {
       return;
     }
     text_ += "\nVariant Selections:\n";
-    for (const auto& [set, variant] : index.variant_selections) {
+    for (const auto& [set, variant] : index.extras().variant_selections) {
       text_ += "    {" + set + " = " + variant + "}\n";
     }
   }
@@ -231,7 +231,8 @@ std::string dump_indices(IndexCache& cache, const LayerLabel& label,
   dump.layer_stack();
   std::vector<const PrimIndex*> open;
   const auto open_children = [&](const PrimIndex& index) {
-    for (auto name = index.child_names.rbegin(); name != index.child_names.rend(); ++name) {
+    const std::vector<Token>& names = index.child_names.list();
+    for (auto name = names.rbegin(); name != names.rend(); ++name) {
       open.push_back(&cache.child_index(index, *name));
     }
   };

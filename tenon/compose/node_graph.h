@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -42,8 +43,8 @@ class NodeGraph {
   /// Starts over with a root node.
   void reset(const Site& site);
   /// Starts over with the nodes of the parent prim's index.
-  void reset(const std::vector<Node>& nodes) {
-    nodes_ = nodes;
+  void reset(std::span<const Node> nodes) {
+    nodes_.assign(nodes.begin(), nodes.end());
     copies_known_ = false;
     ++revision_;
     count(nodes_.size());

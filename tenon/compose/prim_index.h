@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
@@ -12,6 +14,8 @@
 #include "tenon/compose/arcs/arc.h"
 #include "tenon/compose/layer_stack.h"
 #include "tenon/compose/maps/map_function.h"
+#include "tenon/compose/one_or_many.h"
+#include "tenon/layer/shared_contents.h"
 
 namespace tenon::compose {
 
@@ -60,23 +64,71 @@ struct Opinion {
   layer::LayerOffset offset;  ///< stage time = offset(layer time)
 };
 
-/// Everything that composition found out about one prim.
-struct PrimIndex {
-  Path path;
-  std::vector<Node> nodes;                    ///< strongest first; node 0 is the root
-  std::vector<Opinion> opinions;              ///< prim specs, strongest first
-  std::vector<Token> child_names;             ///< composed, ordered, prohibited names removed
+/// Names in order, each once. Those that one spec lists are shared with it and stay as they are
+/// while its layer is edited. The size of one pointer.
+class NameList {
+ public:
+  NameList() = default;
+  explicit NameList(std::vector<Token> names) {
+    if (!names.empty()) {
+      names_ = Shared(layer::Value(std::move(names)));
+    }
+  }
+  /// What `spec` lists in the field `names`.
+  NameList(const layer::Spec& spec, Token names) {
+    if (const layer::Value* const value = spec.find(names)) {
+      names_ = Shared(*value);
+    }
+  }
+
+  const std::vector<Token>& list() const {
+    static const std::vector<Token> none;
+    const std::vector<Token>* const names = names_.get();
+    return names == nullptr ? none : *names;
+  }
+  std::size_t size() const { return names_.get() == nullptr ? 0 : names_.get()->size(); }
+  bool empty() const { return size() == 0; }
+  const Token* begin() const { return names_.get() == nullptr ? nullptr : names_.get()->data(); }
+  const Token* end() const { return begin() + size(); }
+
+ private:
+  using Shared = layer::SharedContents<std::vector<Token>>;
+  Shared names_;
+};
+
+/// What was found out about few prims.
+struct IndexExtras {
   std::vector<Token> prohibited_child_names;  ///< relocated away; sorted
-  std::vector<Token>
-      property_names;  ///< authored ones; weakest specs first, propertyOrder not applied
   /// Selections in force: the variant whose opinions contribute.
   std::map<std::string, std::string> variant_selections;
-  bool has_payloads = false;    ///< some payload arc is authored
-  bool payload_loaded = false;  ///< and included under the load rules
-  bool instanceable = false;    ///< an instance: some arc, and instanceable = true
   /// Equal for prims that share a prototype; empty when not instanceable.
   std::string instance_key;
   Diagnostics errors;  ///< rule = "compose.<class>", see composition_error.h
+};
+
+/// Everything that composition found out about one prim. There are as many as prims: that of a prim
+/// without arcs in one layer lies in one piece of memory.
+struct PrimIndex {
+  Path path;
+  OneOrMany<Node> nodes;        ///< strongest first; node 0 is the root
+  OneOrMany<Opinion> opinions;  ///< prim specs, strongest first
+  NameList child_names;         ///< composed, ordered, prohibited names removed
+  NameList property_names;      ///< authored ones; weakest specs first, propertyOrder not applied
+  std::unique_ptr<IndexExtras> own_extras;  ///< where there are any
+  bool has_payloads = false;                ///< some payload arc is authored
+  bool payload_loaded = false;              ///< and included under the load rules
+  bool instanceable = false;                ///< an instance: some arc, and instanceable = true
+
+  const IndexExtras& extras() const {
+    static const IndexExtras none;
+    return own_extras == nullptr ? none : *own_extras;
+  }
+  IndexExtras& make_extras() {
+    if (own_extras == nullptr) {
+      own_extras = std::make_unique<IndexExtras>();
+    }
+    return *own_extras;
+  }
 
   /// Some opinion has a property of that name.
   bool has_property(Token name) const {

@@ -66,10 +66,10 @@ class TestScene {
     }
     return text;
   }
-  std::string errors(const char* path) { return rules(at(path).errors); }
+  std::string errors(const char* path) { return rules(at(path).extras().errors); }
   std::string stack_errors() { return rules(cache_->layer_stack()->errors); }
-  std::string children(const char* path) { return words(at(path).child_names); }
-  std::string properties(const char* path) { return words(at(path).property_names); }
+  std::string children(const char* path) { return words(at(path).child_names.list()); }
+  std::string properties(const char* path) { return words(at(path).property_names.list()); }
 
  private:
   static std::string words(const std::vector<Token>& names) {

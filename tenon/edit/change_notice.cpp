@@ -52,7 +52,7 @@ bool same_composition(const PrimData& a, const PrimData& b) {
   const compose::PrimIndex& x = *a.index;
   const compose::PrimIndex& y = *b.index;
   return a.type_name == b.type_name && a.specifier == b.specifier && a.active == b.active &&
-         a.loaded == b.loaded && x.instance_key == y.instance_key &&
+         a.loaded == b.loaded && x.extras().instance_key == y.extras().instance_key &&
          std::equal(x.nodes.begin(), x.nodes.end(), y.nodes.begin(), y.nodes.end(), same_node) &&
          std::equal(x.opinions.begin(), x.opinions.end(), y.opinions.begin(), y.opinions.end(),
                     same_opinion) &&
@@ -61,8 +61,9 @@ bool same_composition(const PrimData& a, const PrimData& b) {
 
 /// The same children in another order.
 bool is_reordered(const PrimData& a, const PrimData& b) {
-  return a.index->child_names != b.index->child_names &&
-         sorted(a.index->child_names) == sorted(b.index->child_names);
+  const std::vector<Token>& before = a.index->child_names.list();
+  const std::vector<Token>& after = b.index->child_names.list();
+  return before != after && sorted(before) == sorted(after);
 }
 
 class Comparison {
@@ -129,13 +130,12 @@ class Comparison {
   }
 
   /// The prim at the same path; prims of prototypes are told by the instance they were made from.
-  static const PrimData* prim_like(const std::unordered_map<Path, PrimData*>& others,
-                                   const PrimData& prim) {
-    const auto it = others.find(prim.path);
-    return it == others.end() || it->second->source_path != prim.source_path ? nullptr : it->second;
+  static const PrimData* prim_like(const PathTable<PrimData*>& others, const PrimData& prim) {
+    PrimData* const* const found = others.find(prim.path);
+    return found == nullptr || (*found)->source_path != prim.source_path ? nullptr : *found;
   }
 
-  void compare(const std::unordered_map<Path, PrimData*>& others, const PrimData& prim) {
+  void compare(const PathTable<PrimData*>& others, const PrimData& prim) {
     const PrimData* old = prim_like(others, prim);
     if (old == nullptr || !same_composition(*old, prim) || is_reordered(*old, prim)) {
       report(resynced_, prim, {});
@@ -157,7 +157,7 @@ class Comparison {
 
   void report_property(const PrimData& old, const PrimData& prim, Token name) {
     const auto has = [&](const PrimData& where) {
-      const std::vector<Token>& names = where.index->property_names;
+      const std::vector<Token>& names = where.index->property_names.list();
       return std::find(names.begin(), names.end(), name) != names.end() ||
              where.definition->find(name) != nullptr;
     };

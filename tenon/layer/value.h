@@ -67,6 +67,8 @@ struct ValueTraits;  // type, is_array
 #include "tenon/layer/value_types.def"
 
 class Value;
+template <class T>
+class SharedContents;
 
 /// An array that still lies in a file; decoded on first use, once, from any thread.
 class DeferredArray {
@@ -176,6 +178,8 @@ class Value {
   bool operator==(const Value& other) const;
 
  private:
+  template <class T>
+  friend class SharedContents;
   template <class T>
   struct Held final : SharedBody {
     template <class U>

@@ -8,6 +8,7 @@
 
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/metadata_fields.h"
+#include "tenon/layer/shared_contents.h"
 #include "tenon/layer/type_names.h"
 
 namespace tenon::layer {
@@ -206,6 +207,25 @@ TEST(LayerOffset, ComposesAndInverts) {
   EXPECT_EQ((outer * inner).apply(4), outer.apply(inner.apply(4)));
   EXPECT_EQ(outer.inverse().apply(outer.apply(7)), 7);
   EXPECT_TRUE(LayerOffset{}.is_identity());
+}
+
+TEST(SharedContents, StayWhenTheValueChanges) {
+  Value value(std::vector<Token>{"a", "b"});
+  const SharedContents<std::vector<Token>> shared(value);
+  EXPECT_EQ(shared.get(), value.get<std::vector<Token>>());
+  const SharedContents<std::vector<Token>> copy = shared;
+  value = 3;
+  ASSERT_NE(copy.get(), nullptr);
+  EXPECT_EQ(*copy.get(), (std::vector<Token>{"a", "b"}));
+  EXPECT_EQ(copy.get(), shared.get());
+}
+
+TEST(SharedContents, AreNothingForOtherTypes) {
+  EXPECT_EQ(SharedContents<std::vector<Token>>().get(), nullptr);
+  EXPECT_EQ(SharedContents<std::vector<Token>>(Value()).get(), nullptr);
+  EXPECT_EQ(SharedContents<std::vector<Token>>(Value(Token("a"))).get(), nullptr);
+  EXPECT_EQ(SharedContents<std::vector<Token>>(Value(std::vector<std::string>{"a"})).get(),
+            nullptr);
 }
 
 }  // namespace

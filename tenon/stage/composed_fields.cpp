@@ -129,7 +129,7 @@ layer::Dictionary localize_dictionary(const Place& place, const layer::Dictionar
 // Legacy edits (add, reorder) do not combine with others: they are passed over, and alone count
 // where the strongest is one. As OpenUSD combines list-valued metadata.
 template <class T>
-std::vector<T> combined_list(const std::vector<compose::Opinion>& opinions, Token field,
+std::vector<T> combined_list(std::span<const compose::Opinion> opinions, Token field,
                              UsedSpecs* used) {
   std::vector<const layer::ListOp<T>*> edits;
   bool ends = false;
@@ -154,7 +154,7 @@ std::vector<T> combined_list(const std::vector<compose::Opinion>& opinions, Toke
 
 /// A field whose opinions combine, and who asks which of them do.
 struct Combination {
-  const std::vector<compose::Opinion>& opinions;
+  std::span<const compose::Opinion> opinions;
   Token field;
   UsedSpecs* used = nullptr;
 };
@@ -283,7 +283,7 @@ Value localize(const StageData& stage, const PrimData& prim, const compose::Opin
 }
 
 Value compose_field(const StageData& stage, const PrimData& prim,
-                    const std::vector<compose::Opinion>& opinions, Token field, AssetForm form,
+                    std::span<const compose::Opinion> opinions, Token field, AssetForm form,
                     UsedSpecs* used) {
   Value result;
   for (const compose::Opinion& opinion : opinions) {
@@ -310,7 +310,7 @@ Value compose_field(const StageData& stage, const PrimData& prim,
 }
 
 std::map<std::string, Value> compose_metadata(const StageData& stage, const PrimData& prim,
-                                              const std::vector<compose::Opinion>& opinions,
+                                              std::span<const compose::Opinion> opinions,
                                               AssetForm form) {
   std::map<std::string, Value> result;
   visit_metadata(stage, prim, opinions, form,

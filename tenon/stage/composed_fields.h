@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -67,7 +68,7 @@ FieldEffect field_effect(const layer::Value& value);
 /// have a part in it, strongest first.
 using UsedSpecs = std::vector<const layer::Spec*>;
 layer::Value compose_field(const StageData& stage, const PrimData& prim,
-                           const std::vector<compose::Opinion>& opinions, Token field,
+                           std::span<const compose::Opinion> opinions, Token field,
                            AssetForm form = AssetForm::Resolved, UsedSpecs* used = nullptr);
 
 /// True for fields that say what is there (values, arcs, lists of children), not how it is meant.
@@ -80,7 +81,7 @@ bool means_same_anywhere(const layer::Value& value);
 /// Calls `visit(name, value)` for all fields that are no structure, composed.
 template <class Visit>
 void visit_metadata(const StageData& stage, const PrimData& prim,
-                    const std::vector<compose::Opinion>& opinions, AssetForm form, Visit visit) {
+                    std::span<const compose::Opinion> opinions, AssetForm form, Visit visit) {
   std::vector<Token> visited;
   for (const compose::Opinion& opinion : opinions) {
     for (const layer::Field& field : opinion.spec->fields()) {
@@ -95,15 +96,15 @@ void visit_metadata(const StageData& stage, const PrimData& prim,
 
 /// The same by name.
 std::map<std::string, layer::Value> compose_metadata(const StageData& stage, const PrimData& prim,
-                                                     const std::vector<compose::Opinion>& opinions,
+                                                     std::span<const compose::Opinion> opinions,
                                                      AssetForm form = AssetForm::Resolved);
 
 /// The composed list of a list-edited field.
 template <class T>
-std::vector<T> compose_list(const std::vector<compose::Opinion>& opinions, Token field) {
+std::vector<T> compose_list(std::span<const compose::Opinion> opinions, Token field) {
   std::vector<T> result;
-  for (auto it = opinions.rbegin(); it != opinions.rend(); ++it) {
-    if (const auto* op = it->spec->get<layer::ListOp<T>>(field)) {
+  for (std::size_t i = opinions.size(); i-- > 0;) {
+    if (const auto* op = opinions[i].spec->get<layer::ListOp<T>>(field)) {
       op->apply_to(result);
     }
   }

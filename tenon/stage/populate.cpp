@@ -39,8 +39,8 @@ class Populator {
     data_.root->index = &data_.cache->index(data_.root->path);
     data_.root->specifier = Specifier::Def;
     data_.root->definition = &data_.definitions.get(Token(), {});
-    data_.by_path.emplace(data_.root->path, data_.root);
-    add_findings(data_.root->index->errors);
+    enter(*data_.root);
+    add_findings(data_.root->index->extras().errors);
     pending_.push_back(data_.root);
     while (!pending_.empty()) {
       build_ahead();
@@ -51,6 +51,12 @@ class Populator {
   }
 
  private:
+  /// The first prim of a path counts.
+  void enter(PrimData& prim) {
+    PrimData*& known = data_.by_path[prim.path];
+    known = known == nullptr ? &prim : known;
+  }
+
   /// Has the indices of all that is still to be walked built on two threads, once it seems to be
   /// worth it. What needed a layer that was not open is tried again when twice as much is there.
   void build_ahead() {
@@ -72,10 +78,13 @@ class Populator {
   }
 
   void add_children(PrimData& parent) {
-    const compose::PrimIndex& index = data_.cache->index(parent.source_path);
+    const compose::PrimIndex& index =
+        parent.is_prototype_root ? data_.cache->index(parent.source_path) : *parent.index;
+    PrimData** next_place = &parent.first_child;
     for (const Token name : index.child_names) {
       const Path path = parent.path.child(name);
-      const Path source_path = parent.source_path.child(name);
+      const Path source_path =
+          parent.source_path == parent.path ? path : parent.source_path.child(name);
       if (!is_in_mask(data_.options.mask, source_path)) {
         continue;
       }
@@ -83,7 +92,8 @@ class Populator {
         report_too_many(path);
         break;
       }
-      add_prim(parent, index, path, source_path);
+      *next_place = &add_prim(parent, index, path, source_path);
+      next_place = &(*next_place)->next_sibling;
     }
     std::vector<PrimData*> next;
     for (PrimData* child = parent.first_child; child != nullptr; child = child->next_sibling) {
@@ -154,7 +164,7 @@ class Populator {
       root.is_prototype_root = true;
       root.in_prototype = true;
       root.clips = add_clips(clips, nullptr, instance.path, known);
-      data_.by_path.emplace(root.path, &root);
+      enter(root);
       data_.prototypes.push_back(&root);
       built_ahead_ = false;
       it->second = &root;
@@ -171,22 +181,22 @@ class Populator {
     return found == sources_.end() ? instance.source_path : found->second;
   }
 
-  void add_prim(PrimData& parent, const compose::PrimIndex& source, Path path, Path source_path) {
+  PrimData& add_prim(PrimData& parent, const compose::PrimIndex& source, Path path,
+                     Path source_path) {
     PrimData& prim = data_.prims.emplace_back();
     prim.path = path;
     prim.source_path = source_path;
     prim.index = &data_.cache->child_index(source, path.name());
     prim.parent = &parent;
     prim.in_prototype = parent.in_prototype;
-    (parent.last_child == nullptr ? parent.first_child : parent.last_child->next_sibling) = &prim;
-    parent.last_child = &prim;
-    data_.by_path.emplace(path, &prim);
-    add_findings(prim.index->errors);
+    enter(prim);
+    add_findings(prim.index->extras().errors);
     set_flags(prim, parent);
     prim.clips = add_clips(own_clip_definitions(data_, *prim.index, data_.diagnostics),
                            parent.clips, path, data_.diagnostics);
     prim.type_name = composed_type_name(*prim.index);
     prim.definition = &data_.definitions.get(prim.type_name, composed_api_schemas(*prim.index));
+    return prim;
   }
 
   const ClipSets* add_clips(const std::vector<ClipDefinition>& definitions,

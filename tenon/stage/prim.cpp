@@ -71,11 +71,11 @@ Prim Prim::child(Token name) const {
   }
   const PrimData* source = data_->is_instance() ? data_->prototype : data_;
   const bool proxies = is_instance_proxy() || data_->is_instance();
-  const auto it = stage_->by_path.find(source->path.child(name));
-  if (it == stage_->by_path.end() || it->second->is_prototype_root) {
+  PrimData* const* const found = stage_->by_path.find(source->path.child(name));
+  if (found == nullptr || (*found)->is_prototype_root) {
     return {};
   }
-  return Prim(stage_, it->second, proxies ? path().child(name) : Path());
+  return Prim(stage_, *found, proxies ? path().child(name) : Path());
 }
 
 Prim Prim::prototype() const { return is_instance() ? Prim(stage_, data_->prototype) : Prim(); }

@@ -46,7 +46,7 @@ std::vector<Token> Prim::authored_api_schemas() const {
 std::vector<Token> Prim::authored_property_names() const {
   std::vector<Token> names;
   if (data_ != nullptr) {
-    names = data_->index->property_names;
+    names = data_->index->property_names.list();
     put_in_order(*data_, names);
   }
   return names;
@@ -54,7 +54,7 @@ std::vector<Token> Prim::authored_property_names() const {
 
 const std::vector<Token>& Prim::unordered_property_names() const {
   static const std::vector<Token> none;
-  return data_ == nullptr ? none : data_->index->property_names;
+  return data_ == nullptr ? none : data_->index->property_names.list();
 }
 
 std::vector<Token> Prim::property_names() const {
@@ -170,8 +170,9 @@ std::string Prim::variant_selection(const std::string& set) const {
   if (data_ == nullptr) {
     return {};
   }
-  const auto it = data_->index->variant_selections.find(set);
-  return it == data_->index->variant_selections.end() ? std::string() : it->second;
+  const std::map<std::string, std::string>& selections = data_->index->extras().variant_selections;
+  const auto it = selections.find(set);
+  return it == selections.end() ? std::string() : it->second;
 }
 
 std::vector<SpecSite> Prim::spec_stack() const {

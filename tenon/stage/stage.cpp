@@ -69,18 +69,18 @@ Prim StageData::find(Path path) const {
   }
   std::vector<Token> below;
   for (Path at = path; !at.empty(); at = at.parent()) {
-    const auto it = by_path.find(at);
-    if (it == by_path.end()) {
+    PrimData* const* const found = by_path.find(at);
+    if (found == nullptr) {
       if (!at.is_prim()) {
         return {};
       }
       below.push_back(at.name());
       continue;
     }
-    if (!below.empty() && !it->second->is_instance()) {
+    if (!below.empty() && !(*found)->is_instance()) {
       return {};
     }
-    Prim prim(this, it->second);
+    Prim prim(this, *found);
     for (auto name = below.rbegin(); name != below.rend() && prim; ++name) {
       prim = prim.child(*name);
     }
@@ -220,8 +220,8 @@ const PrimData* record_of(const Stage& stage, Path path) {
     return nullptr;
   }
   const Path own = prim.is_instance_proxy() ? prim.prim_in_prototype().path() : prim.path();
-  const auto found = stage.data().by_path.find(own);
-  return found == stage.data().by_path.end() ? nullptr : found->second;
+  PrimData* const* const found = stage.data().by_path.find(own);
+  return found == nullptr ? nullptr : *found;
 }
 
 }  // namespace tenon::stage

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "tenon/base/paths/path_table.h"
 #include "tenon/compose/cache/index_cache.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/schema/definition_cache.h"
@@ -26,7 +27,6 @@ struct PrimData {
   const schema::PrimDefinition* definition = nullptr;
   PrimData* parent = nullptr;
   PrimData* first_child = nullptr;
-  PrimData* last_child = nullptr;
   PrimData* next_sibling = nullptr;
   const PrimData* prototype = nullptr;  ///< of instances
   const ClipSets* clips = nullptr;      ///< own and ancestors'; nullptr where there are none
@@ -48,7 +48,7 @@ struct StageData {
   StageOptions options;
   std::unique_ptr<compose::IndexCache> cache;
   std::deque<PrimData> prims;
-  std::unordered_map<Path, PrimData*> by_path;
+  PathTable<PrimData*> by_path;
   PrimData* root = nullptr;
   std::vector<PrimData*> prototypes;
   std::unordered_map<std::string, PrimData*> prototype_of_key;

@@ -559,12 +559,15 @@ TEST(Values, ASampleIsExactAtItsOwnStageTime) {
 
 TEST(PrimIndex, SearchesShortListsOfPropertiesAlone) {
   compose::PrimIndex index;
+  std::vector<Token> names;
   for (std::size_t i = 0; i < compose::PrimIndex::kShortList; ++i) {
-    index.property_names.emplace_back("a" + std::to_string(i));
+    names.push_back(Token("a" + std::to_string(i)));
   }
+  index.property_names = compose::NameList(names);
   EXPECT_TRUE(index.may_have_property("a0"));
   EXPECT_FALSE(index.may_have_property("none"));
-  index.property_names.emplace_back("one more");
+  names.push_back("one more");
+  index.property_names = compose::NameList(names);
   EXPECT_TRUE(index.may_have_property("none"));
   EXPECT_FALSE(index.has_property("none"));
 }

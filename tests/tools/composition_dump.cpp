@@ -118,15 +118,15 @@ std::string facts_of(compose::IndexCache& cache, const compose::PrimIndex& index
   for (const compose::Opinion& opinion : index.opinions) {
     text += "spec " + label(*opinion.layer) + " " + opinion.path.str() + "\n";
   }
-  for (const Diagnostic& found : index.errors) {
+  for (const Diagnostic& found : index.extras().errors) {
     text += "!! " + found.rule + "\n";
   }
-  for (const auto& [set, variant] : index.variant_selections) {
+  for (const auto& [set, variant] : index.extras().variant_selections) {
     text += "selected " + set + "=" + variant + "\n";
   }
-  text += joined("children", index.child_names);
-  text += joined("prohibited", index.prohibited_child_names);
-  text += joined("properties", index.property_names);
+  text += joined("children", index.child_names.list());
+  text += joined("prohibited", index.extras().prohibited_child_names);
+  text += joined("properties", index.property_names.list());
   return text + targets_of(cache, index);
 }
 
@@ -148,11 +148,13 @@ std::string nodes_of_all(compose::IndexCache& cache, const compose::LayerLabel& 
     open.pop_back();
     text += "== " + index.path.str();
     if (index.instanceable) {
-      const Path first = first_of_key.emplace(index.instance_key, index.path).first->second;
+      const Path first =
+          first_of_key.emplace(index.extras().instance_key, index.path).first->second;
       text += " instance like " + first.str();
     }
     text += "\n" + facts_of(cache, index, label);
-    for (auto name = index.child_names.rbegin(); name != index.child_names.rend(); ++name) {
+    const std::vector<Token>& names = index.child_names.list();
+    for (auto name = names.rbegin(); name != names.rend(); ++name) {
       open.push_back(&cache.child_index(index, *name));
     }
   }
@@ -181,14 +183,15 @@ std::string work_of_all(compose::IndexCache& cache) {
     for (const compose::Node& node : index.nodes) {
       contributing += node.can_contribute() && node.has_specs ? 1 : 0;
     }
-    findings += index.errors.size();
+    findings += index.extras().errors.size();
     depth = std::max<std::size_t>(depth, index.path.depth());
-    for (const Diagnostic& found : index.errors) {
+    for (const Diagnostic& found : index.extras().errors) {
       if (found.rule.ends_with("exceeded")) {
         limits += found.rule + " " + found.message + "\n";
       }
     }
-    for (auto name = index.child_names.rbegin(); name != index.child_names.rend(); ++name) {
+    const std::vector<Token>& names = index.child_names.list();
+    for (auto name = names.rbegin(); name != names.rend(); ++name) {
       open.push_back(&cache.child_index(index, *name));
     }
   }

@@ -14,6 +14,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "tenon/base/paths/path_table.h"
 #include "tenon/compose/build_index.h"
 #include "tenon/compose/cache/build_ahead.h"
 #include "tenon/compose/composition_error.h"
@@ -54,7 +55,7 @@ struct IndexCache::State {
       opened;
   std::deque<PrimIndex> indices;
   std::deque<IndexBatch> batches;  // built ahead
-  std::unordered_map<Path, Entry> by_path;
+  PathTable<Entry> by_path;
   bool at_limit = false;    // what was built ahead is of no use any more
   bool ahead_full = false;  // the work that building ahead may take is done
   Diagnostics errors;
@@ -125,7 +126,7 @@ struct IndexCache::State {
   PrimIndex& add_index(Path path) {
     indices.emplace_back();
     indices.back().path = path;
-    by_path.emplace(path, Entry{&indices.back()});
+    by_path[path] = {&indices.back()};
     return indices.back();
   }
 
@@ -169,12 +170,12 @@ struct IndexCache::State {
             (costly.empty() ? "" : "; " + costly),
         "reduce the arcs that multiply with each other, make instances of what they bring in, or "
         "allow more with --max-work");
-    index.errors.add(std::move(found));
+    index.make_extras().errors.add(std::move(found));
   }
 
   const PrimIndex* find_index(Path path) const {
-    const auto found = by_path.find(path);
-    return found == by_path.end() ? nullptr : found->second.index;
+    const Entry* const found = by_path.find(path);
+    return found == nullptr ? nullptr : found->index;
   }
 
   const Result<layer::LayerPtr>* find_layer(const std::string& asset_path,
@@ -204,7 +205,8 @@ struct IndexCache::State {
     by_path.reserve(count);
     for (IndexBatch& batch : built) {
       for (const IndexAhead& ahead : batch.indices) {
-        by_path.emplace(ahead.index.path, Entry{&ahead.index, &ahead});
+        Entry& entry = by_path[ahead.index.path];
+        entry = entry.index == nullptr ? Entry{&ahead.index, &ahead} : entry;
       }
       batches.push_back(std::move(batch));
     }
@@ -214,16 +216,15 @@ struct IndexCache::State {
   /// The index of a child of a prim that was asked for before. One that was built ahead counts from
   /// now on.
   const PrimIndex& ask_child(const PrimIndex& parent, Path path) {
-    const auto found = by_path.find(path);
-    if (found == by_path.end()) {
+    Entry* const found = by_path.find(path);
+    if (found == nullptr) {
       return compute_child(parent, path);
     }
-    Entry& entry = found->second;
+    Entry& entry = *found;
     if (entry.ahead != nullptr) {
       at_limit = at_limit || node_count + entry.ahead->node_count >= options.max_nodes ||
                  entry.ahead->work >= work.most() - std::min(work.done(), work.most());
       if (at_limit) {
-        by_path.erase(found);
         return compute_child(parent, path);
       }
       node_count += entry.ahead->node_count;
@@ -274,9 +275,9 @@ const PrimIndex& IndexCache::index(Path prim_path) {
   std::vector<Path> missing;
   const PrimIndex* found = nullptr;
   for (Path path = prim_path; found == nullptr; path = path.parent()) {
-    const auto it = state_->by_path.find(path);
-    if (it != state_->by_path.end() && it->second.ahead == nullptr) {
-      found = it->second.index;
+    const State::Entry* const entry = state_->by_path.find(path);
+    if (entry != nullptr && entry->ahead == nullptr) {
+      found = entry->index;
     } else if (path.is_absolute_root()) {
       found = &state_->compute_root();
     } else {

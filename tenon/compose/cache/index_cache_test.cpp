@@ -125,11 +125,12 @@ def "R" (prepend variantSets = ["v", "w"]
   ComposeOptions options;
   options.variant_fallbacks["w"] = {"z", "y"};
   Scene scene(texts, options);
-  EXPECT_EQ(scene.at("/A").variant_selections.at("v"), "b");
-  EXPECT_EQ(scene.at("/A").variant_selections.at("w"), "y");  // no "z" there
+  EXPECT_EQ(scene.at("/A").extras().variant_selections.at("v"), "b");
+  EXPECT_EQ(scene.at("/A").extras().variant_selections.at("w"), "y");  // no "z" there
   EXPECT_EQ(scene.children("/A"), "wy nested");
   EXPECT_EQ(scene.children("/A/nested"), "deep");
-  EXPECT_EQ(scene.at("/F").variant_selections.at("w"), "x");  // selected within variant "a"
+  EXPECT_EQ(scene.at("/F").extras().variant_selections.at("w"),
+            "x");  // selected within variant "a"
 }
 
 TEST(IndexCache, MovesRelocatedPrims) {
@@ -140,7 +141,7 @@ def "A" (references = @ref@</M>) { def "g" { over "q" {} } })"},
   EXPECT_EQ(scene.specs("/A/g/q"), "root/A/g/q, ref/M/x");
   EXPECT_EQ(scene.specs("/A/g/q/y"), "ref/M/x/y");
   EXPECT_EQ(scene.specs("/A/x"), "");
-  EXPECT_EQ(scene.at("/A").prohibited_child_names.size(), 2u);
+  EXPECT_EQ(scene.at("/A").extras().prohibited_child_names.size(), 2u);
 }
 
 TEST(IndexCache, DropsRelocatesThatContradictThemselves) {
@@ -182,8 +183,8 @@ def "Plain" (instanceable = true) {})"},
                {"ref", "def \"M\" { def \"x\" {} }"}});
   EXPECT_EQ(scene.children("/A"), "x");
   EXPECT_EQ(scene.specs("/A/x"), "ref/M/x");
-  EXPECT_EQ(scene.at("/A").instance_key, scene.at("/B").instance_key);
-  EXPECT_NE(scene.at("/A").instance_key, scene.at("/C").instance_key);
+  EXPECT_EQ(scene.at("/A").extras().instance_key, scene.at("/B").extras().instance_key);
+  EXPECT_NE(scene.at("/A").extras().instance_key, scene.at("/C").extras().instance_key);
   EXPECT_FALSE(scene.at("/Plain").instanceable);
 }
 

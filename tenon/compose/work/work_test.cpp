@@ -185,12 +185,13 @@ Composed compose_all(IndexCache& cache, bool ahead = false) {
     open.pop_back();
     ++composed.prims;
     composed.nodes += index.nodes.size();
-    for (const Diagnostic& found : index.errors) {
+    for (const Diagnostic& found : index.extras().errors) {
       if (found.rule == "compose.work-exceeded") {
         composed.exceeded.push_back(found.message);
       }
     }
-    for (auto name = index.child_names.rbegin(); name != index.child_names.rend(); ++name) {
+    const std::vector<Token>& names = index.child_names.list();
+    for (auto name = names.rbegin(); name != names.rend(); ++name) {
       open.push_back(&cache.child_index(index, *name));
     }
   }

@@ -88,7 +88,7 @@ std::vector<Token> names_to_copy(const Prim& prim, const PrimData& data) {
     return prim.authored_property_names();
   }
   std::vector<Token> names = prim.property_names();
-  const std::vector<Token>& authored = data.index->property_names;
+  const std::vector<Token>& authored = data.index->property_names.list();
   std::erase_if(names, [&](Token name) {
     return std::find(authored.begin(), authored.end(), name) == authored.end() &&
            (prim.is_relationship(name) || !prim.attribute(name).has_authored_value());

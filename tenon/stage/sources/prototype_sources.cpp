@@ -54,7 +54,7 @@ std::vector<ClipDefinition> own_clip_definitions(const StageData& data,
 
 std::string prototype_key(const StageData& data, const compose::PrimIndex& instance,
                           const std::vector<ClipDefinition>& clips) {
-  std::string key = instance.instance_key;
+  std::string key = instance.extras().instance_key;
   for (const ClipDefinition& definition : clips) {
     key += definition.key();
   }

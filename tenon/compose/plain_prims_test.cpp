@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tenon/compose/dump_index.h"
+#include "tenon/compose/test_scene.h"
+
+namespace tenon::compose {
+namespace {
+
+const char* const kPlainSession = R"(over "A" { over "b" { custom double session } })";
+
+const char* const kPlainRoot = R"(
+def "A" (kind = "group") {
+  custom double x
+  rel to = </A/b>
+  def "b" { reorder nameChildren = ["d", "c"]
+    def "c" {
+      double y
+      double z }
+    def "d" { def "deep" { custom string s } } }
+  over "only" { }
+  def "from_class" (inherits = </C>) { def "mine" { double m } }
+}
+class "C" { def "theirs" { } })";
+
+const char* const kPlainSublayer = R"(
+over "A" { reorder properties = ["z", "x"]
+  custom double z
+  def "b" { def "weak" { } def "c" { custom double w } }
+  def "sub" { def "below" { double v } } })";
+
+const std::vector<Path>& compared_prims() {
+  static const std::vector<Path> paths = [] {
+    std::vector<Path> all;
+    for (const char* path : {"/A", "/A/b", "/A/b/c", "/A/b/d", "/A/b/d/deep", "/A/b/weak",
+                             "/A/only", "/A/sub", "/A/sub/below", "/A/none", "/A/from_class",
+                             "/A/from_class/mine", "/A/from_class/theirs"}) {
+      all.push_back(Path::from(path));
+    }
+    return all;
+  }();
+  return paths;
+}
+
+/// Everything that indices hold, of a scene with these metadata of its root layer.
+std::string dump_with(const std::string& metadata, bool session, bool sublayer) {
+  std::map<std::string, std::string> texts{{"sub", kPlainSublayer}};
+  const std::string layers = sublayer ? "subLayers = [@sub@ (offset = 3)]\n" : "";
+  texts["root"] = "(" + layers + metadata + ")" + kPlainRoot;
+  if (session) {
+    texts["session"] = kPlainSession;
+  }
+  TestScene scene(texts);
+  const LayerLabel label = [](const layer::Layer& layer) { return layer.identifier(); };
+  std::string text = dump_indices(scene.cache(), label, compared_prims());
+  for (const Path path : compared_prims()) {
+    text += path.str() + "\n" + dump_nodes(scene.cache().index(path), label);
+  }
+  return text;
+}
+
+/// A relocate, wherever it is, has all prims composed as those with arcs are.
+TEST(PlainPrims, AreComposedLikeThoseWithArcs) {
+  const std::string relocate = "relocates = { </Elsewhere/x>: </Elsewhere/y> }\n";
+  for (const bool session : {false, true}) {
+    for (const bool sublayer : {false, true}) {
+      const std::string plain = dump_with("doc = \"plain\"\n", session, sublayer);
+      EXPECT_EQ(plain, dump_with(relocate, session, sublayer));
+      EXPECT_NE(plain.find("deep"), std::string::npos);
+    }
+  }
+}
+
+TEST(PlainPrims, LieInOnePieceOfMemory) {
+  TestScene scene{std::string(kPlainRoot)};
+  const PrimIndex& index = scene.at("/A/b/d");
+  const auto lies_within = [&](const void* part) {
+    const auto* const begin = reinterpret_cast<const char*>(&index);
+    return part >= begin && part < begin + sizeof(index);
+  };
+  EXPECT_TRUE(lies_within(index.nodes.data()));
+  EXPECT_TRUE(lies_within(index.opinions.data()));
+  EXPECT_EQ(index.own_extras, nullptr);
+  EXPECT_EQ(&index.child_names.list(),
+            &layer::Layer::children(*index.opinions.front().spec, Token("primChildren")));
+  EXPECT_LE(sizeof(PrimIndex), 22 * sizeof(double));
+}
+
+}  // namespace
+}  // namespace tenon::compose
