@@ -132,7 +132,7 @@ Result<void> MujocoSimulation::step() {
     write_efforts(*scene_, steering_, model_);
   }
   inputs_.before_step(model_);
-  energy_watch_.begin(model_);
+  energy_watch_.begin(model_, inputs_.has_forces() || !steering_.efforts.empty());
   if (outputs_) {
     outputs_->begin(*scene_, model_);
   }

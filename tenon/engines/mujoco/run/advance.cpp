@@ -144,7 +144,7 @@ void advance(Model& model) {
   }
 }
 
-Result<void> check_step(const Model& model) {
+Result<void> tell_warning(const Model& model) {
   const mjData& d = *model.data;
   for (const int warning : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
     if (d.warning[warning].number > 0) {

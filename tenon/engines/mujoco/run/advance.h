@@ -46,8 +46,15 @@ class FinishScope {
 /// calls nobody within its steps where actuation is off.
 bool steps_by_euler_instead(const Model& model);
 
+Result<void> tell_warning(const Model& model);
 /// What MuJoCo warned of in a step: a state that is no number (mujoco.unstable), too many contacts
 /// (mujoco.contacts-full).
-Result<void> check_step(const Model& model);
+inline Result<void> check_step(const Model& model) {
+  const mjWarningStat* const warnings = model.data->warning;
+  const int count = warnings[mjWARN_BADQPOS].number | warnings[mjWARN_BADQVEL].number |
+                    warnings[mjWARN_BADQACC].number | warnings[mjWARN_CONTACTFULL].number |
+                    warnings[mjWARN_CNSTRFULL].number;
+  return count == 0 ? Result<void>() : tell_warning(model);
+}
 
 }  // namespace tenon::engines::mujoco

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 #include "tenon/engines/mujoco/run/read_state.h"
 
@@ -53,16 +54,15 @@ bool gains_follow_samples(const scene::PhysicsScene& scene, const DriveMap& map)
                      });
 }
 
-/// Springs and dampers of joints, tendons and actuators; those of soft bodies and tendons are taken
-/// as there.
-bool has_springs_or_dampers(const mjModel& m) {
-  const auto some = [](const mjtNum* numbers, mjtSize count) {
-    return std::any_of(numbers, numbers + count, [](mjtNum number) { return number != 0; });
-  };
-  return m.ntendon > 0 || m.nflex > 0 || some(m.jnt_stiffness, m.njnt) ||
-         some(m.jnt_stiffnesspoly, mjNPOLY * m.njnt) || some(m.dof_damping, m.nv) ||
-         some(m.dof_dampingpoly, mjNPOLY * m.nv) || some(m.actuator_damping, m.nactuator) ||
-         some(m.actuator_dampingpoly, mjNPOLY * m.nactuator);
+bool some(const mjtNum* numbers, mjtSize count) {
+  return std::any_of(numbers, numbers + count, [](mjtNum number) { return number != 0; });
+}
+
+/// Whether anything but joints, contacts, drives and constraints moves the model in a state like
+/// this one: what was applied to it, a fluid, compensated gravity, soft bodies, plugins.
+bool has_outside_forces(const mjModel& m, const mjData& d) {
+  return m.ngravcomp > 0 || m.opt.density != 0 || m.opt.viscosity != 0 || m.nflex > 0 ||
+         m.nplugin > 0 || some(d.qfrc_applied, m.nv) || some(d.xfrc_applied, 6 * m.nbody);
 }
 
 int fastest_body(const Model& model) {
@@ -143,13 +143,23 @@ void EnergyWatch::read_springs(const Model& model) {
                         d.ctrl[map.control], stiffness, most});
   }
   only_springs_ = springs_.size() == static_cast<std::size_t>(m.nu);
+  controls_.assign(d.ctrl, d.ctrl + m.nu);
 }
 
-void EnergyWatch::begin(const Model& model) {
+void EnergyWatch::begin(const Model& model, bool pushed) {
   const mjData& d = *model.data;
+  pushed_ = pushed;
   if (fresh_) {
     read_springs(model);
+  } else if (!controls_.empty() &&
+             std::memcmp(controls_.data(), d.ctrl, controls_.size() * sizeof(double)) != 0) {
+    follow_targets(model);
   }
+  std::copy_n(d.qvel, velocity_.size(), velocity_.begin());
+}
+
+void EnergyWatch::follow_targets(const Model& model) {
+  const mjData& d = *model.data;
   for (Spring& spring : springs_) {
     if (d.ctrl[spring.control] != spring.target) {
       const double position = d.qpos[spring.qpos];
@@ -161,7 +171,7 @@ void EnergyWatch::begin(const Model& model) {
       fresh_ = true;  // from now on a drive of velocity
     }
   }
-  std::copy_n(d.qvel, velocity_.size(), velocity_.begin());
+  std::copy_n(d.ctrl, controls_.size(), controls_.begin());
 }
 
 std::optional<EnergyWatch::Growth> EnergyWatch::end(const Model& model) {
@@ -181,7 +191,7 @@ void EnergyWatch::set_baseline(const Model& model) {
   const mjData& d = *model.data;
   fresh_ = false;
   steps_ = 0;
-  resists_ = has_springs_or_dampers(m);
+  outside_ = has_outside_forces(m, d);
   read_springs(model);
   explained_ = gained_ = lost_ = 0;
   const double gravity = std::max(length(read_vector(m.opt.gravity)), kEarth);
@@ -203,27 +213,9 @@ void EnergyWatch::set_baseline(const Model& model) {
 
 // The sum of what may give energy; what constraints do is looked at by itself where it is much.
 void EnergyWatch::add_work(const Model& model) {
-  const mjModel& m = *model.model;
-  const mjData& d = *model.data;
-  double work = 0;
-  if (resists_ || m.nu > 0) {
-    for (std::size_t i = 0; i < velocity_.size(); ++i) {
-      const double forces = d.qfrc_smooth[i] + d.qfrc_bias[i] - d.qfrc_spring[i] -
-                            d.qfrc_damper[i] - d.qfrc_actuator[i] + d.qfrc_constraint[i];
-      work += forces * (velocity_[i] + d.qvel[i]);
-    }
-  } else {
-    for (std::size_t i = 0; i < velocity_.size(); ++i) {
-      const double forces = d.qfrc_smooth[i] + d.qfrc_bias[i] + d.qfrc_constraint[i];
-      work += forces * (velocity_[i] + d.qvel[i]);
-    }
-  }
-  work *= m.opt.timestep / 2;
+  double work = work_of_forces(model);
   if (!driven_.empty()) {
     work += work_of_driven(model);
-  }
-  if (!only_springs_) {
-    work += work_of_other_drives(model);
   }
   if (!moved_ && work > kWorthSplitting * scale_) {
     work += work_of_contacts(model) - work_of_constraints(model);
@@ -231,25 +223,45 @@ void EnergyWatch::add_work(const Model& model) {
   give(work);
 }
 
+// Forces from outside are what is left of all forces without those of springs, dampers, drives.
+double EnergyWatch::work_of_forces(const Model& model) const {
+  const mjData& d = *model.data;
+  const auto sum = [&](auto force) {
+    double twice = 0;
+    for (std::size_t i = 0; i < velocity_.size(); ++i) {
+      twice += force(i) * (velocity_[i] + d.qvel[i]);
+    }
+    return twice;
+  };
+  const auto outside = [&](std::size_t i) {
+    return d.qfrc_smooth[i] + d.qfrc_bias[i] - d.qfrc_spring[i] - d.qfrc_damper[i];
+  };
+  const bool pushed = pushed_ || outside_;
+  double twice = 0;
+  if (only_springs_ && !pushed) {
+    twice = sum([&](std::size_t i) { return d.qfrc_constraint[i]; });
+  } else if (only_springs_) {
+    twice =
+        sum([&](std::size_t i) { return outside(i) - d.qfrc_actuator[i] + d.qfrc_constraint[i]; });
+  } else if (pushed) {
+    twice = sum([&](std::size_t i) { return outside(i) + d.qfrc_constraint[i]; });
+  } else {
+    twice = sum([&](std::size_t i) { return d.qfrc_actuator[i] + d.qfrc_constraint[i]; });
+  }
+  if (!only_springs_) {
+    for (const Spring& spring : springs_) {
+      const auto dof = static_cast<std::size_t>(spring.dof);
+      twice -= d.actuator_force[spring.actuator] * (velocity_[dof] + d.qvel[dof]);
+    }
+  }
+  return twice * model.model->opt.timestep / 2;
+}
+
 double EnergyWatch::work_of_constraints(const Model& model) const {
   const mjData& d = *model.data;
   double work = 0;
   for (std::size_t i = 0; i < velocity_.size(); ++i) {
     work += d.qfrc_constraint[i] * (velocity_[i] + d.qvel[i]);
-  }
-  return work * model.model->opt.timestep / 2;
-}
-
-// Of actuators that are no springs.
-double EnergyWatch::work_of_other_drives(const Model& model) const {
-  const mjData& d = *model.data;
-  double work = 0;
-  for (std::size_t i = 0; i < velocity_.size(); ++i) {
-    work += d.qfrc_actuator[i] * (velocity_[i] + d.qvel[i]);
-  }
-  for (const Spring& spring : springs_) {
-    const auto dof = static_cast<std::size_t>(spring.dof);
-    work -= d.actuator_force[spring.actuator] * (velocity_[dof] + d.qvel[dof]);
   }
   return work * model.model->opt.timestep / 2;
 }

@@ -23,8 +23,9 @@ class EnergyWatch {
 
   /// State or numbers were changed from outside: it is judged anew from the next step on.
   void restart() { fresh_ = true; }
-  /// Before MuJoCo advances, when all inputs are written.
-  void begin(const Model& model);
+  /// Before MuJoCo advances, when all inputs are written. `pushed`: in this step forces act other
+  /// than when it was judged anew.
+  void begin(const Model& model, bool pushed);
   /// After it has and speeds are cut, before anything else is derived or written. A value: nothing
   /// explains the energy; derive_motion() has run then.
   std::optional<Growth> end(const Model& model);
@@ -44,10 +45,11 @@ class EnergyWatch {
   void give(double work);
   void read_springs(const Model& model);
   void set_baseline(const Model& model);
+  void follow_targets(const Model& model);
   void add_work(const Model& model);
+  double work_of_forces(const Model& model) const;
   double work_of_contacts(const Model& model) const;
   double work_of_constraints(const Model& model) const;
-  double work_of_other_drives(const Model& model) const;
   double work_of_driven(const Model& model) const;
   double kinetic_energy(const Model& model, const double* velocity);
   double potential_energy(const Model& model) const;
@@ -56,10 +58,12 @@ class EnergyWatch {
   std::vector<std::size_t> candidates_;  ///< drives that may be springs, into Model::drives
   std::vector<Spring> springs_;
   bool only_springs_ = false;  ///< no actuator is anything else
-  bool resists_ = true;        ///< some part of the model may be a spring or a damper
+  bool pushed_ = true;         ///< forces from outside may act in the step that is under way
+  bool outside_ = true;        ///< the same for every step since the baseline
   std::vector<int> driven_;    ///< first of six coordinates of bodies that follow poses
   std::vector<int> driven_bodies_;
   bool moved_ = false;  ///< something follows poses or bounds: constraints may give energy
+  std::vector<double> controls_;  ///< that springs' targets are (control count)
   std::vector<double> velocity_;  ///< at the beginning of the step (dof_count)
   std::vector<double> scratch_;   ///< (dof_count)
   int between_ = 1;               ///< steps from one judgement to the next

@@ -31,7 +31,7 @@ bool StepInputs::has_none() const {
          pushed_bodies_.empty() && acceleration_drives_.empty() && bounded_drives_.empty();
 }
 
-void StepInputs::before_step(Model& model) {
+void StepInputs::write(Model& model) {
   follow_drive_tracks(model);
   scale_acceleration_drives(model);
   move_colliders(model);

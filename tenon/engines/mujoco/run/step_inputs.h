@@ -19,11 +19,15 @@ class StepInputs {
   /// Also gives driven bodies their poses and velocities of now. Both must stay where they are.
   StepInputs(const scene::PhysicsScene& scene, Model& model);
 
-  /// Nothing is written before a step.
-  bool empty() const { return empty_; }
   /// Velocities are asked for, so that derive_motion() must have run.
   bool needs_motion() const { return !pushed_bodies_.empty(); }
-  void before_step(Model& model);
+  /// Some of what is written are forces on bodies.
+  bool has_forces() const { return !pushed_bodies_.empty() || !driven_bodies_.empty(); }
+  void before_step(Model& model) {
+    if (!empty_) {
+      write(model);
+    }
+  }
   void after_step(Model& model) const;
   /// The constant forces of the model are other ones.
   void take_constant_forces(const Model& model);
@@ -63,6 +67,7 @@ class StepInputs {
     Vec3d constant_torque;
   };
   bool has_none() const;
+  void write(Model& model);
   void collect_drives(const scene::PhysicsScene& scene, const Model& model);
   void collect_tracks(const scene::PhysicsScene& scene, const Model& model);
   void collect_pushed_bodies(const scene::PhysicsScene& scene, const Model& model);
@@ -83,9 +88,9 @@ class StepInputs {
   std::vector<scene::Drive> drives_;              ///< in force now, as Model::drives
   std::vector<std::size_t> acceleration_drives_;  ///< into Model::drives
   std::vector<std::size_t> bounded_drives_;       ///< into Model::drives: those with an envelope
-  bool empty_ = true;
-  std::vector<double> unit_;      ///< scratch (dof_count)
-  std::vector<double> response_;  ///< scratch (dof_count)
+  bool empty_ = true;                             ///< nothing is written before a step
+  std::vector<double> unit_;                      ///< scratch (dof_count)
+  std::vector<double> response_;                  ///< scratch (dof_count)
 };
 
 }  // namespace tenon::engines::mujoco
