@@ -14,6 +14,7 @@
 #include <new>
 
 #include "tenon/base/assert.h"
+#include "tenon/base/paths/short_list.h"
 
 namespace tenon {
 namespace {
@@ -275,7 +276,7 @@ Path Path::replace_prefix(Path from, Path to, bool fix_targets) const {
       (from == to && !fix_targets)) {
     return *this;
   }
-  std::vector<const PathNode*> tail;
+  ShortList<const PathNode*, 24> tail;
   const PathNode* node = node_;
   while (node != nullptr && node != from.node_ && node->depth > 0) {
     tail.push_back(node);
@@ -302,7 +303,7 @@ Path Path::strip_variants() const {
   if (!has_variants()) {
     return *this;
   }
-  std::vector<const PathNode*> elements;
+  ShortList<const PathNode*, 24> elements;
   const PathNode* node = node_;
   for (; node->depth > 0; node = node->parent) {
     if (node->kind != PathKind::VariantSelection) {
@@ -320,7 +321,7 @@ Path Path::absolute(Path anchor) const {
   if (node_ == nullptr || is_absolute()) {
     return *this;
   }
-  std::vector<const PathNode*> elements;
+  ShortList<const PathNode*, 24> elements;
   for (const PathNode* node = node_; node->depth > 0; node = node->parent) {
     elements.push_back(node);
   }

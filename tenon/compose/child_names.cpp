@@ -17,18 +17,23 @@ namespace {
 
 namespace fields = layer::fields;
 
-/// Distinct names that more are added to; many of them with an index.
+/// Distinct names that more are added to; many of them with an index. As long as they are those of
+/// one spec they are not copied: that is where most lists end.
 class GrowingNames {
  public:
-  bool has(Token name) const {
+  bool has(Token name) {
+    if (lender_ != nullptr && names().size() > kUnindexed) {
+      own();
+    }
     return indexed_ ? index_.count(name) != 0
-                    : std::find(names_.begin(), names_.end(), name) != names_.end();
+                    : std::find(names().begin(), names().end(), name) != names().end();
   }
 
   bool add(Token name) {
     if (has(name)) {
       return false;
     }
+    own();
     names_.push_back(name);
     if (indexed_) {
       index_.insert(name);
@@ -38,20 +43,22 @@ class GrowingNames {
     return true;
   }
 
-  void add_all(const std::vector<Token>& names) {
-    if (names_.empty()) {
-      names_ = names;  // a layer lists no name twice
-      if (names_.size() > kUnindexed) {
-        reindex();
-      }
+  /// What `spec` lists in `field`, no name twice.
+  void add_all(const layer::Spec& spec, Token field) {
+    const std::vector<Token>& more = layer::Layer::children(spec, field);
+    if (names().empty() && !more.empty()) {
+      lender_ = &spec;
+      lent_ = &more;
+      field_ = field;
       return;
     }
-    for (const Token name : names) {
+    for (const Token name : more) {
       add(name);
     }
   }
 
   void replace(std::vector<Token> names) {
+    lender_ = nullptr;
     names_ = std::move(names);
     index_.clear();
     indexed_ = false;
@@ -61,13 +68,28 @@ class GrowingNames {
   }
 
   /// The same names in another order.
-  void reorder(const std::vector<Token>& order) { layer::ListOp<Token>::reorder(names_, order); }
+  void reorder(const std::vector<Token>& order) {
+    own();
+    layer::ListOp<Token>::reorder(names_, order);
+  }
 
-  const std::vector<Token>& names() const { return names_; }
-  std::vector<Token> take() { return std::move(names_); }
+  const std::vector<Token>& names() const { return lender_ == nullptr ? names_ : *lent_; }
+  std::vector<Token> take() {
+    own();
+    return std::move(names_);
+  }
+  NameList take_list() {
+    return lender_ == nullptr ? NameList(std::move(names_)) : NameList(*lender_, field_);
+  }
 
  private:
   static constexpr std::size_t kUnindexed = 16;
+
+  void own() {
+    if (lender_ != nullptr) {
+      replace(*lent_);
+    }
+  }
 
   void reindex() {
     index_.clear();
@@ -76,6 +98,9 @@ class GrowingNames {
   }
 
   std::vector<Token> names_;
+  const layer::Spec* lender_ = nullptr;       // whose names they are, where they are all one spec's
+  const std::vector<Token>* lent_ = nullptr;  // these
+  Token field_;
   std::unordered_set<Token> index_;
   bool indexed_ = false;
 };
@@ -147,29 +172,41 @@ void apply_relocates(const LayerStack& stack, Path path, GrowingNames& list,
   }
 }
 
-/// Specs of one node within the opinions, which stand together.
-struct NodeOpinions {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
-
-std::vector<NodeOpinions> opinions_by_node(const PrimIndex& index) {
-  std::vector<NodeOpinions> result(index.nodes.size());
-  for (std::size_t i = 0; i < index.opinions.size(); ++i) {
-    NodeOpinions& range = result[index.opinions[i].node];
-    if (range.end == 0) {
-      range.begin = i;
+bool is_in_culled_subtree(const PrimIndex& index, std::uint32_t id) {
+  for (; id != kNoNode; id = index.nodes[id].parent) {
+    if (index.nodes[id].culled) {
+      return true;
     }
-    range.end = i + 1;
   }
-  return result;
+  return false;
 }
 
-void add_names(const PrimIndex& index, const NodeOpinions& range, Token names_field,
-               const Token* order_field, GrowingNames& list) {
-  for (std::size_t i = range.end; i-- > range.begin;) {
-    const layer::Spec& spec = *index.opinions[i].spec;
-    list.add_all(layer::Layer::children(spec, names_field));
+/// Opinions of one node, which stand together.
+using NodeOpinions = std::span<const Opinion>;
+
+/// Visits the nodes weakest first, as their names combine: a finished index has them strongest
+/// first, and its opinions in their order.
+template <class Visit>
+void visit_weak_to_strong(const PrimIndex& index, const Visit& visit) {
+  const Opinion* const opinions = index.opinions.data();
+  std::size_t end = index.opinions.size();
+  for (auto id = static_cast<std::uint32_t>(index.nodes.size()); id-- > 0;) {
+    std::size_t begin = end;
+    while (begin > 0 && opinions[begin - 1].node == id) {
+      --begin;
+    }
+    if (!is_in_culled_subtree(index, id)) {
+      visit(index.nodes[id], NodeOpinions(opinions + begin, end - begin));
+    }
+    end = begin;
+  }
+}
+
+void add_names(NodeOpinions opinions, Token names_field, const Token* order_field,
+               GrowingNames& list) {
+  for (std::size_t i = opinions.size(); i-- > 0;) {
+    const layer::Spec& spec = *opinions[i].spec;
+    list.add_all(spec, names_field);
     if (order_field != nullptr) {
       const std::vector<Token>& order = layer::Layer::children(spec, *order_field);
       if (!order.empty()) {
@@ -179,74 +216,36 @@ void add_names(const PrimIndex& index, const NodeOpinions& range, Token names_fi
   }
 }
 
-/// Nodes weakest first as their names combine: children before what they are below.
-std::vector<std::uint32_t> weak_to_strong(std::span<const Node> nodes) {
-  std::vector<std::uint32_t> order;
-  order.reserve(nodes.size());
-  struct Open {
-    std::uint32_t node;
-    bool expanded;
-  };
-  std::vector<Open> open{{0, false}};
-  while (!open.empty()) {
-    Open& at = open.back();
-    if (at.expanded) {
-      order.push_back(at.node);
-      open.pop_back();
-      continue;
-    }
-    at.expanded = true;
-    for (std::uint32_t child = nodes[at.node].first_child; child != kNoNode;
-         child = nodes[child].next_sibling) {
-      open.push_back({child, false});
-    }
-  }
-  return order;
-}
-
-bool is_in_culled_subtree(std::span<const Node> nodes, std::uint32_t id) {
-  for (; id != kNoNode; id = nodes[id].parent) {
-    if (nodes[id].culled) {
-      return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 void compose_child_names(PrimIndex& index) {
-  const std::vector<NodeOpinions> opinions = opinions_by_node(index);
   GrowingNames list;
   std::set<Token> prohibited;
-  for (const std::uint32_t id : weak_to_strong(index.nodes)) {
-    const Node& node = index.nodes[id];
-    if (!node.can_contribute() || (index.instanceable && !is_shareable(node)) ||
-        is_in_culled_subtree(index.nodes, id)) {
-      continue;
+  visit_weak_to_strong(index, [&](const Node& node, NodeOpinions opinions) {
+    if (!node.can_contribute() || (index.instanceable && !is_shareable(node))) {
+      return;
     }
     if (node.layer_stack->has_relocates()) {
       apply_relocates(*node.layer_stack, node.path, list, prohibited);
     }
-    add_names(index, opinions[id], fields::primChildren, &fields::primOrder, list);
+    add_names(opinions, fields::primChildren, &fields::primOrder, list);
+  });
+  if (prohibited.empty()) {
+    index.child_names = list.take_list();
+    return;
   }
   std::vector<Token> names = list.take();
-  if (!prohibited.empty()) {
-    std::erase_if(names, [&](Token name) { return prohibited.count(name) != 0; });
-    index.make_extras().prohibited_child_names.assign(prohibited.begin(), prohibited.end());
-  }
+  std::erase_if(names, [&](Token name) { return prohibited.count(name) != 0; });
+  index.make_extras().prohibited_child_names.assign(prohibited.begin(), prohibited.end());
   index.child_names = NameList(std::move(names));
 }
 
 void compose_property_names(PrimIndex& index) {
-  const std::vector<NodeOpinions> opinions = opinions_by_node(index);
   GrowingNames list;
-  for (const std::uint32_t id : weak_to_strong(index.nodes)) {
-    if (opinions[id].end != 0 && !is_in_culled_subtree(index.nodes, id)) {
-      add_names(index, opinions[id], fields::properties, nullptr, list);
-    }
-  }
-  index.property_names = NameList(list.take());
+  visit_weak_to_strong(index, [&](const Node&, NodeOpinions opinions) {
+    add_names(opinions, fields::properties, nullptr, list);
+  });
+  index.property_names = list.take_list();
 }
 
 }  // namespace tenon::compose

@@ -40,7 +40,7 @@ bool can_be_culled(const NodeGraph& graph, NodeId id) {
 }  // namespace
 
 void cull_without_opinions(NodeGraph& graph) {
-  const std::vector<NodeId> nodes = graph.subtree(0);
+  const NodeIds nodes = graph.subtree(0);
   for (auto it = nodes.rbegin(); it != nodes.rend(); ++it) {
     if (can_be_culled(graph, *it)) {
       graph.set_culled(*it);

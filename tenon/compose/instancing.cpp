@@ -14,7 +14,7 @@ namespace {
 /// subtrees are left out.
 template <class Visit>
 void walk_shareable(const NodeGraph& graph, const Visit& visit) {
-  std::vector<NodeId> open{0};
+  NodeIds open(0);
   while (!open.empty()) {
     const NodeId id = open.back();
     open.pop_back();
@@ -72,7 +72,7 @@ bool is_instanceable(const NodeGraph& graph) {
 }
 
 void disable_unshared_nodes(NodeGraph& graph) {
-  std::vector<NodeId> unshared;
+  NodeIds unshared;
   walk_shareable(graph, [&](NodeId id, bool shareable) {
     if (!shareable) {
       unshared.push_back(id);

@@ -59,6 +59,7 @@ std::uint16_t namespace_depth_of(Path path) {
 
 void NodeGraph::reset(const Site& site) {
   nodes_.clear();
+  nodes_.reserve(kNodesToCome);
   copies_known_ = false;
   ++revision_;
   Node root;
@@ -142,8 +143,8 @@ void NodeGraph::link(NodeId parent, NodeId child) {
   (previous == kNoNode ? nodes_[parent].first_child : nodes_[previous].next_sibling) = child;
 }
 
-std::vector<NodeId> NodeGraph::children(NodeId id) const {
-  std::vector<NodeId> result;
+NodeIds NodeGraph::children(NodeId id) const {
+  NodeIds result;
   for (NodeId child = nodes_[id].first_child; child != kNoNode;
        child = nodes_[child].next_sibling) {
     result.push_back(child);
@@ -152,20 +153,24 @@ std::vector<NodeId> NodeGraph::children(NodeId id) const {
   return result;
 }
 
-std::vector<NodeId> NodeGraph::subtree(NodeId id) const {
-  std::vector<NodeId> result;
-  std::vector<NodeId> open{id};
-  while (!open.empty()) {
-    const NodeId at = open.back();
-    open.pop_back();
+NodeIds NodeGraph::subtree(NodeId id) const {
+  NodeIds result;
+  for (NodeId at = id; at != kNoNode; at = next_in_subtree(at, id)) {
     result.push_back(at);
-    for (NodeId child = nodes_[at].last_child; child != kNoNode;
-         child = nodes_[child].previous_sibling) {
-      open.push_back(child);
-    }
   }
   count(result.size());
   return result;
+}
+
+/// The next stronger ones first: down, then to the sibling, then to that of what it is below.
+NodeId NodeGraph::next_in_subtree(NodeId at, NodeId root) const {
+  if (nodes_[at].first_child != kNoNode) {
+    return nodes_[at].first_child;
+  }
+  while (at != root && nodes_[at].next_sibling == kNoNode) {
+    at = nodes_[at].parent;
+  }
+  return at == root ? kNoNode : nodes_[at].next_sibling;
 }
 
 std::uint16_t NodeGraph::depth_below_introduction(NodeId id) const {
@@ -299,7 +304,7 @@ bool NodeGraph::has_class_based_child(NodeId id) const {
 }
 
 bool NodeGraph::has_specialize_in_subtree(NodeId id) const {
-  const std::vector<NodeId> nodes = subtree(id);
+  const NodeIds nodes = subtree(id);
   return std::any_of(nodes.begin(), nodes.end(),
                      [&](NodeId at) { return nodes_[at].arc == ArcKind::Specialize; });
 }
@@ -320,9 +325,10 @@ std::pair<NodeId, NodeId> NodeGraph::start_of_class_hierarchy(NodeId id) const {
 }
 
 /// A culled node stays when one that stays is below it or originates from it.
-std::vector<bool> NodeGraph::erasable() const {
-  std::vector<bool> result(nodes_.size(), true);
-  std::vector<NodeId> open;
+ShortList<bool, 24> NodeGraph::erasable() const {
+  ShortList<bool, 24> result;
+  result.assign(nodes_.size(), true);
+  NodeIds open;
   for (NodeId id = 0; id < nodes_.size(); ++id) {
     if (!nodes_[id].culled) {
       open.push_back(id);
@@ -345,10 +351,16 @@ void NodeGraph::finalize() {
     return;
   }
   count(2 * nodes_.size());
-  const std::vector<bool> erased = erasable();
-  std::vector<NodeId> order = subtree(0);
-  std::erase_if(order, [&](NodeId id) { return erased[id]; });
-  std::vector<NodeId> new_id(nodes_.size(), kNoNode);
+  const ShortList<bool, 24> erased = erasable();
+  NodeIds order = subtree(0);
+  order.erase_if([&](NodeId id) { return erased[id]; });
+  count(kKeptUnits * order.size());
+  copies_known_ = false;
+  if (order.size() == nodes_.size() && std::is_sorted(order.begin(), order.end())) {
+    return;  // they lie and are linked so already
+  }
+  NodeIds new_id;
+  new_id.assign(nodes_.size(), kNoNode);
   for (NodeId i = 0; i < order.size(); ++i) {
     new_id[order[i]] = i;
   }
@@ -372,9 +384,7 @@ void NodeGraph::finalize() {
     }
     parent.last_child = id;
   }
-  count(kKeptUnits * sorted.size());
   nodes_ = std::move(sorted);
-  copies_known_ = false;
 }
 
 }  // namespace tenon::compose

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tenon/base/paths/short_list.h"
 #include "tenon/compose/maps/map_pool.h"
 #include "tenon/compose/prim_index.h"
 #include "tenon/compose/site.h"
@@ -18,6 +19,10 @@
 namespace tenon::compose {
 
 using NodeId = std::uint32_t;
+/// Few prims have more nodes than lie within.
+using NodeIds = ShortList<NodeId, 24>;
+/// Room for what a prim's own arcs bring in.
+inline constexpr std::size_t kNodesToCome = 4;
 
 /// An arc about to be added below `parent`.
 struct Arc {
@@ -44,6 +49,7 @@ class NodeGraph {
   void reset(const Site& site);
   /// Starts over with the nodes of the parent prim's index.
   void reset(std::span<const Node> nodes) {
+    nodes_.reserve(nodes.size() + kNodesToCome);
     nodes_.assign(nodes.begin(), nodes.end());
     copies_known_ = false;
     ++revision_;
@@ -68,9 +74,9 @@ class NodeGraph {
   NodeId insert_subgraph(const NodeGraph& other, const Arc& arc);
 
   /// Children at this moment, strongest first.
-  std::vector<NodeId> children(NodeId id) const;
+  NodeIds children(NodeId id) const;
   /// A node and everything below it, strongest first.
-  std::vector<NodeId> subtree(NodeId id) const;
+  NodeIds subtree(NodeId id) const;
 
   std::uint16_t depth_below_introduction(NodeId id) const;
   /// The node's path where its arc was introduced.
@@ -107,8 +113,9 @@ class NodeGraph {
   void link(NodeId parent, NodeId child);
   void set_arc(NodeId id, const Arc& arc);
   void restrict(NodeId id);
-  std::vector<bool> erasable() const;
+  ShortList<bool, 24> erasable() const;
   void find_copies() const;
+  NodeId next_in_subtree(NodeId at, NodeId root) const;
 
   std::vector<Node> nodes_;
   MapPool* maps_;

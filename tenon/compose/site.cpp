@@ -13,6 +13,7 @@
 #include <array>
 #include <map>
 
+#include "tenon/base/paths/short_list.h"
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/expressions/variable_expression.h"
 #include "tenon/layer/field_values.h"
@@ -102,8 +103,11 @@ struct AuthoredField {
   const layer::Value* value;
 };
 
-std::vector<AuthoredField> authored(const LayerStack& stack, Path path, Token field) {
-  std::vector<AuthoredField> found;
+/// Few layers of a stack say something about one prim.
+using AuthoredFields = ShortList<AuthoredField, 4>;
+
+AuthoredFields authored(const LayerStack& stack, Path path, Token field) {
+  AuthoredFields found;
   for (const StackedLayer& stacked : stack.layers) {
     const layer::Spec* spec = stacked.layer->find(path);
     const layer::Value* value = spec == nullptr ? nullptr : spec->find(field);
@@ -239,7 +243,7 @@ AuthoredArcs authored_arcs(const LayerStack& stack, Path path) {
 
 std::vector<AssetArc> composed_references(const LayerStack& stack, Path path,
                                           const AssetIdentity& identity, Diagnostics* errors) {
-  const std::vector<AuthoredField> found = authored(stack, path, fields::references);
+  const AuthoredFields found = authored(stack, path, fields::references);
   AssetArcList list(stack, path, identity, found.size() > 1, "reference", errors);
   for (auto it = found.rbegin(); it != found.rend(); ++it) {
     if (const auto* op = it->value->get<ListOp<layer::Reference>>()) {
@@ -251,7 +255,7 @@ std::vector<AssetArc> composed_references(const LayerStack& stack, Path path,
 
 std::vector<AssetArc> composed_payloads(const LayerStack& stack, Path path,
                                         const AssetIdentity& identity, Diagnostics* errors) {
-  const std::vector<AuthoredField> found = authored(stack, path, fields::payload);
+  const AuthoredFields found = authored(stack, path, fields::payload);
   AssetArcList list(stack, path, identity, found.size() > 1, "payload", errors);
   for (auto it = found.rbegin(); it != found.rend(); ++it) {
     if (const auto* op = it->value->get<ListOp<layer::Payload>>()) {
@@ -269,7 +273,7 @@ std::vector<AssetArc> composed_payloads(const LayerStack& stack, Path path,
 
 std::vector<ClassArc> composed_class_arcs(const LayerStack& stack, Path path, Token field) {
   std::vector<ClassArc> list;
-  const std::vector<AuthoredField> found = authored(stack, path, field);
+  const AuthoredFields found = authored(stack, path, field);
   const Path anchor = path.prim();
   for (auto it = found.rbegin(); it != found.rend(); ++it) {
     if (const auto* op = it->value->get<ListOp<Path>>()) {
@@ -285,7 +289,7 @@ std::vector<ClassArc> composed_class_arcs(const LayerStack& stack, Path path, To
 
 std::vector<std::string> composed_variant_sets(const LayerStack& stack, Path path) {
   std::vector<std::string> list;
-  const std::vector<AuthoredField> found = authored(stack, path, fields::variantSetNames);
+  const AuthoredFields found = authored(stack, path, fields::variantSetNames);
   for (auto it = found.rbegin(); it != found.rend(); ++it) {
     if (const auto* op = it->value->get<ListOp<std::string>>()) {
       op->apply_to(list);

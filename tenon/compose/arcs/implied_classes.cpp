@@ -152,7 +152,7 @@ class ClassTree {
   /// A step under way.
   struct Open {
     Step step;
-    std::vector<NodeId> children;
+    NodeIds children;
     std::size_t next;
   };
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A relocated prim gets a node for its source: the source's own site may not have opinions, but all
 // that applies to the source because of its ancestors does. The source itself is no prim any more.
+#include <algorithm>
+
 #include "tenon/compose/arcs/authored_arc.h"
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/indexer.h"
@@ -19,7 +21,7 @@ void elide_subtree(NodeGraph& graph, NodeId node) {
 
 /// Opinions within a relocate's source that another relocate moves elsewhere.
 void elide_relocated_subtrees(NodeGraph& graph, NodeId relocate) {
-  std::vector<NodeId> open = graph.children(relocate);
+  NodeIds open = graph.children(relocate);
   while (!open.empty()) {
     const NodeId id = open.back();
     open.pop_back();
@@ -31,8 +33,9 @@ void elide_relocated_subtrees(NodeGraph& graph, NodeId relocate) {
       elide_subtree(graph, id);
       continue;
     }
-    const std::vector<NodeId> children = graph.children(id);
-    open.insert(open.end(), children.begin(), children.end());
+    for (const NodeId child : graph.children(id)) {
+      open.push_back(child);
+    }
   }
 }
 
@@ -61,7 +64,11 @@ void report_prohibited(Indexer& indexer, const Node& prohibited) {
 
 /// A node that could contribute stands at the source of a relocate of its stack; kNoNode if none.
 NodeId find_prohibited(const NodeGraph& graph) {
-  std::vector<NodeId> open{0};
+  if (std::none_of(graph.nodes().begin(), graph.nodes().end(),
+                   [](const Node& node) { return node.layer_stack->has_relocates(); })) {
+    return kNoNode;
+  }
+  NodeIds open(0);
   while (!open.empty()) {
     const NodeId id = open.back();
     open.pop_back();

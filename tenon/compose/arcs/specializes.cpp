@@ -46,7 +46,7 @@ void eval_implied_specializes(Indexer& indexer, NodeId node) {
   if (graph[node].parent == kNoNode) {
     return;
   }
-  std::vector<NodeId> open{node};
+  NodeIds open(node);
   while (!open.empty()) {
     const NodeId at = open.back();
     open.pop_back();
@@ -56,8 +56,10 @@ void eval_implied_specializes(Indexer& indexer, NodeId node) {
     if (graph[at].arc == ArcKind::Specialize) {
       propagate_to_root(indexer, at);
     }
-    const std::vector<NodeId> children = graph.children(at);
-    open.insert(open.end(), children.rbegin(), children.rend());
+    const NodeIds children = graph.children(at);
+    for (auto it = children.rbegin(); it != children.rend(); ++it) {
+      open.push_back(*it);
+    }
   }
 }
 

@@ -231,8 +231,10 @@ MapFunction MapFunction::with_root_identity() const {
   if (root_identity_) {
     return *this;
   }
-  Pairs pairs = pairs_;
+  Pairs pairs;
+  pairs.reserve(pairs_.size() + 1);
   pairs.emplace_back(Path::absolute_root(), Path::absolute_root());
+  pairs.insert(pairs.end(), pairs_.begin(), pairs_.end());  // sorted: the root is above all
   return canonical(std::move(pairs), offset_);
 }
 

@@ -9,8 +9,11 @@
 namespace tenon::compose {
 namespace {
 
-bool is_implied(TaskKind kind) {
-  return kind == TaskKind::ImpliedClasses || kind == TaskKind::ImpliedSpecializes;
+/// The bit of a task that is kept once per node; 0 for others.
+std::uint8_t implied_bit(TaskKind kind) {
+  return kind == TaskKind::ImpliedClasses       ? std::uint8_t{1}
+         : kind == TaskKind::ImpliedSpecializes ? std::uint8_t{2}
+                                                : std::uint8_t{0};
 }
 
 bool is_in_order_of_strength(TaskKind kind) {
@@ -43,8 +46,19 @@ bool TaskQueue::later(const Task& a, const Task& b) const {
   return std::tie(a.node, a.set_path, a.set_number) > std::tie(b.node, b.set_path, b.set_number);
 }
 
+/// Notes that such a task of the node is open; false when one was.
+bool TaskQueue::is_first_implied(const Task& task) {
+  if (task.node >= implied_.size()) {
+    implied_.resize(task.node + std::size_t{1}, 0);
+  }
+  std::uint8_t& open = implied_[task.node];
+  const bool first = (open & implied_bit(task.kind)) == 0;
+  open |= implied_bit(task.kind);
+  return first;
+}
+
 void TaskQueue::push(Task task) {
-  if (is_implied(task.kind) && !implied_.emplace(task.kind, task.node).second) {
+  if (implied_bit(task.kind) != 0 && !is_first_implied(task)) {
     return;
   }
   tasks_.push_back(std::move(task));
@@ -57,8 +71,8 @@ Task TaskQueue::pop() {
                 [this](const Task& a, const Task& b) { return later(a, b); });
   Task task = std::move(tasks_.back());
   tasks_.pop_back();
-  if (is_implied(task.kind)) {
-    implied_.erase({task.kind, task.node});
+  if (const std::uint8_t bit = implied_bit(task.kind); bit != 0) {
+    implied_[task.node] &= static_cast<std::uint8_t>(~bit);
   }
   return task;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <set>
+#include <cstdint>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -55,11 +55,12 @@ class TaskQueue {
   void retry_variants();
 
  private:
+  bool is_first_implied(const Task& task);
   bool later(const Task& a, const Task& b) const;
 
   const NodeGraph& graph_;
-  std::vector<Task> tasks_;  // a heap
-  std::set<std::pair<TaskKind, NodeId>> implied_;
+  std::vector<Task> tasks_;              // a heap
+  ShortList<std::uint8_t, 24> implied_;  // by node, a bit for each kind that is open
 };
 
 }  // namespace tenon::compose
