@@ -13,6 +13,7 @@
 #include "fuzz/layers_of_input.h"
 #include "fuzz/read_whole_stage.h"
 #include "tenon/compose/dump_index.h"
+#include "tenon/compose/prim_index.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/formats/text/reader.h"
 #include "tenon/stage/flatten/flatten.h"

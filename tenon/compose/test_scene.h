@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "tenon/compose/cache/index_cache.h"
+#include "tenon/compose/prim_index.h"
 #include "tenon/formats/text/reader.h"
 
 /// For tests: prim indices of layers that are given as text.

@@ -4,8 +4,10 @@
 
 #include <vector>
 
+#include "tenon/compose/prim_index.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/time/moved_in_time.h"
+#include "tenon/stage/sources/opinion_sources.h"
 
 namespace tenon::edit {
 namespace {

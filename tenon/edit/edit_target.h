@@ -7,9 +7,15 @@
 
 #include "tenon/base/path.h"
 #include "tenon/compose/maps/map_function.h"
-#include "tenon/compose/prim_index.h"
 #include "tenon/layer/value.h"
-#include "tenon/stage/sources/opinion_sources.h"
+
+namespace tenon::compose {
+struct LayerStack;
+struct PrimIndex;
+}  // namespace tenon::compose
+namespace tenon::stage {
+struct LayerSite;
+}  // namespace tenon::stage
 
 namespace tenon::edit {
 

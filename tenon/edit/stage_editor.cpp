@@ -8,6 +8,7 @@
 // and is handed out: it keeps its layers, and the next edit of one of them changes a copy.
 #include "tenon/edit/stage_editor.h"
 
+#include "tenon/compose/prim_index.h"
 #include "tenon/edit/composed_view.h"
 #include "tenon/edit/edit_errors.h"
 #include "tenon/edit/layer_editor.h"

@@ -14,9 +14,11 @@
 #include "tenon/base/limits/limits.h"
 #include "tenon/base/limits/work_limits.h"
 #include "tenon/compose/layer_opener.h"
-#include "tenon/compose/prim_index.h"
+#include "tenon/compose/layer_stack.h"
 
 namespace tenon::compose {
+
+struct PrimIndex;
 
 /// Which payloads are included and which variants are taken when none is selected.
 struct ComposeOptions {

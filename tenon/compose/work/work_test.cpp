@@ -10,6 +10,7 @@
 
 #include "tenon/compose/cache/index_cache.h"
 #include "tenon/compose/dump_index.h"
+#include "tenon/compose/prim_index.h"
 #include "tenon/formats/text/reader.h"
 
 namespace tenon::compose {
