@@ -76,7 +76,7 @@ class OneOrMany {
   const T* within() const { return std::launder(reinterpret_cast<const T*>(storage_)); }
   T* many() const {
     T* elements = nullptr;
-    std::memcpy(&elements, storage_, sizeof(elements));
+    std::memcpy(&elements, storage_, sizeof(elements));  // NOLINT: the bytes of the pointer
     return elements;
   }
 
@@ -84,7 +84,7 @@ class OneOrMany {
     T* const elements = static_cast<T*>(::operator new(capacity * sizeof(T)));
     std::uninitialized_copy_n(data(), count_, elements);
     release();
-    std::memcpy(storage_, &elements, sizeof(elements));
+    std::memcpy(storage_, &elements, sizeof(elements));  // NOLINT: the bytes of the pointer
     capacity_ = static_cast<std::uint32_t>(capacity);
   }
   void release() {
