@@ -23,6 +23,9 @@ import installed
 # Of doxygen itself, at a specialization of std::hash for a type of tenon.
 OWN_FAULT = re.compile(r"Internal inconsistency: scope for class std::hash<")
 OUTPUT = os.path.join(ROOT, "build/docs")
+# Pages beyond docs/ that its pages lead to.
+LINKED = ("README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONFORMANCE.md", "CONTRIBUTING.md",
+          "SECURITY.md", "examples/vendor_hand/README.md")
 
 
 def main():
@@ -39,6 +42,7 @@ def main():
             settings = file.read()
         pages = sorted(glob.glob(os.path.join(ROOT, "docs/*.md")))
         pages.append(os.path.join(ROOT, "docs/rules"))
+        pages += [os.path.join(ROOT, page) for page in LINKED]
         pages = [guide, os.path.join(ROOT, "examples/cpp/README.md"), headers, *pages]
         settings += ("INPUT = " + " ".join(f'"{page}"' for page in pages) + "\n"
                      f'USE_MDFILE_AS_MAINPAGE = "{guide}/README.md"\n'

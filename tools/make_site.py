@@ -88,6 +88,7 @@ def lay_out(pages):
             lay_out_page(path, file.read(), pages)
     for path in source_files.project_files(ROOT):
         if path.startswith("docs/") and path.endswith((".svg", ".png")):
+            os.makedirs(os.path.dirname(os.path.join(SOURCE, path)), exist_ok=True)
             shutil.copyfile(os.path.join(ROOT, path), os.path.join(SOURCE, path))
     put("python/reference.md", python_reference.reference(ROOT))
     made = os.path.join(ROOT, "build/docs/html")

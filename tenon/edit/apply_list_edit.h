@@ -12,8 +12,12 @@
 /// What edits of list edits make of an opinion.
 namespace tenon::edit {
 
+/// Which of the lists of an opinion.
 template <class T>
-inline constexpr std::vector<T> layer::ListOp<T>::* kListsThatAdd[] = {
+using ListMember = std::vector<T> layer::ListOp<T>::*;
+
+template <class T>
+inline constexpr ListMember<T> kListsThatAdd[] = {
     &layer::ListOp<T>::explicit_items, &layer::ListOp<T>::prepended, &layer::ListOp<T>::appended,
     &layer::ListOp<T>::added};
 

@@ -59,7 +59,7 @@ struct RecordedAsset {
   bool interrupted = false;   ///< contents are empty
 };
 
-/// Names for RecordOptions::show and ::hide, as the page has them.
+/// Names for RecordOptions::show and RecordOptions::hide, as the page has them.
 const std::vector<std::string>& record_layers();
 
 /// A picture or a film of the asset at `path`, drawn by a local Chromium: frame by frame, whatever
