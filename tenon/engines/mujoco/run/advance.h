@@ -46,7 +46,9 @@ class FinishScope {
 /// calls nobody within its steps where actuation is off.
 bool steps_by_euler_instead(const Model& model);
 
+/// The error for a warning that is there.
 Result<void> tell_warning(const Model& model);
+
 /// What MuJoCo warned of in a step: a state that is no number (mujoco.unstable), too many contacts
 /// (mujoco.contacts-full).
 inline Result<void> check_step(const Model& model) {

@@ -213,57 +213,54 @@ void EnergyWatch::set_baseline(const Model& model) {
 
 // The sum of what may give energy; what constraints do is looked at by itself where it is much.
 void EnergyWatch::add_work(const Model& model) {
-  double work = work_of_forces(model);
+  const double by_constraints = work_of(model.data->qfrc_constraint, model);
+  double work = by_constraints;
+  if (pushed_ || outside_) {
+    work += work_from_outside(model);
+  }
+  if (!only_springs_) {
+    work += work_of_other_drives(model);
+  }
   if (!driven_.empty()) {
     work += work_of_driven(model);
   }
   if (!moved_ && work > kWorthSplitting * scale_) {
-    work += work_of_contacts(model) - work_of_constraints(model);
+    work += work_of_contacts(model) - by_constraints;
   }
   give(work);
 }
 
-// Forces from outside are what is left of all forces without those of springs, dampers, drives.
-double EnergyWatch::work_of_forces(const Model& model) const {
-  const mjData& d = *model.data;
-  const auto sum = [&](auto force) {
-    double twice = 0;
-    for (std::size_t i = 0; i < velocity_.size(); ++i) {
-      twice += force(i) * (velocity_[i] + d.qvel[i]);
-    }
-    return twice;
-  };
-  const auto outside = [&](std::size_t i) {
-    return d.qfrc_smooth[i] + d.qfrc_bias[i] - d.qfrc_spring[i] - d.qfrc_damper[i];
-  };
-  const bool pushed = pushed_ || outside_;
+/// Of one force for each degree of freedom.
+double EnergyWatch::work_of(const double* forces, const Model& model) const {
+  const double* const velocity = model.data->qvel;
   double twice = 0;
-  if (only_springs_ && !pushed) {
-    twice = sum([&](std::size_t i) { return d.qfrc_constraint[i]; });
-  } else if (only_springs_) {
-    twice =
-        sum([&](std::size_t i) { return outside(i) - d.qfrc_actuator[i] + d.qfrc_constraint[i]; });
-  } else if (pushed) {
-    twice = sum([&](std::size_t i) { return outside(i) + d.qfrc_constraint[i]; });
-  } else {
-    twice = sum([&](std::size_t i) { return d.qfrc_actuator[i] + d.qfrc_constraint[i]; });
-  }
-  if (!only_springs_) {
-    for (const Spring& spring : springs_) {
-      const auto dof = static_cast<std::size_t>(spring.dof);
-      twice -= d.actuator_force[spring.actuator] * (velocity_[dof] + d.qvel[dof]);
-    }
+  for (std::size_t i = 0; i < velocity_.size(); ++i) {
+    twice += forces[i] * (velocity_[i] + velocity[i]);
   }
   return twice * model.model->opt.timestep / 2;
 }
 
-double EnergyWatch::work_of_constraints(const Model& model) const {
+// What is left of all forces without those of springs, dampers and drives.
+double EnergyWatch::work_from_outside(const Model& model) const {
   const mjData& d = *model.data;
-  double work = 0;
+  double twice = 0;
   for (std::size_t i = 0; i < velocity_.size(); ++i) {
-    work += d.qfrc_constraint[i] * (velocity_[i] + d.qvel[i]);
+    const double force = d.qfrc_smooth[i] + d.qfrc_bias[i] - d.qfrc_spring[i] - d.qfrc_damper[i] -
+                         d.qfrc_actuator[i];
+    twice += force * (velocity_[i] + d.qvel[i]);
   }
-  return work * model.model->opt.timestep / 2;
+  return twice * model.model->opt.timestep / 2;
+}
+
+// Of actuators that are no springs.
+double EnergyWatch::work_of_other_drives(const Model& model) const {
+  const mjData& d = *model.data;
+  double twice = 0;
+  for (const Spring& spring : springs_) {
+    const auto dof = static_cast<std::size_t>(spring.dof);
+    twice += d.actuator_force[spring.actuator] * (velocity_[dof] + d.qvel[dof]);
+  }
+  return work_of(d.qfrc_actuator, model) - twice * model.model->opt.timestep / 2;
 }
 
 double EnergyWatch::work_of_contacts(const Model& model) const {

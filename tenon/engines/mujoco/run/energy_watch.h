@@ -47,9 +47,10 @@ class EnergyWatch {
   void set_baseline(const Model& model);
   void follow_targets(const Model& model);
   void add_work(const Model& model);
-  double work_of_forces(const Model& model) const;
+  double work_of(const double* forces, const Model& model) const;
+  double work_from_outside(const Model& model) const;
+  double work_of_other_drives(const Model& model) const;
   double work_of_contacts(const Model& model) const;
-  double work_of_constraints(const Model& model) const;
   double work_of_driven(const Model& model) const;
   double kinetic_energy(const Model& model, const double* velocity);
   double potential_energy(const Model& model) const;
@@ -58,8 +59,8 @@ class EnergyWatch {
   std::vector<std::size_t> candidates_;  ///< drives that may be springs, into Model::drives
   std::vector<Spring> springs_;
   bool only_springs_ = false;  ///< no actuator is anything else
-  bool pushed_ = true;         ///< forces from outside may act in the step that is under way
-  bool outside_ = true;        ///< the same for every step since the baseline
+  bool pushed_ = true;         ///< forces from outside may have begun in the step under way
+  bool outside_ = true;        ///< some have acted since the baseline
   std::vector<int> driven_;    ///< first of six coordinates of bodies that follow poses
   std::vector<int> driven_bodies_;
   bool moved_ = false;  ///< something follows poses or bounds: constraints may give energy
