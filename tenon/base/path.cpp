@@ -14,7 +14,7 @@
 #include <new>
 
 #include "tenon/base/assert.h"
-#include "tenon/base/paths/short_list.h"
+#include "tenon/base/containers/short_list.h"
 
 namespace tenon {
 namespace {

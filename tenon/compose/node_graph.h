@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tenon/base/paths/short_list.h"
+#include "tenon/base/containers/short_list.h"
 #include "tenon/compose/maps/map_pool.h"
 #include "tenon/compose/prim_index.h"
 #include "tenon/compose/site.h"

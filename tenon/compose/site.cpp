@@ -13,7 +13,7 @@
 #include <array>
 #include <map>
 
-#include "tenon/base/paths/short_list.h"
+#include "tenon/base/containers/short_list.h"
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/expressions/variable_expression.h"
 #include "tenon/layer/field_values.h"

@@ -75,11 +75,14 @@ class RowIndex {
     }
     for (std::size_t i = 0; i < before.size(); ++i) {
       const Slot& slot = before[(first + i) & (before.size() - 1)];
+      if (slot.number == kNone) {
+        continue;
+      }
       std::size_t at = home_of(slot.part);
-      while (slot.number != kNone && slots_[at].number != kNone) {
+      while (slots_[at].number != kNone) {
         at = after(at);
       }
-      slots_[at] = slot.number == kNone ? slots_[at] : slot;
+      slots_[at] = slot;
     }
   }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/base/paths/short_list.h"
+#include "tenon/base/containers/short_list.h"
 
 #include <vector>
 
