@@ -6,10 +6,10 @@
 // is bounded by its length and depth; what it means is checked by check_scene.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,16 +17,17 @@
 
 #include "tenon/answers/scene_json.h"
 #include "tenon/base/limits/reading_limits.h"
-#include "tenon/base/wire.h"
 #include "tenon/scene/check_scene.h"
-#include "tenon/scene/fields/enum_names.h"
+#include "tenon/scene/fields/data_type.h"
 #include "tenon/scene/fields/list_of.h"
-#include "tenon/scene/fields/scene_fields.h"
 
 namespace tenon::answers {
 namespace {
 
 using Parsed = nlohmann::json;
+using scene::DataField;
+using scene::DataKind;
+using scene::DataRef;
 using scene::FieldInfo;
 using scene::Index;
 using scene::List;
@@ -39,14 +40,6 @@ bool are_whole(const std::vector<double>& numbers) {
   });
 }
 
-/// Fills `to` with the numbers from index `from` on.
-template <class Numbers>
-void take_numbers(const std::vector<double>& numbers, std::size_t from, Numbers& to) {
-  for (auto& x : to) {
-    x = static_cast<std::remove_reference_t<decltype(x)>>(numbers[from++]);
-  }
-}
-
 constexpr int kDepth = 16;  // of the form itself: 7
 
 class Reader {
@@ -54,7 +47,7 @@ class Reader {
   Result<PhysicsScene> read(const Parsed& json) {
     find_paths(json);
     PhysicsScene scene;
-    object(json, scene, "");
+    object(json, ref_to(scene), "");
     if (fault_) {
       return *std::move(fault_);
     }
@@ -96,49 +89,41 @@ class Reader {
     }
   }
 
-  template <class T>
-  void object(const Parsed& json, T& value, const std::string& at) {
+  void object(const Parsed& json, DataRef value, const std::string& at) {
     if (!json.is_object()) {
       fault(at, "is no object");
       return;
     }
-    each_field(value, [&](const FieldInfo& info, auto& member) {
+    const scene::OwnerFacts owner = facts_of(value);
+    for (const DataField& of : value.type->fields) {
       if (!fault_) {
-        field(json, value, info, member, at);
+        field(json, owner, *of.info, value.member(of), at);
       }
-    });
-    older(json, value, at);
+    }
+    if (scene::Joint* joint = value.get_if<scene::Joint>()) {
+      older(json, *joint, at);
+    }
   }
 
-  /// What older versions of the form say otherwise; most structs have nothing.
-  template <class T>
-  void older(const Parsed&, T&, const std::string&) {}
-  /// 1.0: a joint of one axis follows one other such joint.
+  /// What version 1.0 says otherwise: a joint of one axis follows one other such joint.
   void older(const Parsed& json, scene::Joint& joint, const std::string& at) {
     const auto mimic = json.find("mimic");
     if (!json.contains("mimics") && mimic != json.end() && mimic->is_object()) {
-      object(*mimic, joint.mimics.emplace_back(), at + ".mimic");
+      object(*mimic, ref_to(joint.mimics.emplace_back()), at + ".mimic");
       single_mimics_.push_back(joints_read_);
     }
     ++joints_read_;
   }
 
-  template <class Owner, class T>
-  void field(const Parsed& json, const Owner& owner, const FieldInfo& info, T& member,
-             const std::string& at) {
-    if constexpr (std::is_same_v<T, Pose>) {
-      if (info.inlined) {
-        pose(json, member, at);
-        return;
-      }
-    } else if constexpr (scene::HasTable<T>) {
-      if (info.inlined) {
-        object(json, member, at);
-        return;
-      }
+  void field(const Parsed& json, const scene::OwnerFacts& owner, const FieldInfo& info,
+             DataRef member, const std::string& at) {
+    if (info.inlined) {
+      member.kind() == DataKind::Pose ? pose(json, member, at) : object(json, member, at);
+      return;
     }
     const List refers = list_of(owner, info.refers);
-    if (const Parsed* found = find(json, info, std::is_same_v<T, Index> && refers != List::None)) {
+    const bool is_reference = member.kind() == DataKind::Ordinal && refers != List::None;
+    if (const Parsed* found = find(json, info, is_reference)) {
       read(*found, refers, info, member, place(at, info));
     }
   }
@@ -157,108 +142,112 @@ class Reader {
     return (at.empty() ? "" : at + ".") + std::string(info.name);
   }
 
-  void pose(const Parsed& json, Pose& pose, const std::string& at) {
+  void pose(const Parsed& json, DataRef pose, const std::string& at) {
     static constexpr FieldInfo kPosition{.name = "position", .meaning = ""};
     static constexpr FieldInfo kOrientation{.name = "orientation", .meaning = ""};
-    field(json, pose, kPosition, pose.position, at);
-    field(json, pose, kOrientation, pose.orientation, at);
+    field(json, {}, kPosition, pose.first(), at);
+    field(json, {}, kOrientation, pose.second(), at);
   }
 
   /// `refers`: into which list an index does.
-  template <class T>
-  void read(const Parsed& json, List refers, const FieldInfo& info, T& value,
+  void read(const Parsed& json, List refers, const FieldInfo& info, DataRef value,
             const std::string& at) {
-    if constexpr (std::is_same_v<T, bool>) {
-      flag(json, info, value, at);
-    } else if constexpr (std::is_same_v<T, Index>) {
-      refers == List::None ? integer(json, value, at) : reference(json, refers, value, at);
-    } else if constexpr (std::is_enum_v<T>) {
-      const std::optional<T> named =
-          json.is_string() ? scene::named<T>(json.template get<std::string>()) : std::nullopt;
-      named ? value = *named : (fault(at, "is none of its words"), value);
-    } else if constexpr (std::is_same_v<T, double>) {
-      number(json, value, at);
-    } else if constexpr (std::is_integral_v<T>) {
-      integer(json, value, at);
-    } else if constexpr (std::is_same_v<T, std::string>) {
-      json.is_string() ? value = json.template get<std::string>()
-                       : (fault(at, "is no text"), value);
-    } else if constexpr (std::is_same_v<T, Path>) {
-      path(json, value, at);
-    } else if constexpr (wire::kIsOptional<T>) {
-      if (!json.is_null()) {
-        read(json, refers, info, value.emplace(), at);
-      }
-    } else if constexpr (std::is_same_v<T, std::vector<scene::VendorSetting>>) {
-      settings(json, value, at);
-    } else if constexpr (scene::HasTable<T>) {
-      object(json, value, at);
-    } else {
-      list(json, refers, info, value, at);
+    switch (value.kind()) {
+      case DataKind::Flag:
+        flag(json, info, value.as<bool>(), at);
+        break;
+      case DataKind::Ordinal:
+        refers == List::None ? integer(json, value, at) : reference(json, refers, value, at);
+        break;
+      case DataKind::Word:
+        word(json, value, at);
+        break;
+      case DataKind::Real:
+        number(json, value.as<double>(), at);
+        break;
+      case DataKind::Integer:
+        integer(json, value, at);
+        break;
+      case DataKind::Text:
+        json.is_string() ? void(value.as<std::string>() = json.get<std::string>())
+                         : fault(at, "is no text");
+        break;
+      case DataKind::Path:
+        path(json, value.as<Path>(), at);
+        break;
+      case DataKind::Optional:
+        if (!json.is_null()) {
+          value.resize(1);
+          read(json, refers, info, value[0], at);
+        }
+        break;
+      case DataKind::Struct:
+        object(json, value, at);
+        break;
+      default:
+        several(json, refers, info, value, at);
     }
   }
 
-  template <class T>
-  void list(const Parsed& json, List refers, const FieldInfo& info, T& value,
-            const std::string& at) {
-    if constexpr (std::is_same_v<T, Pose>) {
+  void several(const Parsed& json, List refers, const FieldInfo& info, DataRef value,
+               const std::string& at) {
+    if (auto* all = value.get_if<std::vector<scene::VendorSetting>>()) {
+      settings(json, *all, at);
+    } else if (value.kind() == DataKind::Pose) {
       json.is_object() ? pose(json, value, at) : fault(at, "is no object");
     } else if (!json.is_array()) {
       fault(at, "is no array");
-    } else if constexpr (wire::kIsVector<T>) {
+    } else if (value.kind() == DataKind::List) {
       value.resize(json.size());
       for (std::size_t i = 0; i < json.size() && !fault_; ++i) {
         read(json[i], refers, info, value[i], at + "[" + std::to_string(i) + "]");
       }
-    } else if constexpr (wire::kIsPair<T>) {
-      if (json.size() != 2) {
-        fault(at, "is no pair");
-        return;
-      }
-      read(json[0], refers, info, value.first, at + "[0]");
-      read(json[1], refers, info, value.second, at + "[1]");
-    } else {
+    } else if (value.kind() != DataKind::Pair) {
       fixed(json, value, at);
+    } else if (json.size() != 2) {
+      fault(at, "is no pair");
+    } else {
+      read(json[0], refers, info, value.first(), at + "[0]");
+      read(json[1], refers, info, value.second(), at + "[1]");
     }
   }
 
-  /// Vectors, rotations, matrices, arrays.
-  template <class T>
-  void fixed(const Parsed& json, T& value, const std::string& at) {
+  /// Rotations, and numbers in a row.
+  void fixed(const Parsed& json, DataRef value, const std::string& at) {
+    const bool is_rotation = value.kind() == DataKind::Rotation;
+    const std::size_t count = is_rotation ? 4 : value.type->count;
     std::vector<double> numbers(json.size());
     for (std::size_t i = 0; i < json.size() && !fault_; ++i) {
       number(json[i], numbers[i], at);
     }
-    const auto has = [&](std::size_t count) {
-      if (!fault_ && numbers.size() != count) {
-        fault(at, "does not have " + std::to_string(count) + " numbers");
-      }
-      return !fault_;
-    };
-    if constexpr (std::is_same_v<T, Quatd>) {
-      if (has(4)) {
-        value = {numbers[1], numbers[2], numbers[3], numbers[0]};
-      }
-    } else if constexpr (wire::kIsArray<T>) {
-      if (has(value.size())) {
-        take_numbers(numbers, 0, value);
-      }
-    } else if constexpr (std::is_same_v<T, Vec3i>) {
-      if (!are_whole(numbers)) {
-        fault(at, "is no whole number");
-      } else if (has(3)) {
-        take_numbers(numbers, 0, value.v);
-      }
-    } else if constexpr (requires { value.v; }) {
-      if (has(value.v.size())) {
-        take_numbers(numbers, 0, value.v);
-      }
-    } else {
-      const std::size_t rows = value.m.size();
-      for (std::size_t row = 0; row < rows && has(rows * rows); ++row) {
-        take_numbers(numbers, row * rows, value.m[row]);
-      }
+    const bool takes_reals = is_rotation || value.type->item->kind == DataKind::Real;
+    if (!fault_ && !takes_reals && !are_whole(numbers)) {
+      fault(at, "is no whole number");
     }
+    if (!fault_ && numbers.size() != count) {
+      fault(at, "does not have " + std::to_string(count) + " numbers");
+    }
+    if (fault_) {
+      return;
+    }
+    if (is_rotation) {
+      value.as<Quatd>() = {numbers[1], numbers[2], numbers[3], numbers[0]};
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      set_number(value[i], numbers[i]);
+    }
+  }
+
+  void word(const Parsed& json, DataRef value, const std::string& at) {
+    const std::string name = json.is_string() ? json.get<std::string>() : std::string();
+    const auto& words = value.type->words;
+    const auto found = std::find(words.begin(), words.end(), name);
+    if (found == words.end()) {
+      fault(at, "is none of its words");
+      return;
+    }
+    set_integer(value, found - words.begin());
   }
 
   void flag(const Parsed& json, const FieldInfo& info, bool& value, const std::string& at) {
@@ -287,16 +276,14 @@ class Reader {
     }
   }
 
-  template <class T>
-  void integer(const Parsed& json, T& value, const std::string& at) {
+  void integer(const Parsed& json, DataRef value, const std::string& at) {
     const bool whole = json.is_number_integer() || json.is_number_unsigned();
-    const bool fits = whole && json.get<double>() >= double{std::numeric_limits<T>::min()} &&
-                      json.get<double>() <= double{std::numeric_limits<T>::max()};
-    if (!fits) {
+    const auto [lowest, highest] = integer_range(*value.type);
+    if (!whole || json.get<double>() < lowest || json.get<double>() > highest) {
       fault(at, "is no whole number of its range");
       return;
     }
-    value = static_cast<T>(json.get<std::int64_t>());
+    set_integer(value, json.get<std::int64_t>());
   }
 
   void path(const Parsed& json, Path& value, const std::string& at) {
@@ -312,7 +299,7 @@ class Reader {
     value = *read;
   }
 
-  void reference(const Parsed& json, List list, Index& value, const std::string& at) {
+  void reference(const Parsed& json, List list, DataRef value, const std::string& at) {
     if (json.is_number()) {
       integer(json, value, at);
       return;
@@ -322,7 +309,7 @@ class Reader {
       fault(at, "leads to nothing in the scene");
       return;
     }
-    value = found->second;
+    value.as<Index>() = found->second;
   }
 
   void settings(const Parsed& json, std::vector<scene::VendorSetting>& all, const std::string& at) {

@@ -12,13 +12,10 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <optional>
-#include <type_traits>
 
 #include "tenon/answers/json_form.h"
 #include "tenon/answers/scene_json_value.h"
-#include "tenon/base/wire.h"
-#include "tenon/scene/fields/enum_names.h"
+#include "tenon/scene/fields/data_type.h"
 #include "tenon/scene/fields/list_of.h"
 #include "tenon/scene/fields/same_fields.h"
 #include "tenon/scene/fields/wire_form.h"
@@ -26,6 +23,9 @@
 namespace tenon::answers {
 namespace {
 
+using scene::DataField;
+using scene::DataKind;
+using scene::DataView;
 using scene::FieldInfo;
 using scene::Index;
 using scene::List;
@@ -89,49 +89,47 @@ void add_bounds(const scene::TriangleMesh& mesh, Json& row) {
   row["upper"] = empty ? Json(nullptr) : numbers(high);
 }
 
-template <class Track>
-bool is_held(const Track& track) {
-  if constexpr (requires { track.held; }) {
-    return track.held;
-  } else {
-    return true;
-  }
+/// What a track of `type` changes, where that is one thing.
+std::string_view changing(DataView track) {
+  return track.is_a<scene::PoseTrack>()      ? "pose"
+         : track.is_a<scene::BoundsTrack>()  ? "limits"
+         : track.is_a<scene::GravityTrack>() ? "gravity"
+         : track.is_a<scene::ShapesTrack>()  ? "shapes"
+         : find_field(*track.type, "states") ? "state"
+                                             : "";
 }
 
-template <class Track>
-void name_value(const PhysicsScene&, const Track&, Json&) {}
-void name_value(const PhysicsScene&, const scene::PoseTrack& track, Json& row) {
-  row["value"] = "pose";
-  if (!track.joint) {
-    row.erase("side");
-  }
-}
-void name_value(const PhysicsScene&, const scene::BoundsTrack&, Json& row) {
-  row["value"] = "limits";
-}
-void name_value(const PhysicsScene&, const scene::GravityTrack&, Json& row) {
-  row["value"] = "gravity";
-}
-template <class Object>
-void name_value(const PhysicsScene&, const scene::ObjectTrack<Object>&, Json& row) {
-  row["value"] = "state";
-}
-void name_value(const PhysicsScene& scene, const scene::ShapesTrack& track, Json& row) {
-  row["value"] = "shapes";
+void name_shapes(const PhysicsScene& scene, const scene::ShapesTrack& track, Json& row) {
   for (const Index i : track.colliders) {
     row["colliders"].push_back(scene.colliders[i].path.str());
   }
   row["lastMass"] = number(track.shapes.back().mass);
   row["lastCenterOfMass"] = numbers(track.shapes.back().center_of_mass);
 }
-void name_value(const PhysicsScene&, const scene::SwitchTrack& track, Json& row) {
-  const List list = list_of(track, List::BySwitch);
+
+void name_switch(const scene::SwitchTrack& track, Json& row) {
+  const List list = facts_of(view_of(track)).switched;
   const Json object = row["object"];
   row = Json::object();
   row[list == List::Bodies ? "body" : list == List::Colliders ? "collider" : "joint"] = object;
   row["value"] = track.what == scene::Switch::BodyKinematic    ? "kinematic"
                  : track.what == scene::Switch::JointCollision ? "collisionEnabled"
                                                                : "enabled";
+}
+
+void name_value(const PhysicsScene& scene, DataView track, Json& row) {
+  if (const std::string_view what = changing(track); !what.empty()) {
+    row["value"] = std::string(what);
+  }
+  if (const auto* poses = track.get_if<scene::PoseTrack>(); poses != nullptr && !poses->joint) {
+    row.erase("side");
+  }
+  if (const auto* shapes = track.get_if<scene::ShapesTrack>()) {
+    name_shapes(scene, *shapes, row);
+  }
+  if (const auto* switched = track.get_if<scene::SwitchTrack>()) {
+    name_switch(*switched, row);
+  }
 }
 
 class Writer {
@@ -145,119 +143,98 @@ class Writer {
     }
   }
 
-  Json whole() { return object(scene_); }
+  Json whole() { return object(view_of(scene_)); }
 
  private:
-  template <class T>
-  Json object(const T& value) {
+  Json object(DataView value) {
     Json row = Json::object();
-    if constexpr (scene::HasTable<T>) {
-      // A row that grows copies all of its keys; most have a few derived values, too.
-      row.get_ref<Json::object_t&>().reserve(scene::kFieldCount<T> + 6);
+    // A row that grows copies all of its keys; most have a few derived values, too.
+    row.get_ref<Json::object_t&>().reserve(value.type->fields.size() + 6);
+    if (!value.is_a<scene::TriangleMesh>() || geometry_ == Geometry::Inline) {
+      add_fields(value, row);
     }
-    if constexpr (std::is_same_v<T, scene::TriangleMesh>) {
-      if (geometry_ == Geometry::Hash) {
-        add_derived(value, row);
-        return row;
-      }
-    }
-    add_fields(value, row);
     add_derived(value, row);
     return row;
   }
 
-  template <class T>
-  void add_fields(const T& of, Json& row) {
-    static const T kDefault{};
-    each_field_of_both(of, kDefault,
-                       [&](const FieldInfo& info, const auto& value, const auto& plain) {
-                         add_field(of, info, value, plain, row);
-                       });
+  void add_fields(DataView of, Json& row) {
+    const DataView plain{of.type, of.type->plain};
+    const scene::OwnerFacts owner = facts_of(of);
+    for (const DataField& field : of.type->fields) {
+      const DataView value = of.member(field);
+      if (field.info->inlined) {
+        value.kind() == DataKind::Pose ? add_pose(value.as<Pose>(), row) : add_fields(value, row);
+      } else if (is_written(of, *field.info, value, plain.member(field))) {
+        const List refers = list_of(owner, field.info->refers);
+        append(row, field.info->name,
+               is_boundless(value, plain.member(field)) ? Json(nullptr)
+                                                        : json(refers, *field.info, value));
+      } else if (field.info->presence == scene::Presence::Null) {
+        append(row, field.info->name, nullptr);
+      }
+    }
   }
 
-  template <class Owner, class T>
-  void add_field(const Owner& of, const FieldInfo& info, const T& value, const T& plain,
-                 Json& row) {
-    if constexpr (std::is_same_v<T, Pose>) {
-      if (info.inlined) {
-        add_pose(value, row);
-        return;
-      }
-    } else if constexpr (scene::HasTable<T>) {
-      if (info.inlined) {
-        add_fields(value, row);
-        return;
-      }
-    }
-    if (info.presence != scene::Presence::Always && !counts(of, info) &&
-        scene::same_fields(value, plain)) {
-      if (info.presence == scene::Presence::Null) {
-        append(row, info.name, nullptr);
-      }
-      return;
-    }
-    Json written = json(list_of(of, info.refers), info, value);
-    if constexpr (std::is_same_v<T, double>) {
-      written = !std::isfinite(value) && value == plain ? Json(nullptr) : written;
-    }
-    append(row, info.name, std::move(written));
+  /// A number that JSON has not, and that null stands for.
+  static bool is_boundless(DataView value, DataView plain) {
+    return value.kind() == DataKind::Real && !std::isfinite(value.as<double>()) &&
+           value.as<double>() == plain.as<double>();
+  }
+
+  /// Not where it says no more than its absence or null.
+  static bool is_written(DataView of, const FieldInfo& info, DataView value, DataView plain) {
+    return info.presence == scene::Presence::Always || counts(of, info) || !same_data(value, plain);
   }
 
   /// `refers`: into which list an index does.
-  template <class T>
-  Json json(List refers, const FieldInfo& info, const T& value) {
-    if constexpr (std::is_same_v<T, bool>) {
-      return info.on.empty() ? Json(value) : Json(std::string(value ? info.on : info.off));
-    } else if constexpr (std::is_same_v<T, Index>) {
-      return refers == List::None ? Json(value) : reference(refers, value);
-    } else if constexpr (std::is_enum_v<T>) {
-      return std::string(name_of(value));
-    } else if constexpr (std::is_same_v<T, double>) {
-      return number(value);
-    } else if constexpr (std::is_arithmetic_v<T>) {
-      return static_cast<int>(value);
-    } else if constexpr (std::is_same_v<T, std::string>) {
-      return value;
-    } else if constexpr (std::is_same_v<T, Path>) {
-      return value.empty() ? Json(nullptr) : Json(value.str());
-    } else if constexpr (wire::kIsOptional<T>) {
-      return value ? json(refers, info, *value) : Json(nullptr);
-    } else if constexpr (std::is_same_v<T, std::vector<scene::VendorSetting>>) {
-      return settings(value);
-    } else if constexpr (wire::kIsPair<T>) {
-      return {json(refers, info, value.first), json(refers, info, value.second)};
-    } else if constexpr (wire::kIsVector<T> || wire::kIsArray<T>) {
-      Json list = Json::array();
-      for (const auto& item : value) {
-        list.push_back(json(refers, info, item));
+  Json json(List refers, const FieldInfo& info, DataView value) {
+    switch (value.kind()) {
+      case DataKind::Flag: {
+        const bool on = value.as<bool>();
+        return info.on.empty() ? Json(on) : Json(std::string(on ? info.on : info.off));
       }
-      return list;
-    } else {
-      return composite(refers, info, value);
+      case DataKind::Ordinal:
+        return refers == List::None ? Json(value.as<Index>())
+                                    : reference(refers, value.as<Index>());
+      case DataKind::Word:
+        return std::string(word_of(value));
+      case DataKind::Real:
+        return number(value.as<double>());
+      case DataKind::Integer:
+        return static_cast<int>(number_of(value));
+      case DataKind::Text:
+        return value.as<std::string>();
+      case DataKind::Path:
+        return value.as<Path>().empty() ? Json(nullptr) : Json(value.as<Path>().str());
+      case DataKind::Optional:
+        return value.size() != 0 ? json(refers, info, value[0]) : Json(nullptr);
+      case DataKind::Rotation:
+        return rotation(value.as<Quatd>());
+      case DataKind::Struct:
+        return object(value);
+      default:
+        return several(refers, info, value);
     }
   }
 
-  template <class T>
-  Json composite(List refers, const FieldInfo& info, const T& value) {
-    if constexpr (scene::HasTable<T>) {
-      return object(value);
-    } else if constexpr (std::is_same_v<T, Quatd>) {
-      return rotation(value);
-    } else if constexpr (std::is_same_v<T, Pose>) {
+  Json several(List refers, const FieldInfo& info, DataView value) {
+    if (value.kind() == DataKind::Pose) {
       Json row = Json::object();
-      add_pose(value, row);
+      add_pose(value.as<Pose>(), row);
       return row;
-    } else if constexpr (requires { value.v; }) {
-      return json(refers, info, value.v);
-    } else {
-      Json list = Json::array();  // matrices, by rows
-      for (const auto& row : value.m) {
-        for (const double x : row) {
-          list.push_back(number(x));
-        }
-      }
-      return list;
     }
+    if (value.kind() == DataKind::Pair) {
+      return {json(refers, info, value.first()), json(refers, info, value.second())};
+    }
+    if (const auto* all = value.get_if<std::vector<scene::VendorSetting>>()) {
+      return settings(*all);
+    }
+    Json list = Json::array();
+    list.get_ref<Json::array_t&>().reserve(value.size());
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      list.push_back(json(refers, info, value[i]));
+    }
+    return list;
   }
 
   Json reference(List list, Index index) const {
@@ -274,8 +251,19 @@ class Writer {
 
   // What follows from fields.
 
-  template <class T>
-  void add_derived(const T&, Json&) {}
+  void add_derived(DataView value, Json& row) {
+    if (const auto* mesh = value.get_if<scene::TriangleMesh>()) {
+      add_derived(*mesh, row);
+    } else if (const auto* collider = value.get_if<scene::Collider>()) {
+      add_derived(*collider, row);
+    } else if (const auto* limit = value.get_if<scene::Limit>()) {
+      row["locked"] = limit->locked();
+    } else if (const auto* joint = value.get_if<scene::Joint>()) {
+      add_derived(*joint, row);
+    } else if (const auto* scene = value.get_if<PhysicsScene>()) {
+      add_derived(*scene, row);
+    }
+  }
 
   void add_derived(const scene::TriangleMesh& mesh, Json& row) {
     row["hash"] = hex(mesh_hash(mesh));
@@ -297,10 +285,10 @@ class Writer {
       row["pieces"] = shape.pieces.size();
     }
   }
-  void add_derived(const scene::Limit& limit, Json& row) { row["locked"] = limit.locked(); }
   void add_derived(const scene::Joint& joint, Json& row) {
     row["locked"] = joint.lower > joint.upper;
-    append(row, "mimic", joint.mimics.empty() ? Json(nullptr) : object(joint.mimics.front()));
+    append(row, "mimic",
+           joint.mimics.empty() ? Json(nullptr) : object(view_of(joint.mimics.front())));
   }
   void add_derived(const PhysicsScene& scene, Json& row) {
     row["schemaVersion"] = std::string(kSceneSchemaVersion);
@@ -315,16 +303,15 @@ class Writer {
   /// A row for each track: of what, how many samples.
   Json animated() {
     Json rows = Json::array();
-    each_field(scene_, [&](const FieldInfo&, const auto& list) {
-      using T = std::remove_cvref_t<decltype(list)>;
-      if constexpr (wire::kIsVector<T>) {
-        if constexpr (requires { list.front().times.size(); }) {
-          for (const auto& track : list) {
-            rows.push_back(track_row(track));
-          }
-        }
+    const DataView scene = view_of(scene_);
+    for (const DataField& field : scene.type->fields) {
+      const bool are_tracks =
+          is_struct_list(*field.type) && find_field(*field.type->item, "times") != nullptr;
+      const DataView list = scene.member(field);
+      for (std::size_t i = 0; are_tracks && i < list.size(); ++i) {
+        rows.push_back(track_row(list[i]));
       }
-    });
+    }
     if (!scene_.nesting_states.empty()) {
       rows.push_back({{"value", "nesting"},
                       {"states", nesting()},
@@ -341,11 +328,11 @@ class Writer {
   Json nesting() {
     Json states = Json::array();
     for (const scene::NestingState& state : scene_.nesting_states) {
-      Json row = object(state);
+      Json row = object(view_of(state));
       row["masses"] = Json::array();
       for (const auto& [body, mass] : state.masses) {
         Json entry = {{"body", reference(List::Bodies, body)}};
-        entry.update(object(mass));
+        entry.update(object(view_of(mass)));
         row["masses"].push_back(std::move(entry));
       }
       states.push_back(std::move(row));
@@ -353,20 +340,21 @@ class Writer {
     return states;
   }
 
-  template <class Track>
-  Json track_row(const Track& track) {
+  Json track_row(DataView track) {
     Json row = Json::object();
-    each_field(track, [&](const FieldInfo& info, const auto& value) {
-      using T = std::remove_cvref_t<decltype(value)>;
-      if constexpr (!wire::kIsVector<T>) {
-        if (!wire::kIsOptional<T> || !scene::same_fields(value, T{})) {
-          row[std::string(info.name)] = json(list_of(track, info.refers), info, value);
-        }
+    const scene::OwnerFacts owner = facts_of(track);
+    for (const DataField& field : track.type->fields) {
+      const DataView value = track.member(field);
+      const bool is_there = value.kind() != DataKind::Optional || value.size() != 0;
+      if (value.kind() != DataKind::List && is_there) {
+        row[std::string(field.info->name)] =
+            json(list_of(owner, field.info->refers), *field.info, value);
       }
-    });
+    }
     name_value(scene_, track, row);
-    row["samples"] = track.times.size();
-    row["held"] = is_held(track);
+    const DataField* held = find_field(*track.type, "held");
+    row["samples"] = track.member(*find_field(*track.type, "times")).size();
+    row["held"] = held == nullptr || track.member(*held).as<bool>();
     return row;
   }
 

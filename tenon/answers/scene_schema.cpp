@@ -9,17 +9,19 @@
 #include <set>
 #include <span>
 #include <string>
-#include <type_traits>
+#include <vector>
 
 #include "tenon/answers/json.h"
 #include "tenon/answers/json_form.h"
 #include "tenon/answers/scene_json.h"
-#include "tenon/base/wire.h"
-#include "tenon/scene/fields/enum_names.h"
+#include "tenon/scene/fields/data_type.h"
+#include "tenon/scene/physics_scene.h"
 
 namespace tenon::answers {
 namespace {
 
+using scene::DataKind;
+using scene::DataType;
 using scene::FieldInfo;
 using scene::List;
 
@@ -76,7 +78,7 @@ class SchemaWriter {
                    {"title",
                     "A physics scene as engines receive it: metres, kilograms, seconds, "
                     "radians"}};
-    schema.update(object<scene::PhysicsScene>());
+    schema.update(object(scene::data_type<scene::PhysicsScene>()));
     schema["additionalProperties"] = true;  // of the answer around it
     defs_["number"] = {{"anyOf", {{{"type", "number"}}, {{"enum", {"inf", "-inf", "nan"}}}}}};
     defs_["reference"] = {{"description", "a path, or an index where several have that path"},
@@ -86,103 +88,85 @@ class SchemaWriter {
   }
 
  private:
-  template <class T>
-  Json object() {
+  Json object(const DataType& type) {
     Json row = empty_object();
-    add_properties<T>(row["properties"]);
+    add_properties(type, row["properties"]);
     return row;
   }
 
-  template <class T>
-  void add_properties(Json& properties) {
-    scene::each_field_type<T>([&](const FieldInfo& info, auto type) {
-      using Member = typename decltype(type)::type;
-      if constexpr (std::is_same_v<Member, Pose>) {
-        if (info.inlined) {
-          add_pose(properties);
-          return;
-        }
-      } else if constexpr (scene::HasTable<Member>) {
-        if (info.inlined) {
-          add_properties<Member>(properties);
-          return;
-        }
+  void add_properties(const DataType& type, Json& properties) {
+    for (const scene::DataField& field : type.fields) {
+      if (!field.info->inlined) {
+        add_property(properties, *field.info, schema_of(*field.type, *field.info));
+      } else if (field.type->kind == DataKind::Pose) {
+        add_pose(properties);
+      } else {
+        add_properties(*field.type, properties);
       }
-      add_property(properties, info, schema_of<Member>(info));
-    });
-    add_derived(properties, kDerived<T>);
+    }
+    add_derived(properties, derived_keys(type));
   }
 
-  template <class T>
-  Json schema_of(const FieldInfo& info) {
-    if constexpr (std::is_same_v<T, bool>) {
-      return info.on.empty() ? of_type("boolean")
-                             : Json{{"enum", {std::string(info.off), std::string(info.on)}}};
-    } else if constexpr (std::is_enum_v<T>) {
-      Json words = Json::array();
-      for (const std::string_view name : scene::EnumNames<T>::kNames) {
-        words.push_back(std::string(name));
+  Json schema_of(const DataType& type, const FieldInfo& info) {
+    switch (type.kind) {
+      case DataKind::Flag:
+        return info.on.empty() ? of_type("boolean")
+                               : Json{{"enum", {std::string(info.off), std::string(info.on)}}};
+      case DataKind::Word: {
+        Json words = Json::array();
+        for (const std::string_view name : type.words) {
+          words.push_back(std::string(name));
+        }
+        return {{"enum", words}};
       }
-      return {{"enum", words}};
-    } else if constexpr (std::is_same_v<T, scene::Index>) {
-      return info.refers == List::None || info.refers == List::Meshes ? of_type("integer")
-                                                                      : reference_to("reference");
-    } else if constexpr (std::is_same_v<T, double>) {
-      return reference_to("number");
-    } else if constexpr (std::is_arithmetic_v<T>) {
-      return of_type("integer");
-    } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, Path>) {
-      return of_type("string");
-    } else if constexpr (wire::kIsOptional<T>) {
-      return schema_of<typename T::value_type>(info);
-    } else if constexpr (std::is_same_v<T, std::vector<scene::VendorSetting>>) {
-      return {{"type", "object"}, {"additionalProperties", {{"type", {"array", "string"}}}}};
-    } else {
-      return schema_of_many<T>(info);
+      case DataKind::Ordinal:
+        return info.refers == List::None || info.refers == List::Meshes ? of_type("integer")
+                                                                        : reference_to("reference");
+      case DataKind::Real:
+        return reference_to("number");
+      case DataKind::Integer:
+        return of_type("integer");
+      case DataKind::Text:
+      case DataKind::Path:
+        return of_type("string");
+      case DataKind::Optional:
+        return schema_of(*type.item, info);
+      default:
+        return schema_of_many(type, info);
     }
   }
 
-  template <class T>
-  Json schema_of_many(const FieldInfo& info) {
-    if constexpr (scene::HasTable<T>) {
-      return reference_to(definition<T>());
-    } else if constexpr (wire::kIsPair<T>) {
-      return {
-          {"type", "array"},
-          {"prefixItems",
-           {schema_of<typename T::first_type>(info), schema_of<typename T::second_type>(info)}}};
-    } else if constexpr (wire::kIsVector<T>) {
-      return {{"type", "array"}, {"items", schema_of<typename T::value_type>(info)}};
-    } else if constexpr (wire::kIsArray<T>) {
-      return numbers(std::tuple_size_v<T>);
-    } else if constexpr (std::is_same_v<T, Pose>) {
+  Json schema_of_many(const DataType& type, const FieldInfo& info) {
+    if (type.kind == DataKind::Struct) {
+      return reference_to(definition(type));
+    }
+    if (type.kind == DataKind::Pair) {
+      return {{"type", "array"},
+              {"prefixItems", {schema_of(*type.item, info), schema_of(*type.second, info)}}};
+    }
+    if (scene::DataView{&type, nullptr}.is_a<std::vector<scene::VendorSetting>>()) {
+      return {{"type", "object"}, {"additionalProperties", {{"type", {"array", "string"}}}}};
+    }
+    if (type.kind == DataKind::List) {
+      return {{"type", "array"}, {"items", schema_of(*type.item, info)}};
+    }
+    if (type.kind == DataKind::Pose) {
       Json row = {{"type", "object"}, {"properties", Json::object()}};
       add_pose(row["properties"]);
       return row;
-    } else {
-      return numbers(sizeof(T) / sizeof(typename Component<T>::type));
     }
+    return numbers(type.kind == DataKind::Rotation ? 4 : type.count);
   }
 
-  template <class T>
-  struct Component {
-    using type = double;
-  };
-  template <class T, std::size_t N>
-  struct Component<Vec<T, N>> {
-    using type = T;
-  };
-
   /// The name of the struct's definition, which is made the first time.
-  template <class T>
-  std::string definition() {
+  std::string definition(const DataType& type) {
     std::string name;
-    for (const char c : scene::Table<T>::kWord) {
+    for (const char c : type.word) {
       name += c == ' ' ? '_' : c;
     }
     name = name.empty() ? "limit" : name;
     if (made_.insert(name).second) {
-      Json row = object<T>();
+      Json row = object(type);
       defs_[name] = std::move(row);
     }
     return name;

@@ -193,7 +193,9 @@ class Decoder {
     }
   }
 
- private:
+  // What values that are not known to the compiler are read of.
+
+  /// The next bytes as they are.
   void take(void* to, std::size_t size) {
     if (!is_sound_ || rest_.size() < size) {
       is_sound_ = false;
@@ -216,6 +218,7 @@ class Decoder {
     return static_cast<std::size_t>(items);
   }
 
+  /// A byte that is 0 or 1.
   bool flag() {
     unsigned char byte = 0;
     take(&byte, 1);
@@ -223,6 +226,7 @@ class Decoder {
     return is_sound_ && byte == 1;
   }
 
+ private:
   template <class T>
   void read_travelling(T& value) {
     Travelling<T> there{};

@@ -10,11 +10,8 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <type_traits>
 
-#include "tenon/base/wire.h"
 #include "tenon/scene/fields/list_of.h"
-#include "tenon/scene/fields/scene_fields.h"
 
 namespace tenon::scene {
 namespace {
@@ -60,10 +57,11 @@ class Check {
   const std::optional<Error>& fault() const { return fault_; }
 
   void whole() {
-    each_field(scene_, [this](const FieldInfo& info, const auto& member) {
-      place_ = std::string(info.name);
-      visit(scene_, info, member);
-    });
+    const DataView scene = view_of(scene_);
+    for (const DataField& field : scene.type->fields) {
+      place_ = std::string(field.info->name);
+      visit({}, *field.info, scene.member(field));
+    }
     place_ = "scenes";
     require(!scene_.scenes.empty(), "there is no scene");
     filter();
@@ -77,66 +75,97 @@ class Check {
     }
   }
 
-  template <class Owner, class T>
-  void visit(const Owner& owner, const FieldInfo& info, const T& value) {
+  void visit(const OwnerFacts& owner, const FieldInfo& info, DataView value) {
     if (fault_) {
       return;
     }
-    if constexpr (std::is_same_v<T, Index>) {
-      if (info.refers != List::None && info.refers != List::Meshes) {
-        require(value < size_of(scene_, list_of(owner, info.refers)), "an index leads nowhere");
-      }
-    } else if constexpr (wire::kIsOptional<T>) {
-      if (value) {
-        visit(owner, info, *value);
-      }
-    } else if constexpr (wire::kIsPair<T>) {
-      visit(owner, info, value.first);
-      visit(owner, info, value.second);
-    } else if constexpr (wire::kIsVector<T>) {
-      if constexpr (!std::is_arithmetic_v<typename T::value_type> ||
-                    std::is_same_v<typename T::value_type, Index>) {
-        for (const auto& item : value) {
-          visit(owner, info, item);
+    switch (value.kind()) {
+      case DataKind::Ordinal:
+        if (info.refers != List::None && info.refers != List::Meshes) {
+          require(value.as<Index>() < size_of(scene_, list_of(owner, info.refers)),
+                  "an index leads nowhere");
         }
-      }
-    } else if constexpr (HasTable<T>) {
-      object(value);
-    } else if constexpr (std::is_same_v<T, Pose> || std::is_same_v<T, Vec3d>) {
-      require(is_finite(value), "a number is not finite");
+        break;
+      case DataKind::Pair:
+        visit(owner, info, value.first());
+        visit(owner, info, value.second());
+        break;
+      case DataKind::Optional:
+      case DataKind::List:
+        for (std::size_t i = 0; i < value.size(); ++i) {
+          visit(owner, info, value[i]);
+        }
+        break;
+      case DataKind::Struct:
+        object(value);
+        break;
+      case DataKind::Pose:
+        require(is_finite(value.as<Pose>()), "a number is not finite");
+        break;
+      case DataKind::Numbers:
+        require(!value.is_a<Vec3d>() || is_finite(value.as<Vec3d>()), "a number is not finite");
+        break;
+      default:
+        break;
     }
   }
 
-  template <class T>
-  void object(const T& value) {
-    own(value);
+  void object(DataView value) {
+    own_of(value);
     const std::string around = place_;
-    if constexpr (requires { value.path.str(); }) {
-      place_ += " <" + (value.path.empty() ? std::string() : value.path.str()) + ">";
+    if (const Path* path = path_of(value)) {
+      place_ += " <" + (path->empty() ? std::string() : path->str()) + ">";
     }
-    each_field(value, [this, &value](const FieldInfo& info, const auto& member) {
-      this->visit(value, info, member);
-    });
+    const OwnerFacts owner = facts_of(value);
+    for (const DataField& field : value.type->fields) {
+      visit(owner, *field.info, value.member(field));
+    }
     place_ = around;
   }
 
   // What belongs together in one struct; most have nothing to hold but their indices.
+
   template <class T>
-  void own(const T& of) {
-    if constexpr (requires { fault_of(of); }) {
-      const char* fault = fault_of(of);
-      require(fault == nullptr, fault);
-    } else if constexpr (requires { of.times, of.values; }) {
-      times(of.times, of.values.size());
-    } else if constexpr (requires { of.times, of.states; }) {
-      times(of.times, of.states.size());
-    } else if constexpr (requires { of.times, of.bounds; }) {
-      times(of.times, of.bounds.size());
-    } else if constexpr (requires { of.times, of.gravity; }) {
-      times(of.times, of.gravity.size());
+  bool own_if(DataView value) {
+    const T* of = value.get_if<T>();
+    if (of != nullptr) {
+      own(*of);
+    }
+    return of != nullptr;
+  }
+
+  void own_of(DataView value) {
+    const bool is_known =
+        own_if<Body>(value) || own_if<MujocoActuator>(value) || own_if<TriangleMesh>(value) ||
+        own_if<Shape>(value) || own_if<Collider>(value) || own_if<Joint>(value) ||
+        own_if<Tendon>(value) || own_if<Sensor>(value) || own_if<ScalarTrack>(value) ||
+        own_if<PoseTrack>(value) || own_if<ShapesTrack>(value) || own_if<GroupState>(value);
+    if (!is_known) {
+      own_times(value);
     }
   }
 
+  /// Of tracks: as many values as times.
+  void own_times(DataView track) {
+    const DataField* all = find_field(*track.type, "times");
+    if (all == nullptr) {
+      return;
+    }
+    for (const std::string_view name : {"values", "states", "bounds", "gravity"}) {
+      if (const DataField* values = find_field(*track.type, name)) {
+        times(track.member(*all).as<std::vector<double>>(), track.member(*values).size());
+      }
+    }
+  }
+
+  void own(const Tendon& tendon) {
+    const char* const fault = fault_of(tendon);
+    require(fault == nullptr, fault);
+  }
+  void own(const Sensor& sensor) {
+    const char* const fault = fault_of(sensor);
+    require(fault == nullptr, fault);
+  }
   void own(const Body& body) {
     require(body.mass >= 0 && is_finite(body.mass), "a mass is negative or not finite");
     require(is_finite(body.inertia), "an inertia is not finite");

@@ -12,8 +12,9 @@
 #include "tenon/base/fields.h"
 
 /// How the neutral description describes itself: each struct has one table of its fields, and JSON,
-/// differences, the proof of structure, the hash and the wire form walk it. The tables are in
-/// scene_fields.h; a struct that gains a member does not compile until its table names it.
+/// differences, the proof of structure, the hash and the wire form walk it, as data (data_type.h).
+/// The tables are in scene_fields.h; a struct that gains a member does not compile until its table
+/// names it.
 namespace tenon::scene {
 
 /// What a number measures. Those of a degree of freedom depend on whether it turns.
@@ -133,12 +134,6 @@ void each_row_type(const Rows<Members...>& rows, Visit& visit) {
    ...);
 }
 
-template <class T, auto... Members, class Visit>
-void each_row_of_both(const Rows<Members...>& rows, const T& a, const T& b, Visit& visit) {
-  const FieldInfo* info = rows.infos;
-  (visit(*info++, a.*Members, b.*Members), ...);
-}
-
 template <class Of, auto... Members, class Call>
 constexpr auto with_members(const Rows<Members...>&, Of& of, const Call& call) {
   return call((of.*Members)...);
@@ -167,13 +162,6 @@ template <class T, class Visit>
 void each_field_type(Visit&& visit) {
   static_assert(is_complete<T>(), "a member has no row in its table");
   each_row_type<T>(Table<T>::kFields, visit);
-}
-
-/// The same for two objects of one type: `visit(info, member of a, member of b)`.
-template <class T, class Visit>
-void each_field_of_both(const T& a, const T& b, Visit&& visit) {
-  static_assert(is_complete<T>(), "a member has no row in its table");
-  each_row_of_both(Table<T>::kFields, a, b, visit);
 }
 
 }  // namespace tenon::scene

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
 
+#include "tenon/math/matrix.h"
 #include "tenon/math/transform.h"
-#include "tenon/scene/fields/same_fields.h"
+#include "tenon/scene/fields/data_type.h"
 
 namespace tenon::scene {
 
@@ -50,23 +50,11 @@ inline bool near_matrices(const Mat3d& a, const Mat3d& b) {
 
 /// Equal but for what rounding makes of numbers, as deep as they lie: within kNear, relative to the
 /// larger one, of vectors and matrices to their largest number, of poses in metres.
+bool near_data(DataView a, DataView b);
+
 template <class T>
 bool near_fields(const T& a, const T& b) {
-  return fields_agree(a, b, []<class Leaf>(const Leaf& x, const Leaf& y) {
-    if constexpr (std::is_floating_point_v<Leaf>) {
-      const auto scale = std::max(std::fabs(x), std::fabs(y));
-      return x == y || (std::isfinite(scale) && std::fabs(x - y) <= kNear * scale) ||
-             (std::isnan(x) && std::isnan(y));
-    } else if constexpr (std::is_same_v<Leaf, Pose>) {
-      return near_poses(x, y);
-    } else if constexpr (std::is_same_v<Leaf, Vec3d>) {
-      return near_numbers(x.v, y.v);
-    } else if constexpr (std::is_same_v<Leaf, Mat3d>) {
-      return near_matrices(x, y);
-    } else {
-      return x == y;
-    }
-  });
+  return near_data(view_of(a), view_of(b));
 }
 
 }  // namespace tenon::scene

@@ -22,27 +22,36 @@ std::string plain_name(std::string_view name) {
   return plain;
 }
 
-/// Calls `visit(name, value of a new object, value)` for each field of an object, those of structs
-/// in its lists included; a list is also a field itself.
-template <class T, class Visit>
-void each_resettable(const T& fresh, T& object, const std::string& around, Visit& visit) {
-  each_field_of_pair(fresh, object, [&](const FieldInfo& info, const auto& x, auto& y) {
-    using Value = std::remove_cvref_t<decltype(y)>;
-    if (!acts(info)) {
-      return;
+struct Resettable {
+  std::string name;
+  DataView plain;  ///< of a new object
+  DataRef value;
+};
+
+/// All fields of an object, those of structs in its lists included; a list is also a field itself.
+void add_resettable(DataView plain, DataRef object, const std::string& around,
+                    std::vector<Resettable>& found) {
+  for (const DataField& field : plain.type->fields) {
+    if (!acts(*field.info)) {
+      continue;
     }
-    if constexpr (HasTable<Value>) {
-      each_resettable(x, y, joined(around, info), visit);
-    } else {
-      if constexpr (is_struct_list<Value>()) {
-        const typename Value::value_type fresh_item{};
-        for (auto& item : y) {
-          each_resettable(fresh_item, item, joined(around, info), visit);
-        }
-      }
-      visit(joined(around, info), x, y);
+    const std::string name = joined(around, *field.info);
+    const DataRef value = object.member(field);
+    if (value.kind() == DataKind::Struct) {
+      add_resettable(plain.member(field), value, name, found);
+      continue;
     }
-  });
+    for (std::size_t i = 0; is_struct_list(*value.type) && i < value.size(); ++i) {
+      add_resettable({value.type->item, value.type->item->plain}, value[i], name, found);
+    }
+    found.push_back({name, plain.member(field), value});
+  }
+}
+
+std::vector<Resettable> resettable(DataRef object) {
+  std::vector<Resettable> found;
+  add_resettable({object.type, object.type->plain}, object, "", found);
+  return found;
 }
 
 /// Fields of one object whose names answer to one that is asked for: of those whose last part is
@@ -52,11 +61,11 @@ class Answering {
   Answering(std::string_view property, Path object)
       : name_(plain_name(property)), object_(object) {}
 
-  template <class T>
-  void look(std::string_view list, const T& object) {
-    T like = object;
-    auto offer_each = [&](const std::string& name, const auto&, const auto&) { offer(list, name); };
-    each_resettable(T{}, like, "", offer_each);
+  void look(std::string_view list, DataView object) {
+    // Names alone are asked for; nothing is changed.
+    for (const Resettable& field : resettable({object.type, const_cast<void*>(object.at)})) {
+      offer(list, field.name);
+    }
   }
 
   std::vector<FieldPatch> take() {
@@ -98,36 +107,40 @@ bool is_of(const FieldPatch& patch, Path path) {
   return std::find(patch.objects.begin(), patch.objects.end(), path) != patch.objects.end();
 }
 
-template <class T>
-bool stop_acting(T&) {
-  return false;
-}
-bool stop_acting(MujocoActuator& actuator) {
-  actuator.kind = MujocoActuator::Target::None;
-  actuator.fault = "left out";
-  return true;
-}
-bool stop_acting(Tendon& tendon) {
-  tendon.stiffness = tendon.damping = tendon.friction = tendon.armature = 0;
-  tendon.range.reset();
-  tendon.settings.clear();
-  return true;
+bool stops(const DataType& type) {
+  const DataView like{&type, nullptr};
+  return like.is_a<MujocoActuator>() || like.is_a<Tendon>();
 }
 
-template <class T>
-bool reset_object(const FieldPatch& patch, T& object) {
+bool stop_acting(DataRef object) {
+  if (MujocoActuator* actuator = object.get_if<MujocoActuator>()) {
+    actuator->kind = MujocoActuator::Target::None;
+    actuator->fault = "left out";
+  } else if (Tendon* tendon = object.get_if<Tendon>()) {
+    tendon->stiffness = tendon->damping = tendon->friction = tendon->armature = 0;
+    tendon->range.reset();
+    tendon->settings.clear();
+  }
+  return stops(*object.type);
+}
+
+bool reset_object(const FieldPatch& patch, DataRef object) {
   if (patch.field.empty()) {
     return stop_acting(object);
   }
   bool done = false;
-  auto reset_named = [&](const std::string& name, const auto& fresh, auto& value) {
-    if (name == patch.field) {
-      value = fresh;
+  for (const Resettable& field : resettable(object)) {
+    if (field.name == patch.field) {
+      field.value.assign(field.plain);
       done = true;
     }
-  };
-  each_resettable(T{}, object, "", reset_named);
+  }
   return done;
+}
+
+/// Lists of objects that have paths.
+bool has_paths(const DataType& list) {
+  return is_struct_list(list) && find_field(*list.item, "path") != nullptr;
 }
 
 }  // namespace
@@ -136,43 +149,34 @@ std::vector<FieldPatch> fields_named(const PhysicsScene& scene, Path path,
                                      std::string_view property) {
   std::vector<FieldPatch> whole;
   Answering answering(property, path);
-  each_field(scene, [&](const FieldInfo& info, const auto& list) {
-    using T = std::remove_cvref_t<decltype(list)>;
-    if constexpr (is_struct_list<T>()) {
-      if constexpr (requires(typename T::value_type object) { object.path.str(); }) {
-        for (const auto& object : list) {
-          if (object.path != path) {
-            continue;
-          }
-          using Object = typename T::value_type;
-          constexpr bool kStops =
-              std::is_same_v<Object, Tendon> || std::is_same_v<Object, MujocoActuator>;
-          if (property.empty() && kStops) {
-            whole.push_back({std::string(info.name), "", {path}});
-          } else if (!property.empty()) {
-            answering.look(info.name, object);
-          }
-        }
+  const DataView lists = view_of(scene);
+  for (const DataField& field : lists.type->fields) {
+    const DataView list = lists.member(field);
+    for (std::size_t i = 0; has_paths(*field.type) && i < list.size(); ++i) {
+      if (*path_of(list[i]) != path) {
+        continue;
+      }
+      if (property.empty() && stops(*list.type->item)) {
+        whole.push_back({std::string(field.info->name), "", {path}});
+      } else if (!property.empty()) {
+        answering.look(field.info->name, list[i]);
       }
     }
-  });
+  }
   return property.empty() ? whole : answering.take();
 }
 
 bool reset(const FieldPatch& patch, PhysicsScene& scene) {
   bool done = false;
-  each_field(scene, [&](const FieldInfo& info, auto& list) {
-    using T = std::remove_cvref_t<decltype(list)>;
-    if constexpr (is_struct_list<T>()) {
-      if constexpr (requires(typename T::value_type object) { object.path.str(); }) {
-        for (auto& object : list) {
-          if (is_named(patch, info) && is_of(patch, object.path)) {
-            done = reset_object(patch, object) || done;
-          }
-        }
+  const DataRef lists = ref_to(scene);
+  for (const DataField& field : lists.type->fields) {
+    const DataRef list = lists.member(field);
+    for (std::size_t i = 0; has_paths(*field.type) && i < list.size(); ++i) {
+      if (is_named(patch, *field.info) && is_of(patch, *path_of(list[i]))) {
+        done = reset_object(patch, list[i]) || done;
       }
     }
-  });
+  }
   return done;
 }
 

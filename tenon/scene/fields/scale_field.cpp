@@ -3,7 +3,6 @@
 #include "tenon/scene/fields/scale_field.h"
 
 #include <optional>
-#include <type_traits>
 
 #include "tenon/scene/fields/field_pairs.h"
 
@@ -22,45 +21,36 @@ std::optional<std::string_view> below(std::string_view field, std::string_view n
   return field.front() == '.' ? std::optional(field.substr(1)) : std::nullopt;
 }
 
-template <class T>
-bool scale_numbers(T& value, double factor) {
-  if constexpr (std::is_floating_point_v<T>) {
-    value *= static_cast<T>(factor);
-    return true;
-  } else if constexpr (wire::kIsOptional<T>) {
-    return value && scale_numbers(*value, factor);
-  } else if constexpr (std::is_same_v<T, Vec3d>) {
-    value = value * factor;
-    return true;
-  } else if constexpr (std::is_same_v<T, Mat3d>) {
-    for (std::size_t i = 0; i < 9; ++i) {
-      value[i / 3][i % 3] *= factor;
-    }
-    return true;
-  } else {
-    return false;
+bool scale_numbers(DataRef value, double factor) {
+  if (value.kind() == DataKind::Optional) {
+    return value.size() != 0 && scale_numbers(value[0], factor);
   }
+  const bool is_scaled = value.kind() == DataKind::Real || DataView(value).is_a<Vec3d>() ||
+                         DataView(value).is_a<Mat3d>();
+  for (std::size_t i = 0; is_scaled && i < value.type->size / sizeof(double); ++i) {
+    (&value.as<double>())[i] *= factor;
+  }
+  return is_scaled;
 }
 
-template <class T>
-bool scale_in(std::string_view field, double factor, T& object) {
+bool scale_in(std::string_view name, double factor, DataRef object) {
   bool done = false;
-  each_field(object, [&](const FieldInfo& info, auto& value) {
-    using Value = std::remove_cvref_t<decltype(value)>;
-    const auto rest = below(field, info.name);
-    if (!rest || !acts(info)) {
-      return;
+  for (const DataField& field : object.type->fields) {
+    const auto rest = below(name, field.info->name);
+    if (!rest || !acts(*field.info)) {
+      continue;
     }
+    const DataRef value = object.member(field);
     if (rest->empty()) {
       done = scale_numbers(value, factor) || done;
-    } else if constexpr (HasTable<Value>) {
+    } else if (value.kind() == DataKind::Struct) {
       done = scale_in(*rest, factor, value) || done;
-    } else if constexpr (is_struct_list<Value>()) {
-      for (auto& item : value) {
-        done = scale_in(*rest, factor, item) || done;
-      }
     }
-  });
+    for (std::size_t i = 0; !rest->empty() && is_struct_list(*value.type) && i < value.size();
+         ++i) {
+      done = scale_in(*rest, factor, value[i]) || done;
+    }
+  }
   return done;
 }
 
@@ -69,18 +59,18 @@ bool scale_in(std::string_view field, double factor, T& object) {
 std::size_t scale_field(std::string_view list, std::string_view field, Path object, double factor,
                         PhysicsScene& scene) {
   std::size_t count = 0;
-  each_field(scene, [&](const FieldInfo& info, auto& objects) {
-    using T = std::remove_cvref_t<decltype(objects)>;
-    if constexpr (is_struct_list<T>()) {
-      if constexpr (requires(typename T::value_type one) { one.path.str(); }) {
-        for (auto& one : objects) {
-          if (info.name == list && (object.empty() || one.path == object)) {
-            count += scale_in(field, factor, one) ? 1 : 0;
-          }
-        }
-      }
+  const DataRef lists = ref_to(scene);
+  const DataField* named = find_field(*lists.type, list);
+  if (named == nullptr || !is_struct_list(*named->type) ||
+      find_field(*named->type->item, "path") == nullptr) {
+    return 0;
+  }
+  const DataRef objects = lists.member(*named);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (object.empty() || *path_of(objects[i]) == object) {
+      count += scale_in(field, factor, objects[i]) ? 1 : 0;
     }
-  });
+  }
   return count;
 }
 

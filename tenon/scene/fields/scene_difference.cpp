@@ -13,42 +13,39 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <type_traits>
 #include <utility>
 
 #include "tenon/base/text/text_number.h"
+#include "tenon/scene/fields/scene_fields.h"
 #include "tenon/scene/fields/scene_side.h"
 #include "tenon/scene/filter_words.h"
 
 namespace tenon::scene {
 namespace {
 
-template <class T>
-constexpr bool is_list_of_structs() {
-  if constexpr (wire::kIsVector<T>) {
-    return HasTable<typename T::value_type>;
-  } else {
-    return false;
-  }
-}
-
 std::string words_of_struct(const FieldInfo& info) {
   return info.inlined ? std::string() : words_of(info);
 }
 
-Material material_of(const Side& side, const std::optional<Index>& index) {
-  return index ? side.scene.materials[*index] : side.scene.unbound;
+/// `index`: an optional one.
+const Material& material_of(const Side& side, DataView index) {
+  const auto& at = index.as<std::optional<Index>>();
+  return at ? side.scene.materials[*at] : side.scene.unbound;
 }
 
-/// Whether a field of two structs says the same kind of thing.
-template <class T>
-bool are_comparable(const T&, const T&, const FieldInfo&, bool) {
-  return true;
+/// Whether a field of two structs says the same kind of thing. Where a view holds several schemas
+/// of one law, one of another vendor may be read: what only that vendor has does not count for the
+/// motion.
+bool are_comparable(DataView a, DataView b, const FieldInfo& info, bool motion_alone) {
+  const Mimic* mimic = a.get_if<Mimic>();
+  return mimic == nullptr || !info.of_vendor || !motion_alone ||
+         mimic->schema == b.as<Mimic>().schema;
 }
-/// Where a view holds several schemas of one law, one of another vendor may be read: what only that
-/// vendor has does not count for the motion.
-bool are_comparable(const Mimic& a, const Mimic& b, const FieldInfo& info, bool motion_alone) {
-  return !info.of_vendor || !motion_alone || a.schema == b.schema;
+
+/// One, or an optional one.
+bool is_index(const DataType& type) {
+  return type.kind == DataKind::Ordinal ||
+         (type.kind == DataKind::Optional && type.item->kind == DataKind::Ordinal);
 }
 
 /// Names that one of two sets alone has.
@@ -94,9 +91,11 @@ class Walk {
       : before_{before, options.moved}, after_{after, {}}, options_(options) {}
 
   std::vector<SceneDifference> run() {
-    each_field_of_both(
-        before_.scene, after_.scene,
-        [this](const FieldInfo& info, const auto& a, const auto& b) { member(info, a, b); });
+    const DataView a = view_of(before_.scene);
+    const DataView b = view_of(after_.scene);
+    for (const DataField& field : a.type->fields) {
+      member(*field.info, a.member(field), b.member(field));
+    }
     return std::move(found_);
   }
 
@@ -108,149 +107,159 @@ class Walk {
 
   // The lists of the scene, and its own numbers.
 
-  template <class T>
-  void member(const FieldInfo& info, const T& a, const T& b) {
-    constexpr bool kByContents =
-        std::is_same_v<T, std::vector<Material>> || std::is_same_v<T, std::vector<Scene>>;
-    if (is_full() || !counts(info) || (kByContents && options_.motion_alone)) {
+  void member(const FieldInfo& info, DataView a, DataView b) {
+    const bool by_contents = a.is_a<std::vector<Material>>() || a.is_a<std::vector<Scene>>();
+    if (is_full() || !counts(info) || (by_contents && options_.motion_alone)) {
       return;
     }
-    if constexpr (std::is_same_v<T, CollisionFilter>) {
+    if (a.is_a<CollisionFilter>()) {
       for (SceneDifference& one : filter_differences(before_, after_, options_.motion_alone)) {
         if (!is_full()) {
           found_.push_back(std::move(one));
         }
       }
-    } else if constexpr (wire::kIsVector<T>) {
+    } else if (a.kind() == DataKind::List) {
       objects(a, b);
     } else {
-      object_ = HasTable<T> ? info.name : Table<PhysicsScene>::kWord;
+      object_ = a.kind() == DataKind::Struct ? info.name : Table<PhysicsScene>::kWord;
       path_ = "/";
       field({}, info, a, b, Place{});
     }
   }
 
-  template <class T>
-  void objects(const std::vector<T>& before, const std::vector<T>& after) {
-    pair_up<T>(before, after, [this](const T* a, const T* b, const std::string& key) {
+  void objects(DataView before, DataView after) {
+    for (const auto& [key, a, b] : pair_up(before, after)) {
       if (is_full()) {
         return;
       }
-      object_ = Table<T>::kWord;
-      path_ = a != nullptr ? before_.path_text(*a, key) : after_.path_text(*b, key);
-      if (a == nullptr || b == nullptr) {
-        came_or_went(a == nullptr ? Change::Added : Change::Removed);
+      object_ = before.type->item->word;
+      path_ = a ? before_.path_text(*a, key) : after_.path_text(*b, key);
+      if (a && b) {
+        both(*a, *b, Place{"", facts_of(*a, angular_around(*a)).angular});
       } else {
-        both(*a, *b, Place{"", is_angular_in(*a, angular_around(*a))});
+        report(a ? Change::Removed : Change::Added, {}, {}, 0);
       }
-    });
+    }
   }
 
   /// Tracks have the coordinate of their joint.
-  template <class T>
-  bool angular_around(const T& item) const {
-    if constexpr (requires { item.joint + Index{0}; }) {
-      return is_angular_in(before_.scene.joints[item.joint], true);
-    } else {
+  bool angular_around(DataView item) const {
+    const DataField* joint = find_field(*item.type, "joint");
+    if (joint == nullptr || joint->type->kind != DataKind::Ordinal) {
       return true;
     }
+    return facts_of(view_of(before_.scene.joints[item.member(*joint).as<Index>()])).angular;
   }
 
   // Pairs of objects.
 
-  /// Calls `visit(a, b, key)` for each pair, with null for what one side lacks, by key.
-  template <class T, class Visit>
-  void pair_up(const std::vector<T>& before, const std::vector<T>& after, Visit&& visit) {
-    const std::vector<std::string> a = before_.keys_of(before);
-    const std::vector<std::string> b = after_.keys_of(after);
+  /// What two lists have of one key; none where a side lacks it.
+  struct Paired {
+    std::string key;
+    std::optional<DataView> a;
+    std::optional<DataView> b;
+  };
+
+  /// In the order of the lists where they are in step, else by key.
+  std::vector<Paired> pair_up(DataView before, DataView after) {
+    std::vector<std::string> a = before_.keys_of(before);
+    std::vector<std::string> b = after_.keys_of(after);
+    std::vector<Paired> pairs;
     if (a == b) {
       for (std::size_t i = 0; i < a.size(); ++i) {
-        visit(&before[i], &after[i], a[i]);
+        pairs.push_back({std::move(a[i]), before[i], after[i]});
       }
-      return;
+      return pairs;
     }
-    std::map<std::string, std::pair<const T*, const T*>> pairs;
+    std::map<std::string, Paired> by_key;
     for (std::size_t i = 0; i < a.size(); ++i) {
-      pairs[a[i]].first = &before[i];
+      by_key[a[i]].a = before[i];
     }
     for (std::size_t i = 0; i < b.size(); ++i) {
-      pairs[b[i]].second = &after[i];
+      by_key[b[i]].b = after[i];
     }
-    for (const auto& [key, pair] : pairs) {
-      visit(pair.first, pair.second, key);
+    for (auto& [key, pair] : by_key) {
+      pairs.push_back({key, pair.a, pair.b});
     }
+    return pairs;
   }
 
   // Fields of a pair of structs.
 
   template <class T>
-  void both(const T& a, const T& b, const Place& place) {
-    const Owners owners{facts_of(a, place.angular), facts_of(b, place.angular)};
-    const Place inner{place.words, owners.a.angular};
-    each_field_of_both(a, b, [&](const FieldInfo& info, const auto& x, const auto& y) {
-      if (counts(info) && info.role != Role::Identity &&
-          are_comparable(a, b, info, options_.motion_alone)) {
-        field(owners, info, x, y, inner);
-      }
-    });
+  void both_of(const T& a, const T& b, const Place& place) {
+    both(view_of(a), view_of(b), place);
   }
 
-  template <class T>
-  void field(const Owners& owners, const FieldInfo& info, const T& x, const T& y,
-             const Place& place) {
-    if constexpr (std::is_same_v<T, Index> || std::is_same_v<T, std::optional<Index>>) {
-      if (info.refers != List::None) {
-        reference(owners, info, x, y, place);
-        return;
+  void both(DataView a, DataView b, const Place& place) {
+    const Owners owners{facts_of(a, place.angular), facts_of(b, place.angular)};
+    const Place inner{place.words, owners.a.angular};
+    for (const DataField& of : a.type->fields) {
+      if (counts(*of.info) && of.info->role != Role::Identity &&
+          are_comparable(a, b, *of.info, options_.motion_alone)) {
+        field(owners, *of.info, a.member(of), b.member(of), inner);
       }
     }
-    if constexpr (std::is_same_v<T, Pose>) {
+  }
+
+  void field(const Owners& owners, const FieldInfo& info, DataView x, DataView y,
+             const Place& place) {
+    if (info.refers != List::None && is_index(*x.type)) {
+      reference(owners, info, x, y, place);
+    } else if (x.kind() == DataKind::Pose) {
       pose(owners, info, x, y, place);
-    } else if constexpr (wire::kIsOptional<T>) {
-      if (x && y) {
-        field(owners, info, *x, *y, place);
-      } else if (x || y) {
-        one(x ? before_ : after_, x ? owners.a : owners.b, info, x ? *x : *y, place,
-            x ? Change::Removed : Change::Added);
-      }
-    } else if constexpr (HasTable<T>) {
+    } else if (x.kind() == DataKind::Optional) {
+      optional(owners, info, x, y, place);
+    } else if (x.kind() == DataKind::Struct) {
       both(x, y, place.inside(words_of_struct(info)));
-    } else if constexpr (is_list_of_structs<T>()) {
+    } else if (is_struct_list(*x.type)) {
       nested(info, x, y, place);
     } else {
       leaf(owners, info, x, y, place);
-      if constexpr (std::is_same_v<T, std::vector<std::pair<Index, BodyMass>>>) {
-        masses(x, y, place);
+      if (x.is_a<Masses>()) {
+        masses(x.as<Masses>(), y.as<Masses>(), place);
       }
     }
   }
 
-  void masses(const std::vector<std::pair<Index, BodyMass>>& x,
-              const std::vector<std::pair<Index, BodyMass>>& y, const Place& place) {
-    for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
-      both(x[i].second, y[i].second,
-           place.inside("of " + text_of(before_.path(List::Bodies, x[i].first))));
+  void optional(const Owners& owners, const FieldInfo& info, DataView x, DataView y,
+                const Place& place) {
+    const bool has_x = x.size() != 0;
+    const bool has_y = y.size() != 0;
+    if (has_x && has_y) {
+      field(owners, info, x[0], y[0], place);
+    } else if (has_x) {
+      one(before_, owners.a, info, x[0], place, Change::Removed);
+    } else if (has_y) {
+      one(after_, owners.b, info, y[0], place, Change::Added);
     }
   }
 
-  template <class T>
-  void nested(const FieldInfo& info, const std::vector<T>& x, const std::vector<T>& y,
-              const Place& place) {
-    pair_up<T>(x, y, [&](const T* a, const T* b, const std::string& key) {
-      std::string word(info.words.empty() ? Table<T>::kWord : info.words);
+  using Masses = std::vector<std::pair<Index, BodyMass>>;
+
+  void masses(const Masses& x, const Masses& y, const Place& place) {
+    for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
+      both_of(x[i].second, y[i].second,
+              place.inside("of " + text_of(before_.path(List::Bodies, x[i].first))));
+    }
+  }
+
+  void nested(const FieldInfo& info, DataView x, DataView y, const Place& place) {
+    for (const auto& [key, a, b] : pair_up(x, y)) {
+      std::string word(info.words.empty() ? x.type->item->word : info.words);
       word += (word.empty() ? "" : " ") + key;
       const Place inner = place.inside(word);
-      if (a != nullptr && b != nullptr) {
+      if (a && b) {
         both(*a, *b, inner);
-      } else if (a != nullptr) {
+      } else if (a) {
         all(before_, *a, inner, Change::Removed);
       } else {
         all(after_, *b, inner, Change::Added);
       }
-    });
+    }
   }
 
-  void pose(const Owners& owners, const FieldInfo& info, const Pose& x, const Pose& y,
+  void pose(const Owners& owners, const FieldInfo& info, DataView x, DataView y,
             const Place& place) {
     FieldInfo part = info;
     const std::string words(info.words.empty() || info.inlined ? std::string_view() : info.words);
@@ -258,62 +267,54 @@ class Walk {
     const std::string orientation = "orientation" + (words.empty() ? "" : " " + words);
     part.words = position;
     part.unit = Unit::Meter;
-    leaf(owners, part, x.position, y.position, place);
+    leaf(owners, part, x.first(), y.first(), place);
     part.words = orientation;
     part.unit = Unit::None;
-    leaf(owners, part, x.orientation, y.orientation, place);
+    leaf(owners, part, x.second(), y.second(), place);
   }
 
-  template <class T>
-  void reference(const Owners& owners, const FieldInfo& info, const T& x, const T& y,
+  /// Of an Index, or an optional one.
+  void reference(const Owners& owners, const FieldInfo& info, DataView x, DataView y,
                  const Place& place) {
     if (info.refers == List::Meshes) {
-      if constexpr (std::is_same_v<T, Index>) {
-        mesh(owners, x, y, place);
+      if (x.kind() == DataKind::Ordinal) {
+        mesh(owners, x.as<Index>(), y.as<Index>(), place);
       }
-      return;
+    } else if (options_.motion_alone && info.refers == List::Materials &&
+               x.kind() == DataKind::Optional) {
+      both_of(material_of(before_, x), material_of(after_, y), place.inside("material"));
+    } else if (options_.motion_alone && info.refers == List::Scenes &&
+               x.kind() == DataKind::Ordinal) {
+      both_of(before_.scene.scenes[x.as<Index>()], after_.scene.scenes[y.as<Index>()], place);
+    } else {
+      leaf(owners, info, x, y, place);
     }
-    if (options_.motion_alone && info.refers == List::Materials) {
-      both(material_of(before_, x), material_of(after_, y), place.inside("material"));
-      return;
-    }
-    if (options_.motion_alone && info.refers == List::Scenes) {
-      if constexpr (std::is_same_v<T, Index>) {
-        both(before_.scene.scenes[x], after_.scene.scenes[y], place);
-      }
-      return;
-    }
-    leaf(owners, info, x, y, place);
   }
 
   /// Meshes count where the shape is of one.
   void mesh(const Owners& owners, Index x, Index y, const Place& place) {
     if (owners.a.has_mesh && owners.b.has_mesh) {
-      both(before_.scene.meshes[x], after_.scene.meshes[y], place.inside("mesh"));
+      both_of(before_.scene.meshes[x], after_.scene.meshes[y], place.inside("mesh"));
     }
   }
 
   // Numbers and words.
 
-  double tolerance(const FieldInfo& info) const {
-    return options_.motion_alone ? info.tolerance : options_.tolerance;
-  }
-
-  template <class T>
-  void leaf(const Owners& owners, const FieldInfo& info, const T& x, const T& y,
+  void leaf(const Owners& owners, const FieldInfo& info, DataView x, DataView y,
             const Place& place) {
-    if constexpr (kHasNumbers<T>) {
-      if (info.refers == List::None && info.on.empty()) {
-        const double apart = distance(x, y, {tolerance(info), options_.smallest_size});
-        if (apart > 0) {
-          report(Change::Changed, before_.fact(owners.a, info, x, place),
-                 after_.fact(owners.b, info, y, place), apart);
-        }
-        return;
+    if (is_numeric(info, *x.type)) {
+      const double tolerance = options_.motion_alone ? info.tolerance : options_.tolerance;
+      const double apart = distance(x, y, {tolerance, options_.smallest_size});
+      if (apart > 0) {
+        report(Change::Changed, before_.fact(owners.a, info, x, place),
+               after_.fact(owners.b, info, y, place), apart);
       }
+      return;
     }
     if (info.refers == List::Meshes) {
-      hulls(info, x, y, place);
+      if (x.is_a<std::vector<Index>>()) {
+        hulls(info, x.as<std::vector<Index>>(), y.as<std::vector<Index>>(), place);
+      }
       return;
     }
     Fact before = before_.fact(owners.a, info, x, place);
@@ -323,43 +324,38 @@ class Walk {
     }
   }
 
-  /// Lists of meshes.
-  template <class T>
-  void hulls(const FieldInfo& info, const T& x, const T& y, const Place& place) {
-    if constexpr (std::is_same_v<T, std::vector<Index>>) {
-      if (x.size() != y.size()) {
-        report(Change::Changed, {place.words + words_of(info), "", {double(x.size())}, "", false},
-               {place.words + words_of(info), "", {double(y.size())}, "", false}, kNoMeasure);
-        return;
-      }
-      for (std::size_t i = 0; i < x.size(); ++i) {
-        both(before_.scene.meshes[x[i]], after_.scene.meshes[y[i]],
-             place.inside("hull " + std::to_string(i + 1)));
-      }
+  void hulls(const FieldInfo& info, const std::vector<Index>& x, const std::vector<Index>& y,
+             const Place& place) {
+    if (x.size() != y.size()) {
+      report(Change::Changed, {place.words + words_of(info), "", {double(x.size())}, "", false},
+             {place.words + words_of(info), "", {double(y.size())}, "", false}, kNoMeasure);
+      return;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      both_of(before_.scene.meshes[x[i]], after_.scene.meshes[y[i]],
+              place.inside("hull " + std::to_string(i + 1)));
     }
   }
 
   // What one side lacks.
 
-  template <class T>
-  void all(const Side& side, const T& item, const Place& place, Change change) {
+  void all(const Side& side, DataView item, const Place& place, Change change) {
     const OwnerFacts owner = facts_of(item, place.angular);
     const Place inner{place.words, owner.angular};
-    each_field(item, [&](const FieldInfo& info, const auto& value) {
-      if (counts(info) && info.role != Role::Identity) {
-        one(side, owner, info, value, inner, change);
+    for (const DataField& field : item.type->fields) {
+      if (counts(*field.info) && field.info->role != Role::Identity) {
+        one(side, owner, *field.info, item.member(field), inner, change);
       }
-    });
+    }
   }
 
-  template <class T>
-  void one(const Side& side, const OwnerFacts& owner, const FieldInfo& info, const T& value,
+  void one(const Side& side, const OwnerFacts& owner, const FieldInfo& info, DataView value,
            const Place& place, Change change) {
-    if constexpr (HasTable<T>) {
+    if (value.kind() == DataKind::Struct) {
       all(side, value, place.inside(words_of_struct(info)), change);
-    } else if constexpr (is_list_of_structs<T>()) {
-      for (const auto& item : value) {
-        all(side, item, place.inside(words_of(info) + " " + side.key_of(item)), change);
+    } else if (is_struct_list(*value.type)) {
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        all(side, value[i], place.inside(words_of(info) + " " + side.key_of(value[i])), change);
       }
     } else {
       Fact only = side.fact(owner, info, value, place);
@@ -367,8 +363,6 @@ class Walk {
       report(change, added ? Fact{} : only, added ? only : Fact{}, kNoMeasure);
     }
   }
-
-  void came_or_went(Change change) { report(change, {}, {}, 0); }
 
   void report(Change change, Fact before, Fact after, double largest) {
     if (!is_full()) {

@@ -10,61 +10,68 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include "tenon/scene/fields/field_pairs.h"
 #include "tenon/scene/fields/near_fields.h"
+#include "tenon/scene/fields/same_fields.h"
 #include "tenon/scene/fields/scene_side.h"
 
 namespace tenon::scene {
 namespace {
 
-template <class T>
-constexpr bool is_referred_to() {
-  return std::is_same_v<T, Scene> || std::is_same_v<T, Body> || std::is_same_v<T, Collider> ||
-         std::is_same_v<T, Material> || std::is_same_v<T, Joint> || std::is_same_v<T, Tendon>;
+/// Lists whose objects are taken over one by one, by path.
+bool is_referred_to(const DataType& list) {
+  const DataView like{&list, nullptr};
+  return like.is_a<std::vector<Scene>>() || like.is_a<std::vector<Body>>() ||
+         like.is_a<std::vector<Collider>>() || like.is_a<std::vector<Material>>() ||
+         like.is_a<std::vector<Joint>>() || like.is_a<std::vector<Tendon>>();
 }
 
 /// Two structs of lists are the same thing.
-template <class T>
-bool same_identity(const T& a, const T& b) {
-  bool same = true;
-  each_field_of_both(a, b, [&](const FieldInfo& info, const auto& x, const auto& y) {
-    same = same && (info.role != Role::Identity || same_fields(x, y));
+bool same_identity(DataView a, DataView b) {
+  return std::all_of(a.type->fields.begin(), a.type->fields.end(), [&](const DataField& field) {
+    return field.info->role != Role::Identity || same_data(a.member(field), b.member(field));
   });
+}
+
+bool same_objects(DataView a, DataView b) {
+  bool same = a.size() == b.size();
+  for (std::size_t i = 0; same && i < a.size(); ++i) {
+    same = same_identity(a[i], b[i]);
+  }
   return same;
 }
 
-template <class T>
-bool same_objects(const std::vector<T>& a, const std::vector<T>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const T& x, const T& y) { return same_identity(x, y); });
-}
+/// A field that is copied as a whole.
+struct LeafPair {
+  OwnerFacts owner;
+  const FieldInfo* info;
+  std::string name;  ///< "drives.stiffness"
+  DataView from;
+  DataRef to;
+};
 
-/// Calls `visit(owner, info, name, x, y)` for each field that is copied as a whole.
-template <class From, class To, class Visit>
-void each_leaf_of_pair(From& from, To& to, const std::string& around, Visit& visit) {
+void add_leaves(DataView from, DataRef to, const std::string& around,
+                std::vector<LeafPair>& leaves) {
   const OwnerFacts owner = facts_of(to);
-  each_field_of_pair(from, to, [&](const FieldInfo& info, auto& x, auto& y) {
-    using T = std::remove_cvref_t<decltype(y)>;
-    if (!acts(info)) {
-      return;
+  for (const DataField& field : from.type->fields) {
+    if (!acts(*field.info)) {
+      continue;
     }
-    if constexpr (HasTable<T>) {
-      each_leaf_of_pair(x, y, joined(around, info), visit);
-    } else {
-      if constexpr (is_struct_list<T>()) {
-        if (!y.empty() && same_objects(x, y)) {
-          for (std::size_t i = 0; i < y.size(); ++i) {
-            each_leaf_of_pair(x[i], y[i], joined(around, info), visit);
-          }
-          return;
-        }
+    const DataView x = from.member(field);
+    const DataRef y = to.member(field);
+    const std::string name = joined(around, *field.info);
+    if (x.kind() == DataKind::Struct) {
+      add_leaves(x, y, name, leaves);
+    } else if (is_struct_list(*x.type) && y.size() != 0 && same_objects(x, y)) {
+      for (std::size_t i = 0; i < y.size(); ++i) {
+        add_leaves(x[i], y[i], name, leaves);
       }
-      visit(owner, info, joined(around, info), x, y);
+    } else {
+      leaves.push_back({owner, field.info, name, x, y});
     }
-  });
+  }
 }
 
 /// Where references of one scene lead in another.
@@ -75,28 +82,32 @@ class Translation {
   bool failed() const { return failed_; }
 
   /// Mends all indices in what was copied from the one scene into the other.
-  template <class T>
-  void mend(const OwnerFacts& owner, const FieldInfo& info, T& value) {
-    if constexpr (HasTable<T>) {
-      const OwnerFacts facts = facts_of(value);
-      each_field(value, [&](const FieldInfo& inner, auto& field) { mend(facts, inner, field); });
-    } else if constexpr (std::is_same_v<T, Index>) {
-      if (const List list = list_of(owner, info.refers); list != List::None) {
-        value = led(list, value);
-      }
-    } else if constexpr (wire::kIsOptional<T>) {
-      if (value) {
-        mend(owner, info, *value);
-      }
-    } else if constexpr (wire::kIsPair<T>) {
-      mend(owner, info, value.first);
-      mend(owner, info, value.second);
-    } else if constexpr (wire::kIsVector<T>) {
-      if constexpr (!std::is_same_v<T, std::vector<bool>>) {
-        for (auto& item : value) {
-          mend(owner, info, item);
+  void mend(const OwnerFacts& owner, const FieldInfo& info, DataRef value) {
+    switch (value.kind()) {
+      case DataKind::Struct: {
+        const OwnerFacts facts = facts_of(value);
+        for (const DataField& field : value.type->fields) {
+          mend(facts, *field.info, value.member(field));
         }
+        break;
       }
+      case DataKind::Ordinal:
+        if (const List list = list_of(owner, info.refers); list != List::None) {
+          value.as<Index>() = led(list, value.as<Index>());
+        }
+        break;
+      case DataKind::Pair:
+        mend(owner, info, value.first());
+        mend(owner, info, value.second());
+        break;
+      case DataKind::Optional:
+      case DataKind::List:
+        for (std::size_t i = 0; i < value.size(); ++i) {
+          mend(owner, info, value[i]);
+        }
+        break;
+      default:
+        break;
     }
   }
 
@@ -142,35 +153,41 @@ struct Compared {
   const PhysicsScene& a;
   const PhysicsScene& b;
 
-  template <class T>
-  bool differ(const OwnerFacts& owner, const FieldInfo& info, const T& x, const T& y) const {
-    if constexpr (wire::kIsOptional<T>) {
-      return x.has_value() != y.has_value() || (x && differ(owner, info, *x, *y));
-    } else if constexpr (std::is_same_v<T, Index>) {
-      const List list = list_of(owner, info.refers);
-      if (list == List::Meshes) {
-        return differ_as_meshes(x, y);
+  bool differ(const OwnerFacts& owner, const FieldInfo& info, DataView x, DataView y) const {
+    switch (x.kind()) {
+      case DataKind::Ordinal:
+        return indices_differ(list_of(owner, info.refers), x.as<Index>(), y.as<Index>());
+      case DataKind::Pair:
+        return differ(owner, info, x.first(), y.first()) ||
+               differ(owner, info, x.second(), y.second());
+      case DataKind::Struct:
+        return structs_differ(x, y);
+      case DataKind::Optional:
+      case DataKind::List: {
+        bool found = x.size() != y.size();
+        for (std::size_t i = 0; !found && i < x.size(); ++i) {
+          found = differ(owner, info, x[i], y[i]);
+        }
+        return found;
       }
-      return list == List::None ? x != y : path_of(a, list, x) != path_of(b, list, y);
-    } else if constexpr (wire::kIsPair<T>) {
-      return differ(owner, info, x.first, y.first) || differ(owner, info, x.second, y.second);
-    } else if constexpr (HasTable<T>) {
-      bool found = false;
-      const OwnerFacts facts = facts_of(x);
-      each_field_of_both(x, y, [&](const FieldInfo& inner, const auto& p, const auto& q) {
-        found = found ||
-                (acts(inner) || inner.role == Role::Identity ? differ(facts, inner, p, q) : false);
-      });
-      return found;
-    } else if constexpr (wire::kIsVector<T>) {
-      bool found = x.size() != y.size();
-      for (std::size_t i = 0; !found && i < x.size(); ++i) {
-        found = differ(owner, info, x[i], y[i]);
-      }
-      return found;
-    } else {
-      return !near_fields(x, y);
+      default:
+        return !near_data(x, y);
     }
+  }
+
+  bool indices_differ(List list, Index x, Index y) const {
+    if (list == List::Meshes) {
+      return differ_as_meshes(x, y);
+    }
+    return list == List::None ? x != y : path_of(a, list, x) != path_of(b, list, y);
+  }
+
+  bool structs_differ(DataView x, DataView y) const {
+    const OwnerFacts facts = facts_of(x);
+    return std::any_of(x.type->fields.begin(), x.type->fields.end(), [&](const DataField& field) {
+      return (acts(*field.info) || field.info->role == Role::Identity) &&
+             differ(facts, *field.info, x.member(field), y.member(field));
+    });
   }
 
   bool differ_as_meshes(Index x, Index y) const {
@@ -187,34 +204,34 @@ bool says_nothing(const OwnerFacts& owner, const FieldInfo& info) {
          (owner.is_joint && info.refers == List::Articulations);
 }
 
-template <class T>
-std::map<Path, std::size_t> places_of(const std::vector<T>& list) {
-  std::map<Path, std::size_t> places;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    places.emplace(list[i].path, i);
-  }
-  return places;
-}
+/// Objects of two lists by path; none where one side alone has it.
+struct ObjectPair {
+  std::optional<std::size_t> a;
+  std::optional<std::size_t> b;
+};
 
-/// Calls `both(x, y)` for objects of the same path, `alone(x)` for those of one side.
-template <class A, class B, class Both, class Alone>
-void pair_objects(A& a, B& b, Both&& both, Alone&& alone) {
-  const auto places = places_of(b);
+std::vector<ObjectPair> pair_objects(DataView a, DataView b) {
+  std::map<Path, std::size_t> places;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    places.emplace(*path_of(b[i]), i);
+  }
+  std::vector<ObjectPair> pairs;
   std::vector<char> met(b.size(), 0);
-  for (auto& x : a) {
-    const auto found = places.find(x.path);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const auto found = places.find(*path_of(a[i]));
     if (found == places.end()) {
-      alone(x);
+      pairs.push_back({i, {}});
     } else {
       met[found->second] = 1;
-      both(x, b[found->second]);
+      pairs.push_back({i, found->second});
     }
   }
   for (std::size_t i = 0; i < b.size(); ++i) {
     if (met[i] == 0) {
-      alone(b[i]);
+      pairs.push_back({{}, i});
     }
   }
+  return pairs;
 }
 
 class Collected {
@@ -242,24 +259,28 @@ class Collected {
   std::map<std::string, std::size_t> places_;
 };
 
-template <class T>
-void collect_objects(const Compared& sides, const std::vector<T>& a, const std::vector<T>& b,
-                     Collected& found) {
-  pair_objects(
-      a, b,
-      [&](const T& x, const T& y) {
-        if (!same_identity(x, y)) {
-          found.add("", y.path);
-        }
-        auto leaf = [&](const OwnerFacts& owner, const FieldInfo& info, const std::string& name,
-                        const auto& p, const auto& q) {
-          if (!says_nothing(owner, info) && sides.differ(owner, info, p, q)) {
-            found.add(name, y.path);
-          }
-        };
-        each_leaf_of_pair(x, y, "", leaf);
-      },
-      [&](const T& only) { found.add("", only.path); });
+/// Leaves are seen as pairs of which the second might be changed; here it is not.
+DataRef unchanged(DataView view) { return {view.type, const_cast<void*>(view.at)}; }
+
+void collect_objects(const Compared& sides, DataView a, DataView b, Collected& found) {
+  for (const auto& [i, j] : pair_objects(a, b)) {
+    const Path path = *path_of(j ? b[*j] : a[*i]);
+    if (!i || !j) {
+      found.add("", path);
+      continue;
+    }
+    if (!same_identity(a[*i], b[*j])) {
+      found.add("", path);
+    }
+    std::vector<LeafPair> leaves;
+    add_leaves(a[*i], unchanged(b[*j]), "", leaves);
+    for (const LeafPair& leaf : leaves) {
+      if (!says_nothing(leaf.owner, *leaf.info) &&
+          sides.differ(leaf.owner, *leaf.info, leaf.from, leaf.to)) {
+        found.add(leaf.name, path);
+      }
+    }
+  }
 }
 
 /// Tables of the filter are numbered by collider.
@@ -268,58 +289,56 @@ bool same_colliders(const PhysicsScene& a, const PhysicsScene& b) {
                     [](const Collider& x, const Collider& y) { return x.path == y.path; });
 }
 
-/// Calls `visit(joint of a, joint of b)` for those of the same path.
-template <class B, class Visit>
-void each_joint_of_both(const PhysicsScene& a, B& b, Visit&& visit) {
-  pair_objects(a.joints, b.joints, visit, [](const Joint&) {});
-}
-
 bool same_articulations(const PhysicsScene& a, const PhysicsScene& b) {
-  bool same = !Compared{a, b}.differ({}, FieldInfo{}, a.articulations, b.articulations);
-  each_joint_of_both(a, b, [&](const Joint& x, const Joint& y) {
-    FieldInfo refers;
-    refers.refers = List::Articulations;
-    same = same && !Compared{a, b}.differ({}, refers, x.articulation, y.articulation);
+  const Compared sides{a, b};
+  if (sides.differ({}, FieldInfo{}, view_of(a.articulations), view_of(b.articulations))) {
+    return false;
+  }
+  FieldInfo refers;
+  refers.refers = List::Articulations;
+  const auto pairs = pair_objects(view_of(a.joints), view_of(b.joints));
+  return std::none_of(pairs.begin(), pairs.end(), [&](const ObjectPair& pair) {
+    return pair.a && pair.b &&
+           sides.differ({}, refers, view_of(a.joints[*pair.a].articulation),
+                        view_of(b.joints[*pair.b].articulation));
   });
-  return same;
 }
 
 /// Objects of one side act no more. Bodies cannot be taken out.
-template <class T>
-bool switch_off(const FieldPatch& patch, std::vector<T>& list) {
-  constexpr bool kCan = std::is_same_v<T, Joint> || std::is_same_v<T, Collider>;
-  if constexpr (kCan) {
-    for (T& object : list) {
-      if (std::find(patch.objects.begin(), patch.objects.end(), object.path) !=
-          patch.objects.end()) {
-        object.enabled = false;
-      }
+bool switch_off(const FieldPatch& patch, DataRef list) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const bool is_meant = std::find(patch.objects.begin(), patch.objects.end(),
+                                    *path_of(DataView(list[i]))) != patch.objects.end();
+    Joint* joint = list[i].get_if<Joint>();
+    Collider* collider = list[i].get_if<Collider>();
+    if (is_meant && joint != nullptr) {
+      joint->enabled = false;
+    } else if (is_meant && collider != nullptr) {
+      collider->enabled = false;
     }
   }
-  return kCan;
+  const DataView seen = list;
+  return seen.is_a<std::vector<Joint>>() || seen.is_a<std::vector<Collider>>();
 }
 
-template <class T>
-bool take_over_objects(const FieldPatch& patch, std::vector<T>& a, std::vector<T>& b,
-                       Translation& translation) {
+bool take_over_objects(const FieldPatch& patch, DataRef a, DataRef b, Translation& translation) {
   if (patch.field.empty()) {
     return switch_off(patch, a) && switch_off(patch, b);
   }
   bool taken = false;
-  pair_objects(
-      std::as_const(a), b,
-      [&](const T& x, T& y) {
-        auto leaf = [&](const OwnerFacts& owner, const FieldInfo& info, const std::string& name,
-                        const auto& from, auto& to) {
-          if (name == patch.field) {
-            to = from;
-            translation.mend(owner, info, to);
-            taken = true;
-          }
-        };
-        each_leaf_of_pair(x, y, "", leaf);
-      },
-      [](const T&) {});
+  for (const auto& [i, j] : pair_objects(a, b)) {
+    std::vector<LeafPair> leaves;
+    if (i && j) {
+      add_leaves(a[*i], b[*j], "", leaves);
+    }
+    for (const LeafPair& leaf : leaves) {
+      if (leaf.name == patch.field) {
+        leaf.to.assign(leaf.from);
+        translation.mend(leaf.owner, *leaf.info, leaf.to);
+        taken = true;
+      }
+    }
+  }
   return taken && !translation.failed();
 }
 
@@ -328,9 +347,14 @@ void take_over_drive_tracks(const FieldPatch& patch, const PhysicsScene& a, Phys
                             Translation& translation) {
   if (patch.list == "joints" && patch.field == "drives") {
     b.scalar_tracks = a.scalar_tracks;
-    for (ScalarTrack& track : b.scalar_tracks) {
-      each_field(track,
-                 [&](const FieldInfo& info, auto& value) { translation.mend({}, info, value); });
+    translation.mend({}, FieldInfo{}, ref_to(b.scalar_tracks));
+  }
+}
+
+void take_over_articulations(const PhysicsScene& a, PhysicsScene& b) {
+  for (const auto& [i, j] : pair_objects(view_of(a.joints), view_of(b.joints))) {
+    if (i && j) {
+      b.joints[*j].articulation = a.joints[*i].articulation;
     }
   }
 }
@@ -338,67 +362,68 @@ void take_over_drive_tracks(const FieldPatch& patch, const PhysicsScene& a, Phys
 bool take_over_in(const FieldPatch& patch, PhysicsScene& a, PhysicsScene& b) {
   Translation translation(a, b);
   bool taken = false;
-  each_field_of_pair(a, b, [&](const FieldInfo& info, auto& x, auto& y) {
-    using T = std::remove_cvref_t<decltype(y)>;
-    if (!is_named(patch, info)) {
-      return;
+  const DataRef from = ref_to(a);
+  const DataRef to = ref_to(b);
+  for (const DataField& field : from.type->fields) {
+    if (!is_named(patch, *field.info)) {
+      continue;
     }
-    if constexpr (std::is_same_v<T, CollisionFilter>) {
-      taken = same_colliders(a, b);
-      y = taken ? x : y;
-    } else if constexpr (is_struct_list<T>()) {
-      if constexpr (is_referred_to<typename T::value_type>()) {
-        taken = take_over_objects(patch, x, y, translation);
-      } else {
-        y = x;
-        translation.mend({}, info, y);
-        taken = !translation.failed();
-        if constexpr (std::is_same_v<T, std::vector<Articulation>>) {
-          each_joint_of_both(
-              a, b, [](const Joint& from, Joint& to) { to.articulation = from.articulation; });
-        }
-      }
-    } else {
-      y = x;
+    const DataRef x = from.member(field);
+    const DataRef y = to.member(field);
+    const bool is_filter =
+        field.type->kind == DataKind::Struct && DataView(x).is_a<CollisionFilter>();
+    if (is_referred_to(*field.type)) {
+      taken = take_over_objects(patch, x, y, translation);
+    } else if (!is_filter || same_colliders(a, b)) {
+      y.assign(x);
       taken = true;
     }
-  });
+    if (is_struct_list(*field.type) && !is_referred_to(*field.type)) {
+      translation.mend({}, *field.info, y);
+      taken = !translation.failed();
+      if (DataView(x).is_a<std::vector<Articulation>>()) {
+        take_over_articulations(a, b);
+      }
+    }
+  }
   take_over_drive_tracks(patch, a, b, translation);
   return taken && !translation.failed();
+}
+
+/// Of a member of the scene.
+void collect(const Compared& sides, const FieldInfo& info, DataView x, DataView y,
+             Collected& found) {
+  const PhysicsScene& a = sides.a;
+  const PhysicsScene& b = sides.b;
+  if (const CollisionFilter* filter = x.get_if<CollisionFilter>()) {
+    const CollisionFilter& other = y.as<CollisionFilter>();
+    if (!same_colliders(a, b) || a.disabled_pairs() != b.disabled_pairs() ||
+        !same_fields(filter->permanent_pairs, other.permanent_pairs) ||
+        !same_fields(filter->joint_pairs, other.joint_pairs)) {
+      found.add("filter", {});
+    }
+  } else if (is_referred_to(*x.type)) {
+    collect_objects(sides, x, y, found);
+  } else if (x.is_a<std::vector<Articulation>>() ? !same_articulations(a, b)
+                                                 : sides.differ({}, info, x, y)) {
+    found.add(std::string(info.name), {});
+  }
 }
 
 }  // namespace
 
 std::vector<FieldPatch> field_patches(const PhysicsScene& a, const PhysicsScene& b) {
   const Compared sides{a, b};
+  const DataView x = view_of(a);
+  const DataView y = view_of(b);
   std::vector<FieldPatch> found;
-  each_field_of_both(a, b, [&](const FieldInfo& info, const auto& x, const auto& y) {
-    using T = std::remove_cvref_t<decltype(x)>;
-    if (!acts(info)) {
-      return;
+  for (const DataField& field : x.type->fields) {
+    if (acts(*field.info)) {
+      Collected of_list(field.info->name);
+      collect(sides, *field.info, x.member(field), y.member(field), of_list);
+      of_list.move_to(found);
     }
-    Collected of_list(info.name);
-    if constexpr (std::is_same_v<T, CollisionFilter>) {
-      if (!same_colliders(a, b) || a.disabled_pairs() != b.disabled_pairs() ||
-          !same_fields(x.permanent_pairs, y.permanent_pairs) ||
-          !same_fields(x.joint_pairs, y.joint_pairs)) {
-        of_list.add("filter", {});
-      }
-    } else if constexpr (is_struct_list<T>()) {
-      if constexpr (is_referred_to<typename T::value_type>()) {
-        collect_objects(sides, x, y, of_list);
-      } else if constexpr (std::is_same_v<T, std::vector<Articulation>>) {
-        if (!same_articulations(a, b)) {
-          of_list.add(std::string(info.name), {});
-        }
-      } else if (sides.differ({}, info, x, y)) {
-        of_list.add(std::string(info.name), {});
-      }
-    } else if (sides.differ({}, info, x, y)) {
-      of_list.add(std::string(info.name), {});
-    }
-    of_list.move_to(found);
-  });
+  }
   return found;
 }
 
