@@ -18,20 +18,30 @@
 
 #if defined(__SANITIZE_ADDRESS__)
 #define TENON_ADDRESS_SANITIZER 1
+#elif defined(__SANITIZE_THREAD__)
+#define TENON_THREAD_SANITIZER 1
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define TENON_ADDRESS_SANITIZER 1
+#elif __has_feature(thread_sanitizer)
+#define TENON_THREAD_SANITIZER 1
 #endif
 #endif
 
+// Sanitizers reserve terabytes of address space, so that they bound what is in use themselves.
+// Faults of libraries end the process as they do without them.
+#define TENON_SANITIZER_OPTIONS                                                      \
+  "hard_rss_limit_mb=1024:exitcode=67:handle_segv=0:handle_abort=0:handle_sigbus=0:" \
+  "handle_sigfpe=0:handle_sigill=0"
 #if defined(TENON_ADDRESS_SANITIZER)
-/// The sanitizer reserves terabytes of address space, so that it bounds what is in use itself.
-/// Faults of libraries end the process as they do without it.
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() {
-  return "hard_rss_limit_mb=1024:detect_leaks=0:exitcode=67:handle_segv=0:handle_abort=0:"
-         "handle_sigbus=0:handle_sigfpe=0:handle_sigill=0";
+  return TENON_SANITIZER_OPTIONS ":detect_leaks=0";
 }
+constexpr bool kBoundsAddresses = false;
+#elif defined(TENON_THREAD_SANITIZER)
+extern "C" const char* __tsan_default_options();
+extern "C" const char* __tsan_default_options() { return TENON_SANITIZER_OPTIONS; }
 constexpr bool kBoundsAddresses = false;
 #else
 constexpr bool kBoundsAddresses = true;

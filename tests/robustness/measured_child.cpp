@@ -19,14 +19,15 @@
 namespace tenon::robustness {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define TENON_SANITIZED 1
 constexpr bool kSanitized = true;
 #else
 constexpr bool kSanitized = false;
 #endif
 
 /// Seconds that a second of an optimised program may become.
-#if defined(__SANITIZE_ADDRESS__) || !defined(__OPTIMIZE__)
+#if defined(TENON_SANITIZED) || !defined(__OPTIMIZE__)
 constexpr double kSlowness = 10;
 #else
 constexpr double kSlowness = 1;
@@ -100,7 +101,7 @@ void limit_child(const Allowance& allowance) {
 
 }  // namespace
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(TENON_SANITIZED)
 /// Counts, then takes memory as always.
 void* counted_new(std::size_t size) {
   bytes_taken.fetch_add(size, std::memory_order_relaxed);
@@ -155,7 +156,7 @@ Cost measure(const std::function<int()>& work, const Allowance& allowance) {
 
 }  // namespace tenon::robustness
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(TENON_SANITIZED)
 void* operator new(std::size_t size) { return tenon::robustness::counted_new(size); }
 void* operator new[](std::size_t size) { return tenon::robustness::counted_new(size); }
 void operator delete(void* memory) noexcept { std::free(memory); }
