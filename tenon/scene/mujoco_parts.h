@@ -38,6 +38,14 @@ struct MujocoEquality {
   std::vector<double> solimp;  ///< (5)
 };
 
+/// What MjcEqualityConnectAPI and MjcEqualityWeldAPI say of a joint that closes a loop; empty, none:
+/// not authored.
+struct MujocoLoop {
+  std::vector<double> solref;          ///< (2)
+  std::vector<double> solimp;          ///< (5)
+  std::optional<double> torque_scale;  ///< of a weld: what rotation weighs [m]
+};
+
 /// What the path of a spatial tendon meets.
 struct TendonWrap {
   enum class Kind : std::uint8_t {

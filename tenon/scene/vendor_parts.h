@@ -35,6 +35,7 @@ struct ColliderParts {
 
 struct JointParts {
   MujocoSoftness mujoco;
+  MujocoLoop mujoco_loop;
 };
 
 struct MimicParts {

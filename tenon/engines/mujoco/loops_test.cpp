@@ -88,6 +88,42 @@ TEST(Loops, WeldClosesALoop) {
   EXPECT_NEAR(sim->joint_state(1).velocity[0], -kG / 2, 0.02);
 }
 
+/// How far two falling bodies, of which one alone has weight, are apart that a weld holds together.
+double sag(const scene::MujocoLoop& loop) {
+  TestScene scene;
+  const auto a = scene.add_body("A", {{0, 0, 0}});
+  const auto b = scene.add_body("B", {{1, 0, 0}});
+  scene.add_joint("Rail", JointKind::Prismatic, {}, a, Axis::Z);
+  auto& rail = scene.add_joint("Rail2", JointKind::Prismatic, {}, b, Axis::Z);
+  rail.frame0.position = {{1, 0, 0}};
+  auto& weld = scene.add_joint("Weld", JointKind::Fixed, a, b);
+  weld.frame0.position = {{1, 0, 0}};
+  weld.parts.mujoco_loop = loop;
+  scene.bodies[a].gravity_scale = 0;
+  auto sim = simulation(scene);
+  run(*sim, 1);
+  EXPECT_TRUE(sim->not_mapped().empty());
+  return sim->body_state(0).pose.position[2] - sim->body_state(1).pose.position[2];
+}
+
+TEST(Loops, AWeldIsAsSoftAsTheAssetHasIt) {
+  const double hard = sag({});
+  EXPECT_GT(sag({{0.2, 1}, {}, {}}), 10 * hard);
+  EXPECT_GT(sag({{}, {0.1, 0.1, 0.001, 0.5, 2}, {}}), 10 * hard);
+  EXPECT_NE(sag({{0.2, 1}, {}, {}}), sag({{0.2, 1}, {0.1, 0.1, 0.001, 0.5, 2}, {}}));
+}
+
+TEST(Loops, SoftnessOfAJointThatIsNoConstraintIsNamed) {
+  TestScene scene;
+  const auto a = scene.add_body("A", {{0, 0, 0}});
+  auto& hinge = scene.add_joint("Hinge", JointKind::Revolute, {}, a, Axis::Y);
+  hinge.parts.mujoco_loop = {{0.1, 1}, {0.9, 0.95, 0.001, 0.5, 2}, 0.5};
+  const auto sim = simulation(scene);
+  for (const char* name : {"mjc:solref", "mjc:solimp", "mjc:torqueScale"}) {
+    EXPECT_TRUE(mentions(sim->not_mapped(), "/Hinge", name)) << name;
+  }
+}
+
 TEST(Loops, PlanPutsExcludedJointsLast) {
   const TestScene scene = four_bar(JointKind::Revolute);
   const TreePlan plan = plan_tree(scene);

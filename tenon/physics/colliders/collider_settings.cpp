@@ -62,14 +62,20 @@ ColliderSettings read_collider_settings(ReadState& state, const PhysicsPrim& fou
 
 Compliance read_compliance(const ReadState& state, const PhysicsPrim& found) {
   Compliance result;
-  if (!found.roles.has(Api::PhysxMaterial)) {
+  if (found.roles.has(Api::NewtonMaterial)) {
+    result.stiffness = not_negative(state, found, "newton:contactStiffness") * state.units.mass;
+    result.damping = not_negative(state, found, "newton:contactDamping") * state.units.mass;
+  }
+  const Token physx_stiffness("physxMaterial:compliantContactStiffness");
+  if (!found.roles.has(Api::PhysxMaterial) ||
+      (result.stiffness > 0 && !state.values.authored_number(found.prim, physx_stiffness))) {
     return result;
   }
   result.acceleration =
       state.values.authored_flag(found.prim, "physxMaterial:compliantContactAccelerationSpring")
           .value_or(false);
   const double mass = result.acceleration ? 1 : state.units.mass;
-  result.stiffness = not_negative(state, found, "physxMaterial:compliantContactStiffness") * mass;
+  result.stiffness = not_negative(state, found, physx_stiffness) * mass;
   result.damping = not_negative(state, found, "physxMaterial:compliantContactDamping") * mass;
   return result;
 }

@@ -78,6 +78,9 @@ class SettingReader {
     if (roles.has(Api::MjcJoint)) {
       read_mujoco();
     }
+    if (roles.has(Api::MjcEqualityConnect) || roles.has(Api::MjcEqualityWeld)) {
+      joint_.parts.mujoco_loop = read_mujoco_loop(state_, found_);
+    }
     if (roles.has(Api::NewtonJoint) || roles.has(Api::MjcJoint)) {
       take(t.newton_armature, units_.armature, joint_.armature);
       take(t.newton_friction, units_.force, joint_.friction);
@@ -188,7 +191,8 @@ class SettingReader {
 }  // namespace
 
 void read_joint_settings(ReadState& state) {
-  constexpr Api kApis[] = {Api::PhysxJoint, Api::MjcJoint, Api::NewtonJoint, Api::PhysxJointAxis,
+  constexpr Api kApis[] = {Api::PhysxJoint, Api::MjcJoint, Api::MjcEqualityConnect,
+                           Api::MjcEqualityWeld, Api::NewtonJoint, Api::PhysxJointAxis,
                            Api::JointState};
   for (Index i = 0; i < state.scene.joints.size(); ++i) {
     const Roles& roles = state.prim_of_joint(i).roles;

@@ -68,6 +68,7 @@ struct Tokens {
   Token solimp_limit{"mjc:solimplimit"};
   Token solref_friction{"mjc:solreffriction"};
   Token solimp_friction{"mjc:solimpfriction"};
+  Token torque_scale{"mjc:torqueScale"};
 };
 
 const Tokens& tokens() {
@@ -104,6 +105,19 @@ MujocoSoftness read_mujoco_softness(const ReadState& state, const PhysicsPrim& f
           numbers(state, found, t.solimp_limit, kImpedance),
           numbers(state, found, t.solref_friction, kReference),
           numbers(state, found, t.solimp_friction, kImpedance)};
+}
+
+MujocoLoop read_mujoco_loop(const ReadState& state, const PhysicsPrim& found) {
+  const Tokens& t = tokens();
+  MujocoLoop loop{numbers(state, found, t.solref, kReference),
+                  numbers(state, found, t.solimp, kImpedance),
+                  state.values.authored_number(found.prim, t.torque_scale)};
+  if (loop.torque_scale && !(*loop.torque_scale >= 0 && std::isfinite(*loop.torque_scale))) {
+    refuse(state, found, t.torque_scale, shortest(*loop.torque_scale),
+           "a number that is not negative");
+    loop.torque_scale.reset();
+  }
+  return loop;
 }
 
 }  // namespace tenon::physics

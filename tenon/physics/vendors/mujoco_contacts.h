@@ -13,4 +13,7 @@ MujocoContact read_mujoco_contact(const ReadState& state, const PhysicsPrim& fou
 /// What MjcJointAPI on a joint says; as above.
 MujocoSoftness read_mujoco_softness(const ReadState& state, const PhysicsPrim& found);
 
+/// What MjcEqualityConnectAPI or MjcEqualityWeldAPI on a joint says; as above.
+MujocoLoop read_mujoco_loop(const ReadState& state, const PhysicsPrim& found);
+
 }  // namespace tenon::physics

@@ -54,21 +54,36 @@ namespace {
 struct UnreadRow {
   const char* schema;    ///< an API, or a type
   const char* property;  ///< empty: all that it declares
-  const char* unless;
+  const char* unless;    ///< APIs, with spaces between
 };
+constexpr const char* kEqualities =
+    "MjcEqualityConnectAPI MjcEqualityJointAPI MjcEqualityWeldAPI";
 constexpr UnreadRow kUnread[] = {
     {"IsaacLightBeamSensor", "enabled", ""},
     {"IsaacLightBeamSensor", "maxRange", ""},
     {"IsaacLightBeamSensor", "minRange", ""},
     {"IsaacLightBeamSensor", "numRays", ""},
     {"IsaacLightBeamSensor", "xformOpOrder", ""},
-    {"MjcEqualityAPI", "", "MjcEqualityJointAPI"},
+    {"MjcEqualityAPI", "mjc:solimp", kEqualities},
+    {"MjcEqualityAPI", "mjc:solref", kEqualities},
+    {"MjcEqualityAPI", "mjc:target", "MjcEqualityJointAPI"},
     {"MjcJointAPI", "mjc:actuatorfrclimited", ""},
     {"MjcJointAPI", "mjc:actuatorfrcrange:max", ""},
     {"MjcJointAPI", "mjc:actuatorfrcrange:min", ""},
     {"MjcJointAPI", "mjc:margin", "MjcCollisionAPI"},
     {"NewtonDCMotorClampingAPI", "", "NewtonJointAPI"},
 };
+
+bool has_any_api(const stage::Prim& prim, std::string_view apis) {
+  while (!apis.empty()) {
+    const std::size_t space = std::min(apis.find(' '), apis.size());
+    if (prim.has_api(Token(apis.substr(0, space)))) {
+      return true;
+    }
+    apis.remove_prefix(std::min(space + 1, apis.size()));
+  }
+  return false;
+}
 
 bool declares(Token schema, Token property) {
   const schema::Schema* found = schema::Registry::instance().find(schema);
@@ -86,7 +101,7 @@ VendorUse use_of_vendor_attribute(const stage::Prim& prim, Token name) {
   for (const UnreadRow& row : kUnread) {
     const bool named = *row.property == '\0' ? declares(row.schema, name) : name == row.property;
     const bool has = prim.has_api(row.schema) || prim.type_name() == row.schema;
-    if (named && has && (*row.unless == '\0' || !prim.has_api(row.unless))) {
+    if (named && has && !has_any_api(prim, row.unless)) {
       return VendorUse::NotRead;
     }
   }

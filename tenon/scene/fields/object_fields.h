@@ -435,6 +435,21 @@ struct Table<MujocoSoftness> {
 };
 
 template <>
+struct Table<MujocoLoop> {
+  static constexpr std::string_view kWord = "loop";
+  static constexpr Rows kFields{
+      field<&MujocoLoop::solref>(
+          {.name = "solref", .meaning = "of the constraint", .presence = Presence::WhenSet}),
+      field<&MujocoLoop::solimp>(
+          {.name = "solimp", .meaning = "of the constraint", .presence = Presence::WhenSet}),
+      field<&MujocoLoop::torque_scale>({.name = "torqueScale",
+                                        .meaning = "of a weld: what rotation weighs",
+                                        .unit = Unit::Meter,
+                                        .presence = Presence::WhenSet}),
+  };
+};
+
+template <>
 struct Table<JointParts> {
   static constexpr std::string_view kWord = "parts of vendors";
   static constexpr Rows kFields{
@@ -442,6 +457,11 @@ struct Table<JointParts> {
                                   .meaning = "what MjcJointAPI authors",
                                   .presence = Presence::WhenSet,
                                   .words = "MuJoCo"}),
+      field<&JointParts::mujoco_loop>(
+          {.name = "mujocoLoop",
+           .meaning = "what MjcEqualityConnectAPI or MjcEqualityWeldAPI authors",
+           .presence = Presence::WhenSet,
+           .words = "loop of MuJoCo"}),
   };
 };
 

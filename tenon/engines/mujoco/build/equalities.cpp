@@ -57,21 +57,36 @@ Sides sides_of(Build& build, const Joint& joint) {
           side_frame(build, joint.body1, joint.frame1)};
 }
 
+/// As soft as the asset has it.
+void set_softness(const std::vector<double>& solref, const std::vector<double>& solimp,
+                  mjsEquality& equality) {
+  if (solref.size() == mjNREF) {
+    std::copy(solref.begin(), solref.end(), equality.solref);
+  }
+  if (solimp.size() == mjNIMP) {
+    std::copy(solimp.begin(), solimp.end(), equality.solimp);
+  }
+}
+
 void hold_points(Build& build, const Joint& joint, const Sides& sides, const std::string& suffix,
                  const Vec3d& point) {
   const std::string name = joint.path.str() + suffix;
   const Pose offset{point};
-  add_equality(build, mjEQ_CONNECT, name, mjOBJ_SITE,
-               add_site(sides.body0, name + ".0", sides.frame0 * offset),
-               add_site(sides.body1, name + ".1", sides.frame1 * offset));
+  mjsEquality* connect =
+      add_equality(build, mjEQ_CONNECT, name, mjOBJ_SITE,
+                   add_site(sides.body0, name + ".0", sides.frame0 * offset),
+                   add_site(sides.body1, name + ".1", sides.frame1 * offset));
+  const scene::MujocoLoop& loop = joint.parts.mujoco_loop;
+  set_softness(loop.solref, loop.solimp, *connect);
 }
 
-void hold_frames(Build& build, const std::string& name, mjsBody* body0, const Pose& frame0,
-                 mjsBody* body1, const Pose& frame1) {
-  mjsEquality* weld =
-      add_equality(build, mjEQ_WELD, name, mjOBJ_SITE, add_site(body0, name + ".0", frame0),
-                   add_site(body1, name + ".1", frame1));
-  weld->data[10] = 1;  // torque scale
+void hold_frames(Build& build, const std::string& name, const scene::MujocoLoop& loop,
+                 const Sides& sides) {
+  mjsEquality* weld = add_equality(build, mjEQ_WELD, name, mjOBJ_SITE,
+                                   add_site(sides.body0, name + ".0", sides.frame0),
+                                   add_site(sides.body1, name + ".1", sides.frame1));
+  weld->data[10] = loop.torque_scale.value_or(1);
+  set_softness(loop.solref, loop.solimp, *weld);
 }
 
 // A light body carries the joint's degrees of freedom from body0 and is welded to body1, so that
@@ -93,21 +108,34 @@ void add_auxiliary_body(Build& build, scene::Index index) {
   auxiliary->gravcomp = 1;
   build.auxiliary_bodies.push_back({auxiliary, sides.body1, index});
   add_chain(build, index, auxiliary, {}, false);
-  hold_frames(build, name, auxiliary, {}, sides.body1, sides.frame1);
+  hold_frames(build, name, joint.parts.mujoco_loop, {auxiliary, sides.body1, {}, sides.frame1});
   build.report(
       joint.path, "physics:excludeFromArticulation",
       "this joint closes a loop: its coordinate lives on an auxiliary body of 0.1 % of the "
       "mass of body1, welded to it");
 }
 
+/// What MuJoCo's schemas say of a constraint, on a joint that is none.
+void report_unused_loop(Build& build, const Joint& joint) {
+  const scene::MujocoLoop& loop = joint.parts.mujoco_loop;
+  const char* const why = "no constraint stands for this joint; exclude it from the articulation";
+  if (!loop.solref.empty()) {
+    build.report(joint.path, "mjc:solref", why);
+  }
+  if (!loop.solimp.empty()) {
+    build.report(joint.path, "mjc:solimp", why);
+  }
+  if (loop.torque_scale) {
+    build.report(joint.path, "mjc:torqueScale", why);
+  }
+}
+
 void add_loop(Build& build, scene::Index index) {
   const Joint& joint = build.scene.joints[index];
   switch (build.plan.joints[index]) {
-    case JointRole::Weld: {
-      const Sides sides = sides_of(build, joint);
-      hold_frames(build, joint.path.str(), sides.body0, sides.frame0, sides.body1, sides.frame1);
+    case JointRole::Weld:
+      hold_frames(build, joint.path.str(), joint.parts.mujoco_loop, sides_of(build, joint));
       break;
-    }
     case JointRole::Connect:
       hold_points(build, joint, sides_of(build, joint), "", {});
       break;
@@ -123,6 +151,7 @@ void add_loop(Build& build, scene::Index index) {
     case JointRole::None:
     case JointRole::Tree:
     case JointRole::Distance:
+      report_unused_loop(build, joint);
       break;
   }
 }
@@ -224,15 +253,11 @@ void add_mimic(Build& build, scene::Index index, const scene::Mimic& mimic) {
   equality->data[1] = mimic.multiplier;
   std::copy(mimic.higher.begin(), mimic.higher.end(), equality->data + 2);
   std::copy(std::begin(kMimicImpedance), std::end(kMimicImpedance), equality->solimp);
-  if (mimic.parts.mujoco.solref.size() == mjNREF) {
-    std::copy(mimic.parts.mujoco.solref.begin(), mimic.parts.mujoco.solref.end(), equality->solref);
-  } else if (mimic.natural_frequency > 0 && mimic.damping_ratio > 0) {
+  if (mimic.parts.mujoco.solref.empty() && mimic.natural_frequency > 0 && mimic.damping_ratio > 0) {
     equality->solref[0] = 1 / (mimic.damping_ratio * mimic.natural_frequency);
     equality->solref[1] = mimic.damping_ratio;
   }
-  if (mimic.parts.mujoco.solimp.size() == mjNIMP) {
-    std::copy(mimic.parts.mujoco.solimp.begin(), mimic.parts.mujoco.solimp.end(), equality->solimp);
-  }
+  set_softness(mimic.parts.mujoco.solref, mimic.parts.mujoco.solimp, *equality);
 }
 
 }  // namespace
