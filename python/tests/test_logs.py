@@ -140,6 +140,7 @@ class Logs(unittest.TestCase):
     def test_rrd_is_read_back_by_its_library(self):
         import pyarrow
         from rerun.chunk import RrdReader
+
         def rows_of(batch):
             # Nanoseconds, which Python has no duration of, as numbers.
             columns = [column.cast("int64") if pyarrow.types.is_duration(column.type) else column

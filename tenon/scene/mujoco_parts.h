@@ -38,8 +38,8 @@ struct MujocoEquality {
   std::vector<double> solimp;  ///< (5)
 };
 
-/// What MjcEqualityConnectAPI and MjcEqualityWeldAPI say of a joint that closes a loop; empty, none:
-/// not authored.
+/// What MjcEqualityConnectAPI and MjcEqualityWeldAPI say of a joint that closes a loop; empty,
+/// none: not authored.
 struct MujocoLoop {
   std::vector<double> solref;          ///< (2)
   std::vector<double> solimp;          ///< (5)

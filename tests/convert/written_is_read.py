@@ -6,8 +6,8 @@
     written_is_read.py ROOT TENON
 
 The sources are all MJCF and URDF files beside this test, and what build/robots has (ten_robots.py).
-Each is converted and its physics read under every variant. `written_not_read.txt` names what is
-known not to be read; it may only shrink, so a row of it that is not met is a fault, too.
+Each is converted and its physics read under every variant. `written_is_read_misses.txt` names what
+is known not to be read; it may only shrink, so a row of it that is not met is a fault, too.
 """
 
 import json
@@ -43,7 +43,7 @@ def unread(asset):
 
 
 def main():
-    known = {line for line in (HERE / "written_not_read.txt").read_text().splitlines()
+    known = {line for line in (HERE / "written_is_read_misses.txt").read_text().splitlines()
              if line and not line.startswith("#")}
     found, converted = {}, 0
     for count, source in enumerate(sources()):
@@ -62,7 +62,7 @@ def main():
     for name in sorted(found.keys() - known):
         print(f"{name} is written for {found[name]} and not read")
     for name in sorted(known - found.keys()):
-        print(f"{name} is read, or not written any more: take it out of written_not_read.txt")
+        print(f"{name} is read, or not written any more: take it out of written_is_read_misses.txt")
     print(f"{converted} converted, {len(found)} properties not read")
     return 1 if found.keys() != known or converted < 12 else 0
 

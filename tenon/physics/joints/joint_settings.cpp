@@ -191,7 +191,7 @@ class SettingReader {
 }  // namespace
 
 void read_joint_settings(ReadState& state) {
-  constexpr Api kApis[] = {Api::PhysxJoint, Api::MjcJoint, Api::MjcEqualityConnect,
+  constexpr Api kApis[] = {Api::PhysxJoint,      Api::MjcJoint,    Api::MjcEqualityConnect,
                            Api::MjcEqualityWeld, Api::NewtonJoint, Api::PhysxJointAxis,
                            Api::JointState};
   for (Index i = 0; i < state.scene.joints.size(); ++i) {

@@ -56,8 +56,7 @@ struct UnreadRow {
   const char* property;  ///< empty: all that it declares
   const char* unless;    ///< APIs, with spaces between
 };
-constexpr const char* kEqualities =
-    "MjcEqualityConnectAPI MjcEqualityJointAPI MjcEqualityWeldAPI";
+constexpr const char* kEqualities = "MjcEqualityConnectAPI MjcEqualityJointAPI MjcEqualityWeldAPI";
 constexpr UnreadRow kUnread[] = {
     {"IsaacLightBeamSensor", "enabled", ""},
     {"IsaacLightBeamSensor", "maxRange", ""},

@@ -72,10 +72,9 @@ void hold_points(Build& build, const Joint& joint, const Sides& sides, const std
                  const Vec3d& point) {
   const std::string name = joint.path.str() + suffix;
   const Pose offset{point};
-  mjsEquality* connect =
-      add_equality(build, mjEQ_CONNECT, name, mjOBJ_SITE,
-                   add_site(sides.body0, name + ".0", sides.frame0 * offset),
-                   add_site(sides.body1, name + ".1", sides.frame1 * offset));
+  mjsEquality* connect = add_equality(build, mjEQ_CONNECT, name, mjOBJ_SITE,
+                                      add_site(sides.body0, name + ".0", sides.frame0 * offset),
+                                      add_site(sides.body1, name + ".1", sides.frame1 * offset));
   const scene::MujocoLoop& loop = joint.parts.mujoco_loop;
   set_softness(loop.solref, loop.solimp, *connect);
 }
