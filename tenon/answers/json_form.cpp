@@ -73,20 +73,19 @@ bool wrap_counts(const scene::TendonWrap& wrap, const scene::FieldInfo& info) {
 }  // namespace
 
 std::span<const DerivedKey> derived_keys(const scene::DataType& type) {
-  const scene::DataView like{&type, nullptr};
-  if (like.is_a<scene::Collider>()) {
+  if (type.is_a<scene::Collider>()) {
     return kColliderKeys;
   }
-  if (like.is_a<scene::Limit>()) {
+  if (type.is_a<scene::Limit>()) {
     return kLimitKeys;
   }
-  if (like.is_a<scene::Joint>()) {
+  if (type.is_a<scene::Joint>()) {
     return kJointKeys;
   }
-  if (like.is_a<scene::TriangleMesh>()) {
+  if (type.is_a<scene::TriangleMesh>()) {
     return kTriangleMeshKeys;
   }
-  if (like.is_a<scene::PhysicsScene>()) {
+  if (type.is_a<scene::PhysicsScene>()) {
     return kPhysicsSceneKeys;
   }
   return {};

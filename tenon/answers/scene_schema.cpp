@@ -144,7 +144,7 @@ class SchemaWriter {
       return {{"type", "array"},
               {"prefixItems", {schema_of(*type.item, info), schema_of(*type.second, info)}}};
     }
-    if (scene::DataView{&type, nullptr}.is_a<std::vector<scene::VendorSetting>>()) {
+    if (type.is_a<std::vector<scene::VendorSetting>>()) {
       return {{"type", "object"}, {"additionalProperties", {{"type", {"array", "string"}}}}};
     }
     if (type.kind == DataKind::List) {

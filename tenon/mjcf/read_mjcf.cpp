@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <string_view>
+#include <system_error>
 
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/model.h"
@@ -32,10 +34,32 @@ using engines::mujoco::guarded;
 using engines::mujoco::ModelPtr;
 using engines::mujoco::SpecPtr;
 
+/// Where MuJoCo looked for a file that it says it cannot open, where there is none; else empty.
+std::string missing_file(const std::string& words, const std::string& model) {
+  constexpr std::string_view kWords = "Error opening file '";
+  const std::size_t at = words.find(kWords);
+  const std::size_t name = at + kWords.size();
+  const std::size_t end = at == std::string::npos ? at : words.find('\'', name);
+  if (end == std::string::npos) {
+    return {};
+  }
+  const std::filesystem::path place =
+      (std::filesystem::path(model).parent_path() / words.substr(name, end - name))
+          .lexically_normal();
+  std::error_code failed;
+  return std::filesystem::exists(place, failed) || failed ? std::string() : place.string();
+}
+
 /// MuJoCo's words with the line that they name, if any.
 Error fault(ErrorCode code, std::string words, const std::string& path) {
   for (char& c : words) {
     c = c == '\n' ? ' ' : c;
+  }
+  if (const std::string missing = missing_file(words, path); !missing.empty()) {
+    return Error(ErrorCode::NotFound, "the model names a file that is not there: " + missing)
+        .in_file(path)
+        .with_rule("mjcf.missing-file")
+        .with_fix("put it there, or correct `file`, or `meshdir` or `assetdir` of the compiler");
   }
   const std::size_t at = words.find("line ");
   const auto line = at == std::string::npos ? 0 : std::strtoul(words.c_str() + at + 5, nullptr, 10);

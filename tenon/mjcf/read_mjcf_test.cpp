@@ -367,6 +367,17 @@ TEST_F(ReadMjcf, KeepsTheModelThatMuJoCoMakes) {
   EXPECT_EQ(model->mujoco.source.text.find("<body name=\"b\""), std::string::npos);
 }
 
+TEST_F(ReadMjcf, AFileThatIsNotThereIsNamedWithItsPlace) {
+  const auto bad = read(
+      "<compiler meshdir='../shapes'/><asset><mesh name='t' file='t.obj'/></asset>"
+      "<worldbody><geom type='mesh' mesh='t'/></worldbody>");
+  ASSERT_FALSE(bad);
+  const Diagnostic& told = bad.error().diagnostic();
+  EXPECT_EQ(told.rule, "mjcf.missing-file");
+  EXPECT_TRUE(told.message.ends_with("/shapes/t.obj")) << told.message;
+  EXPECT_EQ(told.message.find(".."), std::string::npos) << told.message;
+}
+
 TEST_F(ReadMjcf, SaysWhatMuJoCoRefuses) {
   const auto bad = read("<worldbody>\n<geom type='blob'/></worldbody>");
   ASSERT_FALSE(bad);

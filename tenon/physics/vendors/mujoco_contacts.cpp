@@ -16,8 +16,8 @@ namespace {
 
 constexpr const char* kRule = "mujoco.bad-setting";
 
-void refuse(const ReadState& state, const PhysicsPrim& found, Token name, std::string found_value,
-            std::string wanted) {
+void refuse(const ReadState& state, const PhysicsPrim& found, Token name,
+            const std::string& found_value, const std::string& wanted) {
   state.report(found.prim, name, Severity::Error, kRule,
                name.str() + " is " + found_value + "; it is taken as unauthored",
                "author " + wanted);

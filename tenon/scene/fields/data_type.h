@@ -34,6 +34,9 @@ enum class DataKind : std::uint8_t {
   Struct,  ///< has a table
 };
 
+template <class T>
+inline constexpr char kDataId = 0;
+
 struct DataType;
 
 /// A field of a struct.
@@ -67,14 +70,16 @@ struct DataType {
   /// Leaves that many, new ones made; returns the first.
   void* (*resize)(void* value, std::size_t count) = nullptr;
   void (*assign)(void* to, const void* from) = nullptr;
+
+  template <class T>
+  bool is_a() const {
+    return id == &kDataId<T>;
+  }
 };
 
 /// The type of a C++ type that fields of the scene have, as deep as they lie, or the scene itself.
 template <class T>
 const DataType& data_type();
-
-template <class T>
-inline constexpr char kDataId = 0;
 
 /// A value that is read; of its type nothing is known when it is compiled.
 struct DataView {
@@ -84,7 +89,7 @@ struct DataView {
   DataKind kind() const { return type->kind; }
   template <class T>
   bool is_a() const {
-    return type->id == &kDataId<T>;
+    return type->is_a<T>();
   }
   /// The value itself; only after a look at its kind or type.
   template <class T>
@@ -124,7 +129,7 @@ struct DataRef {
   }
   template <class T>
   T* get_if() const {
-    return type->id == &kDataId<T> ? static_cast<T*>(at) : nullptr;
+    return type->is_a<T>() ? static_cast<T*>(at) : nullptr;
   }
   std::size_t size() const { return type->items(at); }
   DataRef operator[](std::size_t i) const {

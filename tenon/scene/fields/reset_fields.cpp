@@ -107,10 +107,7 @@ bool is_of(const FieldPatch& patch, Path path) {
   return std::find(patch.objects.begin(), patch.objects.end(), path) != patch.objects.end();
 }
 
-bool stops(const DataType& type) {
-  const DataView like{&type, nullptr};
-  return like.is_a<MujocoActuator>() || like.is_a<Tendon>();
-}
+bool stops(const DataType& type) { return type.is_a<MujocoActuator>() || type.is_a<Tendon>(); }
 
 bool stop_acting(DataRef object) {
   if (MujocoActuator* actuator = object.get_if<MujocoActuator>()) {

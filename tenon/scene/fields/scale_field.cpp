@@ -25,8 +25,8 @@ bool scale_numbers(DataRef value, double factor) {
   if (value.kind() == DataKind::Optional) {
     return value.size() != 0 && scale_numbers(value[0], factor);
   }
-  const bool is_scaled = value.kind() == DataKind::Real || DataView(value).is_a<Vec3d>() ||
-                         DataView(value).is_a<Mat3d>();
+  const bool is_scaled =
+      value.kind() == DataKind::Real || value.type->is_a<Vec3d>() || value.type->is_a<Mat3d>();
   for (std::size_t i = 0; is_scaled && i < value.type->size / sizeof(double); ++i) {
     (&value.as<double>())[i] *= factor;
   }

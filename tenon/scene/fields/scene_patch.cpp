@@ -22,10 +22,9 @@ namespace {
 
 /// Lists whose objects are taken over one by one, by path.
 bool is_referred_to(const DataType& list) {
-  const DataView like{&list, nullptr};
-  return like.is_a<std::vector<Scene>>() || like.is_a<std::vector<Body>>() ||
-         like.is_a<std::vector<Collider>>() || like.is_a<std::vector<Material>>() ||
-         like.is_a<std::vector<Joint>>() || like.is_a<std::vector<Tendon>>();
+  return list.is_a<std::vector<Scene>>() || list.is_a<std::vector<Body>>() ||
+         list.is_a<std::vector<Collider>>() || list.is_a<std::vector<Material>>() ||
+         list.is_a<std::vector<Joint>>() || list.is_a<std::vector<Tendon>>();
 }
 
 /// Two structs of lists are the same thing.
@@ -317,8 +316,7 @@ bool switch_off(const FieldPatch& patch, DataRef list) {
       collider->enabled = false;
     }
   }
-  const DataView seen = list;
-  return seen.is_a<std::vector<Joint>>() || seen.is_a<std::vector<Collider>>();
+  return list.type->is_a<std::vector<Joint>>() || list.type->is_a<std::vector<Collider>>();
 }
 
 bool take_over_objects(const FieldPatch& patch, DataRef a, DataRef b, Translation& translation) {
@@ -370,8 +368,7 @@ bool take_over_in(const FieldPatch& patch, PhysicsScene& a, PhysicsScene& b) {
     }
     const DataRef x = from.member(field);
     const DataRef y = to.member(field);
-    const bool is_filter =
-        field.type->kind == DataKind::Struct && DataView(x).is_a<CollisionFilter>();
+    const bool is_filter = field.type->is_a<CollisionFilter>();
     if (is_referred_to(*field.type)) {
       taken = take_over_objects(patch, x, y, translation);
     } else if (!is_filter || same_colliders(a, b)) {
@@ -381,7 +378,7 @@ bool take_over_in(const FieldPatch& patch, PhysicsScene& a, PhysicsScene& b) {
     if (is_struct_list(*field.type) && !is_referred_to(*field.type)) {
       translation.mend({}, *field.info, y);
       taken = !translation.failed();
-      if (DataView(x).is_a<std::vector<Articulation>>()) {
+      if (x.type->is_a<std::vector<Articulation>>()) {
         take_over_articulations(a, b);
       }
     }
