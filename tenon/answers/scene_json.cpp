@@ -89,7 +89,7 @@ void add_bounds(const scene::TriangleMesh& mesh, Json& row) {
   row["upper"] = empty ? Json(nullptr) : numbers(high);
 }
 
-/// What a track of `type` changes, where that is one thing.
+/// What a track changes, where that is one thing.
 std::string_view changing(DataView track) {
   return track.is_a<scene::PoseTrack>()      ? "pose"
          : track.is_a<scene::BoundsTrack>()  ? "limits"

@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// MuJoCo itself parses and compiles the model, so that a description means what it means there;
+// what is read are the tables of the compiled model, by one pass for each kind of thing. Nothing is
+// fused or thrown away by the compiler, and the text itself is kept, for the way back.
 #include "tenon/mjcf/read_mjcf.h"
 
 #include <cstdlib>
