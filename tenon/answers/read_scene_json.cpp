@@ -94,10 +94,10 @@ class Reader {
       fault(at, "is no object");
       return;
     }
-    const scene::OwnerFacts owner = facts_of(value);
     for (const DataField& of : value.type->fields) {
       if (!fault_) {
-        field(json, owner, *of.info, value.member(of), at);
+        // What an index leads to may hang on fields that have just been read.
+        field(json, facts_of(value), *of.info, value.member(of), at);
       }
     }
     if (scene::Joint* joint = value.get_if<scene::Joint>()) {

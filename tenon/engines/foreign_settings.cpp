@@ -66,6 +66,10 @@ void report_mujoco_settings(const scene::PhysicsScene& scene, std::vector<NotMap
     reporter.mujoco(joint.path, "solimplimit", !softness.solimp_limit.empty());
     reporter.mujoco(joint.path, "solreffriction", !softness.solref_friction.empty());
     reporter.mujoco(joint.path, "solimpfriction", !softness.solimp_friction.empty());
+    const scene::MujocoLoop& loop = joint.parts.mujoco_loop;
+    reporter.mujoco(joint.path, "solref", !loop.solref.empty());
+    reporter.mujoco(joint.path, "solimp", !loop.solimp.empty());
+    reporter.mujoco(joint.path, "torqueScale", loop.torque_scale.has_value());
     for (const scene::Mimic& mimic : joint.mimics) {
       reporter.mujoco(joint.path, "solref", !mimic.parts.mujoco.solref.empty());
       reporter.mujoco(joint.path, "solimp", !mimic.parts.mujoco.solimp.empty());

@@ -33,6 +33,7 @@ TEST(JoltVendorSettings, EachActsIsNamedOrIsHarmless) {
             "IsaacRaycastSensor xformOpOrder\n"
             "MjcEqualityJointAPI mjc:target\n"
             // Compliance is named whatever its numbers, and nothing rebounds in its scene.
+            "NewtonMaterialAPI newton:contactDamping\n"
             "PhysxMaterialAPI physxMaterial:compliantContactAccelerationSpring\n"
             "PhysxMaterialAPI physxMaterial:compliantContactDamping\n"
             "PhysxMaterialAPI physxMaterial:dampingCombineMode\n"

@@ -35,6 +35,7 @@ TEST(PhysxVendorSettings, EachActsIsNamedOrIsHarmless) {
             "MjcCollisionAPI mjc:gap\n"
             "MjcEqualityJointAPI mjc:target\n"
             "NewtonCollisionAPI newton:contactGap\n"
+            "NewtonMaterialAPI newton:contactDamping\n"
             // What nothing in these scenes calls upon: PhysxSolver's tests ask PhysX for it.
             "PhysxArticulationAPI physxArticulation:sleepThreshold\n"
             "PhysxArticulationAPI physxArticulation:solverPositionIterationCount\n"
