@@ -71,7 +71,8 @@ TEST(Loops, LimitOnALoopJointActs) {
   EXPECT_TRUE(mentions(sim->not_mapped(), "/D", "physics:excludeFromArticulation"));
 }
 
-TEST(Loops, WeldClosesALoop) {
+/// Two bodies on rails that a weld holds together, of which the second alone has weight.
+TestScene welded_slides() {
   TestScene scene;
   const auto a = scene.add_body("A", {{0, 0, 0}});
   const auto b = scene.add_body("B", {{1, 0, 0}});
@@ -81,25 +82,21 @@ TEST(Loops, WeldClosesALoop) {
   auto& weld = scene.add_joint("Weld", JointKind::Fixed, a, b);
   weld.frame0.position = {{1, 0, 0}};
   scene.bodies[a].gravity_scale = 0;
-  auto sim = simulation(scene);
+  return scene;
+}
+
+TEST(Loops, WeldClosesALoop) {
+  auto sim = simulation(welded_slides());
   run(*sim, 1);
   // Both fall together with half of the weight: a = g / 2.
   EXPECT_NEAR(sim->joint_state(0).velocity[0], -kG / 2, 0.02);
   EXPECT_NEAR(sim->joint_state(1).velocity[0], -kG / 2, 0.02);
 }
 
-/// How far two falling bodies, of which one alone has weight, are apart that a weld holds together.
+/// How far the two are apart after a second.
 double sag(const scene::MujocoLoop& loop) {
-  TestScene scene;
-  const auto a = scene.add_body("A", {{0, 0, 0}});
-  const auto b = scene.add_body("B", {{1, 0, 0}});
-  scene.add_joint("Rail", JointKind::Prismatic, {}, a, Axis::Z);
-  auto& rail = scene.add_joint("Rail2", JointKind::Prismatic, {}, b, Axis::Z);
-  rail.frame0.position = {{1, 0, 0}};
-  auto& weld = scene.add_joint("Weld", JointKind::Fixed, a, b);
-  weld.frame0.position = {{1, 0, 0}};
-  weld.parts.mujoco_loop = loop;
-  scene.bodies[a].gravity_scale = 0;
+  TestScene scene = welded_slides();
+  scene.joints[2].parts.mujoco_loop = loop;
   auto sim = simulation(scene);
   run(*sim, 1);
   EXPECT_TRUE(sim->not_mapped().empty());
