@@ -67,8 +67,8 @@ struct DataType {
   /// How many an Optional (0 or 1), a List or Numbers have.
   std::size_t (*items)(const void* value) = nullptr;
   const void* (*first)(const void* value) = nullptr;  ///< the first of them, where there is one
-  /// Leaves that many, new ones made; returns the first.
-  void* (*resize)(void* value, std::size_t count) = nullptr;
+  /// Leaves that many, new ones made.
+  void (*resize)(void* value, std::size_t count) = nullptr;
   void (*assign)(void* to, const void* from) = nullptr;
 
   template <class T>

@@ -72,11 +72,7 @@ void describe_list(DataType& type) {
   type.first = [](const void* value) -> const void* {
     return static_cast<const T*>(value)->data();
   };
-  type.resize = [](void* value, std::size_t count) -> void* {
-    T& list = *static_cast<T*>(value);
-    list.resize(count);
-    return list.data();
-  };
+  type.resize = [](void* value, std::size_t count) { static_cast<T*>(value)->resize(count); };
 }
 
 template <class T>
@@ -88,10 +84,12 @@ void describe_optional(DataType& type) {
     return std::size_t{static_cast<const T*>(value)->has_value() ? 1u : 0u};
   };
   type.first = [](const void* value) -> const void* { return &**static_cast<const T*>(value); };
-  type.resize = [](void* value, std::size_t count) -> void* {
+  type.resize = [](void* value, std::size_t count) {
     T& one = *static_cast<T*>(value);
     one.reset();
-    return count == 0 ? nullptr : &one.emplace();
+    if (count != 0) {
+      one.emplace();
+    }
   };
 }
 

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cstddef>
 
-#include "tenon/scene/fields/field_pairs.h"
+#include "tenon/scene/fields/patched_fields.h"
 #include "tenon/scene/fields/scene_patch.h"
 
 namespace tenon::scene {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "tenon/scene/fields/field_pairs.h"
+#include "tenon/scene/fields/patched_fields.h"
 
 namespace tenon::scene {
 namespace {

@@ -12,8 +12,8 @@
 #include <optional>
 #include <utility>
 
-#include "tenon/scene/fields/field_pairs.h"
 #include "tenon/scene/fields/near_fields.h"
+#include "tenon/scene/fields/patched_fields.h"
 #include "tenon/scene/fields/same_fields.h"
 #include "tenon/scene/fields/scene_side.h"
 

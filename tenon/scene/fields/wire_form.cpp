@@ -49,8 +49,6 @@ void add_form(const DataType& type, std::string& form) {
   }
 }
 
-void put_text(const std::string& text, wire::StringSink& sink) { wire::encode(sink, text); }
-
 void put(DataView value, wire::StringSink& sink);
 
 void put_list(DataView list, wire::StringSink& sink) {
@@ -76,10 +74,10 @@ void put(DataView value, wire::StringSink& sink) {
       wire::encode(sink, value.as<bool>());
       break;
     case DataKind::Text:
-      put_text(value.as<std::string>(), sink);
+      wire::encode(sink, value.as<std::string>());
       break;
     case DataKind::Path:
-      put_text(value.as<Path>().empty() ? std::string() : value.as<Path>().str(), sink);
+      wire::encode(sink, value.as<Path>().empty() ? std::string() : value.as<Path>().str());
       break;
     case DataKind::Optional:
       wire::encode(sink, value.size() != 0);
