@@ -16,6 +16,7 @@
 #include "batch.h"
 #include "batch_calls.h"
 #include "batch_outputs.h"
+#include "batch_record.h"
 #include "failure.h"
 #include "json.h"
 #include "numbers.h"
@@ -531,6 +532,7 @@ void bind_batch(nb::module_& module) {
   batch.def("set_gravity", &set_gravity, "values"_a);
   batch.def("energies", &energies, nb::sig("def energies(self) -> NDArray[Any]"));
   bind_outputs(batch);
+  bind_record(batch);
 }
 
 }  // namespace tenon::python

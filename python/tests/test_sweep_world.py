@@ -8,12 +8,16 @@ import io
 import json
 import math
 import unittest
+import unittest.mock
 
+import numpy as np
 from support import GRASP, ROOT, FilesTestCase, main
 
 from tenon_usd import World
-from tenon_usd.sweep import PlanError, load_plan
+from tenon_usd.errors import UnstableError
+from tenon_usd.sweep import PlanError, load_plan, simulate
 from tenon_usd.sweep.command import main as sweep
+from tenon_usd.sweep.signals import OF_ALL, OF_BODIES, OF_JOINTS, find_signal, outputs_of
 from tenon_usd.sweep.simulate import digest_of, make_runner
 from tenon_usd.sweep.work import Worker
 
@@ -56,6 +60,45 @@ def Xform "World"
 }
 """
 HEAD = 'asset = "box.usda"\nengine = "mujoco"\n'
+WITH_AXES = ("position", "velocity", "angularVelocity")
+
+
+def signals_of(body, joint):
+    """Every signal that there is."""
+    return [*(f"{name}{axis}@{body}" for name in OF_BODIES
+              for axis in ((".x", ".y", ".z") if name in WITH_AXES else ("",))),
+            *(f"{name}@{joint}" for name in OF_JOINTS), *OF_ALL]
+
+
+def read_from_world(world, signal):
+    """A signal as users read it."""
+    name, _, path = signal.partition("@")
+    name, _, axis = name.partition(".")
+    if name in OF_JOINTS:
+        drives = name == "driveEffort"
+        at = (world.drive_names if drives else world.joint_names).index(path)
+        return (world.drive_efforts() if drives else
+                world.joints()[name == "jointVelocity"])[0, at]
+    if name == "contactCount":
+        return world.contact_counts[0]
+    if name == "contactForce":
+        forces, sides = world.contacts()["normal_force"].tolist(), [world.contacts()["body0"],
+                                                                    world.contacts()["body1"]]
+        total = 0.0
+        for at, force in enumerate(forces):
+            if not path or world.body_names.index(path) in (sides[0][at], sides[1][at]):
+                total += force
+        return total
+    if not path:
+        kinetic, potential = world.energy[0]
+        return {"energy": kinetic + potential, "kineticEnergy": kinetic}.get(name, potential)
+    body = world.body_names.index(path)
+    if name == "position":
+        return world.body_poses[0, body, "xyz".index(axis)]
+    part = world.body_velocities[0, body, 3:] if name.startswith("angular") else \
+        world.body_velocities[0, body, :3]
+    x, y, z = part.tolist()
+    return part["xyz".index(axis)] if axis else math.sqrt(x * x + y * y + z * z)
 
 
 class Sweeps(FilesTestCase):
@@ -160,6 +203,93 @@ class Sweeps(FilesTestCase):
             self.assertTrue(rows[1]["rule"])
         alone = self.rows(text.replace("100, 1e12, 50", "50"))
         self.assertEqual(alone[0]["x"], rows[2]["x"])
+
+    def test_readings_between_steps_are_those_of_a_world_that_is_read_step_by_step(self):
+        signals = signals_of("/World/can", World(GRASP, "mujoco").drive_names[0])
+        for engine in ("mujoco", "jolt", "physx"):
+            worlds = [World(GRASP, engine, outputs=outputs_of(signals)) for _ in range(2)]
+            readings = [find_signal(signal, worlds[0]) for signal in signals]
+            first = worlds[0]._batch.read(readings)
+            samples, failed = worlds[0]._batch.record(readings, 403, 10)
+            self.assertEqual((samples.shape, failed), ((41, 1, len(signals)), 0))
+            for number, row in enumerate([first, *samples]):
+                found = dict(zip(signals, row[0].tolist(), strict=True))
+                asked = {signal: float(read_from_world(worlds[1], signal)) for signal in signals}
+                self.assertEqual(found, asked, (engine, number))
+                if number < 41:
+                    worlds[1].step(min(10, 403 - 10 * number))
+            self.assertEqual(*(world.time[0] for world in worlds))
+            self.assertGreater(samples[:, 0, signals.index("contactForce@/World/can")].max(), 0)
+
+    def test_environments_are_read_in_their_order(self):
+        worlds = [World(self.folder / "box.usda", "mujoco", envs=3, vary=["gravity=0.5..2"])
+                  for _ in range(2)]
+        readings = [find_signal(f"position.{axis}@/World/Box", worlds[0]) for axis in "xz"]
+        samples, failed = worlds[0]._batch.record(readings, 40, 20)
+        self.assertEqual((samples.shape, failed), ((2, 3, 2), 0))
+        for sample in samples:
+            worlds[1].step(20)
+            np.testing.assert_array_equal(sample, worlds[1].body_poses[:, 0, [0, 2]])
+
+    def test_readings_of_what_there_is_not(self):
+        batch = World(self.folder / "box.usda", "mujoco")._batch
+        for reading, error in ((("spin", 0, 0), ValueError), (("speed", 2, 0), IndexError),
+                               (("speed", 0, 1), IndexError), (("position", 0, 3), IndexError),
+                               (("jointPosition", 1, 0), IndexError),
+                               (("driveEffort", 1, 0), IndexError), (("energy", 1, 0), IndexError)):
+            with self.assertRaises(error):
+                batch.read([reading])
+        with self.assertRaises(ValueError):
+            batch.record([], 1, 0)
+
+    def test_what_is_measured_is_of_all_samples_however_many_are_read_at_once(self):
+        takes = ("first", "final", "min", "max", "mean")
+        text = ('duration = 0.503\nsample = 0.03\nstep = 0.001\n'
+                '[[vary]]\ntarget = "/World/Slide"\ngrid = [0.3]\n') + "".join(
+            f'[[metric]]\nname = "{take}"\nof = "jointVelocity@/World/Slide"\ntake = "{take}"\n'
+            for take in takes)
+        world = World(self.folder / "box.usda", "mujoco", time_step=0.001)
+        world.set_drive_targets(positions=0.3)
+        speeds = [world.joint_velocities[0, 0]]
+        for count in [30] * 16 + [23]:
+            world.step(count)
+            speeds.append(world.joint_velocities[0, 0])
+        total = 0.0
+        for speed in speeds:
+            total += speed
+        wanted = [speeds[0], speeds[-1], min(speeds), max(speeds), total / len(speeds)]
+        self.assertEqual(len(set(wanted)), 4)  # it starts as slow as it ever is
+        for block in (1, 5, simulate.BLOCK):
+            with unittest.mock.patch.object(simulate, "BLOCK", block):
+                (row,) = self.rows(text)
+            self.assertEqual([row[take] for take in takes], wanted, block)
+
+    def test_unstable_cases_end_where_a_world_does(self):
+        world = World(self.folder / "box.usda", "mujoco")
+
+        def start():
+            world.reset()
+            world.set_parameter("driveStiffness", "/World/Slide", 1e12)
+            world.set_drive_targets(positions=0.3)
+
+        start()
+        with self.assertRaises(UnstableError) as caught:
+            world.step(250)
+        for take in ("min", "final"):
+            (row,) = self.rows('duration = 0.5\n'
+                               '[[vary]]\nvalue = "driveStiffness@/World/Slide"\ngrid = [1e12]\n'
+                               '[[vary]]\ntarget = "/World/Slide"\ngrid = [0.3]\n'
+                               '[[metric]]\nname = "z"\nof = "speed@/World/Box"\n'
+                               f'take = "{take}"\n')
+            self.assertEqual((row["status"], row["time"], row["error"]),
+                             ("unstable", world.time[0], str(caught.exception)))
+            self.assertTrue(math.isnan(row["z"]))
+        start()
+        samples, failed = world._batch.record([find_signal("speed@/World/Box", world)], 250, 1)
+        self.assertEqual((failed, samples.shape), (1, (250, 1, 1)))
+        reached = round(row["time"] / world.time_step)
+        self.assertFalse(np.isnan(samples[:reached - 1]).any())
+        self.assertTrue(np.isnan(samples[reached:]).all())
 
     def test_engines_vary(self):
         rows = self.rows('duration = 0.5\n[[vary]]\nengine = ["mujoco", "jolt", "physx"]\n'

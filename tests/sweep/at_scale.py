@@ -59,7 +59,7 @@ of = "speed@/World/can"
 take = "max"
 """
 OVERHEAD = """
-import sys, time
+import statistics, sys, time
 from tenon_usd.sweep import load_plan
 from tenon_usd.sweep.simulate import make_runner
 from tenon_usd.sweep.work import Worker
@@ -67,27 +67,29 @@ worker = Worker(load_plan(sys.argv[1]), make_runner)
 worker.rows(0)
 (model,) = worker.runner._models.values()
 
-def alone():
-    spent = 0.0
-    for index in range(worker.plan.case_count):
-        case = worker.cases[index]
-        model.world.reset()
-        for setter, value in zip(model.setters, case.values):
-            setter(model.world, value)
-        start = time.process_time()
-        model.world.step(model.steps)
-        spent += time.process_time() - start
-    return spent
-
-def sweep():
+def seconds(call, *arguments):
     start = time.process_time()
-    for chunk in range(worker.plan.chunk_count):
-        worker.rows(chunk)
+    call(*arguments)
     return time.process_time() - start
 
-pairs = [(sweep(), alone()) for _ in range(5)]
-best = min(a for a, _ in pairs) / min(b for _, b in pairs) - 1
-print(f"{best:.4f} {min(b for _, b in pairs) / worker.plan.case_count:.4f}")
+def alone(index):
+    model.world.reset()
+    for setter, value in zip(model.setters, worker.cases[index].values):
+        setter(model.world, value)
+    return seconds(model.world.step, model.steps)
+
+# Each case, a chunk of its own, right beside its steps, in turn before and after them, and the
+# median of many such pairs: the rest of the machine slows down both of a pair, or one of a few.
+pairs = []
+for turn in range(6 * worker.plan.case_count):
+    index = turn // 6
+    if turn % 2:
+        bare, swept = alone(index), seconds(worker.rows, index)
+    else:
+        swept, bare = seconds(worker.rows, index), alone(index)
+    pairs.append((swept / bare, bare))
+more, bare = (statistics.median(column) for column in zip(*pairs))
+print(f"{more - 1:.4f} {bare:.4f}")
 """
 
 
@@ -228,7 +230,7 @@ def overhead(place):
     """How much longer a case takes than its steps alone, and how long these are, in CPU seconds."""
     plan = place.folder / "long.toml"
     plan.write_text(PLAN.replace("duration = 0.1", "duration = 3.5")
-                    .replace("samples = 100", "samples = 1"))
+                    .replace("samples = 100", "samples = 1").replace("chunk = 20", "chunk = 1"))
     done = subprocess.run([sys.executable, "-c", OVERHEAD, plan], env=place.environment,
                           capture_output=True, text=True, check=True)
     return map(float, done.stdout.split())

@@ -36,39 +36,9 @@ class UnknownName(LookupError):
     """A signal or a number that there is not, or an object that the asset has not."""
 
 
-class Snapshot:
-    """Readings of a world at one time, each asked for once."""
-
-    def __init__(self, world: World) -> None:
-        self._batch = world._batch
-        self._known: dict[str, Any] = {}
-
-    def _once(self, name: str, ask: Callable[[], Any]) -> Any:
-        if name not in self._known:
-            self._known[name] = ask()
-        return self._known[name]
-
-    def bodies(self) -> Any:
-        """Poses (1, bodies, 7) and velocities (1, bodies, 6)."""
-        return self._once("bodies", self._batch.body_states)
-
-    def joints(self) -> Any:
-        return self._once("joints", self._batch.joints)
-
-    def energies(self) -> Any:
-        return self._once("energies", self._batch.energies)
-
-    def efforts(self) -> Any:
-        return self._once("efforts", self._batch.drive_efforts)
-
-    def contact_count(self) -> float:
-        return float(self._once("count", self._batch.contact_counts)[0])
-
-    def contacts(self) -> Any:
-        return self._once("contacts", lambda: self._batch.contacts(0))
-
-
-Signal = Callable[[Snapshot], float]
+#: What _tenon.Batch.read() and record() are asked for: a name, the number of the body, joint
+#: coordinate or drive (0 where there is none), and an axis from 0.
+Signal = tuple[str, int, int]
 
 
 def outputs_of(signals: Sequence[str]) -> list[str]:
@@ -91,41 +61,12 @@ def _axis(name: str, axis: str) -> int:
     return AXES[axis]
 
 
-def _norm(values: Any) -> float:
-    x, y, z = values.tolist()
-    return math.sqrt(x * x + y * y + z * z)
-
-
-def _force_on(body: int) -> Signal:
-    def force(at: Snapshot) -> float:
-        found = at.contacts()
-        touches = (found["body0"] == body) | (found["body1"] == body)
-        return float(found["normal_force"][touches].sum())
-    return force
-
-
 def _of_body(name: str, axis: str, body: int) -> Signal:
-    if name == "position":
-        part = _axis(name, axis)
-        return lambda at: float(at.bodies()[0][0, body, part])
-    if name in ("velocity", "angularVelocity"):
-        turn = 3 * (name == "angularVelocity") + _axis(name, axis)
-        return lambda at: float(at.bodies()[1][0, body, turn])
+    if name in ("position", "velocity", "angularVelocity"):
+        return name, body, _axis(name, axis)
     if axis:
         raise UnknownName(f"{name} has no axis")
-    if name == "contactForce":
-        return _force_on(body)
-    start = 3 * (name == "angularSpeed")
-    return lambda at: _norm(at.bodies()[1][0, body, start:start + 3])
-
-
-def _of_all(name: str) -> Signal:
-    if name == "contactCount":
-        return lambda at: at.contact_count()
-    if name == "contactForce":
-        return lambda at: float(at.contacts()["normal_force"].sum())
-    parts = {"kineticEnergy": slice(0, 1), "potentialEnergy": slice(1, 2)}.get(name, slice(0, 2))
-    return lambda at: float(at.energies()[0, parts].sum())
+    return name, body, 0
 
 
 def find_signal(text: str, world: World) -> Signal:
@@ -134,15 +75,13 @@ def find_signal(text: str, world: World) -> Signal:
     name, _, path = text.partition("@")
     name, _, axis = name.partition(".")
     if not path and not axis and name in OF_ALL:
-        return _of_all(name)
+        return "contactForceOfAll" if name == "contactForce" else name, 0, 0
     if name in OF_BODIES and path:
         return _of_body(name, axis, _at(world.body_names, path, "body"))
     if name in OF_JOINTS and path and not axis:
         if name == "driveEffort":
-            drive = _at(world.drive_names, path, "drive")
-            return lambda at: float(at.efforts()[0, drive])
-        joint, part = _at(world.joint_names, path, "joint"), int(name == "jointVelocity")
-        return lambda at: float(at.joints()[part][0, joint])
+            return name, _at(world.drive_names, path, "drive"), 0
+        return name, _at(world.joint_names, path, "joint"), 0
     raise UnknownName(f"there is no signal {text!r}; there are " + ", ".join(
         [*(f"{each}@BODY" for each in OF_BODIES), *(f"{each}@JOINT" for each in OF_JOINTS),
          *OF_ALL]))

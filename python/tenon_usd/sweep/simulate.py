@@ -17,10 +17,12 @@ from ..errors import Error, FileError, NotFoundError
 from ..world import World
 from .cases import Case, Cases
 from .plan import Fault, Metric, Plan, PlanError, Vary
-from .signals import Signal, Snapshot, UnknownName, find_setter, find_signal, outputs_of
+from .signals import UnknownName, find_setter, find_signal, outputs_of
 from .work import FAILED, MISSING, OK, UNSTABLE, Outcome
 
 KEPT_MODELS = 8
+#: Readings that are taken at once, so that long cases take no more memory than short ones.
+BLOCK = 1024
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,8 +70,11 @@ class Model:
                         else find_setter(row.kind, row.target, self.world) for row in plan.vary]
         self.signals = [find_signal(metric.of, self.world) for metric in plan.metrics]
         self.metrics = plan.metrics
-        #: Those that one reading at the end does not tell.
-        self.sampled = [at for at, metric in enumerate(plan.metrics) if metric.take != "final"]
+        takes = [metric.take for metric in plan.metrics]
+        #: Metrics that are read at the start, with each sample and at the end.
+        self.first = [at for at, take in enumerate(takes) if take != "final"]
+        self.sampled = [at for at, take in enumerate(takes) if take in ("min", "max", "mean")]
+        self.final = [at for at, take in enumerate(takes) if take == "final"]
 
     def run(self, case: Case) -> Outcome:
         """Errors: Error, of a value that cannot be used."""
@@ -80,23 +85,25 @@ class Model:
         takes = [_Take(metric) for metric in self.metrics]
         batch, done = self.world._batch, 0
         stride = self.every if self.sampled else max(self.steps, 1)
-        self._measure(takes, self.sampled)
+        sampled = [self.signals[at] for at in self.sampled]
+        self._read(takes, self.first)
         while done < self.steps:
-            count = min(stride, self.steps - done)
-            if batch.step(count):
+            count = min(BLOCK * stride, self.steps - done)
+            samples, failed = batch.record(sampled, count, stride)
+            if failed:
                 reason = batch.failures()[0]
                 assert reason is not None
                 return Outcome(UNSTABLE, float(batch.times()[0]), (), reason.rule, str(reason))
             done += count
-            self._measure(takes, self.sampled)
-        self._measure(takes, [at for at in range(len(takes)) if at not in self.sampled])
+            for at, values in zip(self.sampled, samples[:, 0].T.tolist(), strict=True):
+                takes[at].add(values)
+        self._read(takes, self.final)
         return Outcome(OK, float(batch.times()[0]), tuple(take.value() for take in takes))
 
-    def _measure(self, takes: Sequence[_Take], which: Sequence[int]) -> None:
-        if which:
-            at = Snapshot(self.world)
-            for number in which:
-                takes[number].add(self.signals[number](at))
+    def _read(self, takes: Sequence[_Take], which: Sequence[int]) -> None:
+        values = self.world._batch.read([self.signals[at] for at in which])[0].tolist()
+        for at, value in zip(which, values, strict=True):
+            takes[at].add([value])
 
 
 class _Take:
@@ -107,19 +114,21 @@ class _Take:
         self.number = math.nan
         self.sum, self.count = 0.0, 0
 
-    def add(self, value: float) -> None:
-        first = self.count == 0
-        self.count += 1
-        self.sum += value
-        if first:
-            self.number = value
-        elif self.take == "min":
-            self.number = min(self.number, value)
+    def add(self, values: Sequence[float]) -> None:
+        """The next samples, at least one."""
+        if self.count == 0:
+            self.number = values[0]
+        self.count += len(values)
+        if self.take == "min":
+            self.number = min(self.number, *values)
         elif self.take == "max":
-            self.number = max(self.number, value)
+            self.number = max(self.number, *values)
+        elif self.take == "mean":
+            for value in values:  # in their order: sum() adds otherwise from Python 3.12 on
+                self.sum += value
 
     def value(self) -> float:
-        return self.sum / self.count if self.take == "mean" and self.count else self.number
+        return self.sum / self.count if self.take == "mean" else self.number
 
 
 class Simulator:
