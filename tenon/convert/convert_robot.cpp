@@ -8,6 +8,7 @@
 #include "tenon/convert/link_prims.h"
 #include "tenon/convert/loops.h"
 #include "tenon/convert/mujoco_parts.h"
+#include "tenon/convert/mujoco_sensors.h"
 #include "tenon/convert/physics_scene.h"
 #include "tenon/convert/prepare_joints.h"
 #include "tenon/convert/robot_layer.h"
@@ -45,8 +46,9 @@ Result<LayerAndImages> write_robot(const Source& source, Diagnostics& diagnostic
   const JointPrims joints = write_joints(source, links, physics);
   write_contact_classes(physics, model.contact_classes, shapes.prims().contact_members);
   write_loops(model.loops, links, physics);
-  write_mujoco_parts(model.mujoco, joints, shapes.prims(), physics);
-  write_sensors(source, links, joints, shapes.prims(), layer);
+  const MujocoPrims mujoco = write_mujoco_parts(model.mujoco, joints, shapes.prims(), physics);
+  const InstrumentPrims instruments = write_sensors(source, links, joints, shapes.prims(), layer);
+  write_mujoco_sensors(source, {links, joints, shapes.prims(), mujoco, instruments}, physics);
   write_scene(source, physics);
   write_robot_metadata(source, links, joints, layer);
   return LayerAndImages{layer.take(), materials.take_images()};

@@ -157,8 +157,8 @@ Path write_fixed_base(Path root, PhysicsScope& physics) {
 }
 
 /// What a joint follows, or what drives it.
-void write_motion(const Source& source, const robot::Joint& joint, Path path,
-                  const JointPrims& prims, PhysicsScope& physics) {
+void write_motion(const Source& source, const robot::Joint& joint, Path path, JointPrims& prims,
+                  PhysicsScope& physics) {
   JointPrinter printer(physics.builder(), path, joint, axis_turn(joint.axis).token, source.options);
   if (joint.mimic) {
     const robot::Joint& leader = source.model.joints[joint.mimic->leader];
@@ -168,6 +168,7 @@ void write_motion(const Source& source, const robot::Joint& joint, Path path,
     const Token name = physics.free_name(own.empty() ? joint.name + "_actuator" : own);
     printer.print_actuator(physics.path(), name);
     physics.layer().show_name(physics.path().child(name), own);
+    prims.actuators.emplace(own, physics.path().child(name));
   }
 }
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tenon/convert/link_prims.h"
@@ -13,8 +15,9 @@ namespace tenon::convert {
 
 /// What joints are on the stage.
 struct JointPrims {
-  std::vector<Path> joints;  ///< (joint_count), empty: no prim
-  std::optional<Path> base;  ///< the joint that holds the root in the world
+  std::vector<Path> joints;                 ///< (joint_count), empty: no prim
+  std::optional<Path> base;                 ///< the joint that holds the root in the world
+  std::map<std::string, Path> actuators{};  ///< of drives, by the names that descriptions give
 };
 
 /// Writes joints with all their numbers, and actuators of their drives. Reports joints that are

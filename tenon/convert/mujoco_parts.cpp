@@ -12,7 +12,7 @@ using robot::MujocoActuator;
 
 namespace {
 
-void write_motor(PhysicsScope& physics, const MujocoActuator& actuator, Path target) {
+Path write_motor(PhysicsScope& physics, const MujocoActuator& actuator, Path target) {
   constexpr const char* kType = "MjcActuator";
   LayerBuilder& builder = physics.builder();
   const Path path = physics.define(actuator.name, kType);
@@ -34,6 +34,7 @@ void write_motor(PhysicsScope& physics, const MujocoActuator& actuator, Path tar
   write_range(builder, path, kType, "mjc:ctrlRange", "mjc:ctrlLimited", actuator.control_range);
   write_range(builder, path, kType, "mjc:forceRange", "mjc:forceLimited", actuator.force_range);
   builder.set_targets(path, kType, "mjc:target", {target});
+  return path;
 }
 
 void write_keyframe(PhysicsScope& physics, const robot::MujocoKeyframe& frame) {
@@ -52,23 +53,26 @@ void write_keyframe(PhysicsScope& physics, const robot::MujocoKeyframe& frame) {
 
 }  // namespace
 
-void write_mujoco_parts(const robot::MujocoParts& parts, const JointPrims& joints,
-                        const ShapePrims& shapes, PhysicsScope& physics) {
+MujocoPrims write_mujoco_parts(const robot::MujocoParts& parts, const JointPrims& joints,
+                               const ShapePrims& shapes, PhysicsScope& physics) {
+  MujocoPrims prims;
   TendonWriter writer(joints.joints, shapes, physics);
   std::vector<Path> tendons;
   for (const robot::MujocoTendon& tendon : parts.tendons) {
     tendons.push_back(writer.write(tendon));
+    prims.tendons.emplace(tendon.name, tendons.back());
   }
   for (const MujocoActuator& actuator : parts.actuators) {
     const bool joint = actuator.kind == MujocoActuator::Target::Joint;
     const Path target = joint ? joints.joints[actuator.target] : tendons[actuator.target];
     if (!target.empty()) {
-      write_motor(physics, actuator, target);
+      prims.actuators.emplace(actuator.name, write_motor(physics, actuator, target));
     }
   }
   for (const robot::MujocoKeyframe& frame : parts.keyframes) {
     write_keyframe(physics, frame);
   }
+  return prims;
 }
 
 }  // namespace tenon::convert

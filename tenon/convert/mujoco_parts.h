@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "tenon/convert/joints.h"
 #include "tenon/convert/robot_layer.h"
 #include "tenon/convert/shapes/shape_writer.h"
@@ -9,9 +12,15 @@
 /// Internal to this folder.
 namespace tenon::convert {
 
+/// By the names that the description gives.
+struct MujocoPrims {
+  std::map<std::string, Path> tendons;
+  std::map<std::string, Path> actuators;  ///< those that are no drives
+};
+
 /// Writes tendons, actuators that are no drives, and keyframes. Actuators of what has no prim are
 /// left out.
-void write_mujoco_parts(const robot::MujocoParts& parts, const JointPrims& joints,
-                        const ShapePrims& shapes, PhysicsScope& physics);
+MujocoPrims write_mujoco_parts(const robot::MujocoParts& parts, const JointPrims& joints,
+                               const ShapePrims& shapes, PhysicsScope& physics);
 
 }  // namespace tenon::convert

@@ -22,7 +22,7 @@ void mark_sensor(LayerBuilder& builder, Path prim, const char* kind) {
 }
 
 /// All rays begin at the site.
-void write_rays(RobotLayer& layer, Path site, const SiteSensor& sensor, NameScope& names) {
+Path write_rays(RobotLayer& layer, Path site, const SiteSensor& sensor, NameScope& names) {
   const Token type("IsaacRaycastSensor");
   LayerBuilder& builder = layer.builder();
   const Path prim = layer.define(site, names, sensor.name.empty() ? "rays" : sensor.name, type);
@@ -41,22 +41,23 @@ void write_rays(RobotLayer& layer, Path site, const SiteSensor& sensor, NameScop
   builder.set_value(prim, type, "rayOrigins",
                     Value(std::vector<Vec3f>(directions.size(), Vec3f{})));
   builder.set_value(prim, type, "rayDirections", Value(std::move(directions)));
+  return prim;
 }
 
-void write_site_sensor(RobotLayer& layer, Path site, const SiteSensor& sensor, NameScope& names) {
+Path write_site_sensor(RobotLayer& layer, Path site, const SiteSensor& sensor, NameScope& names) {
   LayerBuilder& builder = layer.builder();
   if (is_force_torque(sensor)) {
     mark_sensor(builder, site, "forceTorque");
-    return;
+    return site;
   }
   if (sensor.kind == SiteSensorKind::Frame) {
     const std::string name = sensor.name.empty() ? "frame" : sensor.name;
-    mark_sensor(builder, layer.define(site, names, name, "Xform"), "frame");
-    return;
+    const Path prim = layer.define(site, names, name, "Xform");
+    mark_sensor(builder, prim, "frame");
+    return prim;
   }
   if (sensor.kind == SiteSensorKind::Rays) {
-    write_rays(layer, site, sensor, names);
-    return;
+    return write_rays(layer, site, sensor, names);
   }
   const bool contact = sensor.kind == SiteSensorKind::Contact;
   const Token type(contact ? "IsaacContactSensor" : "IsaacImuSensor");
@@ -70,6 +71,7 @@ void write_site_sensor(RobotLayer& layer, Path site, const SiteSensor& sensor, N
     builder.set_value(prim, type, "threshold",
                       Value(Vec2f{{0, std::numeric_limits<float>::infinity()}}));
   }
+  return prim;
 }
 
 }  // namespace
@@ -91,8 +93,10 @@ void drop_merged_sensors(robot::RobotModel& model, Diagnostics& diagnostics) {
   }
 }
 
-void write_sensors(const Source& source, const LinkPrims& links, const JointPrims& joints,
-                   const ShapePrims& shapes, RobotLayer& layer) {
+InstrumentPrims write_sensors(const Source& source, const LinkPrims& links,
+                              const JointPrims& joints, const ShapePrims& shapes,
+                              RobotLayer& layer) {
+  InstrumentPrims instruments;
   for (robot::Index i = 0; i < source.model.links.size(); ++i) {
     for (const robot::Site& site : source.model.links[i].sites) {
       const auto prim = shapes.sites.find(site.name);
@@ -108,7 +112,8 @@ void write_sensors(const Source& source, const LinkPrims& links, const JointPrim
                        "give the link a mass");
           continue;
         }
-        write_site_sensor(layer, prim->second, sensor, names);
+        instruments.emplace(std::pair(site.name, sensor.kind),
+                            write_site_sensor(layer, prim->second, sensor, names));
       }
     }
   }
@@ -117,6 +122,7 @@ void write_sensors(const Source& source, const LinkPrims& links, const JointPrim
       mark_sensor(layer.builder(), joints.joints[j], "joint");
     }
   }
+  return instruments;
 }
 
 }  // namespace tenon::convert

@@ -19,12 +19,16 @@ robot::RobotModel assembled(RobotTree& tree, Looks looks) {
   return robot;
 }
 
-/// What is not simulated, as it reads rays, light or radar.
+bool is_of_mujoco(const stage::Prim& prim) { return prim.type_name() == "TenonMujocoSensor"; }
+
+/// What is not simulated, as it reads rays, light or radar, or is of MuJoCo's models alone.
 void leave_out_other_sensors(SceneSource& source, const stage::Stage& stage,
                              const scene::PhysicsScene& scene) {
   for (const scene::NotRead& row : scene.not_read) {
     const stage::Prim prim = stage.prim(row.prim);
-    if (prim && prim.is_a("IsaacBaseSensor") && prim.type_name().view() == row.property) {
+    const bool is_sensor =
+        prim && (prim.is_a("IsaacBaseSensor") || (!source.is_mjcf() && is_of_mujoco(prim)));
+    if (is_sensor && prim.type_name().view() == row.property) {
       source.left_out(row.prim, "it is a sensor that is not simulated");
     }
   }

@@ -46,6 +46,15 @@ std::string body(const std::string& name, const std::string& contents) {
          contents + "}\n";
 }
 
+TEST(DescribeRobot, NamesSensorsOfMujocoThatURDFHasNot) {
+  const Described found = describe(
+      body("a", "") +
+      "def TenonMujocoSensor \"clock\" {\ncustom token tenon:mujoco:sensor = \"clock\"\n}\n");
+  ASSERT_TRUE(found.model) << found.model.error().to_string();
+  ASSERT_EQ(found.findings.items().size(), 1u);
+  EXPECT_EQ(found.findings.items()[0].prim, "/r/clock");
+}
+
 TEST(DescribeRobot, AJointWrittenFromChildToParentTurnsTheOtherWay) {
   const Described found = describe(
       body("a", "") +

@@ -23,6 +23,15 @@ bool is_unseen(const stage::Prim& prim) {
          (visibility && *visibility == "invisible");
 }
 
+std::optional<robot::MujocoVolume> read_volume(const stage::Prim& site) {
+  const auto type = site.attribute("tenon:mujoco:type").get_as<Token>();
+  const auto size = site.attribute("tenon:mujoco:size").get_as<layer::Array<double>>();
+  if (!type || !size || size->size() != 3) {
+    return std::nullopt;
+  }
+  return robot::MujocoVolume{type->str(), {(*size)[0], (*size)[1], (*size)[2]}};
+}
+
 /// A walk over the stage.
 class VisualWalk {
  public:
@@ -126,7 +135,8 @@ void VisualWalk::add_site(Place& place) {
 void VisualWalk::note_site(const Place& place) {
   if (const std::optional<Index> link = place.link ? place.link : tree_.world()) {
     const Pose pose = inverse(tree_.pose(*link)) * source_.placed(place.prim).pose;
-    tree_.links()[*link].sites.push_back({place.prim.path().str(), pose});
+    tree_.links()[*link].sites.push_back(
+        {place.prim.path().str(), pose, {}, read_volume(place.prim)});
   }
 }
 
@@ -150,7 +160,7 @@ void VisualWalk::add_visual(const stage::Prim& prim, std::optional<Index> link) 
     meshes_.push_back(std::move(*shape->mesh));
   }
   robot::Visual visual;
-  visual.name = source_.name_of(prim.path(), "visual");
+  visual.name = source_.is_mjcf() ? prim.path().str() : source_.name_of(prim.path(), "visual");
   visual.pose = shape->pose;
   visual.geometry = shape->geometry;
   visual.material = materials_.material_of(prim);

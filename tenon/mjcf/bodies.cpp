@@ -5,6 +5,7 @@
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/math/inertia.h"
 #include "tenon/mjcf/joints.h"
+#include "tenon/mjcf/sensors/site_volume.h"
 
 namespace tenon::mjcf {
 
@@ -106,7 +107,9 @@ void add_sites(const MjcfSource& source, BodyTree& tree) {
     const auto body = static_cast<std::size_t>(model.site_bodyid[at]);
     tree.links[tree.link_of_body[body]].sites.push_back(
         {source.name(mjOBJ_SITE, site, "site"),
-         {read_vector(model.site_pos + 3 * at), read_quaternion(model.site_quat + 4 * at)}});
+         {read_vector(model.site_pos + 3 * at), read_quaternion(model.site_quat + 4 * at)},
+         {},
+         site_volume(model, at)});
   }
 }
 

@@ -128,7 +128,7 @@ robot::RobotModel read_model(MjcfSource& source) {
   Equalities equalities = read_equalities(source, tree);
   attach_drives(actuators, tree.joints);
   attach_mimics(equalities, tree.joints);
-  read_sensors(source, tree);
+  robot.mujoco.sensors = read_sensors(source, tree);
   read_cameras_and_lights(source, tree);
   robot.mujoco.keyframes = read_keyframes(source, actuators, tree.joints);
   robot.mujoco.scene = read_scene(source);

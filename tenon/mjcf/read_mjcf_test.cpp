@@ -219,7 +219,7 @@ TEST_F(ReadMjcf, TakesLoopsTendonsAndKeyframesAndNamesLinesOfTheRest) {
   EXPECT_EQ(model->mujoco.keyframes[0].controls, (std::vector<double>{0.25, 2}));
   EXPECT_TRUE(model->joints[0].measured);
   EXPECT_FALSE(model->joints[1].measured);
-  EXPECT_EQ(found(), "mjcf.reference;mjcf.left-out;mjcf.left-out;");
+  EXPECT_EQ(found(), "mjcf.reference;mjcf.left-out;mjcf.sensor;");
   EXPECT_EQ(findings_.items()[1].line, 3u);  // the tendon that begins with a pulley
   EXPECT_EQ(findings_.items()[2].line, 4u);  // the sensor of time
 }
@@ -243,9 +243,9 @@ TEST_F(ReadMjcf, TakesSensorsOfSitesAndJointsAndNamesLinesOfTheRest) {
   EXPECT_EQ(sensors[2].radius, 0.05);
   EXPECT_TRUE(model->links[1].sites.at(1).sensors.empty());
   EXPECT_TRUE(model->joints[0].measured);
-  EXPECT_EQ(found(), "mjcf.left-out;mjcf.left-out;mjcf.left-out;mjcf.touch;");
+  EXPECT_EQ(found(), "mjcf.sensor;mjcf.sensor;mjcf.sensor;mjcf.touch;");
   EXPECT_EQ(findings_.items()[0].line, 8u);  // what there is no form for: box, free, clock
-  EXPECT_NE(findings_.items()[0].message.find("3 sensors left out"), std::string::npos);
+  EXPECT_NE(findings_.items()[0].message.find("3 sensors are kept"), std::string::npos);
   EXPECT_EQ(findings_.items()[1].line, 4u);  // the cutoff
   EXPECT_EQ(findings_.items()[2].line, 5u);  // the noise
 }

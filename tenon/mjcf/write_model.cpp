@@ -25,6 +25,8 @@
 #include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/engines/mujoco/writable_model.h"
 #include "tenon/mjcf/seen/write_cameras.h"
+#include "tenon/mjcf/sensors/site_volume.h"
+#include "tenon/mjcf/sensors/write_kept_sensors.h"
 #include "tenon/mjcf/sensors/write_sensors.h"
 #include "tenon/mjcf/text/write_text.h"
 #include "tenon/mjcf/write_actuators.h"
@@ -90,8 +92,10 @@ class VisualWriter {
                Diagnostics& diagnostics)
       : visuals_(visuals), model_(model), spec_(spec), diagnostics_(diagnostics) {}
 
-  /// Other names for geoms, by theirs: of what they show.
+  /// Prims that geoms show, by the names of these geoms.
   const std::map<std::string, std::string, std::less<>>& names() const { return names_; }
+  /// The geoms that show prims, by the paths of these.
+  const std::map<std::string, mjsGeom*>& geoms() const { return geoms_; }
 
   void run(const scene::PhysicsScene& scene) {
     for (mjsElement* at = mjs_firstElement(&spec_, mjOBJ_GEOM); at != nullptr;
@@ -278,6 +282,7 @@ class VisualWriter {
     if (visual.material) {
       mjs_setString(geom->material, visuals_.materials[*visual.material].name.c_str());
     }
+    geoms_[visual.name] = geom;
     if (!is_mesh) {
       show_collider(body, visual, geom);
     }
@@ -297,6 +302,7 @@ class VisualWriter {
         mjs_setString(geom->material, visuals_.materials[*visual.material].name.c_str());
       }
       names_.emplace(mjs_getString(mjs_getName(at)), visual.name);
+      geoms_[visual.name] = geom;
       mjs_delete(&spec_, seen->element);
       return;
     }
@@ -322,10 +328,11 @@ class VisualWriter {
   mjSpec& spec_;
   Diagnostics& diagnostics_;
   std::map<std::string, std::string, std::less<>> names_;
+  std::map<std::string, mjsGeom*> geoms_;
   std::vector<robot::Index> made_;  // meshes, by the number in their names
 };
 
-/// Named frames that nothing in the physics has made a site of.
+/// Named frames, those that nothing in the physics has made a site of too.
 void add_sites(const robot::RobotModel& visuals, const scene::PhysicsScene& scene,
                const engines::mujoco::Model& model, mjSpec& spec) {
   for (std::size_t i = 0; i < visuals.links.size(); ++i) {
@@ -333,14 +340,20 @@ void add_sites(const robot::RobotModel& visuals, const scene::PhysicsScene& scen
     mjsBody* body = mjs_findBody(&spec, is_body ? scene.bodies[i].path.str().c_str() : "world");
     const Pose frame = is_body ? inverse(model.bodies[i].engine_frame) : Pose{};
     for (const robot::Site& site : visuals.links[i].sites) {
-      if (body == nullptr || mjs_findElement(&spec, mjOBJ_SITE, site.name.c_str()) != nullptr) {
+      mjsElement* known = mjs_findElement(&spec, mjOBJ_SITE, site.name.c_str());
+      if (body == nullptr) {
         continue;
       }
-      mjsSite* made = mjs_addSite(body, nullptr);
-      mjs_setName(made->element, site.name.c_str());
-      const Pose pose = frame * site.pose;
-      write_vector(made->pos, pose.position);
-      write_quaternion(made->quat, normalized(pose.orientation));
+      mjsSite* made = known == nullptr ? mjs_addSite(body, nullptr) : mjs_asSite(known);
+      if (known == nullptr) {
+        mjs_setName(made->element, site.name.c_str());
+        const Pose pose = frame * site.pose;
+        write_vector(made->pos, pose.position);
+        write_quaternion(made->quat, normalized(pose.orientation));
+      }
+      if (site.volume) {
+        set_site_volume(*made, *site.volume);
+      }
     }
   }
 }
@@ -371,6 +384,18 @@ Result<engines::mujoco::SpecAndModel> make_model(const scene::PhysicsScene& scen
   return engines::mujoco::writable_model(without_actuators(scene, parts), {}, diagnostics);
 }
 
+/// Findings that are not there yet.
+void append_new(const Diagnostics& from, Diagnostics& to) {
+  for (const Diagnostic& finding : from) {
+    const bool known = std::any_of(to.begin(), to.end(), [&](const Diagnostic& other) {
+      return other.prim == finding.prim && other.message == finding.message;
+    });
+    if (!known) {
+      to.add(finding);
+    }
+  }
+}
+
 }  // namespace
 
 Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::RobotModel& visuals,
@@ -383,7 +408,6 @@ Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::R
   }
   TENON_TRY(const std::vector<mjsActuator*> made,
             write_actuators(scene, parts.actuators, built.model, *built.spec, diagnostics));
-  write_sensors(scene, built.model, *built.spec, diagnostics);
   add_sites(visuals, scene, built.model, *built.spec);
   TENON_CHECK(write_keyframes(scene, parts, made, built.model, *built.spec, diagnostics));
   const bool sees = !visuals.links.empty();
@@ -393,16 +417,27 @@ Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::R
     writer.run(scene);
     write_cameras_and_lights(visuals, scene, built.model, *built.spec, seen);
   }
+  Diagnostics measured;
+  KeptSensorWriter kept(scene, built.model, writer.geoms(), *built.spec, measured);
+  write_sensors(scene, kept.add(parts.sensors), built.model, *built.spec, measured);
   Files files(images);
-  mjModel* compiled = nullptr;
-  TENON_CHECK(guarded([&] { compiled = mj_compile(built.spec.get(), files.get()); }));
-  if (compiled != nullptr) {
+  const auto compiles = [&]() -> Result<bool> {
+    mjModel* compiled = nullptr;
+    TENON_CHECK(guarded([&] { compiled = mj_compile(built.spec.get(), files.get()); }));
     mj_deleteModel(compiled);
+    return compiled != nullptr;
+  };
+  TENON_TRY(bool fits, compiles());
+  if (!fits) {
+    TENON_TRY(fits, kept.retry(compiles));
+  }
+  if (fits) {
     diagnostics.append(seen);
+    diagnostics.append(measured);
     TENON_TRY(const std::string text, engines::mujoco::text_of(*built.spec));
     return finished_text(text, [&](std::string_view prim) {
       const auto shown = writer.names().find(prim);
-      return shown == writer.names().end() ? name_of(prim) : shown->second;
+      return name_of(shown == writer.names().end() ? prim : std::string_view(shown->second));
     });
   }
   if (!sees) {
@@ -416,7 +451,9 @@ Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::R
   Diagnostics again;
   robot::RobotModel nothing;
   nothing.name = visuals.name;
-  return write_model(scene, nothing, {}, parts, name_of, again);
+  auto text = write_model(scene, nothing, {}, parts, name_of, again);
+  append_new(again, diagnostics);
+  return text;
 }
 
 }  // namespace tenon::mjcf

@@ -44,6 +44,7 @@ constexpr KindOfType kKinds[] = {
     {"PointInstancer", PrimKind::PointInstancer},
     {"MjcActuator", PrimKind::Actuator},
     {"MjcTendon", PrimKind::Tendon},
+    {"TenonMujocoSensor", PrimKind::MujocoSensor},
     {"IsaacContactSensor", PrimKind::ContactSensor},
     {"IsaacImuSensor", PrimKind::ImuSensor},
     {"IsaacRaycastSensor", PrimKind::RaycastSensor},

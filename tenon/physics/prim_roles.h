@@ -45,8 +45,9 @@ enum class PrimKind : std::uint8_t {
   PointInstancer,
   Actuator,
   Tendon,
-  GearJoint,  ///< of PhysX: couples two hinges
-  RackJoint,  ///< of PhysX: couples a hinge and a slide
+  MujocoSensor,  ///< one of MuJoCo's models, beside the instrument that measures it
+  GearJoint,     ///< of PhysX: couples two hinges
+  RackJoint,     ///< of PhysX: couples a hinge and a slide
   ContactSensor,
   ImuSensor,
   RaycastSensor,

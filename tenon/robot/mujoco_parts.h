@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tenon/robot/site_sensor.h"
+
 /// What MuJoCo's models have beside the tree, in MuJoCo's words and units (SI, radians).
 namespace tenon::robot {
 
@@ -92,6 +94,31 @@ struct MujocoScene {
   std::vector<MujocoSetting> settings;         ///< options and flags that are not MuJoCo's defaults
 };
 
+/// The shape of a site, in which some sensors look for things.
+struct MujocoVolume {
+  std::string type;              ///< MuJoCo's word: "sphere", "box"
+  std::array<double, 3> size{};  ///< as MuJoCo counts it for the type [m]
+};
+
+/// What one of MuJoCo's sensors is of: MuJoCo's word for its kind ("site", "xbody", "geom") and its
+/// name in the description. Both empty: nothing.
+struct MujocoThing {
+  std::string kind;
+  std::string name;
+};
+
+/// One of MuJoCo's sensors, as it is written.
+struct MujocoSensor {
+  std::string name;                     ///< empty: none given
+  std::string kind;                     ///< the element: "framepos"
+  MujocoThing object;                   ///< what is measured
+  MujocoThing reference;                ///< in whose frame, or from where
+  std::vector<MujocoSetting> settings;  ///< by mjsSensor's names, those that are not its defaults
+  /// What measures it in runs: a site with that sensor, or a joint. None, empty: nothing does.
+  MujocoThing instrument{};
+  SiteSensorKind instrument_kind = SiteSensorKind::Imu;
+};
+
 /// A state of the whole model. Positions of hinges and slides count from where the bodies stand as
 /// written.
 struct MujocoKeyframe {
@@ -114,6 +141,7 @@ struct MujocoSource {
 struct MujocoParts {
   std::vector<MujocoActuator> actuators;
   std::vector<MujocoTendon> tendons;
+  std::vector<MujocoSensor> sensors;
   std::vector<MujocoKeyframe> keyframes;
   std::optional<MujocoScene> scene;
   MujocoSource source;

@@ -16,13 +16,13 @@
 #include "tenon/robot/cameras_and_lights.h"
 #include "tenon/robot/joint_quantity.h"
 #include "tenon/robot/mujoco_parts.h"
+#include "tenon/robot/site_sensor.h"
 
 /// A robot as its description says, before it is a scene: what readers of robot formats make and
 /// writers take. Plain structs in metres, kilograms, seconds and radians; knows no format, no USD
 /// and no engine. Things refer to each other by index.
 namespace tenon::robot {
 
-inline constexpr double kUnlimited = kInfinity;
 using Index = std::uint32_t;
 
 /// Where the description says something; zeros where that is unknown.
@@ -142,31 +142,12 @@ struct MeshFile {
   std::vector<Vec2f> texture_coordinates{};
 };
 
-enum class SiteSensorKind : std::uint8_t {
-  Imu,          ///< acceleration, angular velocity, orientation
-  Contact,      ///< contacts of the link within `radius`
-  ForceTorque,  ///< what carries the link exerts on it
-  Frame,        ///< where the site is and how it moves
-  Rays,         ///< how far along `directions` something is
-};
-
-/// What is measured at a site, along its axes.
-struct SiteSensor {
-  std::string name;
-  SiteSensorKind kind = SiteSensorKind::Imu;
-  double radius = 0;  ///< of Contact [m]; below 0: the whole link
-  double period = 0;  ///< from one measurement to the next [s]; 0: always
-  // Of Rays.
-  std::vector<Vec3d> directions{};  ///< unit
-  double min_range = 0;             ///< nearer is nothing [m]
-  double max_range = kUnlimited;    ///< farther is nothing [m]
-};
-
 /// A named frame on a link.
 struct Site {
   std::string name;
-  Pose pose;                          ///< in the link frame
-  std::vector<SiteSensor> sensors{};  ///< one of each kind at most
+  Pose pose;                             ///< in the link frame
+  std::vector<SiteSensor> sensors{};     ///< one of each kind at most
+  std::optional<MujocoVolume> volume{};  ///< that it has in MuJoCo, where not the default
 };
 
 struct Link {

@@ -61,6 +61,9 @@ TEST(Layout, PropertiesGoByPrefixThenBySchema) {
   EXPECT_EQ(owner_of_property("inputs:roughness", "Shader", {}).owner, Role::Materials);
   EXPECT_EQ(owner_of_property("my:note", "PhysicsRevoluteJoint", {}).owner, Role::Physics);
   EXPECT_EQ(owner_of_property("anything", "Xform", {}).owner, Role::Base);
+  EXPECT_EQ(owner_of_property("tenon:mujoco:sensor:noise", "TenonMujocoSensor", {}).owner,
+            Role::Mujoco);
+  EXPECT_EQ(owner_of_type("TenonMujocoSensor").owner, Role::Mujoco);
 }
 
 TEST(Layout, ArcsLeadOneWay) {

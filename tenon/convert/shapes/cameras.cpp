@@ -60,7 +60,7 @@ void write_ball(LayerBuilder& builder, Path prim, const robot::Light& light) {
 
 }  // namespace
 
-void write_camera(RobotLayer& layer, const LinkPrims& links, Path link, NameScope& names,
+Path write_camera(RobotLayer& layer, const LinkPrims& links, Path link, NameScope& names,
                   const robot::Camera& camera) {
   const Path prim =
       layer.define(link, names, camera.name.empty() ? "camera" : camera.name, "Camera");
@@ -84,6 +84,7 @@ void write_camera(RobotLayer& layer, const LinkPrims& links, Path link, NameScop
     set_float2(layer, prim, "clippingRange", camera.clipping[0], camera.clipping[1]);
   }
   write_own(layer, links, prim, camera.tracking, camera.settings);
+  return prim;
 }
 
 void write_light(RobotLayer& layer, const LinkPrims& links, Path link, NameScope& names,

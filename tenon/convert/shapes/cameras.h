@@ -9,8 +9,8 @@
 namespace tenon::convert {
 
 /// A UsdGeomCamera below a link's prim; what MuJoCo alone has a word for in attributes
-/// "tenon:mujoco:" with MuJoCo's words behind that.
-void write_camera(RobotLayer& layer, const LinkPrims& links, Path link, NameScope& names,
+/// "tenon:mujoco:" with MuJoCo's words behind that. Returns its path.
+Path write_camera(RobotLayer& layer, const LinkPrims& links, Path link, NameScope& names,
                   const robot::Camera& camera);
 
 /// A UsdLuxDistantLight or UsdLuxSphereLight, as bright for a renderer that counts in UsdLux's

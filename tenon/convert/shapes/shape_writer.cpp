@@ -52,7 +52,7 @@ void ShapeWriter::write(Index link) {
     write_site(prim, site, names);
   }
   for (const robot::Camera& camera : described.cameras) {
-    write_camera(layer_, links_, prim, names, camera);
+    prims_.cameras.emplace(camera.name, write_camera(layer_, links_, prim, names, camera));
   }
   for (const robot::Light& light : described.lights) {
     write_light(layer_, links_, prim, names, light);
@@ -143,6 +143,13 @@ void ShapeWriter::write_site(Path link, const robot::Site& site, NameScope& name
   layer_.show_name(path, site.name);
   layer_.set_pose(path, site.pose);
   layer_.builder().apply(path, "IsaacSiteAPI");
+  if (site.volume) {
+    const auto& size = site.volume->size;
+    layer_.builder().set_custom(path, "tenon:mujoco:type", "token",
+                                layer::Value(Token(site.volume->type)));
+    layer_.builder().set_custom(path, "tenon:mujoco:size", "double[]",
+                                layer::Value(std::vector<double>(size.begin(), size.end())));
+  }
   prims_.sites.emplace(site.name, path);
 }
 

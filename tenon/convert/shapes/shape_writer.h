@@ -19,6 +19,7 @@ namespace tenon::convert {
 struct ShapePrims {
   std::map<std::string, Path> sites;               ///< by name; the first of that name
   std::map<std::string, Path> shapes;              ///< visuals and colliders that have names
+  std::map<std::string, Path> cameras;             ///< by name; the first of that name
   std::vector<std::vector<Path>> contact_members;  ///< (contact_class_count), colliders
 };
 

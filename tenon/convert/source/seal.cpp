@@ -143,7 +143,7 @@ std::string_view engine_of(std::string_view key) {
   for (const std::string_view what : {"api:", "type:"}) {
     name = name.starts_with(what) ? name.substr(what.size()) : name;
   }
-  if (starts_with_any(name, {"mjc", "Mjc"})) {
+  if (starts_with_any(name, {"mjc", "Mjc", "tenon:mujoco:sensor", "TenonMujoco"})) {
     return kEngines[0];
   }
   if (starts_with_any(name, {"physx", "Physx"})) {
@@ -192,7 +192,7 @@ void SealMaker::add(Path prim, Token type, const std::string& key, const std::st
 
 void SealMaker::add_prim(Path prim, Token type, const std::vector<Token>& apis) {
   const std::string_view word = type.view();
-  if (starts_with_any(word, {"Physics", "Mjc", "Newton"})) {
+  if (starts_with_any(word, {"Physics", "Mjc", "Newton", "TenonMujoco"})) {
     add(prim, type, "type:" + type.str(), "");
   }
   for (const Token api : apis) {

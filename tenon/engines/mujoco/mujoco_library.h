@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <mujoco/mjspecmacro.h>
 #include <mujoco/mujoco.h>
 
 #include "tenon/base/result.h"

@@ -6,18 +6,19 @@
 // and velocities in the world those of a frame. A joint is measured as a whole. A touch sensor
 // counts contacts in the volume of its site, of which a sphere is the one that can be said
 // elsewhere. A range finder is a ray. What is measured of a body, a shape or a camera is measured
-// at a site of its own in the asset.
+// at a site of its own in the asset. Beside that each of MuJoCo's sensors is kept as it is, with
+// the instrument that stands for it, for models that are written of the asset.
 #include "tenon/mjcf/sensors/sensors.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "tenon/engines/mujoco/model.h"
+#include "tenon/mjcf/sensors/sensor_fields.h"
 
 namespace tenon::mjcf {
 namespace {
@@ -26,26 +27,6 @@ using engines::mujoco::read_quaternion;
 using engines::mujoco::read_vector;
 using robot::Index;
 using robot::SiteSensorKind;
-
-/// What the elements are called, in the order of mjtSensor.
-constexpr std::string_view kSensorWords =
-    "touch accelerometer velocimeter gyro force torque magnetometer rangefinder "
-    "camprojection jointpos jointvel tendonpos tendonvel actuatorpos actuatorvel actuatorfrc "
-    "jointactuatorfrc tendonactuatorfrc ballquat ballangvel jointlimitpos jointlimitvel "
-    "jointlimitfrc tendonlimitpos tendonlimitvel tendonlimitfrc framepos framequat "
-    "framexaxis frameyaxis framezaxis framelinvel frameangvel framelinacc frameangacc "
-    "subtreecom subtreelinvel subtreeangmom insidesite distance normal fromto contact "
-    "e_potential e_kinetic clock tactile plugin user";
-static_assert(std::count(kSensorWords.begin(), kSensorWords.end(), ' ') == mjSENS_USER,
-              "MuJoCo has other sensors");
-
-std::string word_of_sensor(int kind) {
-  std::string_view words = kSensorWords;
-  for (int i = 0; i < kind; ++i) {
-    words.remove_prefix(words.find(' ') + 1);
-  }
-  return std::string(words.substr(0, words.find(' ')));
-}
 
 class SensorList {
  public:
@@ -58,37 +39,55 @@ class SensorList {
     }
   }
 
-  void run() {
+  std::vector<robot::MujocoSensor> run() {
     for (int i = 0; i < model_.nsensor; ++i) {
+      now_ = described(i);
       if (take(i)) {
         tell_settings(i);
       } else {
-        leave_out(i);
+        tell(i, " measured by nothing in runs");
       }
+      kept_.push_back(std::move(now_));
     }
-    for (const auto& [why, left] : left_out_) {
-      source_.left_out(std::to_string(left.lines.size()) +
-                           (left.lines.size() == 1 ? " sensor" : " sensors") + why + " (" +
-                           left.kinds + ")" + lines_text(left.lines),
-                       left.lines.front());
+    for (const auto& [how, told] : told_) {
+      source_.report(Severity::Info, "mjcf.sensor",
+                     std::to_string(told.lines.size()) +
+                         (told.lines.size() == 1 ? " sensor is" : " sensors are") +
+                         " kept for models of MuJoCo, and" + how + " (" + told.kinds + ")" +
+                         lines_text(told.lines),
+                     told.lines.front());
     }
     if (touches_) {
       source_.report(Severity::Info, "mjcf.touch",
                      "touch sensors count contacts inside of their sphere; MuJoCo counts those, "
                      "too, whose normal leads through it");
     }
+    return std::move(kept_);
   }
 
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-  void leave_out(int sensor, const char* what = " left out, which have no form in USD") {
-    LeftOut& left = left_out_[what];
-    const std::string kind = word_of_sensor(model_.sensor_type[sensor]);
-    if ((", " + left.kinds + ",").find(", " + kind + ",") == std::string::npos) {
-      left.kinds += (left.kinds.empty() ? "" : ", ") + kind;
+  robot::MujocoSensor described(int sensor) const {
+    robot::MujocoSensor result;
+    result.name = source_.written_name(mjOBJ_SENSOR, sensor);
+    result.kind = sensor_word(static_cast<mjtSensor>(model_.sensor_type[sensor]));
+    if (mjsElement* element = source_.element(mjOBJ_SENSOR, sensor)) {
+      const mjsSensor* written = mjs_asSensor(element);
+      result.object = {thing_word(written->objtype), mjs_getString(written->objname)};
+      result.reference = {thing_word(written->reftype), mjs_getString(written->refname)};
+      result.settings = sensor_settings(*written);
     }
-    left.lines.push_back(source_.line_of(mjOBJ_SENSOR, sensor));
+    return result;
+  }
+
+  void tell(int sensor, const char* how) {
+    Told& told = told_[how];
+    const std::string kind = sensor_word(static_cast<mjtSensor>(model_.sensor_type[sensor]));
+    if ((", " + told.kinds + ",").find(", " + kind + ",") == std::string::npos) {
+      told.kinds += (told.kinds.empty() ? "" : ", ") + kind;
+    }
+    told.lines.push_back(source_.line_of(mjOBJ_SENSOR, sensor));
   }
 
   /// Whether it measures something that sites and joints can say.
@@ -198,6 +197,8 @@ class SensorList {
   }
 
   bool take_at(int sensor, SiteSensorKind kind, robot::Site& site) {
+    now_.instrument = {"site", site.name};
+    now_.instrument_kind = kind;
     std::vector<robot::SiteSensor>& sensors = site.sensors;
     const auto same = [&](const robot::SiteSensor& other) { return other.kind == kind; };
     if (std::any_of(sensors.begin(), sensors.end(), same)) {
@@ -228,6 +229,7 @@ class SensorList {
   robot::Joint& joint_of(int joint) const { return tree_.joints[tree_.joint_of_joint[at(joint)]]; }
   bool take_joint(int joint) {
     joint_of(joint).measured = true;
+    now_.instrument = {"joint", joint_of(joint).name};
     return true;
   }
 
@@ -243,32 +245,36 @@ class SensorList {
 
   void tell_settings(int sensor) {
     if (model_.sensor_cutoff[sensor] > 0) {
-      leave_out(sensor, " without the cutoff");
+      tell(sensor, " measured without the cutoff in runs");
     }
     if (model_.sensor_noise[sensor] > 0) {
-      leave_out(sensor, " without the noise");
+      tell(sensor, " measured without the noise in runs");
     }
     if (model_.sensor_delay[sensor] > 0 || model_.sensor_interval[2 * at(sensor)] > 0) {
-      leave_out(sensor, " without the delay or interval");
+      tell(sensor, " measured without the delay or interval in runs");
     }
   }
 
   MjcfSource& source_;
   const mjModel& model_;
   BodyTree& tree_;
-  struct LeftOut {
+  struct Told {
     std::string kinds;
     std::vector<std::uint32_t> lines;
   };
 
   std::vector<std::pair<Index, std::size_t>> sites_;  ///< link and number of each site
   std::map<std::pair<int, int>, std::size_t> made_;   ///< sites of other objects, in their links
-  std::map<std::string, LeftOut> left_out_;           ///< by what becomes of them
+  std::map<std::string, Told> told_;                  ///< by what becomes of them
   bool touches_ = false;
+  robot::MujocoSensor now_;
+  std::vector<robot::MujocoSensor> kept_;
 };
 
 }  // namespace
 
-void read_sensors(MjcfSource& source, BodyTree& tree) { SensorList(source, tree).run(); }
+std::vector<robot::MujocoSensor> read_sensors(MjcfSource& source, BodyTree& tree) {
+  return SensorList(source, tree).run();
+}
 
 }  // namespace tenon::mjcf

@@ -8,8 +8,9 @@
 /// Internal to this folder.
 namespace tenon::mjcf {
 
-/// Gives sites and joints the sensors that measure them, after joints have their drives. Other
-/// sensors are listed as left out, and so are cutoffs, noise, delays and intervals.
-void read_sensors(MjcfSource& source, BodyTree& tree);
+/// Gives sites and joints the sensors that measure them, after joints have their drives; -> all
+/// sensors as they are written, for models made of the asset. Those that runs do not measure, or
+/// measure without their cutoff, noise, delay or interval, are listed.
+std::vector<robot::MujocoSensor> read_sensors(MjcfSource& source, BodyTree& tree);
 
 }  // namespace tenon::mjcf

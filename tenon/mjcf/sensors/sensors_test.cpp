@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every kind of sensor that this release of MuJoCo has, by its own list and in its own words: it is
-// measured in the asset or named with its line.
+// kept, and measured in the asset or named with its line.
 #include "tenon/mjcf/sensors/sensors.h"
 
 #include <filesystem>
@@ -122,13 +122,18 @@ TEST(MjcfSensors, EveryKindIsMeasuredOrNamedWithItsLine) {
     const std::string word = word_in(text);
     std::string named;
     for (const Diagnostic& finding : findings) {
-      named += finding.rule == "mjcf.left-out" && finding.line > 0 ? finding.message : "";
+      named += finding.rule == "mjcf.sensor" && finding.line > 0 ? finding.message : "";
     }
+    ASSERT_EQ(model->mujoco.sensors.size(), 1u);
+    EXPECT_EQ(model->mujoco.sensors[0].kind, word);
+    EXPECT_EQ(model->mujoco.sensors[0].instrument.kind.empty(), !is_measured(*model)) << word;
     if (is_measured(*model)) {
       measured.insert(word);
       EXPECT_EQ(named, "") << word;
     } else {
-      EXPECT_NE(named.find("1 sensor left out, which have no form in USD (" + word + ")"),
+      EXPECT_NE(named.find("1 sensor is kept for models of MuJoCo, and measured by nothing in "
+                           "runs (" +
+                           word + ")"),
                 std::string::npos)
           << text << named;
     }

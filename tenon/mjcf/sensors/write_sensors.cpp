@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "tenon/mjcf/sensors/instrument_site.h"
 #include "tenon/mjcf/write_actuators.h"
 
 namespace tenon::mjcf {
@@ -67,23 +68,7 @@ class SensorWriter {
     return made;
   }
 
-  /// The site at the sensor, named after its prim; a tendon or an actuator may have made it.
-  std::string site(const Sensor& sensor) {
-    std::string name = sensor.path.str();
-    if (mjs_findElement(&spec_, mjOBJ_SITE, name.c_str()) == nullptr) {
-      const std::string body = scene_.bodies[*sensor.body].path.str();
-      mjsSite* made = mjs_addSite(mjs_findBody(&spec_, body.c_str()), nullptr);
-      mjs_setName(made->element, name.c_str());
-      const Pose pose = inverse(model_.bodies[*sensor.body].engine_frame) * sensor.pose;
-      engines::mujoco::write_vector(made->pos, pose.position);
-      engines::mujoco::write_quaternion(made->quat, normalized(pose.orientation));
-      if (sensor.kind == SensorKind::Contact) {
-        made->type = mjGEOM_SPHERE;
-        made->size[0] = sensor.radius;
-      }
-    }
-    return name;
-  }
+  std::string site(const Sensor& sensor) { return instrument_site(scene_, model_, spec_, sensor); }
 
   /// A site whose z is the ray.
   void write_ray(const Sensor& sensor) {
@@ -91,14 +76,7 @@ class SensorWriter {
       return leave_out(sensor, "MuJoCo's range finders have one ray, this sensor has " +
                                    std::to_string(sensor.ray_directions.size()));
     }
-    const Vec3d up{{0, 0, 1}};
-    const Vec3d ray = sensor.ray_directions[0];
-    const Vec3d axis = cross(up, ray);
-    const Quatd turn =
-        rotation_about(normalized(axis, {{1, 0, 0}}), std::atan2(length(axis), dot(up, ray)));
-    Sensor along = sensor;
-    along.pose = sensor.pose * Pose{sensor.ray_origins[0], turn};
-    mjsSensor* made = add(mjSENS_RANGEFINDER, along, ".range", mjOBJ_SITE, site(along));
+    mjsSensor* made = add(mjSENS_RANGEFINDER, sensor, ".range", mjOBJ_SITE, site(sensor));
     made->intprm[0] = 1 << mjRAYDATA_DIST;
     if (sensor.min_range > 0 || std::isfinite(sensor.max_range)) {
       leave_out(sensor, "the ranges of the sensor");
@@ -158,11 +136,13 @@ class SensorWriter {
 
 }  // namespace
 
-void write_sensors(const scene::PhysicsScene& scene, const engines::mujoco::Model& model,
-                   mjSpec& spec, Diagnostics& diagnostics) {
+void write_sensors(const scene::PhysicsScene& scene, const std::set<Path>& written,
+                   const engines::mujoco::Model& model, mjSpec& spec, Diagnostics& diagnostics) {
   SensorWriter writer(scene, model, spec, diagnostics);
   for (const Sensor& sensor : scene.sensors) {
-    writer.write(sensor);
+    if (!written.contains(sensor.path)) {
+      writer.write(sensor);
+    }
   }
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <set>
+
 #include "tenon/base/diagnostics.h"
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/mujoco/mujoco_library.h"
@@ -10,9 +12,9 @@
 /// Internal to this folder.
 namespace tenon::mjcf {
 
-/// Adds to the spec of a scene's model its sensors, each quantity as one of MuJoCo's. What MuJoCo
-/// has no word for is listed.
-void write_sensors(const scene::PhysicsScene& scene, const engines::mujoco::Model& model,
-                   mjSpec& spec, Diagnostics& diagnostics);
+/// Adds to the spec of a scene's model its sensors but those that are `written`, by path, each
+/// quantity as one of MuJoCo's. What MuJoCo has no word for is listed.
+void write_sensors(const scene::PhysicsScene& scene, const std::set<Path>& written,
+                   const engines::mujoco::Model& model, mjSpec& spec, Diagnostics& diagnostics);
 
 }  // namespace tenon::mjcf

@@ -25,6 +25,8 @@ using Target = MujocoActuator::Target;
 using Attachment = TendonWrap::Attachment;
 using Range = std::array<double, 2>;
 
+constexpr const char* kSensor = "tenon:mujoco:sensor";
+
 /// Numbers that are there, then zeros; `fallback` where there are none.
 template <std::size_t N>
 std::array<double, N> padded(const stage::Prim& prim, Token name, std::array<double, N> fallback) {
@@ -252,6 +254,32 @@ MujocoKeyframe read_keyframe(const stage::Prim& prim) {
   return result;
 }
 
+MujocoSensor::Thing read_thing(const stage::Prim& prim, const std::string& role) {
+  const std::string name = std::string(kSensor) + ":" + role;
+  const std::vector<Path> targets = prim.relationship(Token(name)).targets();
+  return {token(prim, Token(name + "Type"), ""), targets.empty() ? Path() : targets.front()};
+}
+
+MujocoSensor read_sensor(const stage::Prim& prim) {
+  MujocoSensor result;
+  result.path = prim.path();
+  result.kind = token(prim, Token(kSensor), "");
+  result.object = read_thing(prim, "object");
+  result.reference = read_thing(prim, "reference");
+  const std::string start = std::string(kSensor) + ":";
+  for (const Token name : prim.authored_property_names()) {
+    if (name.view() == start + "instrument") {
+      const std::vector<Path> targets = prim.relationship(name).targets();
+      result.instrument = targets.empty() ? Path() : targets.front();
+    } else if (name.view().starts_with(start)) {
+      if (std::vector<double> numbers = numbers_of(prim, name); !numbers.empty()) {
+        result.settings.push_back({name.str().substr(start.size()), std::move(numbers), ""});
+      }
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 void read_mujoco_actuators(ReadState& state) {
@@ -288,6 +316,8 @@ MujocoParts read_mujoco_parts(const stage::Stage& stage, const PhysicsScene& sce
       result.actuators.push_back(list.read(prim));
     } else if (prim.type_name() == "MjcKeyframe") {
       result.keyframes.push_back(read_keyframe(prim));
+    } else if (prim.type_name() == "TenonMujocoSensor") {
+      result.sensors.push_back(read_sensor(prim));
     } else if (const std::optional<Index> body = list.body(prim.path())) {
       result.body_ranks[*body] = rank++;
     }

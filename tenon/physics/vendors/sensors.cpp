@@ -45,6 +45,8 @@ class SensorReader {
     for (const PhysicsPrim& found : state_.walk.prims) {
       if (is_typed_sensor(found.roles.kind)) {
         read_typed(found);
+      } else if (found.roles.kind == PrimKind::MujocoSensor) {
+        note_kept(found.prim);
       } else if (found.roles.marked_sensor) {
         read_marked(found);
       }
@@ -281,6 +283,13 @@ class SensorReader {
       }
       return !sensor.joint;
     });
+  }
+
+  /// A sensor of MuJoCo's that has no instrument.
+  void note_kept(const stage::Prim& prim) {
+    if (prim.relationship("tenon:mujoco:sensor:instrument").targets().empty()) {
+      state_.not_read(prim, prim.type_name().str(), "it is a sensor of models of MuJoCo alone");
+    }
   }
 
   void note_rays(const stage::Prim& prim) {

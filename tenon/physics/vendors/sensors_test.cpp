@@ -140,6 +140,17 @@ TEST(SensorReading, ForceTorqueSensorsBelongToTheJointThatHoldsTheirBody) {
             "no joint holds the body </Arm> of the force-torque sensor; it reads nothing");
 }
 
+TEST(SensorReading, SensorsOfMujocoThatNothingMeasuresAreNotRead) {
+  const ReadSensors read = read_sensors_of(
+      kArm +
+      "def TenonMujocoSensor \"Held\" {\ncustom token tenon:mujoco:sensor = \"force\"\n"
+      "rel tenon:mujoco:sensor:instrument = </Arm/Wrist>\n}\n"
+      "def TenonMujocoSensor \"Clock\" {\ncustom token tenon:mujoco:sensor = \"clock\"\n}\n");
+  ASSERT_EQ(read.scene.not_read.size(), 1u);
+  EXPECT_EQ(read.scene.not_read[0].prim, Path::from("/Clock"));
+  EXPECT_EQ(read.scene.not_read[0].property, "TenonMujocoSensor");
+}
+
 TEST(SensorReading, SensorsOfFramesBelongToTheBodyAboveThem) {
   const ReadSensors read = read_sensors_of(
       sensor_body("def Xform \"Tip\" {\ncustom uniform token tenon:sensor = \"frame\"\n"
