@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tenon/mjcf/sensors/instrument_site.h"
 #include "tenon/mjcf/sensors/sensor_fields.h"
+#include "tenon/mjcf/sensors/write_instrument_site.h"
 #include "tenon/mjcf/write_actuators.h"
 
 namespace tenon::mjcf {

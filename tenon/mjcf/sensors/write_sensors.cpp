@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "tenon/mjcf/sensors/instrument_site.h"
+#include "tenon/mjcf/sensors/write_instrument_site.h"
 #include "tenon/mjcf/write_actuators.h"
 
 namespace tenon::mjcf {

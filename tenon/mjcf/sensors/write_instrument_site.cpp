@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/mjcf/sensors/instrument_site.h"
+#include "tenon/mjcf/sensors/write_instrument_site.h"
 
 #include <cmath>
 
