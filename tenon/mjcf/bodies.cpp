@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/mjcf/bodies.h"
 
+#include "tenon/engines/mujoco/build/sensor_fields.h"
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/math/inertia.h"
 #include "tenon/mjcf/joints.h"
-#include "tenon/mjcf/sensors/site_volume.h"
 
 namespace tenon::mjcf {
 
@@ -98,6 +98,18 @@ void hang_link(MjcfSource& source, int body, Index link, BodyTree& tree) {
     tree.joint_of_joint[static_cast<std::size_t>(number)] = static_cast<Index>(tree.joints.size());
     tree.joints.push_back(std::move(joint));
   }
+}
+
+/// None: MuJoCo's default.
+std::optional<robot::MujocoVolume> site_volume(const mjModel& model, std::size_t site) {
+  mjsSite usual{};
+  mjs_defaultSite(&usual);
+  const mjtNum* size = model.site_size + 3 * site;
+  const std::string word = engines::mujoco::site_shape_word(model.site_type[site]);
+  if (word.empty() || (model.site_type[site] == usual.type && size[0] == usual.size[0])) {
+    return std::nullopt;
+  }
+  return robot::MujocoVolume{word, {size[0], size[1], size[2]}};
 }
 
 void add_sites(const MjcfSource& source, BodyTree& tree) {

@@ -20,12 +20,12 @@
 #include <tuple>
 
 #include "tenon/base/file_finding.h"
+#include "tenon/engines/mujoco/build/sensor_fields.h"
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/engines/mujoco/writable_model.h"
 #include "tenon/mjcf/seen/write_cameras.h"
-#include "tenon/mjcf/sensors/site_volume.h"
 #include "tenon/mjcf/sensors/write_kept_sensors.h"
 #include "tenon/mjcf/sensors/write_sensors.h"
 #include "tenon/mjcf/text/write_text.h"
@@ -331,6 +331,15 @@ class VisualWriter {
   std::map<std::string, mjsGeom*> geoms_;
   std::vector<robot::Index> made_;  // meshes, by the number in their names
 };
+
+/// One that MuJoCo has no word or no size for is left as it is.
+void set_site_volume(mjsSite& site, const robot::MujocoVolume& volume) {
+  const std::optional<mjtGeom> shape = engines::mujoco::site_shape(volume.type);
+  if (shape && volume.size[0] > 0) {
+    site.type = *shape;
+    std::copy(volume.size.begin(), volume.size.end(), site.size);
+  }
+}
 
 /// Named frames, those that nothing in the physics has made a site of too.
 void add_sites(const robot::RobotModel& visuals, const scene::PhysicsScene& scene,

@@ -17,14 +17,17 @@
 #include <utility>
 #include <vector>
 
+#include "tenon/engines/mujoco/build/sensor_fields.h"
 #include "tenon/engines/mujoco/model.h"
-#include "tenon/mjcf/sensors/sensor_fields.h"
 
 namespace tenon::mjcf {
 namespace {
 
 using engines::mujoco::read_quaternion;
 using engines::mujoco::read_vector;
+using engines::mujoco::sensor_settings;
+using engines::mujoco::sensor_word;
+using engines::mujoco::thing_word;
 using robot::Index;
 using robot::SiteSensorKind;
 
@@ -76,7 +79,9 @@ class SensorList {
       const mjsSensor* written = mjs_asSensor(element);
       result.object = {thing_word(written->objtype), mjs_getString(written->objname)};
       result.reference = {thing_word(written->reftype), mjs_getString(written->refname)};
-      result.settings = sensor_settings(*written);
+      for (const scene::VendorSetting& setting : sensor_settings(*written)) {
+        result.settings.push_back({setting.name, setting.numbers, setting.token});
+      }
     }
     return result;
   }

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tenon/mjcf/sensors/sensor_fields.h"
+#include "tenon/engines/mujoco/build/sensor_fields.h"
 #include "tenon/mjcf/sensors/write_instrument_site.h"
 #include "tenon/mjcf/write_actuators.h"
 
@@ -19,6 +19,9 @@ namespace {
 
 using engines::mujoco::read_quaternion;
 using engines::mujoco::read_vector;
+using engines::mujoco::sensor_kind;
+using engines::mujoco::set_sensor_numbers;
+using engines::mujoco::thing_kind;
 using scene::MujocoSensor;
 using scene::Sensor;
 

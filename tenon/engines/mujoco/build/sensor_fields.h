@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "tenon/engines/mujoco/mujoco_library.h"
-#include "tenon/robot/mujoco_parts.h"
+#include "tenon/scene/vendor_setting.h"
 
-/// Internal to this folder.
-namespace tenon::mjcf {
+namespace tenon::engines::mujoco {
 
 /// The element of a kind of sensor ("framepos"), and back; none: MuJoCo has no such sensor.
 std::string sensor_word(mjtSensor kind);
@@ -21,10 +20,14 @@ std::optional<mjtSensor> sensor_kind(std::string_view word);
 std::string thing_word(mjtObj kind);
 mjtObj thing_kind(const std::string& word);
 
+/// MuJoCo's word for the shape of a site ("sphere", "box"), and back; empty, none: it is none.
+std::string site_shape_word(int type);
+std::optional<mjtGeom> site_shape(std::string_view word);
+
 /// All numbers of a sensor that are not MuJoCo's defaults, by the names that mjsSensor has.
-std::vector<robot::MujocoSetting> sensor_settings(const mjsSensor& sensor);
+std::vector<scene::VendorSetting> sensor_settings(const mjsSensor& sensor);
 /// Sets a number that `sensor_settings` names; false: it has none of that name and length.
 bool set_sensor_numbers(mjsSensor& sensor, std::string_view name,
                         const std::vector<double>& numbers);
 
-}  // namespace tenon::mjcf
+}  // namespace tenon::engines::mujoco

@@ -4,13 +4,14 @@
 // MuJoCo's own list of the fields of mjsSensor is walked, so that a field of a new release is kept
 // with no change here. What is no number says what the sensor is and of what, and is kept by
 // itself.
-#include "tenon/mjcf/sensors/sensor_fields.h"
+#include "tenon/engines/mujoco/build/sensor_fields.h"
 
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
-namespace tenon::mjcf {
+namespace tenon::engines::mujoco {
 namespace {
 
 /// What the elements are called, in the order of mjtSensor.
@@ -24,6 +25,12 @@ constexpr std::string_view kSensorWords =
     "e_potential e_kinetic clock tactile plugin user";
 static_assert(std::count(kSensorWords.begin(), kSensorWords.end(), ' ') == mjSENS_USER,
               "MuJoCo has other sensors");
+
+constexpr std::pair<mjtGeom, std::string_view> kSiteShapes[] = {{mjGEOM_SPHERE, "sphere"},
+                                                                {mjGEOM_CAPSULE, "capsule"},
+                                                                {mjGEOM_ELLIPSOID, "ellipsoid"},
+                                                                {mjGEOM_CYLINDER, "cylinder"},
+                                                                {mjGEOM_BOX, "box"}};
 
 constexpr double kMost = 1e9;  // of whole numbers
 
@@ -91,8 +98,26 @@ mjtObj thing_kind(const std::string& word) {
   return word.empty() ? mjOBJ_UNKNOWN : static_cast<mjtObj>(mju_str2Type(word.c_str()));
 }
 
-std::vector<robot::MujocoSetting> sensor_settings(const mjsSensor& sensor) {
-  std::vector<robot::MujocoSetting> settings;
+std::string site_shape_word(int type) {
+  for (const auto& [shape, word] : kSiteShapes) {
+    if (shape == type) {
+      return std::string(word);
+    }
+  }
+  return {};
+}
+
+std::optional<mjtGeom> site_shape(std::string_view word) {
+  for (const auto& [shape, name] : kSiteShapes) {
+    if (name == word) {
+      return shape;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<scene::VendorSetting> sensor_settings(const mjsSensor& sensor) {
+  std::vector<scene::VendorSetting> settings;
   const mjsSensor usual = default_sensor();
   for_each_number(sensor, [&](const char* name, const auto* numbers, std::size_t count) {
     settings.push_back({name, std::vector<double>(numbers, numbers + count), ""});
@@ -133,4 +158,4 @@ bool set_sensor_numbers(mjsSensor& sensor, std::string_view name,
   return known;
 }
 
-}  // namespace tenon::mjcf
+}  // namespace tenon::engines::mujoco
