@@ -85,6 +85,12 @@ def corpora():
                                     "build/release/bin/tenon", "--all", "--table"], "release")
     yield Judgement("edited_corpus", ["{python}", "-B", "tests/convert/edited_corpus.py", ".",
                                       "build/release/bin/tenon", "--all"], "release")
+    # Two versions of MuJoCo do not go into one environment.
+    for name, readers in (("readers", ["mujoco_warp", "mjx", "newton"]), ("mujoco33", ["mujoco"])):
+        yield Judgement(f"mjcf_{name}", ["{python}", "-B", "tests/convert/mjcf_readers.py", ".",
+                                         "build/release/bin/tenon", "{engine}", *readers],
+                        "release", ["tenon_cli", "tenon_worker"],
+                        f"tests/convert/requirements-{name}.txt")
     yield Judgement("robot_corpora", ["{python}", "-B", "tests/convert/robot_corpora.py", ".",
                                       "build/release/bin/tenon", "{engine}",
                                       "docs/robot-corpora.md", "--most", "60"],

@@ -70,6 +70,9 @@ def urdf_physics(path):
         elif (tensor := impossible_inertia(link)) is not None:
             refused[link.get("name")] = tensor
     for joint in robot.findall("joint"):
+        if joint.get("type") == "continuous" and joint.find("limit") is not None:
+            for end in ("lower", "upper"):  # MuJoCo heeds them, URDF does not
+                joint.find("limit").attrib.pop(end, None)
         mimic = joint.find("mimic")
         if mimic is not None:
             law = (mimic.get("joint"), float(mimic.get("multiplier", "1")),
@@ -86,9 +89,12 @@ def urdf_physics(path):
     return xml.etree.ElementTree.tostring(robot, encoding="unicode"), bare, mimics, refused
 
 
+FAR = 1e8  # what is farther is no end: MuJoCo drops such limits, and URDF has no endless slides
+
+
 def open_end(value, infinity):
     """JSON has no word for infinity."""
-    return infinity if value is None or isinstance(value, str) else value
+    return infinity if value is None or isinstance(value, str) or abs(value) >= FAR else value
 
 
 class Reading:
@@ -212,8 +218,8 @@ class Comparison:
         dof, start = model.jnt_dofadr[number], model.qpos0[model.jnt_qposadr[number]]
         limits = [-math.inf, math.inf]
         if model.jnt_limited[number]:
-            limits = [end if abs(end) < 1e8 else math.copysign(math.inf, end)
-                      for end in model.jnt_range[number] - start]  # URDF has no endless slides
+            limits = [end if abs(end) < FAR else math.copysign(math.inf, end)
+                      for end in model.jnt_range[number] - start]
         self.near(f"{name}: limits", [open_end(joint["lower"], -math.inf),
                                       open_end(joint["upper"], math.inf)], limits)
         for word, wanted in (("damping", model.dof_damping[dof]),

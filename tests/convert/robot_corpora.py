@@ -43,11 +43,14 @@ ABOUT = (("inertia", ": inertia"), ("mass", ": mass|: centre"),
          ("kinematics", ""))
 COLUMNS = ("files", "converted", "no robot", "refused", "kinematics", "DOF", "mass", "inertia",
            "limits", "effort", "MJCF back", "URDF back", "usd-core", "NVIDIA")
-# Findings of a refusal that is the source's fault, whoever reads it.
-SOURCE = re.compile(r"\[(urdf\.xacro|urdf\.root|robot\.cycle|file\.lfs-pointer|urdf\.parse)\]")
+# Findings of a refusal that is the source's fault, whoever reads it: ROS's parser takes neither
+# robots without links nor four numbers where there are three.
+SOURCE = re.compile(r"\[(urdf\.xacro|urdf\.root|urdf\.number|urdf\.parse|robot\.cycle|"
+                    r"robot\.no-links|file\.lfs-pointer)\]")
 # What NVIDIA's validator finds in meshes, which are the source's own.
 OF_MESHES = ("IndexedPrimvarChecker", "ManifoldChecker", "NormalsValidChecker",
-             "ZeroAreaFaceChecker", "WeldChecker")
+             "NormalsWindingsChecker", "UnusedMeshTopologyChecker", "ZeroAreaFaceChecker",
+             "WeldChecker")
 USD_CORE = """
 import sys
 from pxr import Usd, UsdValidation
