@@ -397,7 +397,7 @@ def main():
         notes = [f"- {name}: {note}" for name, corpus in results.items() for note in corpus.notes]
         options.page.write_text(PAGE.format(
             table="\n".join(table(results)), speed="\n\n".join(speed),
-            most=options.most, notes="\n".join(note[:108] for note in notes) or "nothing"),
+            most=options.most, notes="\n".join(note[:108].rstrip() for note in notes) or "nothing"),
             encoding="utf-8")
     rows = collections.Counter()
     for corpus in results.values():
