@@ -189,7 +189,7 @@ std::string KeptSensorWriter::joint_name(Path prim) const {
 
 /// What is only seen has a name where a sensor needs it.
 std::string KeptSensorWriter::geom_name(Path prim) const {
-  const std::string path = prim.str();
+  std::string path = prim.str();
   if (mjs_findElement(&spec_, mjOBJ_GEOM, path.c_str()) != nullptr) {
     return path;
   }
