@@ -30,10 +30,12 @@ class MujocoSensorWriter {
     const std::optional<Path> reference = prim_of(sensor.reference);
     const std::optional<Path> instrument = instrument_of(sensor);
     if (!object || !reference || !instrument) {
-      const std::string& lost = object ? sensor.reference.name : sensor.object.name;
+      const MujocoThing& lost = !object      ? sensor.object
+                                : !reference ? sensor.reference
+                                             : sensor.instrument;
       physics_.layer().report({}, Severity::Warning, "convert.sensor",
                               "the sensor \"" + sensor.name + "\" (" + sensor.kind +
-                                  ") is left out: \"" + lost + "\" is not converted as such",
+                                  ") is left out: \"" + lost.name + "\" is not converted as such",
                               "");
       return;
     }

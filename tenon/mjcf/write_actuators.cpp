@@ -13,6 +13,7 @@
 
 #include "tenon/engines/mujoco/build/actuator_words.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/mjcf/write_elements.h"
 
 namespace tenon::mjcf {
 namespace {
@@ -73,7 +74,7 @@ class ActuatorWriter {
   }
 
   std::string set_target(mjtObj kind, const std::string& name, mjsActuator& to) {
-    if (mjs_findElement(&spec_, kind, name.c_str()) == nullptr) {
+    if (name.empty() || mjs_findElement(&spec_, kind, name.c_str()) == nullptr) {
       return "what it acts on is not in the model";
     }
     mjs_setString(to.target, name.c_str());
@@ -87,22 +88,15 @@ class ActuatorWriter {
       return "its ball is reversed in the model";
     }
     to.trntype = from.in_parent ? mjTRN_JOINTINPARENT : mjTRN_JOINT;
-    const std::string dof = ball ? "ball" : std::string(dof_name(joint.dof()));
-    return set_target(mjOBJ_JOINT, joint.path.str() + "." + dof, to);
+    return set_target(mjOBJ_JOINT, joint_element(spec_, joint), to);
   }
 
   /// Named after its prim; tendons may have made it.
   std::string site(const Attachment& place) {
     std::string name = place.path.str();
-    if (mjs_findElement(&spec_, mjOBJ_SITE, name.c_str()) == nullptr) {
-      const std::string body = place.body ? scene_.bodies[*place.body].path.str() : "world";
-      mjsSite* made = mjs_addSite(mjs_findBody(&spec_, body.c_str()), nullptr);
-      mjs_setName(made->element, name.c_str());
-      const Pose frame = place.body ? inverse(model_.bodies[*place.body].engine_frame) : Pose{};
-      const Pose pose = frame * place.pose;
-      engines::mujoco::write_vector(made->pos, pose.position);
-      engines::mujoco::write_quaternion(made->quat, normalized(pose.orientation));
-    }
+    const std::string body = place.body ? scene_.bodies[*place.body].path.str() : "world";
+    const Pose frame = place.body ? inverse(model_.bodies[*place.body].engine_frame) : Pose{};
+    named_site(spec_, mjs_findBody(&spec_, body.c_str()), name, frame * place.pose);
     return name;
   }
 

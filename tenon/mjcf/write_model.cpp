@@ -30,6 +30,7 @@
 #include "tenon/mjcf/sensors/write_sensors.h"
 #include "tenon/mjcf/text/write_text.h"
 #include "tenon/mjcf/write_actuators.h"
+#include "tenon/mjcf/write_elements.h"
 #include "tenon/mjcf/write_keyframes.h"
 
 namespace tenon::mjcf {
@@ -349,19 +350,12 @@ void add_sites(const robot::RobotModel& visuals, const scene::PhysicsScene& scen
     mjsBody* body = mjs_findBody(&spec, is_body ? scene.bodies[i].path.str().c_str() : "world");
     const Pose frame = is_body ? inverse(model.bodies[i].engine_frame) : Pose{};
     for (const robot::Site& site : visuals.links[i].sites) {
-      mjsElement* known = mjs_findElement(&spec, mjOBJ_SITE, site.name.c_str());
       if (body == nullptr) {
         continue;
       }
-      mjsSite* made = known == nullptr ? mjs_addSite(body, nullptr) : mjs_asSite(known);
-      if (known == nullptr) {
-        mjs_setName(made->element, site.name.c_str());
-        const Pose pose = frame * site.pose;
-        write_vector(made->pos, pose.position);
-        write_quaternion(made->quat, normalized(pose.orientation));
-      }
+      mjsSite& made = named_site(spec, body, site.name, frame * site.pose);
       if (site.volume) {
-        set_site_volume(*made, *site.volume);
+        set_site_volume(made, *site.volume);
       }
     }
   }

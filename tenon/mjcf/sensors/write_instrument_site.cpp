@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tenon/mjcf/write_elements.h"
+
 namespace tenon::mjcf {
 
 using scene::Sensor;
@@ -28,14 +30,11 @@ std::string instrument_site(const scene::PhysicsScene& scene, const engines::muj
     return name;
   }
   const std::string body = scene.bodies[*sensor.body].path.str();
-  mjsSite* made = mjs_addSite(mjs_findBody(&spec, body.c_str()), nullptr);
-  mjs_setName(made->element, name.c_str());
-  const Pose pose = instrument_pose(model, sensor);
-  engines::mujoco::write_vector(made->pos, pose.position);
-  engines::mujoco::write_quaternion(made->quat, normalized(pose.orientation));
+  mjsSite& made =
+      named_site(spec, mjs_findBody(&spec, body.c_str()), name, instrument_pose(model, sensor));
   if (sensor.kind == SensorKind::Contact) {
-    made->type = mjGEOM_SPHERE;
-    made->size[0] = sensor.radius;
+    made.type = mjGEOM_SPHERE;
+    made.size[0] = sensor.radius;
   }
   return name;
 }

@@ -13,6 +13,7 @@
 #include "tenon/engines/mujoco/build/sensor_fields.h"
 #include "tenon/mjcf/sensors/write_instrument_site.h"
 #include "tenon/mjcf/write_actuators.h"
+#include "tenon/mjcf/write_elements.h"
 
 namespace tenon::mjcf {
 namespace {
@@ -158,12 +159,9 @@ std::string KeptSensorWriter::name_of(mjtObj kind, Path prim) const {
 
 /// The world, where no body is at or above the prim.
 std::string KeptSensorWriter::body_name(Path prim) const {
-  if (mjs_findBody(&spec_, prim.str().c_str()) != nullptr) {
-    return prim.str();
-  }
   for (Path at = prim; at.is_prim(); at = at.parent()) {
     if (mjs_findBody(&spec_, at.str().c_str()) != nullptr) {
-      return {};  // a part of a body
+      return at == prim ? prim.str() : std::string();  // empty: a part of a body
     }
   }
   return "world";
@@ -172,17 +170,9 @@ std::string KeptSensorWriter::body_name(Path prim) const {
 std::string KeptSensorWriter::joint_name(Path prim) const {
   for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
     const scene::Joint& joint = scene_.joints[i];
-    if (joint.path != prim || model_.joints[i].reversed) {
-      continue;
+    if (joint.path == prim && !model_.joints[i].reversed) {
+      return joint_element(spec_, joint);
     }
-    const bool ball = joint.kind == scene::JointKind::Spherical;
-    const bool one_axis =
-        joint.kind == scene::JointKind::Revolute || joint.kind == scene::JointKind::Prismatic;
-    const std::string dof = ball       ? "ball"
-                            : one_axis ? std::string(dof_name(joint.dof()))
-                                       : std::string();
-    std::string name = prim.str() + "." + dof;
-    return mjs_findElement(&spec_, mjOBJ_JOINT, name.c_str()) != nullptr ? name : std::string();
   }
   return {};
 }

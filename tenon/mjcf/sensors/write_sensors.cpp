@@ -11,6 +11,7 @@
 
 #include "tenon/mjcf/sensors/write_instrument_site.h"
 #include "tenon/mjcf/write_actuators.h"
+#include "tenon/mjcf/write_elements.h"
 
 namespace tenon::mjcf {
 namespace {
@@ -105,19 +106,14 @@ class SensorWriter {
 
   void write_joint(const Sensor& sensor) {
     const scene::Joint& joint = scene_.joints[*sensor.joint];
-    const std::string ball = joint.path.str() + ".ball";
-    if (joint.kind == scene::JointKind::Spherical && !model_.joints[*sensor.joint].reversed &&
-        mjs_findElement(&spec_, mjOBJ_JOINT, ball.c_str()) != nullptr) {
-      add(mjSENS_BALLQUAT, sensor, ".position", mjOBJ_JOINT, ball);
-      add(mjSENS_BALLANGVEL, sensor, ".velocity", mjOBJ_JOINT, ball);
+    const bool reversed = model_.joints[*sensor.joint].reversed;
+    const std::string name = reversed ? std::string() : joint_element(spec_, joint);
+    if (!name.empty() && joint.kind == scene::JointKind::Spherical) {
+      add(mjSENS_BALLQUAT, sensor, ".position", mjOBJ_JOINT, name);
+      add(mjSENS_BALLANGVEL, sensor, ".velocity", mjOBJ_JOINT, name);
       return;
     }
-    const bool one_axis =
-        joint.kind == scene::JointKind::Revolute || joint.kind == scene::JointKind::Prismatic;
-    const std::string name =
-        one_axis ? joint.path.str() + "." + std::string(dof_name(joint.dof())) : std::string();
-    if (!one_axis || model_.joints[*sensor.joint].reversed ||
-        mjs_findElement(&spec_, mjOBJ_JOINT, name.c_str()) == nullptr) {
+    if (name.empty()) {
       return leave_out(sensor,
                        "the joint is neither of one axis nor a ball, or runs from child to parent");
     }
