@@ -15,14 +15,6 @@ option(TENON_UNITY "Compile several sources of a library as one" ${tenon_unity_d
 set(TENON_UNITY_SOURCES 12 CACHE STRING "Sources that are compiled as one")
 mark_as_advanced(TENON_UNITY_SOURCES)
 
-# GCC stops inlining where a unit has grown by 40 %, which costs units this large a tenth of their
-# speed; with these bounds they are inlined like single files. Not under sanitizers, where it takes
-# half as long again to compile.
-if(TENON_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT TENON_SANITIZE AND
-   NOT TENON_SANITIZE_THREADS)
-  add_compile_options(--param=large-unit-insns=1000000 --param=inline-unit-growth=400)
-endif()
-
 function(tenon_unity target)
   if(TENON_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE

@@ -21,11 +21,10 @@ inline void append_member(Json& object, std::string key, Json value) {
   object.get_ref<Json::object_t&>().emplace_back(std::move(key), std::move(value));
 }
 
-/// As it is printed, indented by two. Bytes that are no UTF-8 are replaced; `only_ascii` writes
-/// other characters as escapes.
-inline std::string printed(const Json& json, bool only_ascii = false) {
-  return json.dump(2, ' ', only_ascii, Json::error_handler_t::replace) + "\n";
-}
-inline std::string on_one_line(const Json& json) { return json.dump(); }
+/// As it is printed: indented, and with an end of line. Bytes that are no UTF-8 are replaced;
+/// `only_ascii` writes other characters as escapes.
+std::string printed(const Json& json, bool only_ascii = false, int indent = 2);
+/// The same without blanks and ends of lines.
+std::string on_one_line(const Json& json, bool only_ascii = false);
 
 }  // namespace tenon::answers

@@ -370,7 +370,7 @@ Json scene_json_value(const PhysicsScene& scene, Geometry geometry) {
 }
 
 std::string scene_json(const PhysicsScene& scene, Geometry geometry) {
-  return scene_json_value(scene, geometry).dump();
+  return on_one_line(scene_json_value(scene, geometry));
 }
 
 }  // namespace tenon::answers

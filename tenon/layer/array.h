@@ -16,21 +16,10 @@
 #include <vector>
 
 #include "tenon/base/token.h"
+#include "tenon/layer/array_body.h"
 #include "tenon/layer/scalar_types.h"
 
 namespace tenon::layer {
-
-/// Contents that values share: counted, never changed while there is more than one owner.
-struct SharedBody {
-  SharedBody() = default;
-  SharedBody(const SharedBody&) = delete;
-  SharedBody& operator=(const SharedBody&) = delete;
-  virtual ~SharedBody() = default;
-  virtual bool equals(const SharedBody& other) const = 0;
-  /// Number of elements of an array, else 1.
-  virtual std::size_t size() const = 0;
-  std::atomic<std::uint32_t> owners{1};
-};
 
 /// An array of numbers, or of vectors, quaternions and matrices of them. Its elements never change;
 /// copies share them. They are its own or lie in memory of somebody else, such as a mapped file,
@@ -55,14 +44,16 @@ class NumberArray {
       copy_elements(elements);
       return;
     }
-    auto owner = std::make_shared<const std::vector<T>>(std::move(elements));
-    body_ = new Borrowed(*owner, owner);
+    void* const kept = new std::vector<T>(std::move(elements));
+    const auto& vector = *static_cast<const std::vector<T>*>(kept);
+    body_ = ArrayBody::borrow(vector.data(), vector.size(), &equal,
+                              std::shared_ptr<const void>(kept, &drop_vector));
   }
   /// `elements` as they lie in memory that `owner` keeps alive and unchanged.
   static NumberArray borrow(std::span<const T> elements, std::shared_ptr<const void> owner) {
     NumberArray array;
     if (!elements.empty()) {
-      array.body_ = new Borrowed(elements, std::move(owner));
+      array.body_ = ArrayBody::borrow(elements.data(), elements.size(), &equal, std::move(owner));
     }
     return array;
   }
@@ -83,8 +74,8 @@ class NumberArray {
     }
   }
 
-  const T* data() const { return body_ == nullptr ? nullptr : elements().data; }
-  std::size_t size() const { return body_ == nullptr ? 0 : elements().count; }
+  const T* data() const { return body_ == nullptr ? nullptr : static_cast<const T*>(body_->data); }
+  std::size_t size() const { return body_ == nullptr ? 0 : body_->count; }
   bool empty() const { return body_ == nullptr; }
   std::span<const T> span() const { return {data(), size()}; }
   const T* begin() const { return data(); }
@@ -93,7 +84,8 @@ class NumberArray {
   const T& front() const { return data()[0]; }
   const T& back() const { return data()[size() - 1]; }
   bool operator==(const NumberArray& other) const {
-    return body_ == other.body_ || std::equal(begin(), end(), other.begin(), other.end());
+    return body_ == other.body_ ||
+           (body_ != nullptr && other.body_ != nullptr && body_->ArrayBody::equals(*other.body_));
   }
 
   /// What copies share and a Value holds; nullptr for an empty array.
@@ -102,38 +94,18 @@ class NumberArray {
  private:
   static constexpr std::size_t kAdoptFrom = 4096;  // bytes
 
-  struct Elements : SharedBody {
-    Elements(const T* first, std::size_t n) : data(first), count(n) {}
-    bool equals(const SharedBody& other) const override {
-      const auto& o = static_cast<const Elements&>(other);
-      return std::equal(data, data + count, o.data, o.data + o.count);
-    }
-    std::size_t size() const override { return count; }
-    const T* data;
-    std::size_t count;
-  };
-  /// Elements behind the body, in one allocation.
-  struct Own final : Elements {
-    explicit Own(std::size_t n) : Elements(reinterpret_cast<const T*>(this + 1), n) {}
-    static void operator delete(void* memory) { ::operator delete(memory); }
-  };
-  struct Borrowed final : Elements {
-    Borrowed(std::span<const T> elements, std::shared_ptr<const void> o)
-        : Elements(elements.data(), elements.size()), owner(std::move(o)) {}
-    std::shared_ptr<const void> owner;
-  };
-
-  const Elements& elements() const { return *static_cast<const Elements*>(body_); }
+  static bool equal(const void* a, const void* b, std::size_t count) {
+    const T* const first = static_cast<const T*>(a);
+    return std::equal(first, first + count, static_cast<const T*>(b));
+  }
+  static void drop_vector(void* vector) { delete static_cast<std::vector<T>*>(vector); }
   void copy_elements(std::span<const T> elements) {
     if (!elements.empty()) {
-      void* memory = ::operator new(sizeof(Own) + elements.size_bytes());
-      body_ = ::new (memory) Own(elements.size());
-      std::memcpy(static_cast<void*>(static_cast<Own*>(body_) + 1), elements.data(),
-                  elements.size_bytes());
+      body_ = ArrayBody::copy(elements.data(), elements.size(), sizeof(T), &equal);
     }
   }
 
-  SharedBody* body_ = nullptr;
+  ArrayBody* body_ = nullptr;
 };
 
 /// How an element of an array is kept: bools one per byte.

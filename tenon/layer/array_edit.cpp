@@ -5,6 +5,9 @@
 #include "tenon/layer/array_edit.h"
 
 #include <algorithm>
+#include <cstring>
+#include <type_traits>
+#include <vector>
 
 #include "tenon/base/limits/limits.h"
 #include "tenon/layer/field_values.h"
@@ -217,27 +220,68 @@ class Application {
   std::uint32_t number_ = 0;
 };
 
+/// Where the elements of the edits' literals and of the weaker array begin.
+struct Origins {
+  std::vector<const void*> edits;
+  const void* weaker = nullptr;
+
+  const void* of(Source source) const {
+    return source.edit == Source::kWeaker ? weaker : edits[source.edit];
+  }
+};
+
+/// Nothing where one of them is of another type.
+template <class T>
+std::optional<Origins> origins_of(std::span<const ArrayEdit* const> edits, const Value& weaker) {
+  Origins origins;
+  for (const ArrayEdit* edit : edits) {
+    const auto* literals = edit->literals.get<Array<T>>();
+    if (literals == nullptr) {
+      return std::nullopt;
+    }
+    origins.edits.push_back(literals->data());
+  }
+  const auto* below = weaker.get<Array<T>>();
+  if (below == nullptr) {
+    return weaker.empty() ? std::optional(origins) : std::nullopt;
+  }
+  origins.weaker = below->data();
+  return origins;
+}
+
+/// Copies elements of `size` bytes to `to`; those that stand for zero stay as they are.
+void gather_bytes(const SourceList& list, const Origins& origins, std::size_t size, void* to) {
+  auto* at = static_cast<std::byte*>(to);
+  for (const std::vector<Source>& block : list.blocks()) {
+    for (const Source source : block) {
+      if (source.edit != Source::kZero) {
+        const auto* from = static_cast<const std::byte*>(origins.of(source));
+        std::memcpy(at, from + source.index * size, size);
+      }
+      at += size;
+    }
+  }
+}
+
 template <class T>
 std::optional<Value> gather(const SourceList& list, std::span<const ArrayEdit* const> edits,
                             const Value& weaker) {
-  std::vector<const Array<T>*> arrays;
-  for (const ArrayEdit* edit : edits) {
-    arrays.push_back(edit->literals.get<Array<T>>());
-  }
-  const Array<T>* below = weaker.get<Array<T>>();
-  if (std::find(arrays.begin(), arrays.end(), nullptr) != arrays.end() ||
-      (below == nullptr && !weaker.empty())) {
+  const std::optional<Origins> origins = origins_of<T>(edits, weaker);
+  if (!origins) {
     return std::nullopt;
   }
-  ArrayBuffer<T> result;
-  result.reserve(list.size());
-  for (const std::vector<Source>& block : list.blocks()) {
-    for (const Source source : block) {
-      if (source.edit == Source::kZero) {
-        result.push_back(ArrayElement<T>{});
-      } else {
-        const Array<T>& from = source.edit == Source::kWeaker ? *below : *arrays[source.edit];
-        result.push_back(from[source.index]);
+  using Element = ArrayElement<T>;
+  ArrayBuffer<T> result(list.size());
+  if constexpr (std::is_trivially_copyable_v<Element>) {
+    gather_bytes(list, *origins, sizeof(Element), result.data());
+  } else {
+    auto at = result.begin();
+    for (const std::vector<Source>& block : list.blocks()) {
+      for (const Source source : block) {
+        if (source.edit != Source::kZero) {
+          *at = static_cast<const Element*>(origins->of(source))[source.index];
+        }
+        ++at;
       }
     }
   }

@@ -28,11 +28,6 @@ constexpr double kMostOwed = 0.1;      // [s] that a pause of the machine may be
 constexpr double kRateWindow = 0.5;    // [s]
 constexpr std::size_t kMostContacts = 1000;
 
-/// One line; bytes of assets that are no UTF-8 are replaced.
-std::string line_of(const Json& message) {
-  return message.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 Json engines_json() {
   Json rows = Json::array();
   for (const engines::EngineInfo& info : list_engines()) {
@@ -88,7 +83,7 @@ bool Session::State::Timer::due(double seconds) {
 // ---- what is told
 
 void Session::State::tell(ClientNumber to, const Json& message, Outbox& out) const {
-  out.messages.push_back({to, line_of(message)});
+  out.messages.push_back({to, answers::on_one_line(message)});
 }
 
 void Session::State::tell_answer(ClientNumber to, const std::string& request, const Json& id,
@@ -139,7 +134,7 @@ void Session::State::tell_observers(Outbox& out) const {
                                       [what](const auto& client) { return client.second.*what; });
   };
   const auto tell_each = [&](bool Client::* what, const Json& message) {
-    const std::string text = line_of(message);
+    const std::string text = answers::on_one_line(message);
     for (const auto& [number, client] : clients) {
       if (client.*what) {
         out.messages.push_back({number, text});

@@ -77,7 +77,7 @@ std::string Baseline::text_of(const std::vector<ReportedFinding>& findings,
     items.push_back(std::move(item));
   }
   Json json = {{"tool", "tenon"}, {"schema", kBaselineSchema}, {"findings", std::move(items)}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return answers::printed(json, false, 1);
 }
 
 void Baseline::suppress(std::vector<ReportedFinding>& findings) const {

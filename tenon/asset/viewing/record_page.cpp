@@ -39,7 +39,7 @@ std::string call_text(const char* function, const Json& arguments) {
   std::string text = "tenonRecord." + std::string(function) + "(";
   for (const Json& argument : arguments) {
     text += text.back() == '(' ? "" : ",";
-    text += argument.dump(-1, ' ', true, Json::error_handler_t::replace);
+    text += answers::on_one_line(argument, true);
   }
   return text + ")";
 }

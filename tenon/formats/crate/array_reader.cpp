@@ -5,6 +5,8 @@
 #include "tenon/formats/crate/array_reader.h"
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -204,49 +206,66 @@ Result<Value> decode(const CrateFile& file, const ArrayHeader& header) {
   }
 }
 
-/// The elements as they lie in the file, where they are stored as in memory and aligned.
+/// The elements as they lie in the file, where they are stored as in memory and aligned; else
+/// nothing.
 template <class T>
-const T* in_place(const CrateFile& file, const ArrayHeader& header) {
-  const std::byte* at = file.bytes->span().data() + header.offset;
-  const bool aligned = reinterpret_cast<std::uintptr_t>(at) % alignof(T) == 0;
-  return header.packed || !aligned ? nullptr : reinterpret_cast<const T*>(at);
+std::optional<Value> borrowed(const CrateFile& file, const ArrayHeader& header) {
+  if constexpr (layer::kIsNumberArray<T>) {
+    const std::byte* at = file.bytes->span().data() + header.offset;
+    if (!header.packed && reinterpret_cast<std::uintptr_t>(at) % alignof(T) == 0) {
+      const std::span<const T> elements(reinterpret_cast<const T*>(at),
+                                        static_cast<std::size_t>(header.count));
+      return Value(Array<T>::borrow(elements, file.bytes));
+    }
+  }
+  return std::nullopt;
 }
 
+/// All that reading arrays of a type needs to know of it.
+struct ElementType {
+  ValueType type = ValueType::None;
+  Storage storage;
+  Value (*none)() = nullptr;
+  Result<Value> (*decode)(const CrateFile& file, const ArrayHeader& header) = nullptr;
+  std::optional<Value> (*borrowed)(const CrateFile& file, const ArrayHeader& header) = nullptr;
+};
+
 template <class T>
+constexpr ElementType kElement{layer::ValueTraits<T>::type, kStorage<T>,
+                               [] { return Value(Array<T>()); }, &decode<T>, &borrowed<T>};
+
 class CrateArray final : public layer::DeferredArray {
  public:
-  CrateArray(std::shared_ptr<const CrateFile> file, const ArrayHeader& header)
-      : file_(std::move(file)), header_(header) {}
+  CrateArray(std::shared_ptr<const CrateFile> file, const ElementType& element,
+             const ArrayHeader& header)
+      : file_(std::move(file)), element_(element), header_(header) {}
   std::size_t size() const override { return static_cast<std::size_t>(header_.count); }
   Result<Value> decode() const override {
-    TENON_CHECK(unpack(*file_, header_.count * sizeof(T)));
-    return crate::decode<T>(*file_, header_);
+    TENON_CHECK(unpack(*file_, header_.count * element_.storage.size));
+    return element_.decode(*file_, header_);
   }
 
  private:
   std::shared_ptr<const CrateFile> file_;
+  const ElementType& element_;
   ArrayHeader header_;
 };
 
-template <class T>
-Result<Value> read_array_of(const std::shared_ptr<const CrateFile>& file, ValueWord word,
+Result<Value> read_array_of(const ElementType& element,
+                            const std::shared_ptr<const CrateFile>& file, ValueWord word,
                             WorkBudget& budget) {
   if (word.payload() == 0) {
-    return Value(Array<T>());
+    return element.none();
   }
-  TENON_TRY(const ArrayHeader header, read_header(kStorage<T>, *file, word));
+  TENON_TRY(const ArrayHeader header, read_header(element.storage, *file, word));
   TENON_CHECK(budget.spend(1));
-  if (!header.packed && header.count <= kSmallArray / sizeof(T)) {
-    return decode<T>(*file, header);
+  if (!header.packed && header.count <= kSmallArray / element.storage.size) {
+    return element.decode(*file, header);
   }
-  if constexpr (layer::kIsNumberArray<T>) {
-    if (const T* elements = in_place<T>(*file, header)) {
-      const std::span<const T> span(elements, static_cast<std::size_t>(header.count));
-      return Value(Array<T>::borrow(span, file->bytes));
-    }
+  if (std::optional<Value> array = element.borrowed(*file, header)) {
+    return *std::move(array);
   }
-  return Value::deferred(layer::ValueTraits<T>::type,
-                         std::make_unique<CrateArray<T>>(file, header));
+  return Value::deferred(element.type, std::make_unique<CrateArray>(file, element, header));
 }
 
 }  // namespace
@@ -271,7 +290,7 @@ Result<Value> read_array(const std::shared_ptr<const CrateFile>& file, ValueType
   switch (element) {
 #define TENON_SCALAR(enumerator, type, name, crate_id) \
   case ValueType::enumerator:                          \
-    return read_array_of<type>(file, word, budget);
+    return read_array_of(kElement<type>, file, word, budget);
 #include "tenon/layer/value_types.def"
     default:
       return corrupt("a value of a type that has no arrays claims to be one");

@@ -3,8 +3,11 @@
 // Values whose type is known go from the text straight into their storage; nothing is kept between.
 #include "tenon/formats/text/value_reader.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <type_traits>
 
 #include "tenon/base/limits/limits.h"
 #include "tenon/formats/text/literals.h"
@@ -226,12 +229,39 @@ bool accept_plain(Cursor& cursor, T& value) {
   return true;
 }
 
+template <class Number>
+bool read_numbers(Cursor& cursor, std::span<Number> numbers) {
+  return read_tuple(cursor, numbers.size(),
+                    [&](std::size_t i) { return read_component(cursor, numbers[i]); });
+}
+
+/// What a component is read as; real ones are rounded to their type afterwards, so that tuples of
+/// all lengths and types are read by the same code.
+template <class T>
+using ReadAs = std::conditional_t<std::is_integral_v<T>, T, double>;
+
+template <class T>
+T component_of(ReadAs<T> number) {
+  if constexpr (std::is_same_v<T, Half>) {
+    return Half(static_cast<float>(number));
+  } else {
+    return static_cast<T>(number);
+  }
+}
+
 template <class T, std::size_t N>
 bool read_scalar(Cursor& cursor, Vec<T, N>& value) {
   if (accept_plain(cursor, value)) {
     return true;
   }
-  return read_tuple(cursor, N, [&](std::size_t i) { return read_component(cursor, value[i]); });
+  std::array<ReadAs<T>, N> numbers{};
+  if (!read_numbers(cursor, std::span<ReadAs<T>>(numbers))) {
+    return false;
+  }
+  for (std::size_t i = 0; i < N; ++i) {
+    value[i] = component_of<T>(numbers[i]);
+  }
+  return true;
 }
 
 template <class T>
@@ -239,9 +269,21 @@ bool read_scalar(Cursor& cursor, Quat<T>& value) {
   if (accept_plain(cursor, value)) {
     return true;
   }
-  return read_tuple(cursor, 4, [&](std::size_t i) {
-    T* const parts[] = {&value.w, &value.x, &value.y, &value.z};
-    return read_component(cursor, *parts[i]);
+  std::array<double, 4> numbers{};
+  if (!read_numbers(cursor, std::span<double>(numbers))) {
+    return false;
+  }
+  value.w = component_of<T>(numbers[0]);
+  value.x = component_of<T>(numbers[1]);
+  value.y = component_of<T>(numbers[2]);
+  value.z = component_of<T>(numbers[3]);
+  return true;
+}
+
+/// The rows of a square matrix one after the other, in which each has `size` numbers.
+bool read_rows(Cursor& cursor, std::size_t size, double* numbers) {
+  return read_tuple(cursor, size, [&](std::size_t row) {
+    return read_numbers(cursor, std::span<double>(numbers + row * size, size));
   });
 }
 
@@ -250,10 +292,14 @@ bool read_scalar(Cursor& cursor, Matrix<N>& value) {
   if (accept_plain(cursor, value)) {
     return true;
   }
-  return read_tuple(cursor, N, [&](std::size_t row) {
-    return read_tuple(
-        cursor, N, [&](std::size_t column) { return read_component(cursor, value[row][column]); });
-  });
+  std::array<double, N * N> numbers{};
+  if (!read_rows(cursor, N, numbers.data())) {
+    return false;
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    value[i / N][i % N] = numbers[i];
+  }
+  return true;
 }
 
 /// Reads the elements of a list; lists within the list are flattened and must be of equal sizes.
