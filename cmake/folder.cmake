@@ -12,9 +12,9 @@
 #   tenon_<folder>_headers   compiles every header without a source file alone, unless TENON_UNITY
 # A folder without any .cpp becomes an interface library. The others, and what they name as
 # LIBRARIES, are in the global properties TENON_FOLDER_LIBRARIES and TENON_FOLDER_NEEDS, of which
-# libtenon.so is made; what is OF_PROGRAM is in the program alone. FAST is for folders whose own code
-# takes most of the time that users wait, SMALL for those whose own takes none that anybody notices
-# (tenon_speed).
+# libtenon.so is made; what is OF_PROGRAM is in the program alone. FAST is for folders whose own
+# code takes most of the time that users wait, SMALL for those whose own takes none that anybody
+# notices (tenon_speed).
 function(tenon_folder folder)
   cmake_parse_arguments(PARSE_ARGV 1 arg "OF_PROGRAM;FAST;SMALL" "" "LIBRARIES;WITHOUT")
   string(REPLACE "/" "_" name ${folder})
@@ -69,9 +69,10 @@ function(tenon_folder folder)
   endif()
 endfunction()
 
-# How releases of the target are compiled: `fast`, `plain` or `small`. GCC stops inlining where a unit
-# has grown by 40 %, which costs units of many sources a tenth of their speed; the bounds of `fast`
-# let them be inlined like single files, for a fifth more to compile. `small` is a third of the code.
+# How releases of the target are compiled: `fast`, `plain` or `small`. GCC stops inlining where a
+# unit has grown by 40 %, which costs units of many sources a tenth of their speed; the bounds of
+# `fast` let them be inlined like single files, for a fifth more to compile. `small` is a third of
+# the code.
 function(tenon_speed target speed)
   if(speed STREQUAL small)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Os>)
