@@ -18,6 +18,29 @@ std::uint64_t low_bytes(DataView value) {
 
 }  // namespace
 
+void DataRef::assign(DataView from) const {
+  switch (kind()) {
+    case DataKind::List:
+    case DataKind::Optional:
+      type->resize(at, from.size());
+      for (std::size_t i = 0; i < from.size(); ++i) {
+        (*this)[i].assign(from[i]);
+      }
+      return;
+    case DataKind::Pair:
+      first().assign(from.first());
+      second().assign(from.second());
+      return;
+    case DataKind::Struct:
+      for (const DataField& field : type->fields) {
+        member(field).assign(from.member(field));
+      }
+      return;
+    default:
+      type->assign(at, from.at);
+  }
+}
+
 const DataField* find_field(const DataType& type, std::string_view name) {
   for (const DataField& field : type.fields) {
     if (field.info->name == name) {

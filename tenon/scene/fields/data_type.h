@@ -69,6 +69,7 @@ struct DataType {
   const void* (*first)(const void* value) = nullptr;  ///< the first of them, where there is one
   /// Leaves that many, new ones made.
   void (*resize)(void* value, std::size_t count) = nullptr;
+  /// Of one that is not made of others: all but an Optional, a Pair, a List and a Struct.
   void (*assign)(void* to, const void* from) = nullptr;
 
   template <class T>
@@ -144,7 +145,7 @@ struct DataRef {
   /// Of an Optional or a List.
   void resize(std::size_t count) const { type->resize(at, count); }
   /// Of two values of one type.
-  void assign(DataView from) const { type->assign(at, from.at); }
+  void assign(DataView from) const;  ///< a value of the same type
 };
 
 template <class T>

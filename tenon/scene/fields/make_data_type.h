@@ -113,13 +113,18 @@ inline void describe_pose(DataType& type) {
   type.wire_size = sizeof(Pose);
 }
 
+// Never inlined: there are 900 fields.
+[[gnu::noinline]] inline void add_data_field(DataType& type, const FieldInfo* info,
+                                             const DataType& field, const void* member) {
+  const auto offset = static_cast<const char*>(member) - static_cast<const char*>(type.plain);
+  type.fields.push_back({info, &field, static_cast<std::size_t>(offset)});
+}
+
 template <class T, auto... Members>
 void add_data_fields(const Rows<Members...>& rows, const T& plain, DataType& type) {
   const FieldInfo* info = rows.infos;
   const auto add = [&]<class Member>(const Member& member) {
-    const auto offset =
-        reinterpret_cast<const char*>(&member) - reinterpret_cast<const char*>(&plain);
-    type.fields.push_back({info++, &data_type<Member>(), static_cast<std::size_t>(offset)});
+    add_data_field(type, info++, data_type<Member>(), &member);
   };
   (add(plain.*Members), ...);
 }
@@ -154,9 +159,11 @@ DataType make_data_type() {
   DataType type;
   type.id = &kDataId<T>;
   type.size = sizeof(T);
-  type.assign = [](void* to, const void* from) {
-    *static_cast<T*>(to) = *static_cast<const T*>(from);
-  };
+  if constexpr (!wire::kIsOptional<T> && !wire::kIsPair<T> && !wire::kIsVector<T> && !HasTable<T>) {
+    type.assign = [](void* to, const void* from) {
+      *static_cast<T*>(to) = *static_cast<const T*>(from);
+    };
+  }
   if constexpr (std::is_same_v<T, bool>) {
     type.kind = DataKind::Flag;
     type.wire_size = 1;
