@@ -107,12 +107,10 @@ int run_bench(const Globals& globals, const BenchArguments& arguments) {
 
 constexpr const char* kBenchFooter =
     "--vary gives every environment a number of its own from a range, drawn from --seed, the "
-    "number of "
-    "the environment and that of the option, and nothing else. Factors of bodyMass, "
+    "number of the environment and that of the option, and nothing else. Factors of bodyMass, "
     "colliderFriction, driveStiffness, driveDamping, driveMaxForce, jointDamping, jointFriction, "
     "jointArmature and gravity, and offsets of jointPosition (m, rad) and bodyPosition (m) share "
-    "one "
-    "model; any other number of tenon physics --json, such as colliders.shape.radius or "
+    "one model; any other number of tenon physics --json, such as colliders.shape.radius or "
     "joints.upper, is a factor too and gives each environment a model of its own. Exit code 3: an "
     "environment failed.\n\n"
     "Examples:\n"
