@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/scene/physics_scene.h"
+
 namespace tenon::scene {
 namespace {
 
