@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Two engines that have nothing in common: MuJoCo and free bodies in closed form.
+#include <gtest/gtest.h>
+
 #include "tenon/engines/mujoco/mujoco_engine.h"
 #include "tenon/engines/test_free_bodies.h"
 
