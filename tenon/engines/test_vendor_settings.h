@@ -332,7 +332,7 @@ void count(const schema::Schema& schema, const schema::PropertyDefinition& prope
   }
 }
 
-Tally tally_of(const Engine& engine, Runs runs) {
+inline Tally tally_of(const Engine& engine, Runs runs) {
   const std::vector<SettingScene> scenes = setting_scenes();
   Known known(engine);
   Tally tally;
