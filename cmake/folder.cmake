@@ -69,10 +69,10 @@ function(tenon_folder folder)
   endif()
 endfunction()
 
-# How releases of the target are compiled: `fast`, `plain` or `small`. GCC stops inlining where a
-# unit has grown by 40 %, which costs units of many sources a tenth of their speed; the bounds of
-# `fast` let them be inlined like single files, for a fifth more to compile. `small` is a third of
-# the code.
+# How releases of the target are compiled: `fast`, `small`, or `plain`, which is as all targets are.
+# GCC stops inlining where a unit has grown by 40 %, which costs units of many sources a tenth of
+# their speed; the bounds of `fast` let them be inlined like single files, for a fifth more to
+# compile. `small` is a third of the code.
 function(tenon_speed target speed)
   if(speed STREQUAL small)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Os>)
