@@ -19,7 +19,6 @@ namespace {
 
 constexpr std::size_t kNodeUnits = 8;         // of work to make a node
 constexpr std::size_t kNodesLookedAt = 4;     // for a unit, where nothing else is done with them
-constexpr std::size_t kKeptUnits = 16;        // for a node of the finished index
 constexpr std::size_t kElementsForUnit = 16;  // of paths
 
 /// To make such a map, or only to find it: making one of many pairs has been counted.

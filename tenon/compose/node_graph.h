@@ -24,6 +24,9 @@ using NodeIds = ShortList<NodeId, 24>;
 /// Room for what a prim's own arcs bring in.
 inline constexpr std::size_t kNodesToCome = 4;
 
+/// Of work for a node of a finished index.
+inline constexpr std::size_t kKeptUnits = 16;
+
 /// An arc about to be added below `parent`.
 struct Arc {
   ArcKind kind = ArcKind::Root;

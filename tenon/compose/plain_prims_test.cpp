@@ -76,6 +76,70 @@ TEST(PlainPrims, AreComposedLikeThoseWithArcs) {
   }
 }
 
+const char* const kReferencingRoot = R"(
+def "A" (references = @ref@</M> (offset = 4)
+ variants = { string v = "x" }) {
+  over "b" { custom double stronger }
+  def "own" { reorder nameChildren = ["n", "m"]
+    def "m" { }
+    def "n" { } } }
+def "B" (references = @ref@</M>
+ instanceable = true) { over "b" { custom double ignored } }
+over "C" (specializes = </S>
+ payload = </P>) { def "s" { } }
+def "D" (inherits = </Silent>
+ references = @ref@</M>) { }
+class "Silent" { }
+class "S" { def "s" { def "deep" { double d } } }
+def "P" { def "s" { over "deep" { double p }
+    def "more" { } } def "p" { def "q" { } } })";
+
+const char* const kReferenced = R"(
+def "M" (prepend variantSets = "v"
+ variants = { string v = "y" }) {
+  class "K" { def "k" { reorder nameChildren = ["two", "one"]
+      def "one" { double o }
+      def "two" { } } }
+  def "b" { double w
+    def "c" (inherits = </M/K>) { over "k" { double over_k }
+      def "l" { def "last" { } } } }
+  variantSet "v" = {
+    "x" { over "b" { double of_x
+        def "only_x" { def "below" { } } } }
+    "y" { def "only_y" { } }
+  } })";
+
+/// All prims of a scene of arcs, as its indices hold them.
+std::string dump_below_arcs(const std::string& metadata) {
+  TestScene scene({{"root", "(" + metadata + ")" + kReferencingRoot},
+                   {"session", "over \"A\" { over \"b\" { over \"c\" { double s } } }"},
+                   {"ref", kReferenced}});
+  const LayerLabel label = [](const layer::Layer& layer) { return layer.identifier(); };
+  std::string text = dump_indices(scene.cache(), label);
+  std::vector<Path> open{Path::absolute_root()};
+  while (!open.empty()) {
+    const PrimIndex& index = scene.cache().index(open.back());
+    open.pop_back();
+    text += index.path.str() + "\n" + dump_nodes(index, label);
+    for (const Opinion& opinion : index.opinions) {
+      text += opinion.path.str() + " of node " + std::to_string(opinion.node) + "\n";
+    }
+    for (const Token name : index.child_names) {
+      open.push_back(index.path.child(name));
+    }
+  }
+  return text;
+}
+
+TEST(PlainPrims, BelowArcsAreComposedLikeThoseWithArcs) {
+  const std::string plain = dump_below_arcs("doc = \"plain\"");
+  EXPECT_EQ(plain, dump_below_arcs("relocates = { </Elsewhere/x>: </Elsewhere/y> }"));
+  for (const char* path : {"/A/b/c/k/two", "/A/b/only_x/below", "/A/own/n", "/B/b/c/l/last",
+                           "/C/s/deep", "/C/s/more", "/C/p/q"}) {
+    EXPECT_NE(plain.find(path), std::string::npos) << path;
+  }
+}
+
 TEST(PlainPrims, LieInOnePieceOfMemory) {
   TestScene scene{std::string(kPlainRoot)};
   const PrimIndex& index = scene.at("/A/b/d");
