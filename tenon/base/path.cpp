@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -25,16 +26,18 @@ std::uint64_t mix(std::uint64_t seed, const void* pointer) {
   return (seed ^ bits) * 0x9E3779B97F4A7C15ull + (seed >> 29);
 }
 
+/// Tells details of elements of one kind apart.
+const void* id_of(PathNode::Detail detail) { return std::bit_cast<const void*>(detail); }
+
 std::uint64_t hash_of(const PathNode& node) {
   std::uint64_t hash = mix(static_cast<std::size_t>(node.kind) + 1, node.parent);
   hash = mix(hash, node.name.id());
-  hash = mix(hash, node.variant.id());
-  return mix(hash, node.target);
+  return mix(hash, id_of(node.detail));
 }
 
 bool same(const PathNode& a, const PathNode& b) {
-  return a.parent == b.parent && a.kind == b.kind && a.name == b.name && a.variant == b.variant &&
-         a.target == b.target;
+  return a.parent == b.parent && a.kind == b.kind && a.name == b.name &&
+         id_of(a.detail) == id_of(b.detail);
 }
 
 /// Nodes in the order in which they were made, where their address tells which chunk they are in.
@@ -66,7 +69,7 @@ class NodeChunk {
   PathNode* nodes() { return reinterpret_cast<PathNode*>(storage_); }
 
   alignas(kSize) std::atomic<std::uint32_t> count_ = 0;
-  alignas(PathNode) std::byte storage_[kNodes * sizeof(PathNode)];
+  alignas(64) std::byte storage_[kNodes * sizeof(PathNode)];  // no node on two lines of a cache
 };
 static_assert(sizeof(NodeChunk) == NodeChunk::kSize);
 
@@ -193,48 +196,46 @@ Path Path::relative_root() {
   return Path(root);
 }
 
-Path Path::make(const PathNode* parent, PathKind kind, Token name, Token variant,
-                const PathNode* target) {
+Path Path::make(const PathNode* parent, PathKind kind, Token name, PathNode::Detail detail) {
   const bool has_variant = parent->has_variant || kind == PathKind::VariantSelection;
-  return Path(intern_below({parent, target, name, variant, 0, kind, parent->absolute, has_variant,
+  return Path(intern_below({parent, name, detail, 0, kind, parent->absolute, has_variant,
                             (parent->depth + 1) & kDepthMask}));
 }
 
 Path Path::child(Token name) const {
   TENON_ASSERT(node_ != nullptr);
-  return make(node_, PathKind::Prim, name, Token(), nullptr);
+  return make(node_, PathKind::Prim, name);
 }
 
 Path Path::property(Token name) const {
   TENON_ASSERT(node_ != nullptr);
   const bool relational = is_target();
-  return make(node_, relational ? PathKind::RelationalAttribute : PathKind::Property, name, Token(),
-              nullptr);
+  return make(node_, relational ? PathKind::RelationalAttribute : PathKind::Property, name);
 }
 
 Path Path::variant_selection(Token set, Token variant) const {
   TENON_ASSERT(node_ != nullptr);
-  return make(node_, PathKind::VariantSelection, set, variant, nullptr);
+  return make(node_, PathKind::VariantSelection, set, PathNode::Detail(variant));
 }
 
 Path Path::target_element(Path target) const {
   TENON_ASSERT(node_ != nullptr);
-  return make(node_, PathKind::Target, Token(), Token(), target.node_);
+  return make(node_, PathKind::Target, Token(), PathNode::Detail(target.node_));
 }
 
 Path Path::mapper(Path target) const {
   TENON_ASSERT(node_ != nullptr);
-  return make(node_, PathKind::Mapper, Token(), Token(), target.node_);
+  return make(node_, PathKind::Mapper, Token(), PathNode::Detail(target.node_));
 }
 
 Path Path::mapper_arg(Token name) const {
   TENON_ASSERT(node_ != nullptr);
-  return make(node_, PathKind::MapperArg, name, Token(), nullptr);
+  return make(node_, PathKind::MapperArg, name);
 }
 
 Path Path::expression() const {
   TENON_ASSERT(node_ != nullptr);
-  return make(node_, PathKind::Expression, Token(), Token(), nullptr);
+  return make(node_, PathKind::Expression, Token());
 }
 
 Path Path::prim_or_variant() const {
@@ -289,12 +290,11 @@ Path Path::replace_prefix(Path from, Path to, bool fix_targets) const {
   Path result = found ? to : Path(node);
   for (auto it = tail.rbegin(); it != tail.rend(); ++it) {
     const PathNode* element = *it;
-    const PathNode* target = element->target;
-    if (fix_targets && target != nullptr) {
-      target = Path(target).replace_prefix(from, to, true).node_;
+    PathNode::Detail detail = element->detail;
+    if (fix_targets && element->target() != nullptr) {
+      detail.target = Path(element->target()).replace_prefix(from, to, true).node_;
     }
-    PathKind kind = element->kind;
-    result = make(result.node_, kind, element->name, element->variant, target);
+    result = make(result.node_, element->kind, element->name, detail);
   }
   return result;
 }
@@ -312,7 +312,7 @@ Path Path::strip_variants() const {
   }
   Path result(node);
   for (auto it = elements.rbegin(); it != elements.rend(); ++it) {
-    result = make(result.node_, (*it)->kind, (*it)->name, (*it)->variant, (*it)->target);
+    result = make(result.node_, (*it)->kind, (*it)->name, (*it)->detail);
   }
   return result;
 }
@@ -335,11 +335,11 @@ Path Path::absolute(Path anchor) const {
       }
       continue;
     }
-    const PathNode* target = element->target;
-    if (target != nullptr) {
-      target = Path(target).absolute(anchor).node_;
+    PathNode::Detail detail = element->detail;
+    if (element->target() != nullptr) {
+      detail.target = Path(element->target()).absolute(anchor).node_;
     }
-    result = make(result.node_, element->kind, element->name, element->variant, target);
+    result = make(result.node_, element->kind, element->name, detail);
   }
   return result;
 }
@@ -405,10 +405,10 @@ std::strong_ordering compare_elements(const PathNode* a, const PathNode* b) {
   if (a->name != b->name) {
     return a->name <=> b->name;
   }
-  if (a->variant != b->variant) {
-    return a->variant <=> b->variant;
+  if (a->variant() != b->variant()) {
+    return a->variant() <=> b->variant();
   }
-  return compare_nodes(a->target, b->target);
+  return compare_nodes(a->target(), b->target());
 }
 
 }  // namespace

@@ -31,19 +31,34 @@ enum class PathKind : std::uint8_t {
 
 class Path;
 
-/// One interned element; never freed. Internal to Path.
+/// One interned element; never freed. Internal to Path. Two of them share a line of the cache.
 struct PathNode {
+  /// No element has a variant and a target.
+  union Detail {
+    Detail() : target(nullptr) {}
+    explicit Detail(const PathNode* the_target) : target(the_target) {}
+    explicit Detail(Token the_variant) : variant(the_variant) {}
+    const PathNode* target;  ///< of Target and Mapper elements
+    Token variant;           ///< of VariantSelection elements
+  };
+
   const PathNode* parent = nullptr;
-  const PathNode* target = nullptr;  ///< of Target and Mapper elements
-  Token name;                        ///< prim, property or variant set name
-  Token variant;                     ///< of VariantSelection elements
-  std::uint32_t number = 0;          ///< counts up as nodes are made, from 1 on
+  Token name;  ///< prim, property or variant set name
+  Detail detail;
+  std::uint32_t number = 0;  ///< counts up as nodes are made, from 1 on
   PathKind kind : 8 = PathKind::Empty;
   bool absolute : 1 = false;
   bool has_variant : 1 = false;  ///< this or any element above is a variant selection
   std::uint32_t depth : 22 = 0;  ///< elements below the root
+
+  Token variant() const {
+    return kind == PathKind::VariantSelection ? detail.variant : Token();
+  }
+  const PathNode* target() const {
+    return kind == PathKind::Target || kind == PathKind::Mapper ? detail.target : nullptr;
+  }
 };
-static_assert(sizeof(PathNode) == 4 * sizeof(void*) + 8);
+static_assert(sizeof(PathNode) == 3 * sizeof(void*) + 8);
 
 /// Where something is in a scene or a layer. Interned: copying, equality and hashing cost one
 /// pointer. Core Spec 1.0.1 section 6 gives the grammar.
@@ -76,9 +91,9 @@ class Path {
   /// Name of the last element: prim, property or variant set; empty for a root.
   Token name() const { return node_ == nullptr ? Token() : node_->name; }
   /// Variant name of a VariantSelection element.
-  Token variant() const { return node_ == nullptr ? Token() : node_->variant; }
+  Token variant() const { return node_ == nullptr ? Token() : node_->variant(); }
   /// Target inside the brackets of a Target or Mapper element.
-  Path target() const { return Path(node_ == nullptr ? nullptr : node_->target); }
+  Path target() const { return Path(node_ == nullptr ? nullptr : node_->target()); }
 
   /// One element less; an empty path for a root.
   Path parent() const { return Path(node_ == nullptr ? nullptr : node_->parent); }
@@ -125,8 +140,7 @@ class Path {
 
  private:
   explicit Path(const PathNode* node) : node_(node) {}
-  static Path make(const PathNode* parent, PathKind kind, Token name, Token variant,
-                   const PathNode* target);
+  static Path make(const PathNode* parent, PathKind kind, Token name, PathNode::Detail detail = {});
 
   const PathNode* node_ = nullptr;
 };
