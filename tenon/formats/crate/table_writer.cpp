@@ -64,6 +64,14 @@ TableWriter::TableWriter() {
   token(Token());  // index 0: a property's name must have a negative form
 }
 
+void TableWriter::reserve(std::size_t specs) {
+  path_rows_.reserve(specs + 1);
+  for (std::vector<std::uint32_t>* rows : {&path_tokens_, &spec_paths_, &spec_sets_, &spec_kinds_}) {
+    rows->reserve(specs + 1);
+  }
+  paths_.reserve(specs + 1);
+}
+
 std::uint32_t TableWriter::token(Token token) {
   const auto next = static_cast<std::uint32_t>(tokens_.size());
   const std::uint32_t known =
@@ -95,30 +103,30 @@ std::uint32_t TableWriter::path(Path path) {
   if (path.empty()) {
     return empty_path();
   }
-  if (const std::uint32_t* const known = path_index_.find(path)) {
-    return *known;
-  }
   if (path.parent() != last_parent_) {
     add_above(path);
     last_parent_ = path.parent();
   }
-  return add_path(path);
+  return row_of(path);
 }
 
 void TableWriter::add_above(Path path) {
   std::vector<Path> missing;
-  for (Path at = path.parent(); !at.empty() && path_index_.find(at) == nullptr; at = at.parent()) {
+  for (Path at = path.parent(); !at.empty() && path_rows_.find(at) == nullptr; at = at.parent()) {
     missing.push_back(at);
   }
-  std::for_each(missing.rbegin(), missing.rend(), [this](Path at) { add_path(at); });
+  std::for_each(missing.rbegin(), missing.rend(), [this](Path at) { row_of(at); });
 }
 
-std::uint32_t TableWriter::add_path(Path path) {
-  const auto row = static_cast<std::uint32_t>(paths_.size());
-  path_index_[path] = row;
-  paths_.push_back(path);
-  path_tokens_.push_back(token(element_of(path)));
-  return row;
+/// The row of a path, made where there is none yet; those above have theirs.
+std::uint32_t TableWriter::row_of(Path path) {
+  std::uint32_t& row = path_rows_[path];
+  if (row == 0) {
+    paths_.push_back(path);
+    path_tokens_.push_back(token(element_of(path)));
+    row = static_cast<std::uint32_t>(paths_.size());
+  }
+  return row - 1;
 }
 
 std::uint32_t TableWriter::empty_path() {
@@ -246,7 +254,7 @@ std::vector<std::uint32_t> TableWriter::ordered_paths(std::span<const Path> spec
   std::vector<std::uint32_t> rows;
   rows.reserve(paths_.size());
   for (const Path path : spec_paths) {
-    rows.push_back(path_index_.at(path));
+    rows.push_back(path_rows_.at(path) - 1);
   }
   return rows;
 }

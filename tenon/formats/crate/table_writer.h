@@ -22,6 +22,9 @@ class TableWriter {
  public:
   TableWriter();
 
+  /// Room for so many specs.
+  void reserve(std::size_t specs);
+
   std::uint32_t token(Token token);
   std::uint32_t string(std::string_view text);
   /// An absolute path or the empty one. Everything above it becomes a row too.
@@ -44,7 +47,7 @@ class TableWriter {
   struct PathTree;
   std::uint32_t empty_path();
   void add_above(Path path);
-  std::uint32_t add_path(Path path);
+  std::uint32_t row_of(Path path);
   void write_tokens(bytes::ByteWriter& out) const;
   void write_fields(bytes::ByteWriter& out) const;
   /// Rows of paths in the order of these.
@@ -60,7 +63,7 @@ class TableWriter {
   std::vector<std::uint32_t> string_of_token_;  // 1 + its number; 0: none
   std::vector<Path> paths_;
   std::vector<std::uint32_t> path_tokens_;  // of their last elements
-  PathTable<std::uint32_t> path_index_;
+  PathTable<std::uint32_t> path_rows_;  // 1 + where it is
   Path last_parent_;  // of the path that came last: it and what is above it have rows
   std::uint32_t empty_path_ = RowIndex::kNone;
   std::vector<std::uint32_t> field_names_;

@@ -115,6 +115,7 @@ Result<std::string> write_crate(const layer::Layer& layer) {
   crate::ValueWriter values(out, tables);
   SpecWriter specs(tables, values);
   const OrderedSpecs ordered = ordered_specs(layer);
+  tables.reserve(ordered.entries.size());
   for (const Entry* entry : ordered.entries) {
     TENON_CHECK(specs.write(*entry));
   }
