@@ -51,9 +51,7 @@ struct PathNode {
   bool has_variant : 1 = false;  ///< this or any element above is a variant selection
   std::uint32_t depth : 22 = 0;  ///< elements below the root
 
-  Token variant() const {
-    return kind == PathKind::VariantSelection ? detail.variant : Token();
-  }
+  Token variant() const { return kind == PathKind::VariantSelection ? detail.variant : Token(); }
   const PathNode* target() const {
     return kind == PathKind::Target || kind == PathKind::Mapper ? detail.target : nullptr;
   }

@@ -3,6 +3,7 @@
 #include "tenon/compose/build_index.h"
 
 #include "tenon/compose/plain_prims.h"
+#include "tenon/compose/twins/twins.h"
 
 namespace tenon::compose {
 namespace {
@@ -58,6 +59,13 @@ void build_with_arcs(const IndexServices& services, PrimIndex& index) {
   compose_property_names(index);
 }
 
+void build_non_local_child(const IndexServices& services, const PrimIndex& parent,
+                           PrimIndex& index) {
+  if (!build_child_below_arcs(services, parent, index)) {
+    build_with_arcs(services, index);
+  }
+}
+
 }  // namespace
 
 void build_root_index(const IndexServices& services, PrimIndex& index) {
@@ -71,9 +79,13 @@ void build_root_index(const IndexServices& services, PrimIndex& index) {
 }
 
 void build_child_index(const IndexServices& services, const PrimIndex& parent, PrimIndex& index) {
-  if (!build_local_child(services, parent, index) &&
-      !build_child_below_arcs(services, parent, index)) {
-    build_with_arcs(services, index);
+  if (build_local_child(services, parent, index)) {
+    return;
+  }
+  if (services.twins == nullptr) {
+    build_non_local_child(services, parent, index);
+  } else if (!services.twins->take_over(services, parent, index)) {
+    services.twins->compose(services, parent, index, build_non_local_child);
   }
 }
 

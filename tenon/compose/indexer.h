@@ -16,6 +16,8 @@
 /// Internal: the state of building one prim index, and the steps that act on it.
 namespace tenon::compose {
 
+class Twins;
+
 /// What building an index asks its surroundings for.
 struct IndexServices {
   MapPool* maps = nullptr;
@@ -31,6 +33,7 @@ struct IndexServices {
   std::function<void(MissingArc)> missing;
   std::size_t* node_count = nullptr;  ///< nodes of all indices built so far
   WorkMeter* work = nullptr;          ///< of all indices built so far
+  Twins* twins = nullptr;             ///< where prims may share what they bring in
 };
 
 /// Links an index that is being built to the graph that it will become a part of.

@@ -16,6 +16,7 @@
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/expressions/variable_expression.h"
 #include "tenon/compose/muting.h"
+#include "tenon/compose/twins/site_trace.h"
 #include "tenon/compose/work/work_meter.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/finding_place.h"
@@ -278,6 +279,7 @@ const Path* LayerStack::relocation_source(Path target) const {
 }
 
 bool LayerStack::has_spec(Path path) const {
+  SiteTrace::note(*this, path);
   return std::any_of(layers.begin(), layers.end(),
                      [&](const StackedLayer& stacked) { return stacked.layer->has(path); });
 }

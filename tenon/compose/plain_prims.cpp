@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "tenon/compose/twins/site_trace.h"
 #include "tenon/layer/fields.h"
 
 namespace tenon::compose {
@@ -45,6 +46,7 @@ bool descend(NodeGraph& graph, const Path child, PrimIndex& index) {
     }
     node.has_specs = false;
     graph.count(node.layer_stack->layers.size());
+    SiteTrace::note(*node.layer_stack, node.path);
     for (const StackedLayer& stacked : node.layer_stack->layers) {
       const layer::Spec* const spec = stacked.layer->find(node.path);
       node.has_specs = node.has_specs || spec != nullptr;

@@ -13,10 +13,10 @@ namespace tenon::compose {
 inline constexpr std::size_t kIndexUnits = 120;  ///< of work for an index, which is kept
 inline constexpr std::size_t kOpinionUnits = 4;  ///< for each of its opinions
 
-/// Fills `index`, whose path is given, of a child of the prim `parent` that has opinions of the root
-/// layer stack alone. False, with nothing done, where an arc starts here or other stacks matter.
-/// When there has been too much work, arcs count no more: what remains is as large as the layers of
-/// the root stack.
+/// Fills `index`, whose path is given, of a child of the prim `parent` that has opinions of the
+/// root layer stack alone. False, with nothing done, where an arc starts here or other stacks
+/// matter. When there has been too much work, arcs count no more: what remains is as large as the
+/// layers of the root stack.
 bool build_local_child(const IndexServices& services, const PrimIndex& parent, PrimIndex& index);
 
 /// The same of a child below arcs, where every node of the parent goes one name deeper.

@@ -16,6 +16,7 @@
 #include "tenon/base/containers/short_list.h"
 #include "tenon/compose/composition_error.h"
 #include "tenon/compose/expressions/variable_expression.h"
+#include "tenon/compose/twins/site_trace.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/finding_place.h"
@@ -108,6 +109,7 @@ using AuthoredFields = ShortList<AuthoredField, 4>;
 
 AuthoredFields authored(const LayerStack& stack, Path path, Token field) {
   AuthoredFields found;
+  SiteTrace::note(stack, path);
   for (const StackedLayer& stacked : stack.layers) {
     const layer::Spec* spec = stacked.layer->find(path);
     const layer::Value* value = spec == nullptr ? nullptr : spec->find(field);
@@ -233,6 +235,7 @@ void AuthoredArcs::add(const layer::Spec& spec) {
 
 AuthoredArcs authored_arcs(const LayerStack& stack, Path path) {
   AuthoredArcs arcs;
+  SiteTrace::note(stack, path);
   for (const StackedLayer& stacked : stack.layers) {
     if (const layer::Spec* spec = stacked.layer->find(path)) {
       arcs.add(*spec);
@@ -302,6 +305,7 @@ std::vector<std::string> variant_options(const LayerStack& stack, Path path,
                                          const std::string& set) {
   std::vector<std::string> options;
   const Path set_path = path.variant_selection(set, Token());
+  SiteTrace::note(stack, set_path);
   for (const StackedLayer& stacked : stack.layers) {
     for (const Token& name : stacked.layer->children(set_path, fields::variantChildren)) {
       options.push_back(name.str());
@@ -311,6 +315,7 @@ std::vector<std::string> variant_options(const LayerStack& stack, Path path,
 }
 
 bool has_variant_selections(const LayerStack& stack, Path path) {
+  SiteTrace::note(stack, path);
   return std::any_of(stack.layers.begin(), stack.layers.end(), [&](const StackedLayer& stacked) {
     return selections_at(*stacked.layer, path) != nullptr;
   });
@@ -318,6 +323,7 @@ bool has_variant_selections(const LayerStack& stack, Path path) {
 
 bool composed_variant_selection(const LayerStack& stack, Path path, const std::string& set,
                                 std::string* selection, Diagnostics* errors) {
+  SiteTrace::note(stack, path);
   for (const StackedLayer& stacked : stack.layers) {
     const auto* selections = selections_at(*stacked.layer, path);
     if (selections == nullptr) {
@@ -334,6 +340,7 @@ bool composed_variant_selection(const LayerStack& stack, Path path, const std::s
 
 void add_variant_selections(const LayerStack& stack, Path path,
                             std::map<std::string, std::string>& selections) {
+  SiteTrace::note(stack, path);
   for (const StackedLayer& stacked : stack.layers) {
     const auto* found = selections_at(*stacked.layer, path);
     if (found == nullptr) {

@@ -15,7 +15,7 @@
 /// What the programs that dump composed scenes have in common. Options of composition:
 /// [--no-payloads] [--loaded PRIM]... [--unloaded PRIM]... [--rule PRIM
 /// AllRule|OnlyRule|NoneRule]...
-/// [--muted LAYER]... [--fallback SET VARIANT]... [--max-work UNITS]
+/// [--muted LAYER]... [--fallback SET VARIANT]... [--max-work UNITS] [--no-twins]
 namespace tenon::tests {
 
 /// False when `words` from `i` on are no option of composition; else `i` is at its last word.
@@ -25,6 +25,8 @@ inline bool read_compose_option(const std::vector<std::string>& words, std::size
   const std::size_t left = words.size() - i - 1;
   if (word == "--no-payloads") {
     options.load_payloads = false;
+  } else if (word == "--no-twins") {
+    options.shares_twins = false;
   } else if (word == "--rule" && left >= 2) {
     const std::string& rule = words[i + 2];
     (rule == "AllRule"    ? options.loaded

@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each of two threads takes roots, one after the other, and walks down from them with a cache of
+// its own. What it may not ask for, because it would open a layer or leave a trace, makes it give
+// up the index at hand, which is dropped and left to whoever asks for it.
 #include "tenon/compose/cache/build_ahead.h"
 
 #include <algorithm>
@@ -8,6 +12,7 @@
 
 #include "tenon/base/parallel.h"
 #include "tenon/compose/build_index.h"
+#include "tenon/compose/twins/twins.h"
 
 namespace tenon::compose {
 namespace {
@@ -21,6 +26,7 @@ class BatchBuilder {
     services_.root_stack = known_.root_stack;
     services_.node_count = &node_count_;
     services_.work = &work_;
+    services_.twins = known_.options->shares_twins ? &twins_ : nullptr;
     services_.index = [this](Path path) -> const PrimIndex& { return index(path); };
     services_.open = [this](const std::string& path, const layer::Layer& anchor) {
       const Result<layer::LayerPtr>* const opened = known_.layer(path, anchor);
@@ -40,6 +46,7 @@ class BatchBuilder {
 
   void build_below(const PrimIndex& root) {
     std::vector<Pending> pending{{&root, 0}};
+    twins_.note_sibling(services_, root);
     above_.clear();
     while (!pending.empty() && !batch_.full) {
       const Pending parent = pending.back();
@@ -91,6 +98,7 @@ class BatchBuilder {
     }
     batch_.complete = false;
     batch_.full = !gave_up_;
+    twins_.forget_last();
     batch_.indices.pop_back();
     node_count_ = nodes_before;
     work_.restart(work_before);
@@ -123,6 +131,7 @@ class BatchBuilder {
   std::vector<const PrimIndex*> above_;  // the prims around the one that is built
   std::size_t node_count_ = 0;
   WorkMeter work_;
+  Twins twins_;
   bool gave_up_ = false;
 };
 

@@ -18,6 +18,7 @@
 #include "tenon/compose/build_index.h"
 #include "tenon/compose/cache/build_ahead.h"
 #include "tenon/compose/composition_error.h"
+#include "tenon/compose/twins/twins.h"
 
 namespace tenon::compose {
 
@@ -61,6 +62,7 @@ struct IndexCache::State {
   Diagnostics errors;
   std::vector<MissingArc> missing;
   std::set<std::tuple<std::string, Path, std::string, std::string>> known_missing;
+  Twins twins;
   IndexServices services;
 
   void add_missing(MissingArc arc) {
@@ -105,7 +107,9 @@ struct IndexCache::State {
     inputs.muted = &options.muted;
     inputs.override_source = variables;
     inputs.work = &work;
+    const std::size_t work_before = work.done();
     LayerStackPtr stack = build_layer_stack(inputs);
+    work.note_once(work.done() - work_before);
     errors.append(stack->errors);
     for (const MissingArc& arc : stack->missing) {
       add_missing(arc);
@@ -257,6 +261,7 @@ IndexCache::IndexCache(layer::LayerPtr root, layer::LayerPtr session, LayerOpene
   state.services.root_stack = state.root_stack.get();
   state.services.node_count = &state.node_count;
   state.services.work = &state.work;
+  state.services.twins = state.options.shares_twins ? &state.twins : nullptr;
   state.services.index = [this](Path path) -> const PrimIndex& { return index(path); };
   state.services.open = [&state](const std::string& path, const layer::Layer& anchor) {
     return state.open(path, anchor);

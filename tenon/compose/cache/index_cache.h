@@ -35,6 +35,8 @@ struct ComposeOptions {
   /// A reference to the root layer leads into the root layer stack itself. Not so where the stack
   /// has a session layer, and in a stage, which always has one, if only an empty one.
   bool shares_root_stack = true;
+  /// Siblings that bring in the same are composed once; off, each is, with the same outcome.
+  bool shares_twins = true;
   /// Nodes of all prim indices together; arcs beyond are left out with a diagnostic.
   std::size_t max_nodes = limits::kCacheNodes;
   /// Units of work on all prim indices together, and more for each spec of the layers; what is

@@ -47,6 +47,9 @@ class WorkMeter {
 
   void count(std::size_t units) { done_ += units; }
   std::size_t done() const { return done_; }
+  /// Takes note that so much of it was for what is made once, whoever needs it first.
+  void note_once(std::size_t units) { once_ += units; }
+  std::size_t once() const { return once_; }
   bool exhausted() const { return done_ >= most_; }
   /// Whether this much more would be too much; where it is, nothing more is to be done.
   bool refuses(std::size_t units) {
@@ -64,19 +67,20 @@ class WorkMeter {
   const std::vector<ArcCost>& costs() const { return costs_; }
   void clear_costs() { costs_.clear(); }
   std::vector<ArcCost> take_costs() { return std::exchange(costs_, {}); }
-
- private:
-  friend class TaskTally;
-
   void add_cost(const ArcCost& cost) {
     costs_.push_back(cost);
     if (costs_.size() >= most_costs_) {
       fold_costs();
     }
   }
+
+ private:
+  friend class TaskTally;
+
   void fold_costs();
 
   std::size_t done_ = 0;
+  std::size_t once_ = 0;
   std::size_t most_ = kUnlimited;
   std::size_t inner_ = 0;  ///< of tasks within the one that runs
   std::vector<ArcCost> costs_;

@@ -66,7 +66,8 @@ TableWriter::TableWriter() {
 
 void TableWriter::reserve(std::size_t specs) {
   path_rows_.reserve(specs + 1);
-  for (std::vector<std::uint32_t>* rows : {&path_tokens_, &spec_paths_, &spec_sets_, &spec_kinds_}) {
+  for (std::vector<std::uint32_t>* rows :
+       {&path_tokens_, &spec_paths_, &spec_sets_, &spec_kinds_}) {
     rows->reserve(specs + 1);
   }
   paths_.reserve(specs + 1);

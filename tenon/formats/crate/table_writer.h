@@ -63,7 +63,7 @@ class TableWriter {
   std::vector<std::uint32_t> string_of_token_;  // 1 + its number; 0: none
   std::vector<Path> paths_;
   std::vector<std::uint32_t> path_tokens_;  // of their last elements
-  PathTable<std::uint32_t> path_rows_;  // 1 + where it is
+  PathTable<std::uint32_t> path_rows_;      // 1 + where it is
   Path last_parent_;  // of the path that came last: it and what is above it have rows
   std::uint32_t empty_path_ = RowIndex::kNone;
   std::vector<std::uint32_t> field_names_;
