@@ -14,7 +14,7 @@
 #include <limits>
 
 #include "tenon/base/assert.h"
-#include "tenon/layer/list_op.h"
+#include "tenon/layer/lists/list_op.h"
 
 namespace tenon::convert {
 

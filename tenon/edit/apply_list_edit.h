@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tenon/edit/list_edit.h"
-#include "tenon/layer/list_op.h"
+#include "tenon/layer/lists/list_op.h"
 
 /// What edits of list edits make of an opinion.
 namespace tenon::edit {

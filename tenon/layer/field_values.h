@@ -6,7 +6,7 @@
 #include "tenon/layer/arcs.h"
 #include "tenon/layer/array_edit.h"
 #include "tenon/layer/dictionary.h"
-#include "tenon/layer/list_op.h"
+#include "tenon/layer/lists/list_op.h"
 #include "tenon/layer/scalar_types.h"
 #include "tenon/layer/time/spline.h"
 #include "tenon/layer/time/time_samples.h"

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "tenon/layer/list_op.h"
+#include "tenon/layer/lists/list_op.h"
 #include "tenon/math/quaternion.h"
 #include "tenon/math/transform.h"
 

@@ -138,7 +138,7 @@ std::vector<T> combined_list(std::span<const compose::Opinion> opinions, Token f
     if (edit == nullptr) {
       continue;
     }
-    const bool legacy = !edit->is_explicit && !(edit->added.empty() && edit->ordered.empty());
+    const bool legacy = !edit->is_explicit && edit->has_legacy();
     ends = edit->is_explicit || (legacy && edits.empty());
     if (!legacy || edits.empty()) {
       edits.push_back(edit);

@@ -7,7 +7,7 @@
 
 #include "tenon/compose/site.h"
 #include "tenon/layer/finding_place.h"
-#include "tenon/layer/item_set.h"
+#include "tenon/layer/lists/item_set.h"
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/prim.h"
 #include "tenon/stage/property_facts.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "tenon/layer/fold_list_ops.h"
+#include "tenon/layer/lists/fold_list_ops.h"
 
 namespace tenon::answers {
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "tenon/base/content_digest.h"
-#include "tenon/layer/list_op.h"
+#include "tenon/layer/lists/list_op.h"
 
 namespace tenon::convert {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "tenon/layer/item_set.h"
+#include "tenon/layer/lists/item_set.h"
 
 namespace tenon::diff {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "tenon/layer/child_lists.h"
-#include "tenon/layer/fold_list_ops.h"
+#include "tenon/layer/lists/fold_list_ops.h"
 #include "tenon/stage/flatten/flatten.h"
 #include "tenon/stage/flatten/moved_to_stack.h"
 #include "tenon/stage/stage_data.h"
@@ -49,25 +49,18 @@ void combine_any_lists(Value& stronger, const Value& weaker, Types<T...>) {
 }
 
 template <class T>
-bool drop_edits_of_what_is_below(Value& value) {
+bool drop_legacy(Value& value) {
   const auto* op = value.get<ListOp<T>>();
-  if (op == nullptr || (op->added.empty() && op->ordered.empty())) {
-    return op != nullptr;
+  if (op != nullptr && op->has_legacy()) {
+    value = op->without_legacy();
   }
-  ListOp<T> result = *op;
-  std::copy_if(op->added.begin(), op->added.end(), std::back_inserter(result.appended),
-               [&](const T& item) { return !contains(op->appended, item); });
-  result.added.clear();
-  result.ordered.clear();
-  value = std::move(result);
-  return true;
+  return op != nullptr;
 }
 
-/// Edits that depend on the list below them cannot be combined: as OpenUSD does, added items are
-/// appended and orders dropped.
+/// Edits that depend on the list below them cannot be combined.
 template <class... T>
 Value combinable(Value value, Types<T...>) {
-  (drop_edits_of_what_is_below<T>(value) || ...);
+  (drop_legacy<T>(value) || ...);
   return value;
 }
 

@@ -9,7 +9,7 @@
 
 #include "tenon/formats/text/cursor.h"
 #include "tenon/layer/arcs.h"
-#include "tenon/layer/list_op.h"
+#include "tenon/layer/lists/list_op.h"
 #include "tenon/layer/spec.h"
 
 namespace tenon::formats::text {

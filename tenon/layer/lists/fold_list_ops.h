@@ -2,21 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "tenon/layer/list_op.h"
+#include "tenon/layer/lists/list_op.h"
 
 namespace tenon::layer {
 
-/// Items of `list`, each once, where it stands first.
+/// Takes `items` out of what the edit does to a weaker list.
 template <class T>
-std::vector<T> unique_keeping_first(const std::vector<T>& list) {
-  std::vector<T> result;
-  append_absent(result, list);
-  return result;
+void remove_from_edits(ListOp<T>& op, const std::vector<T>& items) {
+  remove_items(op.deleted, items);
+  remove_items(op.prepended, items);
+  remove_items(op.appended, items);
 }
 
 /// The one edit that does what applying `weaker` and then `stronger` does, whatever the list below
@@ -29,10 +28,7 @@ std::optional<ListOp<T>> fold(const ListOp<T>& stronger, const ListOp<T>& weaker
   if (stronger.is_explicit) {
     return ListOp<T>::make_explicit(unique_keeping_first(stronger.explicit_items));
   }
-  const auto is_legacy = [](const ListOp<T>& op) {
-    return !op.added.empty() || !op.ordered.empty();
-  };
-  if (is_legacy(stronger) || is_legacy(weaker)) {
+  if (stronger.has_legacy() || weaker.has_legacy()) {
     return std::nullopt;
   }
   if (weaker.is_explicit) {
@@ -43,20 +39,22 @@ std::optional<ListOp<T>> fold(const ListOp<T>& stronger, const ListOp<T>& weaker
   ListOp<T> result = weaker;
   remove_items(result.prepended, stronger.deleted);
   remove_items(result.appended, stronger.deleted);
-  result.deleted.insert(result.deleted.end(), stronger.deleted.begin(), stronger.deleted.end());
   result.deleted = unique_keeping_first(result.deleted);
-  const List front = unique_keeping_first(stronger.prepended);
-  List back(stronger.appended.rbegin(), stronger.appended.rend());
-  back = unique_keeping_first(back);  // where it stands last
-  std::reverse(back.begin(), back.end());
-  for (const List* moved : {&front, static_cast<const List*>(&back)}) {
-    remove_items(result.deleted, *moved);
-    remove_items(result.prepended, *moved);
-    remove_items(result.appended, *moved);
-    List& to = moved == &front ? result.prepended : result.appended;
-    to.insert(moved == &front ? to.begin() : to.end(), moved->begin(), moved->end());
-  }
+  append_absent(result.deleted, stronger.deleted);
+  List front = unique_keeping_first(stronger.prepended);
+  remove_from_edits(result, front);
+  append_moved(front, result.prepended);
+  result.prepended = std::move(front);
+  List back = unique_keeping_last(stronger.appended);
+  remove_from_edits(result, back);
+  append_moved(result.appended, back);
   return result;
 }
+
+// Compiled once, in list_op.cpp.
+#define TENON_DECLARE_FOLD(type) \
+  extern template std::optional<ListOp<type>> fold(const ListOp<type>&, const ListOp<type>&);
+TENON_LIST_ITEMS(TENON_DECLARE_FOLD)
+#undef TENON_DECLARE_FOLD
 
 }  // namespace tenon::layer

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/layer/list_op.h"
+#include "tenon/layer/lists/list_op.h"
 
 #include <algorithm>
 #include <cstddef>

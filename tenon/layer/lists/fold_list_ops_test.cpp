@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/layer/fold_list_ops.h"
+#include "tenon/layer/lists/fold_list_ops.h"
 
 #include <gtest/gtest.h>
 
