@@ -39,16 +39,7 @@ class NumberArray {
   explicit NumberArray(std::span<const T> elements) { copy_elements(elements); }
   NumberArray(const std::vector<T>& elements) : NumberArray(std::span<const T>(elements)) {}
   /// Takes a long vector over as it is; the elements of a short one are copied.
-  NumberArray(std::vector<T>&& elements) {
-    if (elements.size() * sizeof(T) < kAdoptFrom) {
-      copy_elements(elements);
-      return;
-    }
-    void* const kept = new std::vector<T>(std::move(elements));
-    const auto& vector = *static_cast<const std::vector<T>*>(kept);
-    body_ = ArrayBody::borrow(vector.data(), vector.size(), &equal,
-                              std::shared_ptr<const void>(kept, &drop_vector));
-  }
+  NumberArray(std::vector<T>&& elements);
   /// `elements` as they lie in memory that `owner` keeps alive and unchanged.
   static NumberArray borrow(std::span<const T> elements, std::shared_ptr<const void> owner) {
     NumberArray array;
@@ -90,14 +81,12 @@ class NumberArray {
 
   /// What copies share and a Value holds; nullptr for an empty array.
   SharedBody* body() const { return body_; }
+  /// As ArrayBody::Equal.
+  static bool equal(const void* a, const void* b, std::size_t count);
 
  private:
   static constexpr std::size_t kAdoptFrom = 4096;  // bytes
 
-  static bool equal(const void* a, const void* b, std::size_t count) {
-    const T* const first = static_cast<const T*>(a);
-    return std::equal(first, first + count, static_cast<const T*>(b));
-  }
   static void drop_vector(void* vector) { delete static_cast<std::vector<T>*>(vector); }
   void copy_elements(std::span<const T> elements) {
     if (!elements.empty()) {
@@ -107,6 +96,22 @@ class NumberArray {
 
   ArrayBody* body_ = nullptr;
 };
+
+template <class T>
+NumberArray<T>::NumberArray(std::vector<T>&& elements) {
+  if (elements.size() * sizeof(T) < kAdoptFrom) {
+    copy_elements(elements);
+    return;
+  }
+  auto* const kept = new std::vector<T>(std::move(elements));
+  body_ = ArrayBody::adopt(kept->data(), kept->size(), &equal, kept, &drop_vector);
+}
+
+template <class T>
+bool NumberArray<T>::equal(const void* a, const void* b, std::size_t count) {
+  const T* const first = static_cast<const T*>(a);
+  return std::equal(first, first + count, static_cast<const T*>(b));
+}
 
 /// How an element of an array is kept: bools one per byte.
 template <class T>

@@ -37,6 +37,11 @@ ArrayBody* ArrayBody::borrow(const void* elements, std::size_t count, Equal equa
   return new BorrowedElements(elements, count, equal, std::move(owner));
 }
 
+ArrayBody* ArrayBody::adopt(const void* elements, std::size_t count, Equal equal, void* owner,
+                            void (*drop)(void* owner)) {
+  return borrow(elements, count, equal, std::shared_ptr<const void>(owner, drop));
+}
+
 bool ArrayBody::equals(const SharedBody& other) const {
   const auto& o = static_cast<const ArrayBody&>(other);
   return count == o.count && equal(data, o.data, count);

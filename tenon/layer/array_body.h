@@ -32,6 +32,9 @@ struct ArrayBody : SharedBody {
   /// Elements in memory that `owner` keeps alive and unchanged.
   static ArrayBody* borrow(const void* elements, std::size_t count, Equal equal,
                            std::shared_ptr<const void> owner);
+  /// Elements in memory that lasts until `drop(owner)`.
+  static ArrayBody* adopt(const void* elements, std::size_t count, Equal equal, void* owner,
+                          void (*drop)(void* owner));
 
   bool equals(const SharedBody& other) const override;
   std::size_t size() const override { return count; }

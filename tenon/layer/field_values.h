@@ -11,3 +11,11 @@
 #include "tenon/layer/time/spline.h"
 #include "tenon/layer/time/time_samples.h"
 #include "tenon/layer/value.h"
+
+namespace tenon::layer {
+
+// What large contents are kept in, compiled once, in value.cpp.
+#define TENON_FIELD(enumerator, cpp_type, crate_id) extern template struct Value::Held<cpp_type>;
+#include "tenon/layer/value_types.def"
+
+}  // namespace tenon::layer

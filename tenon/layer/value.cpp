@@ -76,7 +76,11 @@ namespace {
 
 template <class T>
 bool equal_inline(const Value& a, const Value& b) {
-  return *a.get<T>() == *b.get<T>();
+  if constexpr (std::is_trivially_copyable_v<T>) {  // as all that is kept inline
+    return *a.get<T>() == *b.get<T>();
+  } else {
+    return true;
+  }
 }
 
 }  // namespace
@@ -118,5 +122,11 @@ bool Value::equal_arrays(const Value& other) const {
   }
   return a->body() == b->body() || a->body()->equals(*b->body());
 }
+
+#define TENON_NUMBER(enumerator, cpp_type, name, crate_id)              \
+  template NumberArray<cpp_type>::NumberArray(std::vector<cpp_type>&&); \
+  template bool NumberArray<cpp_type>::equal(const void*, const void*, std::size_t);
+#define TENON_FIELD(enumerator, cpp_type, crate_id) template struct Value::Held<cpp_type>;
+#include "tenon/layer/value_types.def"
 
 }  // namespace tenon::layer

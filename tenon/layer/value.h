@@ -178,6 +178,7 @@ class Value {
   bool operator==(const Value& other) const;
 
  private:
+  friend struct NumberArrays;
   template <class T>
   friend class SharedContents;
   template <class T>
@@ -246,5 +247,11 @@ class Value {
   bool is_array_ = false;
   Holding holding_ = Holding::Inline;
 };
+
+// Compiled once, in value.cpp.
+#define TENON_NUMBER(enumerator, cpp_type, name, crate_id)                     \
+  extern template NumberArray<cpp_type>::NumberArray(std::vector<cpp_type>&&); \
+  extern template bool NumberArray<cpp_type>::equal(const void*, const void*, std::size_t);
+#include "tenon/layer/value_types.def"
 
 }  // namespace tenon::layer
