@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 // Edits are applied to numbers that stand for elements, whatever their type; the elements are put
-// together once, at the end.
+// together once, at the end: those of all types of numbers as bytes.
 #include "tenon/layer/array_edit.h"
 
 #include <algorithm>
 #include <cstring>
-#include <type_traits>
 #include <vector>
 
 #include "tenon/base/limits/limits.h"
 #include "tenon/layer/field_values.h"
+#include "tenon/layer/number_arrays.h"
 
 namespace tenon::layer {
 namespace {
@@ -220,72 +220,94 @@ class Application {
   std::uint32_t number_ = 0;
 };
 
-/// Where the elements of the edits' literals and of the weaker array begin.
+/// Elements of arrays of texts and bools: those of each edit's literals and of the weaker array.
+template <class T>
 struct Origins {
-  std::vector<const void*> edits;
-  const void* weaker = nullptr;
+  std::vector<const Array<T>*> edits;
+  const Array<T>* weaker = nullptr;
 
-  const void* of(Source source) const {
-    return source.edit == Source::kWeaker ? weaker : edits[source.edit];
+  const ArrayElement<T>& of(Source source) const {
+    return (*(source.edit == Source::kWeaker ? weaker : edits[source.edit]))[source.index];
   }
 };
 
-/// Nothing where one of them is of another type.
+/// Nothing where one of the arrays is of another type.
 template <class T>
-std::optional<Origins> origins_of(std::span<const ArrayEdit* const> edits, const Value& weaker) {
-  Origins origins;
+std::optional<Value> gather(const SourceList& list, std::span<const ArrayEdit* const> edits,
+                            const Value& weaker) {
+  Origins<T> origins;
   for (const ArrayEdit* edit : edits) {
-    const auto* literals = edit->literals.get<Array<T>>();
-    if (literals == nullptr) {
+    origins.edits.push_back(edit->literals.get<Array<T>>());
+    if (origins.edits.back() == nullptr) {
       return std::nullopt;
     }
-    origins.edits.push_back(literals->data());
   }
-  const auto* below = weaker.get<Array<T>>();
-  if (below == nullptr) {
-    return weaker.empty() ? std::optional(origins) : std::nullopt;
+  origins.weaker = weaker.get<Array<T>>();
+  if (origins.weaker == nullptr && !weaker.empty()) {
+    return std::nullopt;
   }
-  origins.weaker = below->data();
-  return origins;
-}
-
-/// Copies elements of `size` bytes to `to`; those that stand for zero stay as they are.
-void gather_bytes(const SourceList& list, const Origins& origins, std::size_t size, void* to) {
-  auto* at = static_cast<std::byte*>(to);
+  ArrayBuffer<T> result(list.size());
+  auto at = result.begin();
   for (const std::vector<Source>& block : list.blocks()) {
     for (const Source source : block) {
       if (source.edit != Source::kZero) {
-        const auto* from = static_cast<const std::byte*>(origins.of(source));
-        std::memcpy(at, from + source.index * size, size);
+        *at = origins.of(source);
+      }
+      ++at;
+    }
+  }
+  return Value(std::move(result));
+}
+
+/// The bytes of the same with arrays of numbers.
+struct NumberOrigins {
+  std::vector<std::span<const std::byte>> edits;
+  std::span<const std::byte> weaker;
+
+  const std::byte* of(Source source, std::size_t size) const {
+    const auto& array = source.edit == Source::kWeaker ? weaker : edits[source.edit];
+    return array.data() + source.index * size;
+  }
+};
+
+std::optional<NumberOrigins> number_origins(ValueType type, std::span<const ArrayEdit* const> edits,
+                                            const Value& weaker) {
+  NumberOrigins origins;
+  for (const ArrayEdit* edit : edits) {
+    const auto literals = NumberArrays::elements(edit->literals);
+    if (!literals || edit->literals.type() != type) {
+      return std::nullopt;
+    }
+    origins.edits.push_back(*literals);
+  }
+  if (!weaker.empty()) {
+    const auto below = NumberArrays::elements(weaker);
+    if (!below) {
+      return std::nullopt;
+    }
+    origins.weaker = *below;
+  }
+  return origins;
+}
+
+std::optional<Value> gather_numbers(ValueType type, const SourceList& list,
+                                    std::span<const ArrayEdit* const> edits, const Value& weaker) {
+  const std::optional<NumberOrigins> origins = number_origins(type, edits, weaker);
+  if (!origins) {
+    return std::nullopt;
+  }
+  const std::size_t size = NumberArrays::layout(type).size;
+  std::vector<std::byte> result(list.size() * size);
+  std::byte* at = result.data();
+  for (const std::vector<Source>& block : list.blocks()) {
+    for (const Source source : block) {
+      if (source.edit != Source::kZero) {
+        std::memcpy(at, origins->of(source, size), size);
       }
       at += size;
     }
   }
-}
-
-template <class T>
-std::optional<Value> gather(const SourceList& list, std::span<const ArrayEdit* const> edits,
-                            const Value& weaker) {
-  const std::optional<Origins> origins = origins_of<T>(edits, weaker);
-  if (!origins) {
-    return std::nullopt;
-  }
-  using Element = ArrayElement<T>;
-  ArrayBuffer<T> result(list.size());
-  if constexpr (std::is_trivially_copyable_v<Element>) {
-    gather_bytes(list, *origins, sizeof(Element), result.data());
-  } else {
-    auto at = result.begin();
-    for (const std::vector<Source>& block : list.blocks()) {
-      for (const Source source : block) {
-        if (source.edit != Source::kZero) {
-          *at = static_cast<const Element*>(origins->of(source))[source.index];
-        }
-        ++at;
-      }
-    }
-  }
-  return Value(std::move(result));
+  return NumberArrays::make(type, result);
 }
 
 template <class T>
@@ -296,6 +318,29 @@ Value array_of(std::span<const Value> elements) {
     result.push_back(*element.get<T>());
   }
   return Value(std::move(result));
+}
+
+/// Where the number is that a value holds.
+const void* address_of_number(const Value& value) {
+  switch (value.type()) {
+#define TENON_NUMBER(enumerator, type, name, crate_id) \
+  case ValueType::enumerator:                          \
+    return value.get<type>();
+#include "tenon/layer/value_types.def"
+    default:
+      return nullptr;
+  }
+}
+
+Value array_of_numbers(ValueType type, std::span<const Value> elements) {
+  const std::size_t size = NumberArrays::layout(type).size;
+  std::vector<std::byte> result(elements.size() * size);
+  std::byte* at = result.data();
+  for (const Value& element : elements) {
+    std::memcpy(at, address_of_number(element), size);
+    at += size;
+  }
+  return NumberArrays::make(type, result);
 }
 
 }  // namespace
@@ -358,13 +403,17 @@ std::optional<Value> apply_array_edits(std::span<const ArrayEdit* const> edits,
       return std::nullopt;
     }
   }
-  switch (edits.front()->literals.type()) {
+  const ValueType type = edits.front()->literals.type();
+  switch (type) {
 #define TENON_SCALAR(enumerator, type, name, crate_id) \
   case ValueType::enumerator:                          \
     return gather<type>(application.list(), edits, weaker);
+#define TENON_NUMBER(enumerator, type, name, crate_id)
 #include "tenon/layer/value_types.def"
     default:
-      return std::nullopt;
+      return NumberArrays::layout(type).size == 0
+                 ? std::nullopt
+                 : gather_numbers(type, application.list(), edits, weaker);
   }
 }
 
@@ -373,9 +422,10 @@ Value make_array(ValueType type, std::span<const Value> elements) {
 #define TENON_SCALAR(enumerator, cpp_type, name, crate_id) \
   case ValueType::enumerator:                              \
     return array_of<cpp_type>(elements);
+#define TENON_NUMBER(enumerator, type, name, crate_id)
 #include "tenon/layer/value_types.def"
     default:
-      return {};
+      return NumberArrays::layout(type).size == 0 ? Value() : array_of_numbers(type, elements);
   }
 }
 
