@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/base/diagnostics.h"
 
+#include <utility>
+
 namespace tenon {
 
 std::string_view severity_name(Severity severity) {
@@ -15,6 +17,21 @@ std::string_view severity_name(Severity severity) {
   }
   return "error";
 }
+
+Diagnostic::Diagnostic() = default;
+Diagnostic::Diagnostic(Severity s, std::string r, std::string m, std::string of_prim,
+                       std::string of_property, std::string f)
+    : severity(s),
+      rule(std::move(r)),
+      message(std::move(m)),
+      prim(std::move(of_prim)),
+      property(std::move(of_property)),
+      fix(std::move(f)) {}
+Diagnostic::Diagnostic(const Diagnostic& other) = default;
+Diagnostic::Diagnostic(Diagnostic&& other) noexcept = default;
+Diagnostic& Diagnostic::operator=(const Diagnostic& other) = default;
+Diagnostic& Diagnostic::operator=(Diagnostic&& other) noexcept = default;
+Diagnostic::~Diagnostic() = default;
 
 std::string Diagnostic::to_string() const {
   std::string text;
@@ -42,6 +59,8 @@ std::string Diagnostic::to_string() const {
   }
   return text;
 }
+
+void Diagnostics::add(Diagnostic diagnostic) { items_.push_back(std::move(diagnostic)); }
 
 void Diagnostics::append(const Diagnostics& other) {
   items_.insert(items_.end(), other.items_.begin(), other.items_.end());

@@ -43,6 +43,16 @@ struct Diagnostic {
   std::uint32_t end_column = 0;  ///< of the same
   StatementPart part{};          ///< what to look up a closer place for
 
+  Diagnostic();
+  /// What is wrong with a prim, or with a property of it.
+  Diagnostic(Severity severity, std::string rule, std::string message, std::string prim,
+             std::string property, std::string fix);
+  Diagnostic(const Diagnostic& other);
+  Diagnostic(Diagnostic&& other) noexcept;
+  Diagnostic& operator=(const Diagnostic& other);
+  Diagnostic& operator=(Diagnostic&& other) noexcept;
+  ~Diagnostic();
+
   /// `FILE:LINE:COL: severity: message [rule]` followed by prim and fix, unknown parts left out.
   std::string to_string() const;
 
@@ -52,7 +62,7 @@ struct Diagnostic {
 /// Caller-owned list of recoverable findings, in the order in which they were found.
 class Diagnostics {
  public:
-  void add(Diagnostic diagnostic) { items_.push_back(std::move(diagnostic)); }
+  void add(Diagnostic diagnostic);
   void append(const Diagnostics& other);
 
   const std::vector<Diagnostic>& items() const { return items_; }

@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
@@ -26,20 +25,11 @@ enum class ErrorCode : std::uint8_t {
 /// Why nothing useful could be returned; one pointer wide.
 class Error {
  public:
-  Error(ErrorCode code, std::string message) : body_(std::make_unique<Body>()) {
-    body_->code = code;
-    body_->diagnostic.message = std::move(message);
-  }
-  Error(ErrorCode code, Diagnostic diagnostic) : body_(std::make_unique<Body>()) {
-    body_->code = code;
-    body_->diagnostic = std::move(diagnostic);
-  }
-  Error(const Error& other) : body_(std::make_unique<Body>(*other.body_)) {}
+  Error(ErrorCode code, std::string message);
+  Error(ErrorCode code, Diagnostic diagnostic);
+  Error(const Error& other);
   Error(Error&&) noexcept = default;
-  Error& operator=(const Error& other) {
-    *body_ = *other.body_;
-    return *this;
-  }
+  Error& operator=(const Error& other);
   Error& operator=(Error&&) noexcept = default;
   ~Error() = default;
 
@@ -51,39 +41,14 @@ class Error {
   std::string to_string() const { return body_->diagnostic.to_string(); }
 
   /// Fills the file where none is known yet.
-  Error&& in_file(std::string file) && {
-    if (body_->diagnostic.file.empty()) {
-      body_->diagnostic.file = std::move(file);
-    }
-    return std::move(*this);
-  }
-  Error&& at(std::uint32_t line, std::uint32_t column) && {
-    body_->diagnostic.line = line;
-    body_->diagnostic.column = column;
-    return std::move(*this);
-  }
+  Error&& in_file(std::string file) &&;
+  Error&& at(std::uint32_t line, std::uint32_t column) &&;
   /// Where what the error is about ends: the place of the byte behind it.
-  Error&& until(std::uint32_t line, std::uint32_t column) && {
-    body_->diagnostic.end_line = line;
-    body_->diagnostic.end_column = column;
-    return std::move(*this);
-  }
-  Error&& with_further(std::vector<Diagnostic> further) && {
-    body_->further = std::move(further);
-    return std::move(*this);
-  }
-  Error&& with_prim(std::string prim) && {
-    body_->diagnostic.prim = std::move(prim);
-    return std::move(*this);
-  }
-  Error&& with_rule(std::string rule) && {
-    body_->diagnostic.rule = std::move(rule);
-    return std::move(*this);
-  }
-  Error&& with_fix(std::string fix) && {
-    body_->diagnostic.fix = std::move(fix);
-    return std::move(*this);
-  }
+  Error&& until(std::uint32_t line, std::uint32_t column) &&;
+  Error&& with_further(std::vector<Diagnostic> further) &&;
+  Error&& with_prim(std::string prim) &&;
+  Error&& with_rule(std::string rule) &&;
+  Error&& with_fix(std::string fix) &&;
 
  private:
   struct Body {
@@ -91,7 +56,10 @@ class Error {
     Diagnostic diagnostic;
     std::vector<Diagnostic> further;
   };
-  std::unique_ptr<Body> body_;
+  struct Delete {
+    void operator()(Body* body) const;
+  };
+  std::unique_ptr<Body, Delete> body_;
 };
 
 }  // namespace tenon

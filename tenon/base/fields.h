@@ -6,6 +6,10 @@
 #include <type_traits>
 #include <utility>
 
+namespace tenon {
+struct Diagnostic;
+}
+
 /// The fields of plain structs, found by the compiler: nobody lists them, so none is forgotten.
 namespace tenon::wire {
 
@@ -159,6 +163,15 @@ constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t,
 ///   template <class Of, class Call> static constexpr auto with(Of& of, const Call& call)
 template <class T>
 struct FieldTie;
+
+/// Fields of a struct that has constructors are not found by counting.
+template <>
+struct FieldTie<Diagnostic> {
+  template <class Of, class Call>
+  static constexpr auto with(Of& of, const Call& call) {
+    return tied(of, call, std::integral_constant<std::size_t, 12>());
+  }
+};
 
 /// Calls `call(field, ...)` with all fields of a struct, in their order; -> what it returns.
 template <class T, class Call>

@@ -33,7 +33,7 @@ void report_gap(const scene::Joint& joint, const Pose& wanted, const Pose& possi
       "the joint's frames are %.3g mm and %.3g degrees apart at the start; the bodies are "
       "moved together",
       gap * 1000, turn * 180 / M_PI);
-  diagnostics.add({Severity::Warning, "joint.frames-apart", text, "", 0, 0, joint.path.str(), "",
+  diagnostics.add({Severity::Warning, "joint.frames-apart", text, joint.path.str(), "",
                    "correct localPos and localRot, or the poses of the bodies"});
 }
 
@@ -58,7 +58,7 @@ std::vector<double> start_coordinates(const PhysicsScene& scene, const scene::Jo
 void report_lost_energy(const PhysicsScene& scene, const scene::FittedVelocities& fitted,
                         Diagnostics& diagnostics) {
   for (const scene::LostEnergy& loss : fitted.losses) {
-    diagnostics.add({Severity::Warning, "joint.velocities-apart", scene::words_of(loss), "", 0, 0,
+    diagnostics.add({Severity::Warning, "joint.velocities-apart", scene::words_of(loss),
                      scene.joints[loss.joint].path.str(), "",
                      "give the bodies velocities with which the joint's frames stay together"});
   }

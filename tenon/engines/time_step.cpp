@@ -31,7 +31,7 @@ double choose_time_step(const scene::PhysicsScene& scene, const SimulationOption
     diagnostics.add({Severity::Info, std::string(rule),
                      "the scene asks for steps of " + std::to_string(asked) + " s; " +
                          std::string(engine) + " takes " + shortest(parts) + " steps for each",
-                     "", 0, 0, scene.scenes.front().path.str(), "", ""});
+                     scene.scenes.front().path.str(), "", ""});
   }
   return asked / std::max(parts, 1.0);
 }

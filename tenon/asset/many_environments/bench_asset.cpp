@@ -21,7 +21,7 @@
 #include "tenon/asset/simulating/simulate_asset.h"
 #include "tenon/base/content_digest.h"
 #include "tenon/base/parallel.h"
-#include "tenon/base/resident_memory.h"
+#include "tenon/base/system/resident_memory.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/make_simulation.h"
 #include "tenon/physics/read_physics.h"

@@ -32,8 +32,7 @@ std::string missing(const std::string& engine) {
 }
 
 Diagnostic warning(std::string rule, std::string message, const Path& prim, std::string fix) {
-  return {Severity::Warning, std::move(rule), std::move(message), "", 0, 0, prim.str(), "",
-          std::move(fix)};
+  return {Severity::Warning, std::move(rule), std::move(message), prim.str(), "", std::move(fix)};
 }
 
 }  // namespace

@@ -293,7 +293,7 @@ LinkMoves::LinkMoves(const Layer& united, const scene::PhysicsScene& scene, Link
   Planner planner(united, scene, wanted);
   if (const std::string why = planner.run(); !why.empty()) {
     diagnostics.add({Severity::Warning, "structure.links-kept",
-                     "the links stay where they are: " + why, "", 0, 0, "", "",
+                     "the links stay where they are: " + why, "", "",
                      "take it out, or author it on the links themselves"});
     return;
   }

@@ -128,8 +128,8 @@ void drop_targets_outside(layer::Layer& content, Path robot, std::set<Path>& sai
       }
       if (targets.size() != count && said.insert(property).second) {
         diagnostics.add({Severity::Warning, "structure.target-outside",
-                         "a target names <" + dropped + ">, which is not there; it is left out", "",
-                         0, 0, prim.str(), property.name().str(), "name a prim of the asset"});
+                         "a target names <" + dropped + ">, which is not there; it is left out",
+                         prim.str(), property.name().str(), "name a prim of the asset"});
       }
     }
   }

@@ -141,7 +141,7 @@ Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const Simulati
     diagnostics.add(
         {Severity::Warning, "mujoco.part-left-out",
          "MuJoCo refuses a part of the model, which goes on without it: " + model.error().message(),
-         "", 0, 0, part.str(), "", "give the shape a size, the joint sound limits"});
+         part.str(), "", "give the shape a size, the joint sound limits"});
   }
 }
 

@@ -365,7 +365,7 @@ void report_overlaps(const scene::PhysicsScene& scene, const Model& model,
     diagnostics.add({Severity::Warning, "collider.overlap-at-start",
                      "the collider overlaps " + second.str() + " by " + depth +
                          " mm at the start; the contact pushes them apart",
-                     "", 0, 0, first.str(), "",
+                     first.str(), "",
                      "filter the pair with PhysicsFilteredPairsAPI or move the colliders apart"});
   }
 }

@@ -36,8 +36,7 @@ Result<Model> build_model(const scene::PhysicsScene& scene, const SimulationOpti
   build.model.time_step = time_step;
   TENON_CHECK(run_passes(build, begin));
   for (const std::string& words : messages.errors()) {
-    diagnostics.add(
-        {Severity::Warning, "physx.message", "PhysX says: " + words, "", 0, 0, "", "", ""});
+    diagnostics.add({Severity::Warning, "physx.message", "PhysX says: " + words, "", "", ""});
   }
   build.model.child_of_joint.resize(scene.joints.size());
   for (scene::Index b = 0; b < build.forest.bodies.size(); ++b) {

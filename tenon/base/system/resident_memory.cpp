@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/base/resident_memory.h"
+#include "tenon/base/system/resident_memory.h"
 
 #include <cstdlib>
 
