@@ -24,11 +24,21 @@ namespace tenon::layer::fields {
   X(variantSelection) X(variantSetChildren) X(variantSetNames)
 // clang-format on
 
-#define TENON_DECLARE_FIELD(name) inline const Token name{#name};
+/// Where the names are kept: one object, so that no unit has more to initialize.
+struct FieldNames {
+  FieldNames();
+#define TENON_KEEP_FIELD(name) Token name{#name};
+  TENON_FIELDS(TENON_KEEP_FIELD)
+#undef TENON_KEEP_FIELD
+  Token default_value{"default"};
+};
+inline const FieldNames kNames;
+
+#define TENON_DECLARE_FIELD(name) inline constexpr const Token& name = kNames.name;
 TENON_FIELDS(TENON_DECLARE_FIELD)
 #undef TENON_DECLARE_FIELD
 
 /// The field "default", whose name is a C++ word.
-inline const Token default_value{"default"};
+inline constexpr const Token& default_value = kNames.default_value;
 
 }  // namespace tenon::layer::fields
