@@ -15,11 +15,12 @@
 #include "tenon/bytes/integer_coding.h"
 #include "tenon/formats/crate/storage_form.h"
 #include "tenon/layer/field_values.h"
+#include "tenon/layer/number_arrays.h"
 
 namespace tenon::formats::crate {
 namespace {
 
-using layer::Array;
+using layer::NumberArrays;
 using layer::Value;
 using layer::ValueType;
 
@@ -38,11 +39,14 @@ struct Storage {
   bool is_real = false;
   std::uint64_t size = 0;    ///< of an element in memory
   std::uint64_t stride = 0;  ///< of one in the file, where they are not packed
+  std::uint64_t alignment = 0;
+  bool is_number = false;  ///< lies in the file as in memory, where it is not packed
 };
 
 template <class T>
-constexpr Storage kStorage{kIsInteger<T>, kIsReal<T>, sizeof(T),
-                           kIsText<T> ? sizeof(std::uint32_t) : sizeof(T)};
+constexpr Storage kStorage{kIsInteger<T>, kIsReal<T>,
+                           sizeof(T),     kIsText<T> ? sizeof(std::uint32_t) : sizeof(T),
+                           alignof(T),    layer::kIsNumberArray<T>};
 
 bool is_packed(const Storage& storage, const Version& version, ValueWord word) {
   const bool known = (storage.is_integer && version >= kPackedIntegers) ||
@@ -181,58 +185,75 @@ Result<std::vector<T>> decode_texts(const CrateFile& file, bytes::ByteReader& in
   return array;
 }
 
-template <class T>
-Result<Value> decode(const CrateFile& file, const ArrayHeader& header) {
-  bytes::ByteReader in = file.reader();
-  TENON_CHECK(in.seek(header.offset));
-  if constexpr (kIsText<T>) {
-    TENON_TRY(std::vector<T> array, decode_texts<T>(file, in, header.count));
-    return Value(std::move(array));
-  } else if constexpr (std::is_same_v<T, bool>) {
-    TENON_TRY(std::vector<char> array, in.read_array<char>(header.count));
-    for (char& element : array) {
-      element = element != 0 ? 1 : 0;
-    }
-    return Value(std::move(array));
-  } else {
-    if constexpr (kIsInteger<T> || kIsReal<T>) {
-      if (header.packed) {
-        TENON_TRY(std::vector<T> array, decode_packed<T>(in, header.count));
-        return Value(std::move(array));
-      }
-    }
-    TENON_TRY(std::vector<T> array, in.read_array<T>(header.count));
-    return Value(std::move(array));
+Result<Value> decode_bools(bytes::ByteReader& in, std::uint64_t count) {
+  TENON_TRY(std::vector<char> array, in.read_array<char>(count));
+  for (char& element : array) {
+    element = element != 0 ? 1 : 0;
   }
+  return Value(std::move(array));
 }
 
-/// The elements as they lie in the file, where they are stored as in memory and aligned; else
-/// nothing.
+/// Bools, texts and numbers that are packed.
 template <class T>
-std::optional<Value> borrowed(const CrateFile& file, const ArrayHeader& header) {
-  if constexpr (layer::kIsNumberArray<T>) {
-    const std::byte* at = file.bytes->span().data() + header.offset;
-    if (!header.packed && reinterpret_cast<std::uintptr_t>(at) % alignof(T) == 0) {
-      const std::span<const T> elements(reinterpret_cast<const T*>(at),
-                                        static_cast<std::size_t>(header.count));
-      return Value(Array<T>::borrow(elements, file.bytes));
-    }
+Result<Value> decode(const CrateFile& file, bytes::ByteReader& in, std::uint64_t count) {
+  if constexpr (kIsText<T>) {
+    TENON_TRY(std::vector<T> array, decode_texts<T>(file, in, count));
+    return Value(std::move(array));
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return decode_bools(in, count);
+  } else {
+    TENON_TRY(std::vector<T> array, decode_packed<T>(in, count));
+    return Value(std::move(array));
   }
-  return std::nullopt;
 }
 
 /// All that reading arrays of a type needs to know of it.
 struct ElementType {
   ValueType type = ValueType::None;
   Storage storage;
-  Value (*none)() = nullptr;
-  Result<Value> (*decode)(const CrateFile& file, const ArrayHeader& header) = nullptr;
-  std::optional<Value> (*borrowed)(const CrateFile& file, const ArrayHeader& header) = nullptr;
+  /// What decodes elements that do not lie as in memory; nullptr where all do.
+  Result<Value> (*decode)(const CrateFile& file, bytes::ByteReader& in,
+                          std::uint64_t count) = nullptr;
 };
 
 template <class T>
-constexpr ElementType kElement{layer::ValueTraits<T>::type, kStorage<T>,
-                               [] { return Value(Array<T>()); }, &decode<T>, &borrowed<T>};
+constexpr ElementType element_type() {
+  ElementType element{layer::ValueTraits<T>::type, kStorage<T>};
+  if constexpr (kIsInteger<T> || kIsReal<T> || !layer::kIsNumberArray<T>) {
+    element.decode = &decode<T>;
+  }
+  return element;
+}
+template <class T>
+constexpr ElementType kElement = element_type<T>();
+
+bool lies_as_in_memory(const ElementType& element, const ArrayHeader& header) {
+  return element.storage.is_number && !header.packed;
+}
+
+Result<Value> decoded(const CrateFile& file, const ElementType& element,
+                      const ArrayHeader& header) {
+  bytes::ByteReader in = file.reader();
+  TENON_CHECK(in.seek(header.offset));
+  if (!lies_as_in_memory(element, header)) {
+    return element.decode(file, in, header.count);
+  }
+  TENON_TRY(const auto elements, in.take(header.count * element.storage.size));
+  return NumberArrays::make(element.type, elements);
+}
+
+/// The elements as they lie in the file, where they are stored as in memory and aligned; else
+/// nothing.
+std::optional<Value> borrowed(const CrateFile& file, const ElementType& element,
+                              const ArrayHeader& header) {
+  const std::byte* const at = file.bytes->span().data() + header.offset;
+  if (!lies_as_in_memory(element, header) ||
+      reinterpret_cast<std::uintptr_t>(at) % element.storage.alignment != 0) {
+    return std::nullopt;
+  }
+  const std::span elements(at, static_cast<std::size_t>(header.count * element.storage.size));
+  return NumberArrays::borrow(element.type, elements, file.bytes);
+}
 
 class CrateArray final : public layer::DeferredArray {
  public:
@@ -242,7 +263,7 @@ class CrateArray final : public layer::DeferredArray {
   std::size_t size() const override { return static_cast<std::size_t>(header_.count); }
   Result<Value> decode() const override {
     TENON_CHECK(unpack(*file_, header_.count * element_.storage.size));
-    return element_.decode(*file_, header_);
+    return decoded(*file_, element_, header_);
   }
 
  private:
@@ -255,14 +276,14 @@ Result<Value> read_array_of(const ElementType& element,
                             const std::shared_ptr<const CrateFile>& file, ValueWord word,
                             WorkBudget& budget) {
   if (word.payload() == 0) {
-    return element.none();
+    return layer::make_array(element.type, {});
   }
   TENON_TRY(const ArrayHeader header, read_header(element.storage, *file, word));
   TENON_CHECK(budget.spend(1));
   if (!header.packed && header.count <= kSmallArray / element.storage.size) {
-    return element.decode(*file, header);
+    return decoded(*file, element, header);
   }
-  if (std::optional<Value> array = element.borrowed(*file, header)) {
+  if (std::optional<Value> array = borrowed(*file, element, header)) {
     return *std::move(array);
   }
   return Value::deferred(element.type, std::make_unique<CrateArray>(file, element, header));
