@@ -7,9 +7,11 @@
 namespace tenon::layer {
 
 void NumberBuffer::append(const NumberBuffer& other) {
-  reserve(size_ + other.size_);
-  std::memcpy(bytes_.get() + size_, other.bytes_.get(), other.size_);
-  size_ += other.size_;
+  if (other.size_ != 0) {
+    reserve(size_ + other.size_);
+    std::memcpy(bytes_.get() + size_, other.bytes_.get(), other.size_);
+    size_ += other.size_;
+  }
 }
 
 void NumberBuffer::reserve(std::size_t bytes) {

@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
-#include <string_view>
 #include <type_traits>
-#include <vector>
 
-#include "tenon/base/parallel.h"
 #include "tenon/formats/text/cursor.h"
 #include "tenon/formats/text/literals.h"
+#include "tenon/layer/number_arrays.h"
 #include "tenon/layer/scalar_types.h"
 #include "tenon/math/half.h"
 #include "tenon/math/matrix.h"
@@ -115,12 +112,6 @@ bool take_plain(const char*& at, const char* end, Matrix<N>& value) {
   });
 }
 
-/// Tuples of tuples.
-template <class T>
-constexpr bool kHasRows = false;
-template <std::size_t N>
-constexpr bool kHasRows<Matrix<N>> = true;
-
 template <class T>
 concept PlainElement = requires(const char*& at, T& value) { take_plain(at, at, value); };
 
@@ -128,8 +119,8 @@ concept PlainElement = requires(const char*& at, T& value) { take_plain(at, at, 
 /// first that looks otherwise or is the last of the list. -> where it stopped. With `to_end` the
 /// list goes on behind `end`.
 template <PlainElement T>
-const char* take_run(const char* at, const char* end, std::vector<T>& elements, bool to_end = false,
-                     std::size_t most = ~std::size_t{0}) {
+const char* take_run(const char* at, const char* end, layer::NumberBuffer& elements, bool to_end,
+                     std::size_t most) {
   for (std::size_t i = 0; i < most; ++i) {
     const char* next = at;
     T element{};
@@ -148,77 +139,19 @@ const char* take_run(const char* at, const char* end, std::vector<T>& elements, 
   return at;
 }
 
-/// Room for as many elements as the list will have when it goes on as it began. -> how many bytes
-/// it has left.
+/// What taking lists of one type of elements needs to know of it.
+struct PlainType {
+  decltype(&take_run<float>) take_run = nullptr;
+  std::size_t size = 0;   ///< of an element in memory
+  bool has_rows = false;  ///< elements are tuples of tuples
+};
 template <class T>
-std::size_t reserve_rest(std::vector<T>& elements, const char* start, const char* at,
-                         const char* end) {
-  const void* close = std::memchr(at, ']', static_cast<std::size_t>(end - at));
-  if (close == nullptr) {
-    return 0;
-  }
-  const auto left = static_cast<std::size_t>(static_cast<const char*>(close) - at);
-  const std::size_t taken = static_cast<std::size_t>(at - start) / elements.size();
-  const std::size_t each = std::max<std::size_t>(taken, 2);
-  elements.reserve(elements.size() + left / each + left / each / 64);
-  return left;
-}
-
-/// Where an element starts in the middle of a list that goes on as it began; nullptr when there is
-/// no such place.
-inline const char* middle_of(const char* at, const char* close) {
-  const char* middle = at + (close - at) / 2;
-  const void* last =
-      std::memchr(middle, *at == '(' ? ')' : ',', static_cast<std::size_t>(close - middle));
-  if (last == nullptr) {
-    return nullptr;
-  }
-  middle = static_cast<const char*>(last);
-  middle += *middle == ')' ? 1 : 0;
-  return take_comma(middle, close) && middle != close ? middle : nullptr;
-}
-
-/// The rest of a long list, in two halves side by side.
-template <PlainElement T>
-const char* take_halves(const char* at, const char* end, std::vector<T>& elements) {
-  const auto* close =
-      static_cast<const char*>(std::memchr(at, ']', static_cast<std::size_t>(end - at)));
-  const char* const middle = close == nullptr ? nullptr : middle_of(at, close);
-  if (middle == nullptr) {
-    return at;
-  }
-  std::vector<T> more;
-  more.reserve(elements.capacity() / 2);
-  const char* first_end = at;
-  const char* second_end = middle;
-  run_both([&] { second_end = take_run(middle, end, more); },
-           [&] { first_end = take_run(at, middle, elements, true); });
-  if (first_end != middle) {
-    return first_end;
-  }
-  elements.insert(elements.end(), more.begin(), more.end());
-  return second_end;
-}
+constexpr PlainType kPlainType{&take_run<T>, sizeof(T), false};
+template <std::size_t N>
+constexpr PlainType kPlainType<Matrix<N>>{&take_run<Matrix<N>>, sizeof(Matrix<N>), true};
 
 /// Takes the elements up to the first that looks otherwise or is the last. -> how many.
-template <PlainElement T>
-std::size_t take_plain_elements(Cursor& cursor, std::vector<T>& elements) {
-  constexpr std::size_t kEnoughToTell = 64;
-  constexpr std::size_t kWorthHalving = std::size_t{1} << 20;  // bytes
-  const std::string_view rest = cursor.rest();
-  const char* const start = rest.data();
-  const char* const end = start + rest.size();
-  const std::size_t before = elements.size();
-  const char* at = take_run(start, end, elements, false, kEnoughToTell);
-  if (elements.size() == before + kEnoughToTell) {
-    const std::size_t length = reserve_rest(elements, start, at, end);
-    if (!kHasRows<T> && length >= kWorthHalving && usable_processors() > 1) {
-      at = take_halves(at, end, elements);
-    }
-    at = take_run(at, end, elements);
-  }
-  cursor.advance(static_cast<std::size_t>(at - start));
-  return elements.size() - before;
-}
+std::size_t take_plain_elements(const PlainType& type, Cursor& cursor,
+                                layer::NumberBuffer& elements);
 
 }  // namespace tenon::formats::text

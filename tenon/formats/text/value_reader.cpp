@@ -13,6 +13,7 @@
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/plain_elements.h"
 #include "tenon/layer/field_values.h"
+#include "tenon/layer/number_arrays.h"
 #include "tenon/math/functions.h"
 
 namespace tenon::formats::text {
@@ -302,13 +303,32 @@ bool read_scalar(Cursor& cursor, Matrix<N>& value) {
   return true;
 }
 
+/// Where the elements of a list go, and how they are read.
+struct ElementReader {
+  void* elements = nullptr;
+  bool (*read)(Cursor& cursor, void* elements) = nullptr;  ///< one, to the end
+  const PlainType* plain = nullptr;  ///< of numbers in the form in which programs write them
+};
+
+template <class T>
+bool read_number(Cursor& cursor, void* elements) {
+  T number{};
+  const bool ok = read_scalar(cursor, number);
+  static_cast<layer::NumberBuffer*>(elements)->push_back(number);
+  return ok;
+}
+
+template <class T>
+bool read_element(Cursor& cursor, void* elements) {
+  return read_scalar(cursor, static_cast<ArrayBuffer<T>*>(elements)->emplace_back());
+}
+
 /// Reads the elements of a list; lists within the list are flattened and must be of equal sizes.
 class ListReader {
  public:
-  explicit ListReader(Cursor& cursor) : cursor_(cursor) {}
+  ListReader(Cursor& cursor, const ElementReader& element) : cursor_(cursor), element_(element) {}
 
-  template <class Element>
-  bool read(ArrayBuffer<Element>& elements, std::size_t depth = 0) {
+  bool read(std::size_t depth = 0) {
     if (depth >= limits::kTextNestingDepth) {
       return cursor_.fail_at(cursor_.offset(), ErrorCode::Limit, "text.depth",
                              "lists are nested too deep");
@@ -316,30 +336,33 @@ class ListReader {
     const std::size_t start = cursor_.offset();
     cursor_.advance();
     std::size_t count = 0;
-    if constexpr (PlainElement<Element>) {
-      if (depth == 0) {
-        cursor_.skip_multi_line();
-        count = take_plain_elements(cursor_, elements);
-        element_depth_ = count == 0 ? kNoDepth : 0;
-      }
+    if (element_.plain != nullptr && depth == 0) {
+      cursor_.skip_multi_line();
+      auto& elements = *static_cast<layer::NumberBuffer*>(element_.elements);
+      count = take_plain_elements(*element_.plain, cursor_, elements);
+      element_depth_ = count == 0 ? kNoDepth : 0;
     }
     const bool ok = read_items(cursor_, ']', "of the list", [&] {
       ++count;
-      if (cursor_.peek() == '[') {
-        return read<Element>(elements, depth + 1);
-      }
-      if (element_depth_ != kNoDepth && element_depth_ != depth) {
-        return cursor_.fail_at(cursor_.offset(), ErrorCode::Parse, "text.value",
-                               "lists and single items are mixed in one list");
-      }
-      element_depth_ = depth;
-      return read_scalar(cursor_, elements.emplace_back());
+      return read_item(depth);
     });
     return ok && check_size(start, depth, count);
   }
 
  private:
   static constexpr std::size_t kNoDepth = ~std::size_t{0};
+
+  bool read_item(std::size_t depth) {
+    if (cursor_.peek() == '[') {
+      return read(depth + 1);
+    }
+    if (element_depth_ != kNoDepth && element_depth_ != depth) {
+      return cursor_.fail_at(cursor_.offset(), ErrorCode::Parse, "text.value",
+                             "lists and single items are mixed in one list");
+    }
+    element_depth_ = depth;
+    return element_.read(cursor_, element_.elements);
+  }
 
   bool check_size(std::size_t start, std::size_t depth, std::size_t count) {
     if (depth >= sizes_.size()) {
@@ -353,6 +376,7 @@ class ListReader {
   }
 
   Cursor& cursor_;
+  const ElementReader& element_;
   std::size_t element_depth_ = kNoDepth;
   std::vector<std::size_t> sizes_;
 };
@@ -370,29 +394,55 @@ bool accept_empty_list(Cursor& cursor) {
   return false;
 }
 
-template <class T>
-bool read_typed(Cursor& cursor, bool is_array, Value& value) {
-  if (!is_array) {
-    if (cursor.peek() == '[') {
-      return cursor.fail_expected("a single value, as the type name has no []");
-    }
-    T scalar{};
-    if (!read_scalar(cursor, scalar)) {
-      return false;
-    }
-    value = Value(std::move(scalar));
+bool read_list(Cursor& cursor, const ElementReader& element) {
+  if (accept_empty_list(cursor)) {
     return true;
   }
+  if (cursor.peek() != '[') {
+    return cursor.fail_expected("'[', as the type name ends with []");
+  }
+  return ListReader(cursor, element).read();
+}
+
+template <class T>
+bool read_array(Cursor& cursor, Value& value) {
   ArrayBuffer<T> elements;
-  if (!accept_empty_list(cursor)) {
-    if (cursor.peek() != '[') {
-      return cursor.fail_expected("'[', as the type name ends with []");
-    }
-    if (!ListReader(cursor).read<T>(elements)) {
-      return false;
-    }
+  if (!read_list(cursor, {&elements, &read_element<T>})) {
+    return false;
   }
   value = Value(std::move(elements));
+  return true;
+}
+
+bool read_number_array(Cursor& cursor, ValueType type, ElementReader element, Value& value) {
+  layer::NumberBuffer elements;
+  element.elements = &elements;
+  if (!read_list(cursor, element)) {
+    return false;
+  }
+  value = layer::NumberArrays::make(type, std::move(elements));
+  return true;
+}
+
+template <class T>
+constexpr ElementReader number_reader() {
+  if constexpr (PlainElement<T>) {
+    return {nullptr, &read_number<T>, &kPlainType<T>};
+  } else {
+    return {nullptr, &read_number<T>};
+  }
+}
+
+template <class T>
+bool read_single(Cursor& cursor, Value& value) {
+  if (cursor.peek() == '[') {
+    return cursor.fail_expected("a single value, as the type name has no []");
+  }
+  T scalar{};
+  if (!read_scalar(cursor, scalar)) {
+    return false;
+  }
+  value = Value(std::move(scalar));
   return true;
 }
 
@@ -402,7 +452,11 @@ bool read_value(Cursor& cursor, ValueType type, bool is_array, Value& value) {
   switch (type) {
 #define TENON_SCALAR(enumerator, cpp_type, name, crate_id) \
   case ValueType::enumerator:                              \
-    return read_typed<cpp_type>(cursor, is_array, value);
+    return is_array ? read_array<cpp_type>(cursor, value) : read_single<cpp_type>(cursor, value);
+#define TENON_NUMBER(enumerator, cpp_type, name, crate_id)                              \
+  case ValueType::enumerator:                                                           \
+    return is_array ? read_number_array(cursor, type, number_reader<cpp_type>(), value) \
+                    : read_single<cpp_type>(cursor, value);
 #include "tenon/layer/value_types.def"
     default:
       return cursor.fail_at(cursor.offset(), ErrorCode::Parse, "text.value",
