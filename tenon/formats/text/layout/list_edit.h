@@ -18,18 +18,26 @@ namespace tenon::formats::text {
 enum class ListEdit : unsigned char { Explicit, Add, Append, Delete, Prepend, Reorder };
 
 /// Takes "add", "append", "delete", "prepend" or "reorder"; Explicit when none is there.
-inline ListEdit accept_list_edit(Cursor& cursor) {
-  constexpr std::pair<std::string_view, ListEdit> kWords[] = {{"prepend", ListEdit::Prepend},
-                                                              {"append", ListEdit::Append},
-                                                              {"delete", ListEdit::Delete},
-                                                              {"add", ListEdit::Add},
-                                                              {"reorder", ListEdit::Reorder}};
-  for (const auto& [word, edit] : kWords) {
-    if (cursor.accept_word(word)) {
-      return edit;
-    }
+ListEdit accept_list_edit(Cursor& cursor);
+
+/// The part of `op` that `edit` names.
+template <class T>
+std::vector<T>& items_of(layer::ListOp<T>& op, ListEdit edit) {
+  switch (edit) {
+    case ListEdit::Explicit:
+      return op.explicit_items;
+    case ListEdit::Add:
+      return op.added;
+    case ListEdit::Append:
+      return op.appended;
+    case ListEdit::Delete:
+      return op.deleted;
+    case ListEdit::Prepend:
+      return op.prepended;
+    case ListEdit::Reorder:
+      break;
   }
-  return ListEdit::Explicit;
+  return op.ordered;
 }
 
 /// Puts `items` into the part of `op` that `edit` names. An explicit list and edits exclude each
@@ -41,37 +49,24 @@ void set_items(layer::ListOp<T>& op, ListEdit edit, std::vector<T> items) {
     op = {};
     op.is_explicit = is_explicit;
   }
-  switch (edit) {
-    case ListEdit::Explicit:
-      op.explicit_items = std::move(items);
-      break;
-    case ListEdit::Add:
-      op.added = std::move(items);
-      break;
-    case ListEdit::Append:
-      op.appended = std::move(items);
-      break;
-    case ListEdit::Delete:
-      op.deleted = std::move(items);
-      break;
-    case ListEdit::Prepend:
-      op.prepended = std::move(items);
-      break;
-    case ListEdit::Reorder:
-      op.ordered = std::move(items);
-      break;
+  items_of(op, edit) = std::move(items);
+}
+
+/// The list op in field `name` of `spec`, taken out of it; an empty one where there is none.
+template <class T>
+layer::ListOp<T> take_list_op(layer::Spec& spec, Token name) {
+  if (spec.get<layer::ListOp<T>>(name) == nullptr) {
+    return {};
   }
+  layer::Value old = *spec.find(name);
+  spec.set(name, layer::Value());  // so that nobody shares it: many statements may edit one list
+  return old.take<layer::ListOp<T>>();
 }
 
 /// The same for the list op in field `name` of `spec`.
 template <class T>
 void set_items(layer::Spec& spec, Token name, ListEdit edit, std::vector<T> items) {
-  layer::ListOp<T> op;
-  if (spec.get<layer::ListOp<T>>(name) != nullptr) {
-    layer::Value old = *spec.find(name);
-    spec.set(name, layer::Value());  // so that nobody shares it: many statements may edit one list
-    op = old.take<layer::ListOp<T>>();
-  }
+  layer::ListOp<T> op = take_list_op<T>(spec, name);
   set_items(op, edit, std::move(items));
   spec.set(name, layer::Value(std::move(op)));
 }
@@ -95,15 +90,21 @@ inline bool item_less(Token a, Token b) { return a.id() < b.id(); }
 inline bool item_less(const std::string& a, const std::string& b) { return a < b; }
 inline bool item_less(std::int64_t a, std::int64_t b) { return a < b; }
 
+/// Numbers from 0 to `count` - 1 in their order by `less`; those that are alike stay as they are.
+std::vector<std::size_t> sorted_numbers(std::size_t count,
+                                        bool (*less)(const void* items, std::size_t, std::size_t),
+                                        const void* items);
+
+template <class T>
+bool less_at(const void* items, std::size_t a, std::size_t b) {
+  const auto& list = *static_cast<const std::vector<T>*>(items);
+  return item_less(list[a], list[b]);
+}
+
 /// The number of the first item that equals one before it; of all items when none does.
 template <class T>
 std::size_t first_repeated(const std::vector<T>& items) {
-  std::vector<std::size_t> order(items.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
-  }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return item_less(items[a], items[b]); });
+  const std::vector<std::size_t> order = sorted_numbers(items.size(), &less_at<T>, &items);
   std::size_t first = items.size();
   for (std::size_t i = 1; i < order.size(); ++i) {
     if (items[order[i - 1]] == items[order[i]]) {
@@ -113,14 +114,10 @@ std::size_t first_repeated(const std::vector<T>& items) {
   return first;
 }
 
-/// True when two items are equal. Takes a copy to sort.
+/// True when two items are equal.
 template <class T>
-bool has_duplicates(std::vector<T> items) {
-  if (items.size() < 2) {
-    return false;
-  }
-  std::sort(items.begin(), items.end(), [](const T& a, const T& b) { return item_less(a, b); });
-  return std::adjacent_find(items.begin(), items.end()) != items.end();
+bool has_duplicates(const std::vector<T>& items) {
+  return items.size() > 1 && first_repeated(items) != items.size();
 }
 
 }  // namespace tenon::formats::text
