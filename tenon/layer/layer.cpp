@@ -20,6 +20,12 @@ Layer::Layer(std::string identifier) : identifier_(std::move(identifier)) {
   create(Path::absolute_root(), SpecKind::PseudoRoot);
 }
 
+Layer::Layer(const Layer& other) = default;
+Layer::Layer(Layer&& other) noexcept = default;
+Layer& Layer::operator=(const Layer& other) = default;
+Layer& Layer::operator=(Layer&& other) noexcept = default;
+Layer::~Layer() = default;
+
 /// Where `path` is in the table, or the empty slot where it would be.
 std::size_t Layer::slot_of(Path path) const {
   const std::uint32_t number = path.number();

@@ -27,11 +27,11 @@ class Layer {
 
   /// An empty layer with its pseudo-root.
   explicit Layer(std::string identifier);
-  Layer(const Layer&) = default;
-  Layer(Layer&&) noexcept = default;
-  Layer& operator=(const Layer&) = default;
-  Layer& operator=(Layer&&) noexcept = default;
-  ~Layer() = default;
+  Layer(const Layer& other);
+  Layer(Layer&& other) noexcept;
+  Layer& operator=(const Layer& other);
+  Layer& operator=(Layer&& other) noexcept;
+  ~Layer();
 
   /// What arcs resolve to: an absolute file path, `package.usdz[inner.usda]`, or a made-up name of
   /// a layer that is in no file.

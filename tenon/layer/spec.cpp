@@ -52,4 +52,17 @@ void FieldList::erase(Token name) {
   block_->count = static_cast<std::uint32_t>(end - own.data());
 }
 
+void Spec::set(Token name, Value value) {
+  if (!has(name)) {
+    fields_.append(name, std::move(value));
+    return;
+  }
+  for (Field& field : fields_.own_items()) {
+    if (field.name == name) {
+      field.value = std::move(value);
+      return;
+    }
+  }
+}
+
 }  // namespace tenon::layer

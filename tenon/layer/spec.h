@@ -140,18 +140,7 @@ class Spec {
     return fallback;
   }
 
-  void set(Token name, Value value) {
-    if (!has(name)) {
-      fields_.append(name, std::move(value));
-      return;
-    }
-    for (Field& field : fields_.own_items()) {
-      if (field.name == name) {
-        field.value = std::move(value);
-        return;
-      }
-    }
-  }
+  void set(Token name, Value value);
   /// Appends without looking for an earlier field of that name; for readers of checked input.
   void append(Token name, Value value) { fields_.append(name, std::move(value)); }
   void erase(Token name) { fields_.erase(name); }
