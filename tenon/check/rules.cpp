@@ -18,8 +18,7 @@ namespace tenon::check {
 
 namespace {
 
-std::vector<Rule> sorted_rules() {
-  std::vector<Rule> table{
+constexpr Rule kRules[] = {
 #define TENON_RULE(id, severity, numbers, check, fix) \
   {id, Severity::severity, numbers, check, fix, Holds::InAnyVariant, {}},
 #define TENON_RULE_IN_ALL(id, severity, numbers, check, fix) \
@@ -34,7 +33,10 @@ std::vector<Rule> sorted_rules() {
   {id, Severity::severity, numbers, nullptr, fix, Holds::WhereNoVariantUsesIt, {}},
 #define TENON_FORMER_ID(former, id)
 #include "tenon/check/rules.def"
-  };
+};
+
+std::vector<Rule> sorted_rules() {
+  std::vector<Rule> table(std::begin(kRules), std::end(kRules));
   std::sort(table.begin(), table.end(), [](const Rule& a, const Rule& b) { return a.id < b.id; });
   return table;
 }
