@@ -12,7 +12,7 @@ function(tenon_rule_pages target)
     get_filename_component(id ${page} NAME)
     string(REGEX REPLACE "\\.md$" "" id ${id})
     file(READ ${page} text)
-    string(APPEND rows "      {\"${id}\", R\"tenon_page(${text})tenon_page\"},\n")
+    string(APPEND rows "    {\"${id}\", R\"tenon_page(${text})tenon_page\"},\n")
   endforeach()
   set(source ${CMAKE_CURRENT_BINARY_DIR}/rule_pages.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT [[
@@ -24,9 +24,11 @@ function(tenon_rule_pages target)
 namespace tenon::check {
 namespace {
 
+constexpr Page kPages[] = {
+@rows@};
+
 std::vector<Page> sorted_pages() {
-  std::vector<Page> all{
-@rows@  };
+  std::vector<Page> all(std::begin(kPages), std::end(kPages));
   std::sort(all.begin(), all.end(), [](const Page& a, const Page& b) { return a.id < b.id; });
   return all;
 }
