@@ -27,14 +27,14 @@ constexpr bool takes_fields(std::index_sequence<At...>) {
 inline constexpr std::size_t kMaxFields = 48;
 
 /// How many fields `T` has, an aggregate without bases; a struct with more than kMaxFields does
-/// not compile.
-template <class T, std::size_t N = kMaxFields + 1>
+/// not compile. N: as many are known to be there.
+template <class T, std::size_t N = 0>
 constexpr std::size_t field_count() {
-  if constexpr (N == 0 || takes_fields<T>(std::make_index_sequence<N>())) {
-    static_assert(N <= kMaxFields, "raise kMaxFields");
-    return N;
+  static_assert(N <= kMaxFields, "raise kMaxFields");
+  if constexpr (takes_fields<T>(std::make_index_sequence<N + 1>())) {
+    return field_count<T, N + 1>();
   } else {
-    return field_count<T, N - 1>();
+    return N;
   }
 }
 
