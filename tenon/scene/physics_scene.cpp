@@ -173,6 +173,13 @@ Vec3d GravityTrack::at(double seconds) const {
   return held || span.before == span.after ? a : a + (gravity[span.after] - a) * span.fraction;
 }
 
+PhysicsScene::PhysicsScene() = default;
+PhysicsScene::PhysicsScene(const PhysicsScene&) = default;
+PhysicsScene::PhysicsScene(PhysicsScene&&) noexcept = default;
+PhysicsScene& PhysicsScene::operator=(const PhysicsScene&) = default;
+PhysicsScene& PhysicsScene::operator=(PhysicsScene&&) noexcept = default;
+PhysicsScene::~PhysicsScene() = default;
+
 void PhysicsScene::update_joint_pairs() {
   if (filter.joint_pairs.empty()) {
     return;

@@ -460,7 +460,8 @@ struct NotRead {
   std::string why;
 };
 
-struct PhysicsScene {
+/// What a PhysicsScene holds: an aggregate, whose members the compiler counts (fields/field.h).
+struct SceneContents {
   std::vector<Scene> scenes;  ///< at least one
   std::vector<Body> bodies;
   std::vector<Collider> colliders;
@@ -497,6 +498,16 @@ struct PhysicsScene {
   double start_time_code = 0;  ///< stage time of the start of the simulation
   double time_codes_per_second = 24;
   double end_time_code = 0;  ///< authored end, or the start when none is authored
+};
+
+struct PhysicsScene : SceneContents {
+  // Compiled once: each goes through all lists.
+  PhysicsScene();
+  PhysicsScene(const PhysicsScene&);
+  PhysicsScene(PhysicsScene&&) noexcept;
+  PhysicsScene& operator=(const PhysicsScene&);
+  PhysicsScene& operator=(PhysicsScene&&) noexcept;
+  ~PhysicsScene();
 
   /// Brings filter.pairs_off up to date with what the joints are now (enabled, collision_enabled).
   void update_joint_pairs();

@@ -144,10 +144,21 @@ constexpr bool are_apart(const Rows<Members...>&) {
   return sizeof(EachOnce<Members...>) >= sizeof(FieldInfo);
 }
 
+/// How many members a struct has, or the base that holds them all, which its table names
+/// `Contents`.
+template <class T>
+constexpr std::size_t member_count() {
+  if constexpr (requires { typename Table<T>::Contents; }) {
+    return wire::field_count<typename Table<T>::Contents>();
+  } else {
+    return wire::field_count<T>();
+  }
+}
+
 /// Each member has exactly one row: as many rows as the compiler counts members, none twice.
 template <class T>
 constexpr bool is_complete() {
-  return kFieldCount<T> == wire::field_count<T>() && are_apart(Table<T>::kFields);
+  return kFieldCount<T> == member_count<T>() && are_apart(Table<T>::kFields);
 }
 
 /// Calls `visit(info, member)` for each field of `of` in the order of the table.

@@ -28,6 +28,7 @@ struct Table<NotRead> {
 
 template <>
 struct Table<PhysicsScene> {
+  using Contents = SceneContents;
   static constexpr std::string_view kWord = "stage";
   static constexpr Rows kFields{
       field<&PhysicsScene::scenes>({.name = "scenes", .meaning = "at least one"}),
