@@ -4,6 +4,8 @@
 
 namespace tenon::answers {
 
+Json parsed(std::string_view text) { return Json::parse(text, nullptr, false); }
+
 std::string printed(const Json& json, bool only_ascii, int indent) {
   return json.dump(indent, ' ', only_ascii, Json::error_handler_t::replace) + "\n";
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -20,6 +21,9 @@ inline Json nothing() { return Json::object(); }
 inline void append_member(Json& object, std::string key, Json value) {
   object.get_ref<Json::object_t&>().emplace_back(std::move(key), std::move(value));
 }
+
+/// The value that a text is; one that is discarded (`is_discarded`) where the text is no JSON.
+Json parsed(std::string_view text);
 
 /// As it is printed: indented, and with an end of line. Bytes that are no UTF-8 are replaced;
 /// `only_ascii` writes other characters as escapes.

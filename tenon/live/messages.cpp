@@ -283,7 +283,7 @@ std::vector<double> Asked::numbers(std::string_view field) const {
 Path Asked::path(std::string_view field) const { return Path::parse(text(field)).value_or(Path()); }
 
 Result<std::size_t> Listener::read(std::string_view text, Asked& asked) const {
-  asked.fields_ = Json::parse(text, nullptr, false);
+  asked.fields_ = answers::parsed(text);
   const Json& message = asked.fields_;
   if (!message.is_object() || !message.contains("do") || !message["do"].is_string()) {
     return Error(ErrorCode::Parse, "a message is to be a JSON object with `do`, the request's name")

@@ -92,8 +92,8 @@ const char* item_type(const Json& chain) {
 }  // namespace
 
 Result<Json> fold_list_ops(const std::string& text) {
-  const Json parsed = Json::parse(text, nullptr, false);
-  const Json chain = parsed.is_object() && parsed.contains("chain") ? parsed["chain"] : parsed;
+  const Json json = parsed(text);
+  const Json chain = json.is_object() && json.contains("chain") ? json["chain"] : json;
   const char* type = chain.is_array() ? item_type(chain) : nullptr;
   if (type == nullptr) {
     return Error(ErrorCode::Parse,

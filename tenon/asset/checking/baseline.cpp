@@ -29,7 +29,7 @@ std::string baseline_text(const Json& item, const char* key) {
 
 Result<Baseline> Baseline::read(const std::string& path, const bytes::Files& files) {
   TENON_TRY(const auto bytes, files->open(path, {}));
-  const Json json = Json::parse(bytes->text(), nullptr, false);
+  const Json json = answers::parsed(bytes->text());
   const bool usable = json.is_object() && baseline_text(json, "schema") == kBaselineSchema &&
                       json.contains("findings") && json["findings"].is_array();
   if (!usable) {

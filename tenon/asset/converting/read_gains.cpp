@@ -39,7 +39,7 @@ Result<void> read_gains_file(const std::string& path, const bytes::Files& files,
   if (!file) {
     return fault("the gains are neither two numbers K,D nor a file that can be read");
   }
-  const Json json = Json::parse((*file)->text(), nullptr, false);
+  const Json json = answers::parsed((*file)->text());
   if (!json.is_object()) {
     return fault("the gains file is not a JSON object");
   }

@@ -89,7 +89,7 @@ Result<Json> outcome_of(const Result<std::string>& answer, const RecordOptions& 
   if (!answer) {
     return answer.error();
   }
-  Json outcome = Json::parse(*answer, nullptr, false);
+  Json outcome = answers::parsed(*answer);
   if (!outcome.is_object()) {
     return Error(ErrorCode::Io, "the page answers with nothing").with_rule("browser.protocol");
   }
