@@ -136,7 +136,7 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
 
   Hub& hub_;
   std::unique_ptr<Slot> slot_;
-  websocket::stream<asio::ip::tcp::socket> socket_;
+  websocket::stream<asio::ip::tcp::socket, false> socket_;  ///< false: compresses nothing
   beast::flat_buffer buffer_;
   Client number_ = 0;
   bool left_ = false;
