@@ -35,10 +35,10 @@ struct FieldNames {
 inline const FieldNames kNames;
 
 #define TENON_DECLARE_FIELD(name) inline constexpr const Token& name = kNames.name;
-TENON_FIELDS(TENON_DECLARE_FIELD)
+TENON_FIELDS(TENON_DECLARE_FIELD)  // NOLINT(readability-identifier-naming): the words of USD
 #undef TENON_DECLARE_FIELD
 
 /// The field "default", whose name is a C++ word.
-inline constexpr const Token& default_value = kNames.default_value;
+inline constexpr const Token& default_value = kNames.default_value;  // NOLINT: as the others
 
 }  // namespace tenon::layer::fields
