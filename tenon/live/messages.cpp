@@ -161,8 +161,9 @@ TypeRule rule_of_type(FieldType type) {
 
 Result<void> check_fields(const MessageInfo& info, const Json& message) {
   for (const auto& [key, value] : message.items()) {
-    const auto field = std::find_if(info.fields.begin(), info.fields.end(),
-                                    [&key = key](const Field& one) { return one.name == key; });
+    const auto field =
+        std::find_if(info.fields.begin(), info.fields.end(),
+                     [&wanted = key](const Field& one) { return one.name == wanted; });
     if (key == "do" || key == "id") {
       continue;
     }

@@ -96,7 +96,7 @@ const std::vector<Token>& StrayProperties::apis_of(Token name) {
 bool StrayProperties::report_ignored(const AttributeValues& values, const stage::Prim& prim,
                                      const Roles& roles) {
   const std::vector<Token>& authored = prim.unordered_property_names();
-  const auto concerns = [this](const stage::Prim& at, Token name) {
+  const auto concerns = [](const stage::Prim& at, Token name) {
     return at.definition()->find(name) == nullptr && names_physics(name);
   };
   if (std::none_of(authored.begin(), authored.end(),
