@@ -12,13 +12,12 @@ namespace {
 void collect_opinions(PrimIndex& index) {
   for (std::uint32_t id = 0; id < index.nodes.size(); ++id) {
     const Node& node = index.nodes[id];
-    if (!node.can_contribute() || !node.has_specs) {
+    if (!node.has_opinions()) {
       continue;
     }
     for (const StackedLayer& stacked : node.layer_stack->layers) {
       if (const layer::Spec* spec = stacked.layer->find(node.path)) {
-        index.opinions.push_back({stacked.layer.get(), spec, node.path, id,
-                                  node.map_to_root->offset() * stacked.offset});
+        index.add_opinion(id, node, stacked, *spec);
       }
     }
   }

@@ -99,12 +99,9 @@ void descend(Indexer& indexer, Path child_path, bool parent_is_instance) {
   graph.descend(child_path);
   indexer.has_payloads = false;
   indexer.payload_loaded = false;
-  for (NodeId id = 0; id < graph.size(); ++id) {
-    Node& node = graph[id];
+  for (Node& node : graph.nodes()) {
     graph.count(node.has_specs ? node.layer_stack->layers.size() : 0);
     node.has_specs = node.has_specs && node.layer_stack->has_spec(node.path);
-    node.due_to_ancestor = id != 0;
-    node.due_to_direct_arc = false;
   }
 }
 

@@ -34,7 +34,7 @@ bool can_be_culled(const NodeGraph& graph, NodeId id) {
       return false;
     }
   }
-  return !(node.has_specs && node.can_contribute());
+  return !node.has_opinions();
 }
 
 }  // namespace

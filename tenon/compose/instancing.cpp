@@ -39,7 +39,7 @@ std::string sources_of_variables(const LayerStack& stack) {
 
 bool composed_instanceable(const NodeGraph& graph) {
   for (const NodeId id : graph.subtree(0)) {
-    if (!graph[id].can_contribute() || !graph[id].has_specs) {
+    if (!graph[id].has_opinions()) {
       continue;
     }
     for (const StackedLayer& stacked : graph[id].layer_stack->layers) {
@@ -99,7 +99,7 @@ std::string instance_key(const NodeGraph& graph, bool has_payloads) {
   });
   std::map<std::string, std::string> selections;
   for (const NodeId id : graph.subtree(0)) {
-    if (graph[id].can_contribute() && graph[id].has_specs) {
+    if (graph[id].has_opinions()) {
       add_variant_selections(*graph[id].layer_stack, graph[id].path, selections);
     }
   }

@@ -231,6 +231,8 @@ void NodeGraph::descend(Path child_path) {
   count(nodes_.size() * (1 + child_path.depth() / kElementsForUnit));
   for (Node& node : nodes_) {
     node.path = node.path == parent ? child_path : node.path.child(name);
+    node.due_to_ancestor = &node != nodes_.data();
+    node.due_to_direct_arc = false;
   }
 }
 

@@ -92,7 +92,7 @@ class NodeGraph {
   /// A contributing node at `site`, or kNoNode.
   NodeId find_site(const Site& site) const;
 
-  /// Appends a child name to the path of every node.
+  /// Appends a child name to the path of every node, whose arcs are an ancestor's from now on.
   void descend(Path child_path);
   void set_inert(NodeId id, bool inert);
   void set_culled(NodeId id);

@@ -15,7 +15,9 @@
 namespace tenon::compose {
 namespace {
 
-constexpr std::size_t kNamesForUnit = 4;  // names listed by the opinions of an index
+constexpr std::size_t kIndexUnits = 120;  // of work for an index, which is kept
+constexpr std::size_t kOpinionUnits = 4;  // for each of its opinions
+constexpr std::size_t kNamesForUnit = 4;  // names listed by its opinions
 
 void compose_names(PrimIndex& index) {
   if (index.opinions.size() == 1 && !index.opinions.front().spec->has(layer::fields::primOrder)) {
@@ -39,8 +41,6 @@ bool descend(NodeGraph& graph, const Path child, PrimIndex& index) {
   graph.descend(child);
   for (NodeId id = 0; id < graph.size(); ++id) {
     Node& node = graph[id];
-    node.due_to_ancestor = id != 0;
-    node.due_to_direct_arc = false;
     if (!node.has_specs) {
       continue;
     }
@@ -52,21 +52,18 @@ bool descend(NodeGraph& graph, const Path child, PrimIndex& index) {
       node.has_specs = node.has_specs || spec != nullptr;
       if (spec != nullptr && node.can_contribute()) {
         arcs.add(*spec);
-        index.opinions.push_back({stacked.layer.get(), spec, node.path, id,
-                                  node.map_to_root->offset() * stacked.offset});
+        index.add_opinion(id, node, stacked, *spec);
       }
     }
   }
   return !arcs.any();
 }
 
-bool has_opinions(const Node& node) { return node.has_specs && node.can_contribute(); }
-
 /// Drops nodes that say nothing here. The others keep their order, and so do the opinions, which
 /// are told where their nodes are now.
 void drop_silent_nodes(NodeGraph& graph, PrimIndex& index) {
-  const auto begin = graph.nodes().begin();
-  if (std::all_of(begin + 1, graph.nodes().end(), has_opinions)) {
+  const auto has_opinions = [](const Node& node) { return node.has_opinions(); };
+  if (std::all_of(graph.nodes().begin() + 1, graph.nodes().end(), has_opinions)) {
     graph.count(kKeptUnits * graph.size());
     return;
   }
@@ -79,7 +76,7 @@ void drop_silent_nodes(NodeGraph& graph, PrimIndex& index) {
       before = opinion.node;
       do {
         ++now;  // from kNoNode to the first
-      } while (!has_opinions(graph[now]));
+      } while (!graph[now].has_opinions());
     }
     opinion.node = now;
   }

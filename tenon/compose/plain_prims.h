@@ -2,16 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-
 #include "tenon/compose/indexer.h"
 
 /// Internal: prims at which no arc starts, as most do not. What is above them tells everything but
 /// what the layers say; the pass list of arcs is not needed.
 namespace tenon::compose {
-
-inline constexpr std::size_t kIndexUnits = 120;  ///< of work for an index, which is kept
-inline constexpr std::size_t kOpinionUnits = 4;  ///< for each of its opinions
 
 /// Fills `index`, whose path is given, of a child of the prim `parent` that has opinions of the
 /// root layer stack alone. False, with nothing done, where an arc starts here or other stacks

@@ -50,6 +50,7 @@ struct Node {
   bool due_to_direct_arc = false;
 
   bool can_contribute() const { return !inert && !culled; }
+  bool has_opinions() const { return has_specs && can_contribute(); }
   bool same_site(const Node& other) const {
     return layer_stack == other.layer_stack && path == other.path;
   }
@@ -118,6 +119,12 @@ struct PrimIndex {
   bool has_payloads = false;                ///< some payload arc is authored
   bool payload_loaded = false;              ///< and included under the load rules
   bool instanceable = false;                ///< an instance: some arc, and instanceable = true
+
+  void add_opinion(std::uint32_t id, const Node& node, const StackedLayer& stacked,
+                   const layer::Spec& spec) {
+    opinions.push_back(
+        {stacked.layer.get(), &spec, node.path, id, node.map_to_root->offset() * stacked.offset});
+  }
 
   const IndexExtras& extras() const {
     static const IndexExtras none;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <type_traits>
 
 #include "tenon/base/containers/short_list.h"
 #include "tenon/compose/composition_error.h"
@@ -216,6 +217,31 @@ bool evaluate_selection(const LayerStack& stack, const layer::Layer& layer, Path
   return false;
 }
 
+/// All that a site says about arcs, and about what arcs bring in.
+const std::array<Token, 7>& arc_fields() {
+  static const std::array<Token, 7> names{
+      fields::references,      fields::payload,          fields::inheritPaths, fields::specializes,
+      fields::variantSetNames, fields::variantSelection, fields::instanceable};
+  return names;
+}
+
+template <class Item>
+void add_prims(const ListOp<Item>* op, Path anchor, std::vector<Path>& prims) {
+  if (op == nullptr) {
+    return;
+  }
+  for (const auto* items : {&op->explicit_items, &op->prepended, &op->appended, &op->added,
+                            &op->deleted, &op->ordered}) {
+    for (const Item& item : *items) {
+      if constexpr (std::is_same_v<Item, Path>) {
+        prims.push_back(item.absolute(anchor));
+      } else {
+        prims.push_back(item.prim_path);
+      }
+    }
+  }
+}
+
 const layer::VariantSelections* selections_at(const layer::Layer& layer, Path path) {
   const layer::Spec* spec = layer.find(path);
   return spec == nullptr ? nullptr : spec->get<layer::VariantSelections>(fields::variantSelection);
@@ -242,6 +268,38 @@ AuthoredArcs authored_arcs(const LayerStack& stack, Path path) {
     }
   }
   return arcs;
+}
+
+bool author_equal_arcs(const LayerStack& stack, Path a, Path b) {
+  return std::all_of(stack.layers.begin(), stack.layers.end(), [&](const StackedLayer& stacked) {
+    const layer::Spec* const spec_a = stacked.layer->find(a);
+    const layer::Spec* const spec_b = stacked.layer->find(b);
+    if (spec_a == nullptr || spec_b == nullptr) {
+      return spec_a == spec_b;
+    }
+    return std::all_of(arc_fields().begin(), arc_fields().end(), [&](Token name) {
+      const layer::Value* const value_a = spec_a->find(name);
+      const layer::Value* const value_b = spec_b->find(name);
+      return value_a == nullptr || value_b == nullptr ? value_a == value_b : *value_a == *value_b;
+    });
+  });
+}
+
+void add_named_prims(const LayerStack& stack, Path path, std::vector<Path>& prims) {
+  const Path anchor = path.prim();
+  for (const StackedLayer& stacked : stack.layers) {
+    const layer::Spec* const spec = stacked.layer->find(path);
+    if (spec == nullptr) {
+      continue;
+    }
+    add_prims(spec->get<ListOp<Path>>(fields::inheritPaths), anchor, prims);
+    add_prims(spec->get<ListOp<Path>>(fields::specializes), anchor, prims);
+    add_prims(spec->get<ListOp<layer::Reference>>(fields::references), anchor, prims);
+    add_prims(spec->get<ListOp<layer::Payload>>(fields::payload), anchor, prims);
+    if (const auto* const payload = spec->get<layer::Payload>(fields::payload)) {
+      prims.push_back(payload->prim_path);
+    }
+  }
 }
 
 std::vector<AssetArc> composed_references(const LayerStack& stack, Path path,

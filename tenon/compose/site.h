@@ -34,6 +34,11 @@ struct AuthoredArcs {
 
 AuthoredArcs authored_arcs(const LayerStack& stack, Path path);
 
+/// Two sites author the same about arcs and about what arcs bring in, layer by layer.
+bool author_equal_arcs(const LayerStack& stack, Path a, Path b);
+/// Adds the prims that the site's arcs name, whether list edits keep them or not.
+void add_named_prims(const LayerStack& stack, Path path, std::vector<Path>& prims);
+
 /// A reference or payload that survived list editing.
 struct AssetArc {
   std::string asset_path;           ///< expressions evaluated; empty: the same layer stack

@@ -183,7 +183,7 @@ NodeId add_subgraph(Indexer& indexer, const Arc& arc, const Site& site, const Ar
 }
 
 AuthoredArcs arcs_of(const Node& node, WorkMeter& work) {
-  if (!node.can_contribute() || !node.has_specs) {
+  if (!node.has_opinions()) {
     return {};
   }
   work.count(node.layer_stack->layers.size());

@@ -5,8 +5,9 @@
 // the sites that were looked at on the way. Two siblings are twins when their indices are the same
 // but for their own names and their specs say the same about arcs. What was composed of a prim
 // below one of them holds below the other, with the name changed, if the root stack says nothing at
-// the sites below either of them. Names may change freely as long as no other site lies within a
-// twin: nothing in composition depends on what a name is, only on which names are equal.
+// the sites below either of them. Nothing in composition depends on what a name is, only on which
+// names are equal; so the name of a twin may be another as long as it is met nowhere else: in no
+// site beside the twins, and in no path that an arc names.
 //
 // Twins have one parent, so what is above them is the same. Findings, and arcs of which there are
 // too many to follow, are never taken over. Work counts as if each prim had been composed: bounds
@@ -14,11 +15,6 @@
 #include "tenon/compose/twins/twins.h"
 
 #include <algorithm>
-#include <array>
-#include <type_traits>
-
-#include "tenon/layer/field_values.h"
-#include "tenon/layer/fields.h"
 
 namespace tenon::compose {
 namespace {
@@ -26,30 +22,6 @@ namespace {
 constexpr std::size_t kMostFamilies = 16;  // of siblings, which each new one is compared with
 constexpr std::size_t kMostTries = 4;      // to keep what is composed of a child of twins
 constexpr std::size_t kMostLooks = 256;    // of one prim, more are not kept
-
-/// What specs say about arcs, and about what arcs bring in.
-const std::array<Token, 7>& arc_fields() {
-  static const std::array<Token, 7> names{
-      layer::fields::references,  layer::fields::payload,         layer::fields::inheritPaths,
-      layer::fields::specializes, layer::fields::variantSetNames, layer::fields::variantSelection,
-      layer::fields::instanceable};
-  return names;
-}
-
-bool author_the_same_arcs(const LayerStack& stack, Path a, Path b) {
-  return std::all_of(stack.layers.begin(), stack.layers.end(), [&](const StackedLayer& stacked) {
-    const layer::Spec* const spec_a = stacked.layer->find(a);
-    const layer::Spec* const spec_b = stacked.layer->find(b);
-    if (spec_a == nullptr || spec_b == nullptr) {
-      return spec_a == spec_b;
-    }
-    return std::all_of(arc_fields().begin(), arc_fields().end(), [&](Token name) {
-      const layer::Value* const value_a = spec_a->find(name);
-      const layer::Value* const value_b = spec_b->find(name);
-      return value_a == nullptr || value_b == nullptr ? value_a == value_b : *value_a == *value_b;
-    });
-  });
-}
 
 bool may_have_twins(const PrimIndex& index) {
   const auto relocates = [](const Node& node) { return node.layer_stack->has_relocates(); };
@@ -60,7 +32,7 @@ bool may_have_twins(const PrimIndex& index) {
 bool are_twins(const LayerStack& root_stack, const PrimIndex& a, const PrimIndex& b) {
   return a.has_payloads == b.has_payloads && a.payload_loaded == b.payload_loaded &&
          Renaming(root_stack, a.path, b.path).leads_to(a.nodes, b.nodes) &&
-         author_the_same_arcs(root_stack, a.path, b.path);
+         author_equal_arcs(root_stack, a.path, b.path);
 }
 
 /// The prim `depth` levels above.
@@ -78,41 +50,6 @@ bool has_element(Path path, Token name) {
     }
   }
   return false;
-}
-
-template <class Item>
-void add_prims(const layer::ListOp<Item>* op, Path anchor, std::vector<Path>& paths) {
-  if (op == nullptr) {
-    return;
-  }
-  for (const auto* items : {&op->explicit_items, &op->prepended, &op->appended, &op->added,
-                            &op->deleted, &op->ordered}) {
-    for (const Item& item : *items) {
-      if constexpr (std::is_same_v<Item, Path>) {
-        paths.push_back(item.absolute(anchor));
-      } else {
-        paths.push_back(item.prim_path);
-      }
-    }
-  }
-}
-
-/// Prims that arcs lead to by name. A path in a twin means the same prim in the others.
-void add_named_prims(const SiteTrace::Look& look, std::vector<Path>& paths) {
-  const Path anchor = look.path.prim();
-  for (const StackedLayer& stacked : look.stack->layers) {
-    const layer::Spec* const spec = stacked.layer->find(look.path);
-    if (spec == nullptr) {
-      continue;
-    }
-    add_prims(spec->get<layer::ListOp<Path>>(layer::fields::inheritPaths), anchor, paths);
-    add_prims(spec->get<layer::ListOp<Path>>(layer::fields::specializes), anchor, paths);
-    add_prims(spec->get<layer::ListOp<layer::Reference>>(layer::fields::references), anchor, paths);
-    add_prims(spec->get<layer::ListOp<layer::Payload>>(layer::fields::payload), anchor, paths);
-    if (const auto* const payload = spec->get<layer::Payload>(layer::fields::payload)) {
-      paths.push_back(payload->prim_path);
-    }
-  }
 }
 
 /// Layer stacks are made for whoever needs them first.
@@ -246,7 +183,8 @@ bool Twins::keep_looks(const IndexServices& services, const std::vector<SiteTrac
     if (*look != top) {
       (is_below ? composed.below : composed.beside).push_back(look->path);
     }
-    add_named_prims(*look, composed.beside);
+    // A path into a twin means the same prim in all of them.
+    add_named_prims(*look->stack, look->path, composed.beside);
   }
   return std::none_of(composed.beside.begin(), composed.beside.end(),
                       [&](Path path) { return has_element(path, composed.top.name()); });
