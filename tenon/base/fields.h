@@ -164,7 +164,8 @@ constexpr auto tied(T& of, const Call& call, std::integral_constant<std::size_t,
 template <class T>
 struct FieldTie;
 
-/// Fields of a struct that has constructors are not found by counting.
+/// Fields of a struct that has constructors are not counted. Another number than it has does not
+/// compile.
 template <>
 struct FieldTie<Diagnostic> {
   template <class Of, class Call>

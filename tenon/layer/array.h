@@ -85,8 +85,6 @@ class NumberArray {
   static bool equal(const void* a, const void* b, std::size_t count);
 
  private:
-  static constexpr std::size_t kAdoptFrom = 4096;  // bytes
-
   static void drop_vector(void* vector) { delete static_cast<std::vector<T>*>(vector); }
   void copy_elements(std::span<const T> elements) {
     if (!elements.empty()) {
@@ -99,7 +97,7 @@ class NumberArray {
 
 template <class T>
 NumberArray<T>::NumberArray(std::vector<T>&& elements) {
-  if (elements.size() * sizeof(T) < kAdoptFrom) {
+  if (elements.size() * sizeof(T) < ArrayBody::kAdoptFrom) {
     copy_elements(elements);
     return;
   }

@@ -29,6 +29,9 @@ struct ArrayBody : SharedBody {
   /// A copy of `count` elements of `element_size` bytes, in one allocation with the body.
   static ArrayBody* copy(const void* elements, std::size_t count, std::size_t element_size,
                          Equal equal);
+  /// Bytes from which elements are better kept where they are than copied.
+  static constexpr std::size_t kAdoptFrom = 4096;
+
   /// Elements in memory that `owner` keeps alive and unchanged.
   static ArrayBody* borrow(const void* elements, std::size_t count, Equal equal,
                            std::shared_ptr<const void> owner);

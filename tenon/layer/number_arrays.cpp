@@ -59,9 +59,9 @@ Value NumberArrays::make(ValueType type, std::span<const std::byte> elements) {
 }
 
 Value NumberArrays::make(ValueType type, NumberBuffer&& elements) {
-  constexpr std::size_t kKeepFrom = 4096;  // bytes; fewer are copied, without the room behind them
   const std::span<const std::byte> bytes = elements.bytes();
-  return bytes.size() < kKeepFrom ? make(type, bytes) : borrow(type, bytes, elements.take_owner());
+  return bytes.size() < ArrayBody::kAdoptFrom ? make(type, bytes)
+                                              : borrow(type, bytes, elements.take_owner());
 }
 
 Value NumberArrays::borrow(ValueType type, std::span<const std::byte> elements,
