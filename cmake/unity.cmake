@@ -11,13 +11,8 @@ else()
 endif()
 option(TENON_UNITY "Compile several sources of a library as one" ${tenon_unity_default})
 
-# As many as keep a compiler within 1.5 GB, and two of them busy to the end; sanitizers take more.
-if(TENON_DEVELOPER)
-  set(tenon_unity_sources 12)
-else()
-  set(tenon_unity_sources 16)
-endif()
-set(TENON_UNITY_SOURCES ${tenon_unity_sources} CACHE STRING "Sources that are compiled as one")
+# As many as keep a compiler within 1.5 GB, and two of them busy to the end.
+set(TENON_UNITY_SOURCES 16 CACHE STRING "Sources that are compiled as one")
 mark_as_advanced(TENON_UNITY_SOURCES)
 
 function(tenon_unity target)
