@@ -74,7 +74,14 @@ Error fault(ErrorCode code, std::string words, const std::string& path) {
       .with_fix("correct the model; MuJoCo itself refuses it");
 }
 
+/// MuJoCo says this of good numbers where another call set errno while it read them. Read once
+/// more, they are good.
+bool by_chance(std::string_view words) {
+  return words.find("unknown error in attribute") != std::string_view::npos;
+}
+
 Result<SpecPtr> parse(const std::string& path) {
+  constexpr int kMostReadings = 4;
   char words[1000] = "";
   mjSpec* spec = nullptr;
   TENON_CHECK(engines::mujoco::open_mujoco());
@@ -83,7 +90,9 @@ Result<SpecPtr> parse(const std::string& path) {
   if (parse_xml == nullptr) {
     return fault(ErrorCode::Missing, "it has no mj_parseXML", path);
   }
-  TENON_CHECK(guarded([&] { spec = parse_xml(path.c_str(), nullptr, words, sizeof(words)); }));
+  for (int i = 0; i < kMostReadings && spec == nullptr && (i == 0 || by_chance(words)); ++i) {
+    TENON_CHECK(guarded([&] { spec = parse_xml(path.c_str(), nullptr, words, sizeof(words)); }));
+  }
   if (spec == nullptr) {
     return fault(ErrorCode::Parse, words, path);
   }

@@ -97,6 +97,18 @@ def open_end(value, infinity):
     return infinity if value is None or isinstance(value, str) or abs(value) >= FAR else value
 
 
+def read_again(read, *arguments):
+    """What MuJoCo reads. It refuses a good number where errno was set by something else meanwhile,
+    as happens in threads; read once more, the number is good."""
+    for _ in range(3):
+        try:
+            return read(*arguments)
+        except ValueError as error:
+            if "unknown error in attribute" not in str(error):
+                raise
+    return read(*arguments)
+
+
 class Reading:
     """A description in MuJoCo's words."""
 
@@ -104,10 +116,10 @@ class Reading:
         self.urdf = path.suffix == ".urdf"
         if self.urdf:
             text, self.bare, self.mimics, self.refused = urdf_physics(path)
-            self.spec = mujoco.MjSpec.from_string(text)
+            self.spec = read_again(mujoco.MjSpec.from_string, text)
         else:
             self.bare, self.mimics, self.refused = set(), None, {}
-            self.spec = mujoco.MjSpec.from_file(str(path))
+            self.spec = read_again(mujoco.MjSpec.from_file, str(path))
         self.spec.compiler.fusestatic = False
         self.spec.compiler.discardvisual = False
         self.model = self.spec.compile()

@@ -242,7 +242,7 @@ class Corpus:
         """Of MJCF the compiled model, of URDF the world that MuJoCo makes of it."""
         # pylint: disable=import-outside-toplevel
         import round_trip
-        from mujoco_reading import Reading, WorldComparison, mujoco
+        from mujoco_reading import Reading, WorldComparison, mujoco, read_again
         notes = []
         for ending in ("xml", "urdf"):
             back = asset.with_suffix("." + ending)
@@ -257,10 +257,10 @@ class Corpus:
             try:
                 if ending == "xml" and source.suffix == ".xml":
                     faults = round_trip.model_differences(
-                        mujoco.MjModel.from_xml_path(str(source)),
-                        mujoco.MjModel.from_xml_path(str(back)))
+                        read_again(mujoco.MjModel.from_xml_path, str(source)),
+                        read_again(mujoco.MjModel.from_xml_path, str(back)))
                 elif ending == "xml":
-                    mujoco.MjModel.from_xml_path(str(back))
+                    read_again(mujoco.MjModel.from_xml_path, str(back))
                     faults = []
                 else:
                     scene = json.loads(run([self.tenon, "physics", asset, "--json"])[1])
