@@ -150,9 +150,8 @@ struct PrimIndex {
   /// short list is searched faster than a path is made for each opinion, a long one is not
   /// searched.
   bool may_have_property(Token name) const {
-    return property_names.size() > kShortList || has_property(name);
+    return property_names.size() > layer::Layer::kShortList || has_property(name);
   }
-  static constexpr std::size_t kShortList = 32;
   /// `path` of node's namespace in the stage's; empty when it has no image.
   Path map_to_root(std::uint32_t node, Path path_in_node) const {
     return nodes[node].map_to_root->map_source_to_target(path_in_node.strip_variants());

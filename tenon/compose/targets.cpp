@@ -210,12 +210,12 @@ std::vector<PropertyOpinion> property_opinions(const PrimIndex& index, Token nam
     return found;
   }
   for (const Opinion& opinion : index.opinions) {
-    const Path path = opinion.path.property(name);
-    const layer::Spec* spec = opinion.layer->find(path);
-    if (spec == nullptr) {
+    const auto* entry = opinion.layer->find_property(*opinion.spec, opinion.path, name);
+    if (entry == nullptr) {
       continue;
     }
-    if (!found.empty() && found.front().spec->kind != spec->kind) {
+    const auto& [path, spec] = *entry;
+    if (!found.empty() && found.front().spec->kind != spec.kind) {
       if (errors != nullptr) {
         errors->add(composition_error(
             error_class::kInconsistentPropertyType, Severity::Error,
@@ -226,7 +226,7 @@ std::vector<PropertyOpinion> property_opinions(const PrimIndex& index, Token nam
       }
       continue;
     }
-    found.push_back({opinion.layer, spec, path, opinion.node});
+    found.push_back({opinion.layer, &spec, path, opinion.node});
   }
   return found;
 }

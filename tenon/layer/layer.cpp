@@ -39,8 +39,8 @@ std::size_t Layer::slot_of(Path path) const {
   return at;
 }
 
-/// As slot_of, with one look at the entry.
-const Spec* Layer::find(Path path) const {
+/// As slot_of, with one look at the entry; null where there is none.
+const Layer::Entry* Layer::entry_at(Path path) const {
   const std::uint32_t number = path.number();
   const std::size_t mask = slots_.size() - 1;
   for (std::size_t at = home_of(number, slots_.size()); slots_[at].entry != 0;
@@ -48,14 +48,49 @@ const Spec* Layer::find(Path path) const {
     if (slots_[at].path == number) {
       const Entry& entry = entries_[slots_[at].entry - 1];
       if (entry.path == path) {
-        return &entry.spec;
+        return &entry;
       }
     }
   }
   return nullptr;
 }
 
+const Spec* Layer::find(Path path) const {
+  const Entry* entry = entry_at(path);
+  return entry == nullptr ? nullptr : &entry->spec;
+}
+
 Spec* Layer::find(Path path) { return const_cast<Spec*>(std::as_const(*this).find(path)); }
+
+/// Properties are usually made right behind their prim, in the order of its list by who reads text
+/// and sorted in binary layers. Where that is so, no path is made, and no table searched but for
+/// the prim, which was looked at before.
+const Layer::Entry* Layer::find_property(const Spec& owner, Path path, Token name) const {
+  const std::vector<Token>& names = children(owner, fields::properties);
+  if (names.size() > kShortList) {
+    return entry_at(path.property(name));
+  }
+  const auto listed = std::find(names.begin(), names.end(), name);
+  if (listed == names.end()) {
+    return nullptr;
+  }
+  const std::size_t first = slots_[slot_of(path)].entry;
+  const auto is_it = [&](const Entry& entry) {
+    const Path there = entry.path;
+    return there.name() == name && there.parent() == path && there.kind() == PathKind::Property;
+  };
+  const std::size_t guess = first + static_cast<std::size_t>(listed - names.begin());
+  if (guess < entries_.size() && is_it(entries_[guess])) {
+    return &entries_[guess];
+  }
+  const auto begin = entries_.begin() + static_cast<std::ptrdiff_t>(first);
+  const std::size_t count = std::min(names.size(), entries_.size() - first);
+  const auto end = begin + static_cast<std::ptrdiff_t>(count);
+  if (const auto found = std::find_if(begin, end, is_it); found != end) {
+    return &*found;
+  }
+  return entry_at(path.property(name));
+}
 
 Spec& Layer::create(Path path, SpecKind kind) {
   if (4 * (entries_.size() + 1) > 3 * slots_.size()) {

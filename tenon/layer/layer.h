@@ -47,6 +47,11 @@ class Layer {
   const Spec* find(Path path) const;
   Spec* find(Path path);
   bool has(Path path) const { return find(path) != nullptr; }
+  /// The property `name` of a prim or variant, whose own spec is `owner` and which lists it; null
+  /// if there is none.
+  const Entry* find_property(const Spec& owner, Path path, Token name) const;
+  /// Names in a list of so many are searched faster than a path is made.
+  static constexpr std::size_t kShortList = 32;
   const Spec& root() const { return *find(Path::absolute_root()); }
   Spec& root() { return *find(Path::absolute_root()); }
 
@@ -81,6 +86,7 @@ class Layer {
   };
 
   std::size_t slot_of(Path path) const;
+  const Entry* entry_at(Path path) const;
   void grow(std::size_t slot_count);
 
   std::string identifier_;

@@ -42,6 +42,38 @@ TEST(Layer, SpecsAreFoundAfterGrowthAndErasure) {
   EXPECT_FALSE(layer.find(paths[0])->has(fields::displayName));
 }
 
+TEST(Layer, PropertiesAreFoundWhereverTheyWereMade) {
+  for (const std::size_t count : {std::size_t{3}, 2 * Layer::kShortList}) {
+    Layer layer("a.usda");
+    std::vector<Token> names;
+    for (std::size_t i = 0; i < count; ++i) {
+      names.push_back(Token("p" + std::to_string(i)));
+    }
+    const Path in_order = Path::from("/InOrder");
+    const Path reversed = Path::from("/Reversed");
+    for (const Path prim : {in_order, reversed}) {
+      layer.create(prim, SpecKind::Prim).set(fields::properties, Value(names));
+      for (std::size_t i = 0; i < count; ++i) {
+        layer.create(prim.property(names[prim == in_order ? i : count - 1 - i]),
+                     SpecKind::Attribute);
+      }
+    }
+    layer.erase(reversed.property(names[0]));
+    for (const Path prim : {in_order, reversed}) {
+      const Spec& owner = *layer.find(prim);
+      for (const Token name : names) {
+        const Layer::Entry* entry = layer.find_property(owner, prim, name);
+        ASSERT_EQ(entry == nullptr, prim == reversed && name == names[0]);
+        if (entry != nullptr) {
+          EXPECT_EQ(entry->path, prim.property(name));
+          EXPECT_EQ(&entry->spec, layer.find(prim.property(name)));
+        }
+      }
+      EXPECT_EQ(layer.find_property(owner, prim, "none"), nullptr);
+    }
+  }
+}
+
 TEST(Layer, ChildrenAndLayerFieldsAreRead) {
   Layer layer("a.usda");
   Spec& root = layer.root();

@@ -25,20 +25,15 @@ void visit_property_opinions(const PrimData& prim, Token name, Visit visit) {
   if (!prim.index->may_have_property(name)) {
     return;
   }
-  const bool has_others = prim.index->opinions.size() > 1;
   for (const compose::Opinion& opinion : prim.index->opinions) {
-    // A short list is searched faster than a path is made.
-    if (has_others) {
-      const auto& names = layer::Layer::children(*opinion.spec, layer::fields::properties);
-      if (names.size() <= compose::PrimIndex::kShortList &&
-          std::find(names.begin(), names.end(), name) == names.end()) {
-        continue;
-      }
+    const auto* entry = opinion.layer->find_property(*opinion.spec, opinion.path, name);
+    if (entry == nullptr) {
+      continue;
     }
     compose::Opinion found = opinion;
-    found.path = opinion.path.property(name);
-    found.spec = opinion.layer->find(found.path);
-    if (found.spec != nullptr && visit(found)) {
+    found.path = entry->path;
+    found.spec = &entry->spec;
+    if (visit(found)) {
       return;
     }
   }

@@ -560,7 +560,7 @@ TEST(Values, ASampleIsExactAtItsOwnStageTime) {
 TEST(PrimIndex, SearchesShortListsOfPropertiesAlone) {
   compose::PrimIndex index;
   std::vector<Token> names;
-  for (std::size_t i = 0; i < compose::PrimIndex::kShortList; ++i) {
+  for (std::size_t i = 0; i < layer::Layer::kShortList; ++i) {
     names.push_back(Token("a" + std::to_string(i)));
   }
   index.property_names = compose::NameList(names);
@@ -573,7 +573,7 @@ TEST(PrimIndex, SearchesShortListsOfPropertiesAlone) {
 }
 
 TEST(Prim, KnowsItsPropertiesHoweverManyTheyAre) {
-  for (const std::size_t count : {std::size_t{3}, 2 * compose::PrimIndex::kShortList}) {
+  for (const std::size_t count : {std::size_t{3}, 2 * layer::Layer::kShortList}) {
     std::string text = "def \"P\" {\nrel last\n";
     for (std::size_t i = 0; i < count; ++i) {
       text += "int a" + std::to_string(i) + "\n";
