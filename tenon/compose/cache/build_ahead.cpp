@@ -44,9 +44,16 @@ class BatchBuilder {
   BatchBuilder(const BatchBuilder&) = delete;
   BatchBuilder& operator=(const BatchBuilder&) = delete;
 
+  /// Roots that are alike are told before anything is built: what is met below one of them would
+  /// come between it and the next.
+  void note(const std::vector<const PrimIndex*>& roots) {
+    for (const PrimIndex* const root : roots) {
+      twins_.note_sibling(services_, *root);
+    }
+  }
+
   void build_below(const PrimIndex& root) {
     std::vector<Pending> pending{{&root, 0}};
-    twins_.note_sibling(services_, root);
     above_.clear();
     while (!pending.empty() && !batch_.full) {
       const Pending parent = pending.back();
@@ -143,6 +150,9 @@ std::vector<IndexBatch> build_ahead(const KnownIndices& known,
   std::atomic<std::size_t> next = 0;
   const auto build = [&](IndexBatch& batch) {
     BatchBuilder builder(known, batch);
+    if (known.options->shares_twins) {
+      builder.note(roots);
+    }
     for (std::size_t i = next++; i < roots.size(); i = next++) {
       builder.build_below(*roots[i]);
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/compose/cache/build_ahead.h"
 
+#include <atomic>
 #include <map>
 #include <string>
 
@@ -92,16 +93,28 @@ def "Robot" (
 }
 )";
 
+const char* const kHand = R"(#usda 1.0
+def "X"
+{
+    def "finger"
+    {
+    }
+}
+)";
+
+layer::LayerPtr layer_of(const std::string& name, const std::string& text) {
+  Diagnostics diagnostics;
+  auto layer = formats::read_text(text, name, diagnostics);
+  EXPECT_TRUE(layer) << (layer ? "" : layer.error().to_string());
+  return std::make_shared<const layer::Layer>(layer ? *std::move(layer) : layer::Layer(name));
+}
+
 class Robot {
  public:
   explicit Robot(std::size_t max_nodes = limits::kCacheNodes) {
     for (const auto& [name, text] :
          std::map<std::string, std::string>{{"root", kRoot}, {"robot", kRobot}}) {
-      Diagnostics diagnostics;
-      auto layer = formats::read_text(text, name, diagnostics);
-      EXPECT_TRUE(layer) << (layer ? "" : layer.error().to_string());
-      layers_[name] =
-          std::make_shared<const layer::Layer>(layer ? *std::move(layer) : layer::Layer(name));
+      layers_[name] = layer_of(name, text);
     }
     const LayerOpener opener = [this](const std::string& path,
                                       const layer::Layer&) -> Result<layer::LayerPtr> {
@@ -188,6 +201,61 @@ TEST(BuildAhead, KeepsToTheLimitOfNodes) {
   Robot scene(4);
   EXPECT_FALSE(scene.build_below({"/World/Local", "/World/_class"}));
   EXPECT_EQ(scene.dump(), expected);
+}
+
+TEST(BuildAhead, SharesWhatEqualReferencesBringIn) {
+  constexpr std::size_t kRobots = 8;
+  std::string text = "#usda 1.0\n";
+  for (std::size_t i = 0; i < kRobots; ++i) {
+    text += "def \"R" + std::to_string(i) + "\" (references = @robot@</Robot>) {}\n";
+  }
+  const layer::LayerPtr robot = layer_of("robot", kRobot);
+  const Result<layer::LayerPtr> hand = layer_of("hand", kHand);
+  const LayerOpener opener = [&](const std::string& path, const layer::Layer&) {
+    return path == "robot" ? Result<layer::LayerPtr>(robot) : hand;
+  };
+  IndexCache cache(layer_of("root", text), nullptr, opener, {});
+  const IndexCache hands(*hand, nullptr, opener, {});
+  std::map<Path, const PrimIndex*> known_roots;
+  std::vector<const PrimIndex*> roots;
+  for (std::size_t i = 0; i < kRobots; ++i) {
+    const Path path = Path::absolute_root().child("R" + std::to_string(i));
+    roots.push_back(&cache.index(path));
+    known_roots[path] = roots.back();
+  }
+
+  const ComposeOptions options;
+  const MapPool maps;
+  std::atomic<std::size_t> followed = 0;  // references to the hand
+  KnownIndices known;
+  known.options = &options;
+  known.root_stack = cache.layer_stack().get();
+  known.maps = &maps;
+  known.max_work = 1000000;
+  known.max_indices = 1000;
+  known.index = [&](Path path) {
+    const auto found = known_roots.find(path);
+    return found == known_roots.end() ? nullptr : found->second;
+  };
+  known.layer = [&](const std::string&, const layer::Layer&) {
+    ++followed;
+    return &hand;
+  };
+  known.stack = [&](const layer::LayerPtr&, const LayerStack*) {
+    return hands.layer_stack().get();
+  };
+  known.enters = [](const PrimIndex&) { return true; };
+  const std::vector<IndexBatch> batches = build_ahead(known, roots);
+  EXPECT_LE(followed, 2u);  // once by each thread
+  std::size_t fingers = 0;
+  for (const IndexBatch& batch : batches) {
+    EXPECT_TRUE(batch.complete);
+    for (const IndexAhead& ahead : batch.indices) {
+      fingers += ahead.index.path.name() == "finger" ? 1 : 0;
+      EXPECT_EQ(ahead.index.opinions.size(), cache.index(ahead.index.path).opinions.size());
+    }
+  }
+  EXPECT_EQ(fingers, kRobots);
 }
 
 }  // namespace
