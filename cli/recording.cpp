@@ -3,6 +3,7 @@
 #include "cli/recording.h"
 
 #include <charconv>
+#include <utility>
 
 #include "tenon/asset/viewing/viewing_json.h"
 #include "tenon/base/text/rounded_text.h"
@@ -95,13 +96,13 @@ int make_recording(Report& report, const SimulateArguments& simulate, RecordOpti
   if (recorded->interrupted) {
     return report.finish(kInterrupted);
   }
-  const Json answer = record_json(*recorded, options, output);
+  Json answer = record_json(*recorded, options, output);
   outputs.put(output, recorded->contents);
   if (auto written = outputs.commit(); !written) {
     return report.fail(written.error());
   }
   tell_recording(report, *recorded, options, output);
-  return report.finish(recorded->unstable ? kUnstable : kOk, answer);
+  return report.finish(recorded->unstable ? kUnstable : kOk, std::move(answer));
 }
 
 }  // namespace tenon::cli

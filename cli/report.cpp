@@ -48,7 +48,7 @@ void Report::print_diagnostics() const {
   }
 }
 
-int Report::finish(int code, const Json& body) {
+int Report::finish(int code, Json body) {
   if (code == kOk && !any_exit_code_misleads_) {
     const bool missing =
         std::any_of(diagnostics.begin(), diagnostics.end(), tells_of_missing_input);
@@ -63,8 +63,8 @@ int Report::finish(int code, const Json& body) {
     print_diagnostics();
     return code;
   }
-  Json envelope =
-      answers::envelope_json({TENON_VERSION, verb_, asset_, code == kOk}, diagnostics, body);
+  Json envelope = answers::envelope_json({TENON_VERSION, verb_, asset_, code == kOk}, diagnostics,
+                                         std::move(body));
   if (globals_.collected != nullptr) {
     globals_.collected->list.push_back(std::move(envelope));
     return code;

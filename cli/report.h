@@ -42,7 +42,7 @@ class Report {
 
   /// Prints the diagnostics, or with --json the envelope with `body` appended. Returns `code`, but
   /// 1 for 0 when a layer, a payload or a mesh that the input names was missing.
-  int finish(int code, const Json& body = answers::nothing());
+  int finish(int code, Json body = answers::nothing());
   /// The same for a run that came to nothing.
   int fail(const Error& error);
 

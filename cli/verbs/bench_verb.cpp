@@ -5,6 +5,7 @@
 // numbers, the digest) is the same in every run. The text shows the first environments that failed.
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/progress.h"
@@ -98,11 +99,11 @@ int run_bench(const Globals& globals, const BenchArguments& arguments) {
   if (!benched) {
     return report.fail(benched.error());
   }
-  const Json json = benched_json(*benched, *options);
+  Json json = benched_json(*benched, *options);
   if (!globals.json) {
     print_bench(json);
   }
-  return report.finish(benched->failed() > 0 ? kUnstable : kOk, json);
+  return report.finish(benched->failed() > 0 ? kUnstable : kOk, std::move(json));
 }
 
 constexpr const char* kBenchFooter =

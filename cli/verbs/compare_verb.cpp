@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/output.h"
@@ -107,14 +108,14 @@ int run_compare(const Globals& globals, const CompareArguments& arguments) {
     return report.fail(compared.error());
   }
   keep_metrics(arguments.metrics, *compared);
-  const Json json = compared_engines_json(*compared, arguments.timing);
+  Json json = compared_engines_json(*compared, arguments.timing);
   if (auto written = write_output(arguments, *compared, json, outputs); !written) {
     return report.fail(written.error());
   }
   if (!globals.json) {
     print_text(compare_text(json));
   }
-  return report.finish(code_of(*compared), json);
+  return report.finish(code_of(*compared), std::move(json));
 }
 
 std::vector<std::string> metric_names() {

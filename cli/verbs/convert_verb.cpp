@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "cli/output.h"
 #include "cli/progress.h"
@@ -227,7 +228,7 @@ int run_conversion(Report& report, const ConvertArguments& options) {
     note_counts(report, options.output, converted->counts.links, converted->counts.joints,
                 converted->counts.meshes);
   }
-  return report.finish(code, body);
+  return report.finish(code, std::move(body));
 }
 
 int run_convert(const Globals& globals, const ConvertArguments& options) {

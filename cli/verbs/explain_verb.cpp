@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
+#include <utility>
 
 #include "cli/output.h"
 #include "cli/reading_options.h"
@@ -56,7 +57,7 @@ int run_explain(const Globals& globals, const ExplainArguments& options) {
     return report.fail(found.error());
   }
   const auto explained = explained_stage(asset->stage, asset->readings, report.diagnostics);
-  const auto answer = answers::explain_object(explained, options.object, options.other);
+  auto answer = answers::explain_object(explained, options.object, options.other);
   if (!answer) {
     return report.fail(answer.error());
   }
@@ -65,7 +66,7 @@ int run_explain(const Globals& globals, const ExplainArguments& options) {
                : Path::from(options.object).is_property() ? explain_property_text(*answer)
                                                           : explain_prim_text(*answer));
   }
-  return report.finish(kOk, *answer);
+  return report.finish(kOk, *std::move(answer));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
+#include <utility>
 
 #include "cli/output.h"
 #include "cli/report.h"
@@ -75,11 +76,11 @@ int run_info(const Globals& globals, const AssetArguments& arguments) {
   }
   const scene::PhysicsScene scene =
       physics::read_physics(*stage, read_options(), report.diagnostics);
-  const Json info = answers::info_json(*stage, scene);
+  Json info = answers::info_json(*stage, scene);
   if (!globals.json) {
     print_info(info);
   }
-  return report.finish(kOk, info);
+  return report.finish(kOk, std::move(info));
 }
 
 }  // namespace

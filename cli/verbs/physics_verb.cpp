@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
+#include <utility>
 
 #include "cli/output.h"
 #include "cli/reading_options.h"
@@ -36,11 +37,11 @@ int run_physics(const Globals& globals, const PhysicsArguments& options) {
       physics::read_physics(asset->stage, read_options(asset->readings), report.diagnostics,
                             options.mass ? &provenance : nullptr);
   if (options.mass) {
-    const Json answer = answers::masses_json(asset->stage, scene, provenance);
+    Json answer = answers::masses_json(asset->stage, scene, provenance);
     if (!globals.json) {
       print_text(mass_table_text(answer["masses"]));
     }
-    return report.finish(kOk, answer);
+    return report.finish(kOk, std::move(answer));
   }
   if (!globals.json) {
     print_text(physics_text(scene));

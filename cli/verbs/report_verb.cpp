@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/report.h"
@@ -63,7 +64,7 @@ int run_report(const Globals& globals, const ReportArguments& arguments) {
   if (made->interrupted) {
     return report.finish(kInterrupted);
   }
-  const Json answer = report_json(*made, arguments.output);
+  Json answer = report_json(*made, arguments.output);
   const std::size_t size = made->html.size();
   outputs.put(arguments.output, std::move(made->html));
   if (auto written = outputs.commit(); !written) {
@@ -74,7 +75,7 @@ int run_report(const Globals& globals, const ReportArguments& arguments) {
                 " kB, " + std::to_string(made->triangles) + " triangles, " +
                 std::to_string(made->frames) + " frames; open it in a browser");
   }
-  return report.finish(kOk, answer);
+  return report.finish(kOk, std::move(answer));
 }
 
 constexpr const char* kReportFooter =

@@ -202,18 +202,18 @@ int run_sim(const Globals& globals, const SimArguments& options) {
   if (!simulated) {
     return report.fail(simulated.error());
   }
-  const Json state = simulated_json(*simulated, options.timing);
+  Json state = simulated_json(*simulated, options.timing);
   if (!globals.json && !options.uses_standard_output()) {
     print_state(state);
   }
   if (simulated->run.interrupted) {
-    return report.finish(kInterrupted, state);
+    return report.finish(kInterrupted, std::move(state));
   }
   if (auto written = write_outputs(*simulated, options, outputs, report); !written) {
     report.diagnostics.add(written.error().diagnostic());
-    return report.finish(exit_code_of(written.error()), state);
+    return report.finish(exit_code_of(written.error()), std::move(state));
   }
-  return report.finish(exit_code_of(*simulated), state);
+  return report.finish(exit_code_of(*simulated), std::move(state));
 }
 
 }  // namespace

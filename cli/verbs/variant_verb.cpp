@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
+#include <utility>
 
 #include "cli/output.h"
 #include "cli/report.h"
@@ -56,11 +57,11 @@ int list_variants(Report& report, const VariantArguments& options) {
   if (!stage) {
     return report.fail(stage.error());
   }
-  const Json answer = answers::variant_list_json(*stage, options.prim);
+  Json answer = answers::variant_list_json(*stage, options.prim);
   if (!report.json()) {
     print_variants(answer["variants"]);
   }
-  return report.finish(kOk, answer);
+  return report.finish(kOk, std::move(answer));
 }
 
 int run_variant(const Globals& globals, const VariantArguments& options) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
+#include <utility>
 
 #include "cli/output.h"
 #include "cli/report.h"
@@ -73,7 +74,7 @@ int run_where(const Globals& globals, const WhereArguments& options) {
   if (!report.json()) {
     print_text(where_text(answer));
   }
-  return report.finish(kOk, answer);
+  return report.finish(kOk, std::move(answer));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ Json diagnostic_json(const Diagnostic& d) {
   return item;
 }
 
-Json envelope_json(const Envelope& envelope, const Diagnostics& diagnostics, const Json& body) {
+Json envelope_json(const Envelope& envelope, const Diagnostics& diagnostics, Json body) {
   Json json = Json::object();
   json["tool"] = "tenon";
   json["version"] = envelope.version;
@@ -36,7 +36,9 @@ Json envelope_json(const Envelope& envelope, const Diagnostics& diagnostics, con
   for (const Diagnostic& d : diagnostics) {
     json["diagnostics"].push_back(diagnostic_json(d));
   }
-  json.update(body);
+  for (auto& [key, value] : body.get_ref<Json::object_t&>()) {
+    json[key] = std::move(value);
+  }
   return json;
 }
 

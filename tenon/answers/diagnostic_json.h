@@ -25,7 +25,7 @@ struct Envelope {
 
 /// {"tool", "version", "schema", "asset", "ok", "diagnostics"}, then the keys of `body`, which may
 /// have diagnostics of its own.
-Json envelope_json(const Envelope& envelope, const Diagnostics& diagnostics, const Json& body);
+Json envelope_json(const Envelope& envelope, const Diagnostics& diagnostics, Json body);
 
 /// {"assets"}: the answers for several assets in one.
 Json assets_json(std::vector<Json> answers);
