@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Specs lie in the order in which they were made; a table of slots, open to the next free one, says
+// where that of a path is. A path is known by its number, so slots need no look at paths that are
+// not the one. Erased specs keep their place with an empty path, for places are never given twice.
 #include "tenon/layer/layer.h"
 
 #include <algorithm>
