@@ -179,13 +179,13 @@ class Corpus:
     def refused(self, source, said):
         """Whether the format's own reader refuses it, too."""
         # pylint: disable-next=import-outside-toplevel
-        from mujoco_reading import Reading, mujoco
+        from mujoco_reading import Reading, mujoco, read_again
         why = said.strip().splitlines()[-1:] or ["it says nothing"]
         if SOURCE.search(said):
             return True, why[0]
         try:
             if source.suffix == ".xml":
-                mujoco.MjModel.from_xml_path(str(source))
+                read_again(mujoco.MjModel.from_xml_path, str(source))
             else:
                 Reading(source)
         except Exception as error:  # pylint: disable=broad-except
