@@ -66,9 +66,9 @@ const Spec* Layer::find(Path path) const {
 
 Spec* Layer::find(Path path) { return const_cast<Spec*>(std::as_const(*this).find(path)); }
 
-/// Properties are usually made right behind their prim, in the order of its list by who reads text
-/// and sorted in binary layers. Where that is so, no path is made, and no table searched but for
-/// the prim, which was looked at before.
+/// Readers make properties right behind their prim: from text in the order of its list, from
+/// binary layers sorted. Found there, a property needs no path to be made, and only the slot of its
+/// prim, which was looked at before.
 const Layer::Entry* Layer::find_property(const Spec& owner, Path path, Token name) const {
   const std::vector<Token>& names = children(owner, fields::properties);
   if (names.size() > kShortList) {

@@ -150,9 +150,7 @@ std::vector<IndexBatch> build_ahead(const KnownIndices& known,
   std::atomic<std::size_t> next = 0;
   const auto build = [&](IndexBatch& batch) {
     BatchBuilder builder(known, batch);
-    if (known.options->shares_twins) {
-      builder.note(roots);
-    }
+    builder.note(roots);
     for (std::size_t i = next++; i < roots.size(); i = next++) {
       builder.build_below(*roots[i]);
     }
