@@ -1,16 +1,13 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// Paths are hash-consed: each element is a node that is stored once, found by its parent and its
-// own words. Nodes are never freed, so a path is one pointer and comparisons need no text.
+// Paths are hash-consed: each element but a property is a node that is stored once, found by its
+// parent and its own words. Nodes are never freed, so comparisons need no text.
 #include "tenon/base/path.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cstddef>
-#include <limits>
-#include <memory>
 #include <mutex>
 #include <new>
 
@@ -20,89 +17,58 @@
 namespace tenon {
 namespace {
 
-// 64 bits on every machine: shards, tags and slots each take some of them.
-std::uint64_t mix(std::uint64_t seed, const void* pointer) {
-  const std::uint64_t bits = reinterpret_cast<std::uintptr_t>(pointer) >> 4;
-  return (seed ^ bits) * 0x9E3779B97F4A7C15ull + (seed >> 29);
+constexpr std::uint32_t kNumbersAtOnce = 256;
+constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ull;
+
+// 64 bits on every machine: shards and tags each take some of them.
+std::uint64_t mix(std::uint64_t seed, std::uint64_t bits) {
+  return (seed ^ bits) * kGolden + (seed >> 29u);
 }
 
-/// Tells details of elements of one kind apart.
-const void* id_of(PathNode::Detail detail) { return std::bit_cast<const void*>(detail); }
-
-std::uint64_t hash_of(const PathNode& node) {
-  std::uint64_t hash = mix(static_cast<std::size_t>(node.kind) + 1, node.parent);
-  hash = mix(hash, node.name.id());
-  return mix(hash, id_of(node.detail));
+std::uint32_t tag_of(const PathNode& node) {
+  std::uint64_t hash = mix(static_cast<std::uint64_t>(node.kind) + 1, node.parent.id());
+  hash = mix(hash, node.name);
+  return static_cast<std::uint32_t>(mix(hash, node.detail.id()) >> 32u);
 }
 
 bool same(const PathNode& a, const PathNode& b) {
-  return a.parent == b.parent && a.kind == b.kind && a.name == b.name &&
-         id_of(a.detail) == id_of(b.detail);
+  return a.parent == b.parent && a.name == b.name && a.kind == b.kind && a.detail == b.detail;
 }
-
-/// Nodes in the order in which they were made, where their address tells which chunk they are in.
-/// Others may read those that are counted while one more is added.
-class NodeChunk {
- public:
-  static constexpr std::size_t kSize = std::size_t{1} << 14;
-  static constexpr std::size_t kNodes = (kSize - 64) / sizeof(PathNode);
-
-  const PathNode* add(const PathNode& node) {
-    const std::uint32_t index = count_.load(std::memory_order_relaxed);
-    const PathNode* added = ::new (nodes() + index) PathNode(node);
-    count_.store(index + 1, std::memory_order_release);
-    return added;
-  }
-  const PathNode& operator[](std::size_t index) { return *std::launder(nodes() + index); }
-
-  /// The node made after `node`; nullptr when it is in another chunk or not there.
-  static const PathNode* next_of(const PathNode* node) {
-    const auto address = reinterpret_cast<std::uintptr_t>(node);
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): chunks lie at multiples of their size.
-    auto* chunk = reinterpret_cast<NodeChunk*>(address & ~(kSize - 1));
-    const PathNode* next = node + 1;
-    const PathNode* end = chunk->nodes() + chunk->count_.load(std::memory_order_acquire);
-    return next < end ? next : nullptr;
-  }
-
- private:
-  PathNode* nodes() { return reinterpret_cast<PathNode*>(storage_); }
-
-  alignas(kSize) std::atomic<std::uint32_t> count_ = 0;
-  alignas(64) std::byte storage_[kNodes * sizeof(PathNode)];  // no node on two lines of a cache
-};
-static_assert(sizeof(NodeChunk) == NodeChunk::kSize);
 
 /// Numbers for the nodes that this thread makes: it takes many at once, so that those made one
 /// after another are neighbours whatever other threads do.
 std::uint32_t next_number() {
-  constexpr std::uint32_t kRange = 256;
   static std::atomic<std::uint32_t> taken = 0;
   thread_local std::uint32_t last = 0;
-  if (last % kRange == 0) {
-    last = taken.fetch_add(kRange, std::memory_order_relaxed);
+  if (last % kNumbersAtOnce == 0) {
+    last = taken.fetch_add(kNumbersAtOnce, std::memory_order_relaxed);
+    TENON_ASSERT(last + kNumbersAtOnce != 0);
   }
   return ++last;
 }
 
-/// Open addressing over nodes in stable storage. A slot is part of the hash and the number of a
-/// node, so that most others are told apart without a look at them.
+/// Open addressing over nodes. A slot is part of the hash and the number of a node, so that most
+/// others are told apart without a look at them.
 class NodeTable {
  public:
-  const PathNode* intern(const PathNode& node, std::uint64_t hash) {
+  std::uint32_t intern(const PathNode& node, NumberedStore<PathNode>& nodes) {
     const std::lock_guard lock(mutex_);
     if (4 * (count_ + 1) > 3 * slots_.size()) {
       grow();
     }
-    const std::uint32_t tag = tag_of(hash);
-    std::size_t at = slot_of(hash);
+    const std::uint32_t tag = tag_of(node);
+    std::size_t at = tag & (slots_.size() - 1);
     while (slots_[at].number != 0) {
-      if (slots_[at].tag == tag && same(node_at(slots_[at].number - 1), node)) {
-        return &node_at(slots_[at].number - 1);
+      if (slots_[at].tag == tag && same(nodes[slots_[at].number], node)) {
+        return slots_[at].number;
       }
       at = (at + 1) & (slots_.size() - 1);
     }
-    return add(node, at, tag);
+    const std::uint32_t number = next_number();
+    ::new (&nodes.make_room(number)) PathNode(node);
+    slots_[at] = {tag, number};
+    ++count_;
+    return number;
   }
 
  private:
@@ -111,190 +77,174 @@ class NodeTable {
     std::uint32_t number = 0;  // of the node, from 1 on; 0 in an empty slot
   };
 
-  std::size_t slot_of(std::uint64_t hash) const {
-    return static_cast<std::size_t>(hash) & (slots_.size() - 1);
-  }
-  static std::uint32_t tag_of(std::uint64_t hash) { return static_cast<std::uint32_t>(hash >> 32); }
-  const PathNode& node_at(std::size_t number) const {
-    return (*chunks_[number / NodeChunk::kNodes])[number % NodeChunk::kNodes];
-  }
-
-  const PathNode* add(const PathNode& node, std::size_t at, std::uint32_t tag) {
-    TENON_ASSERT(count_ < std::numeric_limits<std::uint32_t>::max());
-    if (count_ % NodeChunk::kNodes == 0) {
-      chunks_.emplace_back(new NodeChunk);
-    }
-    PathNode added = node;
-    added.number = next_number();
-    ++count_;
-    slots_[at] = {tag, static_cast<std::uint32_t>(count_)};
-    return chunks_.back()->add(added);
-  }
-
   void grow() {
-    slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), Slot());
-    for (std::size_t i = 0; i < count_; ++i) {
-      const std::uint64_t hash = hash_of(node_at(i));
-      std::size_t at = slot_of(hash);
-      while (slots_[at].number != 0) {
-        at = (at + 1) & (slots_.size() - 1);
+    std::vector<Slot> bigger(std::max<std::size_t>(64, 2 * slots_.size()));
+    for (const Slot& slot : slots_) {
+      if (slot.number == 0) {
+        continue;
       }
-      slots_[at] = {tag_of(hash), static_cast<std::uint32_t>(i + 1)};
+      std::size_t at = slot.tag & (bigger.size() - 1);
+      while (bigger[at].number != 0) {
+        at = (at + 1) & (bigger.size() - 1);
+      }
+      bigger[at] = slot;
     }
+    slots_ = std::move(bigger);
   }
 
   std::mutex mutex_;
-  std::vector<std::unique_ptr<NodeChunk>> chunks_;
   std::vector<Slot> slots_;
   std::size_t count_ = 0;
 };
 
 constexpr std::size_t kNodeShards = 16;
-constexpr std::size_t kRecentNodes = 512;
-constexpr std::uint32_t kDepthMask = (1u << 22u) - 1;
 
-/// Nodes below one parent are kept together.
-const PathNode* intern(const PathNode& node) {
+/// The one that holds what is below `parent`.
+NodeTable& table_below(Path parent) {
   static auto* tables = new std::array<NodeTable, kNodeShards>();
-  const std::size_t shard = (mix(1, node.parent) >> 40) % kNodeShards;
-  return (*tables)[shard].intern(node, hash_of(node));
+  return (*tables)[(mix(1, parent.id()) >> 40u) % kNodeShards];
 }
 
-/// The same for one who walks through what is below a parent: what this thread asked for last there
-/// and what was made after it are found without a look into the table.
-const PathNode* intern_below(const PathNode& node) {
-  thread_local std::array<const PathNode*, kRecentNodes> recent{};
-  const PathNode*& last = recent[node.parent->number % kRecentNodes];
-  if (last != nullptr) {
-    if (same(*last, node)) {
-      return last;
-    }
-    const PathNode* next = NodeChunk::next_of(last);
-    if (next != nullptr && same(*next, node)) {
-      return last = next;
-    }
-  }
-  return last = intern(node);
-}
-
-const PathNode* root_node(PathKind kind) {
+PathNode root_node(PathKind kind) {
   PathNode node;
   node.kind = kind;
-  node.absolute = kind == PathKind::AbsoluteRoot;
-  return intern(node);
+  node.absolute = kind == PathKind::AbsoluteRoot ? 1 : 0;
+  return node;
 }
 
 }  // namespace
 
+constinit NumberedStore<PathNode> Path::nodes_;
+
+Path Path::intern(const PathNode& node) { return {table_below(node.parent).intern(node, nodes_), 0}; }
+
 Path Path::absolute_root() {
-  static const PathNode* root = root_node(PathKind::AbsoluteRoot);
-  return Path(root);
+  static const Path root = intern(root_node(PathKind::AbsoluteRoot));
+  return root;
 }
 
 Path Path::relative_root() {
-  static const PathNode* root = root_node(PathKind::RelativeRoot);
-  return Path(root);
+  static const Path root = intern(root_node(PathKind::RelativeRoot));
+  return root;
 }
 
-Path Path::make(const PathNode* parent, PathKind kind, Token name, PathNode::Detail detail) {
-  const bool has_variant = parent->has_variant || kind == PathKind::VariantSelection;
-  return Path(intern_below({parent, name, detail, 0, kind, parent->absolute, has_variant,
-                            (parent->depth + 1) & kDepthMask}));
+/// One who walks through what is below a parent asks for one child after another: what this thread
+/// asked for last there and what was made after it are found without a look into the table.
+Path Path::make(PathKind kind, std::uint32_t name, Path detail) const {
+  constexpr std::size_t kRecentNodes = 512;
+  thread_local std::array<std::uint32_t, kRecentNodes> recent{};
+  TENON_ASSERT(element_ != 0);
+  PathNode made;
+  made.parent = *this;
+  made.detail = detail;
+  made.name = name;
+  made.kind = kind;
+  made.absolute = node().absolute;
+  made.has_variant = kind == PathKind::VariantSelection ? 1 : node().has_variant;
+  made.depth = (depth() + 1) & ((1u << 22u) - 1);
+  std::uint32_t& last = recent[element_ % kRecentNodes];
+  if (last != 0) {
+    if (same(nodes_[last], made)) {
+      return {last, 0};
+    }
+  }
+  return {last = table_below(*this).intern(made, nodes_), 0};
 }
 
-Path Path::child(Token name) const {
-  TENON_ASSERT(node_ != nullptr);
-  return make(node_, PathKind::Prim, name);
+Path Path::make_like(Path path, Path target) const {
+  if (path.property_ != 0) {
+    return property(Token::numbered(path.property_));
+  }
+  const PathNode& last = path.node();
+  return make(last.kind, last.name, target.empty() ? last.detail : target);
 }
+
+Path Path::child(Token name) const { return make(PathKind::Prim, name.number(), {}); }
 
 Path Path::property(Token name) const {
-  TENON_ASSERT(node_ != nullptr);
-  const bool relational = is_target();
-  return make(node_, relational ? PathKind::RelationalAttribute : PathKind::Property, name);
+  TENON_ASSERT(element_ != 0);
+  if (property_ != 0) {
+    return make(PathKind::Property, name.number(), {});
+  }
+  return {element_, name.number()};
 }
 
 Path Path::variant_selection(Token set, Token variant) const {
-  TENON_ASSERT(node_ != nullptr);
-  return make(node_, PathKind::VariantSelection, set, PathNode::Detail(variant));
+  return make(PathKind::VariantSelection, set.number(), Path(variant.number(), 0));
 }
 
-Path Path::target_element(Path target) const {
-  TENON_ASSERT(node_ != nullptr);
-  return make(node_, PathKind::Target, Token(), PathNode::Detail(target.node_));
+Path Path::target_element(Path target) const { return make(PathKind::Target, 0, target); }
+
+Path Path::mapper(Path target) const { return make(PathKind::Mapper, 0, target); }
+
+Path Path::mapper_arg(Token name) const { return make(PathKind::MapperArg, name.number(), {}); }
+
+Path Path::expression() const { return make(PathKind::Expression, 0, {}); }
+
+Token Path::variant() const {
+  return is_variant_selection() ? Token::numbered(node().detail.element_) : Token();
 }
 
-Path Path::mapper(Path target) const {
-  TENON_ASSERT(node_ != nullptr);
-  return make(node_, PathKind::Mapper, Token(), PathNode::Detail(target.node_));
-}
-
-Path Path::mapper_arg(Token name) const {
-  TENON_ASSERT(node_ != nullptr);
-  return make(node_, PathKind::MapperArg, name);
-}
-
-Path Path::expression() const {
-  TENON_ASSERT(node_ != nullptr);
-  return make(node_, PathKind::Expression, Token());
+Path Path::target() const {
+  const PathKind last = kind();
+  return last == PathKind::Target || last == PathKind::Mapper ? node().detail : Path();
 }
 
 Path Path::prim_or_variant() const {
-  const PathNode* node = node_;
-  while (node != nullptr && node->kind > PathKind::VariantSelection) {
-    node = node->parent;
+  Path path = *this;
+  while (path.kind() > PathKind::VariantSelection) {
+    path = path.parent();
   }
-  return Path(node);
+  return path;
 }
 
 Path Path::prim() const {
-  const PathNode* node = node_;
-  while (node != nullptr && node->kind >= PathKind::VariantSelection) {
-    node = node->parent;
+  Path path = *this;
+  while (path.kind() >= PathKind::VariantSelection) {
+    path = path.parent();
   }
-  return Path(node);
+  return path;
 }
 
 bool Path::has_prefix(Path prefix) const {
-  if (prefix.node_ == nullptr) {
+  if (prefix.empty()) {
     return false;
   }
-  const PathNode* node = node_;
-  while (node != nullptr && node->depth > prefix.node_->depth) {
-    node = node->parent;
+  const std::uint32_t depth = prefix.depth();
+  Path path = *this;
+  while (path.depth() > depth) {
+    path = path.parent();
   }
-  return node == prefix.node_;
+  return path == prefix;
 }
 
 Path Path::append(Path relative) const {
-  if (relative.node_ == nullptr || relative.node_->parent == nullptr) {
+  if (relative.parent().empty()) {
     return *this;
   }
   return relative.replace_prefix(relative_root(), *this, false);
 }
 
 Path Path::replace_prefix(Path from, Path to, bool fix_targets) const {
-  if (node_ == nullptr || from.node_ == nullptr || to.node_ == nullptr ||
-      (from == to && !fix_targets)) {
+  if (empty() || from.empty() || to.empty() || (from == to && !fix_targets)) {
     return *this;
   }
-  ShortList<const PathNode*, 24> tail;
-  const PathNode* node = node_;
-  while (node != nullptr && node != from.node_ && node->depth > 0) {
-    tail.push_back(node);
-    node = node->parent;
+  ShortList<Path, 24> tail;
+  Path path = *this;
+  while (!path.empty() && path != from && path.depth() > 0) {
+    tail.push_back(path);
+    path = path.parent();
   }
-  const bool found = node == from.node_;
+  const bool found = path == from;
   if (!found && !fix_targets) {
     return *this;
   }
-  Path result = found ? to : Path(node);
+  Path result = found ? to : path;
   for (auto it = tail.rbegin(); it != tail.rend(); ++it) {
-    const PathNode* element = *it;
-    PathNode::Detail detail = element->detail;
-    if (fix_targets && element->target() != nullptr) {
-      detail.target = Path(element->target()).replace_prefix(from, to, true).node_;
-    }
-    result = make(result.node_, element->kind, element->name, detail);
+    const Path target = it->target();
+    result = fix_targets && !target.empty()
+                 ? result.make_like(*it, target.replace_prefix(from, to, true))
+                 : result.make_like(*it);
   }
   return result;
 }
@@ -303,49 +253,43 @@ Path Path::strip_variants() const {
   if (!has_variants()) {
     return *this;
   }
-  ShortList<const PathNode*, 24> elements;
-  const PathNode* node = node_;
-  for (; node->depth > 0; node = node->parent) {
-    if (node->kind != PathKind::VariantSelection) {
-      elements.push_back(node);
+  ShortList<Path, 24> elements;
+  Path path = *this;
+  for (; path.depth() > 0; path = path.parent()) {
+    if (!path.is_variant_selection()) {
+      elements.push_back(path);
     }
   }
-  Path result(node);
   for (auto it = elements.rbegin(); it != elements.rend(); ++it) {
-    result = make(result.node_, (*it)->kind, (*it)->name, (*it)->detail);
+    path = path.make_like(*it);
   }
-  return result;
+  return path;
 }
 
 Path Path::absolute(Path anchor) const {
-  if (node_ == nullptr || is_absolute()) {
+  if (empty() || is_absolute()) {
     return *this;
   }
-  ShortList<const PathNode*, 24> elements;
-  for (const PathNode* node = node_; node->depth > 0; node = node->parent) {
-    elements.push_back(node);
+  ShortList<Path, 24> elements;
+  for (Path path = *this; path.depth() > 0; path = path.parent()) {
+    elements.push_back(path);
   }
   Path result = anchor;
   for (auto it = elements.rbegin(); it != elements.rend(); ++it) {
-    const PathNode* element = *it;
-    if (element->kind == PathKind::Prim && element->name == "..") {
+    if (it->is_prim() && it->name() == "..") {
       result = result.parent();
       if (result.empty()) {
         return result;
       }
       continue;
     }
-    PathNode::Detail detail = element->detail;
-    if (element->target() != nullptr) {
-      detail.target = Path(element->target()).absolute(anchor).node_;
-    }
-    result = make(result.node_, element->kind, element->name, detail);
+    result = result.make_like(*it, it->target().absolute(anchor));
   }
   return result;
 }
 
 Path Path::relative(Path anchor) const {
-  if (node_ == nullptr || !is_absolute()) {
+  if (empty() || !is_absolute()) {
     return *this;
   }
   Path common = anchor;
@@ -359,8 +303,8 @@ Path Path::relative(Path anchor) const {
 
 std::vector<Path> Path::prefixes() const {
   std::vector<Path> result;
-  for (const PathNode* node = node_; node != nullptr; node = node->parent) {
-    result.push_back(Path(node));
+  for (Path path = *this; !path.empty(); path = path.parent()) {
+    result.push_back(path);
   }
   std::reverse(result.begin(), result.end());
   return result;
@@ -368,53 +312,47 @@ std::vector<Path> Path::prefixes() const {
 
 namespace {
 
-std::strong_ordering compare_elements(const PathNode* a, const PathNode* b);
-
-std::strong_ordering compare_nodes(const PathNode* a, const PathNode* b) {
-  if (a == b) {
-    return std::strong_ordering::equal;
+std::strong_ordering compare_elements(Path a, Path b) {
+  if (a.kind() != b.kind()) {
+    return a.kind() <=> b.kind();
   }
-  if (a == nullptr || b == nullptr) {
-    return a == nullptr ? std::strong_ordering::less : std::strong_ordering::greater;
+  if (a.name() != b.name()) {
+    return a.name() <=> b.name();
   }
-  if (a->absolute != b->absolute) {
-    return a->absolute ? std::strong_ordering::less : std::strong_ordering::greater;
+  if (a.variant() != b.variant()) {
+    return a.variant() <=> b.variant();
   }
-  const PathNode* x = a;
-  const PathNode* y = b;
-  while (x->depth > y->depth) {
-    x = x->parent;
-  }
-  while (y->depth > x->depth) {
-    y = y->parent;
-  }
-  if (x == y) {
-    return std::uint32_t{a->depth} <=> std::uint32_t{b->depth};
-  }
-  while (x->parent != y->parent) {
-    x = x->parent;
-    y = y->parent;
-  }
-  return compare_elements(x, y);
-}
-
-std::strong_ordering compare_elements(const PathNode* a, const PathNode* b) {
-  if (a->kind != b->kind) {
-    return a->kind <=> b->kind;
-  }
-  if (a->name != b->name) {
-    return a->name <=> b->name;
-  }
-  if (a->variant() != b->variant()) {
-    return a->variant() <=> b->variant();
-  }
-  return compare_nodes(a->target(), b->target());
+  return a.target() <=> b.target();
 }
 
 }  // namespace
 
 std::strong_ordering Path::operator<=>(const Path& other) const {
-  return compare_nodes(node_, other.node_);
+  if (*this == other) {
+    return std::strong_ordering::equal;
+  }
+  if (empty() || other.empty()) {
+    return empty() ? std::strong_ordering::less : std::strong_ordering::greater;
+  }
+  if (is_absolute() != other.is_absolute()) {
+    return is_absolute() ? std::strong_ordering::less : std::strong_ordering::greater;
+  }
+  Path x = *this;
+  Path y = other;
+  while (x.depth() > y.depth()) {
+    x = x.parent();
+  }
+  while (y.depth() > x.depth()) {
+    y = y.parent();
+  }
+  if (x == y) {
+    return depth() <=> other.depth();
+  }
+  while (x.parent() != y.parent()) {
+    x = x.parent();
+    y = y.parent();
+  }
+  return compare_elements(x, y);
 }
 
 }  // namespace tenon

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tenon/base/containers/numbered_store.h"
 #include "tenon/base/result.h"
 #include "tenon/base/token.h"
 
@@ -29,37 +30,11 @@ enum class PathKind : std::uint8_t {
   Expression,           ///< `/A.b.expression`
 };
 
-class Path;
+struct PathNode;
 
-/// One interned element; never freed. Internal to Path. Two of them share a line of the cache.
-struct PathNode {
-  /// No element has a variant and a target.
-  union Detail {
-    Detail() : target(nullptr) {}
-    explicit Detail(const PathNode* the_target) : target(the_target) {}
-    explicit Detail(Token the_variant) : variant(the_variant) {}
-    const PathNode* target;  ///< of Target and Mapper elements
-    Token variant;           ///< of VariantSelection elements
-  };
-
-  const PathNode* parent = nullptr;
-  Token name;  ///< prim, property or variant set name
-  Detail detail;
-  std::uint32_t number = 0;  ///< counts up as nodes are made, from 1 on
-  PathKind kind : 8 = PathKind::Empty;
-  bool absolute : 1 = false;
-  bool has_variant : 1 = false;  ///< this or any element above is a variant selection
-  std::uint32_t depth : 22 = 0;  ///< elements below the root
-
-  Token variant() const { return kind == PathKind::VariantSelection ? detail.variant : Token(); }
-  const PathNode* target() const {
-    return kind == PathKind::Target || kind == PathKind::Mapper ? detail.target : nullptr;
-  }
-};
-static_assert(sizeof(PathNode) == 3 * sizeof(void*) + 8);
-
-/// Where something is in a scene or a layer. Interned: copying, equality and hashing cost one
-/// pointer. Core Spec 1.0.1 section 6 gives the grammar.
+/// Where something is in a scene or a layer. Two numbers of four bytes: of an element, which is
+/// interned, and of the name of a property below it. So copying, equality and hashing cost next to
+/// nothing, and naming a property needs no table. Core Spec 1.0.1 section 6 gives the grammar.
 class Path {
  public:
   Path() = default;
@@ -71,30 +46,30 @@ class Path {
   /// The same for text that is known to be right; an empty path otherwise.
   static Path from(std::string_view text);
 
-  PathKind kind() const { return node_ == nullptr ? PathKind::Empty : node_->kind; }
-  bool empty() const { return node_ == nullptr; }
-  bool is_absolute() const { return node_ != nullptr && node_->absolute; }
+  PathKind kind() const;
+  bool empty() const { return element_ == 0; }
+  bool is_absolute() const;
   bool is_absolute_root() const { return kind() == PathKind::AbsoluteRoot; }
   bool is_prim() const { return kind() == PathKind::Prim; }
   bool is_prim_or_root() const { return is_prim() || is_absolute_root(); }
   bool is_variant_selection() const { return kind() == PathKind::VariantSelection; }
   bool is_prim_or_variant() const { return is_prim() || is_variant_selection(); }
   bool is_property() const {
-    return kind() == PathKind::Property || kind() == PathKind::RelationalAttribute;
+    return property_ != 0 || kind() == PathKind::Property || kind() == PathKind::RelationalAttribute;
   }
   bool is_target() const { return kind() == PathKind::Target; }
-  bool has_variants() const { return node_ != nullptr && node_->has_variant; }
-  std::uint32_t depth() const { return node_ == nullptr ? 0 : node_->depth; }
+  bool has_variants() const;
+  std::uint32_t depth() const;
 
   /// Name of the last element: prim, property or variant set; empty for a root.
-  Token name() const { return node_ == nullptr ? Token() : node_->name; }
+  Token name() const;
   /// Variant name of a VariantSelection element.
-  Token variant() const { return node_ == nullptr ? Token() : node_->variant(); }
+  Token variant() const;
   /// Target inside the brackets of a Target or Mapper element.
-  Path target() const { return Path(node_ == nullptr ? nullptr : node_->target()); }
+  Path target() const;
 
   /// One element less; an empty path for a root.
-  Path parent() const { return Path(node_ == nullptr ? nullptr : node_->parent); }
+  Path parent() const;
   /// The nearest prim, variant selection or root at or above this path.
   Path prim_or_variant() const;
   /// The nearest prim (or root) at or above, variant selections skipped.
@@ -127,21 +102,62 @@ class Path {
   std::vector<Path> prefixes() const;
 
   std::string str() const;
-  const void* id() const { return node_; }
-  /// A hash: paths that were made one after another have neighbouring numbers, so that tables by
-  /// path are walked through in their order. 0 for the empty path.
-  std::uint32_t number() const { return node_ == nullptr ? 0 : node_->number; }
+  /// Equal for equal paths alone, in this process.
+  std::uint64_t id() const { return std::uint64_t{property_} << 32u | element_; }
+  /// A hash: paths of prims that were made one after another have neighbouring numbers, so that
+  /// tables by path are walked through in their order. 0 for the empty path.
+  std::uint32_t number() const { return element_ + property_ * 0x9E3779B1u; }
 
-  bool operator==(const Path& other) const { return node_ == other.node_; }
+  bool operator==(const Path& other) const { return id() == other.id(); }
   /// Total order, the same in every run: element by element, a path before what is below it.
   std::strong_ordering operator<=>(const Path& other) const;
 
  private:
-  explicit Path(const PathNode* node) : node_(node) {}
-  static Path make(const PathNode* parent, PathKind kind, Token name, PathNode::Detail detail = {});
+  friend struct PathNode;
 
-  const PathNode* node_ = nullptr;
+  Path(std::uint32_t element, std::uint32_t property) : element_(element), property_(property) {}
+  const PathNode& node() const;
+  /// An element with a node of its own, below this path.
+  Path make(PathKind kind, std::uint32_t name, Path detail) const;
+  /// Below this path, the last element of `path`, about the same target, or about `target`.
+  Path make_like(Path path) const { return make_like(path, path.target()); }
+  Path make_like(Path path, Path target) const;
+  static Path intern(const PathNode& node);
+
+  static NumberedStore<PathNode> nodes_;
+
+  std::uint32_t element_ = 0;   // number of its node; 0 for the empty path
+  std::uint32_t property_ = 0;  // number of the property's name; 0 where the last is no property
 };
+
+/// One interned element, never freed. Internal to Path. A property is one only where it stands
+/// below another, as in no path that the grammar has.
+struct PathNode {
+  Path parent;
+  Path detail;             ///< the target of Target and Mapper elements; of others see `make`
+  std::uint32_t name = 0;  ///< number of a token, see `Path::name`; 0 for none
+  PathKind kind : 8 = PathKind::Empty;
+  std::uint32_t absolute : 1 = 0;
+  std::uint32_t has_variant : 1 = 0;  ///< this or any element above is a variant selection
+  std::uint32_t depth : 22 = 0;       ///< elements below the root
+};
+static_assert(sizeof(PathNode) == 24);
+
+inline const PathNode& Path::node() const { return nodes_[element_]; }
+inline PathKind Path::kind() const {
+  const PathKind above = node().kind;
+  return property_ == 0                ? above
+         : above == PathKind::Target ? PathKind::RelationalAttribute
+                                       : PathKind::Property;
+}
+inline bool Path::is_absolute() const { return node().absolute != 0; }
+inline bool Path::has_variants() const { return node().has_variant != 0; }
+inline std::uint32_t Path::depth() const { return node().depth + (property_ == 0 ? 0u : 1u); }
+inline Token Path::name() const {
+  const std::uint32_t name = property_ == 0 ? node().name : property_;
+  return name == 0 ? Token() : Token::numbered(name);
+}
+inline Path Path::parent() const { return property_ == 0 ? node().parent : Path(element_, 0); }
 
 /// `name` or `ns:name` made of identifiers; the rule of prim and property names.
 bool is_identifier(std::string_view text);

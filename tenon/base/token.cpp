@@ -6,46 +6,60 @@
 #include <array>
 #include <deque>
 #include <functional>
-#include <limits>
 #include <mutex>
+#include <new>
 #include <vector>
+
+#include "tenon/base/assert.h"
 
 namespace tenon {
 namespace {
 
-/// A part of the table of all names: open addressing over texts in stable storage.
+/// A part of the table of all names: open addressing. A slot is part of the hash and the number of
+/// a text, so that most others are told apart without a look at them.
 class TextTable {
  public:
-  const std::string* intern(std::string_view text, std::size_t hash) {
+  explicit TextTable(NumberedStore<TokenText>& texts) : texts_(texts) {}
+
+  const TokenText* intern(std::string_view text, std::uint32_t tag) {
     const std::lock_guard lock(mutex_);
-    if (3 * (texts_.size() + 1) > 2 * slots_.size()) {
+    if (3 * (count_ + 1) > 2 * slots_.size()) {
       grow();
     }
-    std::size_t at = hash & (slots_.size() - 1);
-    while (slots_[at].text != nullptr) {
-      if (slots_[at].hash == hash && *slots_[at].text == text) {
-        return slots_[at].text;
+    std::size_t at = tag & (slots_.size() - 1);
+    while (slots_[at].number != 0) {
+      if (slots_[at].tag == tag && texts_[slots_[at].number].text == text) {
+        return &texts_[slots_[at].number];
       }
       at = (at + 1) & (slots_.size() - 1);
     }
-    slots_[at] = {hash, &texts_.emplace_back(text)};
-    return slots_[at].text;
+    return add(text, slots_[at], tag);
   }
 
  private:
   struct Slot {
-    std::size_t hash = 0;
-    const std::string* text = nullptr;
+    std::uint32_t tag = 0;
+    std::uint32_t number = 0;  // of the text; 0 in an empty slot
   };
+
+  const TokenText* add(std::string_view text, Slot& slot, std::uint32_t tag) {
+    static std::atomic<std::uint32_t> last = 0;
+    const std::uint32_t number = last.fetch_add(1, std::memory_order_relaxed) + 1;
+    TENON_ASSERT(number != 0);
+    const TokenText* added = ::new (&texts_.make_room(number)) TokenText{std::string(text), number};
+    slot = {tag, number};
+    ++count_;
+    return added;
+  }
 
   void grow() {
     std::vector<Slot> bigger(std::max<std::size_t>(64, 2 * slots_.size()));
     for (const Slot& slot : slots_) {
-      if (slot.text == nullptr) {
+      if (slot.number == 0) {
         continue;
       }
-      std::size_t at = slot.hash & (bigger.size() - 1);
-      while (bigger[at].text != nullptr) {
+      std::size_t at = slot.tag & (bigger.size() - 1);
+      while (bigger[at].number != 0) {
         at = (at + 1) & (bigger.size() - 1);
       }
       bigger[at] = slot;
@@ -53,27 +67,14 @@ class TextTable {
     slots_ = std::move(bigger);
   }
 
+  NumberedStore<TokenText>& texts_;
   std::mutex mutex_;
-  std::deque<std::string> texts_;
   std::vector<Slot> slots_;
+  std::size_t count_ = 0;
 };
 
 constexpr std::size_t kTextShards = 32;  // so that threads seldom wait for each other
-constexpr int kShardShift =
-    std::numeric_limits<std::size_t>::digits - 24;  // bits of the hash above
 constexpr std::size_t kRecentTexts = 512;
-
-const std::string* intern(std::string_view text) {
-  static auto* shards = new std::array<TextTable, kTextShards>();
-  // What this thread asked for lately is found without a lock.
-  thread_local std::array<const std::string*, kRecentTexts> recent{};
-  const std::size_t hash = std::hash<std::string_view>{}(text);
-  const std::string*& last = recent[(hash >> 8) % kRecentTexts];
-  if (last == nullptr || *last != text) {
-    last = (*shards)[(hash >> kShardShift) % kTextShards].intern(text, hash);
-  }
-  return last;
-}
 
 unsigned char lower(char c) {
   const auto byte = static_cast<unsigned char>(c);
@@ -103,10 +104,29 @@ NumberRun number_run(std::string_view text) {
 }  // namespace
 
 // There before anything runs: tokens are made before main() too.
-constinit std::atomic<const std::string*> Token::empty_{nullptr};
+constinit NumberedStore<TokenText> Token::texts_;
+constinit std::atomic<const TokenText*> Token::empty_{nullptr};
 
-const std::string* Token::intern_empty() {
-  const std::string* const text = intern("");
+const TokenText* Token::intern(std::string_view text) {
+  static auto* shards = [] {
+    auto* made = new std::deque<TextTable>();
+    for (std::size_t i = 0; i < kTextShards; ++i) {
+      made->emplace_back(texts_);
+    }
+    return made;
+  }();
+  // What this thread asked for lately is found without a lock.
+  thread_local std::array<const TokenText*, kRecentTexts> recent{};
+  const std::uint64_t hash = std::hash<std::string_view>{}(text);
+  const TokenText*& last = recent[(hash >> 8) % kRecentTexts];
+  if (last == nullptr || last->text != text) {
+    last = (*shards)[(hash >> 40) % kTextShards].intern(text, static_cast<std::uint32_t>(hash));
+  }
+  return last;
+}
+
+const TokenText* Token::intern_empty() {
+  const TokenText* const text = intern("");
   empty_.store(text, std::memory_order_relaxed);
   return text;
 }

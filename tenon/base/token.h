@@ -9,7 +9,15 @@
 #include <string>
 #include <string_view>
 
+#include "tenon/base/containers/numbered_store.h"
+
 namespace tenon {
+
+/// The text of a token, stored once. Internal to Token.
+struct TokenText {
+  std::string text;
+  std::uint32_t number = 0;  ///< counts up as texts are met, from 1 on
+};
 
 /// An interned name: equality and hashing cost one pointer. The text lives as long as the process.
 class Token {
@@ -23,24 +31,31 @@ class Token {
   Token(const char* text) : Token(std::string_view(text)) {}
   Token(const std::string& text) : Token(std::string_view(text)) {}
 
-  const std::string& str() const { return *text_; }
-  std::string_view view() const { return *text_; }
-  bool empty() const { return text_->empty(); }
+  const std::string& str() const { return text_->text; }
+  std::string_view view() const { return text_->text; }
+  bool empty() const { return text_->text.empty(); }
   const void* id() const { return text_; }
+  /// What stands for the token in four bytes; never 0.
+  std::uint32_t number() const { return text_->number; }
+  static Token numbered(std::uint32_t number) { return Token(&texts_[number]); }
 
   bool operator==(const Token& other) const { return text_ == other.text_; }
-  bool operator==(std::string_view other) const { return *text_ == other; }
-  bool operator==(const char* other) const { return *text_ == other; }
+  bool operator==(std::string_view other) const { return text_->text == other; }
+  bool operator==(const char* other) const { return text_->text == other; }
   /// Order of the text, byte by byte.
   std::strong_ordering operator<=>(const Token& other) const {
-    return text_ == other.text_ ? std::strong_ordering::equal : *text_ <=> *other.text_;
+    return text_ == other.text_ ? std::strong_ordering::equal
+                                : text_->text <=> other.text_->text;
   }
 
  private:
-  static const std::string* intern_empty();
+  explicit Token(const TokenText* text) : text_(text) {}
+  static const TokenText* intern(std::string_view text);
+  static const TokenText* intern_empty();
 
-  static std::atomic<const std::string*> empty_;  // the text of Token(), once it was asked for
-  const std::string* text_;
+  static NumberedStore<TokenText> texts_;
+  static std::atomic<const TokenText*> empty_;  // the text of Token(), once it was asked for
+  const TokenText* text_;
 };
 
 /// Order that OpenUSD uses for names in dictionaries of specs: letters without regard to case

@@ -3,7 +3,9 @@
 //
 // Specs lie in the order in which they were made; a table of slots, open to the next free one, says
 // where that of a path is. A path is known by its number, so slots need no look at paths that are
-// not the one. Erased specs keep their place with an empty path, for places are never given twice.
+// not the one. Readers make properties right behind their prim: such a run, of kShortList entries
+// at most, needs no slots, for it is looked through from its prim on. Erased specs keep their place
+// with an empty path, for places are never given twice.
 #include "tenon/layer/layer.h"
 
 #include <algorithm>
@@ -21,6 +23,7 @@ std::size_t home_of(std::uint32_t number, std::size_t slot_count) {
 }  // namespace
 
 Layer::Layer(std::string identifier) : identifier_(std::move(identifier)) {
+  grow(16);
   create(Path::absolute_root(), SpecKind::PseudoRoot);
 }
 
@@ -44,7 +47,7 @@ std::size_t Layer::slot_of(Path path) const {
 }
 
 /// As slot_of, with one look at the entry; null where there is none.
-const Layer::Entry* Layer::entry_at(Path path) const {
+const Layer::Entry* Layer::in_slots(Path path) const {
   const std::uint32_t number = path.number();
   const std::size_t mask = slots_.size() - 1;
   for (std::size_t at = home_of(number, slots_.size()); slots_[at].entry != 0;
@@ -59,6 +62,32 @@ const Layer::Entry* Layer::entry_at(Path path) const {
   return nullptr;
 }
 
+/// Looks through the run behind entry `first`, from 1 on: properties of its owner, or erased.
+const Layer::Entry* Layer::in_run(Path property, std::size_t first) const {
+  const Path owner = property.parent();
+  const std::size_t end = std::min(first + kShortList, entries_.size());
+  for (auto entry = entries_.begin() + static_cast<std::ptrdiff_t>(first),
+            last = entries_.begin() + static_cast<std::ptrdiff_t>(end);
+       entry != last; ++entry) {
+    if (entry->path == property) {
+      return &*entry;
+    }
+    if (entry->path.parent() != owner && !entry->path.empty()) {
+      break;
+    }
+  }
+  return nullptr;
+}
+
+const Layer::Entry* Layer::entry_at(Path path) const {
+  if (!path.is_property()) {
+    return in_slots(path);
+  }
+  const std::size_t owner = slots_[slot_of(path.parent())].entry;
+  const Entry* entry = owner == 0 ? nullptr : in_run(path, owner);
+  return entry == nullptr && has_strays_ ? in_slots(path) : entry;
+}
+
 const Spec* Layer::find(Path path) const {
   const Entry* entry = entry_at(path);
   return entry == nullptr ? nullptr : &entry->spec;
@@ -66,61 +95,105 @@ const Spec* Layer::find(Path path) const {
 
 Spec* Layer::find(Path path) { return const_cast<Spec*>(std::as_const(*this).find(path)); }
 
-/// Readers make properties right behind their prim: from text in the order of its list, from
-/// binary layers sorted. Found there, a property needs no path to be made, and only the slot of its
-/// prim, which was looked at before.
+/// From text, the properties of a run are in the order of the list.
 const Layer::Entry* Layer::find_property(const Spec& owner, Path path, Token name) const {
   const std::vector<Token>& names = children(owner, fields::properties);
+  const Path property = path.property(name);
   if (names.size() > kShortList) {
-    return entry_at(path.property(name));
+    return entry_at(property);
   }
   const auto listed = std::find(names.begin(), names.end(), name);
   if (listed == names.end()) {
     return nullptr;
   }
   const std::size_t first = slots_[slot_of(path)].entry;
-  const auto is_it = [&](const Entry& entry) {
-    const Path there = entry.path;
-    return there.name() == name && there.parent() == path && there.kind() == PathKind::Property;
-  };
   const std::size_t guess = first + static_cast<std::size_t>(listed - names.begin());
-  if (guess < entries_.size() && is_it(entries_[guess])) {
+  if (guess < entries_.size() && entries_[guess].path == property) {
     return &entries_[guess];
   }
-  const auto begin = entries_.begin() + static_cast<std::ptrdiff_t>(first);
-  const std::size_t count = std::min(names.size(), entries_.size() - first);
-  const auto end = begin + static_cast<std::ptrdiff_t>(count);
-  if (const auto found = std::find_if(begin, end, is_it); found != end) {
-    return &*found;
-  }
-  return entry_at(path.property(name));
+  return entry_at(property);
 }
 
-Spec& Layer::create(Path path, SpecKind kind) {
-  if (4 * (entries_.size() + 1) > 3 * slots_.size()) {
-    grow(std::max<std::size_t>(16, 2 * slots_.size()));
+/// The entry of `path`; one without a kind, as which `made` says so, where there was none.
+Layer::Entry& Layer::add(Path path, bool& made) {
+  const bool property = path.is_property();
+  const bool in_open_run = property && path.parent() == run_owner_ &&
+                           entries_.size() - run_entry_ < kShortList;
+  const Entry* there = in_open_run ? in_run(path, run_entry_) : entry_at(path);
+  if (there == nullptr && in_open_run && has_strays_) {
+    there = in_slots(path);
   }
-  Slot& slot = slots_[slot_of(path)];
-  if (slot.entry != 0) {
-    return entries_[slot.entry - 1].spec;
+  made = there == nullptr;
+  if (!made) {
+    return const_cast<Entry&>(*there);
   }
   Entry& entry = entries_.emplace_back();
   entry.path = path;
-  entry.spec.kind = kind;
-  slot = {path.number(), static_cast<std::uint32_t>(entries_.size())};
-  return entry.spec;
+  if (!in_open_run) {
+    enter(path, entries_.size());
+    run_owner_ = property ? Path() : path;
+    run_entry_ = static_cast<std::uint32_t>(entries_.size());
+  }
+  return entry;
+}
+
+Spec* Layer::create_new(Path path, SpecKind kind) {
+  bool made = false;
+  Spec& spec = add(path, made).spec;
+  if (!made) {
+    return nullptr;
+  }
+  spec.kind = kind;
+  return &spec;
+}
+
+Spec& Layer::create(Path path, SpecKind kind) {
+  bool made = false;
+  Spec& spec = add(path, made).spec;
+  if (made) {
+    spec.kind = kind;
+  }
+  return spec;
 }
 
 void Layer::erase(Path path) {
-  const std::uint32_t entry = slots_[slot_of(path)].entry;
-  if (entry != 0) {
-    entries_[entry - 1] = {};
-    ++erased_;
+  const Entry* entry = entry_at(path);
+  if (entry == nullptr) {
+    return;
   }
+  if (!path.is_property()) {
+    end_run(path);
+  }
+  const_cast<Entry&>(*entry) = {};
+  ++erased_;
+}
+
+/// Gives slots to the run of `owner`, which is about to go.
+void Layer::end_run(Path owner) {
+  const std::size_t first = slots_[slot_of(owner)].entry;
+  const std::size_t end = std::min(first + kShortList, entries_.size());
+  for (std::size_t i = first; i < end; ++i) {
+    const Path path = entries_[i].path;
+    if (path.parent() == owner && path.is_property()) {
+      enter(path, i + 1);
+    } else if (!path.empty()) {
+      break;
+    }
+  }
+  run_owner_ = run_owner_ == owner ? Path() : run_owner_;
+}
+
+void Layer::enter(Path path, std::size_t entry) {
+  if (4 * (slots_used_ + 1) > 3 * slots_.size()) {
+    grow(2 * slots_.size());
+  }
+  slots_[slot_of(path)] = {path.number(), static_cast<std::uint32_t>(entry)};
+  ++slots_used_;
+  has_strays_ = has_strays_ || path.is_property();
 }
 
 void Layer::reserve(std::size_t spec_count) {
-  std::size_t slot_count = std::max<std::size_t>(16, slots_.size());
+  std::size_t slot_count = slots_.size();
   while (4 * (spec_count + 1) > 3 * slot_count) {
     slot_count *= 2;
   }
@@ -130,25 +203,32 @@ void Layer::reserve(std::size_t spec_count) {
 }
 
 void Layer::take_missing(Layer&& other) {
-  reserve(spec_count() + other.spec_count());
   may_lack_text_ = may_lack_text_ || other.may_lack_text_;
   for (Entry& theirs : other.entries_) {
-    const std::size_t slot = theirs.path.empty() ? 0 : slot_of(theirs.path);
-    if (!theirs.path.empty() && slots_[slot].entry == 0) {
-      slots_[slot] = {theirs.path.number(), static_cast<std::uint32_t>(entries_.size() + 1)};
-      entries_.push_back(std::move(theirs));
+    bool made = false;
+    if (theirs.path.empty()) {
+      continue;
+    }
+    Entry& entry = add(theirs.path, made);
+    if (made) {
+      entry.spec = std::move(theirs.spec);
     }
   }
 }
 
 void Layer::grow(std::size_t slot_count) {
-  slots_.assign(slot_count, Slot());
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const Path path = entries_[i].path;
-    if (!path.empty()) {
-      slots_[slot_of(path)] = {path.number(), static_cast<std::uint32_t>(i + 1)};
+  std::vector<Slot> bigger(slot_count);
+  for (const Slot& slot : slots_) {
+    if (slot.entry == 0) {
+      continue;
     }
+    std::size_t at = home_of(slot.path, slot_count);
+    while (bigger[at].entry != 0) {
+      at = (at + 1) & (slot_count - 1);
+    }
+    bigger[at] = slot;
   }
+  slots_ = std::move(bigger);
 }
 
 const std::vector<Token>& Layer::children(const Spec& spec, Token field) {

@@ -50,13 +50,15 @@ class Layer {
   /// The property `name` of a prim or variant, whose own spec is `owner` and which lists it; null
   /// if there is none.
   const Entry* find_property(const Spec& owner, Path path, Token name) const;
-  /// Names in a list of so many are searched faster than a path is made.
+  /// Names in a list of so many are searched one by one.
   static constexpr std::size_t kShortList = 32;
   const Spec& root() const { return *find(Path::absolute_root()); }
   Spec& root() { return *find(Path::absolute_root()); }
 
   /// The spec at `path`, made if absent; parents and children lists are not touched.
   Spec& create(Path path, SpecKind kind);
+  /// The same where there must be none yet; null, and nothing done, where there is one.
+  Spec* create_new(Path path, SpecKind kind);
   /// Removes the spec at `path` alone.
   void erase(Path path);
   void reserve(std::size_t spec_count);
@@ -85,14 +87,23 @@ class Layer {
     std::uint32_t entry = 0;  // 0 in an empty slot
   };
 
-  std::size_t slot_of(Path path) const;
   const Entry* entry_at(Path path) const;
+  const Entry* in_run(Path property, std::size_t first) const;
+  const Entry* in_slots(Path path) const;
+  std::size_t slot_of(Path path) const;
+  Entry& add(Path path, bool& made);
+  void enter(Path path, std::size_t entry);
+  void end_run(Path owner);
   void grow(std::size_t slot_count);
 
   std::string identifier_;
   std::deque<Entry> entries_;  // erased entries keep an empty path
-  std::vector<Slot> slots_;    // open addressing
+  std::vector<Slot> slots_;    // open addressing; of all entries that are in no run
+  std::size_t slots_used_ = 0;
   std::size_t erased_ = 0;
+  Path run_owner_;              // whose properties, made next, are its run
+  std::uint32_t run_entry_ = 0;  // its entry, from 1 on
+  bool has_strays_ = false;     // properties in no run
   bool may_lack_text_ = false;
 };
 

@@ -35,7 +35,7 @@ std::uint8_t home_of(SpecKind kind) {
   }
 }
 
-struct FieldTable {
+struct MetadataTable {
   std::vector<MetadataField> rows;
   std::unordered_map<Token, std::size_t> by_name;
   // By the upper bits of the hash, the next free row where one is taken. Asked for each field of
@@ -43,7 +43,7 @@ struct FieldTable {
   static constexpr std::size_t kSlots = 64;
   std::array<std::pair<const void*, std::uint8_t>, kSlots> structural{};
 
-  FieldTable() {
+  MetadataTable() {
 #define TENON_METADATA(name, value_type, array, where) \
   rows.push_back({Token(#name), ValueType::value_type, array, where});
 #include "tenon/layer/metadata_fields.def"
@@ -84,8 +84,8 @@ struct FieldTable {
   }
 };
 
-const FieldTable& field_table() {
-  static const auto* table = new FieldTable();
+const MetadataTable& field_table() {
+  static const auto* table = new MetadataTable();
   return *table;
 }
 
@@ -106,7 +106,7 @@ bool is_value_of_metadata(Token name, SpecKind kind, const Value& value) {
 }
 
 bool is_structural_field(Token name, SpecKind kind) {
-  const FieldTable& table = field_table();
+  const MetadataTable& table = field_table();
   return (table.structural[table.slot_of(name)].second & home_of(kind)) != 0;
 }
 

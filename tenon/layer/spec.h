@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <new>
-#include <span>
 #include <utility>
 
 #include "tenon/base/token.h"
+#include "tenon/layer/field_list.h"
 #include "tenon/layer/value.h"
 
 namespace tenon::layer {
@@ -29,72 +27,6 @@ enum class SpecKind : std::uint8_t {
   Expression,
 };
 
-struct Field {
-  Token name;
-  Value value;
-};
-
-/// Named values in authored order. Copies share them until one of them is changed. The size of one
-/// pointer; one allocation.
-class FieldList {
- public:
-  FieldList() = default;
-  FieldList(const FieldList& other) : block_(other.block_) {
-    if (block_ != nullptr) {
-      block_->owners.fetch_add(1, std::memory_order_relaxed);
-    }
-  }
-  FieldList(FieldList&& other) noexcept : block_(std::exchange(other.block_, nullptr)) {}
-  FieldList& operator=(FieldList other) noexcept {
-    std::swap(block_, other.block_);
-    return *this;
-  }
-  ~FieldList() {
-    if (block_ != nullptr && block_->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) {
-      destroy(block_);
-    }
-  }
-
-  std::span<const Field> items() const {
-    return block_ == nullptr ? std::span<const Field>()
-                             : std::span<const Field>(block_->fields(), block_->count);
-  }
-  /// Fields that may be changed: this list's own from now on.
-  std::span<Field> own_items() {
-    if (block_ == nullptr) {
-      return {};
-    }
-    reserve(block_->count);
-    return {block_->fields(), block_->count};
-  }
-  void reserve(std::size_t count);
-  void append(Token name, Value value) {
-    const std::size_t count = items().size();
-    if (block_ == nullptr || count == block_->capacity || is_shared()) {
-      reserve(count < 4 ? 4 : 2 * count);
-    }
-    ::new (block_->fields() + count) Field{name, std::move(value)};
-    ++block_->count;
-  }
-  void erase(Token name);
-  /// True for lists that are one in memory.
-  bool is_same(const FieldList& other) const { return block_ == other.block_; }
-
- private:
-  struct alignas(Field) Block {
-    std::atomic<std::uint32_t> owners{1};
-    std::uint32_t count = 0;
-    std::uint32_t capacity = 0;
-    Field* fields() { return std::launder(reinterpret_cast<Field*>(this + 1)); }
-  };
-
-  bool is_shared() const { return block_->owners.load(std::memory_order_acquire) != 1; }
-  static Block* make(std::size_t capacity);
-  static void destroy(Block* block);
-
-  Block* block_ = nullptr;
-};
-
 /// What one layer says about one path: named fields in authored order, and where in the source.
 /// Specs may share their fields; changing those of one does not change another.
 class Spec {
@@ -110,21 +42,14 @@ class Spec {
     column = (source_column < kLastColumn ? source_column : kLastColumn) & kLastColumn;
   }
 
-  std::span<const Field> fields() const { return fields_.items(); }
+  FieldRange fields() const { return fields_.items(); }
   void reserve_fields(std::size_t count) { fields_.reserve(count); }
   const FieldList& field_list() const { return fields_; }
   /// Replaces all fields, which stay shared with the owner of `fields`.
   void set_field_list(FieldList fields) { fields_ = std::move(fields); }
 
   /// The field's value, or nullptr.
-  const Value* find(Token name) const {
-    for (const Field& field : fields()) {
-      if (field.name == name) {
-        return &field.value;
-      }
-    }
-    return nullptr;
-  }
+  const Value* find(Token name) const { return fields_.find(name); }
   bool has(Token name) const { return find(name) != nullptr; }
   /// The field's contents when it exists and is a T, else nullptr.
   template <class T>

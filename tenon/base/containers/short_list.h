@@ -17,10 +17,10 @@ namespace tenon {
 /// many are taken for each prim: an allocation for each is most of what they would cost.
 template <class T, std::size_t kWithin>
 class ShortList {
-  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_default_constructible_v<T>);
+  static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  ShortList() {}  // NOLINT(modernize-use-equals-default): what lies within is not set to zero
+  ShortList() {}  // NOLINT(modernize-use-equals-default): numbers within are not set to zero
   explicit ShortList(T first) { push_back(first); }
   ShortList(const ShortList&) = delete;
   ShortList& operator=(const ShortList&) = delete;

@@ -181,7 +181,11 @@ class PathTree {
     return paths_[node.path] = path;
   }
 
+  /// Properties are told apart where they become specs.
   bool is_new(Path path) {
+    if (path.is_property()) {
+      return true;
+    }
     const std::size_t number = path.number();
     if (number / kBits >= met_.size()) {
       met_.resize(2 * (number / kBits) + 1);

@@ -3,12 +3,13 @@
 //
 // Most values hold no paths. In a large file they are read on one thread while paths and specs are
 // made on another; values with paths follow. An error of the structure goes before one of the
-// values, so the outcome does not depend on the threads. Each field is read once and each set of
-// fields made once, and specs share them. A budget in proportion to the file's size bounds what
+// values, so the outcome does not depend on the threads. Each field is read once; specs pick theirs
+// out of one table. A budget in proportion to the file's size bounds what
 // references to the same data could multiply.
 #include "tenon/formats/crate/reader.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <string_view>
 #include <unordered_set>
@@ -86,10 +87,7 @@ class LayerBuilder {
     TENON_CHECK(plain);
     TENON_CHECK(read_values(true));
     report_findings();
-    TENON_TRY(list_of_set_, crate::ZeroedArray<std::uint32_t>::make(tables_.field_sets.size()));
-    for (std::size_t i = 0; i < specs_.size(); ++i) {
-      TENON_CHECK(add_fields(tables_.specs[i].field_set, *specs_[i]));
-    }
+    TENON_CHECK(add_fields());
     layer_.set_may_lack_text();
     return std::move(layer_);
   }
@@ -99,7 +97,6 @@ class LayerBuilder {
   Result<void> make_specs() {
     TENON_CHECK(read_paths(tables_));
     TENON_CHECK(read_specs(tables_));
-    layer_.reserve(tables_.specs.size() + 1);
     specs_.reserve(tables_.specs.size());
     for (const crate::SpecRow& row : tables_.specs) {
       TENON_CHECK(make_spec(row));
@@ -112,21 +109,21 @@ class LayerBuilder {
     if (!kind_fits(row.kind, path)) {
       return crate::corrupt("the spec at " + path.str() + " is of a kind that cannot be there");
     }
-    const std::size_t before = layer_.spec_count();
-    specs_.push_back(&layer_.create(path, row.kind));
-    const bool is_root = path.is_absolute_root();
-    if (is_root ? root_seen_ : layer_.spec_count() == before) {
+    const bool first_root = path.is_absolute_root() && !root_seen_;  // each layer has a root
+    layer::Spec* const spec = first_root ? &layer_.root() : layer_.create_new(path, row.kind);
+    if (spec == nullptr) {
       return crate::corrupt("there are two specs at " + path.str());
     }
-    root_seen_ = root_seen_ || is_root;
+    specs_.push_back(spec);
+    root_seen_ = root_seen_ || first_root;
     return {};
   }
 
   /// Each field is read once; specs share it. Those that may hold paths are read after the others.
   Result<void> read_values(bool with_paths) {
     crate::ValueReader reader(tables_, budget_, findings_);
-    values_.resize(tables_.fields.size());
-    for (std::size_t i = 0; i < values_.size(); ++i) {
+    fields_.resize(tables_.fields.size());
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
       const crate::FieldRow& field = tables_.fields[i];
       if (crate::may_hold_paths(field.value) != with_paths) {
         continue;
@@ -139,7 +136,8 @@ class LayerBuilder {
         return Error(error.code(), std::move(diagnostic));
       }
       const bool payload = field.name == layer::fields::payload;
-      values_[i] = payload ? as_payload_list(*std::move(value)) : *std::move(value);
+      fields_[i].name = field.name;
+      fields_[i].value = payload ? as_payload_list(*std::move(value)) : *std::move(value);
     }
     return {};
   }
@@ -152,35 +150,50 @@ class LayerBuilder {
   }
 
   /// Specs of one set of fields share them.
-  Result<void> add_fields(std::uint32_t set, layer::Spec& spec) {
-    std::uint32_t& list = list_of_set_[set];
-    if (list == 0) {
-      TENON_TRY(layer::FieldList fields, read_fields(set));
-      field_lists_.push_back(std::move(fields));
-      list = static_cast<std::uint32_t>(field_lists_.size());
+  Result<void> add_fields() {
+    const std::vector<std::uint32_t>& sets = tables_.field_sets;
+    TENON_TRY(list_of_set_, crate::ZeroedArray<std::uint32_t>::make(sets.size()));
+    for (const crate::SpecRow& row : tables_.specs) {
+      if (list_of_set_[row.field_set] == 0) {
+        TENON_CHECK(check_set(row.field_set));
+      }
     }
-    spec.set_field_list(field_lists_[list - 1]);
+    layer::FieldTable* const table = layer::FieldTable::make(std::move(fields_), sets);
+    for (std::size_t i = 0; i < specs_.size(); ++i) {
+      const std::uint32_t set = tables_.specs[i].field_set;
+      const std::uint32_t list = list_of_set_[set];
+      specs_[i]->set_field_list(list == kInTable ? table->list(set) : own_lists_[list - kInTable - 1]);
+    }
+    table->release();
     return {};
   }
 
-  Result<layer::FieldList> read_fields(std::uint32_t set) {
+  /// Sets are lists of the table as they are, but for some of damaged files and old writers.
+  Result<void> check_set(std::uint32_t set) {
     const std::vector<std::uint32_t>& sets = tables_.field_sets;
     std::size_t end = set;
-    while (sets[end] != crate::kEndOfSet) {
-      ++end;
+    bool as_it_is = (set == 0 || sets[set - 1] == crate::kEndOfSet) &&
+                    sets.size() < layer::FieldTable::kEnd - 1;
+    for (; sets[end] != crate::kEndOfSet; ++end) {
+      as_it_is = as_it_is && !fields_[sets[end]].value.empty();
+      TENON_CHECK(check_children(fields_[sets[end]].name, fields_[sets[end]].value));
     }
     TENON_CHECK(budget_.spend(end - set));
+    if (as_it_is && are_all_new({sets.data() + set, end - set})) {
+      list_of_set_[set] = kInTable;
+      return {};
+    }
     layer::FieldList fields;
-    fields.reserve(end - set);
+    std::unordered_set<Token> met;
     for (std::size_t i = set; i < end; ++i) {
-      const layer::Value& value = values_[sets[i]];
-      if (!value.empty()) {
-        TENON_CHECK(check_children(tables_.fields[sets[i]].name, value));
-        fields.append(tables_.fields[sets[i]].name, value);
+      const layer::Field& field = fields_[sets[i]];
+      if (!field.value.empty() && met.insert(field.name).second) {
+        fields.append(field.name, field.value);
       }
     }
-    keep_first_of_each(fields);
-    return fields;
+    own_lists_.push_back(std::move(fields));
+    list_of_set_[set] = kInTable + static_cast<std::uint32_t>(own_lists_.size());
+    return {};
   }
 
   /// What lists of children name has to be a name: paths are made of them.
@@ -205,30 +218,24 @@ class LayerBuilder {
   }
 
   /// Some writers name a field of a set twice; the first counts, as in OpenUSD.
-  static void keep_first_of_each(layer::FieldList& fields) {
+  bool are_all_new(std::span<const std::uint32_t> set) const {
     constexpr std::size_t kFew = 32;  // compared with each other
-    const std::span<const layer::Field> items = fields.items();
-    const auto is_met = [&](std::size_t i) {
-      return std::any_of(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(i),
-                         [&](const layer::Field& before) { return before.name == items[i].name; });
-    };
-    bool all_new = true;
-    std::unordered_set<Token> met;
-    for (std::size_t i = 0; i < items.size() && all_new; ++i) {
-      all_new = items.size() <= kFew ? !is_met(i) : met.insert(items[i].name).second;
+    if (set.size() > kFew) {
+      std::unordered_set<Token> met;
+      return std::all_of(set.begin(), set.end(),
+                         [&](std::uint32_t i) { return met.insert(fields_[i].name).second; });
     }
-    if (all_new) {
-      return;
-    }
-    met.clear();
-    layer::FieldList kept;
-    for (const layer::Field& field : items) {
-      if (met.insert(field.name).second) {
-        kept.append(field.name, field.value);
+    std::array<const void*, kFew> met{};
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      met[i] = fields_[set[i]].name.id();
+      if (std::find(met.begin(), met.begin() + i, met[i]) != met.begin() + i) {
+        return false;
       }
     }
-    fields = std::move(kept);
+    return true;
   }
+
+  static constexpr std::uint32_t kInTable = 1;
 
   crate::Tables tables_;
   crate::WorkBudget budget_;
@@ -236,9 +243,9 @@ class LayerBuilder {
   Diagnostics findings_;
   layer::Layer layer_;
   std::vector<layer::Spec*> specs_;                // of tables_.specs
-  std::vector<layer::Value> values_;               // by index of the field
-  std::vector<layer::FieldList> field_lists_;      // of the sets that specs have
-  crate::ZeroedArray<std::uint32_t> list_of_set_;  // by where the set starts: 1 + its list
+  std::vector<layer::Field> fields_;
+  std::vector<layer::FieldList> own_lists_;        // of sets that are no list as they are
+  crate::ZeroedArray<std::uint32_t> list_of_set_;  // by its start: kInTable, or behind it its list
   bool root_seen_ = false;
 };
 

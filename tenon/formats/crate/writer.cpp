@@ -66,8 +66,8 @@ class SpecWriter {
       : tables_(tables), values_(values) {}
 
   Result<void> write(const Entry& entry) {
-    const layer::Field* const list = entry.spec.fields().data();
-    Known& known = known_[(reinterpret_cast<std::uintptr_t>(list) >> 5U) % kKnown];
+    const void* const list = entry.spec.field_list().id();
+    Known& known = known_[(reinterpret_cast<std::uintptr_t>(list) >> 2U) % kKnown];
     if (list == nullptr || known.list != list) {
       TENON_TRY(const std::uint32_t set, field_set(entry));
       known = {list, set};
@@ -80,7 +80,7 @@ class SpecWriter {
   static constexpr std::size_t kKnown = 256;
 
   struct Known {
-    const layer::Field* list = nullptr;
+    const void* list = nullptr;
     std::uint32_t set = 0;
   };
 

@@ -106,7 +106,7 @@ struct LayerState {
   };
 
   /// Equal and small enough that comparing them costs next to nothing.
-  static bool are_equal(std::span<const layer::Field> a, std::span<const layer::Field> b) {
+  static bool are_equal(const layer::FieldRange& a, const layer::FieldRange& b) {
     constexpr std::size_t kSmall = 64;
     if (a.size() != b.size()) {
       return false;

@@ -141,14 +141,8 @@ class Flattener {
     Path path;
   };
 
-  /// Room for a spec of each prim and each authored property.
-  void reserve() {
-    std::size_t count = 1;
-    for (const PrimData& prim : stage_.data().prims) {
-      count += 1 + prim.index->property_names.size();
-    }
-    layer_.reserve(count);
-  }
+  /// Room for a spec of each prim.
+  void reserve() { layer_.reserve(stage_.data().prims.size() + 1); }
 
   void copy_prototype(const Prim& prototype) {
     const Path path = prototype_paths_.at(prototype.path());
@@ -268,7 +262,7 @@ class Flattener {
     if (spec.has(fields::custom) && spec.has(fields::variability)) {
       return spec.field_list();
     }
-    layer::FieldList& completed = completed_[spec.fields().data()];
+    layer::FieldList& completed = completed_[spec.field_list().id()];
     if (completed.items().empty()) {
       Spec whole = spec;
       whole.set(fields::custom, is_custom(spec));
@@ -364,7 +358,7 @@ class Flattener {
   const Stage& stage_;
   Layer layer_;
   std::unordered_map<Path, Path> prototype_paths_;
-  std::unordered_map<const layer::Field*, layer::FieldList> completed_;  // by authored fields
+  std::unordered_map<const void*, layer::FieldList> completed_;  // by authored fields
 };
 
 }  // namespace
