@@ -14,23 +14,43 @@ FieldList::Block* FieldList::make(std::size_t capacity) {
   return block;
 }
 
-void FieldList::destroy(Block* block) {
+void FieldList::release(Block* block) {
+  if (block->owners.fetch_sub(1, std::memory_order_acq_rel) != 1) {
+    return;
+  }
+  if (block->common != nullptr) {
+    release(block->common);
+  }
   std::destroy_n(block->fields(), block->count);
   block->~Block();
   ::operator delete(block);
 }
 
-/// Makes room for `count` fields in a block that is this list's alone.
-void FieldList::reserve(std::size_t count) {
-  const bool own = at_ != nullptr && !is_in_table() && !is_shared();
-  if (at_ == nullptr ? count == 0 : own && count <= block()->capacity) {
+FieldList::FieldList(const FieldList& common, std::size_t more) {
+  if (common.at_ != nullptr && (common.is_in_table() || common.block()->common != nullptr)) {
+    *this = common;
+    reserve(items().size() + more);
     return;
   }
+  Block* const made = make(more);
+  at_ = reinterpret_cast<std::byte*>(made);
+  if (common.at_ != nullptr) {
+    common.block()->owners.fetch_add(1, std::memory_order_relaxed);
+    made->common = common.block();
+  }
+}
+
+/// All fields in a block that is this list's alone, with room for `count`.
+void FieldList::reserve(std::size_t count) {
   const FieldRange there = items();
+  const bool whole = is_own() && block()->common == nullptr;
+  if (at_ == nullptr ? count == 0 : whole && count <= block()->capacity) {
+    return;
+  }
   FieldList more;
   Block* const made = make(std::max(count, there.size()));
   more.at_ = reinterpret_cast<std::byte*>(made);
-  if (own) {
+  if (whole) {
     std::uninitialized_move_n(block()->fields(), there.size(), made->fields());
   } else {
     std::uninitialized_copy(there.begin(), there.end(), made->fields());
@@ -39,12 +59,27 @@ void FieldList::reserve(std::size_t count) {
   *this = std::move(more);
 }
 
+/// For one field more. What is in common stays so.
+void FieldList::make_room() {
+  if (!is_own() || block()->common == nullptr) {
+    const std::size_t count = items().size();
+    return reserve(count < 4 ? 4 : 2 * count);
+  }
+  FieldList more;
+  Block* const made = make(2 * std::size_t{block()->count} + 2);
+  more.at_ = reinterpret_cast<std::byte*>(made);
+  std::uninitialized_move_n(block()->fields(), block()->count, made->fields());
+  made->count = block()->count;
+  made->common = std::exchange(block()->common, nullptr);
+  *this = std::move(more);
+}
+
 std::span<Field> FieldList::own_items() {
   if (at_ == nullptr) {
     return {};
   }
   reserve(items().size());
-  return {block()->fields(), block()->count};
+  return block()->row();
 }
 
 void FieldList::erase(Token name) {

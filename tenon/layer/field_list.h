@@ -21,7 +21,7 @@ struct Field {
   Value value;
 };
 
-/// Fields one after another, in a row or picked out of a table.
+/// Fields one after another: in one or two rows, or picked out of a table.
 class FieldRange {
  public:
   class Iterator {
@@ -33,12 +33,14 @@ class FieldRange {
     using reference = const Field&;
 
     Iterator() = default;
-    Iterator(const Field* fields, const std::uint32_t* picked)
-        : fields_(fields), picked_(picked) {}
-    const Field& operator*() const { return picked_ == nullptr ? *fields_ : fields_[*picked_]; }
+    const Field& operator*() const { return picked_ == nullptr ? *at_ : at_[*picked_]; }
     const Field* operator->() const { return &**this; }
     Iterator& operator++() {
-      picked_ == nullptr ? void(++fields_) : void(++picked_);
+      if (picked_ != nullptr) {
+        ++picked_;
+      } else if (++at_ == turn_) {
+        at_ = second_;
+      }
       return *this;
     }
     Iterator operator++(int) {
@@ -46,31 +48,52 @@ class FieldRange {
       ++*this;
       return before;
     }
-    bool operator==(const Iterator& other) const = default;
+    bool operator==(const Iterator& other) const {
+      return at_ == other.at_ && picked_ == other.picked_;
+    }
 
    private:
-    const Field* fields_ = nullptr;
+    friend class FieldRange;
+    Iterator(const Field* at, const Field* turn, const Field* second, const std::uint32_t* picked)
+        : at_(at), turn_(turn), second_(second), picked_(picked) {}
+
+    const Field* at_ = nullptr;
+    const Field* turn_ = nullptr;    // the end of the first of two rows
+    const Field* second_ = nullptr;  // where the second begins
     const std::uint32_t* picked_ = nullptr;
   };
 
   FieldRange() = default;
-  FieldRange(std::span<const Field> fields) : fields_(fields.data()), size_(fields.size()) {}
-  FieldRange(const Field* fields, std::span<const std::uint32_t> picked)
-      : fields_(fields), picked_(picked.data()), size_(picked.size()) {}
+  explicit FieldRange(std::span<const Field> row) : fields_(row.data()), size_(row.size()) {}
+  /// The first row has something in it.
+  FieldRange(std::span<const Field> first, std::span<const Field> second)
+      : fields_(first.data()),
+        turn_(first.data() + first.size()),
+        second_(second.data()),
+        size_(first.size() + second.size()) {}
+  FieldRange(const Field* table, std::span<const std::uint32_t> picked)
+      : fields_(table), picked_(picked.data()), size_(picked.size()) {}
 
-  Iterator begin() const { return {fields_, picked_}; }
+  Iterator begin() const { return {fields_, turn_, second_, picked_}; }
   Iterator end() const {
-    return picked_ == nullptr ? Iterator(fields_ + size_, nullptr)
-                              : Iterator(fields_, picked_ + size_);
+    return picked_ != nullptr ? Iterator(fields_, nullptr, nullptr, picked_ + size_)
+                              : Iterator(row_at(size_), nullptr, nullptr, nullptr);
   }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   const Field& operator[](std::size_t i) const {
-    return picked_ == nullptr ? fields_[i] : fields_[picked_[i]];
+    return picked_ == nullptr ? *row_at(i) : fields_[picked_[i]];
   }
 
  private:
+  const Field* row_at(std::size_t i) const {
+    const auto first = static_cast<std::size_t>(turn_ == nullptr ? 0 : turn_ - fields_);
+    return turn_ == nullptr || i < first ? fields_ + i : second_ + (i - first);
+  }
+
   const Field* fields_ = nullptr;
+  const Field* turn_ = nullptr;
+  const Field* second_ = nullptr;
   const std::uint32_t* picked_ = nullptr;
   std::size_t size_ = 0;
 };
@@ -78,10 +101,13 @@ class FieldRange {
 class FieldTable;
 
 /// Named values in authored order. Copies share them until one of them is changed. The size of one
-/// pointer: to fields of its own in one allocation, or into a FieldTable.
+/// pointer: to fields of its own in one allocation, which may follow those of a list that many have
+/// in common, or into a FieldTable.
 class FieldList {
  public:
   FieldList() = default;
+  /// A list that begins with what `common` has, which it shares; with room for `more` fields.
+  FieldList(const FieldList& common, std::size_t more);
   FieldList(const FieldList& other) : at_(other.at_) { keep(); }
   FieldList(FieldList&& other) noexcept : at_(std::exchange(other.at_, nullptr)) {}
   FieldList& operator=(FieldList other) noexcept {
@@ -113,7 +139,9 @@ class FieldList {
     std::atomic<std::uint32_t> owners{1};
     std::uint32_t count = 0;
     std::uint32_t capacity = 0;
+    Block* common = nullptr;  // its fields come first; it has no common one itself
     Field* fields() { return std::launder(reinterpret_cast<Field*>(this + 1)); }
+    std::span<Field> row() { return {fields(), count}; }
   };
 
   // Addresses in tables are odd.
@@ -122,11 +150,15 @@ class FieldList {
   const std::uint32_t* picked() const {
     return reinterpret_cast<const std::uint32_t*>(at_ - 1);
   }
-  bool is_shared() const { return block()->owners.load(std::memory_order_acquire) != 1; }
+  bool is_own() const {
+    return at_ != nullptr && !is_in_table() &&
+           block()->owners.load(std::memory_order_acquire) == 1;
+  }
   void keep();
   void release();
+  void make_room();
   static Block* make(std::size_t capacity);
-  static void destroy(Block* block);
+  static void release(Block* block);
 
   std::byte* at_ = nullptr;
 };
@@ -167,7 +199,8 @@ inline FieldRange FieldList::items() const {
     return {};
   }
   if (!is_in_table()) {
-    return std::span<const Field>(block()->fields(), block()->count);
+    return block()->common == nullptr ? FieldRange(block()->row())
+                                      : FieldRange(block()->common->row(), block()->row());
   }
   const std::uint32_t* end = picked();
   while ((*end & FieldTable::kEnd) == 0) {
@@ -190,20 +223,19 @@ inline const Value* FieldList::find(Token name) const {
     }
     return nullptr;
   }
-  const Field* const fields = block()->fields();
-  for (std::uint32_t i = 0; i < block()->count; ++i) {
-    if (fields[i].name == name) {
-      return &fields[i].value;
+  for (Block* each : {block()->common, block()}) {
+    for (const Field& field : each == nullptr ? std::span<Field>() : each->row()) {
+      if (field.name == name) {
+        return &field.value;
+      }
     }
   }
   return nullptr;
 }
 
 inline void FieldList::append(Token name, Value value) {
-  const bool own = at_ != nullptr && !is_in_table() && !is_shared();
-  if (!own || block()->count == block()->capacity) {
-    const std::size_t count = items().size();
-    reserve(count < 4 ? 4 : 2 * count);
+  if (!is_own() || block()->count == block()->capacity) {
+    make_room();
   }
   ::new (block()->fields() + block()->count) Field{name, std::move(value)};
   ++block()->count;
@@ -217,11 +249,7 @@ inline void FieldList::keep() {
 }
 
 inline void FieldList::release() {
-  if (is_in_table()) {
-    FieldTable::of(picked()).release();
-  } else if (block()->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) {
-    destroy(block());
-  }
+  is_in_table() ? FieldTable::of(picked()).release() : release(block());
 }
 
 }  // namespace tenon::layer

@@ -119,7 +119,11 @@ Layer::Entry& Layer::add(Path path, bool& made) {
   const bool property = path.is_property();
   const bool in_open_run = property && path.parent() == run_owner_ &&
                            entries_.size() - run_entry_ < kShortList;
-  const Entry* there = in_open_run ? in_run(path, run_entry_) : entry_at(path);
+  const std::uint64_t mark = std::uint64_t{1} << (path.id() >> 32u) % 64;
+  const bool may_be_there = !in_open_run || (run_marks_ & mark) != 0;
+  const Entry* there = !in_open_run  ? entry_at(path)
+                       : may_be_there ? in_run(path, run_entry_)
+                                      : nullptr;
   if (there == nullptr && in_open_run && has_strays_) {
     there = in_slots(path);
   }
@@ -129,9 +133,11 @@ Layer::Entry& Layer::add(Path path, bool& made) {
   }
   Entry& entry = entries_.emplace_back();
   entry.path = path;
+  run_marks_ |= mark;
   if (!in_open_run) {
     enter(path, entries_.size());
     run_owner_ = property ? Path() : path;
+    run_marks_ = 0;
     run_entry_ = static_cast<std::uint32_t>(entries_.size());
   }
   return entry;

@@ -103,6 +103,7 @@ class Layer {
   std::size_t erased_ = 0;
   Path run_owner_;              // whose properties, made next, are its run
   std::uint32_t run_entry_ = 0;  // its entry, from 1 on
+  std::uint64_t run_marks_ = 0;  // a bit for each name in the run, which names share
   bool has_strays_ = false;     // properties in no run
   bool may_lack_text_ = false;
 };

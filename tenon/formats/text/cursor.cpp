@@ -99,7 +99,12 @@ void Cursor::skip_single_line() {
 }
 
 void Cursor::skip_multi_line() {
+  constexpr std::string_view kIndent = "        ";
   while (true) {
+    while (text_.size() - at_ >= kIndent.size() &&
+           std::memcmp(text_.data() + at_, kIndent.data(), kIndent.size()) == 0) {
+      at_ += kIndent.size();
+    }
     while (at_ < text_.size() &&
            (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\t' || text_[at_] == '\r')) {
       ++at_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/text/header.h"
 
+#include <array>
 #include <charconv>
 #include <cstring>
 
@@ -17,11 +18,15 @@ constexpr unsigned kMaxMinor = 4;
 std::size_t first_ill_formed(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size()) {
-    if (at + sizeof(std::uint64_t) <= text.size()) {
-      std::uint64_t eight = 0;
-      std::memcpy(&eight, text.data() + at, sizeof(eight));
-      if ((eight & 0x8080808080808080ull) == 0) {
-        at += sizeof(eight);
+    std::array<std::uint64_t, 8> words{};
+    if (at + sizeof(words) <= text.size()) {
+      std::memcpy(words.data(), text.data() + at, sizeof(words));
+      std::uint64_t all = 0;
+      for (const std::uint64_t word : words) {
+        all |= word;
+      }
+      if ((all & 0x8080808080808080ull) == 0) {
+        at += sizeof(words);
         continue;
       }
     }

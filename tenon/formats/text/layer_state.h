@@ -48,6 +48,24 @@ struct LayerState {
     last = {name, spec.field_list()};
   }
 
+  /// What an attribute says of itself, which many say alike.
+  const layer::FieldList& attribute_fields(bool custom, Token type_name,
+                                           layer::Variability variability) {
+    const auto more = (custom ? 1u : 0u) | (variability == layer::Variability::Uniform ? 2u : 0u);
+    Declared& last =
+        declared_[(std::hash<Token>{}(type_name) >> 32u << 2u | more) & (declared_.size() - 1)];
+    if (last.fields.id() == nullptr || last.type_name != type_name || last.custom != custom ||
+        last.variability != variability) {
+      layer::FieldList fields;
+      fields.reserve(3);
+      fields.append(layer::fields::custom, layer::Value(custom));
+      fields.append(layer::fields::typeName, layer::Value(type_name));
+      fields.append(layer::fields::variability, layer::Value(variability));
+      last = {type_name, custom, variability, std::move(fields)};
+    }
+    return last.fields;
+  }
+
   /// Adds a warning about the byte at `offset`.
   void warn(std::size_t offset, std::string_view rule, std::string message, std::string_view fix) {
     if (++warnings > limits::kLayerFindings) {
@@ -105,14 +123,27 @@ struct LayerState {
     layer::FieldList fields;
   };
 
-  /// Equal and small enough that comparing them costs next to nothing.
+  struct Declared {
+    Token type_name;
+    bool custom = false;
+    layer::Variability variability = layer::Variability::Varying;
+    layer::FieldList fields;
+  };
+
+  /// Equal and small enough that comparing them costs next to nothing. The last field, which is
+  /// often the value, is the one that differs.
   static bool are_equal(const layer::FieldRange& a, const layer::FieldRange& b) {
     constexpr std::size_t kSmall = 64;
     if (a.size() != b.size()) {
       return false;
     }
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      if (a[i].name != b[i].name || b[i].value.size() > kSmall || !(a[i].value == b[i].value)) {
+    for (std::size_t i = a.size(); i-- > 0;) {
+      const layer::Field& ours = a[i];
+      const layer::Field& theirs = b[i];
+      const bool alike = &ours == &theirs ||
+                         (ours.name == theirs.name && theirs.value.size() <= kSmall &&
+                          ours.value == theirs.value);
+      if (!alike) {
         return false;
       }
     }
@@ -120,6 +151,7 @@ struct LayerState {
   }
 
   std::array<Shared, 256> shared_{};
+  std::array<Declared, 128> declared_{};
 };
 
 }  // namespace tenon::formats::text

@@ -308,10 +308,9 @@ class PropertyReader {
       return redeclare(*spec_, type_name, variability);
     }
     note_new_property();
-    spec_->reserve_fields(4);
-    spec_->append(fields::custom, Value(is_custom_));
-    spec_->append(fields::typeName, Value(type_name));
-    spec_->append(fields::variability, Value(variability));
+    const layer::FieldList& common =
+        state_.attribute_fields(is_custom_, type_name, variability);
+    spec_->set_field_list(layer::FieldList(common, 1));
     return true;
   }
 
