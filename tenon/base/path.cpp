@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <mutex>
 #include <new>
+#include <utility>
 
 #include "tenon/base/assert.h"
 #include "tenon/base/containers/short_list.h"
@@ -35,16 +36,35 @@ bool same(const PathNode& a, const PathNode& b) {
   return a.parent == b.parent && a.name == b.name && a.kind == b.kind && a.detail == b.detail;
 }
 
-/// Numbers for the nodes that this thread makes: it takes many at once, so that those made one
-/// after another are neighbours whatever other threads do.
+/// How many nodes of each row of numbers are made: others may read those while one more is added.
+constinit NumberedStore<std::uint32_t> made_of_row;
+
+constexpr std::uint32_t row_of(std::uint32_t number) { return (number - 1) / kNumbersAtOnce; }
+constexpr std::uint32_t place_in_row(std::uint32_t number) { return (number - 1) % kNumbersAtOnce; }
+
+/// Numbers for the nodes that this thread makes: it takes a row of them at once, so that those made
+/// one after another are neighbours whatever other threads do.
 std::uint32_t next_number() {
   static std::atomic<std::uint32_t> taken = 0;
   thread_local std::uint32_t last = 0;
   if (last % kNumbersAtOnce == 0) {
     last = taken.fetch_add(kNumbersAtOnce, std::memory_order_relaxed);
     TENON_ASSERT(last + kNumbersAtOnce != 0);
+    made_of_row.make_room(row_of(last + 1)) = 0;
   }
   return ++last;
+}
+
+void note_made(std::uint32_t number) {
+  std::atomic_ref(made_of_row[row_of(number)])
+      .store(place_in_row(number) + 1, std::memory_order_release);
+}
+
+/// Whether the node whose number follows `number` is there; its row may end with that.
+bool has_next(std::uint32_t number) {
+  return place_in_row(number) + 1 < kNumbersAtOnce &&
+         std::atomic_ref(made_of_row[row_of(number)]).load(std::memory_order_acquire) >
+             place_in_row(number) + 1;
 }
 
 /// Open addressing over nodes. A slot is part of the hash and the number of a node, so that most
@@ -66,6 +86,7 @@ class NodeTable {
     }
     const std::uint32_t number = next_number();
     ::new (&nodes.make_room(number)) PathNode(node);
+    note_made(number);
     slots_[at] = {tag, number};
     ++count_;
     return number;
@@ -116,7 +137,12 @@ PathNode root_node(PathKind kind) {
 
 constinit NumberedStore<PathNode> Path::nodes_;
 
-Path Path::intern(const PathNode& node) { return {table_below(node.parent).intern(node, nodes_), 0}; }
+/// The empty path has a node, too, so that what asks for one need not look whether there is one.
+const PathNode* const PathNode::of_empty = ::new (&Path::nodes_.make_room(0)) PathNode;
+
+Path Path::intern(const PathNode& node) {
+  return {table_below(node.parent).intern(node, nodes_), 0};
+}
 
 Path Path::absolute_root() {
   static const Path root = intern(root_node(PathKind::AbsoluteRoot));
@@ -134,29 +160,37 @@ Path Path::make(PathKind kind, std::uint32_t name, Path detail) const {
   constexpr std::size_t kRecentNodes = 512;
   thread_local std::array<std::uint32_t, kRecentNodes> recent{};
   TENON_ASSERT(element_ != 0);
+  const auto is_it = [&](const PathNode& node) {
+    return node.parent == *this && node.name == name && node.kind == kind && node.detail == detail;
+  };
+  std::uint32_t& last = recent[element_ % kRecentNodes];
+  if (last != 0) {
+    if (is_it(nodes_[last])) {
+      return {last, 0};
+    }
+    if (has_next(last) && is_it(nodes_[last + 1])) {
+      return {++last, 0};
+    }
+  }
+  const PathNode& above = node();
   PathNode made;
   made.parent = *this;
   made.detail = detail;
   made.name = name;
   made.kind = kind;
-  made.absolute = node().absolute;
-  made.has_variant = kind == PathKind::VariantSelection ? 1 : node().has_variant;
+  made.absolute = above.absolute;
+  made.has_variant = kind == PathKind::VariantSelection ? 1 : above.has_variant;
   made.depth = (depth() + 1) & ((1u << 22u) - 1);
-  std::uint32_t& last = recent[element_ % kRecentNodes];
-  if (last != 0) {
-    if (same(nodes_[last], made)) {
-      return {last, 0};
-    }
-  }
   return {last = table_below(*this).intern(made, nodes_), 0};
 }
 
-Path Path::make_like(Path path, Path target) const {
-  if (path.property_ != 0) {
-    return property(Token::numbered(path.property_));
+Path Path::make_like(Path path, Path detail) const {
+  if (path.property_ == 0) {
+    const PathNode& last = path.node();
+    return make(last.kind, last.name, detail);
   }
-  const PathNode& last = path.node();
-  return make(last.kind, last.name, target.empty() ? last.detail : target);
+  return property_ == 0 ? Path(element_, path.property_)
+                        : make(PathKind::Property, path.property_, {});
 }
 
 Path Path::child(Token name) const { return make(PathKind::Prim, name.number(), {}); }
@@ -207,15 +241,17 @@ Path Path::prim() const {
 }
 
 bool Path::has_prefix(Path prefix) const {
-  if (prefix.empty()) {
-    return false;
-  }
-  const std::uint32_t depth = prefix.depth();
+  return !prefix.empty() && above(prefix.depth()) == prefix;
+}
+
+/// The path of so many elements at the head of this one; itself where it has no more.
+Path Path::above(std::uint32_t depth) const {
   Path path = *this;
-  while (path.depth() > depth) {
-    path = path.parent();
+  for (const PathNode* last = &node(); last->depth + (path.property_ == 0 ? 0u : 1u) > depth;) {
+    path = path.property_ == 0 ? last->parent : Path(path.element_, 0);
+    last = &path.node();
   }
-  return path == prefix;
+  return path;
 }
 
 Path Path::append(Path relative) const {
@@ -231,9 +267,11 @@ Path Path::replace_prefix(Path from, Path to, bool fix_targets) const {
   }
   ShortList<Path, 24> tail;
   Path path = *this;
-  while (!path.empty() && path != from && path.depth() > 0) {
+  for (; path != from; path = path.parent()) {
+    if (path.node().depth == 0 && path.property_ == 0) {
+      break;
+    }
     tail.push_back(path);
-    path = path.parent();
   }
   const bool found = path == from;
   if (!found && !fix_targets) {
@@ -241,10 +279,11 @@ Path Path::replace_prefix(Path from, Path to, bool fix_targets) const {
   }
   Path result = found ? to : path;
   for (auto it = tail.rbegin(); it != tail.rend(); ++it) {
-    const Path target = it->target();
-    result = fix_targets && !target.empty()
-                 ? result.make_like(*it, target.replace_prefix(from, to, true))
-                 : result.make_like(*it);
+    const PathNode& last = it->node();
+    const bool moves = fix_targets && it->property_ == 0 &&
+                       (last.kind == PathKind::Target || last.kind == PathKind::Mapper);
+    result =
+        result.make_like(*it, moves ? last.detail.replace_prefix(from, to, true) : last.detail);
   }
   return result;
 }
@@ -261,7 +300,7 @@ Path Path::strip_variants() const {
     }
   }
   for (auto it = elements.rbegin(); it != elements.rend(); ++it) {
-    path = path.make_like(*it);
+    path = path.make_like(*it, it->node().detail);
   }
   return path;
 }
@@ -283,7 +322,8 @@ Path Path::absolute(Path anchor) const {
       }
       continue;
     }
-    result = result.make_like(*it, it->target().absolute(anchor));
+    const Path target = it->target();
+    result = result.make_like(*it, target.empty() ? it->node().detail : target.absolute(anchor));
   }
   return result;
 }
@@ -331,26 +371,27 @@ std::strong_ordering Path::operator<=>(const Path& other) const {
   if (*this == other) {
     return std::strong_ordering::equal;
   }
+  if (element_ == other.element_) {  // something below one element
+    return property_ == 0         ? std::strong_ordering::less
+           : other.property_ == 0 ? std::strong_ordering::greater
+                                  : name() <=> other.name();
+  }
   if (empty() || other.empty()) {
     return empty() ? std::strong_ordering::less : std::strong_ordering::greater;
   }
   if (is_absolute() != other.is_absolute()) {
     return is_absolute() ? std::strong_ordering::less : std::strong_ordering::greater;
   }
-  Path x = *this;
-  Path y = other;
-  while (x.depth() > y.depth()) {
-    x = x.parent();
-  }
-  while (y.depth() > x.depth()) {
-    y = y.parent();
-  }
+  const std::uint32_t ours = depth();
+  const std::uint32_t theirs = other.depth();
+  Path x = ours > theirs ? above(theirs) : *this;
+  Path y = theirs > ours ? other.above(ours) : other;
   if (x == y) {
-    return depth() <=> other.depth();
+    return ours <=> theirs;
   }
-  while (x.parent() != y.parent()) {
-    x = x.parent();
-    y = y.parent();
+  for (Path up = x.parent(), above = y.parent(); up != above;) {
+    x = std::exchange(up, up.parent());
+    y = std::exchange(above, above.parent());
   }
   return compare_elements(x, y);
 }

@@ -55,7 +55,14 @@ class Path {
   bool is_variant_selection() const { return kind() == PathKind::VariantSelection; }
   bool is_prim_or_variant() const { return is_prim() || is_variant_selection(); }
   bool is_property() const {
-    return property_ != 0 || kind() == PathKind::Property || kind() == PathKind::RelationalAttribute;
+    const PathKind last = kind();
+    return last == PathKind::Property || last == PathKind::RelationalAttribute;
+  }
+  /// A property of a prim, variant or target, as all are that text has words for. That it is one,
+  /// and of which, is known without a look at any table.
+  bool is_direct_property() const { return property_ != 0; }
+  bool is_direct_property_of(Path owner) const {
+    return element_ == owner.element_ && property_ != 0 && owner.property_ == 0;
   }
   bool is_target() const { return kind() == PathKind::Target; }
   bool has_variants() const;
@@ -117,11 +124,11 @@ class Path {
 
   Path(std::uint32_t element, std::uint32_t property) : element_(element), property_(property) {}
   const PathNode& node() const;
+  Path above(std::uint32_t depth) const;
   /// An element with a node of its own, below this path.
   Path make(PathKind kind, std::uint32_t name, Path detail) const;
-  /// Below this path, the last element of `path`, about the same target, or about `target`.
-  Path make_like(Path path) const { return make_like(path, path.target()); }
-  Path make_like(Path path, Path target) const;
+  /// Below this path, the last element of `path`, with this detail of its node.
+  Path make_like(Path path, Path detail) const;
   static Path intern(const PathNode& node);
 
   static NumberedStore<PathNode> nodes_;
@@ -140,15 +147,18 @@ struct PathNode {
   std::uint32_t absolute : 1 = 0;
   std::uint32_t has_variant : 1 = 0;  ///< this or any element above is a variant selection
   std::uint32_t depth : 22 = 0;       ///< elements below the root
+
+ private:
+  static const PathNode* const of_empty;
 };
 static_assert(sizeof(PathNode) == 24);
 
 inline const PathNode& Path::node() const { return nodes_[element_]; }
 inline PathKind Path::kind() const {
   const PathKind above = node().kind;
-  return property_ == 0                ? above
+  return property_ == 0              ? above
          : above == PathKind::Target ? PathKind::RelationalAttribute
-                                       : PathKind::Property;
+                                     : PathKind::Property;
 }
 inline bool Path::is_absolute() const { return node().absolute != 0; }
 inline bool Path::has_variants() const { return node().has_variant != 0; }

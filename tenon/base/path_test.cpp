@@ -174,6 +174,34 @@ TEST(Path, ThreadsThatMakeTheSamePathsGetTheSame) {
   EXPECT_EQ(found[0], found[1]);
 }
 
+/// No text has such paths, but code can ask for them.
+TEST(Path, APropertyBelowAPropertyIsOne) {
+  const Path owner = Path::from("/A.b");
+  const Path path = owner.property("c");
+  EXPECT_EQ(path.kind(), PathKind::Property);
+  EXPECT_TRUE(path.is_property());
+  EXPECT_FALSE(path.is_direct_property());
+  EXPECT_EQ(path.parent(), owner);
+  EXPECT_EQ(path.name(), "c");
+  EXPECT_EQ(path.depth(), 3U);
+  EXPECT_NE(path, Path::from("/A.c"));
+  EXPECT_EQ(path.replace_prefix(owner, Path::from("/B")), Path::from("/B.c"));
+  EXPECT_EQ(Path::from("/B.c").replace_prefix(Path::from("/B"), owner), path);
+  EXPECT_TRUE(path.has_prefix(owner));
+}
+
+TEST(Path, TheEmptyPathHasNothing) {
+  const Path none;
+  EXPECT_EQ(none.kind(), PathKind::Empty);
+  EXPECT_TRUE(none.empty() && none.parent().empty() && none.target().empty());
+  EXPECT_TRUE(none.name().empty() && none.variant().empty());
+  EXPECT_FALSE(none.is_absolute() || none.is_property() || none.has_variants());
+  EXPECT_EQ(none.depth(), 0U);
+  EXPECT_TRUE(none.prefixes().empty());
+  EXPECT_FALSE(none.has_prefix(none));
+  EXPECT_LT(none, Path::absolute_root());
+}
+
 TEST(Path, NamesAreChecked) {
   EXPECT_TRUE(is_identifier("_a1"));
   EXPECT_FALSE(is_identifier("1a"));

@@ -12,25 +12,10 @@
 namespace tenon {
 namespace {
 
-/// Length of the identifier at the head of `text`, 0 when there is none.
-std::size_t identifier_length(std::string_view text) {
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const unicode::Decoded c = unicode::decode(text.substr(at));
-    const bool fits = at == 0 ? unicode::starts_identifier(c.code_point)
-                              : unicode::continues_identifier(c.code_point);
-    if (c.length == 0 || !fits) {
-      break;
-    }
-    at += c.length;
-  }
-  return at;
-}
-
 std::size_t namespaced_length(std::string_view text) {
-  std::size_t at = identifier_length(text);
+  std::size_t at = unicode::identifier_length(text);
   while (at != 0 && at < text.size() && text[at] == ':') {
-    const std::size_t next = identifier_length(text.substr(at + 1));
+    const std::size_t next = unicode::identifier_length(text.substr(at + 1));
     if (next == 0) {
       break;
     }
@@ -109,7 +94,7 @@ class PathReader : private TextCursor {
 
   Result<Path> read_names(Path path) {
     while (true) {
-      const std::size_t length = identifier_length(rest());
+      const std::size_t length = unicode::identifier_length(rest());
       if (length == 0) {
         return fail("a prim name is expected");
       }
@@ -139,7 +124,7 @@ class PathReader : private TextCursor {
   Result<Path> read_variant(Path prim) {
     ++at_;
     skip_blanks();
-    const std::size_t set_length = identifier_length(rest());
+    const std::size_t set_length = unicode::identifier_length(rest());
     if (set_length == 0) {
       return fail("a variant set name is expected");
     }
@@ -293,7 +278,7 @@ std::string Path::str() const {
 }
 
 bool is_identifier(std::string_view text) {
-  return !text.empty() && identifier_length(text) == text.size();
+  return !text.empty() && unicode::identifier_length(text) == text.size();
 }
 
 bool is_namespaced_identifier(std::string_view text) {

@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Texts are kept once, found by a hash, and never freed: so two tokens are equal when they are one
+// in memory. The table is in parts with a lock each, and threads remember what they asked for last.
 #include "tenon/base/token.h"
 
 #include <algorithm>

@@ -44,8 +44,7 @@ class Token {
   bool operator==(const char* other) const { return text_->text == other; }
   /// Order of the text, byte by byte.
   std::strong_ordering operator<=>(const Token& other) const {
-    return text_ == other.text_ ? std::strong_ordering::equal
-                                : text_->text <=> other.text_->text;
+    return text_ == other.text_ ? std::strong_ordering::equal : text_->text <=> other.text_->text;
   }
 
  private:

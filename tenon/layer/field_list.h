@@ -147,12 +147,9 @@ class FieldList {
   // Addresses in tables are odd.
   bool is_in_table() const { return (reinterpret_cast<std::uintptr_t>(at_) & 1u) != 0; }
   Block* block() const { return reinterpret_cast<Block*>(at_); }
-  const std::uint32_t* picked() const {
-    return reinterpret_cast<const std::uint32_t*>(at_ - 1);
-  }
+  const std::uint32_t* picked() const { return reinterpret_cast<const std::uint32_t*>(at_ - 1); }
   bool is_own() const {
-    return at_ != nullptr && !is_in_table() &&
-           block()->owners.load(std::memory_order_acquire) == 1;
+    return at_ != nullptr && !is_in_table() && block()->owners.load(std::memory_order_acquire) == 1;
   }
   void keep();
   void release();

@@ -9,6 +9,7 @@
 #include "tenon/layer/layer.h"
 
 #include <algorithm>
+#include <span>
 
 namespace tenon::layer {
 namespace {
@@ -66,21 +67,23 @@ const Layer::Entry* Layer::in_slots(Path path) const {
 const Layer::Entry* Layer::in_run(Path property, std::size_t first) const {
   const Path owner = property.parent();
   const std::size_t end = std::min(first + kShortList, entries_.size());
-  for (auto entry = entries_.begin() + static_cast<std::ptrdiff_t>(first),
-            last = entries_.begin() + static_cast<std::ptrdiff_t>(end);
-       entry != last; ++entry) {
-    if (entry->path == property) {
-      return &*entry;
+  while (first < end) {
+    const std::span<const Entry> row = entries_.row(first, end);
+    for (const Entry& entry : row) {
+      if (entry.path == property) {
+        return &entry;
+      }
+      if (!entry.path.is_direct_property_of(owner) && !entry.path.empty()) {
+        return nullptr;
+      }
     }
-    if (entry->path.parent() != owner && !entry->path.empty()) {
-      break;
-    }
+    first += row.size();
   }
   return nullptr;
 }
 
 const Layer::Entry* Layer::entry_at(Path path) const {
-  if (!path.is_property()) {
+  if (!path.is_direct_property()) {
     return in_slots(path);
   }
   const std::size_t owner = slots_[slot_of(path.parent())].entry;
@@ -116,12 +119,12 @@ const Layer::Entry* Layer::find_property(const Spec& owner, Path path, Token nam
 
 /// The entry of `path`; one without a kind, as which `made` says so, where there was none.
 Layer::Entry& Layer::add(Path path, bool& made) {
-  const bool property = path.is_property();
-  const bool in_open_run = property && path.parent() == run_owner_ &&
-                           entries_.size() - run_entry_ < kShortList;
+  const bool property = path.is_direct_property();
+  const bool in_open_run =
+      property && path.parent() == run_owner_ && entries_.size() - run_entry_ < kShortList;
   const std::uint64_t mark = std::uint64_t{1} << (path.id() >> 32u) % 64;
   const bool may_be_there = !in_open_run || (run_marks_ & mark) != 0;
-  const Entry* there = !in_open_run  ? entry_at(path)
+  const Entry* there = !in_open_run   ? entry_at(path)
                        : may_be_there ? in_run(path, run_entry_)
                                       : nullptr;
   if (there == nullptr && in_open_run && has_strays_) {
@@ -167,7 +170,7 @@ void Layer::erase(Path path) {
   if (entry == nullptr) {
     return;
   }
-  if (!path.is_property()) {
+  if (!path.is_direct_property()) {
     end_run(path);
   }
   const_cast<Entry&>(*entry) = {};
@@ -180,7 +183,7 @@ void Layer::end_run(Path owner) {
   const std::size_t end = std::min(first + kShortList, entries_.size());
   for (std::size_t i = first; i < end; ++i) {
     const Path path = entries_[i].path;
-    if (path.parent() == owner && path.is_property()) {
+    if (path.is_direct_property_of(owner)) {
       enter(path, i + 1);
     } else if (!path.empty()) {
       break;
@@ -195,7 +198,7 @@ void Layer::enter(Path path, std::size_t entry) {
   }
   slots_[slot_of(path)] = {path.number(), static_cast<std::uint32_t>(entry)};
   ++slots_used_;
-  has_strays_ = has_strays_ || path.is_property();
+  has_strays_ = has_strays_ || path.is_direct_property();
 }
 
 void Layer::reserve(std::size_t spec_count) {
@@ -210,7 +213,8 @@ void Layer::reserve(std::size_t spec_count) {
 
 void Layer::take_missing(Layer&& other) {
   may_lack_text_ = may_lack_text_ || other.may_lack_text_;
-  for (Entry& theirs : other.entries_) {
+  for (std::size_t i = 0; i < other.entries_.size(); ++i) {
+    Entry& theirs = other.entries_[i];
     bool made = false;
     if (theirs.path.empty()) {
       continue;

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "tenon/base/containers/stable_list.h"
 #include "tenon/base/path.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
@@ -66,7 +66,7 @@ class Layer {
   void take_missing(Layer&& other);
 
   /// All specs in the order in which they were made.
-  const std::deque<Entry>& entries() const { return entries_; }
+  const StableList<Entry>& entries() const { return entries_; }
   std::size_t spec_count() const { return entries_.size() - erased_; }
 
   /// Names listed in a children field ("primChildren", "properties", ...) of `path`; empty if none.
@@ -97,14 +97,14 @@ class Layer {
   void grow(std::size_t slot_count);
 
   std::string identifier_;
-  std::deque<Entry> entries_;  // erased entries keep an empty path
+  StableList<Entry> entries_;  // erased entries keep an empty path
   std::vector<Slot> slots_;    // open addressing; of all entries that are in no run
   std::size_t slots_used_ = 0;
   std::size_t erased_ = 0;
-  Path run_owner_;              // whose properties, made next, are its run
+  Path run_owner_;               // whose properties, made next, are its run
   std::uint32_t run_entry_ = 0;  // its entry, from 1 on
   std::uint64_t run_marks_ = 0;  // a bit for each name in the run, which names share
-  bool has_strays_ = false;     // properties in no run
+  bool has_strays_ = false;      // properties in no run
   bool may_lack_text_ = false;
 };
 

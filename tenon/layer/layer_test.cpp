@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/layer/layer.h"
 
+#include <map>
+#include <random>
+
 #include <gtest/gtest.h>
 
 namespace tenon::layer {
@@ -70,6 +73,59 @@ TEST(Layer, PropertiesAreFoundWhereverTheyWereMade) {
         }
       }
       EXPECT_EQ(layer.find_property(owner, prim, "none"), nullptr);
+    }
+  }
+}
+
+/// Whatever is made and erased in whatever order is found as in a plain map.
+TEST(Layer, FindsWhatAMapFinds) {
+  std::mt19937 dice(7);
+  const auto below = [&](std::uint32_t count) { return dice() % count; };
+  for (int round = 0; round < 40; ++round) {
+    Layer layer("a.usda");
+    std::map<Path, std::uint32_t> known;
+    std::uint32_t made = 0;
+    for (int step = 0; step < 400; ++step) {
+      const Path prim = Path::absolute_root().child("P" + std::to_string(below(6)));
+      const Path property = prim.property("p" + std::to_string(below(50)));
+      const std::uint32_t what = below(10);
+      if (what == 0) {  // a prim with a run behind it, longer than a run may be at times
+        layer.create(prim, SpecKind::Prim);
+        known.try_emplace(prim, layer.find(prim)->line);
+        for (std::uint32_t i = 0, count = below(45); i < count; ++i) {
+          const Path next = prim.property("p" + std::to_string(i));
+          Spec* const fresh = layer.create_new(next, SpecKind::Attribute);
+          ASSERT_EQ(fresh == nullptr, known.count(next) == 1) << next.str();
+          if (fresh != nullptr) {
+            fresh->set_place(++made, 1);
+            known[next] = made;
+          }
+        }
+      } else if (what < 6) {
+        const Path path = what < 3 ? prim : property;
+        if (known.try_emplace(path, made + 1).second) {
+          layer.create(path, what < 3 ? SpecKind::Prim : SpecKind::Attribute).set_place(++made, 1);
+        }
+      } else {
+        const Path path = what == 6 ? prim : property;
+        layer.erase(path);
+        known.erase(path);
+      }
+    }
+    Layer other("b.usda");
+    other.take_missing(Layer(layer));
+    ASSERT_EQ(layer.spec_count(), known.size() + 1);
+    for (std::uint32_t p = 0; p < 6; ++p) {
+      const Path prim = Path::absolute_root().child("P" + std::to_string(p));
+      for (std::uint32_t i = 0; i <= 50; ++i) {
+        const Path path = i == 50 ? prim : prim.property("p" + std::to_string(i));
+        const auto found = known.find(path);
+        for (const Layer* each : {&layer, &other}) {
+          const Spec* const spec = each->find(path);
+          ASSERT_EQ(spec != nullptr, found != known.end()) << path.str();
+          EXPECT_TRUE(spec == nullptr || spec->line == found->second) << path.str();
+        }
+      }
     }
   }
 }

@@ -3,6 +3,7 @@
 #include "tenon/base/text/unicode.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <iterator>
 
@@ -19,7 +20,9 @@ bool contains(const Range (&ranges)[N], char32_t code_point) {
   return after != std::begin(ranges) && code_point <= std::prev(after)->last;
 }
 
-bool is_ascii_letter(char32_t c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+constexpr bool is_ascii_letter(char32_t c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
 
 std::size_t sequence_length(std::uint8_t lead) {
   if (lead < 0x80) {
@@ -33,6 +36,18 @@ std::size_t sequence_length(std::uint8_t lead) {
   }
   return lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
 }
+
+/// Most names are ASCII: what its bytes are in one.
+constexpr std::uint8_t kStarts = 1;
+constexpr std::uint8_t kContinues = 2;
+constexpr std::array<std::uint8_t, 256> kAsciiName = [] {
+  std::array<std::uint8_t, 256> table{};
+  for (char32_t c = 0; c < 0x80; ++c) {
+    const bool starts = is_ascii_letter(c) || c == '_';
+    table[c] = starts ? kStarts | kContinues : c >= '0' && c <= '9' ? kContinues : 0;
+  }
+  return table;
+}();
 
 }  // namespace
 
@@ -107,6 +122,29 @@ bool continues_identifier(char32_t code_point) {
            (code_point >= '0' && code_point <= '9');
   }
   return contains(kIdentifierContinue, code_point);
+}
+
+std::size_t identifier_length(std::string_view text) {
+  std::size_t at = 0;
+  std::uint8_t use = kStarts;
+  while (at < text.size()) {
+    const auto byte = static_cast<unsigned char>(text[at]);
+    if ((kAsciiName[byte] & use) != 0) {
+      ++at;
+    } else if (byte < 0x80) {
+      break;
+    } else {
+      const Decoded c = decode(text.substr(at));
+      const bool fits =
+          at == 0 ? starts_identifier(c.code_point) : continues_identifier(c.code_point);
+      if (c.length == 0 || !fits) {
+        break;
+      }
+      at += c.length;
+    }
+    use = kContinues;
+  }
+  return at;
 }
 
 }  // namespace tenon::unicode

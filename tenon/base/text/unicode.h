@@ -25,5 +25,7 @@ bool is_printable(std::string_view text);
 
 bool starts_identifier(char32_t code_point);     ///< XID_Start or '_'
 bool continues_identifier(char32_t code_point);  ///< XID_Continue
+/// Bytes of the identifier at the head of `text`, 0 when there is none.
+std::size_t identifier_length(std::string_view text);
 
 }  // namespace tenon::unicode

@@ -162,7 +162,8 @@ class LayerBuilder {
     for (std::size_t i = 0; i < specs_.size(); ++i) {
       const std::uint32_t set = tables_.specs[i].field_set;
       const std::uint32_t list = list_of_set_[set];
-      specs_[i]->set_field_list(list == kInTable ? table->list(set) : own_lists_[list - kInTable - 1]);
+      specs_[i]->set_field_list(list == kInTable ? table->list(set)
+                                                 : own_lists_[list - kInTable - 1]);
     }
     table->release();
     return {};
@@ -242,7 +243,7 @@ class LayerBuilder {
   Diagnostics& diagnostics_;
   Diagnostics findings_;
   layer::Layer layer_;
-  std::vector<layer::Spec*> specs_;                // of tables_.specs
+  std::vector<layer::Spec*> specs_;  // of tables_.specs
   std::vector<layer::Field> fields_;
   std::vector<layer::FieldList> own_lists_;        // of sets that are no list as they are
   crate::ZeroedArray<std::uint32_t> list_of_set_;  // by its start: kInTable, or behind it its list

@@ -213,10 +213,12 @@ bool rename_asset_parts(layer::Layer& layer, const RenameAssetPart& rename) {
   bool any = false;
   for (const Path path : paths) {
     layer::Spec* const spec = layer.find(path);
-    if (spec == nullptr) {
+    const auto fields = spec == nullptr ? layer::FieldRange() : spec->fields();
+    if (std::none_of(fields.begin(), fields.end(), [](const layer::Field& field) {
+          return may_hold_assets(field.name, field.value);
+        })) {
       continue;
     }
-    const auto fields = spec->fields();
     const std::vector<layer::Field> all(fields.begin(), fields.end());  // `set` moves them
     for (const layer::Field& field : all) {
       if (!may_hold_assets(field.name, field.value)) {

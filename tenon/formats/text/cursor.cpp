@@ -4,8 +4,7 @@
 // Only the first error is kept. Readers return false all the way up, so what an outer reader adds
 // about the same fault is lost, and the innermost message reaches the user. Lines are counted only
 // when somebody asks for a place, and from the last place on: places in ascending order cost one
-// pass over the text. Identifiers are taken by a table of ASCII bytes; characters are decoded only
-// where other bytes occur.
+// pass over the text.
 #include "tenon/formats/text/cursor.h"
 
 #include <array>
@@ -15,54 +14,6 @@
 #include "tenon/formats/text/fault_recovery.h"
 
 namespace tenon::formats::text {
-namespace {
-
-constexpr bool is_ascii_name_start(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-
-constexpr std::array<bool, 256> kAsciiName = [] {
-  std::array<bool, 256> table{};
-  for (std::size_t i = 0; i < 128; ++i) {
-    const auto c = static_cast<char>(i);
-    table[i] = is_ascii_name_start(c) || (c >= '0' && c <= '9');
-  }
-  return table;
-}();
-constexpr bool is_ascii_name(char c) { return kAsciiName[static_cast<unsigned char>(c)]; }
-
-/// Length of the identifier at the head of `text`.
-std::size_t identifier_length(std::string_view text) {
-  std::size_t at = 0;
-  if (!text.empty() && is_ascii_name_start(text[0])) {
-    while (at < text.size() && is_ascii_name(text[at])) {
-      ++at;
-    }
-    if (at == text.size() || static_cast<unsigned char>(text[at]) < 0x80) {
-      return at;
-    }
-  }
-  while (at < text.size()) {
-    const char c = text[at];
-    if (static_cast<unsigned char>(c) < 0x80) {
-      if (!(at == 0 ? is_ascii_name_start(c) : is_ascii_name(c))) {
-        break;
-      }
-      ++at;
-      continue;
-    }
-    const unicode::Decoded decoded = unicode::decode(text.substr(at));
-    const bool fits = at == 0 ? unicode::starts_identifier(decoded.code_point)
-                              : unicode::continues_identifier(decoded.code_point);
-    if (decoded.length == 0 || !fits) {
-      break;
-    }
-    at += decoded.length;
-  }
-  return at;
-}
-
-}  // namespace
 
 bool Cursor::skip_block_comment() {
   const std::size_t close = text_.find("*/", at_ + 2);
@@ -154,13 +105,13 @@ bool Cursor::expect(char c, std::string_view where) {
 }
 
 std::string_view Cursor::peek_identifier() const {
-  return text_.substr(at_, identifier_length(rest()));
+  return text_.substr(at_, unicode::identifier_length(rest()));
 }
 
 std::string_view Cursor::peek_namespaced() const {
-  std::size_t length = identifier_length(rest());
+  std::size_t length = unicode::identifier_length(rest());
   while (length != 0 && peek(length) == ':') {
-    const std::size_t more = identifier_length(text_.substr(at_ + length + 1));
+    const std::size_t more = unicode::identifier_length(text_.substr(at_ + length + 1));
     if (more == 0) {
       break;
     }

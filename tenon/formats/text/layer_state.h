@@ -140,9 +140,9 @@ struct LayerState {
     for (std::size_t i = a.size(); i-- > 0;) {
       const layer::Field& ours = a[i];
       const layer::Field& theirs = b[i];
-      const bool alike = &ours == &theirs ||
-                         (ours.name == theirs.name && theirs.value.size() <= kSmall &&
-                          ours.value == theirs.value);
+      const bool alike =
+          &ours == &theirs ||
+          (ours.name == theirs.name && theirs.value.size() <= kSmall && ours.value == theirs.value);
       if (!alike) {
         return false;
       }

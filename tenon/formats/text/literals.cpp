@@ -76,8 +76,12 @@ void take_digits(const char*& at, const char* end, Digits& digits, bool after_po
   while (digits.count == 0 && at != end && *at == '0') {
     ++at;
   }
+  // Most numbers are short, and so is this.
   const char* const counted = at;
-  for (int count = 8; count == 8 && end - at >= 8; at += count) {
+  while (at != end && at - counted < 3 && is_digit(*at)) {
+    digits.mantissa = digits.mantissa * 10 + static_cast<std::uint64_t>(*at++ - '0');
+  }
+  for (int count = at - counted < 3 ? 0 : 8; count == 8 && end - at >= 8; at += count) {
     const std::uint64_t bytes = eight_bytes(at);
     count = digits_in(bytes);
     if (count != 0) {

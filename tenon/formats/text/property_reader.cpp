@@ -308,8 +308,7 @@ class PropertyReader {
       return redeclare(*spec_, type_name, variability);
     }
     note_new_property();
-    const layer::FieldList& common =
-        state_.attribute_fields(is_custom_, type_name, variability);
+    const layer::FieldList& common = state_.attribute_fields(is_custom_, type_name, variability);
     spec_->set_field_list(layer::FieldList(common, 1));
     return true;
   }
