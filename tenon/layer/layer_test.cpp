@@ -80,7 +80,9 @@ TEST(Layer, PropertiesAreFoundWhereverTheyWereMade) {
 /// Whatever is made and erased in whatever order is found as in a plain map.
 TEST(Layer, FindsWhatAMapFinds) {
   std::mt19937 dice(7);
-  const auto below = [&](std::uint32_t count) { return dice() % count; };
+  const auto below = [&](std::uint32_t count) {
+    return static_cast<std::uint32_t>(dice() % count);
+  };
   for (int round = 0; round < 40; ++round) {
     Layer layer("a.usda");
     std::map<Path, std::uint32_t> known;

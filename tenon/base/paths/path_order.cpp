@@ -142,9 +142,9 @@ class PathFamilies {
       if (a.beginning != b.beginning) {
         return a.beginning < b.beginning;
       }
-      const Path first = members_[a.member].path;
-      const Path second = members_[b.member].path;
-      return first.name() != second.name() ? first.name() < second.name() : first < second;
+      const Path one = members_[a.member].path;
+      const Path other = members_[b.member].path;
+      return one.name() != other.name() ? one.name() < other.name() : one < other;
     };
     if (!std::is_sorted(siblings_.begin(), siblings_.end(), comes_before)) {
       std::sort(siblings_.begin(), siblings_.end(), comes_before);

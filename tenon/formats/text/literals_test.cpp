@@ -13,7 +13,8 @@ namespace {
 
 /// Digits are taken eight at a time; the C library takes them one by one.
 TEST(Literals, NumbersOfAnyLengthAreReadAsTheCLibraryReadsThem) {
-  std::mt19937 dice(3);
+  std::mt19937 numbers(3);
+  const auto dice = [&] { return static_cast<std::uint32_t>(numbers()); };
   const auto digits = [&](std::uint32_t count, bool zeros) {
     std::string text;
     for (std::uint32_t i = 0; i < count; ++i) {
