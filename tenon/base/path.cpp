@@ -185,12 +185,12 @@ Path Path::make(PathKind kind, std::uint32_t name, Path detail) const {
 }
 
 Path Path::make_like(Path path, Path detail) const {
-  if (path.property_ == 0) {
-    const PathNode& last = path.node();
+  const PathNode& last = path.node();
+  if (path.property_ == 0 && last.kind != PathKind::Property) {
     return make(last.kind, last.name, detail);
   }
-  return property_ == 0 ? Path(element_, path.property_)
-                        : make(PathKind::Property, path.property_, {});
+  const std::uint32_t name = path.property_ == 0 ? last.name : path.property_;
+  return property_ == 0 ? Path(element_, name) : make(PathKind::Property, name, {});
 }
 
 Path Path::child(Token name) const { return make(PathKind::Prim, name.number(), {}); }
