@@ -12,17 +12,6 @@
 #include <span>
 
 namespace tenon::layer {
-namespace {
-
-/// Where to look for a path first. Eight neighbouring numbers share a line of the cache; such
-/// eights are scattered, so that long runs of numbers do not pile up.
-std::size_t home_of(std::uint32_t number, std::size_t slot_count) {
-  const std::uint64_t scattered = (std::uint64_t{number >> 3u} * 0x9E3779B97F4A7C15ull) >> 32u;
-  return static_cast<std::size_t>(scattered << 3u | (number & 7u)) & (slot_count - 1);
-}
-
-}  // namespace
-
 Layer::Layer(std::string identifier) : identifier_(std::move(identifier)) {
   grow(16);
   create(Path::absolute_root(), SpecKind::PseudoRoot);
@@ -34,46 +23,38 @@ Layer& Layer::operator=(const Layer& other) = default;
 Layer& Layer::operator=(Layer&& other) noexcept = default;
 Layer::~Layer() = default;
 
-/// Where `path` is in the table, or the empty slot where it would be.
-std::size_t Layer::slot_of(Path path) const {
+/// The number of the entry of a path that has a slot; 0 where there is none.
+std::uint32_t Layer::slotted(Path path) const {
   const std::uint32_t number = path.number();
-  std::size_t at = home_of(number, slots_.size());
-  while (slots_[at].entry != 0) {
-    if (slots_[at].path == number && entries_[slots_[at].entry - 1].path == path) {
-      return at;
+  std::size_t at = places_.home(number);
+  for (std::size_t left = places_.reach(); left > 0; --left, at = places_.next(at)) {
+    const Slot slot = slots_[at];
+    if (slot.path == number && slot.entry != 0 && entries_[slot.entry - 1].path == path) {
+      return slot.entry;
     }
-    at = (at + 1) & (slots_.size() - 1);
+    if (slot.entry == 0) {
+      break;
+    }
   }
-  return at;
+  return 0;
 }
 
-/// As slot_of, with one look at the entry; null where there is none.
 const Layer::Entry* Layer::in_slots(Path path) const {
-  const std::uint32_t number = path.number();
-  const std::size_t mask = slots_.size() - 1;
-  for (std::size_t at = home_of(number, slots_.size()); slots_[at].entry != 0;
-       at = (at + 1) & mask) {
-    if (slots_[at].path == number) {
-      const Entry& entry = entries_[slots_[at].entry - 1];
-      if (entry.path == path) {
-        return &entry;
-      }
-    }
-  }
-  return nullptr;
+  const std::uint32_t entry = slotted(path);
+  return entry == 0 ? nullptr : &entries_[entry - 1];
 }
 
 /// Looks through the run behind entry `first`, from 1 on: properties of its owner, or erased.
 const Layer::Entry* Layer::in_run(Path property, std::size_t first) const {
-  const Path owner = property.parent();
   const std::size_t end = std::min(first + kShortList, entries_.size());
   while (first < end) {
     const std::span<const Entry> row = entries_.row(first, end);
     for (const Entry& entry : row) {
-      if (entry.path == property) {
+      const std::uint64_t differs = entry.path.id() ^ property.id();
+      if (differs == 0) {
         return &entry;
       }
-      if (!entry.path.is_direct_property_of(owner) && !entry.path.empty()) {
+      if (static_cast<std::uint32_t>(differs) != 0 && !entry.path.empty()) {  // of another element
         return nullptr;
       }
     }
@@ -86,7 +67,7 @@ const Layer::Entry* Layer::entry_at(Path path) const {
   if (!path.is_direct_property()) {
     return in_slots(path);
   }
-  const std::size_t owner = slots_[slot_of(path.parent())].entry;
+  const std::size_t owner = slotted(path.parent());
   const Entry* entry = owner == 0 ? nullptr : in_run(path, owner);
   return entry == nullptr && has_strays_ ? in_slots(path) : entry;
 }
@@ -109,7 +90,7 @@ const Layer::Entry* Layer::find_property(const Spec& owner, Path path, Token nam
   if (listed == names.end()) {
     return nullptr;
   }
-  const std::size_t first = slots_[slot_of(path)].entry;
+  const std::size_t first = slotted(path);
   const std::size_t guess = first + static_cast<std::size_t>(listed - names.begin());
   if (guess < entries_.size() && entries_[guess].path == property) {
     return &entries_[guess];
@@ -179,7 +160,7 @@ void Layer::erase(Path path) {
 
 /// Gives slots to the run of `owner`, which is about to go.
 void Layer::end_run(Path owner) {
-  const std::size_t first = slots_[slot_of(owner)].entry;
+  const std::size_t first = slotted(owner);
   const std::size_t end = std::min(first + kShortList, entries_.size());
   for (std::size_t i = first; i < end; ++i) {
     const Path path = entries_[i].path;
@@ -196,9 +177,22 @@ void Layer::enter(Path path, std::size_t entry) {
   if (4 * (slots_used_ + 1) > 3 * slots_.size()) {
     grow(2 * slots_.size());
   }
-  slots_[slot_of(path)] = {path.number(), static_cast<std::uint32_t>(entry)};
+  const Slot slot{path.number(), static_cast<std::uint32_t>(entry)};
+  if (!put(slot)) {
+    fill(places_.scattered(), slots_.size());
+  }
   ++slots_used_;
   has_strays_ = has_strays_ || path.is_direct_property();
+}
+
+bool Layer::put(Slot slot) {
+  const std::size_t home = places_.home(slot.path);
+  std::size_t at = home;
+  while (slots_[at].entry != 0) {
+    at = places_.next(at);
+  }
+  slots_[at] = slot;
+  return places_.note(home, at);
 }
 
 void Layer::reserve(std::size_t spec_count) {
@@ -227,18 +221,24 @@ void Layer::take_missing(Layer&& other) {
 }
 
 void Layer::grow(std::size_t slot_count) {
-  std::vector<Slot> bigger(slot_count);
+  std::uint32_t least = 0xFFFFFFFFu;
+  std::uint32_t most = 0;
   for (const Slot& slot : slots_) {
-    if (slot.entry == 0) {
-      continue;
-    }
-    std::size_t at = home_of(slot.path, slot_count);
-    while (bigger[at].entry != 0) {
-      at = (at + 1) & (slot_count - 1);
-    }
-    bigger[at] = slot;
+    least = slot.entry == 0 ? least : std::min(least, slot.path);
+    most = slot.entry == 0 ? most : std::max(most, slot.path);
   }
-  slots_ = std::move(bigger);
+  fill(PathSlots(slot_count, least, most), slot_count);
+}
+
+/// Puts all that has a slot into slots as `places` has them.
+void Layer::fill(PathSlots places, std::size_t slot_count) {
+  const std::vector<Slot> before = std::exchange(slots_, std::vector<Slot>(slot_count));
+  places_ = places;
+  for (const Slot& slot : before) {
+    if (slot.entry != 0) {
+      put(slot);
+    }
+  }
 }
 
 const std::vector<Token>& Layer::children(const Spec& spec, Token field) {

@@ -9,6 +9,7 @@
 
 #include "tenon/base/containers/stable_list.h"
 #include "tenon/base/path.h"
+#include "tenon/base/paths/path_slots.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/spec.h"
@@ -90,15 +91,18 @@ class Layer {
   const Entry* entry_at(Path path) const;
   const Entry* in_run(Path property, std::size_t first) const;
   const Entry* in_slots(Path path) const;
-  std::size_t slot_of(Path path) const;
+  std::uint32_t slotted(Path path) const;
   Entry& add(Path path, bool& made);
   void enter(Path path, std::size_t entry);
   void end_run(Path owner);
+  bool put(Slot slot);
   void grow(std::size_t slot_count);
+  void fill(PathSlots places, std::size_t slot_count);
 
   std::string identifier_;
   StableList<Entry> entries_;  // erased entries keep an empty path
   std::vector<Slot> slots_;    // open addressing; of all entries that are in no run
+  PathSlots places_;
   std::size_t slots_used_ = 0;
   std::size_t erased_ = 0;
   Path run_owner_;               // whose properties, made next, are its run

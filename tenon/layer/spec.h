@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "tenon/base/token.h"
-#include "tenon/layer/field_list.h"
+#include "tenon/layer/spec/field_list.h"
 #include "tenon/layer/value.h"
 
 namespace tenon::layer {

@@ -9,6 +9,7 @@
 
 #include "tenon/base/assert.h"
 #include "tenon/base/path.h"
+#include "tenon/base/paths/path_slots.h"
 
 namespace tenon {
 
@@ -21,11 +22,17 @@ class PathTable {
 
   /// What is there for `path`, until more is added; nullptr for nothing.
   const Item* find(Path path) const {
-    if (slots_.empty()) {
-      return nullptr;
+    std::size_t at = places_.home(path.number());
+    for (std::size_t left = places_.reach(); left > 0; --left, at = places_.next(at)) {
+      const Slot& slot = slots_[at];
+      if (slot.path == path) {
+        return &slot.item;
+      }
+      if (slot.path.empty()) {
+        break;
+      }
     }
-    const Slot& slot = slots_[slot_of(path)];
-    return slot.path.empty() ? nullptr : &slot.item;
+    return nullptr;
   }
   Item* find(Path path) { return const_cast<Item*>(std::as_const(*this).find(path)); }
 
@@ -41,12 +48,14 @@ class PathTable {
     if (is_full_with(count_ + 1, slots_.size())) {
       grow(slots_.empty() ? kFewest : 2 * slots_.size());
     }
-    Slot& slot = slots_[slot_of(path)];
-    if (slot.path.empty()) {
-      slot.path = path;
-      ++count_;
+    if (Item* const there = find(path)) {
+      return *there;
     }
-    return slot.item;
+    ++count_;
+    if (!put({path, {}})) {
+      fill(places_.scattered(), slots_.size());
+    }
+    return *find(path);
   }
 
   /// Room for `count` without growing on the way.
@@ -73,29 +82,39 @@ class PathTable {
     return 8 * count > 5 * slot_count;
   }
 
-  /// Four neighbouring numbers share a line of the cache; such fours are scattered, so that long
-  /// runs of numbers do not pile up.
-  std::size_t slot_of(Path path) const {
-    const std::uint32_t number = path.number();
-    const std::uint64_t scattered = (std::uint64_t{number >> 2U} * 0x9E3779B97F4A7C15ULL) >> 32U;
-    std::size_t at =
-        static_cast<std::size_t>(scattered << 2U | (number & 3U)) & (slots_.size() - 1);
-    while (!slots_[at].path.empty() && slots_[at].path != path) {
-      at = (at + 1) & (slots_.size() - 1);
+  bool put(const Slot& slot) {
+    const std::size_t home = places_.home(slot.path.number());
+    std::size_t at = home;
+    while (!slots_[at].path.empty()) {
+      at = places_.next(at);
     }
-    return at;
+    slots_[at] = slot;
+    return places_.note(home, at);
   }
 
   void grow(std::size_t slot_count) {
+    std::uint32_t least = 0xFFFFFFFFu;
+    std::uint32_t most = 0;
+    for (const Slot& slot : slots_) {
+      const std::uint32_t number = slot.path.number();
+      least = slot.path.empty() || number > least ? least : number;
+      most = number > most ? number : most;
+    }
+    fill(PathSlots(slot_count, least, most), slot_count);
+  }
+
+  void fill(PathSlots places, std::size_t slot_count) {
     const std::vector<Slot> before = std::exchange(slots_, std::vector<Slot>(slot_count));
+    places_ = places;
     for (const Slot& slot : before) {
       if (!slot.path.empty()) {
-        slots_[slot_of(slot.path)] = slot;
+        put(slot);
       }
     }
   }
 
   std::vector<Slot> slots_;  // open addressing
+  PathSlots places_;
   std::size_t count_ = 0;
 };
 

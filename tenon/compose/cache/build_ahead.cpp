@@ -96,7 +96,8 @@ class BatchBuilder {
     const bool fits = work_.done() - work_before <= std::numeric_limits<std::uint32_t>::max();
     std::vector<ArcCost> costs = work_.take_costs();
     if (!gave_up_ && fits && node_count_ < known_.options->max_nodes && !work_.exhausted()) {
-      ahead.node_count = static_cast<std::uint32_t>(node_count_ - nodes_before);
+      ahead.node_count = static_cast<std::uint32_t>(node_count_ - nodes_before) & 0x7FFFFFFFu;
+      ahead.waits = 1;
       ahead.work = static_cast<std::uint32_t>(work_.done() - work_before);
       if (!costs.empty()) {
         batch_.costs.emplace(&ahead, std::move(costs));

@@ -19,8 +19,9 @@ namespace tenon::compose {
 
 struct IndexAhead {
   PrimIndex index;
-  std::uint32_t node_count = 0;  ///< nodes that building it made
-  std::uint32_t work = 0;        ///< units that building it took
+  std::uint32_t work = 0;             ///< units that building it took
+  std::uint32_t node_count : 31 = 0;  ///< nodes that building it made
+  std::uint32_t waits : 1 = 0;        ///< it was built ahead and not asked for yet
 };
 
 /// Indices, each after that of its parent, and what they point into.

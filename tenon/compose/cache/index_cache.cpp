@@ -35,11 +35,6 @@ struct IndexCache::State {
     }
   };
 
-  struct Entry {
-    const PrimIndex* index = nullptr;
-    const IndexAhead* ahead = nullptr;  // where it was built ahead and not asked for yet
-  };
-
   LayerOpener opener;
   ComposeOptions options;
   MapPool maps;
@@ -54,9 +49,9 @@ struct IndexCache::State {
   std::vector<LayerStackPtr> stacks_in_order;
   std::unordered_map<const layer::Layer*, std::unordered_map<std::string, Result<layer::LayerPtr>>>
       opened;
-  std::deque<PrimIndex> indices;
+  std::deque<IndexAhead> indices;  // built when they were asked for
   std::deque<IndexBatch> batches;  // built ahead
-  PathTable<Entry> by_path;
+  PathTable<IndexAhead*> by_path;
   bool at_limit = false;    // what was built ahead is of no use any more
   bool ahead_full = false;  // the work that building ahead may take is done
   Diagnostics errors;
@@ -128,10 +123,10 @@ struct IndexCache::State {
   }
 
   PrimIndex& add_index(Path path) {
-    indices.emplace_back();
-    indices.back().path = path;
-    by_path[path] = {&indices.back()};
-    return indices.back();
+    IndexAhead& added = indices.emplace_back();
+    added.index.path = path;
+    by_path[path] = &added;
+    return added.index;
   }
 
   const PrimIndex& compute_root() {
@@ -178,8 +173,8 @@ struct IndexCache::State {
   }
 
   const PrimIndex* find_index(Path path) const {
-    const Entry* const found = by_path.find(path);
-    return found == nullptr ? nullptr : found->index;
+    IndexAhead* const* const found = by_path.find(path);
+    return found == nullptr ? nullptr : &(*found)->index;
   }
 
   const Result<layer::LayerPtr>* find_layer(const std::string& asset_path,
@@ -208,9 +203,9 @@ struct IndexCache::State {
     }
     by_path.reserve(count);
     for (IndexBatch& batch : built) {
-      for (const IndexAhead& ahead : batch.indices) {
-        Entry& entry = by_path[ahead.index.path];
-        entry = entry.index == nullptr ? Entry{&ahead.index, &ahead} : entry;
+      for (IndexAhead& ahead : batch.indices) {
+        IndexAhead*& known = by_path[ahead.index.path];
+        known = known == nullptr ? &ahead : known;
       }
       batches.push_back(std::move(batch));
     }
@@ -220,23 +215,23 @@ struct IndexCache::State {
   /// The index of a child of a prim that was asked for before. One that was built ahead counts from
   /// now on.
   const PrimIndex& ask_child(const PrimIndex& parent, Path path) {
-    Entry* const found = by_path.find(path);
+    IndexAhead* const* const found = by_path.find(path);
     if (found == nullptr) {
       return compute_child(parent, path);
     }
-    Entry& entry = *found;
-    if (entry.ahead != nullptr) {
-      at_limit = at_limit || node_count + entry.ahead->node_count >= options.max_nodes ||
-                 entry.ahead->work >= work.most() - std::min(work.done(), work.most());
+    IndexAhead& known = **found;
+    if (known.waits != 0) {
+      at_limit = at_limit || node_count + known.node_count >= options.max_nodes ||
+                 known.work >= work.most() - std::min(work.done(), work.most());
       if (at_limit) {
         return compute_child(parent, path);
       }
-      node_count += entry.ahead->node_count;
-      work.count(entry.ahead->work);
-      add_costs_ahead(entry.ahead);
-      entry.ahead = nullptr;
+      node_count += known.node_count;
+      work.count(known.work);
+      add_costs_ahead(&known);
+      known.waits = 0;
     }
-    return *entry.index;
+    return known.index;
   }
 };
 
@@ -280,9 +275,9 @@ const PrimIndex& IndexCache::index(Path prim_path) {
   std::vector<Path> missing;
   const PrimIndex* found = nullptr;
   for (Path path = prim_path; found == nullptr; path = path.parent()) {
-    const State::Entry* const entry = state_->by_path.find(path);
-    if (entry != nullptr && entry->ahead == nullptr) {
-      found = entry->index;
+    IndexAhead* const* const known = state_->by_path.find(path);
+    if (known != nullptr && (*known)->waits == 0) {
+      found = &(*known)->index;
     } else if (path.is_absolute_root()) {
       found = &state_->compute_root();
     } else {

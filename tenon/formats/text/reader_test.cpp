@@ -3,11 +3,15 @@
 #include "tenon/formats/text/reader.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <random>
 #include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
 #include "tenon/base/limits/limits.h"
+#include "tenon/formats/text/literals.h"
 
 namespace tenon::formats {
 namespace {
@@ -323,6 +327,38 @@ TEST(TextReader, RepeatedItemsOfMetadataListsAreReported) {
   ASSERT_EQ(diagnostics.size(), 1u);
   EXPECT_EQ(diagnostics.items()[0].line, 3u);
   EXPECT_FALSE(layer->find(Path::from("/A"))->has(fields::apiSchemas));
+}
+
+/// Digits are taken eight at a time; the C library takes them one by one.
+TEST(TextReader, NumbersOfAnyLengthAreReadAsTheCLibraryReadsThem) {
+  std::mt19937 numbers(3);
+  const auto dice = [&] { return static_cast<std::uint32_t>(numbers()); };
+  const auto digits = [&](std::uint32_t count, bool zeros) {
+    std::string some;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      some += zeros && dice() % 2 == 0 ? '0' : static_cast<char>('0' + dice() % 10);
+    }
+    return some;
+  };
+  int plain = 0;
+  for (int round = 0; round < 20000; ++round) {
+    std::string number = dice() % 4 == 0 ? "-" : "";
+    number += digits(dice() % 24, dice() % 3 == 0);
+    number += dice() % 2 == 0 ? "." + digits(1 + dice() % 24, dice() % 3 == 0) : "";
+    number += dice() % 8 == 0 ? "e" + std::to_string(static_cast<int>(dice() % 40) - 20) : "";
+    const std::string_view ends[] = {"", ",", ")", " 12345678", "]]]]]]]]", ", 0.5, 0.25"};
+    const std::string whole = number + std::string(ends[dice() % std::size(ends)]);
+    const char* at = whole.data();
+    double value = 0;
+    if (!text::take_plain_double(at, whole.data() + whole.size(), value)) {
+      continue;  // left to the reader that tells faults
+    }
+    ++plain;
+    char* end = nullptr;
+    EXPECT_EQ(value, std::strtod(whole.c_str(), &end)) << whole;
+    EXPECT_EQ(at, end) << whole;
+  }
+  EXPECT_GT(plain, 10000);
 }
 
 }  // namespace

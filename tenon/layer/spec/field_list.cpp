@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/layer/field_list.h"
+#include "tenon/layer/spec/field_list.h"
 
 #include <algorithm>
 #include <memory>
