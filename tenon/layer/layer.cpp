@@ -12,6 +12,7 @@
 #include <span>
 
 namespace tenon::layer {
+
 Layer::Layer(std::string identifier) : identifier_(std::move(identifier)) {
   grow(16);
   create(Path::absolute_root(), SpecKind::PseudoRoot);

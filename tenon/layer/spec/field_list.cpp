@@ -34,7 +34,7 @@ FieldList::FieldList(const FieldList& common, std::size_t more) {
   }
   Block* const made = make(more);
   at_ = reinterpret_cast<std::byte*>(made);
-  if (common.at_ != nullptr) {
+  if (!common.items().empty()) {
     common.block()->owners.fetch_add(1, std::memory_order_relaxed);
     made->common = common.block();
   }
