@@ -9,9 +9,7 @@
 #include "tenon/formats/text/literals.h"
 
 #include <array>
-#include <bit>
 #include <charconv>
-#include <cstring>
 
 #include "tenon/base/number_from_text.h"
 #include "tenon/base/text/quoted_text.h"
@@ -25,8 +23,6 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr std::array<double, 23> kPowersOfTen = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                  1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                  1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-constexpr std::array<std::uint64_t, 9> kWholePowersOfTen = {
-    1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000};
 constexpr std::uint64_t kExactMantissa = std::uint64_t{1} << 53;
 
 /// The parts of a number while it is read.
@@ -39,56 +35,12 @@ struct Digits {
   int exponent = 0;
 };
 
-/// Eight bytes as a number whose lowest byte is the first of them, on every machine.
-std::uint64_t eight_bytes(const char* at) {
-  std::uint64_t bytes = 0;
-  if constexpr (std::endian::native == std::endian::little) {
-    std::memcpy(&bytes, at, sizeof(bytes));
-  } else {
-    for (int i = 7; i >= 0; --i) {
-      bytes = bytes << 8u | static_cast<unsigned char>(at[i]);
-    }
-  }
-  return bytes;
-}
-
-/// How many of the eight are digits before one is none. Digits are 0x30 to 0x39: they stay among
-/// 0x30 to 0x3F when six more are added.
-int digits_in(std::uint64_t bytes) {
-  constexpr std::uint64_t kHighHalves = 0xF0F0F0F0F0F0F0F0ull;
-  const std::uint64_t halves =
-      (bytes & kHighHalves) | ((bytes + 0x0606060606060606ull) & kHighHalves) >> 4u;
-  return std::countr_zero(halves ^ 0x3333333333333333ull) / 8;
-}
-
-/// The first `count` of eight as digits. Zeros come in front of fewer; then neighbours are combined
-/// to pairs, these to fours, these to the whole.
-std::uint64_t value_of_digits(std::uint64_t bytes, int count) {
-  bytes = (bytes - 0x3030303030303030ull) << static_cast<unsigned>(8 * (8 - count));
-  bytes = bytes * 10 + (bytes >> 8u);
-  return ((bytes & 0x000000FF000000FFull) * 0x000F424000000064ull +
-          (bytes >> 16u & 0x000000FF000000FFull) * 0x0000271000000001ull) >>
-         32u;
-}
-
 void take_digits(const char*& at, const char* end, Digits& digits, bool after_point) {
   const char* const first = at;
   while (digits.count == 0 && at != end && *at == '0') {
     ++at;
   }
-  // Most numbers are short, and so is this.
   const char* const counted = at;
-  while (at != end && at - counted < 3 && is_digit(*at)) {
-    digits.mantissa = digits.mantissa * 10 + static_cast<std::uint64_t>(*at++ - '0');
-  }
-  for (int count = at - counted < 3 ? 0 : 8; count == 8 && end - at >= 8; at += count) {
-    const std::uint64_t bytes = eight_bytes(at);
-    count = digits_in(bytes);
-    if (count != 0) {
-      digits.mantissa = digits.mantissa * kWholePowersOfTen[static_cast<std::size_t>(count)] +
-                        value_of_digits(bytes, count);
-    }
-  }
   for (; at != end && is_digit(*at); ++at) {
     digits.mantissa = digits.mantissa * 10 + static_cast<std::uint64_t>(*at - '0');
   }

@@ -329,7 +329,6 @@ TEST(TextReader, RepeatedItemsOfMetadataListsAreReported) {
   EXPECT_FALSE(layer->find(Path::from("/A"))->has(fields::apiSchemas));
 }
 
-/// Digits are taken eight at a time; the C library takes them one by one.
 TEST(TextReader, NumbersOfAnyLengthAreReadAsTheCLibraryReadsThem) {
   std::mt19937 numbers(3);
   const auto dice = [&] { return static_cast<std::uint32_t>(numbers()); };
