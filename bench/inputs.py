@@ -60,3 +60,13 @@ def make_published_scenes(script, folder):
         subprocess.run([sys.executable, "-B", script, folder], stdout=subprocess.DEVNULL,
                        stderr=subprocess.DEVNULL, check=False)
     return os.path.exists(last)
+
+
+def make_many_prims(program, folder, count):
+    """Runs bench/complexity once; -> its layer in `folder`, without .usda and .usdc."""
+    layer = os.path.join(folder, "prims")
+    if not os.path.exists(layer + ".usdc"):
+        os.makedirs(folder, exist_ok=True)
+        subprocess.run([program, "prims", str(count), folder], stdout=subprocess.DEVNULL,
+                       check=True)
+    return layer

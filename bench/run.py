@@ -234,6 +234,15 @@ class Bench:
         self.add_memory_row(name, *peaks)
 
 
+    def measure_million(self, name, tenon, note):
+        """Whole processes that open many prims with two attributes each."""
+        file = inputs.make_many_prims(self.program("complexity"), self.scene("million"),
+                                      100 if self.arguments.smoke else 1000000)
+        file += {"million_text": ".usda", "million_crate": ".usdc"}[name]
+        self.measure_processes(name, [tenon, "info", file], [*PEER, "count_prims", file],
+                               "open and traverse only, " + note)
+
+
 def layer_files(bench):
     """-> (what it is called, file) of the scenes of many prims."""
     yield "text", bench.scene("prims.usda")
@@ -315,6 +324,8 @@ def process_tasks(bench):
             [("process_suite", "suite", "compose_suite", bench.suite)] * bool(bench.suite)):
         yield (name, bench.measure_processes, [bench.program(ours), file], [*PEER, work, file],
                imports)
+    for name in ("million_text", "million_crate") if bench.peer else ():
+        yield (name, bench.measure_million, tenon, imports)
     if bench.peer:
         yield ("value_mesh_crate", bench.measure_processes,
                [bench.program("first_value"), bench.scene("mesh.usdc")],

@@ -8,9 +8,9 @@ Usage: usd_core.py WORK FILE [--repeats N] [--dump-script FILE]
        usd_core.py export FROM TO     opens FROM as a stage and writes it flattened
        usd_core.py tree FILE          prints the names of all prims
 
-WORK: one_layer | compose | suite | robots | asset | flatten | first_value | physics. Imports are
-not timed. The phases parse, compose, open, flatten, export and physics run in OpenUSD's C++;
-traverse, transforms, read_attributes and dump also measure Python.
+WORK: one_layer | compose | count_prims | suite | robots | asset | flatten | first_value | physics.
+Imports are not timed. The phases parse, compose, open, flatten, export and physics run in OpenUSD's
+C++; traverse, transforms, read_attributes and dump also measure Python.
 """
 
 import argparse
@@ -85,6 +85,11 @@ def compose(report, file, _):
     time_traverse(report, stage, WITH_PROXIES)
 
 
+def count_prims(report, file, _):
+    stage = report.time("open", lambda: Usd.Stage.Open(file))
+    report.counts["prims"] = report.time("traverse", lambda: sum(1 for _ in stage.Traverse()))
+
+
 def open_all(files):
     stages = []
     for file in files:
@@ -147,8 +152,8 @@ def physics(report, file, _):
     report.counts["joints"] = sum(n for kind, n in count.items() if kind.endswith("Joint"))
 
 
-WORKS = {work.__name__: work for work in (one_layer, compose, suite, robots, asset, flatten,
-                                          first_value, physics)}
+WORKS = {work.__name__: work for work in (one_layer, compose, count_prims, suite, robots, asset,
+                                          flatten, first_value, physics)}
 
 
 def dumper_of(script):
