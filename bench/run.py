@@ -233,7 +233,6 @@ class Bench:
         peaks = [max((run.peak for run in runs[side]), default=0) for side in (0, 1)]
         self.add_memory_row(name, *peaks)
 
-
     def measure_million(self, name, tenon, note):
         """Whole processes that open many prims with two attributes each."""
         file = inputs.make_many_prims(self.program("complexity"), self.scene("million"),
@@ -324,9 +323,9 @@ def process_tasks(bench):
             [("process_suite", "suite", "compose_suite", bench.suite)] * bool(bench.suite)):
         yield (name, bench.measure_processes, [bench.program(ours), file], [*PEER, work, file],
                imports)
-    for name in ("million_text", "million_crate") if bench.peer else ():
-        yield (name, bench.measure_million, tenon, imports)
     if bench.peer:
+        for name in ("million_text", "million_crate"):
+            yield (name, bench.measure_million, tenon, imports)
         yield ("value_mesh_crate", bench.measure_processes,
                [bench.program("first_value"), bench.scene("mesh.usdc")],
                [*PEER, "first_value", bench.scene("mesh.usdc")], imports)

@@ -14,6 +14,7 @@
 
 #include "tenon/base/assert.h"
 #include "tenon/base/containers/short_list.h"
+#include "tenon/base/containers/tag_slots.h"
 
 namespace tenon {
 namespace {
@@ -67,55 +68,24 @@ bool has_next(std::uint32_t number) {
              place_in_row(number) + 1;
 }
 
-/// Open addressing over nodes. A slot is part of the hash and the number of a node, so that most
-/// others are told apart without a look at them.
+/// A part of the table of all nodes.
 class NodeTable {
  public:
   std::uint32_t intern(const PathNode& node, NumberedStore<PathNode>& nodes) {
     const std::lock_guard lock(mutex_);
-    if (4 * (count_ + 1) > 3 * slots_.size()) {
-      grow();
-    }
-    const std::uint32_t tag = tag_of(node);
-    std::size_t at = tag & (slots_.size() - 1);
-    while (slots_[at].number != 0) {
-      if (slots_[at].tag == tag && same(nodes[slots_[at].number], node)) {
-        return slots_[at].number;
-      }
-      at = (at + 1) & (slots_.size() - 1);
-    }
-    const std::uint32_t number = next_number();
-    ::new (&nodes.make_room(number)) PathNode(node);
-    note_made(number);
-    slots_[at] = {tag, number};
-    ++count_;
-    return number;
+    return slots_.find_or_make(
+        tag_of(node), [&](std::uint32_t number) { return same(nodes[number], node); },
+        [&] {
+          const std::uint32_t number = next_number();
+          ::new (&nodes.make_room(number)) PathNode(node);
+          note_made(number);
+          return number;
+        });
   }
 
  private:
-  struct Slot {
-    std::uint32_t tag = 0;
-    std::uint32_t number = 0;  // of the node, from 1 on; 0 in an empty slot
-  };
-
-  void grow() {
-    std::vector<Slot> bigger(std::max<std::size_t>(64, 2 * slots_.size()));
-    for (const Slot& slot : slots_) {
-      if (slot.number == 0) {
-        continue;
-      }
-      std::size_t at = slot.tag & (bigger.size() - 1);
-      while (bigger[at].number != 0) {
-        at = (at + 1) & (bigger.size() - 1);
-      }
-      bigger[at] = slot;
-    }
-    slots_ = std::move(bigger);
-  }
-
   std::mutex mutex_;
-  std::vector<Slot> slots_;
-  std::size_t count_ = 0;
+  TagSlots slots_;
 };
 
 constexpr std::size_t kNodeShards = 16;
@@ -160,28 +130,26 @@ Path Path::make(PathKind kind, std::uint32_t name, Path detail) const {
   constexpr std::size_t kRecentNodes = 512;
   thread_local std::array<std::uint32_t, kRecentNodes> recent{};
   TENON_ASSERT(element_ != 0);
-  const auto is_it = [&](const PathNode& node) {
-    return node.parent == *this && node.name == name && node.kind == kind && node.detail == detail;
-  };
-  std::uint32_t& last = recent[element_ % kRecentNodes];
-  if (last != 0) {
-    if (is_it(nodes_[last])) {
-      return {last, 0};
-    }
-    if (has_next(last) && is_it(nodes_[last + 1])) {
-      return {++last, 0};
-    }
-  }
-  const PathNode& above = node();
   PathNode made;
   made.parent = *this;
   made.detail = detail;
   made.name = name;
   made.kind = kind;
+  std::uint32_t& last = recent[element_ % kRecentNodes];
+  if (last != 0) {
+    if (same(nodes_[last], made)) {
+      return {last, 0};
+    }
+    if (has_next(last) && same(nodes_[last + 1], made)) {
+      return {++last, 0};
+    }
+  }
+  const PathNode& above = node();
   made.absolute = above.absolute;
   made.has_variant = kind == PathKind::VariantSelection ? 1 : above.has_variant;
   made.depth = (depth() + 1) & ((1u << 22u) - 1);
-  return {last = table_below(*this).intern(made, nodes_), 0};
+  last = intern(made).element_;
+  return {last, 0};
 }
 
 Path Path::make_like(Path path, Path detail) const {

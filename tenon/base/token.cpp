@@ -5,75 +5,38 @@
 // in memory. The table is in parts with a lock each, and threads remember what they asked for last.
 #include "tenon/base/token.h"
 
-#include <algorithm>
 #include <array>
-#include <deque>
 #include <functional>
 #include <mutex>
 #include <new>
-#include <vector>
 
 #include "tenon/base/assert.h"
+#include "tenon/base/containers/tag_slots.h"
 
 namespace tenon {
 namespace {
 
-/// A part of the table of all names: open addressing. A slot is part of the hash and the number of
-/// a text, so that most others are told apart without a look at them.
+/// A part of the table of all names.
 class TextTable {
  public:
-  explicit TextTable(NumberedStore<TokenText>& texts) : texts_(texts) {}
-
-  const TokenText* intern(std::string_view text, std::uint32_t tag) {
+  const TokenText* intern(std::string_view text, std::uint32_t tag,
+                          NumberedStore<TokenText>& texts) {
     const std::lock_guard lock(mutex_);
-    if (3 * (count_ + 1) > 2 * slots_.size()) {
-      grow();
-    }
-    std::size_t at = tag & (slots_.size() - 1);
-    while (slots_[at].number != 0) {
-      if (slots_[at].tag == tag && texts_[slots_[at].number].text == text) {
-        return &texts_[slots_[at].number];
-      }
-      at = (at + 1) & (slots_.size() - 1);
-    }
-    return add(text, slots_[at], tag);
+    const std::uint32_t found = slots_.find_or_make(
+        tag, [&](std::uint32_t number) { return texts[number].text == text; },
+        [&] {
+          static std::atomic<std::uint32_t> last = 0;
+          const std::uint32_t number = last.fetch_add(1, std::memory_order_relaxed) + 1;
+          TENON_ASSERT(number != 0);
+          ::new (&texts.make_room(number)) TokenText{std::string(text), number};
+          return number;
+        });
+    return &texts[found];
   }
 
  private:
-  struct Slot {
-    std::uint32_t tag = 0;
-    std::uint32_t number = 0;  // of the text; 0 in an empty slot
-  };
-
-  const TokenText* add(std::string_view text, Slot& slot, std::uint32_t tag) {
-    static std::atomic<std::uint32_t> last = 0;
-    const std::uint32_t number = last.fetch_add(1, std::memory_order_relaxed) + 1;
-    TENON_ASSERT(number != 0);
-    const TokenText* added = ::new (&texts_.make_room(number)) TokenText{std::string(text), number};
-    slot = {tag, number};
-    ++count_;
-    return added;
-  }
-
-  void grow() {
-    std::vector<Slot> bigger(std::max<std::size_t>(64, 2 * slots_.size()));
-    for (const Slot& slot : slots_) {
-      if (slot.number == 0) {
-        continue;
-      }
-      std::size_t at = slot.tag & (bigger.size() - 1);
-      while (bigger[at].number != 0) {
-        at = (at + 1) & (bigger.size() - 1);
-      }
-      bigger[at] = slot;
-    }
-    slots_ = std::move(bigger);
-  }
-
-  NumberedStore<TokenText>& texts_;
   std::mutex mutex_;
-  std::vector<Slot> slots_;
-  std::size_t count_ = 0;
+  TagSlots slots_;
 };
 
 constexpr std::size_t kTextShards = 32;  // so that threads seldom wait for each other
@@ -111,19 +74,14 @@ constinit NumberedStore<TokenText> Token::texts_;
 constinit std::atomic<const TokenText*> Token::empty_{nullptr};
 
 const TokenText* Token::intern(std::string_view text) {
-  static auto* shards = [] {
-    auto* made = new std::deque<TextTable>();
-    for (std::size_t i = 0; i < kTextShards; ++i) {
-      made->emplace_back(texts_);
-    }
-    return made;
-  }();
+  static auto* shards = new std::array<TextTable, kTextShards>();
   // What this thread asked for lately is found without a lock.
   thread_local std::array<const TokenText*, kRecentTexts> recent{};
   const std::uint64_t hash = std::hash<std::string_view>{}(text);
   const TokenText*& last = recent[(hash >> 8) % kRecentTexts];
   if (last == nullptr || last->text != text) {
-    last = (*shards)[(hash >> 40) % kTextShards].intern(text, static_cast<std::uint32_t>(hash));
+    TextTable& shard = (*shards)[(hash >> 40) % kTextShards];
+    last = shard.intern(text, static_cast<std::uint32_t>(hash), texts_);
   }
   return last;
 }

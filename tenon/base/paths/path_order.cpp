@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "tenon/base/paths/path_slots.h"
+
 namespace tenon {
 namespace {
 
@@ -93,20 +95,16 @@ class PathFamilies {
 
   /// Where the member of a path is told, or would be.
   std::size_t slot_of(Path path) const {
-    // Paths that were made one after another have neighbouring numbers: eights of them stay
-    // neighbours here and are scattered, so that long runs do not pile up.
-    const std::uint32_t number = path.number();
-    const std::uint64_t scattered = (std::uint64_t{number >> 3U} * 0x9E3779B97F4A7C15ULL) >> 32U;
-    std::size_t at =
-        static_cast<std::size_t>(scattered << 3U | (number & 7U)) & (slots_.size() - 1);
+    std::size_t at = places_.home(path.number());
     while (slots_[at] != 0 && members_[slots_[at]].path != path) {
-      at = (at + 1) & (slots_.size() - 1);
+      at = places_.next(at);
     }
     return at;
   }
 
   void grow(std::size_t slot_count) {
     slots_.assign(slot_count, 0);
+    places_ = PathSlots(slot_count);
     for (std::uint32_t i = 1; i < members_.size(); ++i) {
       slots_[slot_of(members_[i].path)] = i;
     }
@@ -163,6 +161,7 @@ class PathFamilies {
   std::vector<Member> members_;
   std::vector<std::uint32_t> next_equal_;
   std::vector<std::uint32_t> slots_;  // members by the number of their path; 0 in an empty slot
+  PathSlots places_;
   std::vector<Sibling> siblings_;
 };
 

@@ -4,8 +4,8 @@
 // Most values hold no paths. In a large file they are read on one thread while paths and specs are
 // made on another; values with paths follow. An error of the structure goes before one of the
 // values, so the outcome does not depend on the threads. Each field is read once; specs pick theirs
-// out of one table. A budget in proportion to the file's size bounds what
-// references to the same data could multiply.
+// out of one table. A budget in proportion to the file's size bounds what references to the same
+// data could multiply.
 #include "tenon/formats/crate/reader.h"
 
 #include <algorithm>

@@ -7,7 +7,6 @@
 // pass over the text.
 #include "tenon/formats/text/cursor.h"
 
-#include <array>
 #include <cstring>
 
 #include "tenon/base/text/unicode.h"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/text/header.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstring>
@@ -14,11 +15,12 @@ namespace {
 constexpr unsigned kMajor = 1;
 constexpr unsigned kMaxMinor = 4;
 
-/// Offset of the first byte that is no UTF-8; the size of `text` when there is none.
+/// Offset of the first byte that is no UTF-8; the size of `text` when there is none. Where there is
+/// more than ASCII, characters are looked at one by one.
 std::size_t first_ill_formed(std::string_view text) {
+  std::array<std::uint64_t, 8> words{};
   std::size_t at = 0;
   while (at < text.size()) {
-    std::array<std::uint64_t, 8> words{};
     if (at + sizeof(words) <= text.size()) {
       std::memcpy(words.data(), text.data() + at, sizeof(words));
       std::uint64_t all = 0;
@@ -30,15 +32,15 @@ std::size_t first_ill_formed(std::string_view text) {
         continue;
       }
     }
-    if (static_cast<unsigned char>(text[at]) < 0x80) {
-      ++at;
-      continue;
+    const std::size_t end = std::min(at + sizeof(words), text.size());
+    while (at < end) {
+      const bool ascii = static_cast<unsigned char>(text[at]) < 0x80;
+      const std::size_t length = ascii ? 1 : unicode::decode(text.substr(at)).length;
+      if (length == 0) {
+        return at;
+      }
+      at += length;
     }
-    const std::size_t length = unicode::decode(text.substr(at)).length;
-    if (length == 0) {
-      break;
-    }
-    at += length;
   }
   return at;
 }
