@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Specs lie in the order in which they were made; a table of slots, open to the next free one, says
-// where that of a path is. A path is known by its number, so slots need no look at paths that are
-// not the one. Readers make properties right behind their prim: such a run, of kShortList entries
-// at most, needs no slots, for it is looked through from its prim on. Erased specs keep their place
-// with an empty path, for places are never given twice.
+// Specs lie in the order in which they were made; a table says where that of a path is. Readers
+// make properties right behind their prim: such a run, of kShortList entries at most, is not in the
+// table, for it is looked through from its prim on. Erased specs keep their place with an empty
+// path, for places are never given twice.
 #include "tenon/layer/layer.h"
 
 #include <algorithm>
@@ -14,7 +13,6 @@
 namespace tenon::layer {
 
 Layer::Layer(std::string identifier) : identifier_(std::move(identifier)) {
-  grow(16);
   create(Path::absolute_root(), SpecKind::PseudoRoot);
 }
 
@@ -24,24 +22,14 @@ Layer& Layer::operator=(const Layer& other) = default;
 Layer& Layer::operator=(Layer&& other) noexcept = default;
 Layer::~Layer() = default;
 
-/// The number of the entry of a path that has a slot; 0 where there is none.
-std::uint32_t Layer::slotted(Path path) const {
-  const std::uint32_t number = path.number();
-  std::size_t at = places_.home(number);
-  for (std::size_t left = places_.reach(); left > 0; --left, at = places_.next(at)) {
-    const Slot slot = slots_[at];
-    if (slot.path == number && slot.entry != 0 && entries_[slot.entry - 1].path == path) {
-      return slot.entry;
-    }
-    if (slot.entry == 0) {
-      break;
-    }
-  }
-  return 0;
+/// The number of the entry of a path that is in the table; 0 where there is none.
+std::uint32_t Layer::tabled(Path path) const {
+  const std::uint32_t* const entry = table_.find(path);
+  return entry == nullptr ? 0 : *entry;
 }
 
-const Layer::Entry* Layer::in_slots(Path path) const {
-  const std::uint32_t entry = slotted(path);
+/// The entry of this number; null for 0.
+const Layer::Entry* Layer::numbered(std::uint32_t entry) const {
   return entry == 0 ? nullptr : &entries_[entry - 1];
 }
 
@@ -65,12 +53,14 @@ const Layer::Entry* Layer::in_run(Path property, std::size_t first) const {
 }
 
 const Layer::Entry* Layer::entry_at(Path path) const {
-  if (!path.is_direct_property()) {
-    return in_slots(path);
-  }
-  const std::size_t owner = slotted(path.parent());
+  return path.is_direct_property() ? property_at(path, tabled(path.parent()))
+                                   : numbered(tabled(path));
+}
+
+/// The same of a property whose owner has the entry of this number, or none: 0.
+const Layer::Entry* Layer::property_at(Path path, std::uint32_t owner) const {
   const Entry* entry = owner == 0 ? nullptr : in_run(path, owner);
-  return entry == nullptr && has_strays_ ? in_slots(path) : entry;
+  return entry == nullptr && has_strays_ ? numbered(tabled(path)) : entry;
 }
 
 const Spec* Layer::find(Path path) const {
@@ -91,12 +81,12 @@ const Layer::Entry* Layer::find_property(const Spec& owner, Path path, Token nam
   if (listed == names.end()) {
     return nullptr;
   }
-  const std::size_t first = slotted(path);
+  const std::uint32_t first = tabled(path);
   const std::size_t guess = first + static_cast<std::size_t>(listed - names.begin());
   if (guess < entries_.size() && entries_[guess].path == property) {
     return &entries_[guess];
   }
-  return entry_at(property);
+  return property_at(property, first);
 }
 
 /// The entry of `path`; one without a kind, as which `made` says so, where there was none.
@@ -110,7 +100,7 @@ Layer::Entry& Layer::add(Path path, bool& made) {
                        : may_be_there ? in_run(path, run_entry_)
                                       : nullptr;
   if (there == nullptr && in_open_run && has_strays_) {
-    there = in_slots(path);
+    there = numbered(tabled(path));
   }
   made = there == nullptr;
   if (!made) {
@@ -155,13 +145,16 @@ void Layer::erase(Path path) {
   if (!path.is_direct_property()) {
     end_run(path);
   }
+  if (std::uint32_t* const in_table = table_.find(path)) {
+    *in_table = 0;
+  }
   const_cast<Entry&>(*entry) = {};
   ++erased_;
 }
 
-/// Gives slots to the run of `owner`, which is about to go.
+/// Puts the run of `owner`, which is about to go, into the table.
 void Layer::end_run(Path owner) {
-  const std::size_t first = slotted(owner);
+  const std::size_t first = tabled(owner);
   const std::size_t end = std::min(first + kShortList, entries_.size());
   for (std::size_t i = first; i < end; ++i) {
     const Path path = entries_[i].path;
@@ -175,36 +168,11 @@ void Layer::end_run(Path owner) {
 }
 
 void Layer::enter(Path path, std::size_t entry) {
-  if (4 * (slots_used_ + 1) > 3 * slots_.size()) {
-    grow(2 * slots_.size());
-  }
-  const Slot slot{path.number(), static_cast<std::uint32_t>(entry)};
-  if (!put(slot)) {
-    fill(places_.scattered(), slots_.size());
-  }
-  ++slots_used_;
+  table_[path] = static_cast<std::uint32_t>(entry);
   has_strays_ = has_strays_ || path.is_direct_property();
 }
 
-bool Layer::put(Slot slot) {
-  const std::size_t home = places_.home(slot.path);
-  std::size_t at = home;
-  while (slots_[at].entry != 0) {
-    at = places_.next(at);
-  }
-  slots_[at] = slot;
-  return places_.note(home, at);
-}
-
-void Layer::reserve(std::size_t spec_count) {
-  std::size_t slot_count = slots_.size();
-  while (4 * (spec_count + 1) > 3 * slot_count) {
-    slot_count *= 2;
-  }
-  if (slot_count > slots_.size()) {
-    grow(slot_count);
-  }
-}
+void Layer::reserve(std::size_t spec_count) { table_.reserve(spec_count); }
 
 void Layer::take_missing(Layer&& other) {
   may_lack_text_ = may_lack_text_ || other.may_lack_text_;
@@ -217,27 +185,6 @@ void Layer::take_missing(Layer&& other) {
     Entry& entry = add(theirs.path, made);
     if (made) {
       entry.spec = std::move(theirs.spec);
-    }
-  }
-}
-
-void Layer::grow(std::size_t slot_count) {
-  std::uint32_t least = 0xFFFFFFFFu;
-  std::uint32_t most = 0;
-  for (const Slot& slot : slots_) {
-    least = slot.entry == 0 ? least : std::min(least, slot.path);
-    most = slot.entry == 0 ? most : std::max(most, slot.path);
-  }
-  fill(PathSlots(slot_count, least, most), slot_count);
-}
-
-/// Puts all that has a slot into slots as `places` has them.
-void Layer::fill(PathSlots places, std::size_t slot_count) {
-  const std::vector<Slot> before = std::exchange(slots_, std::vector<Slot>(slot_count));
-  places_ = places;
-  for (const Slot& slot : before) {
-    if (slot.entry != 0) {
-      put(slot);
     }
   }
 }

@@ -9,7 +9,7 @@
 
 #include "tenon/base/containers/stable_list.h"
 #include "tenon/base/path.h"
-#include "tenon/base/paths/path_slots.h"
+#include "tenon/base/paths/path_table.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/spec.h"
@@ -82,33 +82,23 @@ class Layer {
   double time_codes_per_second() const;
 
  private:
-  /// The number of a path and, from 1 on, of its entry; paths of one number are told apart there.
-  struct Slot {
-    std::uint32_t path = 0;
-    std::uint32_t entry = 0;  // 0 in an empty slot
-  };
-
   const Entry* entry_at(Path path) const;
+  const Entry* property_at(Path path, std::uint32_t owner) const;
   const Entry* in_run(Path property, std::size_t first) const;
-  const Entry* in_slots(Path path) const;
-  std::uint32_t slotted(Path path) const;
+  const Entry* numbered(std::uint32_t entry) const;
+  std::uint32_t tabled(Path path) const;
   Entry& add(Path path, bool& made);
   void enter(Path path, std::size_t entry);
   void end_run(Path owner);
-  bool put(Slot slot);
-  void grow(std::size_t slot_count);
-  void fill(PathSlots places, std::size_t slot_count);
 
   std::string identifier_;
-  StableList<Entry> entries_;  // erased entries keep an empty path
-  std::vector<Slot> slots_;    // open addressing; of all entries that are in no run
-  PathSlots places_;
-  std::size_t slots_used_ = 0;
+  StableList<Entry> entries_;       // erased entries keep an empty path
+  PathTable<std::uint32_t> table_;  // numbers of entries, from 1 on, that are in no run
   std::size_t erased_ = 0;
   Path run_owner_;               // whose properties, made next, are its run
   std::uint32_t run_entry_ = 0;  // its entry, from 1 on
   std::uint64_t run_marks_ = 0;  // a bit for each name in the run, which names share
-  bool has_strays_ = false;      // properties in no run
+  bool has_strays_ = false;      // properties in the table
   bool may_lack_text_ = false;
 };
 

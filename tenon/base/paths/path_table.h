@@ -52,10 +52,12 @@ class PathTable {
       return *there;
     }
     ++count_;
-    if (!put({path, {}})) {
+    Item* made = put({path, {}});
+    if (made == nullptr) {
       fill(places_.scattered(), slots_.size());
+      made = find(path);
     }
-    return *find(path);
+    return *made;
   }
 
   /// Room for `count` without growing on the way.
@@ -82,14 +84,15 @@ class PathTable {
     return 8 * count > 5 * slot_count;
   }
 
-  bool put(const Slot& slot) {
+  /// Null, though it was put in, when paths pile up.
+  Item* put(const Slot& slot) {
     const std::size_t home = places_.home(slot.path.number());
     std::size_t at = home;
     while (!slots_[at].path.empty()) {
       at = places_.next(at);
     }
     slots_[at] = slot;
-    return places_.note(home, at);
+    return places_.note(home, at) ? &slots_[at].item : nullptr;
   }
 
   void grow(std::size_t slot_count) {
