@@ -12,6 +12,7 @@
 
 #include "tenon/base/assert.h"
 #include "tenon/base/containers/tag_slots.h"
+#include "tenon/base/text/text_hash.h"
 
 namespace tenon {
 namespace {
@@ -77,7 +78,7 @@ const TokenText* Token::intern(std::string_view text) {
   static auto* shards = new std::array<TextTable, kTextShards>();
   // What this thread asked for lately is found without a lock.
   thread_local std::array<const TokenText*, kRecentTexts> recent{};
-  const std::uint64_t hash = std::hash<std::string_view>{}(text);
+  const std::uint64_t hash = text_hash(text);
   const TokenText*& last = recent[(hash >> 8) % kRecentTexts];
   if (last == nullptr || last->text != text) {
     TextTable& shard = (*shards)[(hash >> 40) % kTextShards];
