@@ -86,12 +86,19 @@ bool check_first_variant(Cursor& cursor) {
   return true;
 }
 
-bool read_block_metadata(LayerState& state, Path path, SpecKind kind) {
+bool read_block_metadata(LayerState& state, Path path, SpecKind kind, layer::Spec* made) {
   Cursor& cursor = state.cursor;
   cursor.skip_multi_line();
-  if (!cursor.failed() && cursor.accept('(')) {
-    if (!read_metadata(state, path, kind)) {
-      return false;
+  if (!cursor.failed() && cursor.peek() == '(') {
+    if (made != nullptr) {
+      if (!read_first_metadata(state, *made, path)) {
+        return false;
+      }
+    } else {
+      cursor.advance();
+      if (!read_metadata(state, path, kind)) {
+        return false;
+      }
     }
     cursor.skip_multi_line();
   }
@@ -118,7 +125,9 @@ void store_children(LayerState& state, Block& block) {
     spec.set(fields::primChildren, Value(std::move(block.children)));
   }
   if (!block.properties.empty()) {
-    spec.set(fields::properties, Value(std::move(block.properties)));
+    spec.set(fields::properties, state.shared_names(block.properties));
+    block.properties.clear();
+    state.spare_names = std::move(block.properties);
   }
   if (!block.variant_sets.empty()) {
     spec.set(fields::variantSetChildren, Value(std::move(block.variant_sets)));

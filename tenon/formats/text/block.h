@@ -43,8 +43,9 @@ bool read_variant_name(Cursor& cursor, std::size_t start, std::string& name);
 /// A set without variants is written `{}`; OpenUSD takes no blanks inside.
 bool check_first_variant(Cursor& cursor);
 
-/// The metadata in parentheses between a head and its '{', where there are any.
-bool read_block_metadata(LayerState& state, Path path, layer::SpecKind kind);
+/// The metadata in parentheses between a head and its '{', where there are any. `made`: the spec
+/// when it has none yet, else null.
+bool read_block_metadata(LayerState& state, Path path, layer::SpecKind kind, layer::Spec* made);
 
 /// Takes the '{' of the block at `path`, whose statement is at `start`.
 bool open_brace(Cursor& cursor, Path path, std::size_t start);

@@ -7,6 +7,7 @@
 // pass over the text.
 #include "tenon/formats/text/cursor.h"
 
+#include <bit>
 #include <cstring>
 
 #include "tenon/base/text/unicode.h"
@@ -24,7 +25,26 @@ bool Cursor::skip_block_comment() {
   return true;
 }
 
-void Cursor::skip_inline() {
+// Lines are indented by many blanks: eight at a time.
+void Cursor::skip_blanks() {
+  constexpr std::uint64_t kBlanks = 0x2020202020202020u;
+  if constexpr (std::endian::native == std::endian::little) {
+    std::uint64_t bytes = 0;
+    while (text_.size() - at_ >= sizeof bytes) {
+      std::memcpy(&bytes, text_.data() + at_, sizeof bytes);
+      if (bytes != kBlanks) {
+        at_ += static_cast<std::size_t>(std::countr_zero(bytes ^ kBlanks)) / 8;
+        return;
+      }
+      at_ += sizeof bytes;
+    }
+  }
+  while (at_ < text_.size() && text_[at_] == ' ') {
+    ++at_;
+  }
+}
+
+void Cursor::skip_inline_slowly() {
   while (at_ < text_.size()) {
     const char c = text_[at_];
     if (c == ' ' || c == '\t') {
@@ -49,15 +69,12 @@ void Cursor::skip_single_line() {
 }
 
 void Cursor::skip_multi_line() {
-  constexpr std::string_view kIndent = "        ";
   while (true) {
-    while (text_.size() - at_ >= kIndent.size() &&
-           std::memcmp(text_.data() + at_, kIndent.data(), kIndent.size()) == 0) {
-      at_ += kIndent.size();
-    }
+    skip_blanks();
     while (at_ < text_.size() &&
-           (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\t' || text_[at_] == '\r')) {
+           (text_[at_] == '\n' || text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\r')) {
       ++at_;
+      skip_blanks();
     }
     const std::size_t start = at_;
     if (at_ < text_.size() && (text_[at_] == '#' || text_[at_] == '/')) {

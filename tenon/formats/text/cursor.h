@@ -28,7 +28,11 @@ class Cursor : public TextCursor {
   bool expect(char c, std::string_view where);
 
   /// Blanks, tabs and `/* */` comments.
-  void skip_inline();
+  void skip_inline() {
+    if (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '/')) {
+      skip_inline_slowly();
+    }
+  }
   /// The same and comments that run to the end of the line.
   void skip_single_line();
   /// The same and ends of line.
@@ -69,6 +73,8 @@ class Cursor : public TextCursor {
  private:
   bool accept_whole_word(std::string_view word);
   bool skip_block_comment();
+  void skip_blanks();
+  void skip_inline_slowly();
 
   std::string_view file_;
   std::optional<Error> error_;

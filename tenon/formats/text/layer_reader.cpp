@@ -9,11 +9,13 @@
 // bounded by a limit.
 #include "tenon/formats/text/layer_reader.h"
 
+#include <utility>
+
 #include "tenon/base/limits/limits.h"
 #include "tenon/formats/text/header.h"
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/metadata_reader.h"
-#include "tenon/formats/text/property_reader.h"
+#include "tenon/formats/text/properties/property_reader.h"
 #include "tenon/formats/text/value_reader.h"
 
 namespace tenon::formats::text {
@@ -110,6 +112,9 @@ bool read_order(LayerState& state, Path path, Token field, std::size_t start) {
 }
 
 bool end_statement(Cursor& cursor, const Block& block, std::string_view where) {
+  if (cursor.accept('\n')) {
+    return true;
+  }
   cursor.skip_single_line();
   const bool at_layer = block.kind == Block::Kind::Layer && cursor.at_end();
   return at_layer || cursor.accept_statement_end() || cursor.failed() == true
@@ -132,7 +137,7 @@ bool LayerReader::read_from_front(std::size_t stop) {
     return false;
   }
   note_header(state_);
-  return read_block_metadata(state_, Path::absolute_root(), SpecKind::PseudoRoot) &&
+  return read_block_metadata(state_, Path::absolute_root(), SpecKind::PseudoRoot, nullptr) &&
          read_statements();
 }
 
@@ -224,6 +229,10 @@ bool LayerReader::read_layer_statement() {
 }
 
 bool LayerReader::read_contents_statement() {
+  if (KnownAttribute* const known = state_.known_attributes.find(cursor_.rest())) {
+    return read_known_attribute(state_, *known, top().path, top().properties) &&
+           end_statement(cursor_, top(), "after a property");
+  }
   const std::string_view word = cursor_.peek_identifier();
   if (word == "def" || word == "over" || word == "class") {
     return open_prim(word);
@@ -260,6 +269,9 @@ bool LayerReader::push(Block block) {
         "blocks are nested deeper than " + std::to_string(limits::kTextNestingDepth));
   }
   blocks_.push_back(std::move(block));
+  if (blocks_.back().properties.capacity() == 0) {
+    blocks_.back().properties = std::exchange(state_.spare_names, {});
+  }
   state_.open_block = blocks_.back().path;
   return true;
 }
@@ -286,7 +298,8 @@ bool LayerReader::open_prim(std::string_view specifier_word) {
   if (!head.type_name.empty()) {
     spec.append(fields::typeName, Value(Token(head.type_name)));
   }
-  if (!read_block_metadata(state_, path, SpecKind::Prim) || !open_brace(cursor_, path, start)) {
+  if (!read_block_metadata(state_, path, SpecKind::Prim, &spec) ||
+      !open_brace(cursor_, path, start)) {
     return false;
   }
   note_open(state_, path, {{start, 0}, head.name_start, head.name_end, {}});
@@ -352,7 +365,8 @@ bool LayerReader::open_variant() {
   Block block{Block::Kind::Variant, path, start};
   block.children = layer::Layer::children(spec, fields::primChildren);
   block.properties = layer::Layer::children(spec, fields::properties);
-  if (!read_block_metadata(state_, path, SpecKind::Variant) || !open_brace(cursor_, path, start)) {
+  if (!read_block_metadata(state_, path, SpecKind::Variant, nullptr) ||
+      !open_brace(cursor_, path, start)) {
     return false;
   }
   note_open(state_, path, {{start, 0}, start, name_end, {}});

@@ -13,7 +13,9 @@
 #include "tenon/base/limits/limits.h"
 #include "tenon/formats/text/cursor.h"
 #include "tenon/formats/text/fault_recovery.h"
+#include "tenon/formats/text/known_metadata.h"
 #include "tenon/formats/text/layout/source_map.h"
+#include "tenon/formats/text/properties/known_attributes.h"
 #include "tenon/layer/layer.h"
 
 namespace tenon::formats::text {
@@ -24,7 +26,11 @@ struct LayerState {
   layer::Layer layer;
   Diagnostics& diagnostics;
   std::size_t warnings = 0;
-  layer::TimeSamples samples_buffer{};      ///< kept between attributes to spare allocations
+  std::vector<Token> spare_names{};     ///< empty, with room for the names of a block
+  layer::TimeSamples samples_buffer{};  ///< kept between attributes to spare allocations
+  KnownAttributes known_attributes{};
+  KnownMetadata known_metadata{};
+  std::size_t arcs = 0;  ///< statements of metadata that mean something else in another place
   SourceMap* sources = nullptr;             ///< filled where somebody wants to know
   Path open_block = Path::absolute_root();  ///< the innermost one, for errors
   std::vector<Error> faults{};              ///< behind which reading went on, to find more
@@ -45,6 +51,18 @@ struct LayerState {
       return;
     }
     last = {name, spec.field_list()};
+  }
+
+  /// A list of names, one with others that came lately and have the same first and last name.
+  layer::Value shared_names(const std::vector<Token>& names) {
+    const std::size_t key =
+        std::hash<Token>{}(names.front()) + 31 * std::hash<Token>{}(names.back());
+    layer::Value& last = names_[key >> 16 & (names_.size() - 1)];
+    const auto* const known = last.get<std::vector<Token>>();
+    if (known == nullptr || *known != names) {
+      last = layer::Value(std::vector<Token>(names));
+    }
+    return last;
   }
 
   /// What an attribute says of itself, which many say alike.
@@ -151,6 +169,7 @@ struct LayerState {
 
   std::array<Shared, 256> shared_{};
   std::array<Declared, 128> declared_{};
+  std::array<layer::Value, 64> names_{};
 };
 
 }  // namespace tenon::formats::text

@@ -78,24 +78,49 @@ bool take_exponent(Cursor& cursor, const char*& at, const char* end, Digits& dig
   return cursor.fail_expected("digits of the exponent");
 }
 
-/// The correctly rounded value of the text; short numbers need one exact operation.
-double value_of(const Digits& digits, const char* start, const char* end) {
-  const int exponent = digits.exponent - digits.point_shift;
-  if (digits.count <= 19 && digits.mantissa <= kExactMantissa && exponent >= -22 &&
-      exponent <= 22) {
-    const auto mantissa = static_cast<double>(digits.mantissa);
-    const double size = exponent < 0 ? mantissa / kPowersOfTen[static_cast<std::size_t>(-exponent)]
-                                     : mantissa * kPowersOfTen[static_cast<std::size_t>(exponent)];
-    return digits.negative ? -size : size;
+bool is_exact(std::uint64_t mantissa, std::ptrdiff_t power) {
+  return mantissa <= kExactMantissa && power >= -22 && power <= 22;
+}
+
+/// mantissa * 10^power, where that is exact but for one rounding.
+double scaled(std::uint64_t mantissa, std::ptrdiff_t power) {
+  const auto size = static_cast<double>(mantissa);
+  return power < 0 ? size / kPowersOfTen[static_cast<std::size_t>(-power)]
+                   : size * kPowersOfTen[static_cast<std::size_t>(power)];
+}
+
+/// Of a number that no double is near: it is too large, not too small.
+bool is_large(const char* at, const char* end) {
+  Digits digits;
+  at += *at == '-' ? 1 : 0;
+  take_digits(at, end, digits, false);
+  if (at != end && *at == '.') {
+    ++at;
+    take_digits(at, end, digits, true);
   }
+  if (at != end) {
+    take_plain_exponent(at, end, digits.exponent);
+  }
+  return digits.count + digits.exponent - digits.point_shift > 0;
+}
+
+/// The correctly rounded value of any number; infinity beyond the largest.
+double general_value(const char* start, const char* end, bool negative) {
   double value = 0;
-  const auto result = number_from_text(start, end, value);
-  if (result.ec == std::errc::result_out_of_range) {
-    const bool large = digits.count + exponent > 0;
-    value = large ? kInfinity : 0.0;
-    return digits.negative ? -value : value;
+  if (number_from_text(start, end, value).ec != std::errc::result_out_of_range) {
+    return value;
   }
-  return value;
+  const double size = is_large(start, end) ? kInfinity : 0.0;
+  return negative ? -size : size;
+}
+
+double value_of(const Digits& digits, const char* start, const char* end) {
+  const std::ptrdiff_t power = digits.exponent - digits.point_shift;
+  if (digits.count > 19 || !is_exact(digits.mantissa, power)) {
+    return general_value(start, end, digits.negative);
+  }
+  const double size = scaled(digits.mantissa, power);
+  return digits.negative ? -size : size;
 }
 
 void set_whole(Number& number, const Digits& digits, const char* start, const char* end) {
@@ -210,6 +235,12 @@ bool read_number(Cursor& cursor, Number& number) {
 }
 
 bool read_double(Cursor& cursor, double& value) {
+  const std::string_view rest = cursor.rest();
+  const char* at = rest.data();
+  if (take_plain_double(at, at + rest.size(), value)) {
+    cursor.advance(static_cast<std::size_t>(at - rest.data()));
+    return true;
+  }
   Number number;
   if (!read_number(cursor, number)) {
     return false;
@@ -237,27 +268,52 @@ bool take_plain_integer(const char*& at, const char* end, std::int64_t& value) {
   return true;
 }
 
+// Most of a layer are numbers: all that they take stays in registers here. Up to 19 digits fit the
+// mantissa, leading zeros included; the rare rest is read once more.
 bool take_plain_double(const char*& at, const char* end, double& value) {
-  const char* next = at;
-  Digits digits;
-  if (next != end && *next == '-') {
-    digits.negative = true;
-    ++next;
-  }
-  const char* const first = next;
-  take_digits(next, end, digits, false);
-  bool any = next != first;
+  const char* const start = at;
+  const bool negative = start != end && *start == '-';
+  std::uint64_t mantissa = 0;
+  const auto past_digits = [end, &mantissa](const char* next) {
+    std::uint64_t sum = mantissa;
+    for (; next != end; ++next) {
+      const auto digit = static_cast<unsigned char>(*next - '0');
+      if (digit > 9) {
+        break;
+      }
+      sum = sum * 10 + digit;
+    }
+    mantissa = sum;
+    return next;
+  };
+  const char* const first = start + (negative ? 1 : 0);
+  const char* next = past_digits(first);
+  std::ptrdiff_t digits = next - first;
+  std::ptrdiff_t power = 0;
   if (next != end && *next == '.') {
-    ++next;
-    const char* const fraction = next;
-    take_digits(next, end, digits, true);
-    any = any || next != fraction;
+    const char* const fraction = next + 1;
+    next = past_digits(fraction);
+    power = fraction - next;
+    digits -= power;
   }
-  if (!any || (next != end && (*next == 'e' || *next == 'E') &&
-               !take_plain_exponent(next, end, digits.exponent))) {
+  if (digits == 0) {
     return false;
   }
-  value = value_of(digits, at, next);
+  if (next != end && (*next == 'e' || *next == 'E')) {
+    int exponent = 0;
+    const char* behind = next;
+    if (!take_plain_exponent(behind, end, exponent)) {
+      return false;
+    }
+    next = behind;
+    power += exponent;
+  }
+  if (digits <= 19 && is_exact(mantissa, power)) {
+    const double size = scaled(mantissa, power);
+    value = negative ? -size : size;
+  } else {
+    value = general_value(start, next, negative);
+  }
   at = next;
   return true;
 }

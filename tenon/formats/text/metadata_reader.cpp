@@ -84,6 +84,7 @@ class MetadataReader {
   /// The lists that have a grammar of their own.
   bool read_arc(ListEdit edit, bool& taken) {
     taken = true;
+    ++state_.arcs;
     if (cursor_.accept_word("references")) {
       return read_references(state_, path_, edit);
     }
@@ -99,6 +100,7 @@ class MetadataReader {
     if (cursor_.accept_word("variantSets")) {
       return read_variant_sets(edit);
     }
+    --state_.arcs;
     taken = false;
     return true;
   }
@@ -425,6 +427,29 @@ bool read_metadata(LayerState& state, Path path, SpecKind kind) {
   block.range.end = cursor.offset();
   state.sources->metadata.insert_or_assign(path, std::move(block));
   return ok;
+}
+
+bool read_first_metadata(LayerState& state, layer::Spec& spec, Path path) {
+  Cursor& cursor = state.cursor;
+  const std::size_t start = cursor.offset();
+  if (state.sources == nullptr) {
+    if (const std::size_t length = state.known_metadata.take(cursor.rest(), spec)) {
+      cursor.advance(length);
+      return true;
+    }
+  }
+  const std::size_t fields_before = spec.fields().size();
+  const std::size_t arcs = state.arcs;
+  const std::size_t warnings = state.warnings;
+  const std::size_t faults = state.faults.size();
+  cursor.advance();
+  if (!read_metadata(state, path, spec.kind)) {
+    return false;
+  }
+  if (state.arcs == arcs && state.warnings == warnings && state.faults.size() == faults) {
+    state.known_metadata.note(cursor.since(start), spec, fields_before);
+  }
+  return true;
 }
 
 bool read_name_list(Cursor& cursor, std::vector<std::string>& names) {

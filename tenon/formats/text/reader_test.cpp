@@ -256,13 +256,13 @@ TEST(TextReader, NumbersOfListsAreThoseOfSingleValues) {
 TEST(TextReader, SpecsThatShareFieldsStaySeparate) {
   const std::string body =
       "def \"A\" {\n int p = 1\n}\ndef \"B\" {\n int p = 1\n int p.connect = </A.p>\n}\n"
-      "def \"C\" {\n int p = 1\n}\n";
+      "def \"C\" {\n int p = 1\n}\ndef \"D\" {\n int p = 1\n}\n";
   EXPECT_FALSE(spec_of(body, "/A.p").has(fields::connectionPaths));
   EXPECT_TRUE(spec_of(body, "/B.p").has(fields::connectionPaths));
   EXPECT_FALSE(spec_of(body, "/C.p").has(fields::connectionPaths));
   const auto layer = read(body);
-  const auto& first = layer->find(Path::from("/A.p"))->field_list();
-  EXPECT_TRUE(first.is_same(layer->find(Path::from("/C.p"))->field_list()));
+  const auto& third = layer->find(Path::from("/C.p"))->field_list();
+  EXPECT_TRUE(third.is_same(layer->find(Path::from("/D.p"))->field_list()));
   EXPECT_EQ(layer->find(Path::from("/C.p"))->line, 10u);
 }
 

@@ -15,7 +15,7 @@
 #include "tenon/base/limits/fault_limits.h"
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/metadata_word.h"
-#include "tenon/formats/text/property_reader.h"
+#include "tenon/formats/text/properties/property_reader.h"
 
 namespace tenon::formats::text {
 namespace {

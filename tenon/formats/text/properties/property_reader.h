@@ -12,6 +12,11 @@ namespace tenon::formats::text {
 /// names in `properties`.
 bool read_property(LayerState& state, Path owner, std::vector<Token>& properties);
 
+/// The same for a statement that begins with the head of `known`, which state.known_attributes
+/// found.
+bool read_known_attribute(LayerState& state, KnownAttribute& known, Path owner,
+                          std::vector<Token>& properties);
+
 /// Reads the `{ ... }` of `.spline`.
 bool read_spline(Cursor& cursor, layer::ValueType type, layer::Value& value);
 

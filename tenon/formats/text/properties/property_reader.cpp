@@ -4,19 +4,15 @@
 // Several statements may be about one property: its declaration, samples, a spline, connections.
 // The first one makes the spec. Each attribute statement repeats the type and has to agree with it,
 // so a value is read by its type at once, in any order of statements. Targets are made absolute
-// against the owner as they are read. Samples are put in order at their '}', and only when some did
-// not ascend. Metadata follows a declaration alone.
-#include "tenon/formats/text/property_reader.h"
-
-#include <algorithm>
-#include <cmath>
+// against the owner as they are read. Metadata follows a declaration alone. A statement that begins
+// as one before it takes over what is known of its head, or all its fields (known_attributes.h).
+#include "tenon/formats/text/properties/property_reader.h"
 
 #include "tenon/formats/text/arc_reader.h"
-#include "tenon/formats/text/array_edit_reader.h"
 #include "tenon/formats/text/literals.h"
 #include "tenon/formats/text/metadata_reader.h"
+#include "tenon/formats/text/properties/own_values.h"
 #include "tenon/formats/text/value_reader.h"
-#include "tenon/layer/expressions/path_expression.h"
 #include "tenon/layer/written_type_name.h"
 
 namespace tenon::formats::text {
@@ -57,146 +53,6 @@ bool accept_between_blanks(Cursor& cursor, char c) {
   return false;
 }
 
-bool read_optional_metadata(LayerState& state, Path path, SpecKind kind) {
-  Cursor& cursor = state.cursor;
-  const std::size_t before = cursor.offset();
-  cursor.skip_inline();
-  if (cursor.accept('(')) {
-    return read_metadata(state, path, kind);
-  }
-  cursor.seek(before);
-  return true;
-}
-
-// Values
-
-// The type of an attribute as its statement gives it.
-struct OwnType {
-  const layer::TypeName* type = nullptr;  // null: unknown
-  bool is_array = false;
-};
-
-// A value of the attribute's type; the source text where the type is unknown. A path is taken
-// for any type, as some layers give a connection in that way.
-bool read_own_value(Cursor& cursor, const OwnType& own, Value& value) {
-  if (cursor.peek() == '<') {
-    Path path;
-    const bool ok = read_path(cursor, path);
-    value = Value(std::vector<Path>{path});
-    return ok;
-  }
-  if (at_array_edit(cursor)) {
-    return own.type == nullptr || !own.is_array
-               ? cursor.fail_expected("a value of the attribute's type, which is not a known array")
-               : read_array_edit(cursor, own.type->type, value);
-  }
-  if (own.type != nullptr) {
-    return read_value(cursor, own.type->type, own.is_array, value);
-  }
-  std::string text;
-  if (!read_source_text(cursor, text)) {
-    return false;
-  }
-  value = Value(layer::UnregisteredValue{Value(std::move(text))});
-  return true;
-}
-
-// Path expressions are kept in canonical form; those of defaults with absolute paths, but for
-// elements that an edit gives.
-void settle_expressions(LayerState& state, Value& value, std::size_t start, Path anchor) {
-  if (const auto* edit = value.get<layer::ArrayEdit>()) {
-    layer::ArrayEdit settled = *edit;
-    settle_expressions(state, settled.literals, start, {});
-    value = Value(std::move(settled));
-  }
-  if (value.type() == ValueType::PathExpression && !layer::make_canonical(value, anchor)) {
-    state.warn(start, "value.path-expression",
-               "this is not a path expression; it is read as an empty one", "");
-  }
-}
-
-// Puts the samples in order; of equal times the last one counts.
-void sort_samples(layer::TimeSamples& samples) {
-  std::vector<std::size_t> order(samples.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return samples.times[a] < samples.times[b];
-  });
-  layer::TimeSamples sorted;
-  for (const std::size_t i : order) {
-    if (!sorted.empty() && sorted.times.back() == samples.times[i]) {
-      sorted.values.back() = std::move(samples.values[i]);
-      continue;
-    }
-    sorted.times.push_back(samples.times[i]);
-    sorted.values.push_back(std::move(samples.values[i]));
-  }
-  samples = std::move(sorted);
-}
-
-bool read_time_sample(LayerState& state, const OwnType& own, Path path, layer::TimeSamples& samples,
-                      bool& ascending) {
-  Cursor& cursor = state.cursor;
-  const std::size_t start = cursor.offset();
-  double time = 0;
-  if (!at_number(cursor)) {
-    return cursor.fail_expected("the time of a sample or '}'");
-  }
-  if (!read_double(cursor, time)) {
-    return false;
-  }
-  if (std::isnan(time)) {
-    return cursor.fail_at(start, ErrorCode::Parse, "text.value", "nan is not a time");
-  }
-  cursor.skip_inline();
-  if (!cursor.expect(':', "after the time of a sample")) {
-    return false;
-  }
-  cursor.skip_inline();
-  Value value;
-  const std::size_t value_start = cursor.offset();
-  if (cursor.accept_word("None")) {
-    value = layer::ValueBlock{};
-  } else if (!read_own_value(cursor, own, value)) {
-    return false;
-  }
-  if (state.sources != nullptr) {
-    const std::size_t end = cursor.offset();
-    state.sources->samples[path].push_back({time, {start, end}, {value_start, end}});
-  }
-  settle_expressions(state, value, value_start, {});
-  ascending = ascending && (samples.empty() || samples.times.back() < time);
-  samples.times.push_back(time);
-  samples.values.push_back(std::move(value));
-  return true;
-}
-
-// `{ time: value, ... }` of the attribute at `path`.
-bool read_time_samples(LayerState& state, const OwnType& own, Path path, Value& result) {
-  Cursor& cursor = state.cursor;
-  if (!cursor.expect('{', "before the time samples")) {
-    return false;
-  }
-  layer::TimeSamples& samples = state.samples_buffer;
-  samples.times.clear();
-  samples.values.clear();
-  bool ascending = true;
-  cursor.skip_multi_line();
-  const bool ok = cursor.accept('}') || read_items(cursor, '}', "of the time samples", [&] {
-                    return read_time_sample(state, own, path, samples, ascending);
-                  });
-  if (!ok) {
-    return false;
-  }
-  if (!ascending) {
-    sort_samples(samples);
-  }
-  result = Value(layer::TimeSamples(samples));
-  return true;
-}
-
 // Targets
 
 // Where one of the items of the list at `start` stands.
@@ -228,7 +84,17 @@ class PropertyReader {
       : state_(state), cursor_(state.cursor), owner_(owner), properties_(properties) {}
 
   bool read() {
-    const bool ok = read_statement();
+    start_ = cursor_.offset();
+    return noted(read_statement());
+  }
+
+  bool read_known(KnownAttribute& known) {
+    start_ = cursor_.offset();
+    return noted(read_known_statement(known));
+  }
+
+ private:
+  bool noted(bool ok) {
     if (ok && state_.sources != nullptr) {
       statement_.range = {start_, cursor_.offset()};
       state_.sources->properties[path_].push_back(statement_);
@@ -236,15 +102,13 @@ class PropertyReader {
     return ok;
   }
 
- private:
   bool read_statement() {
-    start_ = cursor_.offset();
     edit_ = accept_list_edit(cursor_);
     if (edit_ != ListEdit::Explicit && !separator(cursor_)) {
       return false;
     }
-    is_custom_ = cursor_.accept_word("custom");
-    if (is_custom_ && !separator(cursor_)) {
+    head_.is_custom = cursor_.accept_word("custom");
+    if (head_.is_custom && !separator(cursor_)) {
       return false;
     }
     is_varying_ = cursor_.accept_word("varying");
@@ -257,8 +121,8 @@ class PropertyReader {
     if (is_varying_) {
       return cursor_.fail_expected("`rel`", "attributes vary by default: remove `varying`");
     }
-    is_uniform_ = cursor_.accept_word("uniform") || cursor_.accept_word("config");
-    if (is_uniform_ && !separator(cursor_)) {
+    head_.is_uniform = cursor_.accept_word("uniform") || cursor_.accept_word("config");
+    if (head_.is_uniform && !separator(cursor_)) {
       return false;
     }
     return read_attribute();
@@ -282,8 +146,13 @@ class PropertyReader {
     if (!read_type(cursor_, written) || !separator(cursor_) || !read_property_name()) {
       return false;
     }
-    own_ = {written.type, written.is_array};
-    if (!make_attribute(type_name_of(written))) {
+    head_.own = {written.type, written.is_array};
+    head_.type_name = type_name_of(written);
+    head_.name = path_.name();
+    head_.name_end = statement_.name_end - start_;
+    const layer::FieldList& declared =
+        state_.attribute_fields(head_.is_custom, head_.type_name, variability());
+    if (!make_attribute(declared)) {
       return false;
     }
     if (accept_between_blanks(cursor_, '.')) {
@@ -293,27 +162,95 @@ class PropertyReader {
       return cursor_.fail_expected("`.connect` after a list edit",
                                    "remove the word in front of the attribute");
     }
-    const bool ok = (!accept_between_blanks(cursor_, '=') || read_default()) &&
-                    read_optional_metadata(state_, path_, SpecKind::Attribute);
-    if (ok) {
-      state_.share_fields(path_.name(), *spec_);
+    cursor_.skip_inline();
+    if (cursor_.accept('=')) {
+      return read_assigned(state_.known_attributes.note(cursor_.since(start_), head_, declared));
     }
-    return ok;
+    cursor_.seek(start_ + head_.name_end);
+    if (!read_optional_metadata()) {
+      return false;
+    }
+    state_.share_fields(path_.name(), *spec_);
+    return true;
   }
 
-  bool make_attribute(Token type_name) {
-    const Variability variability = is_uniform_ ? Variability::Uniform : Variability::Varying;
+  /// The same for one whose head is known.
+  bool read_known_statement(KnownAttribute& known) {
+    const std::string_view rest = cursor_.rest();
+    head_ = known.head;
+    path_ = owner_.property(head_.name);
+    statement_.name_end = start_ + head_.name_end;
+    if (const layer::FieldList* fields = KnownAttributes::repeated(known, rest)) {
+      spec_ = &state_.layer.create(path_, SpecKind::Attribute);
+      if (spec_->line == 0) {
+        note_new_property();
+        spec_->set_field_list(*fields);
+        cursor_.advance(known.line.text.size() - 1);
+        statement_.value = {start_ + known.line.value_begin, cursor_.offset()};
+        return true;
+      }
+    }
+    if (!make_attribute(known.declared)) {
+      return false;
+    }
+    cursor_.advance(known.text.size());
+    return read_assigned(&known);
+  }
+
+  /// What follows the '=' of a default value.
+  bool read_assigned(KnownAttribute* known) {
+    const std::size_t warnings = state_.warnings;
+    cursor_.skip_inline();
+    if (!read_default()) {
+      return false;
+    }
+    const std::size_t end = cursor_.offset();
+    if (!read_optional_metadata()) {
+      return false;
+    }
+    const bool means_same_anywhere = head_.own.type != nullptr &&
+                                     head_.own.type->type != ValueType::PathExpression &&
+                                     state_.warnings == warnings;
+    const bool may_come_again =
+        known != nullptr && is_new_ && means_same_anywhere && cursor_.offset() == end;
+    if (!may_come_again ||
+        !KnownAttributes::note_line(*known, cursor_.text().substr(start_), end - start_,
+                                    statement_.value.begin - start_, spec_->field_list())) {
+      state_.share_fields(path_.name(), *spec_);
+    }
+    return true;
+  }
+
+  bool read_optional_metadata() {
+    const std::size_t before = cursor_.offset();
+    cursor_.skip_inline();
+    if (cursor_.peek() != '(') {
+      cursor_.seek(before);
+      return true;
+    }
+    if (is_new_) {
+      return read_first_metadata(state_, *spec_, path_);
+    }
+    cursor_.advance();
+    return read_metadata(state_, path_, spec_->kind);
+  }
+
+  Variability variability() const {
+    return head_.is_uniform ? Variability::Uniform : Variability::Varying;
+  }
+
+  bool make_attribute(const layer::FieldList& declared) {
     spec_ = &state_.layer.create(path_, SpecKind::Attribute);
     if (spec_->line != 0) {
-      return redeclare(*spec_, type_name, variability);
+      return redeclare(*spec_, head_.type_name, variability());
     }
     note_new_property();
-    const layer::FieldList& common = state_.attribute_fields(is_custom_, type_name, variability);
-    spec_->set_field_list(layer::FieldList(common, 1));
+    spec_->set_field_list(layer::FieldList(declared, 1));
     return true;
   }
 
   void note_new_property() {
+    is_new_ = true;
     properties_.push_back(path_.name());
     const SourcePlace place = cursor_.place_of(start_);
     spec_->set_place(place.line, place.column);
@@ -337,7 +274,7 @@ class PropertyReader {
           start_, ErrorCode::Parse, "text.duplicate",
           "`" + path_.name().str() + "` is both uniform and not uniform; " + first);
     }
-    if (is_custom_) {
+    if (head_.is_custom) {
       spec.set(fields::custom, Value(true));
     }
     return true;
@@ -355,7 +292,7 @@ class PropertyReader {
     if (plain && cursor_.accept_word("spline")) {
       Value value;
       const ValueType type =
-          own_.type == nullptr || own_.is_array ? ValueType::None : own_.type->type;
+          head_.own.type == nullptr || head_.own.is_array ? ValueType::None : head_.own.type->type;
       return read_assignment(cursor_) && read_spline(cursor_, type, value) &&
              set(fields::spline, std::move(value));
     }
@@ -370,15 +307,10 @@ class PropertyReader {
   bool read_default() {
     Value value;
     statement_.value.begin = cursor_.offset();
-    if (cursor_.accept_word("None")) {
-      value = layer::ValueBlock{};
-    } else if (cursor_.accept_word("AnimationBlock")) {
-      value = layer::AnimationBlock{};
-    } else if (!read_own_value(cursor_, own_, value)) {
+    if (!read_default_value(state_, head_.own, owner_, value)) {
       return false;
     }
     statement_.value.end = cursor_.offset();
-    settle_expressions(state_, value, statement_.value.begin, owner_.strip_variants().prim());
     return set(fields::default_value, std::move(value));
   }
 
@@ -386,7 +318,7 @@ class PropertyReader {
     Value samples;
     statement_.part = PropertyPart::Samples;
     statement_.value.begin = cursor_.offset();
-    const bool ok = read_time_samples(state_, own_, path_, samples);
+    const bool ok = read_time_samples(state_, head_.own, path_, samples);
     statement_.value.end = cursor_.offset();
     return ok && set(fields::timeSamples, std::move(samples));
   }
@@ -439,8 +371,7 @@ class PropertyReader {
     if (edit_ != ListEdit::Explicit) {
       statement_.part = PropertyPart::Other;
     }
-    return edit_ != ListEdit::Explicit ||
-           read_optional_metadata(state_, path_, SpecKind::Relationship);
+    return edit_ != ListEdit::Explicit || read_optional_metadata();
   }
 
   bool make_relationship() {
@@ -453,7 +384,7 @@ class PropertyReader {
                                  "declared at line " + std::to_string(spec_->line));
     }
     set(fields::variability, Value(is_varying_ ? Variability::Varying : Variability::Uniform));
-    return !is_custom_ || set(fields::custom, Value(true));
+    return !head_.is_custom || set(fields::custom, Value(true));
   }
 
   bool read_targets() {
@@ -494,10 +425,9 @@ class PropertyReader {
   std::size_t start_ = 0;
   PropertyStatement statement_;
   ListEdit edit_ = ListEdit::Explicit;
-  bool is_custom_ = false;
+  AttributeHead head_;
   bool is_varying_ = false;
-  bool is_uniform_ = false;
-  OwnType own_;
+  bool is_new_ = false;  // the spec was made by this statement
   Path path_;
   layer::Spec* spec_ = nullptr;
 };
@@ -522,6 +452,11 @@ Path target_of(Path path, Path owner) {
 
 bool read_property(LayerState& state, Path owner, std::vector<Token>& properties) {
   return PropertyReader(state, owner, properties).read();
+}
+
+bool read_known_attribute(LayerState& state, KnownAttribute& known, Path owner,
+                          std::vector<Token>& properties) {
+  return PropertyReader(state, owner, properties).read_known(known);
 }
 
 }  // namespace tenon::formats::text

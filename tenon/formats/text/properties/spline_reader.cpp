@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "tenon/formats/text/literals.h"
-#include "tenon/formats/text/property_reader.h"
+#include "tenon/formats/text/properties/property_reader.h"
 #include "tenon/formats/text/value_reader.h"
 #include "tenon/layer/time/ease_tangents.h"
 #include "tenon/layer/time/spline.h"
