@@ -16,8 +16,8 @@ void collect_opinions(PrimIndex& index) {
       continue;
     }
     for (const StackedLayer& stacked : node.layer_stack->layers) {
-      if (const layer::Spec* spec = stacked.layer->find(node.path)) {
-        index.add_opinion(id, node, stacked, *spec);
+      if (const std::uint32_t number = stacked.layer->number_of(node.path)) {
+        index.add_opinion(id, node, stacked, number);
       }
     }
   }

@@ -48,11 +48,11 @@ bool descend(NodeGraph& graph, const Path child, PrimIndex& index) {
     graph.count(node.layer_stack->layers.size());
     SiteTrace::note(*node.layer_stack, node.path);
     for (const StackedLayer& stacked : node.layer_stack->layers) {
-      const layer::Spec* const spec = stacked.layer->find(node.path);
-      node.has_specs = node.has_specs || spec != nullptr;
-      if (spec != nullptr && node.can_contribute()) {
-        arcs.add(*spec);
-        index.add_opinion(id, node, stacked, *spec);
+      const std::uint32_t number = stacked.layer->number_of(node.path);
+      node.has_specs = node.has_specs || number != 0;
+      if (number != 0 && node.can_contribute()) {
+        index.add_opinion(id, node, stacked, number);
+        arcs.add(stacked.layer->numbered_spec(number));
       }
     }
   }
@@ -92,10 +92,11 @@ bool build_local_child(const IndexServices& services, const PrimIndex& parent, P
   services.work->count(kIndexUnits + index.path.depth() + kOpinionUnits * parent.opinions.size());
   AuthoredArcs arcs;
   for (const Opinion& above : parent.opinions) {
-    const layer::Spec* const spec = above.node == 0 ? above.layer->find(index.path) : nullptr;
-    if (spec != nullptr) {
-      arcs.add(*spec);
-      index.opinions.push_back({above.layer, spec, index.path, 0, above.offset});
+    const std::uint32_t number = above.node == 0 ? above.layer->number_of(index.path) : 0;
+    if (number != 0) {
+      const layer::Spec& spec = above.layer->numbered_spec(number);
+      arcs.add(spec);
+      index.opinions.push_back({above.layer, &spec, index.path, 0, number, above.offset});
     }
   }
   if (arcs.any() && !no_more_arcs) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -62,6 +63,7 @@ struct Opinion {
   const layer::Spec* spec = nullptr;
   Path path;                  ///< of the spec in that layer
   std::uint32_t node = 0;     ///< into PrimIndex::nodes
+  std::uint32_t number = 0;   ///< of the spec, as the layer counts (Layer::number_of)
   layer::LayerOffset offset;  ///< stage time = offset(layer time)
 };
 
@@ -121,9 +123,9 @@ struct PrimIndex {
   bool instanceable = false;                ///< an instance: some arc, and instanceable = true
 
   void add_opinion(std::uint32_t id, const Node& node, const StackedLayer& stacked,
-                   const layer::Spec& spec) {
-    opinions.push_back(
-        {stacked.layer.get(), &spec, node.path, id, node.map_to_root->offset() * stacked.offset});
+                   std::uint32_t number) {
+    opinions.push_back({stacked.layer.get(), &stacked.layer->numbered_spec(number), node.path, id,
+                        number, node.map_to_root->offset() * stacked.offset});
   }
 
   const IndexExtras& extras() const {
@@ -137,20 +139,39 @@ struct PrimIndex {
     return *own_extras;
   }
 
+  /// Where a property may be, as far as that is quickly known: most that schemas declare are in no
+  /// layer. A short list is searched faster than a path is made for each opinion, a long one is not
+  /// searched.
+  enum class Listed : std::uint8_t { Nowhere, Somewhere, AtPlace };
+  struct Place {
+    Listed listed = Listed::Nowhere;
+    std::size_t place = 0;  ///< in `property_names`
+  };
+  Place place_of(Token name) const {
+    if (property_names.size() > layer::Layer::kShortList) {
+      return {Listed::Somewhere};
+    }
+    const Token* const found = std::find(property_names.begin(), property_names.end(), name);
+    return found == property_names.end()
+               ? Place{}
+               : Place{Listed::AtPlace, static_cast<std::size_t>(found - property_names.begin())};
+  }
   /// Some opinion has a property of that name.
   bool has_property(Token name) const {
-    for (const Token each : property_names) {
-      if (each == name) {
-        return true;
+    return std::find(property_names.begin(), property_names.end(), name) != property_names.end();
+  }
+  /// False where that is quickly known.
+  bool may_have_property(Token name) const { return place_of(name).listed != Listed::Nowhere; }
+  /// The property as one of the opinions has it; null where that does not.
+  const layer::Layer::Entry* property_in(const Opinion& opinion, Token name, Place place) const {
+    if (place.listed == Listed::AtPlace && opinions.size() == 1) {
+      const auto* const guess =
+          opinion.layer->guess_property(opinion.number, place.place, opinion.path.property(name));
+      if (guess != nullptr) {
+        return guess;
       }
     }
-    return false;
-  }
-  /// False where that is quickly known, as most properties that schemas declare are in no layer: a
-  /// short list is searched faster than a path is made for each opinion, a long one is not
-  /// searched.
-  bool may_have_property(Token name) const {
-    return property_names.size() > layer::Layer::kShortList || has_property(name);
+    return opinion.layer->find_property(*opinion.spec, opinion.path, name);
   }
   /// `path` of node's namespace in the stage's; empty when it has no image.
   Path map_to_root(std::uint32_t node, Path path_in_node) const {

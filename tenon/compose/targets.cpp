@@ -81,6 +81,10 @@ class TargetCombiner {
         errors_.clear();
         list_.deleted.clear();
       }
+      if (says_all_of_it(*op)) {
+        replace_with(op->explicit_items, *it);
+        continue;
+      }
       mapped(*op, *it).apply_to(list_.paths);
     }
     for (Found& found : errors_) {
@@ -94,6 +98,29 @@ class TargetCombiner {
     Path target;  // in the stage's namespace; may be empty
     Diagnostic diagnostic;
   };
+
+  /// As most are: a list and no edits.
+  static bool says_all_of_it(const ListOp<Path>& op) {
+    return op.is_explicit && op.deleted.empty() && op.added.empty() && op.prepended.empty() &&
+           op.appended.empty() && op.ordered.empty();
+  }
+
+  void replace_with(const std::vector<Path>& items, const PropertyOpinion& opinion) {
+    std::vector<Path> targets;
+    targets.reserve(items.size());
+    for (const Path path : items) {
+      const Path target = target_of(path, opinion);
+      if (!target.empty()) {
+        targets.push_back(target);
+      }
+    }
+    if (targets.size() > 1) {
+      list_.paths.clear();
+      layer::append_absent(list_.paths, targets);
+    } else {
+      list_.paths = std::move(targets);
+    }
+  }
 
   ListOp<Path> mapped(const ListOp<Path>& op, const PropertyOpinion& opinion) {
     ListOp<Path> result;
@@ -206,11 +233,12 @@ class TargetCombiner {
 std::vector<PropertyOpinion> property_opinions(const PrimIndex& index, Token name,
                                                Diagnostics* errors) {
   std::vector<PropertyOpinion> found;
-  if (!index.may_have_property(name)) {
+  const PrimIndex::Place place = index.place_of(name);
+  if (place.listed == PrimIndex::Listed::Nowhere) {
     return found;
   }
   for (const Opinion& opinion : index.opinions) {
-    const auto* entry = opinion.layer->find_property(*opinion.spec, opinion.path, name);
+    const auto* entry = index.property_in(opinion, name, place);
     if (entry == nullptr) {
       continue;
     }

@@ -51,6 +51,16 @@ class Layer {
   /// The property `name` of a prim or variant, whose own spec is `owner` and which lists it; null
   /// if there is none.
   const Entry* find_property(const Spec& owner, Path path, Token name) const;
+  /// The number of the spec at the path of a prim, a variant or the root, from 1 on; 0 where there
+  /// is none. It stays while nothing is erased.
+  std::uint32_t number_of(Path path) const { return tabled(path); }
+  const Spec& numbered_spec(std::uint32_t number) const { return entries_[number - 1].spec; }
+  /// The property at `path` when its spec is in the place that it most often has: the one that the
+  /// list of its owner, numbered `owner`, gives it, behind the owner. Null says nothing.
+  const Entry* guess_property(std::uint32_t owner, std::size_t listed_at, Path path) const {
+    const std::size_t at = owner + listed_at;
+    return at < entries_.size() && entries_[at].path == path ? &entries_[at] : nullptr;
+  }
   /// Names in a list of so many are searched one by one.
   static constexpr std::size_t kShortList = 32;
   const Spec& root() const { return *find(Path::absolute_root()); }

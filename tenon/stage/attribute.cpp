@@ -84,6 +84,10 @@ Value Attribute::get(Time time) const {
   return prim_ == nullptr ? Value() : read_attribute(*stage_, *prim_, proxy_path_, name_, time);
 }
 
+const Value* Attribute::value_in_place() const {
+  return prim_ == nullptr ? nullptr : stage::value_in_place(*prim_, name_);
+}
+
 ValueTrace Attribute::trace(Time time) const {
   return prim_ == nullptr ? ValueTrace() : trace_value(*stage_, *prim_, proxy_path_, name_, time);
 }

@@ -8,8 +8,11 @@
 // of its node. An anchored asset path is rewritten to mean the same in a layer in any other place.
 #include "tenon/stage/composed_fields.h"
 
+#include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
+#include <type_traits>
 #include <unordered_set>
 
 #include "tenon/compose/expressions/variable_expression.h"
@@ -232,8 +235,10 @@ bool is_structure(Token field) {
   return structure.contains(field);
 }
 
-bool means_same_anywhere(const Value& value) {
-  switch (value.type()) {
+namespace {
+
+bool type_means_same_anywhere(ValueType type) {
+  switch (type) {
     case ValueType::Asset:
     case ValueType::TimeCode:
     case ValueType::PathExpression:
@@ -243,9 +248,21 @@ bool means_same_anywhere(const Value& value) {
     case ValueType::Variability:
       return true;
     default:
-      return layer::type_name_of(value.type(), false) != nullptr &&
-             value.type() != ValueType::Opaque;
+      return layer::type_name_of(type, false) != nullptr && type != ValueType::Opaque;
   }
+}
+
+}  // namespace
+
+bool means_same_anywhere(const Value& value) {
+  static const auto kAnswers = [] {
+    std::array<bool, std::numeric_limits<std::underlying_type_t<ValueType>>::max() + 1> answers{};
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      answers[i] = type_means_same_anywhere(static_cast<ValueType>(i));
+    }
+    return answers;
+  }();
+  return kAnswers[static_cast<std::size_t>(value.type())];
 }
 
 std::vector<compose::Opinion> property_opinions(const PrimData& prim, Token name) {

@@ -22,11 +22,12 @@ std::vector<compose::Opinion> property_opinions(const PrimData& prim, Token name
 /// Calls `visit(opinion)` for each of them until it returns true.
 template <class Visit>
 void visit_property_opinions(const PrimData& prim, Token name, Visit visit) {
-  if (!prim.index->may_have_property(name)) {
+  const compose::PrimIndex::Place place = prim.index->place_of(name);
+  if (place.listed == compose::PrimIndex::Listed::Nowhere) {
     return;
   }
   for (const compose::Opinion& opinion : prim.index->opinions) {
-    const auto* entry = opinion.layer->find_property(*opinion.spec, opinion.path, name);
+    const auto* entry = prim.index->property_in(opinion, name, place);
     if (entry == nullptr) {
       continue;
     }

@@ -109,6 +109,9 @@ std::vector<SpecSite> property_sites(const PrimData& prim, Token name) {
 
 std::vector<Path> composed_targets(const StageData& stage, const PrimData& prim, Path proxy_path,
                                    Token name) {
+  if (!prim.index->may_have_property(name)) {
+    return {};
+  }
   std::vector<Path> paths = compose::compose_stage_targets(*prim.index, name).paths;
   if (paths.empty() || !prim.in_prototype) {
     return paths;

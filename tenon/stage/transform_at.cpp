@@ -19,15 +19,21 @@ const Token kXformable{"Xformable"};
 
 /// The operations of a prim, outermost first: those after the last "!resetXformStack!".
 struct OpOrder {
-  layer::Value value;  // that holds them
+  layer::Value value;  // that holds them, where no layer does
   std::span<const Token> ops;
   bool resets = false;
 };
 
 OpOrder op_order(const Prim& prim) {
   static const Token reset{"!resetXformStack!"};
-  OpOrder order{prim.attribute(kOpOrder).get(), {}};
-  if (const auto* ops = order.value.get<std::vector<Token>>()) {
+  OpOrder order;
+  const Attribute attribute = prim.attribute(kOpOrder);
+  const layer::Value* value = attribute.value_in_place();
+  if (value == nullptr) {
+    order.value = attribute.get();
+    value = &order.value;
+  }
+  if (const auto* ops = value->get<std::vector<Token>>()) {
     const auto last = std::find(ops->rbegin(), ops->rend(), reset);
     order.resets = last != ops->rend();
     order.ops = std::span(*ops).subspan(static_cast<std::size_t>(ops->rend() - last));

@@ -200,13 +200,17 @@ XformOp parse_xform_op(Token name) {
 
 Mat4d xform_op_matrix(const Prim& prim, const XformOp& op, Time time, Diagnostics* diagnostics) {
   const Attribute attribute = prim.attribute(op.attribute);
-  const Value value = attribute.get(time);
-  std::optional<Mat4d> result;
-  if (!value.empty()) {
-    result = Reader{op.kind.view(), value, op.inverted}.matrix();
+  Value read;
+  const Value* value = time.is_default() ? attribute.value_in_place() : nullptr;
+  if (value == nullptr) {
+    read = attribute.get(time);
+    value = &read;
   }
-  const bool silent = attribute.is_defined() && value.empty();
-  if (!result && !silent && diagnostics != nullptr) {
+  std::optional<Mat4d> result;
+  if (!value->empty()) {
+    result = Reader{op.kind.view(), *value, op.inverted}.matrix();
+  }
+  if (!result && diagnostics != nullptr && !(value->empty() && attribute.is_defined())) {
     const std::string item = (op.inverted ? "!invert!" : "") + op.attribute.str();
     Diagnostic diagnostic = prim.attribute("xformOpOrder")
                                 .located(Severity::Warning, "xform.op",

@@ -20,16 +20,16 @@ class PathTable {
  public:
   std::size_t size() const { return count_; }
 
-  /// What is there for `path`, until more is added; nullptr for nothing.
+  /// What is there for `path`, until more is added; nullptr for nothing, and for the empty path.
   const Item* find(Path path) const {
     std::size_t at = places_.home(path.number());
     for (std::size_t left = places_.reach(); left > 0; --left, at = places_.next(at)) {
       const Slot& slot = slots_[at];
-      if (slot.path == path) {
-        return &slot.item;
-      }
       if (slot.path.empty()) {
         break;
+      }
+      if (slot.path == path) {
+        return &slot.item;
       }
     }
     return nullptr;

@@ -58,6 +58,26 @@ ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
   return result;
 }
 
+const Value* value_in_place(const PrimData& prim, Token name) {
+  static const Value none;
+  const compose::PrimIndex::Place place = prim.index->place_of(name);
+  if (place.listed != compose::PrimIndex::Listed::Nowhere) {
+    for (const compose::Opinion& opinion : prim.index->opinions) {
+      const auto* entry = prim.index->property_in(opinion, name, place);
+      const Value* const value =
+          entry == nullptr ? nullptr : entry->spec.find(layer::fields::default_value);
+      if (value != nullptr) {
+        return means_same_anywhere(*value) ? value : nullptr;
+      }
+    }
+  }
+  const schema::PropertyDefinition* definition = prim.definition->find(name);
+  if (definition == nullptr || definition->fallback.empty()) {
+    return &none;
+  }
+  return means_same_anywhere(definition->fallback) ? &definition->fallback : nullptr;
+}
+
 Value read_value(const StageData& stage, const PrimData& prim, Token name,
                  const ResolvedValue& resolved, Time time, AssetForm form, ReadTrace* trace) {
   Value value = read_one_value(stage, prim, resolved, time, form, stage.options.interpolation);

@@ -46,6 +46,10 @@ inline Asked asked_at(Time time) { return time.is_default() ? Asked::DefaultTime
 /// (also when blocked).
 ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked);
 
+/// The value at the default time where it stands in a layer or a schema, when it means there what
+/// it means on the stage; an empty one when nothing gives a value. Null when reading it takes more.
+const layer::Value* value_in_place(const PrimData& prim, Token name);
+
 /// The value of what was resolved, in the stage's terms; empty when blocked or nowhere.
 layer::Value read_value(const StageData& stage, const PrimData& prim, Token name,
                         const ResolvedValue& resolved, Time time,
