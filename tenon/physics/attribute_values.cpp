@@ -49,17 +49,18 @@ std::string text_of_float(double value) { return shortest(static_cast<float>(val
 
 // S-6: the default where one is authored, else the value at the start, held before the first
 // sample.
-layer::Value AttributeValues::resolved(const stage::Attribute& attribute) const {
-  if (!contents_.animated) {
-    return attribute.get();
+const layer::Value& AttributeValues::resolved(const stage::Attribute& attribute,
+                                              layer::Value& room) const {
+  if (contents_.animated) {
+    if (asked_ != nullptr && attribute.is_animated()) {
+      asked_->insert(attribute.path().str());
+    }
+    if (samples_first_ || attribute.value_source() != stage::ValueSource::Default) {
+      return room = attribute.get(start_);
+    }
   }
-  if (asked_ != nullptr && attribute.is_animated()) {
-    asked_->insert(attribute.path().str());
-  }
-  if (samples_first_ || attribute.value_source() != stage::ValueSource::Default) {
-    return attribute.get(start_);
-  }
-  return attribute.get();
+  const layer::Value* const in_place = attribute.value_in_place();
+  return in_place != nullptr ? *in_place : room = attribute.get();
 }
 
 bool AttributeValues::check_number(const stage::Prim& prim, Token name, double value) const {
@@ -73,7 +74,8 @@ bool AttributeValues::check_number(const stage::Prim& prim, Token name, double v
 }
 
 std::optional<double> AttributeValues::number(const stage::Prim& prim, Token name) const {
-  const layer::Value value = resolved(prim.attribute(name));
+  layer::Value room;
+  const layer::Value& value = resolved(prim.attribute(name), room);
   if (value.empty() || value.is_block()) {
     return std::nullopt;
   }
@@ -132,7 +134,8 @@ std::optional<double> AttributeValues::authored_number(const stage::Prim& prim, 
   if (!attribute.has_authored_value()) {
     return std::nullopt;
   }
-  const layer::Value value = resolved(attribute);
+  layer::Value room;
+  const layer::Value& value = resolved(attribute, room);
   const std::optional<double> number = number_of(value);
   if (!number && !value.empty() && !value.is_block()) {
     report_type(prim, name, layer::ValueType::Float, false);
@@ -148,7 +151,8 @@ std::optional<bool> AttributeValues::authored_flag(const stage::Prim& prim, Toke
   if (!attribute.has_authored_value()) {
     return std::nullopt;
   }
-  const layer::Value value = resolved(attribute);
+  layer::Value room;
+  const layer::Value& value = resolved(attribute, room);
   if (const bool* flag = value.get<bool>()) {
     return *flag;
   }
@@ -183,7 +187,8 @@ void AttributeValues::report_target(const stage::Prim& prim, Token name, Path ta
 // S-3: OpenUSD takes the fallback in silence.
 void AttributeValues::report_type(const stage::Prim& prim, Token name, layer::ValueType wanted,
                                   bool wanted_array, bool converted) const {
-  const layer::Value value = resolved(prim.attribute(name));
+  layer::Value room;
+  const layer::Value& value = resolved(prim.attribute(name), room);
   const layer::TypeName* found = layer::type_name_of(value.type(), value.is_array());
   const layer::TypeName* schema = layer::type_name_of(wanted, wanted_array);
   const std::string found_name = found == nullptr ? "of another type" : found->name.str();

@@ -59,6 +59,8 @@ class AttributeValues {
   void note_asked(std::unordered_set<std::string>* asked) { asked_ = asked; }
 
   stage::Time start() const { return start_; }
+  /// The same where something varies; else any time is as good, and the default the fastest.
+  stage::Time transform_time() const { return contents_.animated ? start_ : stage::Time(); }
   bool stage_is_animated() const { return contents_.animated; }
   bool stage_names_apis() const { return contents_.names_apis; }
   Diagnostics& diagnostics() const { return *diagnostics_; }
@@ -66,7 +68,8 @@ class AttributeValues {
   /// The value where it is exactly a T.
   template <class T>
   std::optional<T> get(const stage::Prim& prim, Token name) const {
-    const layer::Value value = resolved(prim.attribute(name));
+    layer::Value room;
+    const layer::Value& value = resolved(prim.attribute(name), room);
     if (value.empty() || value.is_block()) {
       return std::nullopt;
     }
@@ -99,7 +102,8 @@ class AttributeValues {
                      const char* rule, std::string message, std::string fix) const;
 
  private:
-  layer::Value resolved(const stage::Attribute& attribute) const;
+  /// The value where it stands, or in `room`.
+  const layer::Value& resolved(const stage::Attribute& attribute, layer::Value& room) const;
   void report_type(const stage::Prim& prim, Token name, layer::ValueType wanted, bool wanted_array,
                    bool converted = false) const;
   bool check_number(const stage::Prim& prim, Token name, double value) const;

@@ -60,6 +60,8 @@ struct ReadState {
   std::vector<std::uint32_t> joint_of_prim{};
   /// Colliders of each body, ascending; (body_count).
   std::vector<std::vector<Index>> colliders_of_body{};
+  /// The transform of each body's prim is made of finite numbers; (body_count).
+  std::vector<bool> body_has_place{};
   /// Integrals of colliders whose shape stands for a rounder solid.
   std::unordered_map<Index, SolidIntegrals> integrals_of_collider{};
   /// Drives of the drive API, in the order of joints.
@@ -81,11 +83,15 @@ struct ReadState {
     return (code - scene.start_time_code) / scene.time_codes_per_second;
   }
 
+  /// The object of the prim at a path, or kNone.
+  std::uint32_t body_at(Path path) const { return object_at(path, body_of_prim); }
+  std::uint32_t collider_at(Path path) const { return object_at(path, collider_of_prim); }
+  std::uint32_t joint_at(Path path) const { return object_at(path, joint_of_prim); }
+
   const PhysicsPrim& prim_of_body(Index body) const { return walk.prims[body_prims[body]]; }
   const PhysicsPrim& prim_of_collider(Index i) const { return walk.prims[collider_prims[i]]; }
   const PhysicsPrim& prim_of_joint(Index i) const { return walk.prims[joint_prims[i]]; }
-  /// The transform of the body's prim is made of finite numbers.
-  bool has_place(Index body) const;
+  bool has_place(Index body) const { return body_has_place[body]; }
   /// Its samples have a place in the description.
   void follow(const stage::Prim& prim, Token name) {
     followed.insert(prim.path().str() + "." + name.str());
@@ -107,6 +113,12 @@ struct ReadState {
   }
   void not_read(const stage::Prim& prim, std::string property, std::string why) {
     scene.not_read.push_back({prim.path(), std::move(property), std::move(why)});
+  }
+
+ private:
+  std::uint32_t object_at(Path path, const std::vector<std::uint32_t>& object_of_prim) const {
+    const std::uint32_t* const found = walk.index_of.find(path);
+    return found == nullptr ? kNone : object_of_prim[*found];
   }
 };
 

@@ -14,6 +14,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <unordered_map>
 
 #include "tenon/base/limits/physics_limits.h"
 #include "tenon/base/paths/path_order.h"
@@ -135,7 +136,8 @@ class Walker {
         at.resets_below_body = places_[at.above].resets_below_body;
       }
       if (at.moves) {
-        const stage::LocalTransform local = stage::local_transform(at.prim, values_.start());
+        const stage::LocalTransform local =
+            stage::local_transform(at.prim, values_.transform_time());
         const bool resets = local.resets_stack && !at.in_instance;
         at.world = resets ? local.matrix : local.matrix * at.world;
         at.resets_below_body = at.resets_below_body || resets;
@@ -339,8 +341,10 @@ class Walker {
     if (roles.has(Api::ArticulationRoot)) {
       state.articulation_root = index;
     }
-    walk_.index_of.emplace(found.path, index);
-    walk_.prims.push_back(found);
+    if (walk_.index_of.find(found.path) == nullptr) {
+      walk_.index_of[found.path] = index;
+    }
+    walk_.prims.emplace_back() = found;
   }
 
   bool is_enabled_body(const stage::Prim& prim, const Roles& roles) const {

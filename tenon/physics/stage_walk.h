@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
+#include "tenon/base/containers/stable_list.h"
 #include "tenon/base/path.h"
+#include "tenon/base/paths/path_table.h"
 #include "tenon/math/matrix.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/point_instancers.h"
@@ -54,17 +55,17 @@ struct PhysicsPrim {
 
 /// The physics prims of a stage in traversal order.
 struct Walk {
-  std::vector<PhysicsPrim> prims;
-  std::vector<std::uint32_t> by_path;                ///< all of `prims` in the order of their paths
-  std::unordered_map<Path, std::uint32_t> index_of;  ///< by path
+  StableList<PhysicsPrim> prims;
+  std::vector<std::uint32_t> by_path;  ///< all of `prims` in the order of their paths
+  PathTable<std::uint32_t> index_of;   ///< by path
   std::vector<PointInstance> instances;
   /// Prims of a vendor's type or with a vendor's API, also those that mean nothing else to physics.
   /// A prototype of a point instancer stands here for each instance.
   std::vector<stage::Prim> vendor_prims;
 
   const PhysicsPrim* find(Path path) const {
-    const auto found = index_of.find(path);
-    return found == index_of.end() ? nullptr : &prims[found->second];
+    const std::uint32_t* const found = index_of.find(path);
+    return found == nullptr ? nullptr : &prims[*found];
   }
   /// What `target` means to a prim: inside an instance of a point instancer, the prim of the same
   /// instance where it lies in the prototype.

@@ -11,10 +11,11 @@ namespace tenon::physics {
 
 /// The rigid part of a local-to-world matrix in metres (S-33): exact translation, the rotation that
 /// `factor` finds; scale is the shapes' business.
+inline Pose world_pose(const Factored& world, const Units& units) {
+  return {world.translation * units.length, rotation_of(world.rotation)};
+}
 inline Pose world_pose(const Mat4d& world, const Units& units) {
-  Pose pose = rigid_part(world);
-  pose.position *= units.length;
-  return pose;
+  return world_pose(factor(world), units);
 }
 
 /// A point of the prim's space (stage units), exactly, in metres in the frame X_WF.

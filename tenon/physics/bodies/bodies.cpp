@@ -109,8 +109,7 @@ void read_velocities(const ReadState& state, const PhysicsPrim& found, Body& bod
   }
 }
 
-void check_frame(const ReadState& state, const PhysicsPrim& found) {
-  const Factored parts = factor(found.world);
+void check_frame(const ReadState& state, const PhysicsPrim& found, const Factored& parts) {
   if (parts.sheared) {
     // S-33
     state.report(found.prim, Severity::Warning, "body.sheared",
@@ -150,7 +149,7 @@ void read_motion_settings(const ReadState& state, const PhysicsPrim& found, Body
   }
 }
 
-Body read_body(const ReadState& state, const PhysicsPrim& found, Index scene) {
+Body read_body(ReadState& state, const PhysicsPrim& found, Index scene) {
   Body body;
   body.path = found.path;
   if (found.instance != kNone) {
@@ -166,8 +165,10 @@ Body read_body(const ReadState& state, const PhysicsPrim& found, Index scene) {
   body.enabled = state.values.flag(found.prim, state.tokens.body_enabled, true);
   body.kinematic = body.kinematic || !body.enabled;
   body.starts_asleep = state.values.flag(found.prim, state.tokens.starts_asleep, false);
-  body.pose = world_pose(found.world, state.units);
-  if (!is_finite(body.pose)) {
+  const Factored parts = factor(found.world);
+  body.pose = world_pose(parts, state.units);
+  state.body_has_place.push_back(is_finite(body.pose));
+  if (!state.body_has_place.back()) {
     state.report(
         found.prim, Severity::Error, "body.not-finite",
         "the body's transform is not made of finite numbers; it stands still at the origin",
@@ -175,7 +176,7 @@ Body read_body(const ReadState& state, const PhysicsPrim& found, Index scene) {
     body.pose = {};
     body.kinematic = true;
   }
-  check_frame(state, found);
+  check_frame(state, found, parts);
   check_instance(state, found);
   const OwnerScene owner = owner_scene(state, found.prim, scene);
   body.scene = owner.scene;
@@ -216,10 +217,6 @@ void report_nesting(const ReadState& state) {
 }
 
 }  // namespace
-
-bool ReadState::has_place(Index body) const {
-  return is_finite(world_pose(prim_of_body(body).world, units));
-}
 
 void read_bodies(ReadState& state) {
   state.body_prims = sorted_prims(state.walk, [](const PhysicsPrim& p) { return p.is_body; });

@@ -132,18 +132,14 @@ class NestingReader {
   }
 
   static std::optional<Index> body_at(const ReadState& state, Path path) {
-    const auto found = state.walk.index_of.find(path);
-    const std::uint32_t body =
-        found == state.walk.index_of.end() ? kNone : state.body_of_prim[found->second];
+    const std::uint32_t body = state.body_at(path);
     return body == kNone ? std::nullopt : std::optional<Index>(body);
   }
 
   /// Whose collider it is while everything is on; kNone of what does not collide then, as a plane
   /// inside a body that moves.
   Index owner_of(Path collider) const {
-    const auto found = state_.walk.index_of.find(collider);
-    const std::uint32_t i =
-        found == state_.walk.index_of.end() ? kNone : state_.collider_of_prim[found->second];
+    const std::uint32_t i = state_.collider_at(collider);
     return i == kNone ? kNone : state_.scene.colliders[i].body.value_or(kNone);
   }
 

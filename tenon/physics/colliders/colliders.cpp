@@ -139,8 +139,7 @@ bool is_finite_shape(ReadState& state, const Shape& shape) {
 
 /// Of a collider whose body has no place that is said already.
 void report_not_finite(const ReadState& state, const PhysicsPrim& found) {
-  if (found.body != kNone &&
-      !is_finite(world_pose(state.walk.prims[found.body].world, state.units))) {
+  if (found.body != kNone && !state.has_place(state.body_of_prim[found.body])) {
     return;
   }
   state.report(found.prim, Severity::Error, "collider.not-finite",

@@ -131,19 +131,18 @@ class PairFilter {
   /// collider, or all that lies below any other prim (S-81).
   Colliders meant_by(Path path) const {
     Colliders list;
-    const auto found = state_.walk.index_of.find(path);
-    if (found != state_.walk.index_of.end()) {
-      const PhysicsPrim& prim = state_.walk.prims[found->second];
+    if (const std::uint32_t* const found = state_.walk.index_of.find(path)) {
+      const PhysicsPrim& prim = state_.walk.prims[*found];
       if (prim.is_body) {
-        append(state_.body_of_prim[found->second], list);
+        append(state_.body_of_prim[*found], list);
         report_two_meanings(prim);
         return list;
       }
       if (prim.roles.has(Api::ArticulationRoot)) {
         append_links(path, list);
       }
-      if (list.empty() && state_.collider_of_prim[found->second] != kNone) {
-        list.push_back(state_.collider_of_prim[found->second]);
+      if (list.empty() && state_.collider_of_prim[*found] != kNone) {
+        list.push_back(state_.collider_of_prim[*found]);
       }
     }
     return list.empty() ? below(path) : list;
@@ -219,9 +218,9 @@ class PairFilter {
     for (int side = 0; side < 2; ++side) {
       const Token name = side == 0 ? state_.tokens.body0 : state_.tokens.body1;
       for (const Path& target : found.prim.relationship(name).targets()) {
-        const auto at = state_.walk.index_of.find(state_.walk.near(found, target));
-        if (at != state_.walk.index_of.end() && state_.walk.prims[at->second].is_body) {
-          append(state_.body_of_prim[at->second], sides[side]);
+        const std::uint32_t* const at = state_.walk.index_of.find(state_.walk.near(found, target));
+        if (at != nullptr && state_.walk.prims[*at].is_body) {
+          append(state_.body_of_prim[*at], sides[side]);
         }
       }
     }

@@ -19,8 +19,7 @@ class ContentsReader {
   bool take(const layer::Layer::Entry& entry) {
     const layer::Spec& spec = entry.spec;
     if (spec.kind == layer::SpecKind::Attribute) {
-      contents.animated = contents.animated || spec.has(layer::fields::timeSamples) ||
-                          spec.has(layer::fields::spline);
+      contents.animated = contents.animated || is_animated(spec);
     } else if (spec.kind == layer::SpecKind::Prim) {
       contents.animated = contents.animated || spec.has(layer::fields::clips);
       return !(contents.animated && contents.names_apis);
@@ -34,6 +33,15 @@ class ContentsReader {
   LayerContents contents;
 
  private:
+  static bool is_animated(const layer::Spec& spec) {
+    for (const layer::Field& field : spec.fields()) {
+      if (field.name == layer::fields::timeSamples || field.name == layer::fields::spline) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   /// Lately: names that were met before that are judged again.
   bool was_judged(Token name) {
     Token& last = recent_[std::hash<Token>()(name) >> 16U & (kRecent - 1)];

@@ -80,9 +80,9 @@ class ActuatorReader {
   std::optional<Index> joint_of(const stage::Prim& prim) {
     const std::vector<Path> targets = prim.relationship(tokens_.target).targets();
     if (targets.size() == 1) {
-      const auto found = state_.walk.index_of.find(targets.front());
-      if (found != state_.walk.index_of.end() && state_.joint_of_prim[found->second] != kNone) {
-        return state_.joint_of_prim[found->second];
+      const std::uint32_t joint = state_.joint_at(targets.front());
+      if (joint != kNone) {
+        return joint;
       }
     }
     if (targets.size() == 1 && is_other_target(prim.prim_at(targets.front()))) {

@@ -8,6 +8,7 @@
 // left out.
 #include "tenon/physics/joints/drives.h"
 
+#include <array>
 #include <cmath>
 
 #include "tenon/physics/joints/joint_limits.h"
@@ -19,17 +20,20 @@ namespace {
 /// S-103: "angular" and "linear" name the joint's own axis; the axis' own name is taken too.
 std::optional<Dof> driven_dof(const ReadState& state, const stage::Prim& prim, const Joint& joint,
                               Token instance) {
-  const std::string api = "PhysicsDriveAPI:" + instance.str();
+  static const Token angular("angular");
+  static const Token linear("linear");
+  const auto api_name = [&] { return "PhysicsDriveAPI:" + instance.str(); };
   const std::optional<Dof> named = dof_of(instance.view());
   const bool one_axis = joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic;
-  const Token own(joint.kind == JointKind::Revolute ? "angular" : "linear");
+  const Token own = joint.kind == JointKind::Revolute ? angular : linear;
   if (one_axis && instance == own) {
     return joint.dof();
   }
   if (one_axis && named == joint.dof()) {
-    state.report(prim, Severity::Info, "drive.axis-token",
-                 api + " is taken as PhysicsDriveAPI:" + own.str() + ", the joint's own axis",
-                 "apply PhysicsDriveAPI:" + own.str(), api_part(api));
+    state.report(
+        prim, Severity::Info, "drive.axis-token",
+        api_name() + " is taken as PhysicsDriveAPI:" + own.str() + ", the joint's own axis",
+        "apply PhysicsDriveAPI:" + own.str(), api_part(api_name()));
     return named;
   }
   if (joint.kind == JointKind::D6 && named && *named != Dof::Distance) {
@@ -37,14 +41,15 @@ std::optional<Dof> driven_dof(const ReadState& state, const stage::Prim& prim, c
   }
   // S-107
   state.report(prim, Severity::Warning, "drive.no-such-axis",
-               api + " is ignored: the joint does not move that way",
-               one_axis ? "apply PhysicsDriveAPI:" + own.str() : "remove it", api_part(api));
+               api_name() + " is ignored: the joint does not move that way",
+               one_axis ? "apply PhysicsDriveAPI:" + own.str() : "remove it", api_part(api_name()));
   return std::nullopt;
 }
 
 bool read_acceleration(const ReadState& state, const stage::Prim& prim, Token name) {
-  const Token type = state.values.get<Token>(prim, name).value_or(Token("force"));
-  if (!(type == "force") && !(type == "acceleration")) {
+  static const Token force("force");
+  const Token type = state.values.get<Token>(prim, name).value_or(force);
+  if (!(type == force) && !(type == "acceleration")) {
     state.report(prim, name, Severity::Error, "drive.type-unknown",
                  name.str() + " is \"" + type.str() + "\"; force is used instead",
                  "use force or acceleration");
@@ -98,6 +103,10 @@ DriveEnvelope read_envelope(const ReadState& state, const PhysicsPrim& found, To
 
 void check_effect(const ReadState& state, const stage::Prim& prim, const Joint& joint,
                   const Drive& drive, Token instance) {
+  const bool is_idle = drive.stiffness == 0 && drive.damping == 0;
+  if (!is_idle && !drive.acceleration && !is_locked(joint, drive.dof)) {
+    return;
+  }
   const StatementPart api = api_part("PhysicsDriveAPI:" + instance.str());
   const std::string name = "the drive of " + std::string(dof_name(drive.dof));
   if (drive.acceleration && is_angular(drive.dof)) {
@@ -107,7 +116,7 @@ void check_effect(const ReadState& state, const stage::Prim& prim, const Joint& 
                      "PhysX does; read literally they are 57.3 times weaker",
                  "use a force drive, whose gains all readers take alike", api);
   }
-  if (drive.stiffness == 0 && drive.damping == 0) {
+  if (is_idle) {
     // S-106
     state.report(prim, Severity::Info, "drive.no-effect",
                  name + " has neither stiffness nor damping: no force", "author gains", api);
@@ -122,9 +131,22 @@ void check_effect(const ReadState& state, const stage::Prim& prim, const Joint& 
 }  // namespace
 
 DriveNames drive_names(Token instance) {
-  const std::string prefix = "drive:" + instance.str() + ":physics:";
-  return {prefix + "type",           prefix + "maxForce",  prefix + "targetPosition",
-          prefix + "targetVelocity", prefix + "stiffness", prefix + "damping"};
+  // A scene has few names of instances, and asks for them at each joint.
+  struct Known {
+    Token instance;
+    DriveNames names;
+  };
+  constexpr std::size_t kKnown = 16;
+  thread_local std::array<Known, kKnown> known;
+  Known& slot = known[std::hash<Token>()(instance) >> 16U & (kKnown - 1)];
+  if (slot.instance != instance) {
+    const std::string prefix = "drive:" + instance.str() + ":physics:";
+    slot = {
+        instance,
+        {Token(prefix + "type"), Token(prefix + "maxForce"), Token(prefix + "targetPosition"),
+         Token(prefix + "targetVelocity"), Token(prefix + "stiffness"), Token(prefix + "damping")}};
+  }
+  return slot.names;
 }
 
 DriveUnits drive_units(const ReadState& state, Dof dof, bool acceleration) {

@@ -53,9 +53,7 @@ class GearReader {
   std::optional<Index> joint_named(const char* name, JointKind kind) const {
     const std::vector<Path> targets = found_.prim.relationship(name).targets();
     if (!targets.empty()) {
-      const auto found = state_.walk.index_of.find(state_.walk.near(found_, targets.front()));
-      const std::uint32_t joint =
-          found == state_.walk.index_of.end() ? kNone : state_.joint_of_prim[found->second];
+      const std::uint32_t joint = state_.joint_at(state_.walk.near(found_, targets.front()));
       if (joint != kNone && state_.scene.joints[joint].kind == kind) {
         return joint;
       }

@@ -54,8 +54,11 @@ Pose frame_in_body(const ReadState& state, const Attachment& attached, const Phy
     const Vec3d scale = factor(attached.world).scale * state.units.length;
     return {{{position[0] * scale[0], position[1] * scale[1], position[2] * scale[2]}}, rotation};
   }
-  const Pose world{transform_point(position, attached.world) * state.units.length,
-                   world_pose(attached.world, state.units).orientation * rotation};
+  const bool is_body_frame =
+      target != nullptr && target->is_body && attached.body && state.has_place(*attached.body);
+  const Quatd turn = is_body_frame ? state.scene.bodies[*attached.body].pose.orientation
+                                   : rigid_part(attached.world).orientation;
+  const Pose world{transform_point(position, attached.world) * state.units.length, turn * rotation};
   return attached.body ? inverse(state.scene.bodies[*attached.body].pose) * world : world;
 }
 

@@ -97,9 +97,7 @@ class MimicReader {
     std::string why = name + " names no joint";
     if (!targets.empty()) {
       why = name + " names <" + targets.front().str() + ">, which is not a joint of one axis";
-      const auto found = state_.walk.index_of.find(state_.walk.near(found_, targets.front()));
-      const std::uint32_t joint =
-          found == state_.walk.index_of.end() ? kNone : state_.joint_of_prim[found->second];
+      const std::uint32_t joint = state_.joint_at(state_.walk.near(found_, targets.front()));
       const std::optional<Dof> leads =
           joint == kNone ? std::nullopt : leading_dof(state_.scene.joints[joint], rotation);
       if (leads && joint == index_ && *leads == dof) {

@@ -111,9 +111,7 @@ class TendonReader {
       return refuse(tokens_.coefficients, "there is not one coefficient for each joint");
     }
     for (const Path& target : order_) {
-      const auto prim = state_.walk.index_of.find(state_.walk.near(found_, target));
-      const std::uint32_t joint =
-          prim == state_.walk.index_of.end() ? kNone : state_.joint_of_prim[prim->second];
+      const std::uint32_t joint = state_.joint_at(state_.walk.near(found_, target));
       if (joint == kNone || !(state_.scene.joints[joint].kind == JointKind::Revolute ||
                               state_.scene.joints[joint].kind == JointKind::Prismatic)) {
         return refuse(tokens_.path, "<" + target.str() + "> is not a joint of one axis");

@@ -185,7 +185,7 @@ class SensorReader {
   }
 
   void read_joint(const PhysicsPrim& found) {
-    const std::uint32_t joint = state_.joint_of_prim[index_of(found)];
+    const std::uint32_t joint = state_.joint_at(found.path);
     if (joint == kNone) {
       refuse(found, "sensor.no-joint", "the sensor of a joint is on no joint that is simulated",
              "author it on a joint that holds bodies");
@@ -208,10 +208,6 @@ class SensorReader {
     } else if (place(found, sensor)) {
       state_.scene.sensors.push_back(sensor);
     }
-  }
-
-  std::size_t index_of(const PhysicsPrim& found) const {
-    return static_cast<std::size_t>(&found - state_.walk.prims.data());
   }
 
   /// Body and frame; false with a finding where there is none.
