@@ -235,11 +235,11 @@ Path Path::replace_prefix(Path from, Path to, bool fix_targets) const {
   }
   ShortList<Path, 24> tail;
   Path path = *this;
-  for (; path != from; path = path.parent()) {
-    if (path.node().depth == 0 && path.property_ == 0) {
-      break;
-    }
+  // Only what is as deep as `from` can be it; targets are looked for on the whole way.
+  const std::uint32_t top = fix_targets ? 0 : from.depth();
+  for (std::uint32_t depth = path.depth(); depth > top && path != from; --depth) {
     tail.push_back(path);
+    path = path.parent();
   }
   const bool found = path == from;
   if (!found && !fix_targets) {

@@ -103,10 +103,15 @@ bool build_local_child(const IndexServices& services, const PrimIndex& parent, P
     index.opinions.clear();
     return false;
   }
-  index.nodes.push_back(parent.nodes.front());
-  index.nodes.front().first_child = index.nodes.front().last_child = kNoNode;
-  index.nodes.front().path = index.path;
-  index.nodes.front().has_specs = !index.opinions.empty();
+  const bool has_specs = !index.opinions.empty();
+  const Node* like = parent.nodes.like();
+  if (like == nullptr || like->has_specs != has_specs) {
+    Node node = parent.nodes.front();
+    node.first_child = node.last_child = kNoNode;
+    node.has_specs = has_specs;
+    like = services.maps->like(node);
+  }
+  index.nodes.be_like(*like, index.path);
   compose_names(index);
   return true;
 }

@@ -13,9 +13,10 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/path.h"
 #include "tenon/compose/arcs/arc.h"
+#include "tenon/compose/containers/like_or_many.h"
+#include "tenon/compose/containers/one_or_many.h"
 #include "tenon/compose/layer_stack.h"
 #include "tenon/compose/maps/map_function.h"
-#include "tenon/compose/one_or_many.h"
 #include "tenon/layer/shared_contents.h"
 
 namespace tenon::compose {
@@ -50,6 +51,7 @@ struct Node {
   /// to.
   bool due_to_direct_arc = false;
 
+  bool operator==(const Node&) const = default;
   bool can_contribute() const { return !inert && !culled; }
   bool has_opinions() const { return has_specs && can_contribute(); }
   bool same_site(const Node& other) const {
@@ -113,7 +115,7 @@ struct IndexExtras {
 /// without arcs in one layer lies in one piece of memory.
 struct PrimIndex {
   Path path;
-  OneOrMany<Node> nodes;        ///< strongest first; node 0 is the root
+  LikeOrMany<Node> nodes;       ///< strongest first; node 0 is the root
   OneOrMany<Opinion> opinions;  ///< prim specs, strongest first
   NameList child_names;         ///< composed, ordered, prohibited names removed
   NameList property_names;      ///< authored ones; weakest specs first, propertyOrder not applied

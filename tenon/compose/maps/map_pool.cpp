@@ -12,6 +12,20 @@ const MapFunction* MapPool::add(MapFunction map) {
   return &maps_.back();
 }
 
+const Node* MapPool::like(const Node& node) {
+  constexpr std::size_t kLately = 8;  // a scene has few of them
+  Node shape = node;
+  shape.path = Path();
+  std::size_t left = kLately;
+  for (auto known = nodes_.rbegin(); known != nodes_.rend() && left > 0; ++known, --left) {
+    if (*known == shape) {
+      return &*known;
+    }
+  }
+  nodes_.push_back(shape);
+  return &nodes_.back();
+}
+
 const MapFunction* MapPool::compose(const MapFunction* outer, const MapFunction* inner,
                                     WorkMeter& work) {
   if (outer->is_identity()) {

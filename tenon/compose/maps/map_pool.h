@@ -9,9 +9,10 @@
 #include <utility>
 
 #include "tenon/compose/maps/map_function.h"
+#include "tenon/compose/prim_index.h"
 #include "tenon/compose/work/work_meter.h"
 
-/// Internal: where map functions of nodes live. Maps of many pairs, which relocates make, are made
+/// Internal: where map functions of nodes live, and nodes that others are like. Maps of many pairs, which relocates make, are made
 /// once for all prims that they apply to: whoever needs one first pays for it.
 namespace tenon::compose {
 
@@ -43,6 +44,8 @@ class MapPool {
  public:
   const MapFunction* identity() const { return &MapFunction::identity(); }
   const MapFunction* add(MapFunction map);
+  /// A node that is as this one but for its path, and lives as long as the pool.
+  const Node* like(const Node& node);
   /// First `inner`, then `outer`; identities cost nothing.
   const MapFunction* compose(const MapFunction* outer, const MapFunction* inner, WorkMeter& work);
   /// The map of many pairs that `make` makes, made where it is not known. `make` counts its work.
@@ -59,6 +62,7 @@ class MapPool {
 
  private:
   std::deque<MapFunction> maps_;
+  std::deque<Node> nodes_;  // without paths
   std::unordered_map<MapRecipe, const MapFunction*, MapRecipeHash> made_;
   const MapPool* known_ = nullptr;
   std::function<void()> lacking_;

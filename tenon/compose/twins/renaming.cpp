@@ -28,28 +28,55 @@ Renaming::Sides Renaming::sides_to_root(std::span<const Node> nodes, const Node&
   return {node.layer_stack == stack_, nodes.front().layer_stack == stack_};
 }
 
+Path Renaming::renamed(Path path) const {
+  const std::uint32_t top = from_.depth();
+  if (path.depth() <= top) {
+    return path == from_ ? to_ : path;
+  }
+  constexpr std::uint32_t kDeep = 100;  // few are, and each level is a call
+  if (!path.is_prim() || path.depth() > top + kDeep) {
+    return path.replace_prefix(from_, to_, false);
+  }
+  auto& [known, result] = recent_[path.number() % recent_.size()];
+  if (known != path) {
+    const Path above = path.parent();
+    const Path above_renamed = renamed(above);
+    const Path made = above_renamed == above ? path : above_renamed.child(path.name());
+    recent_[path.number() % recent_.size()] = {path, made};
+    return made;
+  }
+  return result;
+}
+
 MapFunction Renaming::renamed(const MapFunction& map, Sides sides) const {
   MapFunction::Pairs pairs = map.pairs();
   for (auto& [source, target] : pairs) {
     source = sides.source ? renamed(source) : source;
     target = sides.target ? renamed(target) : target;
   }
-  MapFunction result = MapFunction::make(std::move(pairs), map.offset());
-  return map.has_root_identity() ? result.with_root_identity() : result;
+  if (map.has_root_identity()) {
+    pairs.emplace_back(Path::absolute_root(), Path::absolute_root());
+  }
+  return MapFunction::make(std::move(pairs), map.offset());
 }
 
 const MapFunction* Renaming::renamed(const MapFunction* map, Sides sides, MapPool& pool) {
   if (map->pairs().empty()) {
     return map;
   }
-  const auto found = std::find_if(known_.begin(), known_.end(), [&](const Known& known) {
-    return known.map == map && known.sides == sides;
-  });
+  const auto is_it = [&](const Known& known) { return known.map == map && known.sides == sides; };
+  // The nodes of one prim after another have the same maps in the same order.
+  auto found = known_.begin() + static_cast<std::ptrdiff_t>(next_);
+  if (found == known_.end() || !is_it(*found)) {
+    found = std::find_if(known_.begin(), known_.end(), is_it);
+  }
   if (found != known_.end()) {
+    next_ = static_cast<std::size_t>(found - known_.begin()) + 1;
     return found->renamed;
   }
   MapFunction made = renamed(*map, sides);
   known_.push_back({map, sides, made == *map ? map : pool.add(std::move(made))});
+  next_ = known_.size();
   return known_.back().renamed;
 }
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "tenon/compose/maps/map_pool.h"
@@ -20,7 +22,7 @@ class Renaming {
   Path from() const { return from_; }
   Path to() const { return to_; }
 
-  Path renamed(Path path) const { return path.replace_prefix(from_, to_, false); }
+  Path renamed(Path path) const;
   /// A path in the namespace of a stack.
   Path renamed(const LayerStack* stack, Path path) const {
     return stack == stack_ ? renamed(path) : path;
@@ -53,6 +55,9 @@ class Renaming {
   Path from_;
   Path to_;
   std::vector<Known> known_;
+  std::size_t next_ = 0;  // into known_: the map that is likely to be asked for next
+  /// Of paths that were renamed lately: prims come after the ones that they are below.
+  mutable std::array<std::pair<Path, Path>, 32> recent_{};
 };
 
 }  // namespace tenon::compose

@@ -31,7 +31,7 @@ bool may_have_twins(const PrimIndex& index) {
 
 bool are_twins(const LayerStack& root_stack, const PrimIndex& a, const PrimIndex& b) {
   return a.has_payloads == b.has_payloads && a.payload_loaded == b.payload_loaded &&
-         Renaming(root_stack, a.path, b.path).leads_to(a.nodes, b.nodes) &&
+         Renaming(root_stack, a.path, b.path).leads_to(a.nodes.own(), b.nodes.own()) &&
          author_equal_arcs(root_stack, a.path, b.path);
 }
 
@@ -79,9 +79,12 @@ bool Twins::take_over(const IndexServices& services, const PrimIndex& parent, Pr
   }
   Composed& composed = *found->second.composed;
   const WorkMeter& work = *services.work;
+  const Path twin = above(index.path, composed.depth);
+  if (renaming_.from() != composed.top || renaming_.to() != twin) {
+    renaming_ = Renaming(*services.root_stack, composed.top, twin);
+  }
   if (*services.node_count + composed.node_count >= services.options->max_nodes ||
-      work.done() + composed.work >= work.most() ||
-      !says_the_same(services, composed, above(index.path, composed.depth))) {
+      work.done() + composed.work >= work.most() || !says_the_same(services, composed)) {
     return false;
   }
   copy_to(services, composed, index);
@@ -190,24 +193,24 @@ bool Twins::keep_looks(const IndexServices& services, const std::vector<SiteTrac
                       [&](Path path) { return has_element(path, composed.top.name()); });
 }
 
-bool Twins::says_the_same(const IndexServices& services, const Composed& composed,
-                          Path twin) const {
-  const Renaming renaming(*services.root_stack, composed.top, twin);
+bool Twins::says_the_same(const IndexServices& services, const Composed& composed) const {
   return std::none_of(composed.beside.begin(), composed.beside.end(),
-                      [&](Path path) { return has_element(path, twin.name()); }) &&
+                      [&](Path path) { return has_element(path, renaming_.to().name()); }) &&
          std::none_of(composed.below.begin(), composed.below.end(), [&](Path path) {
-           return services.root_stack->has_spec(renaming.renamed(path));
+           return services.root_stack->has_spec(renaming_.renamed(path));
          });
 }
 
 void Twins::copy_to(const IndexServices& services, const Composed& composed, PrimIndex& index) {
   const PrimIndex& twin = *composed.index;
-  const Path to = above(index.path, composed.depth);
-  if (renaming_.from() != composed.top || renaming_.to() != to) {
-    renaming_ = Renaming(*services.root_stack, composed.top, to);
+  if (twin.nodes.like() != nullptr) {
+    Node node = twin.nodes.front();
+    renaming_.rename({&node, 1}, *services.maps);
+    index.nodes.be_like(*services.maps->like(node), node.path);
+  } else {
+    index.nodes.assign(twin.nodes.own());
+    renaming_.rename(index.nodes.own(), *services.maps);
   }
-  index.nodes.assign(twin.nodes);
-  renaming_.rename(index.nodes, *services.maps);
   index.opinions.assign(twin.opinions);
   index.child_names = twin.child_names;
   index.property_names = twin.property_names;

@@ -67,7 +67,8 @@ class Twins {
   static bool may_be_kept(const IndexServices& services, const PrimIndex& index);
   static bool keep_looks(const IndexServices& services, const std::vector<SiteTrace::Look>& looks,
                          Composed& composed);
-  bool says_the_same(const IndexServices& services, const Composed& composed, Path twin) const;
+  /// The layers say of the twin that `renaming_` leads to what they say of the other.
+  bool says_the_same(const IndexServices& services, const Composed& composed) const;
   void copy_to(const IndexServices& services, const Composed& composed, PrimIndex& index);
 
   std::deque<Family> families_;
@@ -76,7 +77,7 @@ class Twins {
   std::vector<Family*> candidates_;   // of these
   PathTable<Composed*> composed_of_;  // by prims at and below twins
   Composed* last_ = nullptr;          // what was kept last
-  Renaming renaming_;                 // from the twin that was copied from last to another
+  Renaming renaming_;                 // from the twin that is copied from to another
 };
 
 }  // namespace tenon::compose

@@ -190,7 +190,7 @@ std::optional<LayerSite> site_in_layer(const Stage& stage, Path prim, const std:
     if (record->is_prototype_root) {
       return std::nullopt;  // what stands further out is not shared
     }
-    const compose::OneOrMany<compose::Node>& nodes = record->index->nodes;
+    const auto& nodes = record->index->nodes;
     for (std::uint32_t id = 0; id < nodes.size(); ++id) {
       if (nodes[id].can_contribute() && has_layer(*nodes[id].layer_stack, layer)) {
         LayerSite site;

@@ -174,7 +174,7 @@ bool visit_node(const compose::Node& node, compose::Opinion opinion,
 /// The same for a prim with clips.
 template <class Search>
 void visit_nodes(const PrimData& prim, Token name, Search& search) {
-  const compose::OneOrMany<compose::Node>& nodes = prim.index->nodes;
+  const auto& nodes = prim.index->nodes;
   for (std::uint32_t id = 0; id < nodes.size(); ++id) {
     const compose::Node& node = nodes[id];
     if (!node.can_contribute()) {

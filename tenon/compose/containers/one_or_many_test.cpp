@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/compose/one_or_many.h"
+#include "tenon/compose/containers/one_or_many.h"
 
 #include <random>
 #include <vector>

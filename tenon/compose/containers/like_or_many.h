@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <memory>
+#include <new>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "tenon/base/path.h"
+
+namespace tenon::compose {
+
+/// A list of elements that have a path each. Where it has one, that may be like an element that
+/// lies elsewhere but for its path, as the nodes of most prims are like that of their parent: then
+/// the list is all that it takes. Elements come as copies.
+template <class T>
+class LikeOrMany {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T> &&
+                alignof(T) <= alignof(std::uint64_t) && alignof(T) > 1);
+
+ public:
+  class Iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = T;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const T*;
+    using reference = T;
+
+    Iterator() = default;
+    Iterator(const LikeOrMany* list, std::size_t at) : list_(list), at_(at) {}
+    T operator*() const { return (*list_)[at_]; }
+    Iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    Iterator operator++(int) { return {list_, at_++}; }
+    bool operator==(const Iterator& other) const { return at_ == other.at_; }
+
+   private:
+    const LikeOrMany* list_ = nullptr;
+    std::size_t at_ = 0;
+  };
+
+  LikeOrMany() = default;
+  LikeOrMany(const LikeOrMany&) = delete;
+  LikeOrMany(LikeOrMany&& other) noexcept
+      : at_(std::exchange(other.at_, nullptr)), path_(other.path_) {}
+  LikeOrMany& operator=(const LikeOrMany&) = delete;
+  LikeOrMany& operator=(LikeOrMany&& other) noexcept {
+    std::swap(at_, other.at_);
+    std::swap(path_, other.path_);
+    return *this;
+  }
+  ~LikeOrMany() { clear(); }
+
+  std::size_t size() const { return at_ == nullptr ? 0 : is_like() ? 1 : block()->count; }
+  bool empty() const { return at_ == nullptr; }
+  T operator[](std::size_t at) const {
+    if (!is_like()) {
+      return elements()[at];
+    }
+    T element = *like();
+    element.path = path_;
+    return element;
+  }
+  T front() const { return (*this)[0]; }
+  Iterator begin() const { return {this, 0}; }
+  Iterator end() const { return {this, size()}; }
+
+  /// What its one element is like; null where the elements are its own.
+  const T* like() const {
+    return is_like() ? std::launder(reinterpret_cast<const T*>(at_ - 1)) : nullptr;
+  }
+  /// The elements where they are its own.
+  std::span<T> own() { return is_like() ? std::span<T>() : std::span<T>(elements(), size()); }
+  std::span<const T> own() const {
+    return is_like() ? std::span<const T>() : std::span<const T>(elements(), size());
+  }
+
+  /// One element, which is as `like` but for its path. `like` lives as long as the list.
+  void be_like(const T& like, Path path) {
+    clear();
+    at_ = reinterpret_cast<std::byte*>(const_cast<T*>(&like)) + 1;
+    path_ = path;
+  }
+  /// Takes these elements in place of its own; they lie elsewhere.
+  void assign(std::span<const T> elements) {
+    clear();
+    if (elements.empty()) {
+      return;
+    }
+    at_ = static_cast<std::byte*>(::operator new(sizeof(Block) + elements.size_bytes()));
+    ::new (static_cast<void*>(at_)) Block{elements.size()};
+    std::uninitialized_copy_n(elements.data(), elements.size(), this->elements());
+  }
+  void clear() {
+    if (at_ != nullptr && !is_like()) {
+      ::operator delete(at_);
+    }
+    at_ = nullptr;
+  }
+
+ private:
+  struct Block {
+    std::uint64_t count = 0;  // the elements follow
+  };
+
+  // Addresses of what the element is like are odd.
+  bool is_like() const { return (reinterpret_cast<std::uintptr_t>(at_) & 1u) != 0; }
+  Block* block() const { return std::launder(reinterpret_cast<Block*>(at_)); }
+  T* elements() const {
+    return at_ == nullptr ? nullptr : std::launder(reinterpret_cast<T*>(at_ + sizeof(Block)));
+  }
+
+  std::byte* at_ = nullptr;
+  Path path_;
+};
+
+}  // namespace tenon::compose
