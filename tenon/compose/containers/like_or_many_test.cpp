@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/compose/containers/like_or_many.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace tenon::compose {
 namespace {
