@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tenon/base/containers/short_list.h"
 #include "tenon/base/limits/limits.h"
 #include "tenon/base/path.h"
 #include "tenon/base/text/text_cursor.h"
@@ -270,9 +271,13 @@ std::string Path::str() const {
   if (kind() == PathKind::RelativeRoot) {
     return ".";
   }
+  ShortList<Path, 24> elements;
+  for (Path path = *this; !path.empty(); path = path.parent()) {
+    elements.push_back(path);
+  }
   std::string text;
-  for (const Path& element : prefixes()) {
-    append_element(text, element);
+  for (auto element = elements.rbegin(); element != elements.rend(); ++element) {
+    append_element(text, *element);
   }
   return text;
 }

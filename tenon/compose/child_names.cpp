@@ -245,7 +245,7 @@ void compose_property_names(PrimIndex& index) {
   visit_weak_to_strong(index, [&](const Node&, NodeOpinions opinions) {
     add_names(opinions, fields::properties, nullptr, list);
   });
-  index.property_names = list.take_list();
+  index.set_property_names(list.take_list());
 }
 
 }  // namespace tenon::compose

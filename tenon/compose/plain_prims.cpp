@@ -23,7 +23,7 @@ void compose_names(PrimIndex& index) {
   if (index.opinions.size() == 1 && !index.opinions.front().spec->has(layer::fields::primOrder)) {
     const layer::Spec& spec = *index.opinions.front().spec;
     index.child_names = NameList(spec, layer::fields::primChildren);
-    index.property_names = NameList(spec, layer::fields::properties);
+    index.set_property_names(NameList(spec, layer::fields::properties));
   } else if (!index.opinions.empty()) {
     compose_child_names(index);
     compose_property_names(index);

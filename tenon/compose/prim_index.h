@@ -120,6 +120,7 @@ struct PrimIndex {
   NameList child_names;         ///< composed, ordered, prohibited names removed
   NameList property_names;      ///< authored ones; weakest specs first, propertyOrder not applied
   std::unique_ptr<IndexExtras> own_extras;  ///< where there are any
+  std::uint32_t name_marks = 0;             ///< a bit for each of property_names, which many share
   bool has_payloads = false;                ///< some payload arc is authored
   bool payload_loaded = false;              ///< and included under the load rules
   bool instanceable = false;                ///< an instance: some arc, and instanceable = true
@@ -141,15 +142,26 @@ struct PrimIndex {
     return *own_extras;
   }
 
+  void set_property_names(NameList names) {
+    property_names = std::move(names);
+    name_marks = 0;
+    for (const Token name : property_names) {
+      name_marks |= mark_of(name);
+    }
+  }
+
   /// Where a property may be, as far as that is quickly known: most that schemas declare are in no
   /// layer. A short list is searched faster than a path is made for each opinion, a long one is not
-  /// searched.
+  /// searched. Names without a mark are in none.
   enum class Listed : std::uint8_t { Nowhere, Somewhere, AtPlace };
   struct Place {
     Listed listed = Listed::Nowhere;
     std::size_t place = 0;  ///< in `property_names`
   };
   Place place_of(Token name) const {
+    if ((name_marks & mark_of(name)) == 0) {
+      return {};
+    }
     if (property_names.size() > layer::Layer::kShortList) {
       return {Listed::Somewhere};
     }
@@ -175,6 +187,8 @@ struct PrimIndex {
     }
     return opinion.layer->find_property(*opinion.spec, opinion.path, name);
   }
+  static std::uint32_t mark_of(Token name) { return 1u << (name.number() % 32); }
+
   /// `path` of node's namespace in the stage's; empty when it has no image.
   Path map_to_root(std::uint32_t node, Path path_in_node) const {
     return nodes[node].map_to_root->map_source_to_target(path_in_node.strip_variants());

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "tenon/base/containers/short_list.h"
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/stage_data.h"
 
@@ -67,22 +68,22 @@ Prim StageData::find(Path path) const {
   if (path.empty() || !path.is_absolute()) {
     return {};
   }
-  std::vector<Token> below;
+  ShortList<Path, 24> below;
   for (Path at = path; !at.empty(); at = at.parent()) {
     PrimData* const* const found = by_path.find(at);
     if (found == nullptr) {
       if (!at.is_prim()) {
         return {};
       }
-      below.push_back(at.name());
+      below.push_back(at);
       continue;
     }
     if (!below.empty() && !(*found)->is_instance()) {
       return {};
     }
     Prim prim(this, *found);
-    for (auto name = below.rbegin(); name != below.rend() && prim; ++name) {
-      prim = prim.child(*name);
+    for (auto step = below.rbegin(); step != below.rend() && prim; ++step) {
+      prim = prim.child(step->name());
     }
     return prim;
   }

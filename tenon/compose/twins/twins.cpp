@@ -214,6 +214,7 @@ void Twins::copy_to(const IndexServices& services, const Composed& composed, Pri
   index.opinions.assign(twin.opinions);
   index.child_names = twin.child_names;
   index.property_names = twin.property_names;
+  index.name_marks = twin.name_marks;
   if (twin.own_extras != nullptr) {
     index.make_extras() = *twin.own_extras;
   }

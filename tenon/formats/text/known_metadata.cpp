@@ -29,7 +29,8 @@ std::size_t KnownMetadata::take(std::string_view rest, layer::Spec& spec) const 
   if (known.text.empty() || known.kind != spec.kind || !rest.starts_with(known.text)) {
     return 0;
   }
-  spec.reserve_fields(spec.fields().size() + known.fields.size() + 1);
+  constexpr std::size_t kToCome = 2;  // most often the names of properties and children
+  spec.reserve_fields(spec.fields().size() + known.fields.size() + kToCome);
   for (const layer::Field& field : known.fields) {
     spec.append(field.name, field.value);
   }
