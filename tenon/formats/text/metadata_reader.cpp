@@ -377,11 +377,11 @@ class MetadataReader {
     if (edit == ListEdit::Explicit) {
       return set(name, Value(UnregisteredValue{Value(std::move(text))}));
     }
-    return edit_unregistered(name, edit, std::move(text));
+    return edit_unregistered(name, edit, text);
   }
 
   /// An edit of a list of unknown type: its items are kept as one text without the brackets.
-  bool edit_unregistered(Token name, ListEdit edit, std::string text) {
+  bool edit_unregistered(Token name, ListEdit edit, const std::string& text) {
     layer::ListOp<UnregisteredValue> op;
     if (const auto* old = spec().get<UnregisteredValue>(name)) {
       const auto* old_op = old->value.get<layer::ListOp<UnregisteredValue>>();
