@@ -19,6 +19,12 @@
 namespace tenon {
 namespace {
 
+/// Targets stand below properties that are elements, hardly ever.
+bool may_hold_targets(PathKind kind) {
+  return kind != PathKind::AbsoluteRoot && kind != PathKind::RelativeRoot &&
+         kind != PathKind::Prim && kind != PathKind::VariantSelection;
+}
+
 constexpr std::uint32_t kNumbersAtOnce = 256;
 constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ull;
 
@@ -230,7 +236,11 @@ Path Path::append(Path relative) const {
 }
 
 Path Path::replace_prefix(Path from, Path to, bool fix_targets) const {
-  if (empty() || from.empty() || to.empty() || (from == to && !fix_targets)) {
+  if (empty() || from.empty() || to.empty()) {
+    return *this;
+  }
+  fix_targets = fix_targets && may_hold_targets(node().kind);
+  if (from == to && !fix_targets) {
     return *this;
   }
   ShortList<Path, 24> tail;

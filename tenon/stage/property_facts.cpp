@@ -52,6 +52,9 @@ SourceMap source_map(const StageData& stage, const PrimData& prim, Path proxy_pa
     }
     const Path prototype = at.is_instance() ? at.prototype().path() : at.path();
     map.emplace_back(stage.by_path.at(prototype)->source_path, at.path());
+    if (at.is_instance() && !at.is_instance_proxy() && !at.is_in_prototype()) {
+      break;  // no instance lies above it
+    }
   }
   return map;
 }
