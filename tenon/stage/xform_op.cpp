@@ -13,6 +13,7 @@
 #include <numbers>
 #include <optional>
 
+#include "tenon/base/containers/token_memo.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/finding_place.h"
 
@@ -184,18 +185,8 @@ XformOp parse_name(Token name) {
 }  // namespace
 
 XformOp parse_xform_op(Token name) {
-  // A scene has few names of operations, and asks for them at each prim.
-  struct Known {
-    Token name;
-    XformOp op;
-  };
-  constexpr std::size_t kKnown = 64;
-  thread_local std::array<Known, kKnown> known;
-  Known& slot = known[std::hash<Token>()(name) >> 16U & (kKnown - 1)];
-  if (slot.name != name) {
-    slot = {name, parse_name(name)};
-  }
-  return slot.op;
+  thread_local TokenMemo<XformOp, 64> known;
+  return known.find_or_make(name, parse_name);
 }
 
 Mat4d xform_op_matrix(const Prim& prim, const XformOp& op, Time time, Diagnostics* diagnostics) {

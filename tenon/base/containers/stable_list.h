@@ -3,11 +3,12 @@
 #pragma once
 
 #include <cstddef>
-#include <iterator>
 #include <memory>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include "tenon/base/containers/index_iterator.h"
 
 namespace tenon {
 
@@ -18,29 +19,7 @@ class StableList {
  public:
   static constexpr std::size_t kRow = 16;
 
-  class Iterator {
-   public:
-    using iterator_category = std::forward_iterator_tag;
-    using value_type = T;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const T*;
-    using reference = const T&;
-
-    Iterator() = default;
-    Iterator(const StableList* list, std::size_t at) : list_(list), at_(at) {}
-    const T& operator*() const { return (*list_)[at_]; }
-    const T* operator->() const { return &**this; }
-    Iterator& operator++() {
-      ++at_;
-      return *this;
-    }
-    Iterator operator++(int) { return {list_, at_++}; }
-    bool operator==(const Iterator& other) const { return at_ == other.at_; }
-
-   private:
-    const StableList* list_ = nullptr;
-    std::size_t at_ = 0;
-  };
+  using Iterator = IndexIterator<StableList, T>;
 
   StableList() = default;
   StableList(const StableList& other) {

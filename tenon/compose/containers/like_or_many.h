@@ -4,13 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <span>
 #include <type_traits>
 #include <utility>
 
+#include "tenon/base/containers/index_iterator.h"
 #include "tenon/base/path.h"
 
 namespace tenon::compose {
@@ -24,28 +24,7 @@ class LikeOrMany {
                 alignof(T) <= alignof(std::uint64_t) && alignof(T) > 1);
 
  public:
-  class Iterator {
-   public:
-    using iterator_category = std::input_iterator_tag;
-    using value_type = T;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const T*;
-    using reference = T;
-
-    Iterator() = default;
-    Iterator(const LikeOrMany* list, std::size_t at) : list_(list), at_(at) {}
-    T operator*() const { return (*list_)[at_]; }
-    Iterator& operator++() {
-      ++at_;
-      return *this;
-    }
-    Iterator operator++(int) { return {list_, at_++}; }
-    bool operator==(const Iterator& other) const { return at_ == other.at_; }
-
-   private:
-    const LikeOrMany* list_ = nullptr;
-    std::size_t at_ = 0;
-  };
+  using Iterator = IndexIterator<LikeOrMany, T, T>;
 
   LikeOrMany() = default;
   LikeOrMany(const LikeOrMany&) = delete;

@@ -8,9 +8,9 @@
 // left out.
 #include "tenon/physics/joints/drives.h"
 
-#include <array>
 #include <cmath>
 
+#include "tenon/base/containers/token_memo.h"
 #include "tenon/physics/joints/joint_limits.h"
 #include "tenon/scene/joint_freedom.h"
 
@@ -131,22 +131,13 @@ void check_effect(const ReadState& state, const stage::Prim& prim, const Joint& 
 }  // namespace
 
 DriveNames drive_names(Token instance) {
-  // A scene has few names of instances, and asks for them at each joint.
-  struct Known {
-    Token instance;
-    DriveNames names;
-  };
-  constexpr std::size_t kKnown = 16;
-  thread_local std::array<Known, kKnown> known;
-  Known& slot = known[std::hash<Token>()(instance) >> 16U & (kKnown - 1)];
-  if (slot.instance != instance) {
-    const std::string prefix = "drive:" + instance.str() + ":physics:";
-    slot = {
-        instance,
-        {Token(prefix + "type"), Token(prefix + "maxForce"), Token(prefix + "targetPosition"),
-         Token(prefix + "targetVelocity"), Token(prefix + "stiffness"), Token(prefix + "damping")}};
-  }
-  return slot.names;
+  thread_local TokenMemo<DriveNames, 16> known;
+  return known.find_or_make(instance, [](Token name) {
+    const std::string prefix = "drive:" + name.str() + ":physics:";
+    return DriveNames{Token(prefix + "type"),           Token(prefix + "maxForce"),
+                      Token(prefix + "targetPosition"), Token(prefix + "targetVelocity"),
+                      Token(prefix + "stiffness"),      Token(prefix + "damping")};
+  });
 }
 
 DriveUnits drive_units(const ReadState& state, Dof dof, bool acceleration) {
