@@ -150,43 +150,47 @@ struct PrimIndex {
     }
   }
 
-  /// Where a property may be, as far as that is quickly known: most that schemas declare are in no
-  /// layer. A short list is searched faster than a path is made for each opinion, a long one is not
-  /// searched. Names without a mark are in none.
-  enum class Listed : std::uint8_t { Nowhere, Somewhere, AtPlace };
-  struct Place {
-    Listed listed = Listed::Nowhere;
-    std::size_t place = 0;  ///< in `property_names`
-  };
-  Place place_of(Token name) const {
-    if ((name_marks & mark_of(name)) == 0) {
-      return {};
-    }
-    if (property_names.size() > layer::Layer::kShortList) {
-      return {Listed::Somewhere};
-    }
-    const Token* const found = std::find(property_names.begin(), property_names.end(), name);
-    return found == property_names.end()
-               ? Place{}
-               : Place{Listed::AtPlace, static_cast<std::size_t>(found - property_names.begin())};
-  }
   /// Some opinion has a property of that name.
   bool has_property(Token name) const {
     return std::find(property_names.begin(), property_names.end(), name) != property_names.end();
   }
-  /// False where that is quickly known.
-  bool may_have_property(Token name) const { return place_of(name).listed != Listed::Nowhere; }
-  /// The property as one of the opinions has it; null where that does not.
-  const layer::Layer::Entry* property_in(const Opinion& opinion, Token name, Place place) const {
-    if (place.listed == Listed::AtPlace && opinions.size() == 1) {
-      const auto* const guess =
-          opinion.layer->guess_property(opinion.number, place.place, opinion.path.property(name));
-      if (guess != nullptr) {
-        return guess;
+  /// False where that is quickly known, as most properties that schemas declare are in no layer:
+  /// names without a mark are not listed, and a short list is searched faster than a path is made
+  /// for each opinion. A long one is not searched.
+  bool may_have_property(Token name) const {
+    return (name_marks & mark_of(name)) != 0 && (!names_are_few() || has_property(name));
+  }
+  /// Calls `visit(opinion, entry)` for each opinion that has the property, strongest first, with
+  /// the layer's entry of it, until it returns true.
+  template <class Visit>
+  void visit_property(Token name, Visit visit) const {
+    if ((name_marks & mark_of(name)) == 0) {
+      return;
+    }
+    if (names_are_few()) {
+      const Token* const listed = std::find(property_names.begin(), property_names.end(), name);
+      if (listed == property_names.end()) {
+        return;
+      }
+      if (opinions.size() == 1) {
+        const Opinion& only = opinions.front();
+        const auto* const guess = only.layer->guess_property(
+            only.number, static_cast<std::size_t>(listed - property_names.begin()),
+            only.path.property(name));
+        if (guess != nullptr) {
+          visit(only, *guess);
+          return;
+        }
       }
     }
-    return opinion.layer->find_property(*opinion.spec, opinion.path, name);
+    for (const Opinion& opinion : opinions) {
+      const auto* const entry = opinion.layer->find_property(*opinion.spec, opinion.path, name);
+      if (entry != nullptr && visit(opinion, *entry)) {
+        return;
+      }
+    }
   }
+  bool names_are_few() const { return property_names.size() <= layer::Layer::kShortList; }
   static std::uint32_t mark_of(Token name) { return 1u << (name.number() % 32); }
 
   /// `path` of node's namespace in the stage's; empty when it has no image.

@@ -81,11 +81,12 @@ class TargetCombiner {
         errors_.clear();
         list_.deleted.clear();
       }
-      if (says_all_of_it(*op)) {
-        replace_with(op->explicit_items, *it);
-        continue;
+      if (is_plain_list(*op)) {
+        list_.paths.clear();
+        layer::append_absent(list_.paths, targets_of(op->explicit_items, *it));
+      } else {
+        mapped(*op, *it).apply_to(list_.paths);
       }
-      mapped(*op, *it).apply_to(list_.paths);
     }
     for (Found& found : errors_) {
       list_.errors.add(std::move(found.diagnostic));
@@ -99,13 +100,13 @@ class TargetCombiner {
     Diagnostic diagnostic;
   };
 
-  /// As most are: a list and no edits.
-  static bool says_all_of_it(const ListOp<Path>& op) {
+  /// As most are: a list, and no edits of one beside it.
+  static bool is_plain_list(const ListOp<Path>& op) {
     return op.is_explicit && op.deleted.empty() && op.added.empty() && op.prepended.empty() &&
            op.appended.empty() && op.ordered.empty();
   }
 
-  void replace_with(const std::vector<Path>& items, const PropertyOpinion& opinion) {
+  std::vector<Path> targets_of(const std::vector<Path>& items, const PropertyOpinion& opinion) {
     std::vector<Path> targets;
     targets.reserve(items.size());
     for (const Path path : items) {
@@ -114,31 +115,23 @@ class TargetCombiner {
         targets.push_back(target);
       }
     }
-    if (targets.size() > 1) {
-      list_.paths.clear();
-      layer::append_absent(list_.paths, targets);
-    } else {
-      list_.paths = std::move(targets);
-    }
+    return targets;
   }
 
   ListOp<Path> mapped(const ListOp<Path>& op, const PropertyOpinion& opinion) {
     ListOp<Path> result;
     result.is_explicit = op.is_explicit;
-    const auto add = [&](std::vector<Path>& to, const std::vector<Path>& from, bool deletes) {
-      for (const Path path : from) {
-        const Path target = deletes ? deleted_target(path, opinion) : target_of(path, opinion);
-        if (!target.empty()) {
-          to.push_back(target);
-        }
+    result.explicit_items = targets_of(op.explicit_items, opinion);
+    for (const Path path : op.deleted) {
+      const Path target = deleted_target(path, opinion);
+      if (!target.empty()) {
+        result.deleted.push_back(target);
       }
-    };
-    add(result.explicit_items, op.explicit_items, false);
-    add(result.deleted, op.deleted, true);
-    add(result.added, op.added, false);
-    add(result.prepended, op.prepended, false);
-    add(result.appended, op.appended, false);
-    add(result.ordered, op.ordered, false);
+    }
+    result.added = targets_of(op.added, opinion);
+    result.prepended = targets_of(op.prepended, opinion);
+    result.appended = targets_of(op.appended, opinion);
+    result.ordered = targets_of(op.ordered, opinion);
     return result;
   }
 
@@ -233,29 +226,20 @@ class TargetCombiner {
 std::vector<PropertyOpinion> property_opinions(const PrimIndex& index, Token name,
                                                Diagnostics* errors) {
   std::vector<PropertyOpinion> found;
-  const PrimIndex::Place place = index.place_of(name);
-  if (place.listed == PrimIndex::Listed::Nowhere) {
-    return found;
-  }
-  for (const Opinion& opinion : index.opinions) {
-    const auto* entry = index.property_in(opinion, name, place);
-    if (entry == nullptr) {
-      continue;
+  index.visit_property(name, [&](const Opinion& opinion, const layer::Layer::Entry& entry) {
+    const auto& [path, spec] = entry;
+    if (found.empty() || found.front().spec->kind == spec.kind) {
+      found.push_back({opinion.layer, &spec, path, opinion.node});
+    } else if (errors != nullptr) {
+      errors->add(composition_error(error_class::kInconsistentPropertyType, Severity::Error,
+                                    {opinion.layer, path, index.path},
+                                    quoted(path) + " is an attribute here and a relationship in " +
+                                        quoted(*found.front().layer, found.front().path) +
+                                        " or the reverse; it is ignored",
+                                    "make both the same kind of property"));
     }
-    const auto& [path, spec] = *entry;
-    if (!found.empty() && found.front().spec->kind != spec.kind) {
-      if (errors != nullptr) {
-        errors->add(composition_error(
-            error_class::kInconsistentPropertyType, Severity::Error,
-            {opinion.layer, path, index.path},
-            quoted(path) + " is an attribute here and a relationship in " +
-                quoted(*found.front().layer, found.front().path) + " or the reverse; it is ignored",
-            "make both the same kind of property"));
-      }
-      continue;
-    }
-    found.push_back({opinion.layer, &spec, path, opinion.node});
-  }
+    return false;
+  });
   return found;
 }
 

@@ -22,22 +22,13 @@ std::vector<compose::Opinion> property_opinions(const PrimData& prim, Token name
 /// Calls `visit(opinion)` for each of them until it returns true.
 template <class Visit>
 void visit_property_opinions(const PrimData& prim, Token name, Visit visit) {
-  const compose::PrimIndex::Place place = prim.index->place_of(name);
-  if (place.listed == compose::PrimIndex::Listed::Nowhere) {
-    return;
-  }
-  for (const compose::Opinion& opinion : prim.index->opinions) {
-    const auto* entry = prim.index->property_in(opinion, name, place);
-    if (entry == nullptr) {
-      continue;
-    }
-    compose::Opinion found = opinion;
-    found.path = entry->path;
-    found.spec = &entry->spec;
-    if (visit(found)) {
-      return;
-    }
-  }
+  prim.index->visit_property(
+      name, [&](const compose::Opinion& opinion, const layer::Layer::Entry& entry) {
+        compose::Opinion found = opinion;
+        found.path = entry.path;
+        found.spec = &entry.spec;
+        return visit(found);
+      });
 }
 
 /// Resolved: as authored, with what they resolve to. Anchored: rewritten so that they mean the same

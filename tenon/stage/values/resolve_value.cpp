@@ -60,16 +60,13 @@ ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
 
 const Value* value_in_place(const PrimData& prim, Token name) {
   static const Value none;
-  const compose::PrimIndex::Place place = prim.index->place_of(name);
-  if (place.listed != compose::PrimIndex::Listed::Nowhere) {
-    for (const compose::Opinion& opinion : prim.index->opinions) {
-      const auto* entry = prim.index->property_in(opinion, name, place);
-      const Value* const value =
-          entry == nullptr ? nullptr : entry->spec.find(layer::fields::default_value);
-      if (value != nullptr) {
-        return means_same_anywhere(*value) ? value : nullptr;
-      }
-    }
+  const Value* authored = nullptr;
+  prim.index->visit_property(name, [&](const compose::Opinion&, const layer::Layer::Entry& entry) {
+    authored = entry.spec.find(layer::fields::default_value);
+    return authored != nullptr;
+  });
+  if (authored != nullptr) {
+    return means_same_anywhere(*authored) ? authored : nullptr;
   }
   const schema::PropertyDefinition* definition = prim.definition->find(name);
   if (definition == nullptr || definition->fallback.empty()) {
