@@ -41,9 +41,8 @@ Path Renaming::renamed(Path path) const {
   if (known != path) {
     const Path above = path.parent();
     const Path above_renamed = renamed(above);
-    const Path made = above_renamed == above ? path : above_renamed.child(path.name());
-    recent_[path.number() % recent_.size()] = {path, made};
-    return made;
+    result = above_renamed == above ? path : above_renamed.child(path.name());
+    known = path;
   }
   return result;
 }
