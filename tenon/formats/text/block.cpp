@@ -90,15 +90,8 @@ bool read_block_metadata(LayerState& state, Path path, SpecKind kind, layer::Spe
   Cursor& cursor = state.cursor;
   cursor.skip_multi_line();
   if (!cursor.failed() && cursor.peek() == '(') {
-    if (made != nullptr) {
-      if (!read_first_metadata(state, *made, path)) {
-        return false;
-      }
-    } else {
-      cursor.advance();
-      if (!read_metadata(state, path, kind)) {
-        return false;
-      }
+    if (!read_metadata(state, path, kind, made)) {
+      return false;
     }
     cursor.skip_multi_line();
   }

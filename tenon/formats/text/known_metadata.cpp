@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/formats/text/known_metadata.h"
 
-#include <algorithm>
-
 #include "tenon/base/text/text_hash.h"
 
 namespace tenon::formats::text {

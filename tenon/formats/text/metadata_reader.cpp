@@ -404,9 +404,8 @@ class MetadataReader {
   SpecKind kind_;
 };
 
-}  // namespace
-
-bool read_metadata(LayerState& state, Path path, SpecKind kind) {
+/// The '(' was taken.
+bool read_block(LayerState& state, Path path, SpecKind kind) {
   MetadataReader reader(state, path, kind);
   Cursor& cursor = state.cursor;
   if (state.sources == nullptr) {
@@ -429,25 +428,28 @@ bool read_metadata(LayerState& state, Path path, SpecKind kind) {
   return ok;
 }
 
-bool read_first_metadata(LayerState& state, layer::Spec& spec, Path path) {
+}  // namespace
+
+bool read_metadata(LayerState& state, Path path, SpecKind kind, layer::Spec* made) {
   Cursor& cursor = state.cursor;
   const std::size_t start = cursor.offset();
-  if (state.sources == nullptr) {
-    if (const std::size_t length = state.known_metadata.take(cursor.rest(), spec)) {
+  if (made != nullptr && state.sources == nullptr) {
+    if (const std::size_t length = state.known_metadata.take(cursor.rest(), *made)) {
       cursor.advance(length);
       return true;
     }
   }
-  const std::size_t fields_before = spec.fields().size();
+  const std::size_t fields_before = made == nullptr ? 0 : made->fields().size();
   const std::size_t arcs = state.arcs;
   const std::size_t warnings = state.warnings;
   const std::size_t faults = state.faults.size();
   cursor.advance();
-  if (!read_metadata(state, path, spec.kind)) {
+  if (!read_block(state, path, kind)) {
     return false;
   }
-  if (state.arcs == arcs && state.warnings == warnings && state.faults.size() == faults) {
-    state.known_metadata.note(cursor.since(start), spec, fields_before);
+  if (made != nullptr && state.arcs == arcs && state.warnings == warnings &&
+      state.faults.size() == faults) {
+    state.known_metadata.note(cursor.since(start), *made, fields_before);
   }
   return true;
 }

@@ -6,11 +6,9 @@
 
 namespace tenon::formats::text {
 
-/// Reads the metadata of the spec at `path`; its '(' was taken.
-bool read_metadata(LayerState& state, Path path, layer::SpecKind kind);
-
-/// The same with the cursor at the '(', for a spec that has no metadata yet.
-bool read_first_metadata(LayerState& state, layer::Spec& spec, Path path);
+/// Reads the metadata of the spec at `path`, with the cursor at its '('. `made`: that spec where it
+/// has none yet, so that a block which came before may be taken over; else null.
+bool read_metadata(LayerState& state, Path path, layer::SpecKind kind, layer::Spec* made);
 
 /// "name" or ["name", ...], not empty.
 bool read_name_list(Cursor& cursor, std::vector<std::string>& names);

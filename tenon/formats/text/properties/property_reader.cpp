@@ -228,11 +228,7 @@ class PropertyReader {
       cursor_.seek(before);
       return true;
     }
-    if (is_new_) {
-      return read_first_metadata(state_, *spec_, path_);
-    }
-    cursor_.advance();
-    return read_metadata(state_, path_, spec_->kind);
+    return read_metadata(state_, path_, spec_->kind, is_new_ ? spec_ : nullptr);
   }
 
   Variability variability() const {
