@@ -57,6 +57,27 @@ class Token {
   const TokenText* text_;
 };
 
+/// A token in four bytes, for what there is much of.
+class ShortToken {
+ public:
+  ShortToken() : ShortToken(Token()) {}
+  ShortToken(Token token) : number_(token.number()) {}
+
+  operator Token() const { return Token::numbered(number_); }
+  const std::string& str() const { return Token(*this).str(); }
+  std::string_view view() const { return Token(*this).view(); }
+
+  bool operator==(const ShortToken& other) const = default;
+  bool operator==(const Token& other) const { return number_ == other.number(); }
+  /// Order of the text, byte by byte.
+  std::strong_ordering operator<=>(const ShortToken& other) const {
+    return Token(*this) <=> Token(other);
+  }
+
+ private:
+  std::uint32_t number_;
+};
+
 /// Order that OpenUSD uses for names in dictionaries of specs: letters without regard to case
 /// first, runs of digits as numbers. "a2" < "a10".
 bool dictionary_less(std::string_view a, std::string_view b);

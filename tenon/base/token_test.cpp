@@ -21,6 +21,21 @@ TEST(Token, EqualTextIsOneToken) {
   EXPECT_LT(Token("B"), Token("a"));
 }
 
+TEST(Token, IsTheSameInFourBytes) {
+  const Token name("radius");
+  const ShortToken brief = name;
+  EXPECT_EQ(sizeof(brief), 4u);
+  EXPECT_EQ(Token(brief), name);
+  EXPECT_EQ(brief.str(), "radius");
+  EXPECT_EQ(brief.view(), "radius");
+  EXPECT_TRUE(brief == name);
+  EXPECT_FALSE(brief == Token("height"));
+  EXPECT_EQ(brief, ShortToken(Token("radius")));
+  EXPECT_LT(ShortToken(Token("a")), ShortToken(Token("b")));
+  EXPECT_LT(ShortToken(Token("B")), ShortToken(Token("a")));
+  EXPECT_TRUE(Token(ShortToken()).empty());
+}
+
 TEST(Token, ThreadsGetTheSameTokens) {
   std::vector<std::vector<const void*>> ids(4);
   std::vector<std::thread> threads;

@@ -85,7 +85,8 @@ template <class T>
 concept ArrayElementType = requires { ValueTraits<NumberArray<T>>::type; };
 
 /// One value of any type that a layer can hold. Copies share large contents, which never change.
-/// 24 bytes; numbers up to four floats, tokens and paths are stored inline.
+/// 32 bytes, five of them to spare; numbers up to three doubles, tokens and paths are stored
+/// inline.
 class Value {
  public:
   Value() = default;
@@ -200,9 +201,11 @@ class Value {
   struct DeferredBody;
   enum class Holding : std::uint8_t { Inline, Body, Deferred };
 
+  static constexpr std::size_t kRoom = 24;  // three doubles: most translations
+
   template <class T>
   static constexpr bool kInline =
-      std::is_trivially_copyable_v<T> && sizeof(T) <= 16 && alignof(T) <= 8;
+      std::is_trivially_copyable_v<T> && sizeof(T) <= kRoom && alignof(T) <= 8;
 
   template <class T>
   struct IsArray : std::false_type {};
@@ -242,7 +245,7 @@ class Value {
   }
   void release_body();
 
-  alignas(8) std::byte storage_[16] = {};
+  alignas(8) std::byte storage_[kRoom] = {};
   ValueType type_ = ValueType::None;
   bool is_array_ = false;
   Holding holding_ = Holding::Inline;

@@ -44,7 +44,7 @@ TEST(Value, HoldsEveryTypeInlineOrShared) {
   check_holds(Dictionary{}, ValueType::Dictionary, false);
   check_holds(ValueBlock{}, ValueType::ValueBlock, false);
   EXPECT_TRUE(Value().empty());
-  EXPECT_EQ(sizeof(Value), 24u);
+  EXPECT_EQ(sizeof(Value), 32u);
 }
 
 TEST(Value, DiffersByTypeAndContents) {

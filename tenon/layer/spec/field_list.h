@@ -17,9 +17,13 @@
 namespace tenon::layer {
 
 struct Field {
-  Token name;
-  Value value;
+  Field() = default;
+  Field(Token field_name, Value field_value) : value(std::move(field_value)), name(field_name) {}
+
+  [[no_unique_address]] Value value;  // the name lies in what is left of it
+  ShortToken name;
 };
+static_assert(sizeof(Field) == sizeof(Value), "many of them are in memory");
 
 /// Fields one after another: in one or two rows, or picked out of a table.
 class FieldRange {
@@ -210,11 +214,12 @@ inline const Value* FieldList::find(Token name) const {
   if (at_ == nullptr) {
     return nullptr;
   }
+  const ShortToken wanted = name;
   if (is_in_table()) {
     const std::uint32_t* const first = picked();
     const Field* const fields = FieldTable::of(first).fields_.data();
     for (const std::uint32_t* at = first; (*at & FieldTable::kEnd) == 0; ++at) {
-      if (fields[*at].name == name) {
+      if (fields[*at].name == wanted) {
         return &fields[*at].value;
       }
     }
@@ -222,7 +227,7 @@ inline const Value* FieldList::find(Token name) const {
   }
   for (Block* each : {block()->common, block()}) {
     for (const Field& field : each == nullptr ? std::span<Field>() : each->row()) {
-      if (field.name == name) {
+      if (field.name == wanted) {
         return &field.value;
       }
     }
@@ -234,7 +239,7 @@ inline void FieldList::append(Token name, Value value) {
   if (!is_own() || block()->count == block()->capacity) {
     make_room();
   }
-  ::new (block()->fields() + block()->count) Field{name, std::move(value)};
+  ::new (block()->fields() + block()->count) Field(name, std::move(value));
   ++block()->count;
 }
 

@@ -166,7 +166,8 @@ class MetadataLayout {
     std::set<Token> changed;
     for (const Spec* spec : {&before_, &after_}) {
       for (const layer::Field& field : spec->fields()) {
-        const Token name = field.name == fields::subLayerOffsets ? fields::subLayers : field.name;
+        const Token own = field.name;
+        const Token name = own == fields::subLayerOffsets ? fields::subLayers : own;
         if (stands_in_parentheses(name, before_.kind) && !same_field(before_, after_, name)) {
           changed.insert(name);
         }
