@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "tenon/bytes/write/atomic_write.h"
 #include "tenon/bytes/zip/zip_archive.h"
@@ -187,6 +188,33 @@ TEST_F(AssetResolverTest, MapsLargeFiles) {
   const auto tail = FileBytes::slice(*bytes, 200'000, 3);
   EXPECT_EQ(tail->text(), "end");
   EXPECT_EQ(FileBytes::open(folder_).error().code(), ErrorCode::Io);
+}
+
+/// Pages of files that this process holds in memory.
+std::size_t file_pages() {
+  std::size_t all = 0;
+  std::size_t resident = 0;
+  std::size_t of_files = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident >> of_files;
+  return of_files;
+}
+
+TEST_F(AssetResolverTest, LetsGoOfPartsThatAreMapped) {
+  const std::string contents = std::string(4'000'001, 'x') + std::string(4'000'000, 'y');
+  put("large", contents);
+  const auto bytes = FileBytes::open(in("large"));
+  ASSERT_TRUE(bytes);
+  EXPECT_EQ((*bytes)->text(), contents);
+  const std::size_t before = file_pages();
+  FileBytes::slice(*bytes, 4'000'001, 4'000'000)->let_go((*bytes)->span().subspan(4'000'001));
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  EXPECT_LE(file_pages() + 3'000'000 / page, before);
+  (*bytes)->let_go((*bytes)->span().first(0));
+  (*bytes)->let_go((*bytes)->span().subspan(1, 10));
+  EXPECT_EQ((*bytes)->text(), contents);
+  const auto own = FileBytes::own(contents);
+  own->let_go(own->span());
+  EXPECT_EQ(own->text(), contents);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
+  std::span<const std::byte> span() const { return bytes_; }
   std::size_t offset() const { return offset_; }
   std::size_t size() const { return bytes_.size(); }
   std::size_t remaining() const { return bytes_.size() - offset_; }

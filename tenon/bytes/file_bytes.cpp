@@ -155,4 +155,17 @@ std::shared_ptr<const FileBytes> FileBytes::slice(std::shared_ptr<const FileByte
   return bytes;
 }
 
+void FileBytes::let_go(std::span<const std::byte> part) const {
+  if (whole_ != nullptr) {
+    return whole_->let_go(part);
+  }
+  static const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const auto start = static_cast<std::size_t>(part.data() - span_.data());
+  const std::size_t first = (start + page - 1) / page * page;
+  const std::size_t end = (start + part.size()) / page * page;
+  if (mapping_ != nullptr && first < end) {
+    ::madvise(static_cast<std::byte*>(mapping_) + first, end - first, MADV_DONTNEED);
+  }
+}
+
 }  // namespace tenon::bytes

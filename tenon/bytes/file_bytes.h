@@ -52,6 +52,10 @@ class FileBytes {
   }
   std::size_t size() const { return span_.size(); }
 
+  /// A part of these bytes will hardly be looked at again: where it was mapped, its memory goes
+  /// back to the system, and comes from the file again when it is.
+  void let_go(std::span<const std::byte> part) const;
+
  private:
   FileBytes() = default;
 
